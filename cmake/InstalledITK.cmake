@@ -1,0 +1,48 @@
+# Way 3: an installed ITK has no module macros, so the library, the tools and the tests are plain CMake targets.
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+set(CMAKE_CXX_STANDARD 17)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+option(SensorNoise_BUILD_EXAMPLES "Build the command-line tools and the example programs" ON)
+option(BUILD_TESTING "Build the tests" ON)
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+set(SensorNoise_INSTALL_INCLUDE_DIR ${CMAKE_INSTALL_INCLUDEDIR}/SensorNoise)
+
+# The whole of the distribution's ITK wants the development files of every library that it was built with;
+# these modules are all that the filters, the tools and the tests use.
+set(_modules ITKCommon ITKEigen3)
+if(SensorNoise_BUILD_EXAMPLES OR BUILD_TESTING)
+  list(APPEND _modules ITKImageIO ITKImageFilterBase ITKImageGrid ITKImageStatistics ITKTestKernel)
+endif()
+find_package(ITK 5.2.1 REQUIRED COMPONENTS ${_modules})
+include(${ITK_USE_FILE})
+
+add_library(SensorNoise INTERFACE)
+add_library(SensorNoise::SensorNoise ALIAS SensorNoise)
+target_compile_features(SensorNoise INTERFACE cxx_std_17)
+target_include_directories(
+  SensorNoise INTERFACE "$<BUILD_INTERFACE:${SensorNoise_SOURCE_DIR}/filters;${SensorNoise_SOURCE_DIR}/module>"
+                        "$<INSTALL_INTERFACE:${SensorNoise_INSTALL_INCLUDE_DIR}>")
+target_link_libraries(SensorNoise INTERFACE ITKCommon)
+
+install(TARGETS SensorNoise EXPORT SensorNoiseTargets)
+install(EXPORT SensorNoiseTargets NAMESPACE SensorNoise:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/SensorNoise)
+configure_package_config_file(cmake/SensorNoiseConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/SensorNoiseConfig.cmake
+                              INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/SensorNoise)
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/SensorNoiseConfigVersion.cmake
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/SensorNoiseConfig.cmake
+              ${CMAKE_CURRENT_BINARY_DIR}/SensorNoiseConfigVersion.cmake
+        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/SensorNoise)
+
+if(SensorNoise_BUILD_EXAMPLES)
+  add_subdirectory(examples)
+endif()
+if(BUILD_TESTING)
+  enable_testing()
+  add_subdirectory(test)
+endif()

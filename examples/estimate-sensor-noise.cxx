@@ -1,0 +1,297 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+// Measures the noise of a camera from a burst of raw frames on files. See --help, and README.md.
+
+#include "EstimateOptions.h"
+#include "FrameInput.h"
+#include "PendingFile.h"
+#include "ReportTable.h"
+#include "SensorNoiseReportJson.h"
+
+#include "itkCommand.h"
+#include "itkExtractImageFilter.h"
+#include "itkImageFileReader.h"
+#include "itkImageFileWriter.h"
+#include "itkMultiThreaderBase.h"
+#include "itkSensorNoiseEstimator.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+namespace
+{
+namespace fs = std::filesystem;
+using namespace sensornoise::tools;
+using MaskType = itk::Image<unsigned char, 2>;
+
+constexpr int ExitDone = 0;
+constexpr int ExitWrongUse = 2;
+constexpr int ExitNothingEstimated = 3;
+
+/** What an ITK exception says, without the class and address in front of it. */
+std::string
+TextOf(const itk::ExceptionObject & error)
+{
+  const std::string text = error.GetDescription();
+  const auto        end = text.find("): ");
+  return end == std::string::npos ? text : text.substr(end + 3);
+}
+
+template <typename TFilter>
+void
+ShowProgressOn(TFilter * filter)
+{
+  auto command = itk::CStyleCommand::New();
+  command->SetConstCallback([](const itk::Object * object, const itk::EventObject &, void *) {
+    const float progress = static_cast<const itk::ProcessObject *>(object)->GetProgress();
+    const int   done = static_cast<int>(40.0F * progress);
+    std::fprintf(stderr,
+                 "\r[%s%s] %3d %%%s",
+                 std::string(static_cast<std::size_t>(done), '#').c_str(),
+                 std::string(static_cast<std::size_t>(40 - done), '.').c_str(),
+                 static_cast<int>(100.0F * progress),
+                 progress < 1.0F ? "" : "\n");
+    std::fflush(stderr);
+  });
+  filter->AddObserver(itk::ProgressEvent(), command);
+}
+
+template <typename TImage>
+typename TImage::Pointer
+Crop(TImage * image, const typename TImage::RegionType & region)
+{
+  auto extract = itk::ExtractImageFilter<TImage, TImage>::New();
+  extract->SetInput(image);
+  extract->SetExtractionRegion(region);
+  extract->SetDirectionCollapseToSubmatrix();
+  extract->UpdateOutputInformation();
+  return extract->GetOutput();
+}
+
+MaskType::Pointer
+ReadMask(const std::string & file, const FrameInput & input)
+{
+  const FrameInput header = OpenFrames({ file });
+  if (header.frames != 1 || header.width != input.width || header.height != input.height)
+  {
+    throw InputError("the mask " + file + " has " + std::to_string(header.width) + " x " +
+                     std::to_string(header.height) + " pixels, but the frames have " + std::to_string(input.width) +
+                     " x " + std::to_string(input.height));
+  }
+  // Nonzero means use, whatever the type: a double holds them all.
+  auto reader = itk::ImageFileReader<itk::Image<double, 2>>::New();
+  reader->SetFileName(file);
+  reader->Update();
+  auto mask = MaskType::New();
+  mask->SetRegions(reader->GetOutput()->GetLargestPossibleRegion());
+  mask->Allocate();
+  const double * values = reader->GetOutput()->GetBufferPointer();
+  std::transform(values, values + input.width * input.height, mask->GetBufferPointer(), [](double value) {
+    return value != 0.0 ? 1 : 0;
+  });
+  return mask;
+}
+
+/** The files of the maps, opened before the work begins. */
+struct MapFiles
+{
+  explicit MapFiles(const fs::path & folder)
+    : mean(folder / "mean.mha")
+    , variance(folder / "variance.mha")
+    , correctedVariance(folder / "corrected_variance.mha")
+    , pixelUse(folder / "pixel_use.mha")
+  {}
+  PendingFile mean;
+  PendingFile variance;
+  PendingFile correctedVariance;
+  PendingFile pixelUse;
+};
+
+template <typename TImage>
+void
+WriteMap(TImage * image, PendingFile & file)
+{
+  auto writer = itk::ImageFileWriter<TImage>::New();
+  writer->SetInput(image);
+  writer->SetFileName(file.Temporary().string());
+  writer->Update();
+  file.Commit();
+}
+
+template <typename TPixel>
+sensornoise::Report
+Estimate(const EstimateOptions & options, const FrameInput & input, MapFiles * maps)
+{
+  using StackType = itk::Image<TPixel, 3>;
+  auto reader = MakeReader<TPixel>(input);
+  reader->UpdateOutputInformation();
+  typename StackType::Pointer    stack = reader->GetOutput();
+  typename StackType::RegionType region = stack->GetLargestPossibleRegion();
+  if (options.roi)
+  {
+    for (unsigned int d = 0; d < 2; ++d)
+    {
+      region.SetIndex(d, (*options.roi)[d]);
+      region.SetSize(d, static_cast<itk::SizeValueType>((*options.roi)[d + 2]));
+    }
+  }
+  if (input.isStack && options.frames)
+  {
+    region.SetIndex(2, static_cast<itk::IndexValueType>(options.frames->first));
+    region.SetSize(2, options.frames->second - options.frames->first);
+  }
+  if (!stack->GetLargestPossibleRegion().IsInside(region))
+  {
+    throw InputError("--roi and --frames ask for " + options.DescribeRegion() + ", but the stack has " +
+                     std::to_string(input.width) + " x " + std::to_string(input.height) + " pixels and " +
+                     std::to_string(input.frames) + " frames");
+  }
+  const bool isCropped = region != stack->GetLargestPossibleRegion();
+  if (isCropped)
+  {
+    stack = Crop<StackType>(stack, region);
+  }
+
+  auto estimator = itk::SensorNoiseEstimator<StackType>::New();
+  estimator->SetInput(stack);
+  options.ApplyTo(*estimator);
+  if (!options.mask.empty())
+  {
+    MaskType::Pointer    mask = ReadMask(options.mask, input);
+    MaskType::RegionType frame = mask->GetLargestPossibleRegion();
+    for (unsigned int d = 0; d < 2; ++d)
+    {
+      frame.SetIndex(d, region.GetIndex(d));
+      frame.SetSize(d, region.GetSize(d));
+    }
+    estimator->SetMask(isCropped ? Crop<MaskType>(mask, frame) : mask);
+  }
+  if (!options.quiet && isatty(STDERR_FILENO) != 0)
+  {
+    ShowProgressOn(estimator.GetPointer());
+  }
+  estimator->Update();
+  if (maps != nullptr)
+  {
+    WriteMap(estimator->GetMean(), maps->mean);
+    WriteMap(estimator->GetVariance(), maps->variance);
+    WriteMap(estimator->GetCorrectedVariance(), maps->correctedVariance);
+    WriteMap(estimator->GetPixelUse(), maps->pixelUse);
+  }
+  return estimator->GetReport();
+}
+
+sensornoise::Report
+EstimateFor(const EstimateOptions & options, const FrameInput & input, MapFiles * maps)
+{
+  switch (input.component)
+  {
+    case itk::IOComponentEnum::UCHAR:
+      return Estimate<unsigned char>(options, input, maps);
+    case itk::IOComponentEnum::USHORT:
+      return Estimate<unsigned short>(options, input, maps);
+    case itk::IOComponentEnum::SHORT:
+      return Estimate<short>(options, input, maps);
+    case itk::IOComponentEnum::FLOAT:
+      return Estimate<float>(options, input, maps);
+    default:
+      return Estimate<double>(options, input, maps);
+  }
+}
+
+int
+Run(EstimateOptions & options)
+{
+  if (options.threads > 0)
+  {
+    itk::MultiThreaderBase::SetGlobalMaximumNumberOfThreads(options.threads);
+    itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(options.threads);
+  }
+  options.SelectFiles();
+  const FrameInput input = OpenFrames(options.files);
+
+  std::unique_ptr<PendingFile> json;
+  if (!options.json.empty() && options.json != "-")
+  {
+    json = std::make_unique<PendingFile>(options.json);
+  }
+  std::unique_ptr<MapFiles> maps;
+  if (!options.maps.empty())
+  {
+    std::error_code error;
+    fs::create_directories(options.maps, error);
+    maps = std::make_unique<MapFiles>(options.maps);
+  }
+  constexpr std::uint64_t gibibyte = std::uint64_t{ 1 } << 30;
+  if (!input.streams && input.bytes > gibibyte)
+  {
+    std::cerr << "note: " << input.files.front() << " cannot be read in parts; all of its " << (input.bytes >> 20)
+              << " MiB are held in memory (a .mha file, or a list of files, would not be)\n";
+  }
+
+  const sensornoise::Report report = EstimateFor(options, input, maps.get());
+  if (!options.quiet)
+  {
+    std::cout << MakeTable(report);
+  }
+  const std::string text = sensornoise::ToJson(report);
+  if (json)
+  {
+    json->Write(text);
+    json->Commit();
+  }
+  else if (options.json == "-")
+  {
+    std::cout << text;
+  }
+  for (const sensornoise::Warning & warning : report.warnings)
+  {
+    std::cerr << (report.IsUsable() ? "warning: " : "error: ") << warning.message << " [" << warning.code << "]\n";
+  }
+  return report.IsUsable() ? ExitDone : ExitNothingEstimated;
+}
+} // namespace
+
+int
+main(int argc, char * argv[])
+{
+  EstimateOptions options;
+  try
+  {
+    if (const auto finished = options.Parse(argc, argv))
+    {
+      return *finished;
+    }
+    return Run(options);
+  }
+  catch (const itk::ExceptionObject & error)
+  {
+    std::cerr << "error: " << TextOf(error) << '\n';
+  }
+  catch (const std::exception & error)
+  {
+    std::cerr << "error: " << error.what() << '\n';
+  }
+  return ExitWrongUse;
+}

@@ -1,0 +1,88 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef itkNoiseRegressionEstimator_hxx
+#define itkNoiseRegressionEstimator_hxx
+
+namespace itk
+{
+
+template <typename TFrame>
+NoiseRegressionEstimator<TFrame>::NoiseRegressionEstimator()
+{
+  this->SetPrimaryInputName("Mean");
+  this->AddRequiredInputName("Variance", 1);
+  this->AddRequiredInputName("Mask", 2);
+  this->AddOptionalInputName("Offset", 3);
+  this->SetNumberOfRequiredOutputs(1);
+  this->ProcessObject::SetNthOutput(0, this->MakeOutput(0));
+}
+
+template <typename TFrame>
+void
+NoiseRegressionEstimator<TFrame>::GenerateData()
+{
+  const FrameImageType * mean = this->GetMean();
+  const auto             region = mean->GetLargestPossibleRegion();
+  if (this->GetVariance()->GetLargestPossibleRegion() != region ||
+      this->GetMask()->GetLargestPossibleRegion() != region)
+  {
+    itkExceptionMacro("mean, variance and mask have the regions "
+                      << region << this->GetVariance()->GetLargestPossibleRegion()
+                      << this->GetMask()->GetLargestPossibleRegion() << "; expected the same");
+  }
+  const sensornoise::RegressionData data{ mean->GetBufferPointer(),
+                                          this->GetVariance()->GetBufferPointer(),
+                                          this->GetMask()->GetBufferPointer(),
+                                          region.GetNumberOfPixels() };
+  const auto *                      offsetInput = this->GetOffsetInput();
+  std::optional<double>             offset;
+  if (offsetInput != nullptr && std::isfinite(offsetInput->Get()))
+  {
+    offset = offsetInput->Get();
+  }
+
+  sensornoise::Report              report;
+  const sensornoise::PolynomialFit line = sensornoise::FitLine(data);
+  sensornoise::FillNoiseParameters(report, line, offset, std::nullopt);
+  report.method = "published";
+  report.frames = m_NumberOfFrames;
+  report.width = region.GetSize(0);
+  report.height = region.GetSize(1);
+  report.pixels.total = data.pixels;
+  report.pixels.used = line.pixels;
+  if (m_NumberOfFrames > 1)
+  {
+    const sensornoise::FitQuality quality = sensornoise::JudgeLine(data, line, m_NumberOfFrames);
+    report.fit.reducedChi2 = quality.reducedChi2;
+    report.fit.curvature = quality.curvature;
+    report.fit.curvatureZ = quality.curvatureZ;
+  }
+  this->GetReportOutput()->Set(report);
+}
+
+template <typename TFrame>
+void
+NoiseRegressionEstimator<TFrame>::PrintSelf(std::ostream & os, Indent indent) const
+{
+  Superclass::PrintSelf(os, indent);
+  os << indent << "NumberOfFrames: " << m_NumberOfFrames << std::endl;
+}
+
+} // namespace itk
+
+#endif

@@ -1,0 +1,248 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef itkSensorNoiseEstimator_h
+#define itkSensorNoiseEstimator_h
+
+#include "SensorNoisePublishedMethod.h"
+#include "itkSensorNoiseStackSink.h"
+#include "itkSensorNoiseResult.h"
+
+#include <limits>
+#include <memory>
+
+namespace itk
+{
+
+/** \class SensorNoiseEstimatorEnums
+ * \brief Enumerations of SensorNoiseEstimator.
+ * \ingroup SensorNoise
+ */
+class SensorNoiseEstimatorEnums
+{
+public:
+  /** \class Method
+   * \brief How the noise is estimated.
+   * \ingroup SensorNoise
+   */
+  enum class Method : uint8_t
+  {
+    Published = 0 ///< Figure 2 of Sur & Gredi\'ac 2015, to the letter
+  };
+};
+
+/** \class SensorNoiseEstimator
+ * \brief Measures gain, offset and read noise of a camera, flicker and vibration, from a stack of a static scene.
+ *
+ * Inputs: 0 the stack, raw frames along the last axis, at least 5; "Mask", optional, of a frame's size: pixels of
+ * value 0 are left out. Outputs: 0 the report (decorated sensornoise::Report: value, status and unit of each quantity);
+ * of a frame's size 1 mean [DN], 2 variance [DN^2], 3 corrected variance [DN^2] (NaN: flicker not known), 4 pixel use
+ * (sensornoise::PixelUse: 0 used, else why not).
+ *
+ * The method Published takes three passes over the stack, in chunks (see SensorNoiseStackSink), and gives the numbers
+ * of the chain TemporalStatistics - VibrationMask - FlickerCorrection - TemporalStatistics - NoiseRegression to
+ * rounding. Threaded; the same bits for any number of threads and chunks. Memory: about 70 bytes a pixel of a frame and
+ * one chunk.
+ *
+ * A stack that cannot be measured gives a report whose quantities are `failed` or `not-identifiable`, with a warning
+ * that says why. Wrong use (fewer than 5 frames, frames under 3 x 3 pixels, a bit depth below the data) throws.
+ *
+ * F. Sur, M. Gredi\'ac, SIAM J. Imaging Sci. 8(1), 2015, https://doi.org/10.1137/140977035.
+ *
+ * \tparam TStack itk::Image of 3 dimensions (x, y, time) of unsigned char, unsigned short, short, float or double.
+ * \ingroup SensorNoise
+ */
+template <typename TStack>
+class ITK_TEMPLATE_EXPORT SensorNoiseEstimator : public SensorNoiseStackSink<TStack>
+{
+public:
+  ITK_DISALLOW_COPY_AND_MOVE(SensorNoiseEstimator);
+
+  using Self = SensorNoiseEstimator;
+  using Superclass = SensorNoiseStackSink<TStack>;
+  using Pointer = SmartPointer<Self>;
+  using ConstPointer = SmartPointer<const Self>;
+
+  using typename Superclass::FrameImageType;
+  using typename Superclass::MaskImageType;
+  using typename Superclass::PixelType;
+  using MethodEnum = SensorNoiseEstimatorEnums::Method;
+  using RollingShutterEnum = sensornoise::RollingShutter;
+  using ReportObjectType = SensorNoiseResult<sensornoise::Report>;
+  using DataObjectPointer = DataObject::Pointer;
+  using DataObjectPointerArraySizeType = ProcessObject::DataObjectPointerArraySizeType;
+
+  itkNewMacro(Self);
+
+  const char *
+  GetNameOfClass() const override
+  {
+    return "SensorNoiseEstimator";
+  }
+
+  void
+  SetNumberOfStreamDivisions(unsigned int number) override
+  {
+    Superclass::SetNumberOfStreamDivisions(number);
+  }
+
+  itkSetInputMacro(Mask, MaskImageType);
+  itkGetInputMacro(Mask, MaskImageType);
+
+  /** How the noise is estimated. */
+  void
+  SetMethod(MethodEnum method);
+  MethodEnum
+  GetMethod() const
+  {
+    return m_Method;
+  }
+
+  /** Level of the test that finds pixels moved by vibrations, a probability. Default 0.01. */
+  itkSetMacro(Level, double);
+  itkGetConstMacro(Level, double);
+
+  /** Quantiles of the mean at which the bright and the dark set lie, 0 to 1. Defaults 0.99 and 0.01. */
+  itkSetMacro(BrightQuantile, double);
+  itkGetConstMacro(BrightQuantile, double);
+  itkSetMacro(DarkQuantile, double);
+  itkGetConstMacro(DarkQuantile, double);
+
+  /** Whether the flicker may differ from line to line: Off, Auto (default: found out, and sigma_y chosen by
+   * cross-validation) or Fixed (with RowSigma). */
+  void
+  SetRollingShutter(RollingShutterEnum mode);
+  RollingShutterEnum
+  GetRollingShutter() const
+  {
+    return m_RollingShutter;
+  }
+
+  /** sigma_y of (3.28) for RollingShutter Fixed [lines]. Default 50, the paper's. */
+  itkSetMacro(RowSigma, double);
+  itkGetConstMacro(RowSigma, double);
+
+  /** Axis along which the shutter travels: 1 = y (default, lines are rows), 0 = x. */
+  itkSetMacro(ShutterAxis, unsigned int);
+  itkGetConstMacro(ShutterAxis, unsigned int);
+
+  /** Bits of the sensor's codes, 1 to 16; 0 (default): found. Data beyond them are refused. */
+  itkSetMacro(BitDepth, unsigned int);
+  itkGetConstMacro(BitDepth, unsigned int);
+
+  /** Lowest and highest level that the sensor attains [DN]; NaN (default): found. */
+  itkSetMacro(ClipLow, double);
+  itkGetConstMacro(ClipLow, double);
+  itkSetMacro(ClipHigh, double);
+  itkGetConstMacro(ClipHigh, double);
+
+  /** Spacing of the codes [DN]; 0 (default): found. */
+  itkSetMacro(QuantisationStep, double);
+  itkGetConstMacro(QuantisationStep, double);
+
+  /** The report as a pipeline output, and itself; valid after Update(). */
+  ReportObjectType *
+  GetReportOutput()
+  {
+    return static_cast<ReportObjectType *>(this->ProcessObject::GetOutput(0));
+  }
+  const sensornoise::Report &
+  GetReport() const
+  {
+    return static_cast<const ReportObjectType *>(this->ProcessObject::GetOutput(0))->Get();
+  }
+
+  FrameImageType *
+  GetMean()
+  {
+    return static_cast<FrameImageType *>(this->ProcessObject::GetOutput(1));
+  }
+  FrameImageType *
+  GetVariance()
+  {
+    return static_cast<FrameImageType *>(this->ProcessObject::GetOutput(2));
+  }
+  FrameImageType *
+  GetCorrectedVariance()
+  {
+    return static_cast<FrameImageType *>(this->ProcessObject::GetOutput(3));
+  }
+  MaskImageType *
+  GetPixelUse()
+  {
+    return static_cast<MaskImageType *>(this->ProcessObject::GetOutput(4));
+  }
+  DataObject *
+  GetOutput(unsigned int index)
+  {
+    return this->ProcessObject::GetOutput(index);
+  }
+
+protected:
+  SensorNoiseEstimator();
+  ~SensorNoiseEstimator() override = default;
+
+  using Superclass::MakeOutput;
+  DataObjectPointer
+  MakeOutput(DataObjectPointerArraySizeType index) override;
+  void
+  VerifyInputInformation() const override;
+  void
+  GenerateOutputInformation() override;
+  void
+  EnlargeOutputRequestedRegion(DataObject * output) override;
+
+  unsigned int
+  NumberOfPasses() const override
+  {
+    return sensornoise::PublishedMethod<PixelType>::NumberOfPasses;
+  }
+  void
+  StartPasses() override;
+  void
+  ProcessFrames(unsigned int pass, const PixelType * frames, SizeValueType first, SizeValueType count) override;
+  void
+  EndPass(unsigned int pass) override;
+  void
+  PrintSelf(std::ostream & os, Indent indent) const override;
+
+private:
+  void
+  FillOutputs();
+
+  MethodEnum         m_Method{ MethodEnum::Published };
+  double             m_Level{ 0.01 };
+  double             m_BrightQuantile{ 0.99 };
+  double             m_DarkQuantile{ 0.01 };
+  RollingShutterEnum m_RollingShutter{ RollingShutterEnum::Auto };
+  double             m_RowSigma{ 50.0 };
+  unsigned int       m_ShutterAxis{ 1 };
+  unsigned int       m_BitDepth{ 0 };
+  double             m_ClipLow{ std::numeric_limits<double>::quiet_NaN() };
+  double             m_ClipHigh{ std::numeric_limits<double>::quiet_NaN() };
+  double             m_QuantisationStep{ 0.0 };
+
+  std::unique_ptr<sensornoise::PublishedMethod<PixelType>> m_Estimation;
+};
+
+} // namespace itk
+
+#ifndef ITK_MANUAL_INSTANTIATION
+#  include "itkSensorNoiseEstimator.hxx"
+#endif
+
+#endif

@@ -1,0 +1,78 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef itkSensorNoiseResult_h
+#define itkSensorNoiseResult_h
+
+#include "itkDataObject.h"
+#include "itkObjectFactory.h"
+
+#include <utility>
+
+namespace itk
+{
+
+/** \class SensorNoiseResult
+ * \brief Carries the result of an estimator, a plain struct, through a pipeline.
+ *
+ * As SimpleDataObjectDecorator, which wants its component to be comparable; a result is new each time it is set.
+ *
+ * \tparam TResult a copyable type with a default constructor.
+ * \ingroup SensorNoise
+ */
+template <typename TResult>
+class ITK_TEMPLATE_EXPORT SensorNoiseResult : public DataObject
+{
+public:
+  ITK_DISALLOW_COPY_AND_MOVE(SensorNoiseResult);
+
+  using Self = SensorNoiseResult;
+  using Superclass = DataObject;
+  using Pointer = SmartPointer<Self>;
+  using ConstPointer = SmartPointer<const Self>;
+
+  itkNewMacro(Self);
+
+  const char *
+  GetNameOfClass() const override
+  {
+    return "SensorNoiseResult";
+  }
+
+  void
+  Set(TResult result)
+  {
+    m_Result = std::move(result);
+    this->Modified();
+  }
+  const TResult &
+  Get() const
+  {
+    return m_Result;
+  }
+
+protected:
+  SensorNoiseResult() = default;
+  ~SensorNoiseResult() override = default;
+
+private:
+  TResult m_Result;
+};
+
+} // namespace itk
+
+#endif

@@ -1,0 +1,159 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef itkSensorNoiseStackSink_h
+#define itkSensorNoiseStackSink_h
+
+#include "SensorNoiseStackMaps.h"
+#include "itkImage.h"
+#include "itkImageSink.h"
+
+namespace itk
+{
+
+/** \class SensorNoiseStackSink
+ * \brief Reads a stack, an image whose last axis is time, in chunks of whole frames and as often as a subclass wants.
+ *
+ * The number of requested regions is passes x chunks. By default the number of chunks is chosen: one if the stack is in
+ * memory already, else as many as keep a chunk under 64 MiB. Readers that cannot stream (NRRD, multi-page TIFF) give
+ * the whole stack each time; still only the chunk asked for is handed on.
+ *
+ * An error, or an abort, resets the pipeline: the next Update() starts afresh, never from a partial result.
+ *
+ * A subclass implements NumberOfPasses(), StartPasses(), ProcessFrames() and EndPass().
+ *
+ * \tparam TStack itk::Image of 3 dimensions: x, y, time.
+ * \ingroup SensorNoise
+ */
+template <typename TStack>
+class ITK_TEMPLATE_EXPORT SensorNoiseStackSink : public ImageSink<TStack>
+{
+  static_assert(TStack::ImageDimension == 3, "a stack has three dimensions: x, y and time");
+
+public:
+  ITK_DISALLOW_COPY_AND_MOVE(SensorNoiseStackSink);
+
+  using Self = SensorNoiseStackSink;
+  using Superclass = ImageSink<TStack>;
+  using Pointer = SmartPointer<Self>;
+  using ConstPointer = SmartPointer<const Self>;
+
+  using StackType = TStack;
+  using PixelType = typename TStack::PixelType;
+  using StackRegionType = typename TStack::RegionType;
+  using FrameImageType = Image<double, 2>;
+  using MaskImageType = Image<unsigned char, 2>;
+  using FrameRegionType = ImageRegion<2>;
+
+  const char *
+  GetNameOfClass() const override
+  {
+    return "SensorNoiseStackSink";
+  }
+
+  /** Number of chunks in which each pass reads the stack. 0 (default): chosen; more than the frames: one a frame. */
+  void
+  SetNumberOfStreamDivisions(unsigned int number) override;
+  unsigned int
+  GetNumberOfStreamDivisions() const override
+  {
+    return m_NumberOfStreamDivisions;
+  }
+
+  /** As every process object: does nothing if nothing has changed (ImageSink would compute again). */
+  void
+  Update() override
+  {
+    ProcessObject::Update();
+  }
+  void
+  UpdateLargestPossibleRegion() override
+  {
+    ProcessObject::UpdateLargestPossibleRegion();
+  }
+  void
+  UpdateOutputData(DataObject * output) override;
+
+protected:
+  SensorNoiseStackSink() = default;
+  ~SensorNoiseStackSink() override = default;
+
+  /** How often the stack is read. */
+  virtual unsigned int
+  NumberOfPasses() const = 0;
+  /** Called before the first pass. */
+  virtual void
+  StartPasses() = 0;
+  /** The next frames of the current pass, whole and one after the other. \a first counts from 0. */
+  virtual void
+  ProcessFrames(unsigned int pass, const PixelType * frames, SizeValueType first, SizeValueType count) = 0;
+  /** Called after the last frame of a pass. */
+  virtual void
+  EndPass(unsigned int pass) = 0;
+
+  /** Spreads work over this filter's threads. */
+  sensornoise::ParallelFor
+  GetParallelFor();
+
+  /** The region of a frame, and the geometry of the stack's first two axes for a frame-sized output. */
+  FrameRegionType
+  GetFrameRegion() const;
+  template <typename TFrame>
+  void
+  CopyFrameInformation(TFrame * frame) const;
+
+  SizeValueType
+  GetNumberOfFrames() const
+  {
+    return this->GetInput()->GetLargestPossibleRegion().GetSize(2);
+  }
+
+  unsigned int
+  GetNumberOfInputRequestedRegions() override
+  {
+    return this->NumberOfPasses() * m_Chunks;
+  }
+  void
+  GenerateNthInputRequestedRegion(unsigned int number) override;
+  void
+  BeforeStreamedGenerateData() override;
+  void
+  StreamedGenerateData(unsigned int number) override;
+  void
+  AfterStreamedGenerateData() override;
+  void
+  ThreadedStreamedGenerateData(const StackRegionType &) override
+  {}
+  void
+  PrintSelf(std::ostream & os, Indent indent) const override;
+
+private:
+  unsigned int
+  ChooseNumberOfChunks() const;
+
+  unsigned int    m_NumberOfStreamDivisions{ 0 };
+  unsigned int    m_Chunks{ 1 };
+  StackRegionType m_Chunk;
+};
+
+} // namespace itk
+
+#ifndef ITK_MANUAL_INSTANTIATION
+#  include "itkSensorNoiseStackSink.hxx"
+#endif
+
+#endif

@@ -1,0 +1,205 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef itkSensorNoiseStackSink_hxx
+#define itkSensorNoiseStackSink_hxx
+
+#include <algorithm>
+
+namespace itk
+{
+
+template <typename TStack>
+void
+SensorNoiseStackSink<TStack>::SetNumberOfStreamDivisions(unsigned int number)
+{
+  if (m_NumberOfStreamDivisions != number)
+  {
+    m_NumberOfStreamDivisions = number;
+    this->Modified();
+  }
+}
+
+template <typename TStack>
+void
+SensorNoiseStackSink<TStack>::UpdateOutputData(DataObject * output)
+{
+  // A reader that threw leaves this filter marked as updating: without the reset the next Update() would return a
+  // partial result without a word.
+  try
+  {
+    Superclass::UpdateOutputData(output);
+  }
+  catch (const ExceptionObject &)
+  {
+    this->ResetPipeline();
+    throw;
+  }
+  catch (const std::exception & error)
+  {
+    this->ResetPipeline();
+    itkExceptionMacro("" << error.what());
+  }
+}
+
+template <typename TStack>
+sensornoise::ParallelFor
+SensorNoiseStackSink<TStack>::GetParallelFor()
+{
+  return [this](std::size_t count, const std::function<void(std::size_t)> & function) {
+    this->GetMultiThreader()->SetNumberOfWorkUnits(this->GetNumberOfWorkUnits());
+    this->GetMultiThreader()->ParallelizeArray(0, count, [&function](SizeValueType i) { function(i); }, nullptr);
+  };
+}
+
+template <typename TStack>
+auto
+SensorNoiseStackSink<TStack>::GetFrameRegion() const -> FrameRegionType
+{
+  const StackRegionType & stack = this->GetInput()->GetLargestPossibleRegion();
+  FrameRegionType         frame;
+  for (unsigned int d = 0; d < 2; ++d)
+  {
+    frame.SetIndex(d, stack.GetIndex(d));
+    frame.SetSize(d, stack.GetSize(d));
+  }
+  return frame;
+}
+
+template <typename TStack>
+template <typename TFrame>
+void
+SensorNoiseStackSink<TStack>::CopyFrameInformation(TFrame * frame) const
+{
+  const StackType *              stack = this->GetInput();
+  typename TFrame::SpacingType   spacing;
+  typename TFrame::PointType     origin;
+  typename TFrame::DirectionType direction;
+  for (unsigned int i = 0; i < 2; ++i)
+  {
+    spacing[i] = stack->GetSpacing()[i];
+    origin[i] = stack->GetOrigin()[i];
+    for (unsigned int j = 0; j < 2; ++j)
+    {
+      direction[i][j] = stack->GetDirection()[i][j];
+    }
+  }
+  if (direction[0][0] * direction[1][1] == direction[0][1] * direction[1][0])
+  {
+    direction.SetIdentity(); // the frames stand across the first two axes: no 2-D direction describes them
+  }
+  frame->SetLargestPossibleRegion(this->GetFrameRegion());
+  frame->SetSpacing(spacing);
+  frame->SetOrigin(origin);
+  frame->SetDirection(direction);
+}
+
+template <typename TStack>
+unsigned int
+SensorNoiseStackSink<TStack>::ChooseNumberOfChunks() const
+{
+  const StackType *   stack = this->GetInput();
+  const SizeValueType frames = std::max<SizeValueType>(1, this->GetNumberOfFrames());
+  if (m_NumberOfStreamDivisions > 0)
+  {
+    return static_cast<unsigned int>(std::min<SizeValueType>(m_NumberOfStreamDivisions, frames));
+  }
+  const bool isInMemory = stack->GetBufferedRegion() == stack->GetLargestPossibleRegion() &&
+                          (!stack->GetSource() || stack->GetUpdateMTime() >= stack->GetPipelineMTime());
+  if (isInMemory)
+  {
+    return 1;
+  }
+  constexpr SizeValueType chunkBytes = 64 << 20;
+  const SizeValueType     frameBytes =
+    std::max<SizeValueType>(1, this->GetFrameRegion().GetNumberOfPixels() * sizeof(PixelType));
+  const SizeValueType framesPerChunk = std::max<SizeValueType>(1, chunkBytes / frameBytes);
+  return static_cast<unsigned int>((frames + framesPerChunk - 1) / framesPerChunk);
+}
+
+template <typename TStack>
+void
+SensorNoiseStackSink<TStack>::BeforeStreamedGenerateData()
+{
+  m_Chunks = this->ChooseNumberOfChunks();
+  Superclass::BeforeStreamedGenerateData();
+  this->StartPasses();
+}
+
+template <typename TStack>
+void
+SensorNoiseStackSink<TStack>::GenerateNthInputRequestedRegion(unsigned int number)
+{
+  // Every other input whole.
+  ProcessObject::GenerateInputRequestedRegion();
+  auto *              stack = const_cast<StackType *>(this->GetInput());
+  const SizeValueType frames = this->GetNumberOfFrames();
+  const SizeValueType chunk = number % m_Chunks;
+  const SizeValueType first = frames * chunk / m_Chunks;
+  m_Chunk = stack->GetLargestPossibleRegion();
+  m_Chunk.SetIndex(2, m_Chunk.GetIndex(2) + static_cast<IndexValueType>(first));
+  m_Chunk.SetSize(2, frames * (chunk + 1) / m_Chunks - first);
+  stack->SetRequestedRegion(m_Chunk);
+}
+
+template <typename TStack>
+void
+SensorNoiseStackSink<TStack>::StreamedGenerateData(unsigned int number)
+{
+  // The chunk is what was asked for: readers that cannot stream enlarge the requested region to the whole stack.
+  const StackType * stack = this->GetInput();
+  if (!stack->GetBufferedRegion().IsInside(m_Chunk))
+  {
+    itkExceptionMacro("the stack holds the region " << stack->GetBufferedRegion() << " but " << m_Chunk
+                                                    << " was asked for");
+  }
+  const unsigned int  pass = number / m_Chunks;
+  const SizeValueType first =
+    static_cast<SizeValueType>(m_Chunk.GetIndex(2) - stack->GetLargestPossibleRegion().GetIndex(2));
+  this->ProcessFrames(
+    pass, stack->GetBufferPointer() + stack->ComputeOffset(m_Chunk.GetIndex()), first, m_Chunk.GetSize(2));
+  if (number % m_Chunks + 1 == m_Chunks)
+  {
+    this->EndPass(pass);
+  }
+}
+
+template <typename TStack>
+void
+SensorNoiseStackSink<TStack>::AfterStreamedGenerateData()
+{
+  if (this->GetAbortGenerateData())
+  {
+    ProcessAborted aborted(__FILE__, __LINE__);
+    aborted.SetLocation(ITK_LOCATION);
+    aborted.SetDescription("aborted before all frames were read");
+    throw aborted;
+  }
+  Superclass::AfterStreamedGenerateData();
+}
+
+template <typename TStack>
+void
+SensorNoiseStackSink<TStack>::PrintSelf(std::ostream & os, Indent indent) const
+{
+  Superclass::PrintSelf(os, indent);
+  os << indent << "NumberOfStreamDivisions: " << m_NumberOfStreamDivisions << std::endl;
+}
+
+} // namespace itk
+
+#endif

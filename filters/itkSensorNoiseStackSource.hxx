@@ -1,0 +1,261 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef itkSensorNoiseStackSource_hxx
+#define itkSensorNoiseStackSource_hxx
+
+#include "itkSensorNoiseStackSource.h"
+
+#include "itkImageRegionConstIterator.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <vector>
+
+namespace itk
+{
+
+template <typename TOutputStack>
+SensorNoiseStackSource<TOutputStack>::SensorNoiseStackSource()
+{
+  this->SetPrimaryInputName("Reference");
+  this->SetNumberOfRequiredInputs(1);
+  this->DynamicMultiThreadingOn();
+}
+
+template <typename TOutputStack>
+void
+SensorNoiseStackSource<TOutputStack>::SetInput(unsigned int index, const ReferenceImageType * reference)
+{
+  if (index != 0)
+  {
+    itkExceptionMacro("input " << index << " was set; expected input 0, the reference image, only");
+  }
+  this->SetReference(reference);
+}
+
+template <typename TOutputStack>
+void
+SensorNoiseStackSource<TOutputStack>::SetCamera(char name)
+{
+  try
+  {
+    const sensornoise::CameraModel camera = sensornoise::PaperCamera(name);
+    this->SetElectrons(camera.electrons);
+    this->SetGain(camera.gainDnPerElectron);
+    this->SetOffset(camera.offsetDn);
+    this->SetReadNoise(camera.readNoiseDn);
+  }
+  catch (const std::invalid_argument & error)
+  {
+    itkExceptionMacro("the simulation is not possible: " << error.what());
+  }
+}
+
+template <typename TOutputStack>
+void
+SensorNoiseStackSource<TOutputStack>::SetConditions(int number)
+{
+  try
+  {
+    const sensornoise::SceneConditions conditions = sensornoise::PaperConditions(number);
+    this->SetFlickerSd(conditions.flickerSd);
+    this->SetVibrationSdX(conditions.vibrationSdXPixels);
+    this->SetVibrationSdY(conditions.vibrationSdYPixels);
+  }
+  catch (const std::invalid_argument & error)
+  {
+    itkExceptionMacro("the simulation is not possible: " << error.what());
+  }
+}
+
+template <typename TOutputStack>
+sensornoise::SimulationSettings
+SensorNoiseStackSource<TOutputStack>::MakeSettings() const
+{
+  sensornoise::SimulationSettings settings;
+  settings.camera = { m_Electrons, m_Gain, m_Offset, m_ReadNoise };
+  settings.conditions = { m_FlickerSd, m_VibrationSdX, m_VibrationSdY };
+  settings.frames = m_NumberOfFrames;
+  settings.bitDepth = m_BitDepth;
+  settings.seed = m_Seed;
+  settings.opticalBlurPixels = m_OpticalBlur;
+  settings.rollingShutterPeriodRows = m_RollingShutterPeriod;
+  if (m_ClipLow != NumericTraits<double>::NonpositiveMin())
+  {
+    settings.clipLowDn = m_ClipLow;
+  }
+  if (m_ClipHigh != NumericTraits<double>::max())
+  {
+    settings.clipHighDn = m_ClipHigh;
+  }
+  settings.prnuSd = m_PrnuSd;
+  settings.dsnuSdDn = m_DsnuSd;
+  settings.hotPixelFraction = m_HotPixelFraction;
+  settings.hotPixelNoiseFactor = m_HotPixelNoiseFactor;
+  return settings;
+}
+
+template <typename TOutputStack>
+void
+SensorNoiseStackSource<TOutputStack>::GenerateOutputInformation()
+{
+  const ReferenceImageType * reference = this->GetReference();
+  OutputStackType *          stack = this->GetOutput();
+  const auto                 frame = reference->GetLargestPossibleRegion();
+
+  try
+  {
+    const sensornoise::SimulationSettings settings = this->MakeSettings();
+    m_Truth = sensornoise::DrawTruth(settings, frame.GetSize(1));
+    sensornoise::StackSimulator::CodeRange<OutputPixelType>(settings);
+  }
+  catch (const std::invalid_argument & error)
+  {
+    itkExceptionMacro("the simulation is not possible: " << error.what());
+  }
+
+  OutputRegionType                        region;
+  typename OutputStackType::SpacingType   spacing;
+  typename OutputStackType::PointType     origin;
+  typename OutputStackType::DirectionType direction;
+  spacing.Fill(1.0);
+  origin.Fill(0.0);
+  direction.SetIdentity();
+  for (unsigned int i = 0; i < 2; ++i)
+  {
+    region.SetIndex(i, frame.GetIndex(i));
+    region.SetSize(i, frame.GetSize(i));
+    spacing[i] = reference->GetSpacing()[i];
+    origin[i] = reference->GetOrigin()[i];
+    for (unsigned int j = 0; j < 2; ++j)
+    {
+      direction(i, j) = reference->GetDirection()(i, j);
+    }
+  }
+  region.SetIndex(2, 0);
+  region.SetSize(2, m_NumberOfFrames);
+  stack->SetLargestPossibleRegion(region);
+  stack->SetSpacing(spacing);
+  stack->SetOrigin(origin);
+  stack->SetDirection(direction);
+}
+
+template <typename TOutputStack>
+void
+SensorNoiseStackSource<TOutputStack>::GenerateInputRequestedRegion()
+{
+  // ITK's base class would copy the requested region of the stack.
+  const_cast<ReferenceImageType *>(this->GetReference())->SetRequestedRegionToLargestPossibleRegion();
+}
+
+template <typename TOutputStack>
+void
+SensorNoiseStackSource<TOutputStack>::UpdateOutputData(DataObject * output)
+{
+  try
+  {
+    Superclass::UpdateOutputData(output);
+  }
+  catch (...)
+  {
+    this->ResetPipeline();
+    throw;
+  }
+}
+
+template <typename TOutputStack>
+void
+SensorNoiseStackSource<TOutputStack>::BeforeThreadedGenerateData()
+{
+  const ReferenceImageType * reference = this->GetReference();
+  if (m_Simulator && m_SimulatorTime.GetMTime() > std::max(this->GetMTime(), reference->GetMTime()))
+  {
+    return;
+  }
+  const auto          frame = reference->GetLargestPossibleRegion();
+  std::vector<double> values;
+  values.reserve(frame.GetNumberOfPixels());
+  for (ImageRegionConstIterator<ReferenceImageType> it(reference, frame); !it.IsAtEnd(); ++it)
+  {
+    values.push_back(it.Get());
+  }
+  try
+  {
+    m_Simulator = std::make_unique<const sensornoise::StackSimulator>(
+      values, frame.GetSize(0), frame.GetSize(1), this->MakeSettings());
+  }
+  catch (const std::invalid_argument & error)
+  {
+    m_Simulator.reset();
+    itkExceptionMacro("the simulation is not possible: " << error.what());
+  }
+  m_SimulatorTime.Modified();
+}
+
+template <typename TOutputStack>
+void
+SensorNoiseStackSource<TOutputStack>::DynamicThreadedGenerateData(const OutputRegionType & region)
+{
+  OutputStackType * stack = this->GetOutput();
+  const auto        largest = stack->GetLargestPossibleRegion();
+  const auto        firstColumn = static_cast<std::size_t>(region.GetIndex(0) - largest.GetIndex(0));
+
+  std::vector<OutputPixelType> row(m_Simulator->GetWidth());
+  auto                         index = region.GetIndex();
+  for (SizeValueType t = 0; t < region.GetSize(2); ++t)
+  {
+    index[2] = region.GetIndex(2) + static_cast<IndexValueType>(t);
+    for (SizeValueType y = 0; y < region.GetSize(1); ++y)
+    {
+      index[1] = region.GetIndex(1) + static_cast<IndexValueType>(y);
+      m_Simulator->RenderRow(
+        static_cast<std::size_t>(index[2]), static_cast<std::size_t>(index[1] - largest.GetIndex(1)), row.data());
+      std::copy_n(row.data() + firstColumn, region.GetSize(0), stack->GetBufferPointer() + stack->ComputeOffset(index));
+    }
+  }
+}
+
+template <typename TOutputStack>
+void
+SensorNoiseStackSource<TOutputStack>::PrintSelf(std::ostream & os, Indent indent) const
+{
+  Superclass::PrintSelf(os, indent);
+  os << indent << "Electrons: " << m_Electrons << std::endl;
+  os << indent << "Gain: " << m_Gain << std::endl;
+  os << indent << "Offset: " << m_Offset << std::endl;
+  os << indent << "ReadNoise: " << m_ReadNoise << std::endl;
+  os << indent << "FlickerSd: " << m_FlickerSd << std::endl;
+  os << indent << "VibrationSdX: " << m_VibrationSdX << std::endl;
+  os << indent << "VibrationSdY: " << m_VibrationSdY << std::endl;
+  os << indent << "NumberOfFrames: " << m_NumberOfFrames << std::endl;
+  os << indent << "BitDepth: " << m_BitDepth << std::endl;
+  os << indent << "Seed: " << m_Seed << std::endl;
+  os << indent << "OpticalBlur: " << m_OpticalBlur << std::endl;
+  os << indent << "RollingShutterPeriod: " << m_RollingShutterPeriod << std::endl;
+  os << indent << "ClipLow: " << m_ClipLow << std::endl;
+  os << indent << "ClipHigh: " << m_ClipHigh << std::endl;
+  os << indent << "PrnuSd: " << m_PrnuSd << std::endl;
+  os << indent << "DsnuSd: " << m_DsnuSd << std::endl;
+  os << indent << "HotPixelFraction: " << m_HotPixelFraction << std::endl;
+  os << indent << "HotPixelNoiseFactor: " << m_HotPixelNoiseFactor << std::endl;
+  os << indent << "Simulator: " << (m_Simulator ? "built" : "none") << std::endl;
+}
+
+} // namespace itk
+
+#endif // itkSensorNoiseStackSource_hxx

@@ -1,0 +1,131 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef itkTemporalStatisticsImageFilter_hxx
+#define itkTemporalStatisticsImageFilter_hxx
+
+#include "SensorNoiseCodes.h"
+
+namespace itk
+{
+
+template <typename TStack>
+TemporalStatisticsImageFilter<TStack>::TemporalStatisticsImageFilter()
+{
+  this->SetNumberOfRequiredOutputs(3);
+  for (DataObjectPointerArraySizeType i = 0; i < 3; ++i)
+  {
+    this->ProcessObject::SetNthOutput(i, this->MakeOutput(i));
+  }
+}
+
+template <typename TStack>
+auto
+TemporalStatisticsImageFilter<TStack>::MakeOutput(DataObjectPointerArraySizeType index) -> DataObjectPointer
+{
+  if (index == 2)
+  {
+    return MaskImageType::New().GetPointer();
+  }
+  return FrameImageType::New().GetPointer();
+}
+
+template <typename TStack>
+void
+TemporalStatisticsImageFilter<TStack>::GenerateOutputInformation()
+{
+  this->CopyFrameInformation(this->GetMean());
+  this->CopyFrameInformation(this->GetVariance());
+  this->CopyFrameInformation(this->GetValidMask());
+}
+
+template <typename TStack>
+void
+TemporalStatisticsImageFilter<TStack>::EnlargeOutputRequestedRegion(DataObject *)
+{
+  this->GetMean()->SetRequestedRegionToLargestPossibleRegion();
+  this->GetVariance()->SetRequestedRegionToLargestPossibleRegion();
+  this->GetValidMask()->SetRequestedRegionToLargestPossibleRegion();
+}
+
+template <typename TStack>
+void
+TemporalStatisticsImageFilter<TStack>::AllocateOutputs()
+{
+  const auto allocate = [](auto * image) {
+    image->SetBufferedRegion(image->GetLargestPossibleRegion());
+    image->Allocate();
+  };
+  allocate(this->GetMean());
+  allocate(this->GetVariance());
+  allocate(this->GetValidMask());
+}
+
+template <typename TStack>
+void
+TemporalStatisticsImageFilter<TStack>::StartPasses()
+{
+  if (this->GetNumberOfFrames() < 2)
+  {
+    itkExceptionMacro("the stack has " << this->GetNumberOfFrames()
+                                       << " frame(s); a temporal variance needs at least 2");
+  }
+  m_Moments = sensornoise::TemporalMoments<PixelType>(this->GetFrameRegion().GetNumberOfPixels());
+}
+
+template <typename TStack>
+void
+TemporalStatisticsImageFilter<TStack>::ProcessFrames(unsigned int,
+                                                     const PixelType * frames,
+                                                     SizeValueType,
+                                                     SizeValueType count)
+{
+  const SizeValueType width = this->GetFrameRegion().GetSize(0);
+  const SizeValueType height = this->GetFrameRegion().GetSize(1);
+  this->GetParallelFor()(
+    height, [&](std::size_t y) { m_Moments.AddFrames(frames, width * height, count, y * width, (y + 1) * width); });
+  m_Moments.AdvanceFrames(count);
+}
+
+template <typename TStack>
+void
+TemporalStatisticsImageFilter<TStack>::EndPass(unsigned int)
+{
+  m_Summary = sensornoise::MakeStackMaps<PixelType>(
+    m_Moments,
+    sensornoise::MakeCodeSettings(m_BitDepth, m_ClipLow, m_ClipHigh, m_QuantisationStep),
+    this->GetParallelFor(),
+    this->GetMean()->GetBufferPointer(),
+    this->GetVariance()->GetBufferPointer(),
+    this->GetValidMask()->GetBufferPointer());
+  m_Moments = sensornoise::TemporalMoments<PixelType>();
+}
+
+template <typename TStack>
+void
+TemporalStatisticsImageFilter<TStack>::PrintSelf(std::ostream & os, Indent indent) const
+{
+  Superclass::PrintSelf(os, indent);
+  os << indent << "BitDepth: " << m_BitDepth << std::endl;
+  os << indent << "ClipLow: " << m_ClipLow << std::endl;
+  os << indent << "ClipHigh: " << m_ClipHigh << std::endl;
+  os << indent << "QuantisationStep: " << m_QuantisationStep << std::endl;
+}
+
+} // namespace itk
+
+#endif

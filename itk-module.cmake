@@ -1,0 +1,16 @@
+set(DOCUMENTATION
+    "Measures the noise of a camera (gain, offset, read noise) from a burst of raw frames of any static scene,
+though lamps flicker and the floor trembles. After F. Sur and M. Grediac, SIAM J. Imaging Sci. 8(1), 2015,
+https://doi.org/10.1137/140977035")
+
+itk_module(SensorNoise
+  DEPENDS
+    ITKCommon
+    ITKEigen3
+  TEST_DEPENDS
+    ITKTestKernel
+    ITKGoogleTest
+    ITKImageStatistics
+    ITKImageGrid
+  DESCRIPTION "${DOCUMENTATION}"
+  EXCLUDE_FROM_DEFAULT)

@@ -1,0 +1,326 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef SensorNoisePublishedReport_h
+#define SensorNoisePublishedReport_h
+
+#include "SensorNoiseIntensityIndex.h"
+#include "SensorNoiseNoiseParameters.h"
+#include "SensorNoisePublishedSettings.h"
+#include "SensorNoiseStackMaps.h"
+#include "SensorNoiseVibrationCovariance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** All that the published method found out, from which its report is made. */
+struct PublishedFindings
+{
+  const PublishedSettings &         settings;
+  const FrameGeometry &             geometry;
+  std::size_t                       frames;
+  const StackSummary &              summary;
+  const std::vector<double> &       mean;
+  const std::vector<double> &       variance;
+  const std::vector<double> &       correctedVariance; ///< empty: the stack cannot be measured
+  const std::vector<std::uint8_t> & valid;
+  const std::vector<std::uint8_t> & kept; ///< the vibration mask
+  const std::vector<std::uint8_t> & pixelUse;
+  const IsoIntensitySet &           bright;
+  const IsoIntensitySet &           dark;
+  const FlickerEstimate &           flicker;
+  const std::string &               failure; ///< why the stack cannot be measured; empty: it can
+};
+
+namespace detail
+{
+/** A number as people read it. */
+inline std::string
+Text(double number)
+{
+  std::ostringstream text;
+  text.precision(4);
+  text << number;
+  return text.str();
+}
+
+inline void
+DescribeStack(Report & report, const PublishedFindings & found)
+{
+  const PublishedSettings & settings = found.settings;
+  report.method = "published";
+  report.settings = { { "level", settings.level },
+                      { "bright_quantile", settings.brightQuantile },
+                      { "dark_quantile", settings.darkQuantile },
+                      { "rolling_shutter", std::string(NameOf(settings.rollingShutter)) },
+                      { "sigma_rows", found.flicker.sigmaLines },
+                      { "shutter_axis", std::string(settings.shutterAxis == 0 ? "x" : "y") } };
+  report.frames = found.frames;
+  report.width = found.geometry.width;
+  report.height = found.geometry.height;
+
+  const CodeRange & codes = found.summary.codes;
+  report.bitDepth = codes.bitDepth;
+  report.bitDepthSource = codes.bitDepthSource;
+  if (codes.quantisationStepDn > 0.0)
+  {
+    report.quantisationStepDn = codes.quantisationStepDn;
+  }
+  report.clipLowDn = codes.clipLowDn;
+  report.clipHighDn = codes.clipHighDn;
+  report.clipSource = codes.clipSource;
+
+  report.pixels.total = found.geometry.Pixels();
+  report.pixels.valid = static_cast<std::size_t>(std::count(found.valid.begin(), found.valid.end(), 1));
+  report.pixels.used = static_cast<std::size_t>(
+    std::count(found.pixelUse.begin(), found.pixelUse.end(), static_cast<std::uint8_t>(PixelUse::Used)));
+  report.pixels.clipped = found.summary.clipped;
+  report.pixels.notFinite = found.summary.notFinite;
+}
+
+/** What was found that the user should know of before trusting the numbers. */
+inline void
+WarnOfStack(Report & report, const PublishedFindings & found)
+{
+  const CodeRange & codes = found.summary.codes;
+  if (found.frames < 20)
+  {
+    report.Warn("few-frames",
+                "the stack has " + std::to_string(found.frames) + " frames: indicative only; 20 or more are usable");
+  }
+  if (codes.clipSource.find("pile-up") != std::string::npos)
+  {
+    report.Warn("clip-level-found",
+                "the sensor attains only the levels " + Text(*codes.clipLowDn) + " to " + Text(*codes.clipHighDn) +
+                  " DN (" + codes.clipSource + "); pixels that reach an end are left out");
+  }
+  if (!codes.isRegular)
+  {
+    report.Warn("irregular-codes",
+                "the spacing of the grey levels varies about " + Text(codes.quantisationStepDn) +
+                  " DN: the data were rescaled and their quantisation noise is not known");
+  }
+  if (found.summary.notFinite > 0)
+  {
+    report.Warn("not-finite-pixels",
+                std::to_string(found.summary.notFinite) + " pixels are NaN or infinite in a frame and left out");
+  }
+}
+
+inline void
+WarnOfFlicker(Report & report, const PublishedFindings & found)
+{
+  const FlickerEstimate & flicker = found.flicker;
+  const auto              widened = [&report](const char * name, const IsoIntensitySet & set) {
+    if (set.wideningSteps > 0)
+    {
+      report.Warn(std::string(name) + "-set-widened",
+                  std::string("the ") + name + " set was too small and was taken at the quantile " +
+                    Text(set.quantile) + " with " + std::to_string(set.pixels.size()) + " pixels (" +
+                    std::to_string(set.wideningSteps) + " steps, Remark 3)");
+    }
+  };
+  widened("bright", found.bright);
+  widened("dark", found.dark);
+  if (flicker.sigmaLines > 0.0)
+  {
+    report.Warn("rolling-shutter",
+                "the flicker differs from line to line; it is estimated with sigma_y = " + Text(flicker.sigmaLines) +
+                  " lines");
+    const auto unknown = std::count(flicker.lineKnown.begin(), flicker.lineKnown.end(), 0);
+    if (unknown > 0)
+    {
+      report.Warn("lines-without-flicker",
+                  "the brightest pixels do not reach " + std::to_string(unknown) + " of " +
+                    std::to_string(flicker.lines) +
+                    " lines, whose flicker is not known: their pixels are left out, and the offset, which compares "
+                    "bright and dark pixels of different lines, is not reliable");
+    }
+  }
+  if (flicker.offsetLinePhi > 3.0)
+  {
+    report.Warn("offset-line-misfit",
+                "dark pixels do not follow the bright ones' flicker (residual variance " + Text(flicker.offsetLinePhi) +
+                  " times that of noise, expected 1): the offset is not reliable");
+  }
+}
+
+inline void
+FillScatter(Report & report, const PublishedFindings & found, const std::vector<std::uint8_t> & used)
+{
+  constexpr std::size_t bins = 256;
+  const std::size_t     pixels = found.geometry.Pixels();
+  const IntensityIndex  index(found.mean.data(), used.data(), pixels);
+  Report::Scatter       sums{ std::vector<double>(bins, 0.0),
+                        std::vector<double>(bins, 0.0),
+                        std::vector<double>(bins, 0.0),
+                        std::vector<std::size_t>(bins, 0) };
+  for (std::size_t p = 0; p < pixels; ++p)
+  {
+    if (used[p] != 0)
+    {
+      const std::size_t bin = index.BinOf(found.mean[p], bins);
+      sums.mean[bin] += found.mean[p];
+      sums.variance[bin] += found.variance[p];
+      sums.correctedVariance[bin] += found.correctedVariance[p];
+      ++sums.count[bin];
+    }
+  }
+  report.scatter = Report::Scatter();
+  for (std::size_t bin = 0; bin < bins; ++bin)
+  {
+    if (sums.count[bin] > 0)
+    {
+      const auto n = static_cast<double>(sums.count[bin]);
+      report.scatter.mean.push_back(sums.mean[bin] / n);
+      report.scatter.variance.push_back(sums.variance[bin] / n);
+      report.scatter.correctedVariance.push_back(sums.correctedVariance[bin] / n);
+      report.scatter.count.push_back(sums.count[bin]);
+    }
+  }
+}
+
+inline void
+FillVibration(Report & report, const PublishedFindings & found)
+{
+  const VibrationCovariance vibration = FitVibrationCovariance(found.mean.data(),
+                                                               found.variance.data(),
+                                                               found.valid.data(),
+                                                               found.geometry.width,
+                                                               found.geometry.height,
+                                                               found.flicker.flickerSd);
+  const auto                sd = [&vibration](double varianceOfAxis) {
+    return vibration.isDetermined && varianceOfAxis > 0.0 ? Quantity::Identified(std::sqrt(varianceOfAxis), "pixel")
+                                                                         : Quantity::Without(EstimateStatus::NotIdentifiable, "pixel");
+  };
+  report.vibrationSdX = sd(vibration.varianceXPixels2);
+  report.vibrationSdY = sd(vibration.varianceYPixels2);
+  report.vibrationCovariance = vibration.isDetermined ? Quantity::Identified(vibration.covariancePixels2, "pixel^2")
+                                                      : Quantity::Without(EstimateStatus::NotIdentifiable, "pixel^2");
+}
+
+inline void
+FillFlicker(Report & report, const PublishedFindings & found, bool identified)
+{
+  const FlickerEstimate & flicker = found.flicker;
+  report.flicker = flicker.gamma;
+  for (std::size_t t = 0; t < found.frames && !flicker.gammaLines.empty(); ++t)
+  {
+    const auto first = flicker.gammaLines.begin() + static_cast<std::ptrdiff_t>(t * flicker.lines);
+    report.flickerRows.emplace_back(first, first + static_cast<std::ptrdiff_t>(flicker.lines));
+    for (std::size_t line = 0; line < flicker.lines; ++line)
+    {
+      if (!flicker.IsKnown(line))
+      {
+        report.flickerRows.back()[line] = std::numeric_limits<double>::quiet_NaN();
+      }
+    }
+  }
+  if (identified)
+  {
+    report.flickerSd = Quantity::Identified(flicker.flickerSd, "1");
+    return;
+  }
+  report.flickerSd = Quantity::Without(EstimateStatus::UpperLimit, "1");
+  report.flickerSd.bracket = Interval{ 0.0, flicker.flickerSd };
+}
+} // namespace detail
+
+/** The report of the published method: values and statuses, no standard errors and no intervals (the paper has none for
+ * a stack, and those of ordinary regression would hide its bias). */
+inline Report
+MakePublishedReport(const PublishedFindings & found)
+{
+  Report report;
+  detail::DescribeStack(report, found);
+  detail::WarnOfStack(report, found);
+  if (!found.failure.empty())
+  {
+    report.Warn("nothing-to-measure", found.failure);
+    return report;
+  }
+  const FlickerEstimate & flicker = found.flicker;
+  detail::WarnOfFlicker(report, found);
+  detail::FillFlicker(report, found, flicker.flickerZ > RequiredFlickerZ);
+  detail::FillVibration(report, found);
+
+  const double contrastDn = found.bright.levelDn - found.dark.levelDn;
+  const double spreadDn = found.bright.levelSdDn + found.dark.levelSdDn;
+  if (!(contrastDn > 6.0 * spreadDn))
+  {
+    SetSensorParameters(report, EstimateStatus::NotIdentifiable);
+    report.Warn("intensity-range-too-small",
+                "the even areas span " + detail::Text(contrastDn) + " DN, expected more than " +
+                  detail::Text(6.0 * spreadDn) + " DN (6 standard deviations of their means): use a scene with dark " +
+                  "and bright areas");
+    return report;
+  }
+
+  const std::size_t    pixels = found.geometry.Pixels();
+  const RegressionData corrected{ found.mean.data(), found.correctedVariance.data(), found.kept.data(), pixels };
+  const RegressionData raw{ found.mean.data(), found.variance.data(), found.kept.data(), pixels };
+  const PolynomialFit  line = FitLine(corrected);
+  const PolynomialFit  affine = FitLine(raw);
+  const PolynomialFit  parabola = FitParabola(raw);
+  report.affineBaseline = Report::Baseline{ 0.0, affine.slope, affine.intercept };
+  report.quadraticBaseline = Report::Baseline{ parabola.curvature, parabola.slope, parabola.intercept };
+
+  const bool identified = flicker.flickerZ > RequiredFlickerZ;
+  if (!identified)
+  {
+    report.Warn("offset-not-identifiable",
+                "the flicker (sd " + detail::Text(flicker.flickerSd) + ") exceeds the noise of its estimate by " +
+                  detail::Text(flicker.flickerZ) + " standard deviations, expected more than 6: use a lamp that " +
+                  "flickers more, or more frames, or dark frames");
+  }
+  const IntensityIndex index(found.mean.data(), found.valid.data(), pixels);
+  FillNoiseParameters(
+    report, line, identified ? std::optional<double>(flicker.offsetDn) : std::nullopt, index.QuantileDn(0.001));
+
+  const FitQuality quality = JudgeLine(corrected, line, found.frames);
+  report.fit.reducedChi2 = quality.reducedChi2;
+  report.fit.curvature = quality.curvature;
+  report.fit.curvatureZ = quality.curvatureZ;
+  report.fit.offsetLinePhi = flicker.offsetLinePhi;
+  const double bendDn2 = quality.curvature * contrastDn * contrastDn / 8.0; // parabola from chord, half way
+  const double middleDn2 = line.intercept + line.slope * 0.5 * (found.bright.levelDn + found.dark.levelDn);
+  if (std::abs(quality.curvatureZ) > 5.0 && std::abs(bendDn2) > 0.03 * middleDn2)
+  {
+    report.Warn("corrected-variance-curved",
+                "the corrected variance bends by " + detail::Text(100.0 * bendDn2 / middleDn2) +
+                  " % of itself (expected under 3 %): vibrations, several lamps, or data that are not linear");
+  }
+
+  std::vector<std::uint8_t> used(pixels);
+  std::transform(found.pixelUse.begin(), found.pixelUse.end(), used.begin(), [](std::uint8_t use) {
+    return use == static_cast<std::uint8_t>(PixelUse::Used) ? 1 : 0;
+  });
+  detail::FillScatter(report, found, used);
+  return report;
+}
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,268 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "itkImageFileReader.h"
+#include "itkImageFileWriter.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace
+{
+namespace fs = std::filesystem;
+using StackType = itk::Image<unsigned short, 3>;
+
+/** Each test works in an empty folder of its own. */
+class SimulateTool : public ::testing::Test
+{
+protected:
+  void
+  SetUp() override
+  {
+    const std::string test = ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    m_Folder = fs::temp_directory_path() / ("sensornoise-simulate-tool-" + test);
+    fs::remove_all(m_Folder);
+    fs::create_directories(m_Folder / "out");
+  }
+  void
+  TearDown() override
+  {
+    fs::remove_all(m_Folder);
+  }
+  /** Exit code; what the program says goes to m_Message. */
+  int
+  Run(const std::string & arguments)
+  {
+    const fs::path    said = m_Folder / "stderr.txt";
+    const std::string command = "cd \"" + (m_Folder / "out").string() +
+                                "\" && \"" SENSORNOISE_BIN "/simulate-sensor-noise\" " + arguments +
+                                " > ../stdout.txt 2> ../stderr.txt";
+    const int status = std::system(command.c_str());
+    m_Message = ReadText(said);
+    m_Output = ReadText(m_Folder / "stdout.txt");
+#ifdef _WIN32
+    return status;
+#else
+    return status >> 8; // wait status: the exit code is its second byte
+#endif
+  }
+  static std::string
+  ReadText(const fs::path & name)
+  {
+    std::ifstream file(name, std::ios::binary);
+    return { std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>() };
+  }
+  nlohmann::json
+  ReadJson(const std::string & name) const
+  {
+    return nlohmann::json::parse(ReadText(m_Folder / "out" / name));
+  }
+  StackType::Pointer
+  ReadStack(const std::string & name) const
+  {
+    const auto reader = itk::ImageFileReader<StackType>::New();
+    reader->SetFileName((m_Folder / "out" / name).string());
+    reader->Update();
+    return reader->GetOutput();
+  }
+  std::set<std::string>
+  FilesLeft() const
+  {
+    std::set<std::string> names;
+    for (const auto & entry : fs::directory_iterator(m_Folder / "out"))
+    {
+      names.insert(entry.path().filename().string());
+    }
+    return names;
+  }
+  /** Exit code 2, one sentence with these words, and no file. */
+  void
+  ExpectRefusal(const std::string & arguments, const std::string & words)
+  {
+    SCOPED_TRACE(arguments);
+    const auto before = FilesLeft();
+    EXPECT_EQ(Run(arguments), 2);
+    EXPECT_NE(m_Message.find(words), std::string::npos) << m_Message;
+    EXPECT_EQ(std::count(m_Message.begin(), m_Message.end(), '\n'), 1) << m_Message;
+    EXPECT_EQ(m_Output, "");
+    EXPECT_EQ(FilesLeft(), before);
+  }
+
+  fs::path    m_Folder;
+  std::string m_Prefix;
+  std::string m_Message;
+  std::string m_Output;
+};
+} // namespace
+
+TEST_F(SimulateTool, WritesTheStackAndItsTruth)
+{
+  ASSERT_EQ(Run("--output stack.mha --truth truth.json --size 64x48 --frames 7"), 0) << m_Message;
+  EXPECT_EQ(m_Output + m_Message, "");
+  EXPECT_EQ(FilesLeft(), (std::set<std::string>{ "stack.mha", "truth.json" }));
+  const auto stack = ReadStack("stack.mha");
+  EXPECT_EQ(stack->GetLargestPossibleRegion().GetSize(), (StackType::SizeType{ { 64, 48, 7 } }));
+
+  const auto truth = ReadJson("truth.json");
+  EXPECT_EQ(truth["schema"], "itk-sensornoise-truth/1");
+  EXPECT_EQ(truth["camera"], "B");
+  EXPECT_EQ(truth["condition"], 3);
+  EXPECT_EQ(truth["gain"], 1.0);
+  EXPECT_EQ(truth["offset"], 100.0);
+  EXPECT_EQ(truth["read_noise"], 8.0);
+  EXPECT_EQ(truth["intercept"], 64.0 - 100.0);
+  EXPECT_EQ(truth["flicker_sd"], 0.05);
+  EXPECT_EQ(truth["vibration_sd"], (std::vector<double>{ 0.01, 0.02 }));
+  EXPECT_GT(truth["realised_flicker_sd"], 0.0);
+  for (const char * series : { "flicker", "gamma", "alpha", "beta" })
+  {
+    EXPECT_EQ(truth[series].size(), 7u) << series;
+  }
+  EXPECT_TRUE(truth["phase"].is_null());
+}
+
+TEST_F(SimulateTool, ExplicitValuesOverrideCameraAndCondition)
+{
+  ASSERT_EQ(
+    Run("--output s.mha --truth t.json --size 32x32 --frames 3 --reference bars --camera A --gain 2 --offset 50 "
+        "--read-noise 4 --electrons 900 --condition 1 --flicker-sd 0.2 --vibration-sd 0.5,0.25 "
+        "--rolling-shutter 16 --bit-depth 10 --clip 20,800 --seed 18446744073709551615"),
+    0)
+    << m_Message;
+  const auto truth = ReadJson("t.json");
+  EXPECT_TRUE(truth["camera"].is_null());
+  EXPECT_TRUE(truth["condition"].is_null());
+  EXPECT_EQ(truth["gain"], 2.0);
+  EXPECT_EQ(truth["electrons"], 900.0);
+  EXPECT_EQ(truth["intercept"], 16.0 - 100.0);
+  EXPECT_EQ(truth["vibration_sd"], (std::vector<double>{ 0.5, 0.25 }));
+  EXPECT_EQ(truth["rolling_shutter_period"], 16.0);
+  EXPECT_EQ(truth["phase"].size(), 3u);
+  EXPECT_EQ(truth["bit_depth"], 10);
+  EXPECT_EQ(truth["seed"], 18446744073709551615ULL);
+  EXPECT_EQ(truth["clip_high"], 800.0);
+  const auto   stack = ReadStack("s.mha");
+  const auto * pixels = stack->GetBufferPointer();
+  const auto   extremes = std::minmax_element(pixels, pixels + 32 * 32 * 3);
+  EXPECT_GE(*extremes.first, 20);
+  EXPECT_EQ(*extremes.second, 800);
+}
+
+TEST_F(SimulateTool, SameSeedSameFileAndAnExistingFileIsReplaced)
+{
+  ASSERT_EQ(Run("--output a.mha --size 32x32 --frames 3 --seed 5"), 0);
+  ASSERT_EQ(Run("--output b.mha --size 32x32 --frames 3 --seed 6"), 0);
+  const std::string a = ReadText(m_Folder / "out" / "a.mha");
+  EXPECT_NE(a, ReadText(m_Folder / "out" / "b.mha"));
+  ASSERT_EQ(Run("--output b.mha --size 32x32 --frames 3 --seed 5"), 0);
+  EXPECT_EQ(a, ReadText(m_Folder / "out" / "b.mha"));
+}
+
+TEST_F(SimulateTool, EveryFormatHoldsTheSamePixels)
+{
+  std::vector<std::vector<unsigned short>> pixels;
+  for (const std::string name : { "s.mha", "s.nrrd", "s.tif" })
+  {
+    ASSERT_EQ(Run("--output " + name + " --size 40x33 --frames 4 --reference texture"), 0) << m_Message;
+    const auto stack = ReadStack(name);
+    pixels.emplace_back(stack->GetBufferPointer(), stack->GetBufferPointer() + 40 * 33 * 4);
+  }
+  EXPECT_EQ(pixels[0], pixels[1]);
+  EXPECT_EQ(pixels[0], pixels[2]);
+}
+
+TEST_F(SimulateTool, ReadsAReferenceFileInItsOwnSize)
+{
+  using ReferenceType = itk::Image<unsigned char, 2>;
+  const auto reference = ReferenceType::New();
+  reference->SetRegions(ReferenceType::SizeType{ { 30, 20 } });
+  reference->Allocate();
+  for (int i = 0; i < 600; ++i)
+  {
+    reference->GetBufferPointer()[i] = static_cast<unsigned char>(i % 30 < 15 ? 10 : 200);
+  }
+  const auto writer = itk::ImageFileWriter<ReferenceType>::New();
+  writer->SetInput(reference);
+  writer->SetFileName((m_Folder / "out" / "scene.png").string());
+  writer->Update();
+  ASSERT_EQ(Run("--output s.mha --reference scene.png --frames 1"), 0) << m_Message;
+  const auto stack = ReadStack("s.mha");
+  EXPECT_EQ(stack->GetLargestPossibleRegion().GetSize(), (StackType::SizeType{ { 30, 20, 1 } }));
+  EXPECT_LT(stack->GetBufferPointer()[0], 200);   // no electrons: offset 100 DN, read noise 8 DN
+  EXPECT_GT(stack->GetBufferPointer()[29], 2000); // 3000 electrons, flicker 5 %
+  ExpectRefusal("--output t.mha --reference scene.png --size 10x10", "keeps its own size");
+}
+
+TEST_F(SimulateTool, OneFrameHasNoSpread)
+{
+  ASSERT_EQ(Run("--output s.mha --truth t.json --size 32x32 --frames 1"), 0);
+  EXPECT_TRUE(ReadJson("t.json")["realised_flicker_sd"].is_null());
+}
+
+TEST_F(SimulateTool, WrongUseIsRefusedInOneSentenceAndLeavesNothing)
+{
+  ExpectRefusal("", "--output");
+  ExpectRefusal("--output s.mha --colour red", "--colour");
+  ExpectRefusal("--output s.png", "expected a name that ends in .mha");
+  ExpectRefusal("--output nowhere/s.mha", "there is no folder nowhere");
+  ExpectRefusal("--output s.mha --truth nowhere/t.json --size 32x32", "there is no folder nowhere");
+  ExpectRefusal("--output s.mha --truth s.mha", "the same file");
+  ExpectRefusal("--output s.mha --size 512", "expected WIDTHxHEIGHT");
+  ExpectRefusal("--output s.mha --size 20x20", "needs at least 32 x 32");
+  ExpectRefusal("--output s.mha --camera D", "expected A, B or C");
+  ExpectRefusal("--output s.mha --camera BB", "expected A, B or C");
+  ExpectRefusal("--output s.mha --condition 4", "expected 1, 2 or 3");
+  ExpectRefusal("--output s.mha --reference moon", "neither target, bars or texture nor a file");
+  ExpectRefusal("--output s.mha --frames 0", "expected at least 1");
+  ExpectRefusal("--output s.mha --frames many", "--frames");
+  ExpectRefusal("--output s.mha --bit-depth 17", "the pixel type holds at most 16 bits");
+  ExpectRefusal("--output s.mha --vibration-sd 0.1", "--vibration-sd");
+  ExpectRefusal("--output s.mha --clip 100,50", "expected the low one below the high one");
+  std::ofstream(m_Folder / "out" / "not-an-image.txt") << "hello";
+  ExpectRefusal("--output s.mha --reference not-an-image.txt", "not an image");
+}
+
+#ifndef _WIN32
+TEST_F(SimulateTool, FullDiskLeavesNothing)
+{
+  // No file may grow beyond a few kilobytes, and the shell's signal for that is ignored: writing fails as on a full
+  // disk.
+  m_Prefix = "trap '' XFSZ; ulimit -f 16; ";
+  for (const std::string name : { "s.mha", "s.nrrd", "s.tif" })
+  {
+    EXPECT_EQ(Run("--truth t.json --frames 3 --output " + name), 2) << name;
+    EXPECT_NE(m_Message, "");
+    EXPECT_TRUE(FilesLeft().empty()) << name;
+  }
+}
+#endif
+
+TEST_F(SimulateTool, HelpIsGivenOnStandardOutput)
+{
+  EXPECT_EQ(Run("--help"), 0);
+  EXPECT_NE(m_Output.find("--rolling-shutter"), std::string::npos);
+  EXPECT_EQ(m_Message, "");
+}
