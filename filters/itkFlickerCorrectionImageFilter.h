@@ -133,6 +133,13 @@ public:
     return static_cast<const OffsetDecoratorType *>(this->ProcessObject::GetOutput("Offset"))->Get();
   }
 
+  /** Resets the pipeline when an input could not be updated: ITK would otherwise take the next Update() for one that is
+   * under way and return without a word and without a result. */
+  void
+  UpdateOutputInformation() override;
+  void
+  UpdateOutputData(DataObject * output) override;
+
 protected:
   FlickerCorrectionImageFilter();
   ~FlickerCorrectionImageFilter() override = default;

@@ -152,8 +152,10 @@ FlickerCorrectionImageFilter<TStack>::EstimateFlicker()
       mean, this->GetVariance()->GetBufferPointer(), this->GetMask()->GetBufferPointer(), pixels, frames);
     m_BrightSet = finder.Find(m_BrightQuantile);
     m_DarkSet = finder.Find(m_DarkQuantile);
-    const bool               byLine = m_RollingShutter != RollingShutterEnum::Off;
-    sensornoise::FlickerSums sums(m_BrightSet, m_DarkSet, mean, geometry, frames, byLine);
+    const bool                         byLine = m_RollingShutter != RollingShutterEnum::Off;
+    const sensornoise::IsoIntensitySet lineSet =
+      byLine ? finder.FindLineSet(m_BrightSet) : sensornoise::IsoIntensitySet();
+    sensornoise::FlickerSums sums(m_BrightSet, m_DarkSet, mean, geometry, frames, lineSet);
 
     const SizeValueType frameBytes = std::max<SizeValueType>(1, pixels * sizeof(typename StackType::PixelType));
     const SizeValueType chunkFrames = std::max<SizeValueType>(1, (SizeValueType{ 64 } << 20) / frameBytes);
@@ -227,6 +229,51 @@ FlickerCorrectionImageFilter<TStack>::DynamicThreadedGenerateData(const RegionTy
                 : std::numeric_limits<double>::quiet_NaN());
     }
   }
+}
+
+template <typename TStack>
+void
+FlickerCorrectionImageFilter<TStack>::UpdateOutputInformation()
+{
+  try
+  {
+    Superclass::UpdateOutputInformation();
+  }
+  catch (...)
+  {
+    this->ResetPipeline();
+    throw;
+  }
+}
+
+template <typename TStack>
+void
+FlickerCorrectionImageFilter<TStack>::UpdateOutputData(DataObject * output)
+{
+  if (this->m_Updating)
+  {
+    return;
+  }
+  // The offset alone needs no corrected frame: without this, whoever asks for it first makes the whole stack.
+  const RegionType requested = this->GetOutput()->GetRequestedRegion();
+  if (output != this->GetOutput())
+  {
+    RegionType frame = this->GetOutput()->GetLargestPossibleRegion();
+    frame.SetSize(2, 1);
+    this->GetOutput()->SetRequestedRegion(frame);
+    this->GenerateInputRequestedRegion();
+  }
+  try
+  {
+    Superclass::UpdateOutputData(output);
+  }
+  catch (...)
+  {
+    this->GetOutput()->SetRequestedRegion(requested);
+    this->ResetPipeline();
+    throw;
+  }
+  this->GetOutput()->SetRequestedRegion(requested);
 }
 
 template <typename TStack>

@@ -92,6 +92,13 @@ public:
     return this->ProcessObject::GetOutput(index);
   }
 
+  /** Resets the pipeline when an input could not be updated: ITK would otherwise take the next Update() for one that is
+   * under way and return without a word and without a result. */
+  void
+  UpdateOutputInformation() override;
+  void
+  UpdateOutputData(DataObject * output) override;
+
 protected:
   NoiseRegressionEstimator();
   ~NoiseRegressionEstimator() override = default;

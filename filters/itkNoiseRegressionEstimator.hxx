@@ -77,6 +77,36 @@ NoiseRegressionEstimator<TFrame>::GenerateData()
 
 template <typename TFrame>
 void
+NoiseRegressionEstimator<TFrame>::UpdateOutputInformation()
+{
+  try
+  {
+    Superclass::UpdateOutputInformation();
+  }
+  catch (...)
+  {
+    this->ResetPipeline();
+    throw;
+  }
+}
+
+template <typename TFrame>
+void
+NoiseRegressionEstimator<TFrame>::UpdateOutputData(DataObject * output)
+{
+  try
+  {
+    Superclass::UpdateOutputData(output);
+  }
+  catch (...)
+  {
+    this->ResetPipeline();
+    throw;
+  }
+}
+
+template <typename TFrame>
+void
 NoiseRegressionEstimator<TFrame>::PrintSelf(std::ostream & os, Indent indent) const
 {
   Superclass::PrintSelf(os, indent);

@@ -86,6 +86,8 @@ public:
     ProcessObject::UpdateLargestPossibleRegion();
   }
   void
+  UpdateOutputInformation() override;
+  void
   UpdateOutputData(DataObject * output) override;
 
 protected:

@@ -36,6 +36,21 @@ SensorNoiseStackSink<TStack>::SetNumberOfStreamDivisions(unsigned int number)
 
 template <typename TStack>
 void
+SensorNoiseStackSink<TStack>::UpdateOutputInformation()
+{
+  try
+  {
+    Superclass::UpdateOutputInformation();
+  }
+  catch (...)
+  {
+    this->ResetPipeline();
+    throw;
+  }
+}
+
+template <typename TStack>
+void
 SensorNoiseStackSink<TStack>::UpdateOutputData(DataObject * output)
 {
   // A reader that threw leaves this filter marked as updating: without the reset the next Update() would return a

@@ -18,7 +18,7 @@
 #ifndef itkTemporalStatisticsImageFilter_hxx
 #define itkTemporalStatisticsImageFilter_hxx
 
-#include "SensorNoiseCodes.h"
+#include "SensorNoisePublishedSettings.h"
 
 namespace itk
 {
@@ -84,6 +84,9 @@ TemporalStatisticsImageFilter<TStack>::StartPasses()
     itkExceptionMacro("the stack has " << this->GetNumberOfFrames()
                                        << " frame(s); a temporal variance needs at least 2");
   }
+  sensornoise::PublishedSettings settings;
+  settings.codes = sensornoise::MakeCodeSettings(m_BitDepth, m_ClipLow, m_ClipHigh, m_QuantisationStep);
+  settings.Validate();
   m_Moments = sensornoise::TemporalMoments<PixelType>(this->GetFrameRegion().GetNumberOfPixels());
 }
 

@@ -58,6 +58,36 @@ VibrationCovarianceEstimator<TFrame>::GenerateData()
 
 template <typename TFrame>
 void
+VibrationCovarianceEstimator<TFrame>::UpdateOutputInformation()
+{
+  try
+  {
+    Superclass::UpdateOutputInformation();
+  }
+  catch (...)
+  {
+    this->ResetPipeline();
+    throw;
+  }
+}
+
+template <typename TFrame>
+void
+VibrationCovarianceEstimator<TFrame>::UpdateOutputData(DataObject * output)
+{
+  try
+  {
+    Superclass::UpdateOutputData(output);
+  }
+  catch (...)
+  {
+    this->ResetPipeline();
+    throw;
+  }
+}
+
+template <typename TFrame>
+void
 VibrationCovarianceEstimator<TFrame>::PrintSelf(std::ostream & os, Indent indent) const
 {
   Superclass::PrintSelf(os, indent);

@@ -75,6 +75,13 @@ public:
   itkSetMacro(Level, double);
   itkGetConstMacro(Level, double);
 
+  /** Resets the pipeline when an input could not be updated: ITK would otherwise take the next Update() for one that is
+   * under way and return without a word and without a result. */
+  void
+  UpdateOutputInformation() override;
+  void
+  UpdateOutputData(DataObject * output) override;
+
 protected:
   VibrationMaskImageFilter();
   ~VibrationMaskImageFilter() override = default;

@@ -113,6 +113,36 @@ VibrationMaskImageFilter<TFrame>::DynamicThreadedGenerateData(const RegionType &
 
 template <typename TFrame>
 void
+VibrationMaskImageFilter<TFrame>::UpdateOutputInformation()
+{
+  try
+  {
+    Superclass::UpdateOutputInformation();
+  }
+  catch (...)
+  {
+    this->ResetPipeline();
+    throw;
+  }
+}
+
+template <typename TFrame>
+void
+VibrationMaskImageFilter<TFrame>::UpdateOutputData(DataObject * output)
+{
+  try
+  {
+    Superclass::UpdateOutputData(output);
+  }
+  catch (...)
+  {
+    this->ResetPipeline();
+    throw;
+  }
+}
+
+template <typename TFrame>
+void
 VibrationMaskImageFilter<TFrame>::PrintSelf(std::ostream & os, Indent indent) const
 {
   Superclass::PrintSelf(os, indent);

@@ -53,42 +53,50 @@ struct FrameGeometry
 /** \class FlickerSums
  * \brief Sums of each frame over the bright and the dark set, all that flicker and offset are estimated from.
  *
- * Sur & Gredi\'ac 2015, https://doi.org/10.1137/140977035. For every frame t and line y (or for whole frames):
- * - bright: sum of w v over S^* in the line, with v = u / ubar (3.2) and the weights of Remark 1, for (3.8) and (3.28);
- * - dark: sum of w u over S_*, for (3.14).
+ * Sur & Gredi\'ac 2015, https://doi.org/10.1137/140977035. For every frame t, with v = u / ubar (3.2) and the weights
+ * of Remark 1:
+ * - the sum of w v over S^*, for (3.8), and of w u over S_*, for (3.14);
+ * - if asked for, the sum of w v over the line set in each line y, for (3.28).
  *
  * Frames are independent: each is added once, whole, by one thread, so that chunks and threads change no bit.
- * Memory: 8 bytes a frame and line, plus the sets.
+ * Memory: 16 bytes a frame, 8 bytes a frame and line, plus the sets.
  */
 class FlickerSums
 {
 public:
-  /** \a mean is the frame-sized map of temporal means [DN]. With \a byLine false the sums are over whole frames. */
+  /** \a mean is the frame-sized map of temporal means [DN]. Without a \a lineSet there are no sums by line. */
   FlickerSums(const IsoIntensitySet & bright,
               const IsoIntensitySet & dark,
               const double *          mean,
               const FrameGeometry &   geometry,
               std::size_t             frames,
-              bool                    byLine)
+              const IsoIntensitySet & lineSet = {})
     : m_Frames(frames)
-    , m_Lines(byLine ? geometry.Lines() : 1)
-    , m_Bright(frames * m_Lines, 0.0)
-    , m_Dark(frames, 0.0)
+    , m_Lines(lineSet.pixels.empty() ? 0 : geometry.Lines())
+    , m_BrightSums(frames, 0.0)
+    , m_DarkSums(frames, 0.0)
+    , m_LineSums(frames * m_Lines, 0.0)
     , m_LineWeights(m_Lines, 0.0)
-    , m_DarkPixels(dark.pixels)
-    , m_DarkWeights(dark.weights)
-    , m_BrightPixels(bright.pixels)
+    , m_Dark{ dark.pixels, dark.weights }
   {
-    for (std::size_t i = 0; i < bright.pixels.size(); ++i)
-    {
-      const std::size_t line = byLine ? geometry.LineOf(bright.pixels[i]) : 0;
-      m_BrightLines.push_back(static_cast<std::uint32_t>(line));
-      m_BrightWeights.push_back(bright.weights[i] / mean[bright.pixels[i]]);
-      m_LineWeights[line] += bright.weights[i];
-    }
     for (std::size_t i = 0; i < dark.pixels.size(); ++i)
     {
       m_DarkMeanDn += dark.weights[i] * mean[dark.pixels[i]];
+    }
+    const auto ratioWeights = [mean](const IsoIntensitySet & set) {
+      WeightedPixels ratio{ set.pixels, set.weights };
+      for (std::size_t i = 0; i < set.pixels.size(); ++i)
+      {
+        ratio.weights[i] /= mean[set.pixels[i]];
+      }
+      return ratio;
+    };
+    m_Bright = ratioWeights(bright);
+    m_LineSet = ratioWeights(lineSet);
+    for (std::size_t i = 0; i < lineSet.pixels.size(); ++i)
+    {
+      m_LineOf.push_back(static_cast<std::uint32_t>(geometry.LineOf(lineSet.pixels[i])));
+      m_LineWeights[m_LineOf[i]] += lineSet.weights[i];
     }
   }
 
@@ -97,17 +105,13 @@ public:
   void
   AddFrame(const TPixel * frame, std::size_t t)
   {
-    double * const bright = m_Bright.data() + t * m_Lines;
-    for (std::size_t i = 0; i < m_BrightPixels.size(); ++i)
+    m_BrightSums[t] = m_Bright.SumOver(frame);
+    m_DarkSums[t] = m_Dark.SumOver(frame);
+    double * const lines = m_LineSums.data() + t * m_Lines;
+    for (std::size_t i = 0; i < m_LineSet.pixels.size(); ++i)
     {
-      bright[m_BrightLines[i]] += m_BrightWeights[i] * static_cast<double>(frame[m_BrightPixels[i]]);
+      lines[m_LineOf[i]] += m_LineSet.weights[i] * static_cast<double>(frame[m_LineSet.pixels[i]]);
     }
-    double dark = 0.0;
-    for (std::size_t i = 0; i < m_DarkPixels.size(); ++i)
-    {
-      dark += m_DarkWeights[i] * static_cast<double>(frame[m_DarkPixels[i]]);
-    }
-    m_Dark[t] = dark;
   }
 
   std::size_t
@@ -115,57 +119,72 @@ public:
   {
     return m_Frames;
   }
-  std::size_t
-  GetNumberOfLines() const
-  {
-    return m_Lines;
-  }
-
-  /** Sum of the weights of S^* in \a line; over all lines it is 1. */
-  double
-  GetLineWeight(std::size_t line) const
-  {
-    return m_LineWeights[line];
-  }
-
-  /** Sum of w v over S^* in \a line of frame \a t. */
-  double
-  GetBright(std::size_t t, std::size_t line) const
-  {
-    return m_Bright[t * m_Lines + line];
-  }
 
   /** v^*(t), (3.8): the mean of u / ubar over S^*. */
   double
   GetBrightRatio(std::size_t t) const
   {
-    double sum = 0.0;
-    for (std::size_t line = 0; line < m_Lines; ++line)
-    {
-      sum += this->GetBright(t, line);
-    }
-    return sum;
+    return m_BrightSums[t];
   }
 
   /** v_*(t), (3.14): the mean of u - v^*(t) ubar over S_* [DN]. */
   double
   GetDarkResidualDn(std::size_t t) const
   {
-    return m_Dark[t] - this->GetBrightRatio(t) * m_DarkMeanDn;
+    return m_DarkSums[t] - this->GetBrightRatio(t) * m_DarkMeanDn;
+  }
+
+  /** 0 without a line set. */
+  std::size_t
+  GetNumberOfLines() const
+  {
+    return m_Lines;
+  }
+
+  /** Sum of the weights of the line set in \a line; over all lines it is 1. */
+  double
+  GetLineWeight(std::size_t line) const
+  {
+    return m_LineWeights[line];
+  }
+
+  /** Sum of w v over the line set in \a line of frame \a t. */
+  double
+  GetLineSum(std::size_t t, std::size_t line) const
+  {
+    return m_LineSums[t * m_Lines + line];
   }
 
 private:
+  struct WeightedPixels
+  {
+    std::vector<std::uint32_t> pixels;
+    std::vector<double>        weights;
+
+    template <typename TPixel>
+    double
+    SumOver(const TPixel * frame) const
+    {
+      double sum = 0.0;
+      for (std::size_t i = 0; i < pixels.size(); ++i)
+      {
+        sum += weights[i] * static_cast<double>(frame[pixels[i]]);
+      }
+      return sum;
+    }
+  };
+
   std::size_t                m_Frames;
   std::size_t                m_Lines;
-  std::vector<double>        m_Bright;
-  std::vector<double>        m_Dark;
+  std::vector<double>        m_BrightSums;
+  std::vector<double>        m_DarkSums;
+  std::vector<double>        m_LineSums;
   std::vector<double>        m_LineWeights;
+  WeightedPixels             m_Bright;
+  WeightedPixels             m_Dark;
+  WeightedPixels             m_LineSet;
+  std::vector<std::uint32_t> m_LineOf; // of each pixel of the line set
   double                     m_DarkMeanDn{ 0.0 };
-  std::vector<std::uint32_t> m_DarkPixels;
-  std::vector<double>        m_DarkWeights;
-  std::vector<std::uint32_t> m_BrightPixels;
-  std::vector<std::uint32_t> m_BrightLines;
-  std::vector<double>        m_BrightWeights;
 };
 
 } // namespace sensornoise

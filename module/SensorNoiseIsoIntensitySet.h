@@ -129,6 +129,21 @@ public:
                              std::to_string(IsoIntensitySet::MinimumPixels) + " (the scene has too few even areas)");
   }
 
+  /** The pixels within 6 sigma_u of \a bright's level, equally weighted: the set from which gamma_t(y) is estimated
+   * line by line, (3.28).
+   *
+   * The paper takes S^* itself. But where the flicker differs from line to line, so does a line's mean over T frames,
+   * by about sigma_u; and u^* is the level of the brightest lines, so that S^* misses whole lines. As v = u / ubar is
+   * relative to each pixel's own mean, the pixels need not be of one intensity. */
+  IsoIntensitySet
+  FindLineSet(const IsoIntensitySet & bright) const
+  {
+    IsoIntensitySet set = bright;
+    this->Fill(set, 2.0 * bright.levelSdDn);
+    set.weights.assign(set.pixels.size(), 1.0 / static_cast<double>(set.pixels.size()));
+    return set;
+  }
+
 private:
   void
   SetLevel(IsoIntensitySet & set) const

@@ -35,7 +35,7 @@ struct LineRatios
 {
   double                    sigmaLines{ 0.0 }; ///< sigma_y that was used [lines]
   std::vector<double>       ratio;             ///< frame by frame, line by line; 1 where not known
-  std::vector<std::uint8_t> known;             ///< per line: S^* has pixels within sigma_y of it
+  std::vector<std::uint8_t> known;             ///< per line: the line set has pixels within sigma_y of it
 };
 
 namespace detail
@@ -71,7 +71,7 @@ SmoothedRatio(const FlickerSums &         sums,
     if (!(leaveOut && other == line))
     {
       const double weight = kernel[other > line ? other - line : line - other];
-      sum += weight * sums.GetBright(t, other);
+      sum += weight * sums.GetLineSum(t, other);
       weights += weight * sums.GetLineWeight(other);
     }
   }
@@ -88,13 +88,17 @@ CrossValidationError(const FlickerSums & sums, double sigmaLines, std::size_t st
   double                    error = 0.0;
   for (std::size_t t = 0; t < sums.GetNumberOfFrames(); t += stride)
   {
-    const double ratio = sums.GetBrightRatio(t);
+    double ratio = 0.0;
+    for (std::size_t line = 0; line < sums.GetNumberOfLines(); ++line)
+    {
+      ratio += sums.GetLineSum(t, line);
+    }
     for (std::size_t line = 0; line < sums.GetNumberOfLines(); ++line)
     {
       const double weight = sums.GetLineWeight(line);
       if (weight > 0.0 && weight < 1.0)
       {
-        const double own = sums.GetBright(t, line);
+        const double own = sums.GetLineSum(t, line);
         double predicted = wholeFrame ? (ratio - own) / (1.0 - weight) : SmoothedRatio(sums, kernel, t, line, true);
         if (std::isnan(predicted))
         {
@@ -146,8 +150,8 @@ ChooseLineSigma(const FlickerSums & sums)
   return chosen;
 }
 
-/** v^*(y, t) with the width \a sigmaLines. A line farther than sigma_y from any pixel of S^* is not known: the kernel
- * would extrapolate there. */
+/** v^*(y, t) with the width \a sigmaLines. A line farther than sigma_y from any pixel of the line set is not known: the
+ * kernel would extrapolate there. */
 inline LineRatios
 SmoothLineRatios(const FlickerSums & sums, double sigmaLines)
 {

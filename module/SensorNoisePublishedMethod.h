@@ -197,7 +197,12 @@ private:
       m_Bright = finder.Find(m_Settings.brightQuantile);
       m_Dark = finder.Find(m_Settings.darkQuantile);
       const bool byLine = m_Settings.rollingShutter != RollingShutter::Off;
-      m_Sums = std::make_unique<FlickerSums>(m_Bright, m_Dark, m_Mean.data(), m_Geometry, m_Frames, byLine);
+      m_Sums = std::make_unique<FlickerSums>(m_Bright,
+                                             m_Dark,
+                                             m_Mean.data(),
+                                             m_Geometry,
+                                             m_Frames,
+                                             byLine ? finder.FindLineSet(m_Bright) : IsoIntensitySet());
     }
     catch (const std::runtime_error & error)
     {

@@ -154,9 +154,7 @@ WarnOfFlicker(Report & report, const PublishedFindings & found)
     {
       report.Warn("lines-without-flicker",
                   "the brightest pixels do not reach " + std::to_string(unknown) + " of " +
-                    std::to_string(flicker.lines) +
-                    " lines, whose flicker is not known: their pixels are left out, and the offset, which compares "
-                    "bright and dark pixels of different lines, is not reliable");
+                    std::to_string(flicker.lines) + " lines, whose flicker is not known: their pixels are left out");
     }
   }
   if (flicker.offsetLinePhi > 3.0)
@@ -295,15 +293,23 @@ MakePublishedReport(const PublishedFindings & found)
                   detail::Text(flicker.flickerZ) + " standard deviations, expected more than 6: use a lamp that " +
                   "flickers more, or more frames, or dark frames");
   }
+  // The darkest mean bounds the offset (flux >= 0); being a mean of noise it may lie below it by some of its errors.
   const IntensityIndex index(found.mean.data(), found.valid.data(), pixels);
-  FillNoiseParameters(
-    report, line, identified ? std::optional<double>(flicker.offsetDn) : std::nullopt, index.QuantileDn(0.001));
+  const double         darkestDn = index.QuantileDn(0.001) + 3.0 * found.dark.levelSdDn;
+  FillNoiseParameters(report, line, identified ? std::optional<double>(flicker.offsetDn) : std::nullopt, darkestDn);
 
   const FitQuality quality = JudgeLine(corrected, line, found.frames);
   report.fit.reducedChi2 = quality.reducedChi2;
   report.fit.curvature = quality.curvature;
   report.fit.curvatureZ = quality.curvatureZ;
   report.fit.offsetLinePhi = flicker.offsetLinePhi;
+  if (quality.reducedChi2 > 1.5)
+  {
+    report.Warn("poor-fit",
+                "the corrected variance scatters about the line " + detail::Text(quality.reducedChi2) +
+                  " times as much as sampling noise does (expected 1): vibrations, flicker that differs within the "
+                  "frame, or a scene that moves are left in it");
+  }
   const double bendDn2 = quality.curvature * contrastDn * contrastDn / 8.0; // parabola from chord, half way
   const double middleDn2 = line.intercept + line.slope * 0.5 * (found.bright.levelDn + found.dark.levelDn);
   if (std::abs(quality.curvatureZ) > 5.0 && std::abs(bendDn2) > 0.03 * middleDn2)

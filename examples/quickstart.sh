@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds into build/, and measures a camera.
+#
+#   bash examples/quickstart.sh                  a simulated burst: camera B, condition 3 of Sur & Grediac 2015
+#   bash examples/quickstart.sh FRAME...         your own raw frames in time order, or one stack file
+set -euo pipefail
+here="$(cd "$(dirname "$0")/.." && pwd)"
+source "$here/examples/setup.sh"
+
+sensornoise_install
+sensornoise_build "$here/build" -DBUILD_TESTING=OFF
+
+if [ $# -gt 0 ]; then
+  exec "$here/build/bin/estimate-sensor-noise" "$@"
+fi
+work="$here/build/quickstart"
+mkdir -p "$work"
+"$here/build/bin/simulate-sensor-noise" --camera B --condition 3 --seed 1 --output "$work/stack.mha" --truth "$work/truth.json"
+"$here/build/bin/estimate-sensor-noise" "$work/stack.mha" --json "$work/report.json"
+echo
+python3 - "$work/truth.json" "$work/report.json" <<'PY'
+import json, sys
+
+truth, report = (json.load(open(name)) for name in sys.argv[1:])
+print(f"{'quantity':<24} {'truth':>10} {'estimate':>10}")
+rows = [("gain g", truth["gain"], report["gain"]),
+        ("offset mu", truth["offset"], report["offset"]),
+        ("read noise sigma", truth["read_noise"], report["read_noise"]),
+        ("intercept sigma^2 - g mu", truth["intercept"], report["intercept"]),
+        ("flicker sd", truth["realised_flicker_sd"], report["flicker_sd"]),
+        ("vibration sd x", truth["realised_vibration_sd"][0], report["vibration"]["sd_x"]),
+        ("vibration sd y", truth["realised_vibration_sd"][1], report["vibration"]["sd_y"])]
+for name, value, quantity in rows:
+    estimate = "-" if quantity["value"] is None else f"{quantity['value']:.5g}"
+    print(f"{name:<24} {value:>10.5g} {estimate:>10} {quantity['unit']}")
+PY
+echo "stack, truth and report: $work"

@@ -1,0 +1,35 @@
+# Functions of the start scripts (examples/quickstart.sh, test/run.sh): install what is missing, build. For sourcing.
+
+# Debian's or Ubuntu's packages; on other systems, the same by their own means.
+sensornoise_packages=(g++ cmake ninja-build python3 libinsighttoolkit5-dev libgdcm-dev libfftw3-dev libtiff-dev
+  libcli11-dev nlohmann-json3-dev libgtest-dev libbenchmark-dev)
+
+sensornoise_install() {
+  local missing=()
+  if ! command -v dpkg-query >/dev/null; then
+    echo "not a Debian system: expecting ITK >= 5.2.1, CLI11, nlohmann-json, libtiff, GoogleTest and Google Benchmark" >&2
+    return
+  fi
+  for package in "${sensornoise_packages[@]}"; do
+    dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+  done
+  [ ${#missing[@]} -gt 0 ] || return 0
+  echo "installing ${missing[*]}"
+  local sudo=
+  [ "$(id -u)" = 0 ] || sudo=sudo
+  $sudo apt-get update -qq
+  $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends "${missing[@]}" >/dev/null
+}
+
+# sensornoise_build FOLDER [CMake options]: configures quietly and builds.
+sensornoise_build() {
+  local folder="$1"
+  shift
+  local source
+  source="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+  mkdir -p "$folder"
+  # The distribution's GDCM names programs in its CMake files that its library packages leave out: pages of notes.
+  cmake -G Ninja -S "$source" -B "$folder" -DCMAKE_BUILD_TYPE=Release "$@" >"$folder/configure.log" 2>&1 ||
+    { cat "$folder/configure.log" >&2; return 1; }
+  cmake --build "$folder"
+}
