@@ -172,19 +172,29 @@ IsPileUp(const CodeHistogram & extremes, std::int32_t end, std::int32_t inwards)
   return extremes.Count(end) >= std::max<std::uint32_t>(8, 3 * inside + 1);
 }
 
+/** How far the outermost codes lie from the mean of the pixels that attain them, in these pixels' temporal standard
+ * deviations, as a median. What a clip level cuts off is near the mean or beyond it; where it is just rare noise, or
+ * codes as coarse as the noise, that is some standard deviations away. */
+struct ExtremeDepths
+{
+  double low{ 0.0 };
+  double high{ 0.0 };
+};
+
 /** Finds bit depth, code step and clip levels of integer data from every pixel's extremes over time.
  *
  * Given values win. The bit depth is the smallest of 8, 10, 12, 14 and 16 that holds the codes. A clip level is a
  * pile-up of the extremes, else the end of the code range (design: a sensor that saturates at 3,400 of 4,095, or rests
  * on a floor above 0, is common). \a typicalVarianceDn2 is the median temporal variance: where the noise is below half
- * a step, every level piles up and only the code range is trusted.
+ * a step, every level piles up and only the code range is trusted. So it is where \a depths exceed 2.5.
  *
  * Throws std::invalid_argument if the data pass what was given. */
 inline CodeRange
 FindCodes(const CodeHistogram & minima,
           const CodeHistogram & maxima,
           double                typicalVarianceDn2,
-          const CodeSettings &  settings)
+          const CodeSettings &  settings,
+          const ExtremeDepths & depths = {})
 {
   std::vector<std::int32_t>       codes = minima.Occupied();
   const std::vector<std::int32_t> upper = maxima.Occupied();
@@ -224,21 +234,22 @@ FindCodes(const CodeHistogram & minima,
                                 std::to_string(static_cast<int>(top)) + " DN; give a larger bit depth");
   }
 
-  const bool  trusted = typicalVarianceDn2 >= 0.25 * step * step && lowest < highest;
-  const auto  stride = static_cast<std::int32_t>(step);
-  std::string lowSource = "given";
-  std::string highSource = "given";
+  constexpr double largestDepth = 2.5;
+  const bool       trusted = typicalVarianceDn2 >= 0.25 * step * step && lowest < highest;
+  const auto       stride = static_cast<std::int32_t>(step);
+  std::string      lowSource = "given";
+  std::string      highSource = "given";
   range.clipLowDn = settings.clipLowDn;
   range.clipHighDn = settings.clipHighDn;
   if (!range.clipLowDn)
   {
-    const bool found = trusted && lowest != 0 && IsPileUp(minima, lowest, stride);
+    const bool found = trusted && lowest != 0 && depths.low < largestDepth && IsPileUp(minima, lowest, stride);
     range.clipLowDn = found ? lowest : (lowest < 0 ? -32768.0 : 0.0);
     lowSource = found ? "pile-up" : "code range";
   }
   if (!range.clipHighDn)
   {
-    const bool found = trusted && highest < top && IsPileUp(maxima, highest, -stride);
+    const bool found = trusted && highest < top && depths.high < largestDepth && IsPileUp(maxima, highest, -stride);
     range.clipHighDn = found ? highest : top;
     highSource = found ? "pile-up" : "code range";
   }

@@ -135,8 +135,8 @@ public:
     {
       margin *= 2;
     }
-    // The nearest lie within twice the margin: a cell's pixels may all be at its far side.
-    const double        limit = m_CellsPerDn > 0.0 ? static_cast<double>(margin + 1) / m_CellsPerDn : 1.0;
+    // A cell's pixels may all be at its far side; one more cell, as the edges of cells are rounded.
+    const double        limit = m_CellsPerDn > 0.0 ? static_cast<double>(margin + 2) / m_CellsPerDn : 1.0;
     std::vector<double> distances;
     for (std::size_t p = 0; p < m_Pixels; ++p)
     {

@@ -91,6 +91,11 @@ public:
   {
     const std::size_t pixels = m_Geometry.Pixels();
     const std::size_t width = m_Geometry.width;
+    if (frames > m_Frames - m_FramesInPass)
+    {
+      throw std::logic_error("pass " + std::to_string(m_Pass + 1) + " was given " +
+                             std::to_string(m_FramesInPass + frames) + " frames; expected " + std::to_string(m_Frames));
+    }
     if (m_Pass == 0)
     {
       m_ParallelFor(m_Geometry.height,

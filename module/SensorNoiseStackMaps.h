@@ -22,6 +22,8 @@
 #include "SensorNoiseIntensityIndex.h"
 #include "SensorNoiseTemporalMoments.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -51,6 +53,38 @@ struct StackSummary
   std::size_t clipped{ 0 };   ///< pixels that attain a clip level in a frame
   std::size_t notFinite{ 0 }; ///< pixels that are NaN or infinite in a frame
 };
+
+namespace detail
+{
+/** See ExtremeDepths. */
+template <typename TMoments>
+ExtremeDepths
+FindExtremeDepths(const TMoments & moments, const double * mean, const double * variance)
+{
+  double lowest = moments.GetMinimum(0);
+  double highest = moments.GetMaximum(0);
+  for (std::size_t p = 1; p < moments.GetNumberOfPixels(); ++p)
+  {
+    lowest = std::min(lowest, moments.GetMinimum(p));
+    highest = std::max(highest, moments.GetMaximum(p));
+  }
+  std::vector<double> low;
+  std::vector<double> high;
+  for (std::size_t p = 0; p < moments.GetNumberOfPixels(); ++p)
+  {
+    const double sd = std::sqrt(variance[p]);
+    if (moments.GetMinimum(p) == lowest)
+    {
+      low.push_back(sd > 0.0 ? (mean[p] - lowest) / sd : 0.0);
+    }
+    if (moments.GetMaximum(p) == highest)
+    {
+      high.push_back(sd > 0.0 ? (highest - mean[p]) / sd : 0.0);
+    }
+  }
+  return { Quantile(low, 0.5), Quantile(high, 0.5) };
+}
+} // namespace detail
 
 /** Turns the moments of a stack into frame-sized maps: mean [DN], unbiased variance [DN^2] and the valid mask (1:
  * finite and never at a clip level). Codes and clip levels are given or found, see FindCodes(). NaN stands where a
@@ -91,7 +125,8 @@ MakeStackMaps(const TemporalMoments<TPixel> & moments,
     {
       variances.push_back(variance[p]);
     }
-    summary.codes = FindCodes(minima, maxima, Quantile(variances, 0.5), settings);
+    summary.codes =
+      FindCodes(minima, maxima, Quantile(variances, 0.5), settings, detail::FindExtremeDepths(moments, mean, variance));
   }
   else
   {

@@ -1,0 +1,21 @@
+#-- # Grading Level Criteria Report
+#-- EVALUATION DATE: 2026-11-21
+#-- EVALUATORS: [The ITKSensorNoise contributors]
+#--
+#-- ## Compliance level 3 star (Quality beta code)
+#--   - [X] API | executable interface is considered mostly stable and feature complete
+#--   - [X] 10% C0-code coverage demonstrated for testing suite
+#--   - [X] Some tests exist and pass on at least some platform
+#--   - [X] All requirements of Levels 2,1
+if(NOT SensorNoise_GIT_REPOSITORY)
+  message(FATAL_ERROR "Set SensorNoise_GIT_REPOSITORY to the URL or folder of the ITKSensorNoise repository.")
+endif()
+itk_fetch_module(
+  SensorNoise
+  "Measures the noise of a camera (gain, offset, read noise) from a burst of raw frames of any static scene, though lamps
+flicker and the floor trembles. After F. Sur and M. Grediac, SIAM J. Imaging Sci. 8(1), 2015,
+https://doi.org/10.1137/140977035"
+  MODULE_COMPLIANCE_LEVEL 3
+  GIT_REPOSITORY ${SensorNoise_GIT_REPOSITORY}
+  GIT_TAG main
+  )
