@@ -64,6 +64,7 @@ EstimateOptions::Parse(int argc, char ** argv)
   std::string rollingText = "auto";
   std::string roiText;
   std::string framesText;
+  std::string stepText;
 
   CLI::App app("Measures gain, offset and read noise of a camera from a burst of raw frames of a static scene.\n"
                "FRAME...: 2-D image files in time order, or one 3-D stack file (.mha .mhd .nrrd .tif).\n"
@@ -74,7 +75,7 @@ EstimateOptions::Parse(int argc, char ** argv)
     ->capture_default_str();
   app.add_option("--bit-depth", bitDepthText, "bits of the sensor's codes, 1 to 16, or auto")->capture_default_str();
   app.add_option("--clip", clipText, "LOW,HIGH: lowest and highest level that the sensor attains [DN]; else found");
-  app.add_option("--step", step, "spacing of the codes [DN]; else found")->check(CLI::PositiveNumber);
+  app.add_option("--step", stepText, "spacing of the codes [DN]; else found");
   app.add_option("--rolling-shutter", rollingText, "auto, off, or the width sigma_y of a row's neighbourhood [rows]")
     ->capture_default_str();
   app.add_option("--roi", roiText, "X,Y,W,H: only these pixels");
@@ -93,6 +94,14 @@ EstimateOptions::Parse(int argc, char ** argv)
       if (bitDepth < 1 || bitDepth > 16)
       {
         throw CLI::ValidationError("--bit-depth", bitDepthText + " is not auto or a number from 1 to 16");
+      }
+    }
+    if (!stepText.empty())
+    {
+      step = ReadNumbers<double>("--step", stepText, ',', 1)[0];
+      if (!(step > 0.0))
+      {
+        throw CLI::ValidationError("--step", stepText + " is not a positive number");
       }
     }
     if (!clipText.empty())
@@ -133,9 +142,9 @@ EstimateOptions::Parse(int argc, char ** argv)
       frames = { numbers[0], numbers[1] };
     }
   }
-  catch (const CLI::ParseError & error)
+  catch (const CLI::Success & request)
   {
-    return app.exit(error) == 0 ? 0 : 2;
+    return app.exit(request); // --help
   }
   return std::nullopt;
 }

@@ -50,7 +50,8 @@ struct EstimateOptions
   std::string                                        maps;
   bool                                               quiet{ false };
 
-  /** Reads the command line; the exit code if there is nothing left to do (--help, wrong use). */
+  /** Reads the command line; the exit code if there is nothing left to do (--help). Throws std::exception on wrong use.
+   */
   std::optional<int>
   Parse(int argc, char ** argv);
 

@@ -63,6 +63,11 @@ public:
   }
 
   const std::filesystem::path &
+  Target() const
+  {
+    return m_Target;
+  }
+  const std::filesystem::path &
   Temporary() const
   {
     return m_Temporary;

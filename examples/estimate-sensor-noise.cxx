@@ -19,6 +19,7 @@
 
 #include "EstimateOptions.h"
 #include "FrameInput.h"
+#include "MapFiles.h"
 #include "PendingFile.h"
 #include "ReportTable.h"
 #include "SensorNoiseReportJson.h"
@@ -26,10 +27,10 @@
 #include "itkCommand.h"
 #include "itkExtractImageFilter.h"
 #include "itkImageFileReader.h"
-#include "itkImageFileWriter.h"
 #include "itkMultiThreaderBase.h"
 #include "itkSensorNoiseEstimator.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -49,13 +50,15 @@ constexpr int ExitDone = 0;
 constexpr int ExitWrongUse = 2;
 constexpr int ExitNothingEstimated = 3;
 
-/** What an ITK exception says, without the class and address in front of it. */
+/** What an ITK exception says, without the class and address in front of it and on one line. */
 std::string
 TextOf(const itk::ExceptionObject & error)
 {
-  const std::string text = error.GetDescription();
-  const auto        end = text.find("): ");
-  return end == std::string::npos ? text : text.substr(end + 3);
+  std::string text = error.GetDescription();
+  const auto  end = text.find("): ");
+  text.erase(0, end == std::string::npos ? 0 : end + 3);
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
 }
 
 template <typename TFilter>
@@ -63,8 +66,8 @@ void
 ShowProgressOn(TFilter * filter)
 {
   auto command = itk::CStyleCommand::New();
-  command->SetConstCallback([](const itk::Object * object, const itk::EventObject &, void *) {
-    const float progress = static_cast<const itk::ProcessObject *>(object)->GetProgress();
+  command->SetCallback([](itk::Object * object, const itk::EventObject &, void *) {
+    const float progress = static_cast<itk::ProcessObject *>(object)->GetProgress();
     const int   done = static_cast<int>(40.0F * progress);
     std::fprintf(stderr,
                  "\r[%s%s] %3d %%%s",
@@ -77,8 +80,9 @@ ShowProgressOn(TFilter * filter)
   filter->AddObserver(itk::ProgressEvent(), command);
 }
 
+/** Cuts a region out of an image, chunk by chunk; the output lives as long as the filter. */
 template <typename TImage>
-typename TImage::Pointer
+typename itk::ExtractImageFilter<TImage, TImage>::Pointer
 Crop(TImage * image, const typename TImage::RegionType & region)
 {
   auto extract = itk::ExtractImageFilter<TImage, TImage>::New();
@@ -86,14 +90,18 @@ Crop(TImage * image, const typename TImage::RegionType & region)
   extract->SetExtractionRegion(region);
   extract->SetDirectionCollapseToSubmatrix();
   extract->UpdateOutputInformation();
-  return extract->GetOutput();
+  return extract;
 }
 
 MaskType::Pointer
 ReadMask(const std::string & file, const FrameInput & input)
 {
   const FrameInput header = OpenFrames({ file });
-  if (header.frames != 1 || header.width != input.width || header.height != input.height)
+  if (header.isStack)
+  {
+    throw InputError("the mask " + file + " has " + std::to_string(header.frames) + " frames; expected one image");
+  }
+  if (header.width != input.width || header.height != input.height)
   {
     throw InputError("the mask " + file + " has " + std::to_string(header.width) + " x " +
                      std::to_string(header.height) + " pixels, but the frames have " + std::to_string(input.width) +
@@ -102,7 +110,14 @@ ReadMask(const std::string & file, const FrameInput & input)
   // Nonzero means use, whatever the type: a double holds them all.
   auto reader = itk::ImageFileReader<itk::Image<double, 2>>::New();
   reader->SetFileName(file);
-  reader->Update();
+  try
+  {
+    reader->Update();
+  }
+  catch (const itk::ExceptionObject & error)
+  {
+    throw InputError("the mask " + PixelErrorOf(file, error));
+  }
   auto mask = MaskType::New();
   mask->SetRegions(reader->GetOutput()->GetLargestPossibleRegion());
   mask->Allocate();
@@ -111,32 +126,6 @@ ReadMask(const std::string & file, const FrameInput & input)
     return value != 0.0 ? 1 : 0;
   });
   return mask;
-}
-
-/** The files of the maps, opened before the work begins. */
-struct MapFiles
-{
-  explicit MapFiles(const fs::path & folder)
-    : mean(folder / "mean.mha")
-    , variance(folder / "variance.mha")
-    , correctedVariance(folder / "corrected_variance.mha")
-    , pixelUse(folder / "pixel_use.mha")
-  {}
-  PendingFile mean;
-  PendingFile variance;
-  PendingFile correctedVariance;
-  PendingFile pixelUse;
-};
-
-template <typename TImage>
-void
-WriteMap(TImage * image, PendingFile & file)
-{
-  auto writer = itk::ImageFileWriter<TImage>::New();
-  writer->SetInput(image);
-  writer->SetFileName(file.Temporary().string());
-  writer->Update();
-  file.Commit();
 }
 
 template <typename TPixel>
@@ -167,10 +156,10 @@ Estimate(const EstimateOptions & options, const FrameInput & input, MapFiles * m
                      std::to_string(input.width) + " x " + std::to_string(input.height) + " pixels and " +
                      std::to_string(input.frames) + " frames");
   }
-  const bool isCropped = region != stack->GetLargestPossibleRegion();
-  if (isCropped)
+  const auto crop = Crop<StackType>(stack, region);
+  if (region != stack->GetLargestPossibleRegion())
   {
-    stack = Crop<StackType>(stack, region);
+    stack = crop->GetOutput();
   }
 
   auto estimator = itk::SensorNoiseEstimator<StackType>::New();
@@ -185,7 +174,9 @@ Estimate(const EstimateOptions & options, const FrameInput & input, MapFiles * m
       frame.SetIndex(d, region.GetIndex(d));
       frame.SetSize(d, region.GetSize(d));
     }
-    estimator->SetMask(isCropped ? Crop<MaskType>(mask, frame) : mask);
+    const auto maskCrop = Crop<MaskType>(mask, frame);
+    maskCrop->Update();
+    estimator->SetMask(maskCrop->GetOutput());
   }
   if (!options.quiet && isatty(STDERR_FILENO) != 0)
   {
@@ -194,10 +185,7 @@ Estimate(const EstimateOptions & options, const FrameInput & input, MapFiles * m
   estimator->Update();
   if (maps != nullptr)
   {
-    WriteMap(estimator->GetMean(), maps->mean);
-    WriteMap(estimator->GetVariance(), maps->variance);
-    WriteMap(estimator->GetCorrectedVariance(), maps->correctedVariance);
-    WriteMap(estimator->GetPixelUse(), maps->pixelUse);
+    maps->Write(*estimator);
   }
   return estimator->GetReport();
 }
@@ -218,6 +206,13 @@ EstimateFor(const EstimateOptions & options, const FrameInput & input, MapFiles 
     default:
       return Estimate<double>(options, input, maps);
   }
+}
+
+bool
+IsWhyNothingIsEstimated(const sensornoise::Warning & warning)
+{
+  return warning.code == "nothing-to-measure" || warning.code == "intensity-range-too-small" ||
+         warning.code == "variance-not-affine";
 }
 
 int
@@ -265,9 +260,14 @@ Run(EstimateOptions & options)
   {
     std::cout << text;
   }
+  if (!std::cout.flush())
+  {
+    throw std::runtime_error("cannot write the result to standard output: it was not taken");
+  }
   for (const sensornoise::Warning & warning : report.warnings)
   {
-    std::cerr << (report.IsUsable() ? "warning: " : "error: ") << warning.message << " [" << warning.code << "]\n";
+    std::cerr << (IsWhyNothingIsEstimated(warning) ? "error: " : "warning: ") << warning.message << " [" << warning.code
+              << "]\n";
   }
   return report.IsUsable() ? ExitDone : ExitNothingEstimated;
 }

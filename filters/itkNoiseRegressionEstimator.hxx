@@ -67,10 +67,7 @@ NoiseRegressionEstimator<TFrame>::GenerateData()
   report.pixels.used = line.pixels;
   if (m_NumberOfFrames > 1)
   {
-    const sensornoise::FitQuality quality = sensornoise::JudgeLine(data, line, m_NumberOfFrames);
-    report.fit.reducedChi2 = quality.reducedChi2;
-    report.fit.curvature = quality.curvature;
-    report.fit.curvatureZ = quality.curvatureZ;
+    sensornoise::FillFit(report, sensornoise::JudgeLine(data, line, m_NumberOfFrames));
   }
   this->GetReportOutput()->Set(report);
 }

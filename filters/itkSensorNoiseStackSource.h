@@ -183,6 +183,8 @@ public:
   /** Resets the pipeline when the reference could not be made: ITK would otherwise take the next Update() for one that
    * is under way and return without a word and without an image. */
   void
+  UpdateOutputInformation() override;
+  void
   UpdateOutputData(DataObject * output) override;
 
 protected:

@@ -165,6 +165,21 @@ SensorNoiseStackSource<TOutputStack>::GenerateInputRequestedRegion()
 
 template <typename TOutputStack>
 void
+SensorNoiseStackSource<TOutputStack>::UpdateOutputInformation()
+{
+  try
+  {
+    Superclass::UpdateOutputInformation();
+  }
+  catch (...)
+  {
+    this->ResetPipeline();
+    throw;
+  }
+}
+
+template <typename TOutputStack>
+void
 SensorNoiseStackSource<TOutputStack>::UpdateOutputData(DataObject * output)
 {
   try

@@ -30,8 +30,9 @@ namespace itk
  * \brief Covariance of the vibration (alpha_t, beta_t) from temporal variance and mean, by multiple regression.
  *
  * Inputs, of a frame's size: 0 "Mean" [DN], 1 "Variance" [DN^2], both of the stack as it is, 2 "ValidMask" (optional:
- * pixels of value 0 are left out; clipped ones should be, those moved by vibrations not). Output: a decorated
- * sensornoise::VibrationCovariance [pixel^2], with sigma_gamma^2 as the regression sees it.
+ * pixels of value 0 are left out; clipped ones should be, those moved by vibrations not; without it, all finite pixels
+ * take part). Output: a decorated sensornoise::VibrationCovariance [pixel^2], with sigma_gamma^2 as the regression sees
+ * it.
  *
  * (2.20) and section 3.4 of F. Sur, M. Gredi\'ac, SIAM J. Imaging Sci. 8(1), 2015, https://doi.org/10.1137/140977035.
  *

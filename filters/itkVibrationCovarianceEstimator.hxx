@@ -18,8 +18,6 @@
 #ifndef itkVibrationCovarianceEstimator_hxx
 #define itkVibrationCovarianceEstimator_hxx
 
-#include <vector>
-
 namespace itk
 {
 
@@ -46,14 +44,12 @@ VibrationCovarianceEstimator<TFrame>::GenerateData()
     itkExceptionMacro("mean, variance and valid mask have different regions, the mean's is " << region
                                                                                              << "; expected the same");
   }
-  const std::vector<std::uint8_t> all(mask == nullptr ? region.GetNumberOfPixels() : 0, 1);
-  this->GetResultOutput()->Set(
-    sensornoise::FitVibrationCovariance(mean->GetBufferPointer(),
-                                        this->GetVariance()->GetBufferPointer(),
-                                        mask == nullptr ? all.data() : mask->GetBufferPointer(),
-                                        region.GetSize(0),
-                                        region.GetSize(1),
-                                        m_FlickerSd));
+  this->GetResultOutput()->Set(sensornoise::FitVibrationCovariance(mean->GetBufferPointer(),
+                                                                   this->GetVariance()->GetBufferPointer(),
+                                                                   mask == nullptr ? nullptr : mask->GetBufferPointer(),
+                                                                   region.GetSize(0),
+                                                                   region.GetSize(1),
+                                                                   m_FlickerSd));
 }
 
 template <typename TFrame>

@@ -23,6 +23,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -136,12 +137,20 @@ FindQuantisationStep(const std::vector<std::int32_t> & codes, bool & regular)
   }
   const auto majority = std::max_element(
     spacings.begin(), spacings.end(), [](const auto & a, const auto & b) { return a.second < b.second; });
-  if (majority == spacings.end() || 2 * majority->second <= codes.size() - 1)
+  if (majority == spacings.end())
   {
-    // No majority: too few codes to tell, so they are taken as they are.
     return 1.0;
   }
-  const std::int32_t                  step = majority->first;
+  std::int32_t step = majority->first;
+  if (2 * majority->second < codes.size())
+  {
+    // No majority: few codes, far apart. What all spacings are multiples of is a step.
+    step = 0;
+    for (const auto & spacing : spacings)
+    {
+      step = std::gcd(step, spacing.first);
+    }
+  }
   std::map<std::int32_t, std::size_t> remainders;
   for (const std::int32_t code : codes)
   {

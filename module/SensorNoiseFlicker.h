@@ -24,6 +24,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace sensornoise
@@ -62,7 +63,7 @@ struct FlickerEstimate
   std::vector<double>       gammaLines;        ///< gamma_t(y), frame by frame; empty: no gamma_t(y)
   std::vector<std::uint8_t> lineKnown;         ///< per line: whether S^* reaches it; empty: all are known
 
-  /** How many standard deviations of its sampling noise the variance of v^* exceeds that noise by. */
+  /** How many standard deviations of its sampling noise the variance of v^* exceeds that noise by; may be infinite. */
   double flickerZ{ 0.0 };
   /** Residual variance of v_* about the line, over that expected of noise: 1 if the model holds. */
   double offsetLinePhi{ 1.0 };
@@ -105,17 +106,6 @@ SampleVariance(const std::vector<double> & values)
   return sum / static_cast<double>(values.size() - 1);
 }
 
-/** Variance that pixel noise alone gives to v^*(t).
- *
- * A pixel's u / ubar varies by flicker and by noise: V / u^2 = F + N. Over S^* the noise averages to q N with
- * q = sum w^2 while the flicker stays: s^2 = F + q N. Hence q N = (V / u^2 - s^2) q / (1 - q). */
-inline double
-BrightRatioNoise(const IsoIntensitySet & bright, double ratioVariance)
-{
-  const double q = 1.0 / bright.EffectivePixels();
-  const double single = bright.temporalVarianceDn2 / (bright.levelDn * bright.levelDn);
-  return q < 1.0 ? std::max(0.0, single - ratioVariance) * q / (1.0 - q) : ratioVariance;
-}
 } // namespace detail
 
 /** K, mu and gamma_t from the sums over S^* and S_*, (3.8) to (3.17); with \a mode also gamma_t(y), (3.28).
@@ -165,8 +155,10 @@ EstimateFlicker(const FlickerSums &     sums,
   // Does the flicker stand out of the noise, and do v_* and v^* lie on one line?
   const double dof = static_cast<double>(frames - 1);
   const double ratioVariance = sxx / dof;
-  const double noise = detail::BrightRatioNoise(bright, ratioVariance);
-  estimate.flickerZ = !wild && noise > 0.0 ? (ratioVariance / noise - 1.0) / std::sqrt(2.0 / dof) : 0.0;
+  const double noise = sums.GetBrightRatioNoise();
+  estimate.flickerZ = !wild && noise > 0.0           ? (ratioVariance / noise - 1.0) / std::sqrt(2.0 / dof)
+                      : !wild && ratioVariance > 0.0 ? std::numeric_limits<double>::infinity() // no noise at all
+                                                     : 0.0;
   double residual = 0.0;
   for (std::size_t t = 0; t < frames; ++t)
   {
@@ -174,11 +166,8 @@ EstimateFlicker(const FlickerSums &     sums,
       estimate.darkResidualDn[t] - meanDark - estimate.slopeDn * (estimate.brightRatio[t] - meanBright);
     residual += deviation * deviation;
   }
-  const double flickerAtDark = estimate.flickerSd * (dark.levelDn - estimate.offsetDn);
-  const double darkNoise =
-    std::max(0.0, dark.temporalVarianceDn2 - flickerAtDark * flickerAtDark) / dark.EffectivePixels();
   const double lever = dark.levelDn + estimate.slopeDn; // noise of v^* enters v_* and the abscissa
-  const double expected = darkNoise + lever * lever * noise;
+  const double expected = sums.GetDarkResidualNoiseDn2() + lever * lever * noise;
   estimate.offsetLinePhi = expected > 0.0 ? residual / (dof - 1.0) / expected : 1.0;
 
   if (mode != RollingShutter::Off && sums.GetNumberOfLines() > 1)

@@ -136,11 +136,11 @@ public:
     return std::isfinite(m_Squares[p]);
   }
 
-  /** Mean of pixel \a p over time [DN]. */
+  /** Mean of pixel \a p over time [DN]; NaN if it is not finite. */
   double
   GetMean(std::size_t p) const
   {
-    return m_Mean[p];
+    return this->IsFinite(p) ? m_Mean[p] : std::numeric_limits<double>::quiet_NaN();
   }
 
   /** Sum of the squared deviations of pixel \a p from its mean [DN^2]. */

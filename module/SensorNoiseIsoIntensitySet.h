@@ -51,6 +51,7 @@ struct IsoIntensitySet
 
   double                     levelDn{ 0.0 };             ///< u^* or u_* [DN]
   double                     levelSdDn{ 0.0 };           ///< sigma_u: of the mean, at that level [DN]
+  double                     bandSdDn{ 0.0 };            ///< sigma_u of the weights: levelSdDn unless widened [DN]
   double                     temporalVarianceDn2{ 0.0 }; ///< of one frame, at that level [DN^2]
   double                     quantile{ 0.0 };            ///< the quantile that was used, 0 to 1
   unsigned int               wideningSteps{ 0 };         ///< 0: as asked for
@@ -118,7 +119,8 @@ public:
         band *= 2.0;
       }
       set.wideningSteps = step;
-      this->Fill(set, band * set.levelSdDn);
+      set.bandSdDn = band * set.levelSdDn;
+      this->Fill(set);
       if (set.pixels.size() >= IsoIntensitySet::MinimumPixels)
       {
         return set;
@@ -139,7 +141,8 @@ public:
   FindLineSet(const IsoIntensitySet & bright) const
   {
     IsoIntensitySet set = bright;
-    this->Fill(set, 2.0 * bright.levelSdDn);
+    set.bandSdDn = 2.0 * bright.bandSdDn;
+    this->Fill(set);
     set.weights.assign(set.pixels.size(), 1.0 / static_cast<double>(set.pixels.size()));
     return set;
   }
@@ -163,8 +166,9 @@ private:
   }
 
   void
-  Fill(IsoIntensitySet & set, double sdDn) const
+  Fill(IsoIntensitySet & set) const
   {
+    const double sdDn = set.bandSdDn;
     set.pixels.clear();
     set.weights.clear();
     double total = 0.0;

@@ -167,7 +167,10 @@ SmoothLineRatios(const FlickerSums & sums, double sigmaLines)
     const std::size_t last = std::min(lines - 1, line + reach);
     for (std::size_t other = line > reach ? line - reach : 0; other <= last; ++other)
     {
-      result.known[line] |= sums.GetLineWeight(other) > 0.0 ? 1 : 0;
+      if (sums.GetLineWeight(other) > 0.0)
+      {
+        result.known[line] = 1;
+      }
     }
     for (std::size_t t = 0; t < sums.GetNumberOfFrames() && result.known[line] != 0; ++t)
     {

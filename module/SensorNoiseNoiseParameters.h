@@ -104,6 +104,41 @@ FillNoiseParameters(Report &              report,
     report.offset.bracket = Interval{ lowestOffsetDn, darkestDn };
     report.readNoise.bracket = Interval{ 0.0, highest };
     report.readNoiseElectrons.bracket = Interval{ 0.0, highest / line.slope };
+    if (offsetDn && *offsetDn > *darkestDn)
+    {
+      report.Warn("offset-above-darkest",
+                  "the offset " + std::to_string(*offsetDn) + " DN is above the darkest level, " +
+                    std::to_string(*darkestDn) + " DN, which is not possible: its error is larger than that; more " +
+                    "frames or more flicker would help");
+    }
+  }
+}
+
+/** A line that the corrected variance leaves by more than this many times its sampling noise is no line. */
+inline constexpr double LargestReducedChi2 = 10.0;
+
+/** Files how well the line fits; a gross misfit fails every parameter, with the warning `variance-not-affine`. */
+inline void
+FillFit(Report & report, const FitQuality & quality)
+{
+  report.fit.reducedChi2 = quality.reducedChi2;
+  report.fit.curvature = quality.curvature;
+  report.fit.curvatureZ = quality.curvatureZ;
+  if (quality.reducedChi2 > LargestReducedChi2)
+  {
+    SetSensorParameters(report, EstimateStatus::Failed);
+    report.Warn(
+      "variance-not-affine",
+      "the corrected variance scatters about its line " + std::to_string(quality.reducedChi2) +
+        " times as much as sampling noise does (expected 1, at most 10): the scene moves, the flicker differs "
+        "within the frame, or the data are not raw");
+  }
+  else if (quality.reducedChi2 > 1.5)
+  {
+    report.Warn("poor-fit",
+                "the corrected variance scatters about its line " + std::to_string(quality.reducedChi2) +
+                  " times as much as sampling noise does (expected 1): vibrations, flicker that differs within the "
+                  "frame, or a scene that moves are left in it");
   }
 }
 

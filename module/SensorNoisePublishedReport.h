@@ -299,17 +299,8 @@ MakePublishedReport(const PublishedFindings & found)
   FillNoiseParameters(report, line, identified ? std::optional<double>(flicker.offsetDn) : std::nullopt, darkestDn);
 
   const FitQuality quality = JudgeLine(corrected, line, found.frames);
-  report.fit.reducedChi2 = quality.reducedChi2;
-  report.fit.curvature = quality.curvature;
-  report.fit.curvatureZ = quality.curvatureZ;
+  FillFit(report, quality);
   report.fit.offsetLinePhi = flicker.offsetLinePhi;
-  if (quality.reducedChi2 > 1.5)
-  {
-    report.Warn("poor-fit",
-                "the corrected variance scatters about the line " + detail::Text(quality.reducedChi2) +
-                  " times as much as sampling noise does (expected 1): vibrations, flicker that differs within the "
-                  "frame, or a scene that moves are left in it");
-  }
   const double bendDn2 = quality.curvature * contrastDn * contrastDn / 8.0; // parabola from chord, half way
   const double middleDn2 = line.intercept + line.slope * 0.5 * (found.bright.levelDn + found.dark.levelDn);
   if (std::abs(quality.curvatureZ) > 5.0 && std::abs(bendDn2) > 0.03 * middleDn2)

@@ -18,12 +18,13 @@
 #ifndef SensorNoiseReportJson_h
 #define SensorNoiseReportJson_h
 
+#include "SensorNoiseJsonWriter.h"
 #include "SensorNoiseReport.h"
 
-#include <charconv>
-#include <cmath>
-#include <cstdio>
+#include <array>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace sensornoise
 {
@@ -50,195 +51,39 @@ NameOf(EstimateStatus status)
   return "failed";
 }
 
-namespace detail
+inline void
+WriteJson(JsonWriter & json, const Interval & interval)
 {
-/** Appends JSON to a string. Numbers are the shortest that read back as the same double; NaN and infinity, which JSON
- * does not know, are null. */
-class JsonWriter
+  json.Write(std::array<std::optional<double>, 2>{ interval.low, interval.high });
+}
+
+inline void
+WriteJson(JsonWriter & json, const Warning & warning)
 {
-public:
-  explicit JsonWriter(std::string & text)
-    : m_Text(text)
-  {}
+  json.Object([&] { json.Member("code", warning.code).Member("message", warning.message); });
+}
 
-  void
-  Write(double number)
-  {
-    if (!std::isfinite(number))
-    {
-      m_Text += "null";
-      return;
-    }
-    char       buffer[32];
-    const auto end = std::to_chars(buffer, buffer + sizeof(buffer), number).ptr;
-    m_Text.append(buffer, end);
-  }
-  void
-  Write(std::size_t number)
-  {
-    m_Text += std::to_string(number);
-  }
-  void
-  Write(int number)
-  {
-    m_Text += std::to_string(number);
-  }
-  void
-  Write(bool truth)
-  {
-    m_Text += truth ? "true" : "false";
-  }
-  void
-  Write(const char * string)
-  {
-    this->Write(std::string(string));
-  }
-  void
-  Write(const std::string & string)
-  {
-    m_Text += '"';
-    for (const char c : string)
-    {
-      if (c == '"' || c == '\\')
-      {
-        m_Text += '\\';
-        m_Text += c;
-      }
-      else if (static_cast<unsigned char>(c) < 0x20)
-      {
-        char buffer[8];
-        std::snprintf(buffer, sizeof(buffer), "\\u%04x", static_cast<unsigned int>(c));
-        m_Text += buffer;
-      }
-      else
-      {
-        m_Text += c;
-      }
-    }
-    m_Text += '"';
-  }
-  template <typename T>
-  void
-  Write(const std::optional<T> & optional)
-  {
-    if (optional)
-    {
-      this->Write(*optional);
-    }
-    else
-    {
-      m_Text += "null";
-    }
-  }
-  void
-  Write(const Interval & interval)
-  {
-    m_Text += '[';
-    this->Write(interval.low);
-    m_Text += ", ";
-    this->Write(interval.high);
-    m_Text += ']';
-  }
-  void
-  Write(const Report::SettingValue & value)
-  {
-    std::visit([this](const auto & held) { this->Write(held); }, value);
-  }
-  template <typename T, std::size_t VSize>
-  void
-  Write(const std::array<T, VSize> & values)
-  {
-    this->WriteList(values);
-  }
-  template <typename T>
-  void
-  Write(const std::vector<T> & values)
-  {
-    this->WriteList(values);
-  }
-  void
-  Write(const Warning & warning)
-  {
-    this->Object([&] { this->Member("code", warning.code).Member("message", warning.message); });
-  }
-  void
-  Write(const Quantity & quantity)
-  {
-    this->Object([&] {
-      this->Member("value", quantity.value)
-        .Member("standard_error", quantity.standardError)
-        .Member("interval95", quantity.interval95)
-        .Member("status", NameOf(quantity.status))
-        .Member("unit", quantity.unit)
-        .Member("bracket", quantity.bracket);
-    });
-  }
-
-  /** Writes {...} around the members that \a members writes. */
-  template <typename TMembers>
-  void
-  Object(TMembers members)
-  {
-    m_Text += '{';
-    m_First = true;
-    members();
-    m_Text += '}';
-    m_First = false;
-  }
-  template <typename T>
-  JsonWriter &
-  Member(const char * name, const T & value)
-  {
-    this->Name(name);
-    this->Write(value);
-    m_First = false;
-    return *this;
-  }
-  template <typename TMembers>
-  JsonWriter &
-  ObjectMember(const char * name, TMembers members)
-  {
-    this->Name(name);
-    this->Object(members);
-    return *this;
-  }
-
-private:
-  void
-  Name(const char * name)
-  {
-    m_Text += m_First ? "" : ", ";
-    this->Write(name);
-    m_Text += ": ";
-  }
-  template <typename TValues>
-  void
-  WriteList(const TValues & values)
-  {
-    m_Text += '[';
-    const char * separator = "";
-    for (const auto & value : values)
-    {
-      m_Text += separator;
-      this->Write(value);
-      separator = ", ";
-    }
-    m_Text += ']';
-  }
-
-  std::string & m_Text;
-  bool          m_First{ true };
-};
-} // namespace detail
+inline void
+WriteJson(JsonWriter & json, const Quantity & quantity)
+{
+  json.Object([&] {
+    json.Member("value", quantity.value)
+      .Member("standard_error", quantity.standardError)
+      .Member("interval95", quantity.interval95)
+      .Member("status", NameOf(quantity.status))
+      .Member("unit", quantity.unit)
+      .Member("bracket", quantity.bracket);
+  });
+}
 
 /** The record as JSON, schema "itk-sensornoise-report/1": one object, units in each quantity, null for what is unknown.
  */
 inline std::string
 ToJson(const Report & report)
 {
-  std::string        text;
-  detail::JsonWriter json(text);
-  const auto         baseline = [&json](const char * name, const std::optional<Report::Baseline> & fit, bool curved) {
+  std::string text;
+  JsonWriter  json(text);
+  const auto  baseline = [&json](const char * name, const std::optional<Report::Baseline> & fit, bool curved) {
     if (!fit)
     {
       json.Member(name, std::optional<double>());

@@ -27,6 +27,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <type_traits>
 #include <vector>
 
@@ -127,6 +128,9 @@ MakeStackMaps(const TemporalMoments<TPixel> & moments,
     }
     summary.codes =
       FindCodes(minima, maxima, Quantile(variances, 0.5), settings, detail::FindExtremeDepths(moments, mean, variance));
+    // A signed 16-bit number ends at 32767, whatever 16 bits would hold.
+    const double largest = std::numeric_limits<TPixel>::max();
+    summary.codes.clipHighDn = std::min(summary.codes.clipHighDn.value_or(largest), largest);
   }
   else
   {

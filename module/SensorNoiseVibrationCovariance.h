@@ -44,9 +44,9 @@ struct VibrationCovariance
  *
  *     Var(u) = c0 + c1 ubar + sigma_gamma^2 ubar^2 + (1 + sigma_gamma^2) grad ubar' Cov(alpha, beta) grad ubar
  *
- * over all inner pixels that are \a valid, those moved by vibrations included. \a mean [DN] and \a variance [DN^2] are
- * frame-sized maps of the stack as it is, flicker included. \a flickerSd is sigma_gamma where it is known from the
- * flicker itself; below 0: the root of this regression's own coefficient (0 if that is negative). */
+ * over all inner pixels that are \a valid (null: all) and finite, those moved by vibrations included. \a mean [DN] and
+ * \a variance [DN^2] are frame-sized maps of the stack as it is, flicker included. \a flickerSd is sigma_gamma where it
+ * is known from the flicker itself; below 0: the root of this regression's own coefficient (0 if that is negative). */
 inline VibrationCovariance
 FitVibrationCovariance(const double *       mean,
                        const double *       variance,
@@ -67,7 +67,9 @@ FitVibrationCovariance(const double *       mean,
       {
         const std::size_t p = y * width + x;
         const Gradient    gradient = CentredGradient(mean, width, p);
-        if (valid[p] != 0 && std::isfinite(gradient.x) && std::isfinite(gradient.y))
+        const bool isFinite = std::isfinite(mean[p]) && std::isfinite(variance[p]) && std::isfinite(gradient.x) &&
+                              std::isfinite(gradient.y);
+        if (isFinite && (valid == nullptr || valid[p] != 0))
         {
           function(p, gradient);
         }

@@ -82,7 +82,7 @@ TestVibrationOfRow(const double *       mean,
  * Section 3.1 of Sur & Gredi\'ac 2015 (https://doi.org/10.1137/140977035): where E(u) is locally constant,
  * 2 T |grad ubar|^2 / var(u) follows a chi-square law of 2 degrees of freedom. A pixel is kept (1) if that is below the
  * quantile of \a level. Not kept (0): pixels on the border, which have no centred difference, pixels that are not
- * \a valid, pixels that never vary, and pixels beside one that is not finite.
+ * \a valid (null: all are), pixels that never vary, and pixels beside one that is not finite.
  *
  * The variance is the temporal one as it is, flicker included, as in the paper. */
 inline std::vector<std::uint8_t>
@@ -102,7 +102,7 @@ VibrationMask(const double *       mean,
     TestVibrationOfRow(mean + p,
                        static_cast<std::ptrdiff_t>(width),
                        variance + p,
-                       valid + p,
+                       valid == nullptr ? nullptr : valid + p,
                        width - 2,
                        frames,
                        quantile,

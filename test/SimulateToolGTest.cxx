@@ -57,9 +57,8 @@ protected:
   Run(const std::string & arguments)
   {
     const fs::path    said = m_Folder / "stderr.txt";
-    const std::string command = "cd \"" + (m_Folder / "out").string() +
-                                "\" && \"" SENSORNOISE_BIN "/simulate-sensor-noise\" " + arguments +
-                                " > ../stdout.txt 2> ../stderr.txt";
+    const std::string command = "cd \"" + (m_Folder / "out").string() + "\" && " + m_Prefix + "\"" SENSORNOISE_BIN +
+                                "/simulate-sensor-noise\" " + arguments + " > ../stdout.txt 2> ../stderr.txt";
     const int status = std::system(command.c_str());
     m_Message = ReadText(said);
     m_Output = ReadText(m_Folder / "stdout.txt");

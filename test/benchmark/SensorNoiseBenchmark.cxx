@@ -1,3 +1,20 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
 // Speed, as ratios to the yardstick: one plain vectorised read pass over the stack in memory, by the same threads and
 // in the same run, just before what is measured. Counter read_passes: the median of these ratios.
 //
@@ -27,7 +44,7 @@ constexpr std::size_t  Frames = 100;
 StackType::Pointer
 GetStack(double rollingShutterPeriod)
 {
-  auto                                   reference = itk::Image<double, 2>::New();
+  auto                                  reference = itk::Image<double, 2>::New();
   const itk::Image<double, 2>::SizeType size{ { Width, Height } };
   reference->SetRegions(size);
   reference->Allocate();
