@@ -19,9 +19,9 @@
 //   simulate-sensor-noise --output stack.mha --truth truth.json --reference target --camera B --condition 3
 
 #include "PendingFile.h"
-#include "SensorNoiseTruthJson.h"
 #include "SimulateOptions.h"
 
+#include "itkSensorNoiseSceneSource.h"
 #include "itkSensorNoiseStackSource.h"
 
 #include "itkImageFileReader.h"
@@ -49,19 +49,6 @@ using sensornoise::tools::SimulateOptions;
 using ReferenceType = itk::Image<double, 2>;
 using StackType = itk::Image<unsigned short, 3>;
 using SourceType = itk::SensorNoiseStackSource<StackType>;
-
-ReferenceType::Pointer
-MakeImage(const std::vector<double> & values, std::size_t width, std::size_t height)
-{
-  auto                    image = ReferenceType::New();
-  ReferenceType::SizeType size;
-  size[0] = width;
-  size[1] = height;
-  image->SetRegions(ReferenceType::RegionType(size));
-  image->Allocate();
-  std::copy(values.begin(), values.end(), image->GetBufferPointer());
-  return image;
-}
 
 /** ITK's readers turn colour into grey and take the first slice of a volume without a word; the header tells. */
 ReferenceType::Pointer
@@ -114,16 +101,12 @@ MakeReference(const SimulateOptions & options)
   {
     throw std::runtime_error("the size is \"" + size + "\"; expected WIDTHxHEIGHT in pixels, for example 512x512");
   }
-  const std::size_t width = std::stoul(match[1]);
-  const std::size_t height = std::stoul(match[2]);
-  if (options.reference == "target")
-  {
-    return MakeImage(sensornoise::MakeTargetScene(width, height), width, height);
-  }
-  return MakeImage(options.reference == "bars" ? sensornoise::MakeBarsScene(width, height)
-                                               : sensornoise::MakeTextureScene(width, height),
-                   width,
-                   height);
+  auto scene = itk::SensorNoiseSceneSource<ReferenceType>::New();
+  scene->SetScene(options.reference);
+  scene->SetWidth(std::stoul(match[1]));
+  scene->SetHeight(std::stoul(match[2]));
+  scene->Update();
+  return scene->GetOutput();
 }
 
 SourceType::Pointer
@@ -161,8 +144,7 @@ MakeSource(const SimulateOptions & options)
 nlohmann::ordered_json
 TruthAsJson(const SimulateOptions & options, const SourceType & source)
 {
-  const auto size = source.GetOutput()->GetLargestPossibleRegion().GetSize();
-  auto       json = nlohmann::ordered_json::parse(sensornoise::ToJson(source.GetTruth(), size[0], size[1]));
+  auto       json = nlohmann::ordered_json::parse(source.GetTruthAsJson());
   const bool isPaperCamera = !options.gain && !options.offset && !options.readNoise && !options.electrons;
   const bool isPaperCondition = !options.flickerSd && options.vibrationSd.empty();
   json["reference"] = options.reference;

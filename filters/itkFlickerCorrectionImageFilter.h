@@ -89,6 +89,14 @@ public:
    * cross-validation) or Fixed (with RowSigma). */
   void
   SetRollingShutter(RollingShutterEnum mode);
+  /** The same by name: "off", "auto" or "fixed". */
+  void
+  SetRollingShutter(const std::string & name);
+  std::string
+  GetRollingShutterName() const
+  {
+    return sensornoise::NameOf(m_RollingShutter);
+  }
   RollingShutterEnum
   GetRollingShutter() const
   {
@@ -109,6 +117,50 @@ public:
   {
     return m_Flicker;
   }
+  /** Its members one by one: gamma_t of every frame [1]; gamma_t(y), frame by frame, empty if one flicker serves the
+   * whole frame; v^*(t) [1] and v_*(t) [DN], the scatter whose slope is K [DN]; the flicker's standard deviation [1];
+   * sigma_y [lines], 0 if one flicker serves; and mu [DN] whether or not it is identified. */
+  std::vector<double>
+  GetGamma() const
+  {
+    return m_Flicker.gamma;
+  }
+  std::vector<double>
+  GetGammaLines() const
+  {
+    return m_Flicker.gammaLines;
+  }
+  std::vector<double>
+  GetBrightRatio() const
+  {
+    return m_Flicker.brightRatio;
+  }
+  std::vector<double>
+  GetDarkResidual() const
+  {
+    return m_Flicker.darkResidualDn;
+  }
+  double
+  GetSlope() const
+  {
+    return m_Flicker.slopeDn;
+  }
+  double
+  GetFlickerSd() const
+  {
+    return m_Flicker.flickerSd;
+  }
+  double
+  GetLineSigma() const
+  {
+    return m_Flicker.sigmaLines;
+  }
+  double
+  GetRawOffset() const
+  {
+    return m_Flicker.offsetDn;
+  }
+
   const sensornoise::IsoIntensitySet &
   GetBrightSet() const
   {

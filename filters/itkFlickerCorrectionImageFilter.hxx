@@ -50,6 +50,20 @@ FlickerCorrectionImageFilter<TStack>::MakeOutput(const ProcessObject::DataObject
 
 template <typename TStack>
 void
+FlickerCorrectionImageFilter<TStack>::SetRollingShutter(const std::string & name)
+{
+  try
+  {
+    this->SetRollingShutter(sensornoise::RollingShutterOf(name));
+  }
+  catch (const std::invalid_argument & error)
+  {
+    itkExceptionMacro("" << error.what());
+  }
+}
+
+template <typename TStack>
+void
 FlickerCorrectionImageFilter<TStack>::SetRollingShutter(RollingShutterEnum mode)
 {
   if (m_RollingShutter != mode)

@@ -19,6 +19,7 @@
 #define itkNoiseRegressionEstimator_h
 
 #include "SensorNoiseNoiseParameters.h"
+#include "SensorNoiseReportJson.h"
 #include "itkImage.h"
 #include "itkProcessObject.h"
 #include "itkSensorNoiseResult.h"
@@ -63,6 +64,13 @@ public:
     return "NoiseRegressionEstimator";
   }
 
+  /** The mean, by the name that filters use. */
+  void
+  SetInput(const FrameImageType * mean)
+  {
+    this->SetMean(mean);
+  }
+
   itkSetInputMacro(Mean, FrameImageType);
   itkGetInputMacro(Mean, FrameImageType);
   itkSetInputMacro(Variance, FrameImageType);
@@ -86,6 +94,13 @@ public:
   {
     return static_cast<const ReportObjectType *>(this->ProcessObject::GetOutput(0))->Get();
   }
+  /** The report as JSON, schema "itk-sensornoise-report/1". */
+  std::string
+  GetReportAsJson() const
+  {
+    return sensornoise::ToJson(this->GetReport());
+  }
+
   DataObject *
   GetOutput(unsigned int index)
   {

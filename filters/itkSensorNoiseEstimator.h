@@ -19,6 +19,7 @@
 #define itkSensorNoiseEstimator_h
 
 #include "SensorNoisePublishedMethod.h"
+#include "SensorNoiseReportJson.h"
 #include "itkSensorNoiseStackSink.h"
 #include "itkSensorNoiseResult.h"
 
@@ -106,6 +107,9 @@ public:
   /** How the noise is estimated. */
   void
   SetMethod(MethodEnum method);
+  /** The same by name: "published". */
+  void
+  SetMethod(const std::string & name);
   MethodEnum
   GetMethod() const
   {
@@ -126,6 +130,14 @@ public:
    * cross-validation) or Fixed (with RowSigma). */
   void
   SetRollingShutter(RollingShutterEnum mode);
+  /** The same by name: "off", "auto" or "fixed". */
+  void
+  SetRollingShutter(const std::string & name);
+  std::string
+  GetRollingShutterName() const
+  {
+    return sensornoise::NameOf(m_RollingShutter);
+  }
   RollingShutterEnum
   GetRollingShutter() const
   {
@@ -164,6 +176,13 @@ public:
   GetReport() const
   {
     return static_cast<const ReportObjectType *>(this->ProcessObject::GetOutput(0))->Get();
+  }
+
+  /** The report as JSON, schema "itk-sensornoise-report/1". */
+  std::string
+  GetReportAsJson() const
+  {
+    return sensornoise::ToJson(this->GetReport());
   }
 
   FrameImageType *

@@ -63,6 +63,31 @@ SensorNoiseEstimator<TStack>::SetMethod(MethodEnum method)
 
 template <typename TStack>
 void
+SensorNoiseEstimator<TStack>::SetMethod(const std::string & name)
+{
+  if (name != "published")
+  {
+    itkExceptionMacro("the method is \"" << name << "\"; expected published");
+  }
+  this->SetMethod(MethodEnum::Published);
+}
+
+template <typename TStack>
+void
+SensorNoiseEstimator<TStack>::SetRollingShutter(const std::string & name)
+{
+  try
+  {
+    this->SetRollingShutter(sensornoise::RollingShutterOf(name));
+  }
+  catch (const std::invalid_argument & error)
+  {
+    itkExceptionMacro("" << error.what());
+  }
+}
+
+template <typename TStack>
+void
 SensorNoiseEstimator<TStack>::SetRollingShutter(RollingShutterEnum mode)
 {
   if (m_RollingShutter != mode)

@@ -19,6 +19,7 @@
 #define itkSensorNoiseStackSource_h
 
 #include "SensorNoiseSimulator.h"
+#include "SensorNoiseTruthJson.h"
 
 #include "itkImage.h"
 #include "itkImageSource.h"
@@ -171,6 +172,14 @@ public:
   GetTruth() const
   {
     return m_Truth;
+  }
+
+  /** The truth as JSON, schema "itk-sensornoise-truth/1". */
+  std::string
+  GetTruthAsJson() const
+  {
+    const auto size = this->GetOutput()->GetLargestPossibleRegion().GetSize();
+    return sensornoise::ToJson(m_Truth, size[0], size[1]);
   }
 
   /** The simulator of the last Update(), null before; kept until the filter or the reference is modified. */

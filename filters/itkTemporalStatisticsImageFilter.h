@@ -123,6 +123,43 @@ public:
     return m_Summary;
   }
 
+  /** Its members one by one. NaN: no clip level; 0: no codes. */
+  double
+  GetAttainedLow() const
+  {
+    return m_Summary.codes.clipLowDn.value_or(std::numeric_limits<double>::quiet_NaN());
+  }
+  double
+  GetAttainedHigh() const
+  {
+    return m_Summary.codes.clipHighDn.value_or(std::numeric_limits<double>::quiet_NaN());
+  }
+  std::string
+  GetClipSource() const
+  {
+    return m_Summary.codes.clipSource;
+  }
+  double
+  GetFoundQuantisationStep() const
+  {
+    return m_Summary.codes.quantisationStepDn;
+  }
+  int
+  GetFoundBitDepth() const
+  {
+    return m_Summary.codes.bitDepth.value_or(0);
+  }
+  SizeValueType
+  GetNumberOfClippedPixels() const
+  {
+    return m_Summary.clipped;
+  }
+  SizeValueType
+  GetNumberOfNotFinitePixels() const
+  {
+    return m_Summary.notFinite;
+  }
+
 protected:
   TemporalStatisticsImageFilter();
   ~TemporalStatisticsImageFilter() override = default;

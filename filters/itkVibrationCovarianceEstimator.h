@@ -61,6 +61,13 @@ public:
     return "VibrationCovarianceEstimator";
   }
 
+  /** The mean, by the name that filters use. */
+  void
+  SetInput(const FrameImageType * mean)
+  {
+    this->SetMean(mean);
+  }
+
   itkSetInputMacro(Mean, FrameImageType);
   itkGetInputMacro(Mean, FrameImageType);
   itkSetInputMacro(Variance, FrameImageType);
@@ -82,6 +89,32 @@ public:
   GetResult() const
   {
     return static_cast<const ResultObjectType *>(this->ProcessObject::GetOutput(0))->Get();
+  }
+  /** Its members one by one: Cov(alpha, beta) [pixel^2], sigma_gamma^2 [1], and whether they are determined. */
+  double
+  GetVarianceX() const
+  {
+    return this->GetResult().varianceXPixels2;
+  }
+  double
+  GetVarianceY() const
+  {
+    return this->GetResult().varianceYPixels2;
+  }
+  double
+  GetCovariance() const
+  {
+    return this->GetResult().covariancePixels2;
+  }
+  double
+  GetFlickerVariance() const
+  {
+    return this->GetResult().flickerVariance;
+  }
+  bool
+  GetIsDetermined() const
+  {
+    return this->GetResult().isDetermined;
   }
   DataObject *
   GetOutput(unsigned int index)

@@ -25,6 +25,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace sensornoise
@@ -37,6 +39,17 @@ enum class RollingShutter : std::uint8_t
   Auto, ///< gamma_t(y) where the data show it, sigma_y by cross-validation
   Fixed ///< gamma_t(y) with the given sigma_y, section 3.5
 };
+
+/** The mode of a name: "off", "auto" or "fixed". Throws std::invalid_argument for others. */
+inline RollingShutter
+RollingShutterOf(const std::string & name)
+{
+  if (name != "off" && name != "auto" && name != "fixed")
+  {
+    throw std::invalid_argument("the rolling shutter is \"" + name + "\"; expected off, auto or fixed");
+  }
+  return name == "off" ? RollingShutter::Off : name == "auto" ? RollingShutter::Auto : RollingShutter::Fixed;
+}
 
 inline const char *
 NameOf(RollingShutter mode)

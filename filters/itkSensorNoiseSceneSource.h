@@ -1,0 +1,136 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef itkSensorNoiseSceneSource_h
+#define itkSensorNoiseSceneSource_h
+
+#include "SensorNoiseScenes.h"
+#include "itkImage.h"
+#include "itkImageSource.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace itk
+{
+
+/** \class SensorNoiseSceneSource
+ * \brief Draws a reference image for SensorNoiseStackSource: values from 0 to 1.
+ *
+ * Scenes: "target", 4 x 4 even patches (MakeTargetScene); "bars", vertical bars, so that every row holds every level
+ * (MakeBarsScene); "texture", like a natural image (MakeTextureScene). The same parameters give the same image.
+ *
+ * \tparam TOutputImage Image<double, 2>.
+ * \ingroup SensorNoise
+ */
+template <typename TOutputImage = Image<double, 2>>
+class ITK_TEMPLATE_EXPORT SensorNoiseSceneSource : public ImageSource<TOutputImage>
+{
+public:
+  ITK_DISALLOW_COPY_AND_MOVE(SensorNoiseSceneSource);
+
+  using Self = SensorNoiseSceneSource;
+  using Superclass = ImageSource<TOutputImage>;
+  using Pointer = SmartPointer<Self>;
+  using ConstPointer = SmartPointer<const Self>;
+
+  itkNewMacro(Self);
+
+  const char *
+  GetNameOfClass() const override
+  {
+    return "SensorNoiseSceneSource";
+  }
+
+  /** "target" (default), "bars" or "texture". */
+  itkSetStringMacro(Scene);
+  itkGetStringMacro(Scene);
+
+  /** Size [pixel]. Defaults 512; a target has at least 32 x 32, bars 16 x 1, a texture 16 x 16. */
+  itkSetMacro(Width, SizeValueType);
+  itkGetConstMacro(Width, SizeValueType);
+  itkSetMacro(Height, SizeValueType);
+  itkGetConstMacro(Height, SizeValueType);
+
+protected:
+  SensorNoiseSceneSource() = default;
+  ~SensorNoiseSceneSource() override = default;
+
+  void
+  GenerateOutputInformation() override
+  {
+    const typename TOutputImage::SizeType size{ { m_Width, m_Height } };
+    this->GetOutput()->SetLargestPossibleRegion(typename TOutputImage::RegionType(size));
+  }
+
+  /** The scenes are drawn whole. */
+  void
+  EnlargeOutputRequestedRegion(DataObject * output) override
+  {
+    output->SetRequestedRegionToLargestPossibleRegion();
+  }
+
+  void
+  GenerateData() override
+  {
+    std::vector<double> scene;
+    try
+    {
+      if (m_Scene == "target")
+      {
+        scene = sensornoise::MakeTargetScene(m_Width, m_Height);
+      }
+      else if (m_Scene == "bars")
+      {
+        scene = sensornoise::MakeBarsScene(m_Width, m_Height);
+      }
+      else if (m_Scene == "texture")
+      {
+        scene = sensornoise::MakeTextureScene(m_Width, m_Height);
+      }
+    }
+    catch (const std::invalid_argument & error)
+    {
+      itkExceptionMacro("" << error.what());
+    }
+    if (scene.empty())
+    {
+      itkExceptionMacro("the scene is \"" << m_Scene << "\"; expected target, bars or texture");
+    }
+    this->AllocateOutputs();
+    std::copy(scene.begin(), scene.end(), this->GetOutput()->GetBufferPointer());
+  }
+
+  void
+  PrintSelf(std::ostream & os, Indent indent) const override
+  {
+    Superclass::PrintSelf(os, indent);
+    os << indent << "Scene: " << m_Scene << std::endl;
+    os << indent << "Width: " << m_Width << std::endl;
+    os << indent << "Height: " << m_Height << std::endl;
+  }
+
+private:
+  std::string   m_Scene{ "target" };
+  SizeValueType m_Width{ 512 };
+  SizeValueType m_Height{ 512 };
+};
+
+} // namespace itk
+
+#endif
