@@ -7,7 +7,7 @@
 #--   - [X] 10% C0-code coverage demonstrated for testing suite
 #--   - [X] Some tests exist and pass on at least some platform
 #--   - [X] All requirements of Levels 2,1
-if(NOT SensorNoise_GIT_REPOSITORY)
+if(Module_SensorNoise AND NOT SensorNoise_GIT_REPOSITORY)
   message(FATAL_ERROR "Set SensorNoise_GIT_REPOSITORY to the URL or folder of the ITKSensorNoise repository.")
 endif()
 itk_fetch_module(

@@ -10,7 +10,7 @@ itk_module(SensorNoise
   TEST_DEPENDS
     ITKTestKernel
     ITKGoogleTest
+    ITKImageFilterBase
     ITKImageStatistics
-    ITKImageGrid
   DESCRIPTION "${DOCUMENTATION}"
   EXCLUDE_FROM_DEFAULT)

@@ -18,11 +18,74 @@
 #include "FormatCompleteness.h"
 #include "TextHeader.h"
 
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
 #include <cstdlib>
+#include <fstream>
+#include <memory>
 
 namespace sensornoise::tools
 {
 namespace fs = std::filesystem;
+
+namespace
+{
+
+/** Throws InputError unless the compressed bytes inflate to `expected` bytes and a clean end; nothing is kept.
+ * MetaIO would read what is damaged as if it were whole. */
+void
+RequireInflates(const std::string & file,
+                const fs::path &    dataFile,
+                std::uint64_t       offset,
+                std::uint64_t       compressed,
+                std::uint64_t       expected)
+{
+  using Block = std::array<unsigned char, 65536>;
+  const auto    in = std::make_unique<Block>();
+  const auto    out = std::make_unique<Block>();
+  std::ifstream stream(dataFile, std::ios::binary);
+  stream.seekg(static_cast<std::streamoff>(offset));
+  z_stream      zlib{};
+  std::uint64_t found = 0;
+  int           status = inflateInit2(&zlib, 15 + 32); // zlib or gzip, as MetaIO
+  while (status == Z_OK && found <= expected)
+  {
+    if (zlib.avail_in == 0)
+    {
+      stream.read(reinterpret_cast<char *>(in->data()),
+                  static_cast<std::streamsize>(std::min<std::uint64_t>(compressed, in->size())));
+      compressed -= static_cast<std::uint64_t>(stream.gcount());
+      zlib.next_in = in->data();
+      zlib.avail_in = static_cast<uInt>(stream.gcount());
+    }
+    zlib.next_out = out->data();
+    zlib.avail_out = static_cast<uInt>(out->size());
+    status = inflate(&zlib, Z_NO_FLUSH);
+    found += out->size() - zlib.avail_out;
+  }
+  inflateEnd(&zlib);
+  if (status == Z_STREAM_END && found == expected)
+  {
+    return;
+  }
+  std::string what = std::to_string(found) + " bytes";
+  if (found > expected)
+  {
+    what = "more than " + std::to_string(expected) + " bytes";
+  }
+  else if (status != Z_STREAM_END)
+  {
+    what += std::string(" and then an error (") + (zlib.msg != nullptr ? zlib.msg : "no end of the stream") + ")";
+  }
+  const std::string place = fs::path(file) == dataFile ? "" : " in its data file " + dataFile.string();
+  Refuse(file,
+         "damaged: its compressed pixels" + place + " give " + what + ", expected " + std::to_string(expected) +
+           " bytes and the end of the stream");
+}
+
+} // namespace
 
 void
 CheckMetaImage(const std::string & file, itk::MetaImageIO & io)
@@ -42,20 +105,22 @@ CheckMetaImage(const std::string & file, itk::MetaImageIO & io)
   {
     Refuse(file, "ElementDataFile is the pattern " + dataFile + "; expected LOCAL, LIST or the name of one file");
   }
+  const bool    local = dataFile == "LOCAL" || dataFile == "Local" || dataFile == "local";
+  const bool    compressed = io.GetMetaImagePointer()->CompressedData();
   std::uint64_t expected = bytes;
-  if (io.GetMetaImagePointer()->CompressedData())
+  if (compressed)
   {
+    if (headerSize < 0 || dataFile.rfind("LIST", 0) == 0)
+    {
+      Refuse(file, "compressed with a HeaderSize of -1 or in a list of data files; expected neither");
+    }
     expected = std::strtoull(header.Field("CompressedDataSize").c_str(), nullptr, 10);
     if (expected == 0)
     {
       Refuse(file, "compressed without a CompressedDataSize in the header; without it nobody can tell if it is whole");
     }
   }
-  if (dataFile == "LOCAL" || dataFile == "Local" || dataFile == "local")
-  {
-    RequireBytes(file, file, skipped > 0 ? skipped : header.end, expected);
-  }
-  else if (dataFile.rfind("LIST", 0) == 0)
+  if (dataFile.rfind("LIST", 0) == 0)
   {
     const std::uint64_t frames = io.GetNumberOfDimensions() == 3 ? io.GetDimensions(2) : 0;
     const std::string   dimension = Trimmed(dataFile.substr(4));
@@ -76,7 +141,13 @@ CheckMetaImage(const std::string & file, itk::MetaImageIO & io)
   }
   else
   {
-    RequireBytes(file, folder / dataFile, skipped, expected);
+    const fs::path      path = local ? fs::path(file) : folder / dataFile;
+    const std::uint64_t offset = local && skipped == 0 ? header.end : skipped;
+    RequireBytes(file, path, offset, expected);
+    if (compressed)
+    {
+      RequireInflates(file, path, offset, expected, bytes);
+    }
   }
 }
 

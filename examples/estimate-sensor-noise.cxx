@@ -21,8 +21,8 @@
 #include "FrameInput.h"
 #include "MapFiles.h"
 #include "PendingFile.h"
-#include "ReportTable.h"
 #include "SensorNoiseReportJson.h"
+#include "SensorNoiseReportTable.h"
 
 #include "itkCommand.h"
 #include "itkExtractImageFilter.h"

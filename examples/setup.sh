@@ -2,12 +2,12 @@
 
 # Debian's or Ubuntu's packages; on other systems, the same by their own means.
 sensornoise_packages=(g++ cmake ninja-build python3 libinsighttoolkit5-dev libgdcm-dev libfftw3-dev libtiff-dev
-  libcli11-dev nlohmann-json3-dev libgtest-dev libbenchmark-dev)
+  libcli11-dev nlohmann-json3-dev zlib1g-dev libgtest-dev libbenchmark-dev)
 
 sensornoise_install() {
   local missing=()
   if ! command -v dpkg-query >/dev/null; then
-    echo "not a Debian system: expecting ITK >= 5.2.1, CLI11, nlohmann-json, libtiff, GoogleTest and Google Benchmark" >&2
+    echo "not a Debian system: expecting ITK >= 5.2.1, CLI11, nlohmann-json, libtiff, zlib, GoogleTest and Google Benchmark" >&2
     return
   fi
   for package in "${sensornoise_packages[@]}"; do

@@ -20,6 +20,7 @@
 
 #include "SensorNoiseNoiseParameters.h"
 #include "SensorNoiseReportJson.h"
+#include "SensorNoiseReportTable.h"
 #include "itkImage.h"
 #include "itkProcessObject.h"
 #include "itkSensorNoiseResult.h"
@@ -64,6 +65,7 @@ public:
     return "NoiseRegressionEstimator";
   }
 
+  using Superclass::SetInput;
   /** The mean, by the name that filters use. */
   void
   SetInput(const FrameImageType * mean)
@@ -99,6 +101,12 @@ public:
   GetReportAsJson() const
   {
     return sensornoise::ToJson(this->GetReport());
+  }
+  /** The report as a table that a person can read, as `estimate-sensor-noise` prints it. */
+  std::string
+  GetReportAsText() const
+  {
+    return sensornoise::MakeTable(this->GetReport());
   }
 
   DataObject *

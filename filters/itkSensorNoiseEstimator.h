@@ -20,6 +20,7 @@
 
 #include "SensorNoisePublishedMethod.h"
 #include "SensorNoiseReportJson.h"
+#include "SensorNoiseReportTable.h"
 #include "itkSensorNoiseStackSink.h"
 #include "itkSensorNoiseResult.h"
 
@@ -183,6 +184,12 @@ public:
   GetReportAsJson() const
   {
     return sensornoise::ToJson(this->GetReport());
+  }
+  /** The report as a table that a person can read, as `estimate-sensor-noise` prints it. */
+  std::string
+  GetReportAsText() const
+  {
+    return sensornoise::MakeTable(this->GetReport());
   }
 
   FrameImageType *

@@ -75,6 +75,7 @@ public:
   itkSetInputMacro(Reference, ReferenceImageType);
   itkGetInputMacro(Reference, ReferenceImageType);
 
+  using Superclass::SetInput;
   /** The reference, by the name that filters use. */
   virtual void
   SetInput(const ReferenceImageType * reference)

@@ -61,6 +61,7 @@ public:
     return "VibrationCovarianceEstimator";
   }
 
+  using Superclass::SetInput;
   /** The mean, by the name that filters use. */
   void
   SetInput(const FrameImageType * mean)
