@@ -1,0 +1,86 @@
+#!/usr/bin/env python3
+# ==========================================================================
+#
+#   Copyright the ITKSensorNoise contributors
+#
+#   Licensed under the Apache License, Version 2.0 (the "License");
+#   you may not use this file except in compliance with the License.
+#   You may obtain a copy of the License at
+#
+#          https://www.apache.org/licenses/LICENSE-2.0.txt
+#
+#   Unless required by applicable law or agreed to in writing, software
+#   distributed under the License is distributed on an "AS IS" BASIS,
+#   WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+#   See the License for the specific language governing permissions and
+#   limitations under the License.
+#
+"""Measures the noise of a camera from raw frames of a static scene.
+
+    estimate.py                                            # a simulated burst, with its truth
+    estimate.py frames/*.tif                               # 2-D frames in time order
+    estimate.py stack.mha --json report.json --plot report.png
+
+The options are those of itk.estimate_sensor_noise; the command-line tool estimate-sensor-noise has more of them.
+"""
+
+import argparse
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import itk
+
+
+def parse_arguments() -> argparse.Namespace:
+    """What the command line says."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("frames", nargs="*", metavar="FRAME", help="image files or one stack file; default: simulated")
+    parser.add_argument("--bit-depth", type=int, metavar="N", help="bits of the sensor's codes (default: found)")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the report as JSON")
+    parser.add_argument("--plot", type=Path, metavar="FILE", help="draw the report: .png, .svg, .pdf (matplotlib)")
+    return parser.parse_args()
+
+
+def print_truth(report: Mapping[str, Any], truth: Mapping[str, Any]) -> None:
+    """Prints the truth of a simulated stack beside the estimate."""
+    print(f"\n{'quantity':<18}{'truth':>10}{'estimate':>12}  unit")
+    for name, true in (
+        ("gain", truth["gain"]),
+        ("offset", truth["offset"]),
+        ("read_noise", truth["read_noise"]),
+        ("intercept", truth["intercept"]),
+        ("flicker_sd", truth["realised_flicker_sd"]),
+    ):
+        value = report[name]["value"]
+        estimate = f"{value:.5g}" if value is not None else report[name]["status"]
+        print(f"{name:<18}{true:>10.5g}{estimate:>12}  {report[name]['unit']}")
+
+
+def main() -> int:
+    """Returns the exit code: 0 done, 2 wrong use or unreadable input, 3 nothing could be estimated."""
+    arguments = parse_arguments()
+    truth = None
+    frames = arguments.frames if len(arguments.frames) != 1 else arguments.frames[0]
+    if not frames:
+        frames, truth = itk.simulate_sensor_noise(camera="B", condition=3, frames=100)
+    try:
+        report = itk.estimate_sensor_noise(frames, bit_depth=arguments.bit_depth, progress=sys.stderr.isatty())
+    except (ValueError, RuntimeError) as error:
+        print(str(error).splitlines()[0], file=sys.stderr)
+        return 2
+    print(report)
+    for warning in report["warnings"]:
+        print(f"warning: {warning['message']}", file=sys.stderr)
+    if truth is not None:
+        print_truth(report, truth)
+    if arguments.json:
+        arguments.json.write_text(report.to_json(), encoding="utf-8")
+    if arguments.plot and report["scatter"]["mean"]:
+        report.plot().savefig(arguments.plot)
+    return 3 if report["gain"]["status"] == "failed" else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,111 @@
+#!/usr/bin/env python3
+# ==========================================================================
+#
+#   Copyright the ITKSensorNoise contributors
+#
+#   Licensed under the Apache License, Version 2.0 (the "License");
+#   you may not use this file except in compliance with the License.
+#   You may obtain a copy of the License at
+#
+#          https://www.apache.org/licenses/LICENSE-2.0.txt
+#
+#   Unless required by applicable law or agreed to in writing, software
+#   distributed under the License is distributed on an "AS IS" BASIS,
+#   WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+#   See the License for the specific language governing permissions and
+#   limitations under the License.
+#
+# ==========================================================================
+"""The published method filter by filter, as an ITK pipeline that streams from files.
+
+    reader -> TemporalStatistics -> VibrationMask -> FlickerCorrection(reader) -> TemporalStatistics -> NoiseRegression
+
+This is Figure 2 of F. Sur, M. Gredi'ac, SIAM J. Imaging Sci. 8(1), 2015, https://doi.org/10.1137/140977035, and what
+examples/pipeline.cxx does in C++. itk.estimate_sensor_noise gives the same numbers in fewer passes over the files.
+
+    pipeline.py                      # on frames that it simulates and writes into a temporary folder
+    pipeline.py frames/*.tif         # on 2-D raw frames in time order, of one component
+"""
+
+import argparse
+import json
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import itk
+
+
+def write_frames(folder: str, frames: int) -> list[str]:
+    """Simulates the paper's camera B under its condition 3, writes it frame by frame and returns the file names."""
+    stack, _ = itk.simulate_sensor_noise(camera="B", condition=3, frames=frames, seed=1)
+    names = [str(Path(folder) / f"frame-{t:03d}.tif") for t in range(frames)]
+    for frame, name in zip(stack, names):
+        itk.imwrite(itk.image_view_from_array(frame), name)
+    return names
+
+
+def measure(names: list[str]) -> tuple[dict[str, Any], list[int]]:
+    """Measures frames that are read a few at a time: as many as 64 MiB hold.
+
+    Returns a report with gain, offset, read noise and intercept, and the number of frames of each read, in order.
+    """
+    pixel = itk.template(itk.imread(names[0]))[1][0]
+    stack = itk.Image[pixel, 3]
+    reader = itk.ImageSeriesReader[stack].New(file_names=names)
+    reader.MetaDataDictionaryArrayUpdateOff()  # else the first chunk opens every file
+
+    # A filter of ITK's own between reader and chain, which hands the image on and notes what was asked for.
+    monitor = itk.PipelineMonitorImageFilter[stack].New(reader.GetOutput())
+    monitor.ClearPipelineOnGenerateOutputInformationOff()
+
+    statistics = itk.TemporalStatisticsImageFilter.New(monitor.GetOutput())
+    mask = itk.VibrationMaskImageFilter.New(
+        statistics.GetMean(),
+        variance=statistics.GetVariance(),
+        valid_mask=statistics.GetValidMask(),
+        number_of_frames=len(names),
+    )
+    flicker = itk.FlickerCorrectionImageFilter.New(
+        monitor.GetOutput(),
+        mean=statistics.GetMean(),
+        variance=statistics.GetVariance(),
+        mask=mask.GetOutput(),
+    )
+    corrected = itk.TemporalStatisticsImageFilter.New(flicker.GetOutput())
+    regression = itk.NoiseRegressionEstimator.New(
+        statistics.GetMean(),
+        variance=corrected.GetVariance(),
+        mask=mask.GetOutput(),
+        offset_input=flicker.GetOffsetOutput(),
+    )
+    regression.Update()  # nothing was read before this line
+
+    reads = [region.GetSize()[2] for region in monitor.GetUpdatedRequestedRegions()]
+    return json.loads(regression.GetReportAsJson()), reads
+
+
+def main() -> None:
+    """Measures the files of the command line, or simulated ones, in both ways."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("files", nargs="*", metavar="FRAME", help="2-D image files in time order; default: simulated")
+    arguments = parser.parse_args()
+
+    with tempfile.TemporaryDirectory() as folder:
+        names = arguments.files or write_frames(folder, frames=160)
+        chain, reads = measure(names)
+        one_call = itk.estimate_sensor_noise(names)
+
+    print(f"{len(names)} frames, {len(reads)} reads of at most {max(reads)} frames")
+    print(f"{'quantity':<12}{'chain':>18}{'one call':>18}  unit    relative difference")
+    for name in ("gain", "offset", "read_noise", "intercept"):
+        values = chain[name]["value"], one_call[name]["value"]
+        if None in values:
+            print(f"{name:<12}{chain[name]['status']:>18}{one_call[name]['status']:>18}")
+            continue
+        difference = abs(values[0] / values[1] - 1.0)
+        print(f"{name:<12}{values[0]:>18.12g}{values[1]:>18.12g}  {chain[name]['unit']:<8}{difference:.1e}")
+
+
+if __name__ == "__main__":
+    main()

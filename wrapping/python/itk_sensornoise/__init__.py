@@ -1,0 +1,43 @@
+# ==========================================================================
+#
+#   Copyright the ITKSensorNoise contributors
+#
+#   Licensed under the Apache License, Version 2.0 (the "License");
+#   you may not use this file except in compliance with the License.
+#   You may obtain a copy of the License at
+#
+#          https://www.apache.org/licenses/LICENSE-2.0.txt
+#
+#   Unless required by applicable law or agreed to in writing, software
+#   distributed under the License is distributed on an "AS IS" BASIS,
+#   WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+#   See the License for the specific language governing permissions and
+#   limitations under the License.
+#
+# ==========================================================================*/
+"""Measures the noise of a camera from a burst of raw frames of any static scene.
+
+`import itk` sets these functions on `itk`, beside the filters that ITK wraps itself:
+
+    import itk
+    report = itk.estimate_sensor_noise(frames)
+    print(report)
+
+Terms: a frame is one image, a stack (t, y, x) the frames; DN is a grey level. gain g [DN/e-], offset mu [DN], read
+noise sigma [DN], flicker gamma_t [1] and vibration (alpha_t, beta_t) [pixel] are those of F. Sur, M. Grédiac, SIAM J.
+Imaging Sci. 8(1), 2015, https://doi.org/10.1137/140977035.
+"""
+
+from ._estimate import estimate_sensor_noise
+from ._estimators import noise_regression_estimator, sensor_noise_estimator, vibration_covariance_estimator
+from ._report import Report
+from ._simulate import simulate_sensor_noise
+
+__all__ = [
+    "Report",
+    "estimate_sensor_noise",
+    "noise_regression_estimator",
+    "sensor_noise_estimator",
+    "simulate_sensor_noise",
+    "vibration_covariance_estimator",
+]

@@ -1,0 +1,96 @@
+# ==========================================================================
+#
+#   Copyright the ITKSensorNoise contributors
+#
+#   Licensed under the Apache License, Version 2.0 (the "License");
+#   you may not use this file except in compliance with the License.
+#   You may obtain a copy of the License at
+#
+#          https://www.apache.org/licenses/LICENSE-2.0.txt
+#
+#   Unless required by applicable law or agreed to in writing, software
+#   distributed under the License is distributed on an "AS IS" BASIS,
+#   WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+#   See the License for the specific language governing permissions and
+#   limitations under the License.
+#
+# ==========================================================================*/
+"""NumPy arrays that ITK can look at without a copy."""
+
+from typing import Any
+
+import numpy as np
+
+# The pixel types of the filters: NumPy's name, ITK's name in Python, ITK's name in headers of files.
+PIXEL_TYPES = {
+    "uint8": ("UC", "unsigned_char"),
+    "uint16": ("US", "unsigned_short"),
+    "int16": ("SS", "short"),
+    "float32": ("F", "float"),
+    "float64": ("D", "double"),
+}
+PIXEL_NAMES = "uint8, uint16, int16, float32 or float64"
+
+
+def as_array(values: Any, name: str) -> np.ndarray:
+    """`values` as an array, shared if it is one; refuses what is none, and masked arrays, whose mask would be lost."""
+    if isinstance(values, np.ma.MaskedArray):
+        raise ValueError(f"{name} is a masked array, expected a plain one: give its data, and a mask by mask=")
+    if isinstance(values, (list, tuple)) or hasattr(values, "__array__") or hasattr(values, "__array_interface__"):
+        try:
+            return np.asarray(values)
+        except (ValueError, TypeError, RuntimeError) as error:
+            raise ValueError(f"{name} cannot be made an array ({error}); expected numbers") from error
+    raise ValueError(f"{name} is of type {type(values).__name__}; expected an array")
+
+
+def require_pixel_type(array: np.ndarray, name: str) -> str:
+    """The name of the array's pixel type, as in PIXEL_TYPES; refuses the others by name. The byte order may be any."""
+    pixel = array.dtype.newbyteorder("=").name
+    if pixel not in PIXEL_TYPES:
+        advice = "; convert it with .astype(), if its values allow" if array.dtype.kind in "iufb" else ""
+        raise ValueError(f"{name} has dtype {array.dtype.name}; expected {PIXEL_NAMES}{advice}")
+    return pixel
+
+
+def require_shape(array: np.ndarray, name: str, axes: str) -> None:
+    """Refuses an array whose rank is not that of `axes`, for example "t, y, x", or that holds nothing."""
+    rank = axes.count(",") + 1
+    if array.ndim != rank:
+        colour = "; of a colour image, give one channel" if array.ndim == rank + 1 and array.shape[-1] in (3, 4) else ""
+        raise ValueError(
+            f"{name} has {array.ndim} dimensions, shape {array.shape}; expected {rank}, the axes ({axes}){colour}"
+        )
+    if array.size == 0:
+        raise ValueError(f"{name} has shape {array.shape}, which holds no pixel; expected at least 1 along each axis")
+
+
+def as_itk_order(array: np.ndarray) -> np.ndarray:
+    """The array itself if it is C-contiguous and in the machine's byte order, else one copy that is: ITK takes the
+    memory as it lies, and would swap time and x without a word."""
+    return np.ascontiguousarray(array, dtype=array.dtype.newbyteorder("="))
+
+
+def as_frame(values: Any, name: str, dtype: type) -> np.ndarray:
+    """A frame-sized array (y, x) of `dtype`, converted where it is of another one that holds real numbers."""
+    array = as_array(values, name)
+    require_shape(array, name, "y, x")
+    if array.dtype.kind not in "iufb":
+        raise ValueError(f"{name} has dtype {array.dtype.name}; expected real numbers")
+    return np.ascontiguousarray(array, dtype=dtype)
+
+
+def as_mask(values: Any, name: str) -> np.ndarray:
+    """A mask (y, x) of uint8: 1 where `values` is not 0."""
+    array = as_array(values, name)
+    require_shape(array, name, "y, x")
+    if array.dtype.kind not in "iufb":
+        raise ValueError(f"{name} has dtype {array.dtype.name}; expected real numbers or bool")
+    return np.ascontiguousarray(array != 0, dtype=np.uint8)
+
+
+def view(array: np.ndarray) -> Any:
+    """An itk.Image on the memory of an array as as_itk_order() gives it. The array must outlive the image."""
+    import itk
+
+    return itk.image_view_from_array(array)

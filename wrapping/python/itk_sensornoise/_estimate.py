@@ -1,0 +1,198 @@
+# ==========================================================================
+#
+#   Copyright the ITKSensorNoise contributors
+#
+#   Licensed under the Apache License, Version 2.0 (the "License");
+#   you may not use this file except in compliance with the License.
+#   You may obtain a copy of the License at
+#
+#          https://www.apache.org/licenses/LICENSE-2.0.txt
+#
+#   Unless required by applicable law or agreed to in writing, software
+#   distributed under the License is distributed on an "AS IS" BASIS,
+#   WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+#   See the License for the specific language governing permissions and
+#   limitations under the License.
+#
+# ==========================================================================*/
+"""The one-call way from frames to a report."""
+
+import os
+from typing import Any, Literal
+
+import numpy as np
+
+from . import _options
+from ._arrays import as_mask
+from ._errors import itk_errors
+from ._files import read_frame, read_header
+from ._frames import Stack, crop, frame_image, is_name, open_frames
+from ._progress import shown_progress
+from ._report import Report
+
+
+def estimate_sensor_noise(
+    frames: Any,
+    *,
+    method: Literal["published"] = "published",
+    bit_depth: int | None = None,
+    clip: tuple[float, float] | None = None,
+    step: float | None = None,
+    rolling_shutter: Literal["auto", "off"] | float = "auto",
+    shutter_axis: Literal["y", "x"] = "y",
+    level: float = 0.01,
+    quantiles: tuple[float, float] = (0.01, 0.99),
+    roi: tuple[int, int, int, int] | None = None,
+    mask: Any = None,
+    frame_range: tuple[int, int] | None = None,
+    threads: int | None = None,
+    progress: bool = False,
+) -> Report:
+    """Measures gain, offset and read noise of a camera, flicker and vibration, from frames of a static scene.
+
+    Parameters
+    ----------
+    frames
+        Raw frames in time order, at least 5 of at least 3 x 3 pixels: a NumPy array (t, y, x); an itk.Image of 3
+        dimensions (x, y, t); a list of file names or of 2-D arrays (y, x), or of what has `__array__`; or the name of
+        one stack file. uint8, uint16, int16, float32 or float64 [DN]. Files are read a few frames at a time and never
+        held together (NRRD and multi-page TIFF, which ITK cannot read in parts, are). Arrays are shared; one that is
+        not C-contiguous or not in the machine's byte order is copied once.
+    method
+        "published": Figure 2 of Sur & Grédiac 2015.
+    bit_depth
+        Bits of the sensor's codes, 1 to 16. Default: found.
+    clip
+        Lowest and highest level that the sensor attains [DN]. Default: found.
+    step
+        Spacing of the codes [DN]. Default: found.
+    rolling_shutter
+        Whether the flicker may differ from line to line: "auto" (found out), "off", or the width sigma_y of a line's
+        neighbourhood [lines].
+    shutter_axis
+        Axis along which the shutter travels: "y" (lines are rows) or "x".
+    level
+        Level of the test that finds pixels moved by vibrations, a probability.
+    quantiles
+        Quantiles of the mean at which the dark and the bright set lie, 0 to 1.
+    roi
+        (x, y, width, height) [pixel]: only these pixels.
+    mask
+        Only pixels where this is not 0: an array (y, x) of a frame's size, or the name of an image file.
+    frame_range
+        (first, end): only the frames first, first + 1, ... end - 1, counted from 0.
+    threads
+        Number of threads. Default: all. The result is the same bits for any number.
+    progress
+        Shows the progress: with tqdm if installed, else on standard error.
+
+    Returns
+    -------
+    Report
+        A mapping, the same record as the JSON of `estimate-sensor-noise`. Data that cannot be measured give quantities
+        that are `failed` or `not-identifiable`, and a warning that says why.
+
+    Raises
+    ------
+    ValueError
+        Wrong use; says what was found and what was expected.
+    RuntimeError
+        What ITK threw: first line the cause, then ITK's text.
+    """
+    import itk
+
+    _options.one_of("method", method, ["published"])
+    span = None if frame_range is None else _frame_range(frame_range)
+    stack = open_frames(frames, span)
+    corner, size = _region(stack, roi, None if _is_cut(frames) else span)
+    mask_array = None if mask is None else _mask_of(mask, stack.size[:2])
+    if size != stack.size:
+        stack = crop(stack, corner, size)
+    estimator = stack.estimator(itk.SensorNoiseEstimator)
+    _set_parameters(estimator, bit_depth, clip, step, rolling_shutter, shutter_axis, level, quantiles)
+    if mask_array is not None:
+        rows, columns = slice(corner[1], corner[1] + size[1]), slice(corner[0], corner[0] + size[0])
+        mask_array = np.ascontiguousarray(mask_array[rows, columns])
+        estimator.SetMask(frame_image(mask_array, stack.image))
+    if threads is not None:
+        count = _options.integer("threads", threads, 1, 1024)
+        estimator.GetMultiThreader().SetMaximumNumberOfThreads(count)
+        estimator.SetNumberOfWorkUnits(count)
+    with shown_progress(estimator, progress), itk_errors():
+        estimator.Update()
+    return Report.of(estimator)
+
+
+def _is_cut(frames: Any) -> bool:
+    """Whether open_frames() opens no more than the frames asked for."""
+    return isinstance(frames, (list, tuple)) and len(frames) > 1
+
+
+def _frame_range(frame_range: Any) -> tuple[int, int]:
+    expected = "(first, end) with 0 <= first < end"
+    first, end = _options.integers("frame_range", frame_range, 2, expected)
+    if not 0 <= first < end:
+        raise _options.refuse("frame_range", frame_range, expected)
+    return first, end
+
+
+def _region(stack: Stack, roi: Any, span: tuple[int, int] | None) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """Corner and size (x, y, t) of what roi and frame_range ask for."""
+    width, height, frames = stack.size
+    expected = f"(x, y, width, height) inside {width} x {height} pixels"
+    corner, size = [0, 0, 0], [width, height, frames]
+    if roi is not None:
+        x, y, roi_width, roi_height = _options.integers("roi", roi, 4, expected)
+        if min(x, y) < 0 or min(roi_width, roi_height) < 1 or x + roi_width > width or y + roi_height > height:
+            raise _options.refuse("roi", roi, expected)
+        corner[:2], size[:2] = (x, y), (roi_width, roi_height)
+    if span is not None:
+        if span[1] > frames:
+            raise ValueError(f"frame_range ends at {span[1]}, but there are {frames} frames")
+        corner[2], size[2] = span[0], span[1] - span[0]
+    return tuple(corner), tuple(size)
+
+
+def _mask_of(mask: Any, size: tuple[int, int]) -> np.ndarray:
+    """The mask (y, x) of a stack whose frames have `size` (width, height)."""
+    if is_name(mask):
+        header = read_header(os.fsdecode(mask))
+        if header.frames > 1:
+            raise ValueError(f"mask {header.name}: holds {header.frames} frames; expected one image")
+        with itk_errors(f"mask {header.name}: its pixels cannot be read; "):
+            mask = read_frame(header)
+    array = as_mask(mask, "mask")
+    if array.shape != size[::-1]:
+        raise ValueError(f"mask has shape {array.shape}; expected {size[::-1]}, that of a frame")
+    return array
+
+
+def _set_parameters(
+    estimator: Any,
+    bit_depth: Any,
+    clip: Any,
+    step: Any,
+    rolling_shutter: Any,
+    shutter_axis: Any,
+    level: Any,
+    quantiles: Any,
+) -> None:
+    if bit_depth is not None:
+        estimator.SetBitDepth(_options.integer("bit_depth", bit_depth, 1, 16))
+    if clip is not None:
+        low, high = _options.numbers("clip", clip, 2, "(low, high), two levels [DN]")
+        estimator.SetClipLow(low)
+        estimator.SetClipHigh(high)
+    if step is not None:
+        estimator.SetQuantisationStep(_options.number("step", step, "a number above 0 [DN]", above=0.0))
+    if isinstance(rolling_shutter, str) and rolling_shutter in ("auto", "off"):
+        estimator.SetRollingShutter(rolling_shutter)
+    else:
+        expected = "'auto', 'off' or a number of rows above 0"
+        estimator.SetRowSigma(_options.number("rolling_shutter", rolling_shutter, expected, above=0.0))
+        estimator.SetRollingShutter("fixed")
+    estimator.SetShutterAxis(1 if _options.one_of("shutter_axis", shutter_axis, ["y", "x"]) == "y" else 0)
+    estimator.SetLevel(_options.number("level", level))
+    dark, bright = _options.numbers("quantiles", quantiles, 2, "(dark, bright), two numbers from 0 to 1")
+    estimator.SetDarkQuantile(dark)
+    estimator.SetBrightQuantile(bright)

@@ -1,0 +1,128 @@
+# ==========================================================================
+#
+#   Copyright the ITKSensorNoise contributors
+#
+#   Licensed under the Apache License, Version 2.0 (the "License");
+#   you may not use this file except in compliance with the License.
+#   You may obtain a copy of the License at
+#
+#          https://www.apache.org/licenses/LICENSE-2.0.txt
+#
+#   Unless required by applicable law or agreed to in writing, software
+#   distributed under the License is distributed on an "AS IS" BASIS,
+#   WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+#   See the License for the specific language governing permissions and
+#   limitations under the License.
+#
+# ==========================================================================*/
+"""Estimators, whose result is a record, in ITK's functional style: arrays or images in, a mapping out."""
+
+from typing import Any
+
+import numpy as np
+
+from . import _options
+from ._arrays import as_frame, as_mask, view
+from ._errors import itk_errors
+from ._frames import open_frames
+from ._report import Report
+
+
+def _set_parameters(instance: Any, parameters: dict[str, Any]) -> None:
+    """Sets a filter's parameters by ITK's snake-case names."""
+    for name, value in parameters.items():
+        setter = getattr(instance, "Set" + "".join(word.capitalize() for word in name.split("_")), None)
+        if setter is None:
+            raise ValueError(f"{name} is not a parameter of {type(instance).__name__}; help() of that tells")
+        with itk_errors(f"{name} is {value!r}: ", ValueError):
+            setter(value)
+
+
+def _frames_of_one_shape(**arrays: np.ndarray | None) -> None:
+    shapes = {name: array.shape for name, array in arrays.items() if array is not None}
+    if len(set(shapes.values())) > 1:
+        found = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
+        raise ValueError(f"the shapes are {found}; expected one for all")
+
+
+def sensor_noise_estimator(stack: Any, *, mask: Any = None, **parameters: Any) -> Report:
+    """itk.SensorNoiseEstimator in functional style; estimate_sensor_noise() checks more and says it in its own words.
+
+    `stack` as `frames` there; `mask` an array (y, x), or an image, of a frame's size: pixels of value 0 are left out.
+    `parameters`: those of itk.SensorNoiseEstimator in snake case, for example `bit_depth=12, rolling_shutter="off"`.
+    Raises ValueError for wrong use, RuntimeError for what ITK threw.
+    """
+    import itk
+
+    opened = open_frames(stack)
+    estimator = opened.estimator(itk.SensorNoiseEstimator)
+    _set_parameters(estimator, parameters)
+    if mask is not None:
+        mask_array = as_mask(mask, "mask")
+        estimator.SetMask(view(mask_array))
+    with itk_errors():
+        estimator.Update()
+    return Report.of(estimator)
+
+
+def noise_regression_estimator(
+    mean: Any, variance: Any, mask: Any, *, offset: float | None = None, number_of_frames: int = 0
+) -> Report:
+    """Gain, intercept and read noise from the line through temporal variance against mean.
+
+    `mean` [DN] of the stack, `variance` [DN^2] of the flicker-corrected stack (NaN: left out) and `mask` (0: left out)
+    are arrays (y, x) or images of one size. `offset` is mu [DN]; without it, or where it is NaN, offset and read noise
+    are not-identifiable. With `number_of_frames`, of which the variance was taken, the fit is judged too.
+
+    Returns the record of estimate_sensor_noise() with these quantities filled. Raises ValueError for wrong use,
+    RuntimeError for what ITK threw.
+    """
+    import itk
+
+    mean_array, variance_array = as_frame(mean, "mean", np.float64), as_frame(variance, "variance", np.float64)
+    mask_array = as_mask(mask, "mask")
+    _frames_of_one_shape(mean=mean_array, variance=variance_array, mask=mask_array)
+    estimator = itk.NoiseRegressionEstimator[itk.Image[itk.D, 2]].New()
+    estimator.SetMean(view(mean_array))
+    estimator.SetVariance(view(variance_array))
+    estimator.SetMask(view(mask_array))
+    estimator.SetNumberOfFrames(_options.integer("number_of_frames", number_of_frames, 0, 2**31))
+    if offset is not None and not np.isnan(offset):
+        estimator.SetOffset(_options.number("offset", offset))
+    with itk_errors():
+        estimator.Update()
+    return Report.of(estimator)
+
+
+def vibration_covariance_estimator(
+    mean: Any, variance: Any, *, valid_mask: Any = None, flicker_sd: float | None = None
+) -> dict[str, float | bool]:
+    """Covariance of the vibration (alpha_t, beta_t) from temporal variance and mean, by multiple regression.
+
+    `mean` [DN] and `variance` [DN^2] of the stack as it is and `valid_mask` (0: left out; default: all finite pixels)
+    are arrays (y, x) or images of one size. `flicker_sd` is sigma_gamma [1] where it is known; default: estimated.
+
+    Returns `variance_x`, `variance_y`, `covariance` [pixel^2], `flicker_variance` [1] and `is_determined`, whether the
+    scene has what it takes. Raises ValueError for wrong use, RuntimeError for what ITK threw.
+    """
+    import itk
+
+    mean_array, variance_array = as_frame(mean, "mean", np.float64), as_frame(variance, "variance", np.float64)
+    mask_array = None if valid_mask is None else as_mask(valid_mask, "valid_mask")
+    _frames_of_one_shape(mean=mean_array, variance=variance_array, valid_mask=mask_array)
+    estimator = itk.VibrationCovarianceEstimator[itk.Image[itk.D, 2]].New()
+    estimator.SetMean(view(mean_array))
+    estimator.SetVariance(view(variance_array))
+    if mask_array is not None:
+        estimator.SetValidMask(view(mask_array))
+    if flicker_sd is not None:
+        estimator.SetFlickerSd(_options.number("flicker_sd", flicker_sd))
+    with itk_errors():
+        estimator.Update()
+    return {
+        "variance_x": estimator.GetVarianceX(),
+        "variance_y": estimator.GetVarianceY(),
+        "covariance": estimator.GetCovariance(),
+        "flicker_variance": estimator.GetFlickerVariance(),
+        "is_determined": estimator.GetIsDetermined(),
+    }

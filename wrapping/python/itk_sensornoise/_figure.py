@@ -1,0 +1,70 @@
+# ==========================================================================
+#
+#   Copyright the ITKSensorNoise contributors
+#
+#   Licensed under the Apache License, Version 2.0 (the "License");
+#   you may not use this file except in compliance with the License.
+#   You may obtain a copy of the License at
+#
+#          https://www.apache.org/licenses/LICENSE-2.0.txt
+#
+#   Unless required by applicable law or agreed to in writing, software
+#   distributed under the License is distributed on an "AS IS" BASIS,
+#   WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+#   See the License for the specific language governing permissions and
+#   limitations under the License.
+#
+# ==========================================================================*/
+"""The noise curve, drawn with matplotlib, which is imported only when it is used."""
+
+import base64
+import io
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+def new_axes() -> "Axes":
+    """Axes in a new figure, which a notebook or plt.show() shows."""
+    import matplotlib.pyplot as plt
+
+    return plt.subplots(layout="constrained")[1]
+
+
+def draw(report: Mapping[str, Any], axes: "Axes") -> "Figure":
+    """Variance and corrected variance against mean, each point an average over pixels, and the line through the latter.
+
+    Raises ValueError if no pixel was used.
+    """
+    scatter = report["scatter"]
+    mean = scatter["mean"]
+    if not mean:
+        raise ValueError("the report has no noise curve: no pixel was used; its warnings say why")
+    for values, style, label in (
+        (scatter["variance"], "C1.", "variance"),
+        (scatter["corrected_variance"], "C0.", "variance, flicker corrected"),
+    ):
+        axes.plot(mean, [float("nan") if value is None else value for value in values], style, label=label)
+    gain, intercept = report["gain"]["value"], report["intercept"]["value"]
+    if gain is not None and intercept is not None:
+        ends = [min(mean), max(mean)]
+        label = f"{gain:.4g} mean {'+' if intercept >= 0 else '-'} {abs(intercept):.4g}"
+        axes.plot(ends, [gain * end + intercept for end in ends], "k-", linewidth=1, label=label)
+    axes.set_xlabel("mean [DN]")
+    axes.set_ylabel("temporal variance [DN$^2$]")
+    axes.legend()
+    return axes.figure
+
+
+def as_svg(report: Mapping[str, Any]) -> str:
+    """The noise curve as an HTML element."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(6, 4), layout="constrained")
+    draw(report, figure.subplots())
+    buffer = io.BytesIO()
+    figure.savefig(buffer, format="svg")
+    return f'<img alt="noise curve" src="data:image/svg+xml;base64,{base64.b64encode(buffer.getvalue()).decode()}">'

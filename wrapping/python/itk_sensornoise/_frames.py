@@ -1,0 +1,173 @@
+# ==========================================================================
+#
+#   Copyright the ITKSensorNoise contributors
+#
+#   Licensed under the Apache License, Version 2.0 (the "License");
+#   you may not use this file except in compliance with the License.
+#   You may obtain a copy of the License at
+#
+#          https://www.apache.org/licenses/LICENSE-2.0.txt
+#
+#   Unless required by applicable law or agreed to in writing, software
+#   distributed under the License is distributed on an "AS IS" BASIS,
+#   WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+#   See the License for the specific language governing permissions and
+#   limitations under the License.
+#
+# ==========================================================================*/
+"""Whatever a user has as frames, as one ITK stack (x, y, time) without a second copy of it."""
+
+import os
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from . import _files
+from ._arrays import PIXEL_NAMES, PIXEL_TYPES, as_array, as_itk_order, require_pixel_type, require_shape, view
+from ._errors import itk_errors
+
+EXPECTED = (
+    "expected an array (t, y, x), an itk.Image of 3 dimensions, a list of file names or of 2-D arrays, or a file name"
+)
+
+
+@dataclass
+class Stack:
+    """A stack as ITK sees it; `kept` holds what its memory belongs to and the filters that make it."""
+
+    image: Any
+    pixel: str  # a key of PIXEL_TYPES
+    kept: list[Any]
+
+    @property
+    def size(self) -> tuple[int, int, int]:
+        """Width [pixel], height [pixel], number of frames."""
+        width, height, frames = self.image.GetLargestPossibleRegion().GetSize()
+        return int(width), int(height), int(frames)
+
+    def estimator(self, template: Any) -> Any:
+        """A new filter of this stack's type with the stack as input."""
+        instance = template[type(self.image)].New()
+        instance.SetInput(self.image)
+        return instance
+
+
+def is_name(value: Any) -> bool:
+    return isinstance(value, (str, os.PathLike))
+
+
+def open_frames(frames: Any, frame_range: tuple[int, int] | None = None) -> Stack:
+    """The frames as a stack: arrays are shared, files are read later, a few at a time.
+
+    An array that is not C-contiguous or not in the machine's byte order is copied once. Of a list, the files outside
+    `frame_range` (first, one past the last) are not opened; a stack is left whole. Raises ValueError for anything else.
+    """
+    if is_name(frames):
+        return _from_files([frames], None)
+    if isinstance(frames, (list, tuple)):
+        return _from_list(frames, frame_range)
+    if hasattr(frames, "GetLargestPossibleRegion"):
+        return _from_image(frames)
+    if isinstance(frames, Iterator) or not hasattr(frames, "__array__"):
+        raise ValueError(f"frames is of type {type(frames).__name__}; {EXPECTED}")
+    array = as_array(frames, "frames")
+    pixel = require_pixel_type(array, "frames")
+    require_shape(array, "frames", "t, y, x")
+    array = as_itk_order(array)
+    return Stack(view(array), pixel, [array])
+
+
+def crop(stack: Stack, corner: tuple[int, ...], size: tuple[int, ...]) -> Stack:
+    """The part of a stack from `corner` (x, y, t) on with `size` (x, y, t), cut out chunk by chunk."""
+    import itk
+
+    start = stack.image.GetLargestPossibleRegion().GetIndex()
+    region = itk.ImageRegion[3]()
+    region.SetIndex([int(start[axis]) + corner[axis] for axis in range(3)])
+    region.SetSize(list(size))
+    extract = itk.ExtractImageFilter[type(stack.image), type(stack.image)].New()
+    extract.SetInput(stack.image)
+    extract.SetExtractionRegion(region)
+    extract.SetDirectionCollapseToSubmatrix()
+    return Stack(_with_information(extract), stack.pixel, [extract, stack])
+
+
+def frame_image(array: np.ndarray, stack_image: Any) -> Any:
+    """An image on an array (y, x), with the index of a stack's frames. The array must outlive the image."""
+    import itk
+
+    start = stack_image.GetLargestPossibleRegion().GetIndex()
+    region = itk.ImageRegion[2]()
+    region.SetIndex([int(start[0]), int(start[1])])
+    region.SetSize([array.shape[1], array.shape[0]])
+    image = view(array)
+    image.SetRegions(region)
+    return image
+
+
+def _with_information(source: Any) -> Any:
+    """The output of a reader or filter with its size known and no pixel read."""
+    with itk_errors():
+        source.UpdateOutputInformation()
+    return source.GetOutput()
+
+
+def _from_image(image: Any) -> Stack:
+    import itk
+
+    for pixel, (itk_name, _) in PIXEL_TYPES.items():
+        if isinstance(image, itk.Image[getattr(itk, itk_name), 3]):
+            with itk_errors():
+                image.UpdateOutputInformation()
+            if 0 in image.GetLargestPossibleRegion().GetSize():
+                raise ValueError("frames is an itk.Image without pixels; expected at least 1 along each axis")
+            return Stack(image, pixel, [image])
+    raise ValueError(f"frames is an {type(image).__name__}; expected an itk.Image of 3 dimensions of {PIXEL_NAMES}")
+
+
+def _from_files(names: Sequence[Any], frame_range: tuple[int, int] | None) -> Stack:
+    if frame_range is not None and len(names) > 1:
+        names = names[frame_range[0] : frame_range[1]]
+    headers = _files.check_headers([os.fsdecode(name) for name in names])
+    reader = _files.make_reader(headers)
+    return Stack(_with_information(reader), headers[0].pixel, [reader])
+
+
+def _from_list(frames: Sequence[Any], frame_range: tuple[int, int] | None) -> Stack:
+    if not frames:
+        raise ValueError(f"frames is an empty {type(frames).__name__}; expected at least 5 frames")
+    if frame_range is not None and len(frames) > 1 and frame_range[1] > len(frames):
+        raise ValueError(f"frame_range ends at {frame_range[1]}, but there are {len(frames)} frames")
+    named = sum(is_name(frame) for frame in frames)
+    if named == len(frames):
+        return _from_files(frames, frame_range)
+    if named > 0:
+        raise ValueError(f"frames holds {named} file names and {len(frames) - named} others; expected one kind")
+    if frame_range is not None and len(frames) > 1:
+        frames = frames[frame_range[0] : frame_range[1]]
+    return _from_arrays(frames)
+
+
+def _from_arrays(frames: Sequence[Any]) -> Stack:
+    """Frames that stay where they are: ITK joins the ones of a chunk when it comes to them."""
+    import itk
+
+    arrays = []
+    for number, frame in enumerate(frames):
+        name = f"frames[{number}]"
+        array = as_array(frame, name)
+        pixel = require_pixel_type(array, name)
+        require_shape(array, name, "y, x")
+        arrays.append(as_itk_order(array))
+        if array.shape != arrays[0].shape or pixel != arrays[0].dtype.name:
+            raise ValueError(
+                f"{name} has shape {array.shape} and dtype {pixel}, but frames[0] has {arrays[0].shape} and "
+                f"{arrays[0].dtype.name}; expected one shape and dtype for all"
+            )
+    component = getattr(itk, PIXEL_TYPES[arrays[0].dtype.name][0])
+    join = itk.JoinSeriesImageFilter[itk.Image[component, 2], itk.Image[component, 3]].New()
+    for number, array in enumerate(arrays):
+        join.SetInput(number, view(array))
+    return Stack(_with_information(join), arrays[0].dtype.name, [join, arrays])

@@ -1,0 +1,60 @@
+# ==========================================================================
+#
+#   Copyright the ITKSensorNoise contributors
+#
+#   Licensed under the Apache License, Version 2.0 (the "License");
+#   you may not use this file except in compliance with the License.
+#   You may obtain a copy of the License at
+#
+#          https://www.apache.org/licenses/LICENSE-2.0.txt
+#
+#   Unless required by applicable law or agreed to in writing, software
+#   distributed under the License is distributed on an "AS IS" BASIS,
+#   WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+#   See the License for the specific language governing permissions and
+#   limitations under the License.
+#
+# ==========================================================================*/
+"""Sets the functions of this package on `itk`."""
+
+import sys
+
+_NEW = ("estimate_sensor_noise", "simulate_sensor_noise")
+# ITK generates functions of these names too; what they return holds a C++ struct that Python cannot open.
+_REPLACED = ("noise_regression_estimator", "sensor_noise_estimator", "vibration_covariance_estimator")
+_MODULE = "SensorNoise"
+
+
+def _replace_generated() -> None:
+    """Puts our functions into ITK's module of generated ones, if that is loaded: ITK copies them from there."""
+    import itk_sensornoise
+
+    generated = sys.modules.get(f"itk.{_MODULE}Python")
+    if generated is not None:
+        for name in _REPLACED:
+            setattr(generated, name, getattr(itk_sensornoise, name))
+
+
+def install() -> None:
+    """Sets the functions on `itk`; called by ITK at the end of `import itk`, and of each reload.
+
+    ITK loads a module at the first use of one of its classes and then writes all of its names to `itk`, the generated
+    functions over ours. It asks its record of the module for their names just before: that is where ours take their
+    place.
+    """
+    import itk
+    import itk_sensornoise
+    from itk.support.base import itk_base_global_module_data
+
+    for name in _NEW + _REPLACED:
+        setattr(itk, name, getattr(itk_sensornoise, name))
+
+    info = itk_base_global_module_data[_MODULE]
+    names = tuple(info.get_snake_case_functions())
+
+    def get_snake_case_functions() -> tuple[str, ...]:
+        _replace_generated()
+        return names
+
+    info.get_snake_case_functions = get_snake_case_functions
+    _replace_generated()

@@ -1,0 +1,94 @@
+# ==========================================================================
+#
+#   Copyright the ITKSensorNoise contributors
+#
+#   Licensed under the Apache License, Version 2.0 (the "License");
+#   you may not use this file except in compliance with the License.
+#   You may obtain a copy of the License at
+#
+#          https://www.apache.org/licenses/LICENSE-2.0.txt
+#
+#   Unless required by applicable law or agreed to in writing, software
+#   distributed under the License is distributed on an "AS IS" BASIS,
+#   WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+#   See the License for the specific language governing permissions and
+#   limitations under the License.
+#
+# ==========================================================================*/
+"""What the tests share: small stacks with known content, the command-line tools, fresh interpreters."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import itk
+import numpy as np
+import pytest
+
+PIXEL_TYPES = ["uint8", "uint16", "int16", "float32", "float64"]
+ITK_TYPES = {"uint8": itk.UC, "uint16": itk.US, "int16": itk.SS, "float32": itk.F, "float64": itk.D}
+
+
+# Every module that SWIG makes warns of SWIG's own types; as an error that ends the interpreter.
+SWIG_WARNING = "ignore:builtin type:DeprecationWarning"
+
+
+def pytest_configure(config) -> None:
+    config.addinivalue_line("filterwarnings", SWIG_WARNING)
+
+
+@pytest.fixture(params=PIXEL_TYPES)
+def pixel(request) -> str:
+    """Each pixel type of the filters."""
+    return request.param
+
+
+@pytest.fixture(scope="session")
+def codes() -> np.ndarray:
+    """A stack (40, 64, 96) whose codes fit every pixel type."""
+    stack, _ = itk.simulate_sensor_noise(
+        frames=40, size=(96, 64), dtype="uint8", gain=0.07, offset=12, read_noise=1.2, seed=3
+    )
+    return stack
+
+
+@pytest.fixture
+def stack(codes, pixel) -> np.ndarray:
+    """The same numbers in each pixel type."""
+    return codes.astype(pixel)
+
+
+@pytest.fixture(scope="session")
+def burst() -> np.ndarray:
+    """A stack (60, 96, 128) of camera B in condition 3."""
+    return itk.simulate_sensor_noise(frames=60, size=(128, 96), seed=5)[0]
+
+
+@pytest.fixture(scope="session")
+def tool():
+    """Runs a command-line tool of the same checkout: SENSORNOISE_BIN, else build/bin; the text it prints."""
+    root = Path(__file__).resolve().parents[2]
+    folder = Path(os.environ.get("SENSORNOISE_BIN", root / "build" / "bin"))
+    if not (folder / "estimate-sensor-noise").exists():
+        pytest.skip(f"no estimate-sensor-noise in {folder}; set SENSORNOISE_BIN")
+
+    def run(name: str, *arguments) -> str:
+        command = [str(folder / name), *map(str, arguments)]
+        return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+    return run
+
+
+@pytest.fixture(scope="session")
+def fresh():
+    """Runs code in an interpreter of its own, where every warning is an error; what it prints."""
+
+    def run(code: str, *arguments) -> str:
+        command = [sys.executable, "-W", "error", "-W", SWIG_WARNING, "-c", code, *map(str, arguments)]
+        result = subprocess.run(command, capture_output=True, text=True)
+        assert result.returncode == 0, result.stderr
+        assert result.stderr == ""
+        return result.stdout
+
+    return run

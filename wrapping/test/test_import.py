@@ -1,0 +1,98 @@
+# ==========================================================================
+#
+#   Copyright the ITKSensorNoise contributors
+#
+#   Licensed under the Apache License, Version 2.0 (the "License");
+#   you may not use this file except in compliance with the License.
+#   You may obtain a copy of the License at
+#
+#          https://www.apache.org/licenses/LICENSE-2.0.txt
+#
+#   Unless required by applicable law or agreed to in writing, software
+#   distributed under the License is distributed on an "AS IS" BASIS,
+#   WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+#   See the License for the specific language governing permissions and
+#   limitations under the License.
+#
+# ==========================================================================*/
+"""`import itk`, in any order, again, and without cost or a word."""
+
+import importlib
+
+import itk
+import pytest
+
+NAMES = [
+    "estimate_sensor_noise",
+    "noise_regression_estimator",
+    "sensor_noise_estimator",
+    "simulate_sensor_noise",
+    "vibration_covariance_estimator",
+]
+OURS = f"assert all(getattr(itk, name).__module__.startswith('itk_sensornoise') for name in {NAMES})\n"
+USE = {
+    # It is threaded, and so chooses TBB for every filter after it.
+    "wheel": "itk.cast_image_filter(np.ones((9, 9), np.float32), ttype=(itk.Image[itk.F, 2], itk.Image[itk.D, 2]))\n",
+    "function": "stack, _ = itk.simulate_sensor_noise(frames=8, size=(64, 48)); itk.estimate_sensor_noise(stack)\n",
+    "class": "itk.SensorNoiseSceneSource.New(width=64, height=48).Update()\n",
+    "filter": "itk.temporal_statistics_image_filter(np.ones((6, 5, 4), np.uint16))\n",
+    "module": "itk.SensorNoise.NoiseRegressionEstimator\n",
+    "template": "itk.FlickerCorrectionImageFilter\n",
+}
+
+
+@pytest.mark.parametrize(
+    "package, first, second",
+    [
+        ("itk", "wheel", "function"),
+        ("itk", "wheel", "class"),
+        ("itk", "function", "wheel"),
+        ("itk", "filter", "wheel"),
+        ("itk", "module", "template"),
+        ("itk", "template", "module"),
+        ("itk_sensornoise", "function", "filter"),
+        ("itk_sensornoise", "module", "class"),
+    ],
+)
+def test_any_order_of_first_use_without_a_warning(fresh, package, first, second):
+    code = f"import {package}, itk, numpy as np\n{OURS}{USE[first]}{OURS}{USE[second]}{OURS}print('done')"
+    assert fresh(code) == "done\n"
+
+
+def test_import_loads_neither_our_library_nor_what_draws(fresh):
+    code = (
+        "import itk, sys\n"
+        "print([name for name in sys.modules if name.split('.')[0] in ('matplotlib', 'tqdm', 'PIL')"
+        " or 'SensorNoisePython' in name])"
+    )
+    assert fresh(code) == "[]\n"
+
+
+def test_import_costs_less_than_a_tenth_of_a_second(fresh):
+    code = (
+        "import sys, time\n"
+        "import itk\n"
+        "for name in [name for name in sys.modules if name.startswith('itk_sensornoise')]:\n"
+        "    del sys.modules[name]\n"
+        "start = time.perf_counter()\n"
+        "import itk_sensornoise._install\n"
+        "itk_sensornoise._install.install()\n"
+        "print(time.perf_counter() - start)"
+    )
+    assert min(float(fresh(code)) for _ in range(3)) < 0.1
+
+
+def test_reload_keeps_our_functions(burst):
+    before = itk.estimate_sensor_noise(burst)
+    again = importlib.reload(itk)
+    assert again is itk
+    assert again.estimate_sensor_noise(burst) == before
+    assert again.sensor_noise_estimator.__module__.startswith("itk_sensornoise")
+
+
+def test_help_shows_every_parameter():
+    for name in NAMES:
+        function = getattr(itk, name)
+        assert len(function.__doc__) > 200
+        hints = set(function.__annotations__) - {"return", "parameters"}
+        assert hints and all(hint in function.__doc__ for hint in hints)

@@ -1,0 +1,130 @@
+# ==========================================================================
+#
+#   Copyright the ITKSensorNoise contributors
+#
+#   Licensed under the Apache License, Version 2.0 (the "License");
+#   you may not use this file except in compliance with the License.
+#   You may obtain a copy of the License at
+#
+#          https://www.apache.org/licenses/LICENSE-2.0.txt
+#
+#   Unless required by applicable law or agreed to in writing, software
+#   distributed under the License is distributed on an "AS IS" BASIS,
+#   WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+#   See the License for the specific language governing permissions and
+#   limitations under the License.
+#
+# ==========================================================================*/
+"""The report: a mapping that prints, draws, travels and compares."""
+
+import base64
+import builtins
+import copy
+import json
+import pickle
+import re
+
+import itk
+import numpy as np
+import pytest
+
+
+@pytest.fixture(scope="module")
+def report(burst):
+    return itk.estimate_sensor_noise(burst)
+
+
+def test_it_is_the_json_record(report):
+    record = json.loads(report.to_json())
+    assert dict(report) == record and report == record
+    assert list(report) == list(record) and len(report) == len(record)
+    assert report["schema"] == "itk-sensornoise-report/1"
+    assert report["gain"]["unit"] == "DN/e-"
+    assert "gain" in report and "moon" not in report and report.get("moon") is None
+    with pytest.raises(KeyError):
+        report["moon"]
+
+
+def test_it_recovers_the_truth(report):
+    # Camera B: g = 1; the standard error is about sqrt(2 / 60 frames / 6000 pixels) x 3 for the line's slope.
+    assert report["gain"]["value"] == pytest.approx(1.0, abs=5 * 3 * np.sqrt(2 / 60 / 6000))
+
+
+@pytest.mark.parametrize("travel", [lambda report: pickle.loads(pickle.dumps(report)), copy.copy, copy.deepcopy])
+def test_it_travels(report, travel):
+    other = travel(report)
+    assert type(other) is type(report)
+    assert other == report and str(other) == str(report) and other.to_json() == report.to_json()
+
+
+def test_it_compares(report, burst):
+    assert report != itk.estimate_sensor_noise(burst[:-1])
+    assert report == itk.estimate_sensor_noise(burst)
+
+
+def test_functions_can_be_pickled():
+    names = [name for name in dir(itk) if name.endswith("estimator") or name.endswith("sensor_noise")]
+    assert len(names) >= 5
+    for name in names:
+        assert pickle.loads(pickle.dumps(getattr(itk, name))) is getattr(itk, name)
+
+
+def test_table_has_the_values(report):
+    assert re.search(rf"^gain g +{report['gain']['value']:.5g} +DN/e- +identified", str(report), re.MULTILINE)
+    assert not str(report).endswith("\n")
+    assert f"{report['gain']['value']:.5g} DN/e-" in repr(report)
+
+
+def test_plot_draws_the_scatter_and_the_line(report):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("svg")
+    figure = report.plot()
+    variance, corrected, line = figure.axes[0].get_lines()
+    np.testing.assert_array_equal(variance.get_xdata(), report["scatter"]["mean"])
+    np.testing.assert_array_equal(variance.get_ydata(), report["scatter"]["variance"])
+    np.testing.assert_array_equal(corrected.get_ydata(), report["scatter"]["corrected_variance"])
+    ends = np.array(line.get_xdata())
+    np.testing.assert_allclose(line.get_ydata(), report["gain"]["value"] * ends + report["intercept"]["value"])
+    assert report.plot(figure.axes[0]) is figure
+    matplotlib.pyplot.close(figure)
+
+
+def test_notebook_shows_table_warnings_and_curve(report):
+    pytest.importorskip("matplotlib")
+    text = report._repr_html_()
+    assert "gain g" in text
+    picture = re.search(r'src="data:image/svg\+xml;base64,([^"]+)"', text)
+    assert b"</svg>" in base64.b64decode(picture.group(1))
+
+
+def test_notebook_without_matplotlib_shows_the_table(report, monkeypatch):
+    def no_matplotlib(name, *arguments, **others):
+        if name.startswith("matplotlib"):
+            raise ImportError(name)
+        return original(name, *arguments, **others)
+
+    original = builtins.__import__
+    monkeypatch.setattr(builtins, "__import__", no_matplotlib)
+    assert "gain g" in report._repr_html_() and "<img" not in report._repr_html_()
+    with pytest.raises(ImportError):
+        report.plot()
+
+
+def test_report_of_nothing_is_shown_and_not_drawn():
+    report = itk.estimate_sensor_noise(np.full((8, 16, 17), 7, np.uint8))
+    assert report["gain"]["value"] is None
+    assert report["warnings"][0]["code"] in report._repr_html_()
+    with pytest.raises(ValueError, match="^the report has no noise curve"):
+        report.plot()
+
+
+@pytest.mark.parametrize("has_tqdm", [True, False])
+def test_progress_ends_at_100_percent_on_standard_error(burst, capfd, monkeypatch, has_tqdm):
+    if has_tqdm:
+        pytest.importorskip("tqdm")
+    else:
+        monkeypatch.setitem(__import__("sys").modules, "tqdm.auto", None)
+    report = itk.estimate_sensor_noise(list(burst), progress=True)
+    captured = capfd.readouterr()
+    assert captured.out == "" and "100" in captured.err and "%" in captured.err
+    assert report == itk.estimate_sensor_noise(burst)

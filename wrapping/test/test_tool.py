@@ -1,0 +1,99 @@
+# ==========================================================================
+#
+#   Copyright the ITKSensorNoise contributors
+#
+#   Licensed under the Apache License, Version 2.0 (the "License");
+#   you may not use this file except in compliance with the License.
+#   You may obtain a copy of the License at
+#
+#          https://www.apache.org/licenses/LICENSE-2.0.txt
+#
+#   Unless required by applicable law or agreed to in writing, software
+#   distributed under the License is distributed on an "AS IS" BASIS,
+#   WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+#   See the License for the specific language governing permissions and
+#   limitations under the License.
+#
+# ==========================================================================*/
+"""The same numbers as the command-line tools, bit for bit."""
+
+import itk
+import numpy as np
+import pytest
+
+
+@pytest.fixture(scope="module")
+def stack_file(burst, tmp_path_factory):
+    name = tmp_path_factory.mktemp("tool") / "burst.mha"
+    itk.imwrite(itk.image_view_from_array(burst), str(name))
+    return name
+
+
+@pytest.fixture(scope="module")
+def mask(burst):
+    mask = np.ones(burst.shape[1:], np.uint8)
+    mask[20:50, 10:90] = 0
+    return mask
+
+
+OPTIONS = {
+    "defaults": ({}, []),
+    "shutter off": ({"rolling_shutter": "off"}, ["--rolling-shutter", "off"]),
+    "shutter width": ({"rolling_shutter": 12}, ["--rolling-shutter", "12"]),
+    "roi": ({"roi": (10, 5, 100, 80)}, ["--roi", "10,5,100,80"]),
+    "frames": ({"frame_range": (7, 41)}, ["--frames", "7:41"]),
+    "codes": (
+        {"bit_depth": 14, "clip": (90, 3000), "step": 1},
+        ["--bit-depth", "14", "--clip", "90,3000", "--step", "1"],
+    ),
+    "one thread": ({"threads": 1}, ["--threads", "1"]),
+}
+
+
+@pytest.mark.parametrize("case", OPTIONS)
+def test_json_is_the_tool_s(tool, burst, stack_file, case):
+    parameters, flags = OPTIONS[case]
+    expected = tool("estimate-sensor-noise", stack_file, "--quiet", "--json", "-", *flags)
+    assert itk.estimate_sensor_noise(burst, **parameters).to_json() == expected
+    assert itk.estimate_sensor_noise(stack_file, **parameters).to_json() == expected
+
+
+@pytest.mark.parametrize("roi", [None, (10, 5, 100, 80)])
+def test_mask_is_the_tool_s(tool, burst, stack_file, mask, tmp_path, roi):
+    mask_file = tmp_path / "mask.png"
+    itk.imwrite(itk.image_view_from_array(mask), str(mask_file))
+    flags = [] if roi is None else ["--roi", ",".join(map(str, roi))]
+    expected = tool("estimate-sensor-noise", stack_file, "--quiet", "--json", "-", "--mask", mask_file, *flags)
+    assert itk.estimate_sensor_noise(burst, mask=mask, roi=roi).to_json() == expected
+    assert itk.estimate_sensor_noise(burst, mask=mask_file, roi=roi).to_json() == expected
+    assert itk.estimate_sensor_noise(burst, mask=mask * 7.0, roi=roi).to_json() == expected
+
+
+def test_table_is_the_tool_s(tool, burst, stack_file):
+    assert str(itk.estimate_sensor_noise(burst)) + "\n" == tool("estimate-sensor-noise", stack_file)
+
+
+def test_every_pixel_type(tool, stack, tmp_path):
+    name = tmp_path / "stack.mha"
+    itk.imwrite(itk.image_view_from_array(stack), str(name))
+    expected = tool("estimate-sensor-noise", name, "--quiet", "--json", "-")
+    assert itk.estimate_sensor_noise(stack).to_json() == expected
+
+
+@pytest.mark.parametrize("extension", ["png", "tif", "mha"])
+def test_list_of_files(tool, burst, tmp_path, extension):
+    names = [tmp_path / f"{number:03}.{extension}" for number in range(len(burst))]
+    for name, frame in zip(names, burst):
+        itk.imwrite(itk.image_from_array(frame), str(name))
+    expected = tool("estimate-sensor-noise", *names, "--quiet", "--json", "-", "--frames", "3:50")
+    assert itk.estimate_sensor_noise(names, frame_range=(3, 50)).to_json() == expected
+    assert itk.estimate_sensor_noise(list(burst), frame_range=(3, 50)).to_json() == expected
+
+
+def test_simulated_stack_is_the_tool_s(tool, tmp_path):
+    name = tmp_path / "stack.mha"
+    flags = ["--camera", "C", "--condition", "2", "--frames", "9", "--size", "64x48", "--seed", "4", "--offset", "70"]
+    tool("simulate-sensor-noise", "--output", name, *flags)
+    stack, truth = itk.simulate_sensor_noise("C", 2, 9, (64, 48), seed=4, offset=70)
+    np.testing.assert_array_equal(stack, itk.array_from_image(itk.imread(str(name))))
+    assert truth["camera"] is None and truth["condition"] == 2
