@@ -18,7 +18,7 @@ test_wheel() (
   "${PYTHON:-python3}" -m venv --clear "$venv"
   "$venv/bin/pip" -q --disable-pip-version-check install "${wheel}[test]"
   cd "$here/build"
-  export PYTHONDONTWRITEBYTECODE=1 MPLBACKEND=Agg SENSORNOISE_BIN="$here/build/bin"
+  export PYTHONDONTWRITEBYTECODE=1 SENSORNOISE_BIN="$here/build/bin"
   "$venv/bin/python" "$here/examples/python/estimate.py"
   "$venv/bin/python" "$here/examples/python/pipeline.py"
   "$venv/bin/python" "$here/examples/python/run_notebook.py" executed.ipynb
