@@ -102,11 +102,11 @@ public:
   {
     return sensornoise::ToJson(this->GetReport());
   }
-  /** The report as a table that a person can read, as `estimate-sensor-noise` prints it. */
+  /** The report as a table that a person can read, as `estimate-sensor-noise` prints it, and its warnings. */
   std::string
   GetReportAsText() const
   {
-    return sensornoise::MakeTable(this->GetReport());
+    return sensornoise::MakeText(this->GetReport());
   }
 
   DataObject *

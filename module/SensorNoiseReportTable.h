@@ -118,6 +118,19 @@ MakeTable(const Report & report)
   return table;
 }
 
+/** The table and, a line each, what the user should know: for those who see nothing else. */
+inline std::string
+MakeText(const Report & report)
+{
+  std::string text = MakeTable(report);
+  for (const Warning & warning : report.warnings)
+  {
+    text += (&warning == &report.warnings.front() ? "\nwarning: " : "warning: ") + warning.message + " [" +
+            warning.code + "]\n";
+  }
+  return text;
+}
+
 } // namespace sensornoise
 
 #endif

@@ -33,8 +33,8 @@ class Report(Mapping[str, Any]):
         report["gain"]["value"], report["gain"]["unit"], report["gain"]["status"]
         report["warnings"]
 
-    A value that is not identified is None. print() shows the table of `estimate-sensor-noise`, a notebook the table and
-    the noise curve, plot() draws that. Equal to any mapping with the same content; can be pickled.
+    A value that is not identified is None. print() shows the table of `estimate-sensor-noise` and the warnings, a notebook
+    also the noise curve, plot() draws that. Equal to any mapping with the same content; can be pickled.
     """
 
     def __init__(self, text: str, table: str = "") -> None:
@@ -86,11 +86,7 @@ class Report(Mapping[str, Any]):
         return draw(self, new_axes() if axes is None else axes)
 
     def _repr_html_(self) -> str:
-        """The table, the warnings and, where matplotlib is installed, the noise curve as an image of its own."""
-        warnings = "".join(
-            f"<p><b>{html.escape(warning['code'])}</b>: {html.escape(warning['message'])}</p>"
-            for warning in self["warnings"]
-        )
+        """The table with its warnings and, where matplotlib is installed, the noise curve as an image of its own."""
         picture = ""
         if self["scatter"]["mean"]:
             try:
@@ -99,4 +95,4 @@ class Report(Mapping[str, Any]):
                 picture = as_svg(self)
             except ImportError:
                 pass
-        return f"<pre>{html.escape(str(self))}</pre>{warnings}{picture}"
+        return f"<pre>{html.escape(str(self))}</pre>{picture}"
