@@ -74,7 +74,7 @@ struct FlickerEstimate
   double                    sigmaLines{ 0.0 }; ///< sigma_y [lines]; 0: no gamma_t(y)
   std::size_t               lines{ 1 };        ///< lines of gammaLines, or 1
   std::vector<double>       gammaLines;        ///< gamma_t(y), frame by frame; empty: no gamma_t(y)
-  std::vector<std::uint8_t> lineKnown;         ///< per line: whether S^* reaches it; empty: all are known
+  std::vector<std::uint8_t> lineKnown;         ///< per line: whether the line set reaches it; empty: all known
 
   /** How many standard deviations of its sampling noise the variance of v^* exceeds that noise by; may be infinite. */
   double flickerZ{ 0.0 };
