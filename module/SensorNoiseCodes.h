@@ -65,6 +65,26 @@ MakeCodeSettings(unsigned int bitDepth, double clipLowDn, double clipHighDn, dou
   return settings;
 }
 
+/** Throws std::invalid_argument if what the user says of the codes is out of range. */
+inline void
+ValidateCodeSettings(const CodeSettings & codes)
+{
+  if (codes.bitDepth && (*codes.bitDepth < 1 || *codes.bitDepth > 16))
+  {
+    throw std::invalid_argument("the bit depth is " + std::to_string(*codes.bitDepth) + "; expected 1 to 16");
+  }
+  if (codes.clipLowDn && codes.clipHighDn && !(*codes.clipLowDn < *codes.clipHighDn))
+  {
+    throw std::invalid_argument("the clip levels are " + std::to_string(*codes.clipLowDn) + " and " +
+                                std::to_string(*codes.clipHighDn) + " DN; expected low < high");
+  }
+  if (codes.quantisationStepDn && !(*codes.quantisationStepDn > 0.0))
+  {
+    throw std::invalid_argument("the code step is " + std::to_string(*codes.quantisationStepDn) +
+                                " DN; expected a positive number");
+  }
+}
+
 /** What is known about the codes of the data. */
 struct CodeRange
 {

@@ -20,12 +20,11 @@
 
 #include "SensorNoisePublishedSettings.h"
 #include "SensorNoiseReport.h"
-#include "SensorNoiseStackMaps.h"
+#include "SensorNoiseStackReport.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -53,45 +52,6 @@ struct PublishedFindings
 
 namespace detail
 {
-/** A number as people read it. */
-inline std::string
-Text(double number)
-{
-  std::ostringstream text;
-  text.precision(6);
-  text << number;
-  return text.str();
-}
-
-/** What was found that the user should know of before trusting the numbers. */
-inline void
-WarnOfStack(Report & report, const PublishedFindings & found)
-{
-  const CodeRange & codes = found.summary.codes;
-  if (found.frames < 20)
-  {
-    report.Warn("few-frames",
-                "the stack has " + std::to_string(found.frames) + " frames: indicative only; 20 or more are usable");
-  }
-  if (codes.clipSource.find("pile-up") != std::string::npos)
-  {
-    report.Warn("clip-level-found",
-                "the sensor attains only the levels " + Text(*codes.clipLowDn) + " to " + Text(*codes.clipHighDn) +
-                  " DN (" + codes.clipSource + "); pixels that reach an end are left out");
-  }
-  if (!codes.isRegular)
-  {
-    report.Warn("irregular-codes",
-                "the spacing of the grey levels varies about " + Text(codes.quantisationStepDn) +
-                  " DN: the data were rescaled and their quantisation noise is not known");
-  }
-  if (found.summary.notFinite > 0)
-  {
-    report.Warn("not-finite-pixels",
-                std::to_string(found.summary.notFinite) + " pixels are NaN or infinite in a frame and left out");
-  }
-}
-
 inline void
 WarnOfFlicker(Report & report, const PublishedFindings & found)
 {

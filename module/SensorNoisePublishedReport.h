@@ -36,7 +36,7 @@ namespace sensornoise
 namespace detail
 {
 inline void
-DescribeStack(Report & report, const PublishedFindings & found)
+DescribeSettings(Report & report, const PublishedFindings & found)
 {
   const PublishedSettings & settings = found.settings;
   report.method = "published";
@@ -46,62 +46,6 @@ DescribeStack(Report & report, const PublishedFindings & found)
                       { "rolling_shutter", std::string(NameOf(settings.rollingShutter)) },
                       { "sigma_rows", found.flicker.sigmaLines },
                       { "shutter_axis", std::string(settings.shutterAxis == 0 ? "x" : "y") } };
-  report.frames = found.frames;
-  report.width = found.geometry.width;
-  report.height = found.geometry.height;
-
-  const CodeRange & codes = found.summary.codes;
-  report.bitDepth = codes.bitDepth;
-  report.bitDepthSource = codes.bitDepthSource;
-  if (codes.quantisationStepDn > 0.0)
-  {
-    report.quantisationStepDn = codes.quantisationStepDn;
-  }
-  report.clipLowDn = codes.clipLowDn;
-  report.clipHighDn = codes.clipHighDn;
-  report.clipSource = codes.clipSource;
-
-  report.pixels.total = found.geometry.Pixels();
-  report.pixels.valid = static_cast<std::size_t>(std::count(found.valid.begin(), found.valid.end(), 1));
-  report.pixels.used = static_cast<std::size_t>(
-    std::count(found.pixelUse.begin(), found.pixelUse.end(), static_cast<std::uint8_t>(PixelUse::Used)));
-  report.pixels.clipped = found.summary.clipped;
-  report.pixels.notFinite = found.summary.notFinite;
-}
-
-inline void
-FillScatter(Report & report, const PublishedFindings & found, const std::vector<std::uint8_t> & used)
-{
-  constexpr std::size_t bins = 256;
-  const std::size_t     pixels = found.geometry.Pixels();
-  const IntensityIndex  index(found.mean.data(), used.data(), pixels);
-  Report::Scatter       sums{ std::vector<double>(bins, 0.0),
-                        std::vector<double>(bins, 0.0),
-                        std::vector<double>(bins, 0.0),
-                        std::vector<std::size_t>(bins, 0) };
-  for (std::size_t p = 0; p < pixels; ++p)
-  {
-    if (used[p] != 0)
-    {
-      const std::size_t bin = index.BinOf(found.mean[p], bins);
-      sums.mean[bin] += found.mean[p];
-      sums.variance[bin] += found.variance[p];
-      sums.correctedVariance[bin] += found.correctedVariance[p];
-      ++sums.count[bin];
-    }
-  }
-  report.scatter = Report::Scatter();
-  for (std::size_t bin = 0; bin < bins; ++bin)
-  {
-    if (sums.count[bin] > 0)
-    {
-      const auto n = static_cast<double>(sums.count[bin]);
-      report.scatter.mean.push_back(sums.mean[bin] / n);
-      report.scatter.variance.push_back(sums.variance[bin] / n);
-      report.scatter.correctedVariance.push_back(sums.correctedVariance[bin] / n);
-      report.scatter.count.push_back(sums.count[bin]);
-    }
-  }
 }
 
 inline void
@@ -156,8 +100,9 @@ inline Report
 MakePublishedReport(const PublishedFindings & found)
 {
   Report report;
-  detail::DescribeStack(report, found);
-  detail::WarnOfStack(report, found);
+  detail::DescribeSettings(report, found);
+  DescribeStack(report, found.geometry, found.frames, found.summary, found.valid, found.pixelUse);
+  WarnOfStack(report, found.frames, found.summary);
   if (!found.failure.empty())
   {
     report.Warn("nothing-to-measure", found.failure);
@@ -184,10 +129,7 @@ MakePublishedReport(const PublishedFindings & found)
   const RegressionData corrected{ found.mean.data(), found.correctedVariance.data(), found.kept.data(), pixels };
   const RegressionData raw{ found.mean.data(), found.variance.data(), found.kept.data(), pixels };
   const PolynomialFit  line = FitLine(corrected);
-  const PolynomialFit  affine = FitLine(raw);
-  const PolynomialFit  parabola = FitParabola(raw);
-  report.affineBaseline = Report::Baseline{ 0.0, affine.slope, affine.intercept };
-  report.quadraticBaseline = Report::Baseline{ parabola.curvature, parabola.slope, parabola.intercept };
+  FillBaselines(report, raw);
 
   const bool identified = flicker.flickerZ > RequiredFlickerZ;
   if (!identified)
@@ -214,11 +156,7 @@ MakePublishedReport(const PublishedFindings & found)
                   " % of itself (expected under 3 %): vibrations, several lamps, or data that are not linear");
   }
 
-  std::vector<std::uint8_t> used(pixels);
-  std::transform(found.pixelUse.begin(), found.pixelUse.end(), used.begin(), [](std::uint8_t use) {
-    return use == static_cast<std::uint8_t>(PixelUse::Used) ? 1 : 0;
-  });
-  detail::FillScatter(report, found, used);
+  FillScatter(report, found.mean, found.variance, found.correctedVariance, found.pixelUse);
   return report;
 }
 

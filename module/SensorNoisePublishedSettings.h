@@ -65,20 +65,7 @@ struct PublishedSettings
     {
       throw std::invalid_argument("the shutter axis is " + std::to_string(shutterAxis) + "; expected 0 (x) or 1 (y)");
     }
-    if (codes.bitDepth && (*codes.bitDepth < 1 || *codes.bitDepth > 16))
-    {
-      throw std::invalid_argument("the bit depth is " + std::to_string(*codes.bitDepth) + "; expected 1 to 16");
-    }
-    if (codes.clipLowDn && codes.clipHighDn && !(*codes.clipLowDn < *codes.clipHighDn))
-    {
-      throw std::invalid_argument("the clip levels are " + std::to_string(*codes.clipLowDn) + " and " +
-                                  std::to_string(*codes.clipHighDn) + " DN; expected low < high");
-    }
-    if (codes.quantisationStepDn && !(*codes.quantisationStepDn > 0.0))
-    {
-      throw std::invalid_argument("the code step is " + std::to_string(*codes.quantisationStepDn) +
-                                  " DN; expected a positive number");
-    }
+    ValidateCodeSettings(codes);
   }
 };
 

@@ -1,0 +1,62 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef SensorNoiseRefinedFindings_h
+#define SensorNoiseRefinedFindings_h
+
+#include "SensorNoiseLocalOffset.h"
+#include "SensorNoiseOffsetLine.h"
+#include "SensorNoiseRefinedSettings.h"
+#include "SensorNoiseShiftSeries.h"
+#include "SensorNoiseStackReport.h"
+#include "SensorNoiseStaticPixels.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** All that the refined method found out, from which its report is made. */
+struct RefinedFindings
+{
+  ProvisionalModel                model;
+  OffsetLine                      line;   ///< offset and flicker from all frames
+  MotionSeries                    motion; ///< by least squares
+  LocalIllumination               local;  ///< light that is not the same everywhere
+  bool                            isOffsetDrift{ false };
+  std::optional<LocalOffset>      localOffset;
+  std::optional<InstrumentShifts> shifts;
+  VarianceLine                    variance; ///< corrected for the noise of the means
+  ClassFit                        classes;
+  double                          intensityChi2{ 1.0 };  ///< of the mean residuals of 64 intensity bins
+  double                          motionPhi{ 1.0 };      ///< dispersion of the frames over all gradient classes
+  double                          localFlickerSd{ 0.0 }; ///< root mean square over the frame where light is local
+  double                          centreDn{ 0.0 };
+  std::string                     failureCode; ///< why the stack cannot be measured; empty: it can
+  std::string                     failure;
+  std::size_t                     nearClip{ 0 };
+  std::size_t                     notStatic{ 0 };
+  std::size_t                     coarse{ 0 };
+};
+
+} // namespace sensornoise
+
+#endif
