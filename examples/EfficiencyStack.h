@@ -127,7 +127,7 @@ MeasureStack(const Scene & scene, const SimulationSettings & settings, const std
   {
     const auto pixelUse = static_cast<PixelUse>(use[p]);
     mask[p] = pixelUse == PixelUse::Clipped || pixelUse == PixelUse::NotFinite || pixelUse == PixelUse::Masked ||
-                  pixelUse == PixelUse::Border
+                  pixelUse == PixelUse::NearClip || pixelUse == PixelUse::Border
                 ? 0
                 : 1;
   }

@@ -213,12 +213,7 @@ private:
     for (std::size_t p = 0; p < pixels; ++p)
     {
       const bool isMasked = !m_UserMask.empty() && m_UserMask[p] == 0;
-      m_PixelUse[p] = static_cast<std::uint8_t>(isMasked                        ? PixelUse::Masked
-                                                : m_Reference.usable[p] != 0    ? PixelUse::Used
-                                                : !std::isfinite(m_Variance[p]) ? PixelUse::NotFinite
-                                                : m_Valid[p] == 0               ? PixelUse::Clipped
-                                                : !(m_Variance[p] > 0.0)        ? PixelUse::Constant
-                                                                                : PixelUse::Border);
+      m_PixelUse[p] = static_cast<std::uint8_t>(isMasked ? PixelUse::Masked : this->UseOf(p));
       m_Valid[p] = isMasked ? 0 : m_Valid[p];
       m_Reference.usable[p] = isMasked ? 0 : m_Reference.usable[p];
     }
@@ -250,6 +245,28 @@ private:
                                               SmoothedDerivative(m_Reference, StencilX, m_ParallelFor),
                                               SmoothedDerivative(m_Reference, StencilY, m_ParallelFor),
                                               std::move(smoothWeight));
+  }
+
+  PixelUse
+  UseOf(std::size_t p) const
+  {
+    if (m_Reference.usable[p] != 0)
+    {
+      return PixelUse::Used;
+    }
+    if (m_Valid[p] == 0)
+    {
+      return std::isfinite(m_Variance[p]) ? PixelUse::Clipped : PixelUse::NotFinite;
+    }
+    if (!(m_Variance[p] > 0.0))
+    {
+      return PixelUse::Constant;
+    }
+    const std::size_t x = p % m_Geometry.width;
+    const std::size_t y = p / m_Geometry.width;
+    const bool        isInner = x >= StencilMargin && x + StencilMargin < m_Geometry.width && y >= StencilMargin &&
+                         y + StencilMargin < m_Geometry.height;
+    return isInner ? PixelUse::NearClip : PixelUse::Border;
   }
 
   void

@@ -93,7 +93,7 @@ enum class PixelUse : std::uint8_t
   Constant = 5,       ///< it never varies
   FlickerUnknown = 6, ///< the bright set does not reach its line
   Masked = 7,         ///< the user left it out
-  NearClip = 8,       ///< noise, flicker or motion could have brought it to a clip level
+  NearClip = 8,       ///< it could have come to a clip level, or a neighbour is clipped or not finite
   NotStatic = 9,      ///< its variance does not fit, nor does that of its surroundings: something moved
   Outlier = 10,       ///< its variance is beyond the tails of the noise's distribution
   CoarseCodes = 11    ///< its noise is below half a code step
