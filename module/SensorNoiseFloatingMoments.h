@@ -18,6 +18,8 @@
 #ifndef SensorNoiseFloatingMoments_h
 #define SensorNoiseFloatingMoments_h
 
+#include "SensorNoiseBinaryStream.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -25,6 +27,7 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace sensornoise
@@ -118,6 +121,31 @@ public:
     m_Frames = frames;
   }
 
+  /** Writes the moments, see BinaryStream. */
+  void
+  Save(std::ostream & out) const
+  {
+    WriteSumsHeader(out, StreamName(), m_Mean.size(), m_Frames);
+    WriteNumbers(out, m_Mean);
+    WriteNumbers(out, m_Squares);
+    WriteNumbers(out, m_Minimum);
+    WriteNumbers(out, m_Maximum);
+  }
+
+  /** Replaces the moments by those of a stream. Throws std::runtime_error, and changes nothing, if it holds other sums,
+   * or those of another type or number of pixels, or ends early. */
+  void
+  Restore(std::istream & in)
+  {
+    FloatingMoments read(m_Mean.size());
+    read.m_Frames = ReadSumsHeader(in, StreamName(), m_Mean.size());
+    ReadNumbers(in, read.m_Mean);
+    ReadNumbers(in, read.m_Squares);
+    ReadNumbers(in, read.m_Minimum);
+    ReadNumbers(in, read.m_Maximum);
+    *this = std::move(read);
+  }
+
   std::size_t
   GetNumberOfPixels() const
   {
@@ -170,6 +198,12 @@ public:
   }
 
 private:
+  static std::string
+  StreamName()
+  {
+    return "FloatingMoments " + PixelName<TPixel>();
+  }
+
   std::size_t         m_Frames{ 0 };
   std::vector<double> m_Mean;
   std::vector<double> m_Squares;

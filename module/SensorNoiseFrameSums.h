@@ -18,7 +18,7 @@
 #ifndef SensorNoiseFrameSums_h
 #define SensorNoiseFrameSums_h
 
-#include "SensorNoiseEigen.h"
+#include "SensorNoiseFrameProducts.h"
 #include "SensorNoiseProvisionalModel.h"
 
 #include <algorithm>
@@ -29,12 +29,6 @@
 
 namespace sensornoise
 {
-
-/** The frames are regressed on these columns: 1, the mean, and its derivatives (MotionStencils). */
-inline constexpr std::size_t FrameColumns = 2 + NumberOfStencils;
-
-/** How rough the surroundings of a pixel are, in classes from flat to rough; the regressions admit classes in turn. */
-inline constexpr std::size_t GradientClasses = 6;
 
 /** \class FrameSums
  * \brief The second pass: weighted inner products of every frame with the mean image and its derivatives.
@@ -48,8 +42,9 @@ inline constexpr std::size_t GradientClasses = 6;
  * LocalIllumination). Estimator.md, 3.3.
  *
  * A frame's sums are made cell by cell in blocks of a fixed size: they do not depend on the chunks or the threads.
- * Sums of different frames are separate numbers, so two parts of a stack are merged by putting them side by side.
- * Memory: 1 byte a pixel, 16 kB a frame. */
+ * Sums of different frames are separate numbers, so parts of a stack are merged with the same bits. What needs no frame
+ * is made by the constructor.
+ * Memory: 25 bytes a pixel, 16 kB a frame. */
 class FrameSums
 {
 public:
@@ -59,7 +54,7 @@ public:
   static constexpr std::uint8_t Unused = 255;
 
   using ClassMatrix = Eigen::Matrix<double, FrameColumns, FrameColumns>;
-  using ColumnVector = Eigen::Matrix<double, FrameColumns, 1>;
+  using ColumnVector = FrameProducts::ColumnVector;
 
   /** Sums that need no frame, of one cell: of w, w I, w I^2, and of w D_k and w I D_k. */
   struct Cell
@@ -78,7 +73,8 @@ public:
             const std::vector<std::uint8_t> & take,
             std::vector<double>               smoothX,
             std::vector<double>               smoothY,
-            std::vector<double>               smoothWeight)
+            std::vector<double>               smoothWeight,
+            const ParallelFor &               parallelFor = SerialFor)
     : m_Frame(&frame)
     , m_Model(model)
     , m_ClassOf(frame.mean.size(), Unused)
@@ -87,14 +83,13 @@ public:
     , m_SmoothWeight(std::move(smoothWeight))
     , m_CellRows(std::clamp<std::size_t>(frame.geometry.height / 8, 1, 64))
     , m_CellsPerRow(std::clamp<std::size_t>(frame.geometry.width / 32, 1, 16))
-    , m_ClassSums(frame.frames * GradientClasses, ColumnVector::Zero())
-    , m_InstrumentSums(frame.frames, { 0.0, 0.0 })
-    , m_CellSums(frame.frames * m_CellRows * m_CellsPerRow, { 0.0, 0.0 })
+    , m_Products(frame.mean.size(), frame.frames, m_CellRows * m_CellsPerRow)
     , m_ClassGram(GradientClasses, ClassMatrix::Zero())
     , m_InstrumentGram(Eigen::Matrix<double, Instruments, FrameColumns>::Zero())
     , m_Cells(m_CellRows * m_CellsPerRow)
   {
     this->ClassifyPixels(take);
+    this->AddGroup<double>(nullptr, 0, 0, parallelFor); // the Gram matrices
   }
 
   /** Adds frames first ... first + count - 1, stored one after the other. */
@@ -108,6 +103,34 @@ public:
       const std::size_t size = std::min(group, count - begin);
       this->AddGroup(frames + begin * m_Frame->mean.size(), first + begin, size, parallelFor);
     }
+  }
+
+  /** Adds the sums of other frames, made with the same frame, model and pixels. */
+  void
+  Merge(const FrameProducts & products)
+  {
+    m_Products.Merge(products);
+  }
+  void
+  Merge(const FrameSums & other)
+  {
+    m_Products.Merge(other.m_Products);
+  }
+  /** Writes, or replaces, the sums of the frames that were added: see FrameProducts. */
+  void
+  Save(std::ostream & out) const
+  {
+    m_Products.Save(out);
+  }
+  void
+  Restore(std::istream & in)
+  {
+    m_Products.Restore(in);
+  }
+  const FrameProducts &
+  GetProducts() const
+  {
+    return m_Products;
   }
 
   const ReferenceFrame &
@@ -134,18 +157,18 @@ public:
   const ColumnVector &
   GetClassSums(std::size_t t, std::size_t gradientClass) const
   {
-    return m_ClassSums[t * GradientClasses + gradientClass];
+    return m_Products.OfClass(t, gradientClass);
   }
   const std::array<double, 2> &
   GetInstrumentSums(std::size_t t) const
   {
-    return m_InstrumentSums[t];
+    return m_Products.OfInstruments(t);
   }
   /** Sums of w d_t and w I d_t over cell \a c. */
   const std::array<double, 2> &
   GetCellSums(std::size_t t, std::size_t c) const
   {
-    return m_CellSums[t * m_Cells.size() + c];
+    return m_Products.OfCell(t, c);
   }
   const std::vector<Cell> &
   GetCells() const
@@ -302,6 +325,7 @@ private:
     return block;
   }
 
+  /** Adds \a count frames; with 0, what needs no frame: Gram matrices and cells. */
   template <typename TPixel>
   void
   AddGroup(const TPixel * frames, std::size_t first, std::size_t count, const ParallelFor & parallelFor)
@@ -313,7 +337,7 @@ private:
       Eigen::Matrix<double, Instruments, FrameColumns> instruments =
         Eigen::Matrix<double, Instruments, FrameColumns>::Zero();
     };
-    const bool        isFirst = !m_HasGrams;
+    const bool        isGram = count == 0;
     const std::size_t pixels = m_Frame->mean.size();
     const std::size_t width = m_Frame->geometry.width;
     std::vector<Part> parts(m_CellRows);
@@ -334,14 +358,14 @@ private:
           for (std::size_t i = 0; i < block.pixels.size(); ++i)
           {
             this->FillRow(block.pixels[i], block.rows[i], derivatives);
-            if (isFirst)
+            if (isGram)
             {
               this->AddToGrams(block.pixels[i], block.rows[i], derivatives, m_Cells[c], part.gram, part.instruments);
             }
           }
           for (std::size_t t = 0; t < count; ++t)
           {
-            this->AddBlock(block, frames + t * pixels, part.sums[t], m_CellSums[(first + t) * m_Cells.size() + c]);
+            this->AddBlock(block, frames + t * pixels, part.sums[t], m_Products.OfCell(first + t, c));
           }
         };
         for (std::size_t y = top; y < bottom; ++y)
@@ -370,19 +394,18 @@ private:
           const Row & row = part.sums[t][c];
           for (std::size_t k = 0; k < FrameColumns; ++k)
           {
-            m_ClassSums[(first + t) * GradientClasses + c](static_cast<Eigen::Index>(k)) += row[k];
+            m_Products.OfClass(first + t, c)(static_cast<Eigen::Index>(k)) += row[k];
           }
-          m_InstrumentSums[first + t][0] += row[FrameColumns];
-          m_InstrumentSums[first + t][1] += row[FrameColumns + 1];
+          m_Products.OfInstruments(first + t)[0] += row[FrameColumns];
+          m_Products.OfInstruments(first + t)[1] += row[FrameColumns + 1];
         }
       }
-      for (std::size_t c = 0; c < GradientClasses && isFirst; ++c)
+      for (std::size_t c = 0; c < GradientClasses && isGram; ++c)
       {
         m_ClassGram[c] += part.gram[c];
       }
       m_InstrumentGram += part.instruments;
     }
-    m_HasGrams = true;
   }
 
   template <typename TPixel>
@@ -425,13 +448,10 @@ private:
   std::size_t               m_CellRows;
   std::size_t               m_CellsPerRow;
 
-  std::vector<ColumnVector>                        m_ClassSums;
-  std::vector<std::array<double, 2>>               m_InstrumentSums;
-  std::vector<std::array<double, 2>>               m_CellSums;
+  FrameProducts                                    m_Products;
   std::vector<ClassMatrix>                         m_ClassGram;
   Eigen::Matrix<double, Instruments, FrameColumns> m_InstrumentGram;
   std::vector<Cell>                                m_Cells;
-  bool                                             m_HasGrams{ false };
 };
 
 } // namespace sensornoise

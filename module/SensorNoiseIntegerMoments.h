@@ -18,6 +18,8 @@
 #ifndef SensorNoiseIntegerMoments_h
 #define SensorNoiseIntegerMoments_h
 
+#include "SensorNoiseBinaryStream.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -25,6 +27,7 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace sensornoise
@@ -100,6 +103,31 @@ public:
     m_Frames += other.m_Frames;
   }
 
+  /** Writes the sums, see BinaryStream. */
+  void
+  Save(std::ostream & out) const
+  {
+    WriteSumsHeader(out, StreamName(), m_Sum.size(), m_Frames);
+    WriteNumbers(out, m_Sum);
+    WriteNumbers(out, m_SumOfSquares);
+    WriteNumbers(out, m_Minimum);
+    WriteNumbers(out, m_Maximum);
+  }
+
+  /** Replaces the sums by those of a stream. Throws std::runtime_error, and changes nothing, if it holds other sums, or
+   * those of another type or number of pixels, or ends early. */
+  void
+  Restore(std::istream & in)
+  {
+    IntegerMoments read(m_Sum.size());
+    read.m_Frames = ReadSumsHeader(in, StreamName(), m_Sum.size());
+    ReadNumbers(in, read.m_Sum);
+    ReadNumbers(in, read.m_SumOfSquares);
+    ReadNumbers(in, read.m_Minimum);
+    ReadNumbers(in, read.m_Maximum);
+    *this = std::move(read);
+  }
+
   std::size_t
   GetNumberOfPixels() const
   {
@@ -166,6 +194,12 @@ private:
 
   // As many frames as the block's 32-bit sums hold: |sum s| <= 2^15 2^15, and 2^14 pairs of squares' lower halves.
   static constexpr std::size_t FramesPerFlush = 32768;
+
+  static std::string
+  StreamName()
+  {
+    return "IntegerMoments " + PixelName<TPixel>();
+  }
 
   static std::int16_t
   Shifted(TPixel value)

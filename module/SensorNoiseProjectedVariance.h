@@ -31,30 +31,27 @@
 namespace sensornoise
 {
 
-/** How a texture class treats a series of the basis. */
-enum class SeriesUse : std::uint8_t
-{
-  Ignored,   ///< it has no part in the pixels of the class
-  Projected, ///< taken out of every pixel's time series, at the cost of a degree of freedom
-  Subtracted ///< its prediction by the motion model is taken off: for short bursts
-};
-
 /** \class ProjectedVariance
  * \brief Every pixel's variance after what is not sensor noise has been taken out of its time series.
  *
- * With the coordinates S_j of the time series in the basis and the sum of squares SS about the mean,
+ * With the coordinates S_j of the time series in the basis, J of them, and the sum of squares SS about the mean,
  *
- *     RSS = SS - sum_{j projected} S_j^2,    V = (RSS + g sum_{j projected} sum_i S_i K_ij) / freedom,
- *     K_ij = sum_t Q_tj^2 Q_ti over the series i of light.
+ *     RSS = SS - sum_j S_j^2,    V = (RSS + g sum_i S_i sum_j K_ij) / ((T - 1 - J) (1 - h)),    K_ij = sum_t Q_tj^2
+ * Q_ti.
  *
- * The last term is there because the noise itself flickers: a series that lives on bright frames takes out more than
- * its share (0.1 to 0.5 % of g). As each pixel's own response S_i tells its flicker, no offset is needed.
+ * The pixel's response to each series is free: the projection is exact on edges, for any optics and interpolation, for
+ * pixels of different sensitivity, and for light that differs over the frame. Estimator.md, 3.5, which this simplifies:
  *
- * Which series a pixel pays for is decided by its texture class, 24 classes of the energy of the derivatives in the
- * neighbourhood over the noise, never by its own coordinates, which would select on the noise. A series is projected in
- * a class if the motion model predicts more than 0.002 V from it there, or if its mean square exceeds V by 5 standard
- * errors; light always. Where that would take more than 0.4 of the degrees of freedom, the weakest are subtracted
- * instead. Estimator.md, 3.5. */
+ * - The noise changes with the light, so a series that lives on the frames in which a pixel is bright takes out more
+ * than its share. The coordinates themselves tell how the pixel's light changes, by flicker or by motion: the second
+ *   term, 0.1 to 0.5 % of g.
+ * - The motion series were estimated from the same pixels and follow their noise by the pixel's leverage,
+ *   h = w D' G^-1 D, which counts in the few pixels that dominate the regression.
+ * - With both, every series can be projected out of every pixel; no class of pixels need be told which it pays for,
+ *   which costs 5 to 15 % of the degrees of freedom and leaves no bias below a threshold.
+ *
+ * Pixels are sorted into 24 classes by the energy of the derivatives in their neighbourhood over the noise, for the
+ * test of fit (JudgeClasses). */
 class ProjectedVariance
 {
 public:
@@ -73,108 +70,47 @@ public:
     , m_Sums(sums)
     , m_Mask(mask)
     , m_ParallelFor(parallelFor)
+    , m_Rss(frame.mean.size(), 0.0)
+    , m_Skew(frame.mean.size(), 0.0F)
     , m_Variance(frame.mean.size(), 0.0)
     , m_Freedom(frame.mean.size(), 0.0F)
     , m_ClassOf(frame.mean.size(), 0)
-    , m_Use(Classes * basis.Size(), SeriesUse::Projected)
   {
-    const auto frames = static_cast<double>(frame.frames);
+    const Eigen::MatrixXd & q = basis.GetBasis();
+    const Eigen::VectorXd   skew = q.transpose() * q.cwiseAbs2().rowwise().sum();
+    const auto              frames = static_cast<double>(frame.frames);
+    const double            freedom = frames - 1.0 - static_cast<double>(basis.Size());
     ForBlocks(mask.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
       for (std::size_t p = begin; p < end; ++p)
       {
-        basis.ToCoordinates(sums.OfPixel(p), frame.mean[p] * frames);
+        if (mask[p] != 0)
+        {
+          double * coordinates = sums.OfPixel(p);
+          basis.ToCoordinates(coordinates, frame.mean[p] * frames);
+          const Eigen::Map<const Eigen::VectorXd> s(coordinates, skew.size());
+          m_Rss[p] = frame.squares[p] - s.squaredNorm();
+          m_Skew[p] = static_cast<float>(s.dot(skew));
+          const double noise = model.NoiseVariance(frame.neighbourMean[p]);
+          m_Freedom[p] = static_cast<float>(freedom * (1.0 - std::min(0.5, Leverage(motion, p) / noise)));
+        }
       }
     });
-    const auto &          q = basis.GetBasis();
-    const auto            light = static_cast<Eigen::Index>(basis.NumberOfLightFactors());
-    const Eigen::MatrixXd squares = q.cwiseAbs2();
-    m_LightShare = q.leftCols(light).transpose() * squares;
-    Eigen::MatrixXd coefficients = Eigen::MatrixXd::Zero(q.rows(), NumberOfStencils);
-    for (Eigen::Index k = 0; k < motion.coefficients.cols(); ++k)
-    {
-      coefficients.col(static_cast<Eigen::Index>(motion.stencils[static_cast<std::size_t>(k)])) =
-        motion.coefficients.col(k);
-    }
-    m_Prediction = q.transpose() * coefficients;
-    const Eigen::MatrixXd kernels = detail::KernelGram().bottomRightCorner<NumberOfStencils, NumberOfStencils>();
-    m_PredictionNoise = (m_Prediction * kernels * m_Prediction.transpose()).diagonal() / frames;
     this->Classify(model);
   }
 
-  /** Computes the variance with the series that the classes use; \a gain serves the flickering noise. */
+  /** Computes the variance; \a gain serves the noise that changes with the light. */
   void
   Compute(double gain)
   {
     ForBlocks(m_Mask.size(), m_ParallelFor, [&](std::size_t begin, std::size_t end) {
       for (std::size_t p = begin; p < end; ++p)
       {
-        if (m_Mask[p] != 0)
-        {
-          this->ComputePixel(p, gain);
-        }
+        m_Variance[p] = m_Mask[p] != 0 ? (m_Rss[p] + gain * m_Skew[p]) / m_Freedom[p] : 0.0;
       }
     });
   }
 
-  /** Decides which series each class projects, from the variances of a first line. */
-  void
-  ChooseSeries(const VarianceLine & line)
-  {
-    const std::size_t series = m_Basis.Size();
-    const std::size_t stride = 2 + 2 * series;
-    const double      spread = 6.0 * std::sqrt(2.0 / static_cast<double>(m_Frame.frames - 1 - series));
-    const auto sums = SumOverBlocks(m_Mask.size(), m_ParallelFor, Classes * stride, [&](std::size_t p, double * s) {
-      const double ratio = m_Variance[p] / line.At(m_Frame.mean[p]);
-      if (m_Mask[p] != 0 && ratio > 0.0 && ratio < 1.0 + spread)
-      {
-        const double   noise = line.At(m_Frame.mean[p]);
-        const double   w = noise / std::pow(line.At(m_Frame.neighbourMean[p]), 2);
-        const double * coordinates = m_Sums.OfPixel(p);
-        double *       own = s + m_ClassOf[p] * stride;
-        const auto     derivatives = this->Derivatives(p);
-        own[0] += 1.0;
-        own[1] += w * noise;
-        for (std::size_t j = m_Basis.NumberOfLightFactors(); j < series; ++j)
-        {
-          const double predicted = this->Predict(derivatives, j);
-          own[2 + j] += w * (predicted * predicted - m_PredictionNoise(static_cast<Eigen::Index>(j)) * noise);
-          own[2 + series + j] +=
-            w * (coordinates[j] * coordinates[j] - noise - line.gain * this->FlickeringNoise(coordinates, j));
-        }
-      }
-    });
-    const auto most = static_cast<std::size_t>(std::max(1.0, 0.4 * static_cast<double>(m_Frame.frames - 1)));
-    for (std::size_t c = 0; c < Classes; ++c)
-    {
-      const double *                              own = sums.data() + c * stride;
-      std::vector<std::pair<double, std::size_t>> wanted;
-      std::size_t                                 projected = 0;
-      for (std::size_t j = 0; j < series; ++j)
-      {
-        const double predicted = own[1] > 0.0 ? own[2 + j] / own[1] : 0.0;
-        const double excess = own[1] > 0.0 ? own[2 + series + j] / own[1] : 0.0;
-        SeriesUse &  use = m_Use[c * series + j];
-        use = SeriesUse::Ignored;
-        if (j < m_Basis.NumberOfLightFactors())
-        {
-          use = SeriesUse::Projected;
-          ++projected;
-        }
-        else if (predicted > 0.002 || excess > 5.0 * std::sqrt(2.0 / std::max(1.0, own[0])))
-        {
-          wanted.emplace_back(-predicted, j);
-        }
-      }
-      std::sort(wanted.begin(), wanted.end());
-      for (const auto & [energy, j] : wanted)
-      {
-        m_Use[c * series + j] = projected < most ? SeriesUse::Projected : SeriesUse::Subtracted;
-        ++projected;
-      }
-      m_IsOvercrowded[c] = static_cast<double>(projected) > 0.4 * static_cast<double>(m_Frame.frames - 1);
-    }
-  }
-
+  /** [DN^2]; 0 outside the mask. */
   const std::vector<double> &
   GetVariance() const
   {
@@ -190,17 +126,6 @@ public:
   {
     return m_ClassOf[p];
   }
-  SeriesUse
-  GetUse(std::size_t textureClass, std::size_t series) const
-  {
-    return m_Use[textureClass * m_Basis.Size() + series];
-  }
-  /** Whether a class wants more series than a short burst can pay for. */
-  bool
-  IsOvercrowded(std::size_t textureClass) const
-  {
-    return m_IsOvercrowded[textureClass];
-  }
   const ReferenceFrame &
   GetFrame() const
   {
@@ -211,6 +136,7 @@ public:
   {
     return m_Basis;
   }
+  /** The coordinates of the mask's pixels. */
   const ProjectionSums &
   GetCoordinates() const
   {
@@ -224,70 +150,26 @@ public:
   }
 
 private:
-  std::array<double, NumberOfStencils>
-  Derivatives(std::size_t p) const
-  {
-    std::array<double, NumberOfStencils> values{};
-    for (std::size_t k = 0; k < NumberOfStencils; ++k)
-    {
-      values[k] = ApplyStencil(MotionStencils()[k], m_Frame.mean.data(), m_Frame.geometry.width, p);
-    }
-    return values;
-  }
+  /** D' G^-1 D of pixel \a p. */
   double
-  Predict(const std::array<double, NumberOfStencils> & derivatives, std::size_t j) const
+  Leverage(const MotionSeries & motion, std::size_t p) const
   {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < NumberOfStencils; ++k)
+    const auto size = static_cast<Eigen::Index>(motion.stencils.size());
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, NumberOfStencils, 1> derivatives(size);
+    for (Eigen::Index k = 0; k < size; ++k)
     {
-      sum += m_Prediction(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(k)) * derivatives[k];
+      const Stencil & stencil = MotionStencils()[motion.stencils[static_cast<std::size_t>(k)]];
+      derivatives(k) = ApplyStencil(stencil, m_Frame.mean.data(), m_Frame.geometry.width, p);
     }
-    return sum;
-  }
-  double
-  FlickeringNoise(const double * coordinates, std::size_t j) const
-  {
     double sum = 0.0;
-    for (Eigen::Index i = 0; i < m_LightShare.rows(); ++i)
+    for (Eigen::Index i = 0; i < size; ++i)
     {
-      sum += coordinates[i] * m_LightShare(i, static_cast<Eigen::Index>(j));
-    }
-    return sum;
-  }
-
-  void
-  ComputePixel(std::size_t p, double gain)
-  {
-    const std::size_t                    series = m_Basis.Size();
-    const SeriesUse *                    use = m_Use.data() + m_ClassOf[p] * series;
-    const double *                       coordinates = m_Sums.OfPixel(p);
-    double                               rss = m_Frame.squares[p];
-    double                               freedom = static_cast<double>(m_Frame.frames - 1);
-    double                               flickering = 0.0;
-    bool                                 hasDerivatives = false;
-    std::array<double, NumberOfStencils> derivatives{};
-    for (std::size_t j = 0; j < series; ++j)
-    {
-      if (use[j] == SeriesUse::Projected)
+      for (Eigen::Index j = 0; j < size; ++j)
       {
-        rss -= coordinates[j] * coordinates[j];
-        freedom -= 1.0;
-        flickering += this->FlickeringNoise(coordinates, j);
-      }
-      else if (use[j] == SeriesUse::Subtracted)
-      {
-        if (!hasDerivatives)
-        {
-          derivatives = this->Derivatives(p);
-          hasDerivatives = true;
-        }
-        const double rest = coordinates[j] - this->Predict(derivatives, j);
-        rss += rest * rest - coordinates[j] * coordinates[j];
-        freedom += m_PredictionNoise(static_cast<Eigen::Index>(j));
+        sum += derivatives(i) * motion.inverseGram(i, j) * derivatives(j);
       }
     }
-    m_Freedom[p] = static_cast<float>(freedom);
-    m_Variance[p] = (rss + gain * flickering) / freedom;
+    return sum;
   }
 
   void
@@ -341,14 +223,11 @@ private:
   ProjectionSums &                  m_Sums;
   const std::vector<std::uint8_t> & m_Mask;
   ParallelFor                       m_ParallelFor;
+  std::vector<double>               m_Rss;
+  std::vector<float>                m_Skew; // sum_i S_i sum_j K_ij
   std::vector<double>               m_Variance;
   std::vector<float>                m_Freedom;
   std::vector<std::uint8_t>         m_ClassOf;
-  std::vector<SeriesUse>            m_Use;
-  std::array<bool, Classes>         m_IsOvercrowded{};
-  Eigen::MatrixXd                   m_LightShare;      // light x series: K_ij
-  Eigen::MatrixXd                   m_Prediction;      // series x stencils
-  Eigen::VectorXd                   m_PredictionNoise; // of each series, in units of the noise variance
 };
 
 } // namespace sensornoise

@@ -18,6 +18,7 @@
 #ifndef SensorNoiseProjectionSums_h
 #define SensorNoiseProjectionSums_h
 
+#include "SensorNoiseBinaryStream.h"
 #include "SensorNoiseTemporalBasis.h"
 
 #include <algorithm>
@@ -25,6 +26,7 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace sensornoise
@@ -125,6 +127,27 @@ public:
     }
   }
 
+  /** Writes the sums, see BinaryStream. */
+  void
+  Save(std::ostream & out) const
+  {
+    WriteSumsHeader(out, Name, m_Pixels, 0);
+    WriteCount(out, m_Series);
+    WriteNumbers(out, m_Sums);
+  }
+
+  /** Replaces the sums by those of a stream. Throws std::runtime_error, and changes nothing, if it holds other sums, or
+   * those of other numbers of pixels or series, or ends early. */
+  void
+  Restore(std::istream & in)
+  {
+    ProjectionSums read(m_Pixels, m_Series);
+    ReadSumsHeader(in, Name, m_Pixels);
+    RequireCount("series", ReadCount(in), m_Series);
+    ReadNumbers(in, read.m_Sums);
+    *this = std::move(read);
+  }
+
   std::size_t
   GetNumberOfSeries() const
   {
@@ -143,6 +166,8 @@ public:
   }
 
 private:
+  static constexpr const char * Name = "ProjectionSums";
+
   std::size_t         m_Pixels;
   std::size_t         m_Series;
   std::vector<double> m_Sums;

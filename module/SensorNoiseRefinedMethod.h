@@ -19,10 +19,13 @@
 #define SensorNoiseRefinedMethod_h
 
 #include "SensorNoiseGuardBand.h"
+#include "SensorNoisePassFrames.h"
 #include "SensorNoiseRefinedReport.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -42,7 +45,25 @@ namespace sensornoise
  *
  * Same bits for any number of threads and any chunks. Memory: about 90 bytes a pixel and 8 more a series (4 to 20), 20
  * kB a frame. A stack that cannot be measured ends in a report whose quantities are `failed`, with a warning that says
- * why; wrong use throws std::invalid_argument. */
+ * why; wrong use throws std::invalid_argument.
+ *
+ * Several processes, each with a part of the frames, get the whole's report if they share the sums of every pass: the
+ * whole's bits with integer pixels; with floating point the same bits in all of them, equal to the whole's to rounding.
+   \code
+   RefinedMethod<unsigned short> method(settings, geometry, frames); // alike in every process
+   for (unsigned int pass = 0; pass < method.NumberOfPasses; ++pass)
+   {
+     method.SkipFrames(first); // this process reads the frames first ... first + count - 1
+     method.AddFrames(part, count);
+     method.SaveSums(toOthers);
+     for (std::istream * other : fromOthers)
+     {
+       method.MergeSums(*other);
+     }
+     method.EndPass();
+   }
+   \endcode
+ */
 template <typename TPixel>
 class RefinedMethod
 {
@@ -61,6 +82,7 @@ public:
     , m_Frames(frames)
     , m_UserMask(mask)
     , m_ParallelFor(std::move(parallelFor))
+    , m_InPass(frames)
     , m_Moments(geometry.Pixels())
     , m_FrameMeans(frames, 0.0)
   {
@@ -86,14 +108,12 @@ public:
   void
   AddFrames(const TPixel * chunk, std::size_t frames)
   {
-    const std::size_t pixels = m_Geometry.Pixels();
-    if (frames > m_Frames - m_FramesInPass)
+    const std::size_t  pixels = m_Geometry.Pixels();
+    const std::size_t  first = m_InPass.Add(frames);
+    const unsigned int pass = m_InPass.GetPass();
+    if (pass == 0)
     {
-      throw std::logic_error("pass " + std::to_string(m_Pass + 1) + " was given " +
-                             std::to_string(m_FramesInPass + frames) + " frames; expected " + std::to_string(m_Frames));
-    }
-    if (m_Pass == 0)
-    {
+      m_FirstFrame = std::min(m_FirstFrame, first);
       ForBlocks(pixels, m_ParallelFor, [&](std::size_t begin, std::size_t end) {
         m_Moments.AddFrames(chunk, pixels, frames, begin, end);
       });
@@ -104,33 +124,116 @@ public:
         {
           sum += std::isfinite(static_cast<double>(chunk[p])) ? static_cast<double>(chunk[p]) : 0.0;
         }
-        m_FrameMeans[m_FramesInPass + k] = sum / static_cast<double>(pixels);
+        m_FrameMeans[first + k] = sum / static_cast<double>(pixels);
       });
     }
-    else if (m_Pass == 1 && m_FrameSums)
+    else if (pass == 1 && m_FrameSums)
     {
-      m_FrameSums->AddFrames(chunk, m_FramesInPass, frames, m_ParallelFor);
+      m_FrameSums->AddFrames(chunk, first, frames, m_ParallelFor);
     }
-    else if (m_Pass == 2 && m_FrameSums)
+    else if (pass == 2 && m_FrameSums)
     {
       ForBlocks(pixels, m_ParallelFor, [&](std::size_t begin, std::size_t end) {
-        m_Projections.AddFrames(m_Basis, chunk, m_FramesInPass, frames, begin, end);
+        m_Projections.AddFrames(m_Basis, chunk, first, frames, begin, end);
       });
     }
-    m_FramesInPass += frames;
+  }
+
+  /** The next \a frames frames of the current pass are added by other processes. */
+  void
+  SkipFrames(std::size_t frames)
+  {
+    m_InPass.Skip(frames);
+  }
+
+  /** Writes the sums over the frames of the current pass that have been added or merged so far, see BinaryStream: 20
+   * (integers) or 32 bytes a pixel in pass 1, 16 kB a frame in pass 2, 8 bytes a pixel and series in pass 3. */
+  void
+  SaveSums(std::ostream & out) const
+  {
+    WriteSumsHeader(out, StreamName(), m_Geometry.Pixels(), m_Frames);
+    m_InPass.Save(out);
+    WriteCount(out, this->FingerprintOfPass());
+    if (m_InPass.GetPass() == 0)
+    {
+      WriteNumbers(out, m_FrameMeans);
+      WriteCount(out, m_OtherMoments.size() + 1);
+      WriteCount(out, m_FirstFrame);
+      m_Moments.Save(out);
+      for (const auto & [first, moments] : m_OtherMoments)
+      {
+        WriteCount(out, first);
+        moments.Save(out);
+      }
+    }
+    else if (m_FrameSums)
+    {
+      m_InPass.GetPass() == 1 ? m_FrameSums->Save(out) : m_Projections.Save(out);
+    }
+  }
+
+  /** Adds the sums that another object, with the same arguments, saved in the same pass. Throws std::runtime_error, and
+   * changes nothing, if the stream is no such sums, or holds a frame that is here, too. */
+  void
+  MergeSums(std::istream & in)
+  {
+    const std::size_t pixels = m_Geometry.Pixels();
+    RequireCount("frames", ReadSumsHeader(in, StreamName(), pixels), m_Frames);
+    const PassFrames frames = m_InPass.ReadOther(in);
+    m_InPass.RequireApart(frames);
+    if (ReadCount(in) != this->FingerprintOfPass())
+    {
+      throw std::runtime_error("sums cannot be merged: they are made with other settings, another mask or other sums "
+                               "of the passes before");
+    }
+    if (m_InPass.GetPass() == 0)
+    {
+      std::vector<double> frameMeans(m_Frames);
+      ReadNumbers(in, frameMeans);
+      std::map<std::size_t, TemporalMoments<TPixel>> others;
+      for (std::uint64_t parts = ReadCount(in); parts > 0; --parts)
+      {
+        const std::size_t first = ReadCount(in);
+        others.try_emplace(first, pixels).first->second.Restore(in);
+      }
+      for (auto & [first, moments] : others)
+      {
+        if constexpr (std::is_integral_v<TPixel>)
+        {
+          m_Moments.Merge(moments);
+          m_FirstFrame = std::min(m_FirstFrame, first);
+        }
+        else if (moments.GetNumberOfFrames() > 0)
+        {
+          m_OtherMoments.emplace(first, std::move(moments));
+        }
+      }
+      for (std::size_t t = 0; t < m_Frames; ++t)
+      {
+        m_FrameMeans[t] += frameMeans[t];
+      }
+    }
+    else if (m_FrameSums && m_InPass.GetPass() == 1)
+    {
+      FrameProducts others = m_FrameSums->GetProducts();
+      others.Restore(in);
+      m_FrameSums->Merge(others);
+    }
+    else if (m_FrameSums)
+    {
+      ProjectionSums others(pixels, m_Basis.Size());
+      others.Restore(in);
+      m_Projections.Merge(others);
+    }
+    m_InPass.Merge(frames);
   }
 
   /** Ends the current pass. */
   void
   EndPass()
   {
-    if (m_FramesInPass != m_Frames)
-    {
-      throw std::logic_error("pass " + std::to_string(m_Pass + 1) + " held " + std::to_string(m_FramesInPass) +
-                             " frames; expected " + std::to_string(m_Frames));
-    }
-    m_FramesInPass = 0;
-    const unsigned int pass = m_Pass++;
+    const unsigned int pass = m_InPass.GetPass();
+    m_InPass.EndPass();
     try
     {
       if (pass == 0)
@@ -190,6 +293,50 @@ public:
   }
 
 private:
+  static std::string
+  StreamName()
+  {
+    return "RefinedMethod " + PixelName<TPixel>();
+  }
+
+  /** Of all that the sums of the current pass depend on beside the frames. */
+  std::uint64_t
+  FingerprintOfPass() const
+  {
+    Fingerprint       fingerprint;
+    const std::size_t sizes[2] = { m_Geometry.width, m_FrameSums ? 1U : 0U };
+    fingerprint.Add(sizes, 2);
+    fingerprint.Add(m_UserMask.data(), m_UserMask.size());
+    fingerprint.Add(m_Mean.data(), m_Mean.size());
+    fingerprint.Add(m_Variance.data(), m_Variance.size());
+    fingerprint.Add(m_PixelUse.data(), m_PixelUse.size());
+    for (std::size_t j = 0; j < m_Basis.Size(); ++j)
+    {
+      for (std::size_t t = 0; t < m_Frames; ++t)
+      {
+        const double rounded = m_Basis.Rounded(t, j);
+        fingerprint.Add(&rounded, 1);
+      }
+    }
+    return fingerprint.GetValue();
+  }
+
+  /** Floating-point moments are folded in the order of the frames: the same bits whoever merges what first. */
+  void
+  FoldMoments()
+  {
+    if (m_Moments.GetNumberOfFrames() > 0)
+    {
+      m_OtherMoments.emplace(m_FirstFrame, std::move(m_Moments));
+    }
+    m_Moments = TemporalMoments<TPixel>(m_Geometry.Pixels());
+    for (const auto & part : m_OtherMoments)
+    {
+      m_Moments.Merge(part.second);
+    }
+    m_OtherMoments.clear();
+  }
+
   void
   Fail(std::string code, std::string message)
   {
@@ -202,6 +349,10 @@ private:
   EndMoments()
   {
     const std::size_t pixels = m_Geometry.Pixels();
+    if (!m_OtherMoments.empty())
+    {
+      this->FoldMoments();
+    }
     m_Mean.resize(pixels);
     m_Variance.resize(pixels);
     m_Valid.resize(pixels);
@@ -244,7 +395,8 @@ private:
                                               take,
                                               SmoothedDerivative(m_Reference, StencilX, m_ParallelFor),
                                               SmoothedDerivative(m_Reference, StencilY, m_ParallelFor),
-                                              std::move(smoothWeight));
+                                              std::move(smoothWeight),
+                                              m_ParallelFor);
   }
 
   PixelUse
@@ -339,10 +491,10 @@ private:
   void
   EndProjections()
   {
-    std::vector<std::uint8_t> mask = m_Reference.usable;
-    ProjectedVariance         projected(
-      m_Reference, m_Basis, m_Found.motion, m_Projections, m_Found.model, mask, m_ParallelFor);
-    const auto fit = [&](std::optional<VarianceLine> start, int iterations) {
+    const std::vector<std::uint8_t> & all = m_Reference.usable;
+    std::vector<std::uint8_t>         mask = all;
+    ProjectedVariance projected(m_Reference, m_Basis, m_Found.motion, m_Projections, m_Found.model, all, m_ParallelFor);
+    const auto        fit = [&](std::optional<VarianceLine> start, int iterations) {
       const VarianceLine line = FitVarianceLine(projected.GetData(mask), m_ParallelFor, start, iterations);
       if (!line.isDetermined)
       {
@@ -350,14 +502,10 @@ private:
       }
       return line;
     };
-    // A first line with every series projected tells which the classes need, and with the flat classes which fit.
+    // The line of the flat classes tells which classes fit, the line of these which neighbourhoods do.
     projected.Compute(m_Found.model.slopeDn);
     VarianceLine line = fit(std::nullopt, 4);
     projected.Compute(line.gain);
-    line = fit(line, 4);
-    projected.ChooseSeries(line);
-    projected.Compute(line.gain);
-    const std::vector<std::uint8_t> all = mask;
     for (std::size_t p = 0; p < mask.size(); ++p)
     {
       mask[p] = all[p] != 0 && projected.ClassOf(p) <= 0.6 * ProjectedVariance::Classes ? 1 : 0;
@@ -465,11 +613,15 @@ private:
   std::size_t               m_Frames;
   std::vector<std::uint8_t> m_UserMask;
   ParallelFor               m_ParallelFor;
-  unsigned int              m_Pass{ 0 };
-  std::size_t               m_FramesInPass{ 0 };
+  PassFrames                m_InPass;
+  std::size_t               m_FirstFrame{ std::numeric_limits<std::size_t>::max() }; // of those in m_Moments
 
-  TemporalMoments<TPixel>    m_Moments;
-  std::vector<double>        m_FrameMeans;
+  TemporalMoments<TPixel> m_Moments;
+  std::vector<double>     m_FrameMeans;
+
+  /** Floating-point moments of other processes, by their first frame. */
+  std::map<std::size_t, TemporalMoments<TPixel>> m_OtherMoments;
+
   StackSummary               m_Summary;
   std::vector<double>        m_Mean;
   std::vector<double>        m_Variance;

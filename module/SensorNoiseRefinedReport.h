@@ -60,6 +60,16 @@ WithError(double value, double standardError, std::string unit, double student =
   return quantity;
 }
 
+/** What is not distinguishable from 0: no value, and an interval up to \a high. */
+inline Quantity
+UpperLimit(double high, std::string unit)
+{
+  Quantity quantity = Quantity::Without(EstimateStatus::UpperLimit, std::move(unit));
+  quantity.interval95 = Interval{ 0.0, high };
+  quantity.bracket = quantity.interval95;
+  return quantity;
+}
+
 /** A root of a squared quantity: its interval is the root of the square's, cut at 0; an interval that holds 0 gives an
  * upper limit and no value. */
 inline Quantity
@@ -68,10 +78,7 @@ RootOf(double square, double standardError, std::string unit, double student = 1
   const double high = std::sqrt(std::max(0.0, square + student * standardError));
   if (!(square - student * standardError > 0.0))
   {
-    Quantity quantity = Quantity::Without(EstimateStatus::UpperLimit, std::move(unit));
-    quantity.interval95 = Interval{ 0.0, high };
-    quantity.bracket = Interval{ 0.0, high };
-    return quantity;
+    return UpperLimit(high, std::move(unit));
   }
   const double value = std::sqrt(square);
   Quantity     quantity = WithError(value, standardError / (2.0 * value), std::move(unit));
@@ -142,6 +149,36 @@ EstimateOffset(const RefinedReportInput & input)
   return estimate;
 }
 
+/** The read noise as dark frames tell it; \a lineDn2 is the variance at the offset of the line through the others. */
+inline void
+FillDarkReadNoise(Report &                          report,
+                  const KnownOffset::DarkVariance & dark,
+                  double                            quantisationDn2,
+                  double                            lineDn2,
+                  double                            lineErrorDn2)
+{
+  const double gain = *report.gain.value;
+  const double square = dark.valueDn2 - quantisationDn2;
+  const double error = dark.standardErrorDn2;
+  const double halfStepDn2 = 3.0 * quantisationDn2; // below it the codes hide the noise
+  if (square < halfStepDn2)
+  {
+    report.readNoise = UpperLimit(std::sqrt(halfStepDn2), "DN");
+    report.readNoiseElectrons = UpperLimit(std::sqrt(halfStepDn2) / gain, "e-");
+    return;
+  }
+  const double gainError = 2.0 * square / gain * *report.gain.standardError;
+  report.readNoise = RootOf(square, error, "DN");
+  report.readNoiseElectrons = RootOf(square / (gain * gain), std::hypot(error, gainError) / (gain * gain), "e-");
+  if (std::abs(square - lineDn2) > 4.0 * std::hypot(error, lineErrorDn2))
+  {
+    report.Warn("dark-frames-differ",
+                "at the offset the noise is " + Text(lineDn2) + " +- " + Text(lineErrorDn2) +
+                  " DN^2, but the dark frames have " + Text(square) + " +- " + Text(error) +
+                  " DN^2: another exposure, gain or temperature");
+  }
+}
+
 inline void
 FillOffsetAndReadNoise(Report &                   report,
                        const RefinedReportInput & input,
@@ -172,6 +209,14 @@ FillOffsetAndReadNoise(Report &                   report,
                   "the level that does not flicker is " + Text(flicker.valueDn) + " +- " +
                     Text(flicker.standardErrorDn) + " DN, " + Text(difference) +
                     " DN from the given offset: light that does not flicker, or dark current, makes the difference");
+    }
+    const double slackDn = 3.0 * offsetErrorDn + 4.0 * std::sqrt(covariance(1, 1)) / v.gain +
+                           0.01 * (found.model.brightestDn - found.model.darkestDn);
+    if (*offsetDn < lowestOffsetDn - slackDn || *offsetDn > darkestDn + slackDn)
+    {
+      report.Warn("offset-out-of-range",
+                  "the given offset, " + Text(*offsetDn) + " DN, is not between " + Text(lowestOffsetDn) + " and " +
+                    Text(darkestDn) + " DN, where sigma^2 >= 0 and the darkest pixels put it");
     }
   }
   else if (flicker.obstacle.empty())
@@ -206,14 +251,18 @@ FillOffsetAndReadNoise(Report &                   report,
                                  2.0 * *offsetDn * covariance(0, 1) + v.gain * v.gain * offsetErrorDn * offsetErrorDn);
   report.readNoise = RootOf(square, error, "DN", student);
   report.readNoiseElectrons = RootOf(square / (v.gain * v.gain), error / (v.gain * v.gain), "e-", student);
+  if (input.settings.offset && input.settings.offset->variance)
+  {
+    FillDarkReadNoise(report, *input.settings.offset->variance, quantisationDn2, square, error);
+  }
   report.covariance = std::array<std::array<double, 3>, 3>{ { { covariance(0, 0), covariance(0, 1), 0.0 },
                                                               { covariance(0, 1), covariance(1, 1), 0.0 },
                                                               { 0.0, 0.0, offsetErrorDn * offsetErrorDn } } };
   if (report.readNoise.status == EstimateStatus::UpperLimit)
   {
     report.Warn("read-noise-upper-limit",
-                "the squared read noise, " + Text(square) + " +- " + Text(error) +
-                  " DN^2, is not distinguishable from 0");
+                "the read noise is below " + Text(*report.readNoise.bracket->high) +
+                  " DN and cannot be told from 0 or from the rounding to codes");
   }
 }
 
@@ -364,6 +413,12 @@ MakeRefinedReport(const RefinedReportInput & input)
   {
     report.settings.emplace_back("offset", input.settings.offset->valueDn);
     report.settings.emplace_back("offset_standard_error", input.settings.offset->standardErrorDn);
+    report.settings.emplace_back("dark_frames", static_cast<double>(input.settings.offset->darkFrames));
+    if (const auto & variance = input.settings.offset->variance)
+    {
+      report.settings.emplace_back("dark_variance", variance->valueDn2);
+      report.settings.emplace_back("dark_variance_standard_error", variance->standardErrorDn2);
+    }
   }
   DescribeStack(report, input.geometry, input.frames, input.summary, input.valid, input.pixelUse);
   WarnOfStack(report, input.frames, input.summary);

@@ -21,6 +21,8 @@
 #include "SensorNoiseCodes.h"
 #include "SensorNoiseFlicker.h"
 
+#include <cmath>
+#include <cstddef>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -28,11 +30,20 @@
 namespace sensornoise
 {
 
-/** An offset that is known from elsewhere, for example from dark frames. */
+/** An offset that is known from elsewhere: given, or measured with dark frames, which tell the read noise, too. */
 struct KnownOffset
 {
-  double valueDn{ 0.0 };
-  double standardErrorDn{ 0.0 };
+  double      valueDn{ 0.0 };
+  double      standardErrorDn{ 0.0 };
+  std::size_t darkFrames{ 0 }; ///< frames that it was measured with; 0: it was given
+
+  /** Temporal variance of the dark frames, that of rounding to whole codes included, and its standard error. */
+  struct DarkVariance
+  {
+    double valueDn2{ 0.0 };
+    double standardErrorDn2{ 0.0 };
+  };
+  std::optional<DarkVariance> variance; ///< null: fewer than two dark frames
 };
 
 /** Every parameter of the refined method. */
@@ -51,7 +62,8 @@ struct RefinedSettings
   Validate() const
   {
     ValidateCodeSettings(codes);
-    if (offset && !(std::isfinite(offset->valueDn) && offset->standardErrorDn >= 0.0))
+    if (offset &&
+        !(std::isfinite(offset->valueDn) && std::isfinite(offset->standardErrorDn) && offset->standardErrorDn >= 0.0))
     {
       throw std::invalid_argument("the offset is " + std::to_string(offset->valueDn) + " DN with a standard error of " +
                                   std::to_string(offset->standardErrorDn) +

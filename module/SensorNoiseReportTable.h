@@ -20,10 +20,12 @@
 
 #include "SensorNoiseReportJson.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace sensornoise
 {
@@ -44,23 +46,36 @@ Number(const std::optional<double> & number)
   return number ? Format("%.5g", *number) : "-";
 }
 
-/** The interval if there is one, else the bracket. */
-inline std::string
-Range(const Quantity & quantity)
+/** The 95 % interval if there is one, else the bracket. */
+inline const std::optional<Interval> &
+RangeOf(const Quantity & quantity)
 {
-  const std::optional<Interval> & range = quantity.interval95 ? quantity.interval95 : quantity.bracket;
-  return range ? "[" + Number(range->low) + ", " + Number(range->high) + "]" : "";
+  return quantity.interval95 ? quantity.interval95 : quantity.bracket;
 }
 
+/** The value; of what is not distinguishable from zero, what it is below. */
 inline std::string
-Line(const char * name, const Quantity & quantity)
+Value(const Quantity & quantity)
 {
-  return Format("%-24s %12s  %-8s %-17s %s\n",
-                name,
-                Number(quantity.value).c_str(),
-                quantity.unit.c_str(),
-                NameOf(quantity.status),
-                Range(quantity).c_str());
+  const std::optional<Interval> & range = RangeOf(quantity);
+  return quantity.status == EstimateStatus::UpperLimit && range && range->high ? "< " + Number(range->high)
+                                                                               : Number(quantity.value);
+}
+
+/** \a hasErrors: with a column for the standard error. */
+inline std::string
+Line(const char * name, const Quantity & quantity, bool hasErrors)
+{
+  const std::optional<Interval> & range = RangeOf(quantity);
+  std::string                     line = Format("%-24s %12s  ", name, Value(quantity).c_str());
+  if (hasErrors)
+  {
+    line += Format("%-12s  ", quantity.standardError ? Format("+- %.2g", *quantity.standardError).c_str() : "");
+  }
+  return line + Format("%-8s %-17s %s\n",
+                       quantity.unit.c_str(),
+                       NameOf(quantity.status),
+                       range ? ("[" + Number(range->low) + ", " + Number(range->high) + "]").c_str() : "");
 }
 
 inline std::string
@@ -98,22 +113,29 @@ MakeTable(const Report & report)
                   report.pixels.clipped,
                   report.pixels.notFinite);
   table += "method: " + report.method + "\n\n";
-  table += Format("%-24s %12s  %-8s %-17s %s\n", "quantity", "value", "unit", "status", "limits");
-  for (const auto & [name, quantity] : { std::pair("gain g", &report.gain),
-                                         std::pair("offset mu", &report.offset),
-                                         std::pair("read noise sigma", &report.readNoise),
-                                         std::pair("read noise sigma / g", &report.readNoiseElectrons),
-                                         std::pair("intercept sigma^2 - g mu", &report.intercept),
-                                         std::pair("flicker sd", &report.flickerSd),
-                                         std::pair("vibration sd x", &report.vibrationSdX),
-                                         std::pair("vibration sd y", &report.vibrationSdY) })
+  using Row = std::pair<const char *, const Quantity *>;
+  const std::vector<Row> rows{ { "gain g", &report.gain },
+                               { "offset mu", &report.offset },
+                               { "read noise sigma", &report.readNoise },
+                               { "read noise sigma / g", &report.readNoiseElectrons },
+                               { "intercept sigma^2 - g mu", &report.intercept },
+                               { "flicker sd", &report.flickerSd },
+                               { "vibration sd x", &report.vibrationSdX },
+                               { "vibration sd y", &report.vibrationSdY } };
+  const bool             hasErrors =
+    std::any_of(rows.begin(), rows.end(), [](const Row & row) { return row.second->standardError.has_value(); });
+  table += Format("%-24s %12s  ", "quantity", "value") + (hasErrors ? Format("%-12s  ", "error") : "");
+  table += Format("%-8s %-17s %s\n", "unit", "status", hasErrors ? "95 % interval or limits" : "limits");
+  for (const auto & [name, quantity] : rows)
   {
-    table += reporttable::Line(name, *quantity);
+    table += reporttable::Line(name, *quantity, hasErrors);
   }
   if (report.fit.reducedChi2)
   {
     table += Format("\nfit: reduced chi2 %.4g (1: only sampling noise is left)", *report.fit.reducedChi2);
-    table += Format(", offset line %.4g (1: one flicker for all)\n", report.fit.offsetLinePhi.value_or(0.0));
+    table += report.fit.offsetLinePhi
+               ? Format(", offset line %.4g (1: one flicker for all)\n", *report.fit.offsetLinePhi)
+               : "\n";
   }
   return table;
 }

@@ -38,6 +38,7 @@ struct MotionSeries
   std::vector<std::size_t> stencils;     ///< which derivatives, indices in MotionStencils()
   Eigen::MatrixXd          coefficients; ///< frames x stencils
   Eigen::MatrixXd          covariance;   ///< of one frame's coefficients
+  Eigen::MatrixXd          inverseGram;  ///< of the regression
 
   /** The coefficient of stencil \a k in frame \a t; 0 where it is not active. */
   double
@@ -69,12 +70,14 @@ SolveMotion(const FrameEquations & equations, const std::vector<double> & gamma,
   {
     series.coefficients.resize(frames, 0);
     series.covariance.resize(0, 0);
+    series.inverseGram.resize(0, 0);
     return series;
   }
   const Eigen::MatrixXd inverse = equations.gram.bottomRightCorner(motion, motion).inverse();
   const Eigen::VectorXd light = equations.gram.bottomLeftCorner(motion, 2) * Eigen::Vector2d(-offset, 1.0);
   const Eigen::VectorXd flicker = Eigen::Map<const Eigen::VectorXd>(gamma.data(), frames);
   series.coefficients = (equations.right.rightCols(motion) - flicker * light.transpose()) * inverse;
+  series.inverseGram = inverse;
   series.covariance = inverse * equations.rawGram.bottomRightCorner(motion, motion) * inverse;
   return series;
 }

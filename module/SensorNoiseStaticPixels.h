@@ -98,8 +98,7 @@ JudgeClasses(const ProjectedVariance &         projected,
   reference /= std::max(1.0, count);
   const double usual = detail::QuantileOf({ outliers.begin(), outliers.begin() + flat }, 0.5);
   const auto   isBad = [&](std::size_t c) {
-    return fit.ratio[c] / reference - 1.0 > std::max(2.5 * error[c], 0.0015) || outliers[c] > usual + 0.01 ||
-           projected.IsOvercrowded(c);
+    return fit.ratio[c] / reference - 1.0 > std::max(2.5 * error[c], 0.0015) || outliers[c] > usual + 0.01;
   };
   for (std::size_t c = 4; c < classes; ++c)
   {
