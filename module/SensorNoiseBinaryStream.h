@@ -179,7 +179,7 @@ public:
       }
       std::uint64_t bits = 0;
       std::memcpy(&bits, &number, sizeof(number));
-      m_Value = MixBits(m_Value ^ bits);
+      m_Value = MixBits((m_Value ^ bits) + 0x9e3779b97f4a7c15ULL); // the golden ratio: else zeros would not count
     }
   }
   std::uint64_t

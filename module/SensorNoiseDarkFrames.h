@@ -130,7 +130,7 @@ MeasureDarkFrames(const TemporalMoments<TPixel> &   moments,
     const double       unit = Quantile(variances, 0.9) / ChiSquareQuantile(0.9, dof);
     const MeanOfPixels below = MeanWithin(variances, 0.0, unit * limit);
     const double       share = ChiSquareCdf(limit, dof + 2.0) / (1.0 - beyond); // of the mean below the limit
-    dark.variance = KnownOffset::DarkVariance{ below.value / share, below.standardError / share };
+    dark.variance = DarkVariance{ below.value / share, below.standardError / share };
     spreadDn2 += dark.variance->valueDn2;
   }
   // A mean of codes is off by up to step/pi exp(-2 pi^2 spread/step^2): nothing once the spread is half a step.

@@ -75,8 +75,8 @@ FindGuardBand(const ReferenceFrame &   frame,
   return guarded;
 }
 
-/** Marks the pixels that are no part of a static scene, as far as one pass can tell: their variance is far above the
- * model's, or many of their 7 x 7 neighbours' is. */
+/** Marks the pixels that are no part of a static scene, as far as one pass can tell: 1 if their variance is far above
+ * the model's, 2 if that of many of their 7 x 7 neighbours is. */
 inline std::vector<std::uint8_t>
 FindUnexplained(const ReferenceFrame & frame, const ProvisionalModel & model, const ParallelFor & parallelFor)
 {
@@ -97,7 +97,7 @@ FindUnexplained(const ReferenceFrame & frame, const ProvisionalModel & model, co
   const std::vector<double> crowd = BoxSum(unexplained, frame.geometry.width, frame.geometry.height, 3, parallelFor);
   for (std::size_t p = 0; p < unexplained.size(); ++p)
   {
-    unexplained[p] = unexplained[p] != 0 || crowd[p] > 0.15 * 49.0 ? 1 : 0;
+    unexplained[p] = crowd[p] > 0.15 * 49.0 ? 2 : unexplained[p];
   }
   return unexplained;
 }

@@ -377,25 +377,18 @@ private:
     }
     std::vector<std::uint8_t> take = m_Reference.usable;
     const auto                unexplained = FindUnexplained(m_Reference, m_Found.model, m_ParallelFor);
-    std::vector<double>       smoothWeight(pixels);
+    std::vector<std::uint8_t> whole = take;
     for (std::size_t p = 0; p < pixels; ++p)
     {
+      whole[p] = unexplained[p] == 2 ? 0 : whole[p];
       take[p] = unexplained[p] != 0 ? 0 : take[p];
-      smoothWeight[p] = m_Found.model.NoiseVariance(m_Reference.neighbourMean[p]);
-    }
-    // Smooth, or the instruments' weights would bring short wavelengths back.
-    constexpr std::size_t radius = 8;
-    smoothWeight = BoxSum(smoothWeight, m_Geometry.width, m_Geometry.height, radius, m_ParallelFor);
-    for (double & weight : smoothWeight)
-    {
-      weight = std::pow(2.0 * radius + 1.0, 2) / weight;
     }
     m_FrameSums = std::make_unique<FrameSums>(m_Reference,
                                               m_Found.model,
                                               take,
                                               SmoothedDerivative(m_Reference, StencilX, m_ParallelFor),
                                               SmoothedDerivative(m_Reference, StencilY, m_ParallelFor),
-                                              std::move(smoothWeight),
+                                              InstrumentWeight(m_Reference, m_Found.model, whole, m_ParallelFor),
                                               m_ParallelFor);
   }
 

@@ -151,11 +151,11 @@ EstimateOffset(const RefinedReportInput & input)
 
 /** The read noise as dark frames tell it; \a lineDn2 is the variance at the offset of the line through the others. */
 inline void
-FillDarkReadNoise(Report &                          report,
-                  const KnownOffset::DarkVariance & dark,
-                  double                            quantisationDn2,
-                  double                            lineDn2,
-                  double                            lineErrorDn2)
+FillDarkReadNoise(Report &             report,
+                  const DarkVariance & dark,
+                  double               quantisationDn2,
+                  double               lineDn2,
+                  double               lineErrorDn2)
 {
   const double gain = *report.gain.value;
   const double square = dark.valueDn2 - quantisationDn2;
@@ -207,12 +207,13 @@ FillOffsetAndReadNoise(Report &                   report,
     {
       report.Warn("steady-light",
                   "the level that does not flicker is " + Text(flicker.valueDn) + " +- " +
-                    Text(flicker.standardErrorDn) + " DN, " + Text(difference) +
-                    " DN from the given offset: light that does not flicker, or dark current, makes the difference");
+                    Text(flicker.standardErrorDn) + " DN, " + Text(difference) + " DN from the given offset: " +
+                    (difference > 0.0 ? "light that does not flicker, or dark current, makes the difference"
+                                      : "that is too high for these frames"));
     }
-    const double slackDn = 3.0 * offsetErrorDn + 4.0 * std::sqrt(covariance(1, 1)) / v.gain +
-                           0.01 * (found.model.brightestDn - found.model.darkestDn);
-    if (*offsetDn < lowestOffsetDn - slackDn || *offsetDn > darkestDn + slackDn)
+    const double slackDn = 3.0 * offsetErrorDn + 4.0 * std::sqrt(covariance(1, 1)) / v.gain;
+    const double rangeDn = found.model.brightestDn - found.model.darkestDn;
+    if (*offsetDn < lowestOffsetDn - slackDn || *offsetDn > darkestDn + slackDn + 0.01 * rangeDn)
     {
       report.Warn("offset-out-of-range",
                   "the given offset, " + Text(*offsetDn) + " DN, is not between " + Text(lowestOffsetDn) + " and " +
@@ -251,6 +252,11 @@ FillOffsetAndReadNoise(Report &                   report,
                                  2.0 * *offsetDn * covariance(0, 1) + v.gain * v.gain * offsetErrorDn * offsetErrorDn);
   report.readNoise = RootOf(square, error, "DN", student);
   report.readNoiseElectrons = RootOf(square / (v.gain * v.gain), error / (v.gain * v.gain), "e-", student);
+  if (square + 4.0 * error < 0.0)
+  {
+    report.readNoise = Quantity::Without(EstimateStatus::Failed, "DN");
+    report.readNoiseElectrons = Quantity::Without(EstimateStatus::Failed, "e-");
+  }
   if (input.settings.offset && input.settings.offset->variance)
   {
     FillDarkReadNoise(report, *input.settings.offset->variance, quantisationDn2, square, error);
