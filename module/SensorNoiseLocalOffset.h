@@ -370,6 +370,7 @@ IsOffsetDrift(const LocalOffsetData & data)
     const double determinant = whole.w * whole.wII - whole.wI * whole.wI;
     const double level = (whole.wII * whole.z - whole.wI * whole.zI) / determinant;
     const double slope = (whole.w * whole.zI - whole.wI * whole.z) / determinant;
+    const double explained = level * whole.z + slope * whole.zI;
     double       chi2 = 0.0;
     double       used = 0.0;
     for (const Sums & s : parts)
@@ -380,7 +381,7 @@ IsOffsetDrift(const LocalOffsetData & data)
         used += 1.0;
       }
     }
-    if (chi2 > 4.0 * std::max(1.0, used - 2.0))
+    if (chi2 > 4.0 * std::max(1.0, used - 2.0) || explained < 10.0 * chi2)
     {
       return false;
     }

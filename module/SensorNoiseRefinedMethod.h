@@ -528,6 +528,7 @@ private:
     }
     projected.Compute(line.gain);
     line = fit(line, 8);
+    m_Found.fromFlat = this->FlatHalf(projected, mask, line);
     this->CorrectForNoisyMeans(line);
     m_Found.variance = line;
     m_Found.intensityChi2 = IntensityChi2(projected.GetData(mask), line, m_ParallelFor);
@@ -539,6 +540,29 @@ private:
       m_CorrectedVariance[p] = all[p] != 0 ? m_CorrectedVariance[p] : std::nan("");
     }
     this->Polish(projected, line, mask);
+  }
+
+  /** The line through the smoother half of the pixels, where motion could do least. */
+  VarianceLine
+  FlatHalf(const ProjectedVariance & projected, const std::vector<std::uint8_t> & mask, const VarianceLine & line) const
+  {
+    std::array<std::size_t, ProjectedVariance::Classes> counts{};
+    std::size_t                                         total = 0;
+    for (std::size_t p = 0; p < mask.size(); ++p)
+    {
+      counts[projected.ClassOf(p)] += mask[p];
+      total += mask[p];
+    }
+    std::size_t last = 0;
+    for (std::size_t sum = counts[0]; last + 1 < counts.size() && 2 * sum < total; sum += counts[++last])
+    {
+    }
+    std::vector<std::uint8_t> flat = mask;
+    for (std::size_t p = 0; p < mask.size(); ++p)
+    {
+      flat[p] = projected.ClassOf(p) <= last ? mask[p] : 0;
+    }
+    return FitVarianceLine(projected.GetData(flat), m_ParallelFor, line, 4);
   }
 
   /** The mean has noise of its own, and it is correlated with the variance as the noise is skewed. Both together bias

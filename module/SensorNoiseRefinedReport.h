@@ -71,11 +71,11 @@ UpperLimit(double high, std::string unit)
 }
 
 /** A root of a squared quantity: its interval is the root of the square's, cut at 0; an interval that holds 0 gives an
- * upper limit and no value. */
+ * upper limit and no value, and noise that carried the square below 0 does not lower it. */
 inline Quantity
 RootOf(double square, double standardError, std::string unit, double student = 1.96)
 {
-  const double high = std::sqrt(std::max(0.0, square + student * standardError));
+  const double high = std::sqrt(std::max(0.0, square) + student * standardError);
   if (!(square - student * standardError > 0.0))
   {
     return UpperLimit(high, std::move(unit));
@@ -177,6 +177,27 @@ FillDarkReadNoise(Report &             report,
                   " DN^2, but the dark frames have " + Text(square) + " +- " + Text(error) +
                   " DN^2: another exposure, gain or temperature");
   }
+}
+
+/** What the smoother half of the pixels says against all of them, as a covariance: 0 unless gain or value at the centre
+ * differ by more than 2 standard deviations of the difference, which is that of a part against the whole (Hausman
+ * 1978). Motion that is left in the rough half shows here. */
+inline Eigen::Matrix2d
+Disagreement(const VarianceLine & all, const VarianceLine & flat)
+{
+  Eigen::Matrix2d added = Eigen::Matrix2d::Zero();
+  if (flat.isDetermined)
+  {
+    const Eigen::Vector2d difference(flat.gain - all.gain, flat.intercept - all.intercept);
+    const Eigen::Matrix2d expected = flat.covariance - all.covariance;
+    for (int k = 0; k < 2; ++k)
+    {
+      const double square = difference(k) * difference(k);
+      added(k, k) = square > 4.0 * expected(k, k) ? std::max(0.0, square - expected(k, k)) : 0.0;
+    }
+    added(0, 1) = added(1, 0) = std::copysign(std::sqrt(added(0, 0) * added(1, 1)), difference(0) * difference(1));
+  }
+  return added;
 }
 
 inline void
@@ -466,7 +487,7 @@ MakeRefinedReport(const RefinedReportInput & input)
   }
   const double          step = input.summary.codes.quantisationStepDn;
   const double          quantisationDn2 = step * step / 12.0;
-  const Eigen::Matrix2d covariance = v.covariance * dispersion;
+  const Eigen::Matrix2d covariance = v.covariance * dispersion + detail::Disagreement(v, found.fromFlat);
   const double          student = StudentQuantile(0.975, static_cast<double>(input.frames) - 2.0);
   report.gain = detail::WithError(v.gain, std::sqrt(covariance(0, 0)), "DN/e-", student);
   report.totalIntercept = detail::WithError(v.intercept, std::sqrt(covariance(1, 1)), "DN^2", student);

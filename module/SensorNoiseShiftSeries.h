@@ -133,8 +133,8 @@ InstrumentWeight(const ReferenceFrame &            frame,
     for (std::size_t x = 0; x < width; ++x)
     {
       const std::size_t p = y * width + x;
-      const bool        isInner = x >= StencilMargin && x + StencilMargin < width && y >= StencilMargin &&
-                           y + StencilMargin < height;
+      const bool        isInner =
+        x >= StencilMargin && x + StencilMargin < width && y >= StencilMargin && y + StencilMargin < height;
       missing[p] = isInner && mask[p] == 0 ? 1 : 0;
       noise[p] = model.NoiseVariance(frame.neighbourMean[p]);
     }
@@ -174,7 +174,7 @@ struct InstrumentNoise
  *
  * Least squares underestimates strong vibrations by 2 to 15 %: the mean is blurred by them, most where the scene is
  * sharp. Instruments of long wavelengths hardly notice. Estimator.md, 3.3. Null unless both first derivatives are
- * active. */
+ * active and the instruments see both. */
 inline std::optional<InstrumentShifts>
 SolveShifts(const FrameSums &           sums,
             const MotionSeries &        motion,
@@ -205,6 +205,10 @@ SolveShifts(const FrameSums &           sums,
   Eigen::Matrix2d gradient;
   gradient << gram(0, 2 + StencilX), gram(0, 2 + StencilY), gram(1, 2 + StencilX), gram(1, 2 + StencilY);
   const Eigen::Vector2d light = gram.leftCols<2>() * Eigen::Vector2d(-offset, 1.0);
+  if (!(gradient.diagonal().prod() > 0.0 && gradient.determinant() > 0.01 * gradient.diagonal().prod()))
+  {
+    return std::nullopt; // too little of the scene is whole
+  }
   const Eigen::Matrix2d inverse = gradient.inverse();
   InstrumentShifts      shifts;
   shifts.coefficients.resize(static_cast<Eigen::Index>(frames), 2);
