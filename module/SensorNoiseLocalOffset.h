@@ -389,29 +389,48 @@ IsOffsetDrift(const LocalOffsetData & data)
   return light > 1;
 }
 
-/** Root mean square over the frame of the standard deviation over time of the light, relative to its mean:
- * sqrt(sum w (sum_j S_j^2 - noise) / ((T - 1) sum w q^2)), q the mean above the offset. */
-inline double
-LocalFlickerSd(const LocalOffsetData & data, double offset)
+/** Sums from which the spread of local light follows for any offset. */
+struct LocalFlicker
+{
+  double energy{ 0.0 }; ///< sum of (sum_j S_j^2 - noise) / noise
+  double w{ 0.0 };      ///< of w, w I and w I^2, I the mean minus the centre
+  double wI{ 0.0 };
+  double wII{ 0.0 };
+  double frames{ 0.0 };
+
+  /** Root mean square over the frame of the standard deviation over time of the light, relative to its mean:
+   * sqrt(sum w (sum_j S_j^2 - noise) / ((T - 1) sum w q^2)), q the mean above the offset (minus the centre). */
+  double
+  Sd(double offset) const
+  {
+    const double flux = wII - 2.0 * offset * wI + offset * offset * w;
+    return std::sqrt(std::max(0.0, energy / (flux * (frames - 1.0))));
+  }
+};
+
+inline LocalFlicker
+SumLocalFlicker(const LocalOffsetData & data)
 {
   const ReferenceFrame & frame = data.projected.GetFrame();
   const std::size_t      light = data.projected.GetBasis().NumberOfLightFactors();
-  double                 energy = 0.0;
-  double                 flux = 0.0;
+  LocalFlicker           sums;
+  sums.frames = static_cast<double>(frame.frames);
   for (std::size_t p = 0; p < data.mask.size(); ++p)
   {
     if (data.mask[p] != 0)
     {
       const double noise = data.line.At(frame.neighbourMean[p]);
-      const double q = frame.mean[p] - data.centreDn - offset;
+      const double centred = frame.mean[p] - data.centreDn;
       for (std::size_t j = 0; j < light; ++j)
       {
-        energy += std::pow(data.projected.GetCoordinates().OfPixel(p)[j], 2) / noise - 1.0;
+        sums.energy += std::pow(data.projected.GetCoordinates().OfPixel(p)[j], 2) / noise - 1.0;
       }
-      flux += q * q / noise;
+      sums.w += 1.0 / noise;
+      sums.wI += centred / noise;
+      sums.wII += centred * centred / noise;
     }
   }
-  return std::sqrt(std::max(0.0, energy / (flux * static_cast<double>(frame.frames - 1))));
+  return sums;
 }
 
 } // namespace sensornoise

@@ -44,10 +44,27 @@ struct OffsetLine
   std::vector<double> gamma;              ///< of every frame [1]
   std::size_t         lastClass{ 0 };     ///< roughest gradient class that was admitted
 
+  Eigen::Matrix2d  light;    ///< of the equations that were used
+  Eigen::MatrixX2d response; ///< frames x 2
+
   double
   Widening() const
   {
     return std::max(1.0, phi);
+  }
+
+  /** Computes the flicker, v' r_t / v' G v with v = (-m, 1), for the offset \a m (minus the centre). */
+  void
+  UseOffset(double m)
+  {
+    const Eigen::Vector2d v(-m, 1.0);
+    precision = v.dot(light * v);
+    sensitivity = v.dot(light.col(0)) / precision;
+    gamma.clear();
+    for (Eigen::Index t = 0; t < response.rows(); ++t)
+    {
+      gamma.push_back(response.row(t).dot(v) / precision);
+    }
   }
 };
 
@@ -84,13 +101,13 @@ FitOffsetLine(const FrameEquations & equations)
     return std::nullopt;
   }
   const Eigen::Vector2d v(-line.offset, 1.0);
-  line.precision = v.dot(equations.light * v);
-  line.sensitivity = v.dot(equations.light.col(0)) / line.precision;
+  line.light = equations.light;
+  line.response = equations.response;
+  line.UseOffset(line.offset);
   double squares = 0.0;
-  for (Eigen::Index t = 0; t < equations.response.rows(); ++t)
+  for (const double gamma : line.gamma)
   {
-    line.gamma.push_back(equations.response.row(t).dot(v) / line.precision);
-    squares += line.gamma.back() * line.gamma.back();
+    squares += gamma * gamma;
   }
   const double signal = squares - (frames - 1.0) / line.precision * line.Widening();
   const double across = v.dot(equations.light.col(0));

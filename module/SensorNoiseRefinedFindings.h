@@ -47,12 +47,13 @@ struct RefinedFindings
   VarianceLine                    variance; ///< corrected for the noise of the means
   VarianceLine                    fromFlat; ///< of the smoother half of the pixels, not corrected
   ClassFit                        classes;
-  double                          intensityChi2{ 1.0 };  ///< of the mean residuals of 64 intensity bins
-  double                          motionPhi{ 1.0 };      ///< dispersion of the frames over all gradient classes
-  double                          localFlickerSd{ 0.0 }; ///< root mean square over the frame where light is local
+  double                          intensityChi2{ 1.0 }; ///< of the mean residuals of 64 intensity bins
+  double                          motionPhi{ 1.0 };     ///< dispersion of the frames over all gradient classes
+  LocalFlicker                    localFlicker;
   double                          centreDn{ 0.0 };
   std::string                     failureCode; ///< why the stack cannot be measured; empty: it can
   std::string                     failure;
+  double                          usable{ 0.0 }; ///< pixels that are free of clipping, its guard band and coarse codes
   std::size_t                     nearClip{ 0 };
   std::size_t                     notStatic{ 0 };
   std::size_t                     coarse{ 0 };

@@ -371,6 +371,8 @@ private:
     m_Found.model = FitProvisionalModel(m_Reference);
     m_Found.centreDn = m_Found.model.averageDn;
     this->LeaveOutCoarseAndGuarded();
+    m_Found.usable =
+      static_cast<double>(std::count(m_Reference.usable.begin(), m_Reference.usable.end(), std::uint8_t{ 1 }));
     if (!m_Found.failure.empty())
     {
       return;
@@ -620,8 +622,7 @@ private:
       {
         m_Found.localOffset = FindLocalOffset(data);
       }
-      const double offset = m_Found.localOffset ? m_Found.localOffset->offset : m_OffsetInUse;
-      m_Found.localFlickerSd = LocalFlickerSd(data, offset);
+      m_Found.localFlicker = SumLocalFlicker(data);
     }
   }
 

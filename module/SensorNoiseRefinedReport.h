@@ -119,9 +119,9 @@ EstimateOffset(const RefinedReportInput & input)
   estimate.interval = Interval{ low + found.centreDn, high + found.centreDn };
 
   const VarianceLine & v = found.variance;
-  const double         slackDn = 4.0 * std::sqrt(v.covariance(1, 1)) / v.gain + 3.0 * estimate.standardErrorDn +
-                         4.0 * std::sqrt(v.At(found.model.darkestDn) / static_cast<double>(input.frames)) +
-                         0.01 * rangeDn;
+  const double         slackDn =
+    3.0 * estimate.standardErrorDn + 4.0 * std::sqrt(v.At(found.model.darkestDn) / static_cast<double>(input.frames));
+  const double slackBelowDn = slackDn + 4.0 * std::sqrt(v.covariance(1, 1)) / v.gain;
   if (!(found.line.flickerZ > RequiredFlickerZ) && !isLocal)
   {
     estimate.obstacle = "the flicker exceeds its own noise by " + Text(found.line.flickerZ) +
@@ -136,7 +136,8 @@ EstimateOffset(const RefinedReportInput & input)
     estimate.obstacle = "its interval, " + Text(low + found.centreDn) + " to " + Text(high + found.centreDn) +
                         " DN, is wider than a quarter of the range of the scene, " + Text(rangeDn) + " DN";
   }
-  else if (estimate.valueDn < -v.intercept / v.gain - slackDn || estimate.valueDn > found.model.darkestDn + slackDn)
+  else if (estimate.valueDn < -v.intercept / v.gain - slackBelowDn ||
+           estimate.valueDn > found.model.darkestDn + slackDn)
   {
     estimate.obstacle = "the flicker's zero, " + Text(estimate.valueDn) +
                         " DN, contradicts sigma^2 >= 0 or the darkest level: parts of the light flicker differently";
@@ -177,6 +178,18 @@ FillDarkReadNoise(Report &             report,
                   " DN^2, but the dark frames have " + Text(square) + " +- " + Text(error) +
                   " DN^2: another exposure, gain or temperature");
   }
+}
+
+/** What is known of the bias of vibrations above 0.4 pixels, beyond which the expansion in derivatives fails: about
+ * 0.15 % of the gain at 0.5 pixels, growing with the square (measured by measure-robustness); nothing below. */
+inline Eigen::Matrix2d
+StrongVibration(const VarianceLine & line, const ProvisionalModel & model)
+{
+  const double    square = std::max(model.vibrationXPixels2, model.vibrationYPixels2);
+  const double    error = square > 0.16 ? 0.0015 * line.gain * square / 0.25 : 0.0;
+  Eigen::Matrix2d added;
+  added << 1.0, -line.centreDn, -line.centreDn, line.centreDn * line.centreDn;
+  return error * error * added;
 }
 
 /** What the smoother half of the pixels says against all of them, as a covariance: 0 unless gain or value at the centre
@@ -293,28 +306,33 @@ FillOffsetAndReadNoise(Report &                   report,
   }
 }
 
+/** \a offset: known, identified, or else the darkest level, minus the centre; \a offsetErrorDn how far it may be off.
+ */
 inline void
-FillFlickerAndMotion(Report & report, const RefinedReportInput & input)
+FillFlickerAndMotion(Report & report, const RefinedReportInput & input, double offset, double offsetErrorDn)
 {
   const RefinedFindings & found = input.found;
-  const auto              frames = static_cast<double>(input.frames);
-  report.flicker = found.line.gamma;
-  const double noise = found.line.Widening() / found.line.precision;
+  OffsetLine              line = found.line;
+  line.UseOffset(offset);
+  const auto frames = static_cast<double>(input.frames);
+  report.flicker = line.gamma;
+  const double noise = line.Widening() / line.precision;
   double       squares = 0.0;
-  for (const double gamma : found.line.gamma)
+  for (const double gamma : line.gamma)
   {
     squares += gamma * gamma;
   }
   const double variance = squares / (frames - 1.0) - noise;
-  const double offsetError =
-    std::isfinite(found.line.standardError) && !input.settings.offset ? found.line.standardError : 0.0;
-  const double fromOffset = 2.0 * variance * found.line.sensitivity * offsetError;
+  const double fromOffset = 2.0 * variance * line.sensitivity * offsetErrorDn;
   const double ownError =
     2.0 * std::sqrt(std::max(0.0, variance) * noise / (frames - 1.0)) + noise * std::sqrt(2.0 / (frames - 1.0));
   report.flickerSd = RootOf(variance, std::hypot(ownError, fromOffset), "1");
   if (found.local.series.cols() > 0 && !found.isOffsetDrift)
   {
-    report.flickerSd = Quantity::Identified(found.localFlickerSd, "1");
+    const double sd = found.localFlicker.Sd(offset);
+    const double step = 1.0 + offsetErrorDn;
+    const double slope = (found.localFlicker.Sd(offset + step) - found.localFlicker.Sd(offset - step)) / (2.0 * step);
+    report.flickerSd = WithError(sd, std::hypot(slope * offsetErrorDn, sd * std::sqrt(noise)), "1");
   }
 
   const auto shift = [&](std::size_t stencil, std::size_t axis, Quantity & sd) {
@@ -332,7 +350,7 @@ FillFlickerAndMotion(Report & report, const RefinedReportInput & input)
       double mean = 0.0;
       for (std::size_t t = 0; t < input.frames; ++t)
       {
-        series[t] = coefficients(static_cast<Eigen::Index>(t), column) / (1.0 + found.line.gamma[t]);
+        series[t] = coefficients(static_cast<Eigen::Index>(t), column) / (1.0 + line.gamma[t]);
         mean += series[t] / frames;
       }
       double sum = 0.0;
@@ -460,11 +478,22 @@ MakeRefinedReport(const RefinedReportInput & input)
   });
   FillBaselines(report, { input.mean.data(), input.variance.data(), used.data(), used.size() });
   FillScatter(report, input.mean, input.variance, input.correctedVariance, input.pixelUse);
-  detail::FillFlickerAndMotion(report, input);
   detail::WarnOfScene(report, input);
 
-  const VarianceLine & v = found.variance;
-  const double         dispersion = std::max({ 1.0, found.intensityChi2, found.classes.reducedChi2 });
+  const VarianceLine &         v = found.variance;
+  const detail::OffsetEstimate flicker = detail::EstimateOffset(input);
+  const bool                   isTold = flicker.obstacle.empty();
+  // An offset that is not told lies between the level of sigma = 0 and the darkest, about evenly.
+  const double lowestDn = std::min(found.model.darkestDn, -v.intercept / v.gain);
+  double       offsetDn = 0.5 * (lowestDn + found.model.darkestDn);
+  double       offsetErrorDn = (found.model.darkestDn - lowestDn) / std::sqrt(12.0);
+  if (input.settings.offset || isTold)
+  {
+    offsetDn = input.settings.offset ? input.settings.offset->valueDn : flicker.valueDn;
+    offsetErrorDn = input.settings.offset ? input.settings.offset->standardErrorDn : flicker.standardErrorDn;
+  }
+  detail::FillFlickerAndMotion(report, input, offsetDn - found.centreDn, offsetErrorDn);
+  const double dispersion = std::max({ 1.0, found.intensityChi2, found.classes.reducedChi2 });
   report.fit.reducedChi2 = found.intensityChi2;
   report.fit.curvature = v.curvature;
   report.fit.curvatureZ = v.curvatureSd > 0.0 ? v.curvature / v.curvatureSd : 0.0;
@@ -487,8 +516,20 @@ MakeRefinedReport(const RefinedReportInput & input)
   }
   const double          step = input.summary.codes.quantisationStepDn;
   const double          quantisationDn2 = step * step / 12.0;
-  const Eigen::Matrix2d covariance = v.covariance * dispersion + detail::Disagreement(v, found.fromFlat);
-  const double          student = StudentQuantile(0.975, static_cast<double>(input.frames) - 2.0);
+  const Eigen::Matrix2d covariance =
+    v.covariance * dispersion + detail::Disagreement(v, found.fromFlat) + detail::StrongVibration(v, found.model);
+  const double student = StudentQuantile(0.975, static_cast<double>(input.frames) - 2.0);
+  if (std::sqrt(covariance(0, 0)) > 0.25 * v.gain || static_cast<double>(report.pixels.used) < 0.1 * found.usable)
+  {
+    SetSensorParameters(report, EstimateStatus::NotIdentifiable);
+    report.Warn(
+      "too-little-to-measure",
+      detail::Text(100.0 * static_cast<double>(report.pixels.used) / std::max(1.0, found.usable)) +
+        " % of the pixels that are not clipped fit a static scene (expected at least 10 %) and give a gain of " +
+        detail::Text(v.gain) + " +- " + detail::Text(std::sqrt(covariance(0, 0))) +
+        " DN/e-: the scene is not static, or too dark; choose a static part of it");
+    return report;
+  }
   report.gain = detail::WithError(v.gain, std::sqrt(covariance(0, 0)), "DN/e-", student);
   report.totalIntercept = detail::WithError(v.intercept, std::sqrt(covariance(1, 1)), "DN^2", student);
   report.intercept = detail::WithError(v.intercept - quantisationDn2, std::sqrt(covariance(1, 1)), "DN^2", student);

@@ -70,7 +70,8 @@ JudgeClasses(const ProjectedVariance &         projected,
       const double near = expected / line.At(frame.neighbourMean[p]);
       double *     own = s.data() + 4 * projected.ClassOf(p);
       own[0] += 1.0;
-      if (std::abs(detail::WilsonHilferty(ratio, projected.GetFreedom()[p])) < 4.5)
+      const double freedom = line.EffectiveFreedom(projected.GetFreedom()[p], expected);
+      if (std::abs(detail::WilsonHilferty(ratio, freedom)) < 4.5)
       {
         own[1] += 1.0;
         own[2] += near * near;
@@ -143,11 +144,13 @@ FindLocalMisfit(const ProjectedVariance &         projected,
     {
       if (mask[p] != 0)
       {
-        const double value = projected.GetVariance()[p] / line.At(frame.mean[p]);
-        fits[p] = detail::WilsonHilferty(value, projected.GetFreedom()[p]) < 4.5 ? 1 : 0;
+        const double expected = line.At(frame.mean[p]);
+        const double value = projected.GetVariance()[p] / expected;
+        const double own = line.EffectiveFreedom(projected.GetFreedom()[p], expected);
+        fits[p] = detail::WilsonHilferty(value, own) < 4.5 ? 1 : 0;
         rejected[p] = 1 - fits[p];
         ratio[p] = fits[p] != 0 ? static_cast<float>(value) : 0.0F;
-        freedom[p] = fits[p] != 0 ? projected.GetFreedom()[p] : 0.0F;
+        freedom[p] = fits[p] != 0 ? static_cast<float>(own) : 0.0F;
       }
     }
   });

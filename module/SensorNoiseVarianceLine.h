@@ -66,6 +66,13 @@ struct VarianceLine
   {
     return std::max(lowestDn2, intercept + gain * meanDn);
   }
+  /** The degrees of freedom of the normal sample variance that scatters as much as this one. Shot noise has the fourth
+   * cumulant g^3 q, at most g^2 V, so that Var(s^2) / V^2 = 2 / freedom + g^2 / (V T) where few electrons make a DN. */
+  double
+  EffectiveFreedom(double freedom, double varianceDn2) const
+  {
+    return freedom / (1.0 + 0.5 * gain * gain / varianceDn2);
+  }
   /** How far the parabola in the line's place departs from it [DN^2]. */
   double
   BendAt(double meanDn) const
@@ -189,11 +196,12 @@ FitVarianceLine(const VarianceData &                data,
     line.intercept = start ? start->intercept : (s2 * r0 - s1 * r1) / determinant - line.gain * centre;
   }
 
-  const ChiSquareTrim trim(freedoms[0], freedoms[1]);
+  const ChiSquareTrim trim(line.EffectiveFreedom(freedoms[0], line.lowestDn2), freedoms[1]);
   // A pixel's weight, and its variance freed of the trimming's bias; weight 0: trimmed.
   const auto weigh = [&](std::size_t p, double & value) {
-    const auto & limits = trim.Of(data.freedom[p]);
-    const double ratio = data.variance[p] / line.At(data.mean[p]);
+    const double own = line.At(data.mean[p]);
+    const auto & limits = trim.Of(line.EffectiveFreedom(data.freedom[p], own));
+    const double ratio = data.variance[p] / own;
     const double expected = line.At(data.neighbourMean[p]);
     value = data.variance[p] / limits.mean;
     return ratio > limits.low && ratio < limits.high ? 0.5 * data.freedom[p] / (expected * expected) : 0.0;
