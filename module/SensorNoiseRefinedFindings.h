@@ -51,12 +51,35 @@ struct RefinedFindings
   double                          motionPhi{ 1.0 };     ///< dispersion of the frames over all gradient classes
   LocalFlicker                    localFlicker;
   double                          centreDn{ 0.0 };
-  std::string                     failureCode; ///< why the stack cannot be measured; empty: it can
+  double                          offsetInUse{ 0.0 }; ///< minus the centre: of the first line, or the darkest level
+  std::string                     failureCode;        ///< why the stack cannot be measured; empty: it can
   std::string                     failure;
   double                          usable{ 0.0 }; ///< pixels that are free of clipping, its guard band and coarse codes
   std::size_t                     nearClip{ 0 };
   std::size_t                     notStatic{ 0 };
   std::size_t                     coarse{ 0 };
+
+  void
+  Fail(std::string code, std::string message)
+  {
+    failureCode = std::move(code);
+    failure = std::move(message);
+  }
+};
+
+/** What the refined method's report is made of. */
+struct RefinedReportInput
+{
+  const RefinedSettings &           settings;
+  const FrameGeometry &             geometry;
+  std::size_t                       frames;
+  const StackSummary &              summary;
+  const std::vector<double> &       mean;
+  const std::vector<double> &       variance;
+  const std::vector<double> &       correctedVariance;
+  const std::vector<std::uint8_t> & valid;
+  const std::vector<std::uint8_t> & pixelUse;
+  const RefinedFindings &           found;
 };
 
 } // namespace sensornoise

@@ -18,9 +18,11 @@
 #ifndef SensorNoiseRefinedMethod_h
 #define SensorNoiseRefinedMethod_h
 
-#include "SensorNoiseGuardBand.h"
 #include "SensorNoisePassFrames.h"
 #include "SensorNoiseRefinedReport.h"
+#include "SensorNoiseSceneSeries.h"
+#include "SensorNoiseStaticVariance.h"
+#include "SensorNoiseUsablePixels.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -247,7 +249,8 @@ public:
     }
     catch (const std::runtime_error & error)
     {
-      this->Fail("nothing-to-measure", error.what());
+      m_Found.Fail("nothing-to-measure", error.what());
+      m_FrameSums.reset();
     }
     if (pass + 1 == NumberOfPasses)
     {
@@ -338,14 +341,6 @@ private:
   }
 
   void
-  Fail(std::string code, std::string message)
-  {
-    m_Found.failureCode = std::move(code);
-    m_Found.failure = std::move(message);
-    m_FrameSums.reset();
-  }
-
-  void
   EndMoments()
   {
     const std::size_t pixels = m_Geometry.Pixels();
@@ -364,15 +359,14 @@ private:
     for (std::size_t p = 0; p < pixels; ++p)
     {
       const bool isMasked = !m_UserMask.empty() && m_UserMask[p] == 0;
-      m_PixelUse[p] = static_cast<std::uint8_t>(isMasked ? PixelUse::Masked : this->UseOf(p));
+      m_PixelUse[p] =
+        static_cast<std::uint8_t>(isMasked ? PixelUse::Masked : UseOf(m_Reference, m_Variance, m_Valid, p));
       m_Valid[p] = isMasked ? 0 : m_Valid[p];
       m_Reference.usable[p] = isMasked ? 0 : m_Reference.usable[p];
     }
     m_Found.model = FitProvisionalModel(m_Reference);
     m_Found.centreDn = m_Found.model.averageDn;
-    this->LeaveOutCoarseAndGuarded();
-    m_Found.usable =
-      static_cast<double>(std::count(m_Reference.usable.begin(), m_Reference.usable.end(), std::uint8_t{ 1 }));
+    LeaveOutCoarseAndGuarded(m_Reference, m_PixelUse, m_Found, m_Summary.codes, m_FrameMeans, m_ParallelFor);
     if (!m_Found.failure.empty())
     {
       return;
@@ -394,92 +388,10 @@ private:
                                               m_ParallelFor);
   }
 
-  PixelUse
-  UseOf(std::size_t p) const
-  {
-    if (m_Reference.usable[p] != 0)
-    {
-      return PixelUse::Used;
-    }
-    if (m_Valid[p] == 0)
-    {
-      return std::isfinite(m_Variance[p]) ? PixelUse::Clipped : PixelUse::NotFinite;
-    }
-    if (!(m_Variance[p] > 0.0))
-    {
-      return PixelUse::Constant;
-    }
-    const std::size_t x = p % m_Geometry.width;
-    const std::size_t y = p / m_Geometry.width;
-    const bool        isInner = x >= StencilMargin && x + StencilMargin < m_Geometry.width && y >= StencilMargin &&
-                         y + StencilMargin < m_Geometry.height;
-    return isInner ? PixelUse::NearClip : PixelUse::Border;
-  }
-
-  void
-  LeaveOutCoarseAndGuarded()
-  {
-    const ProvisionalModel & model = m_Found.model;
-    const double             step = m_Summary.codes.quantisationStepDn;
-    const auto               usable =
-      static_cast<double>(std::count(m_Reference.usable.begin(), m_Reference.usable.end(), std::uint8_t{ 1 }));
-    // The brightness of a frame relative to the average, from its mean or from the model of the variance.
-    const double average =
-      std::accumulate(m_FrameMeans.begin(), m_FrameMeans.end(), 0.0) / static_cast<double>(m_Frames);
-    const double flux = std::max(1e-3, model.averageDn - model.darkestDn);
-    const auto [lowest, highest] = std::minmax_element(m_FrameMeans.begin(), m_FrameMeans.end());
-    const double typical = 1.5 * std::sqrt(model.flickerVariance);
-    const double brightest = std::max((*highest - average) / flux, typical);
-    const double darkest = std::max(-1.0, std::min((*lowest - average) / flux, -typical));
-    const auto   guarded = FindGuardBand(m_Reference, model, m_Summary.codes, brightest, darkest, m_ParallelFor);
-    for (std::size_t p = 0; p < guarded.size(); ++p)
-    {
-      if (m_Reference.usable[p] != 0)
-      {
-        const bool isCoarse = step > 0.0 && model.NoiseVariance(m_Reference.neighbourMean[p]) < 0.25 * step * step;
-        if (isCoarse || guarded[p] != 0)
-        {
-          m_PixelUse[p] = static_cast<std::uint8_t>(isCoarse ? PixelUse::CoarseCodes : PixelUse::NearClip);
-          m_Reference.usable[p] = 0;
-          ++(isCoarse ? m_Found.coarse : m_Found.nearClip);
-        }
-      }
-    }
-    if (static_cast<double>(m_Found.coarse) > 0.02 * usable)
-    {
-      this->Fail("codes-too-coarse",
-                 "the noise of " + detail::Text(100.0 * static_cast<double>(m_Found.coarse) / usable) +
-                   " % of the pixels, the darkest, is below half a code step of " + detail::Text(step) +
-                   " DN, where the codes hide it: use more bits, or a higher analogue gain");
-    }
-  }
-
   void
   EndFrameSums()
   {
-    RegressorNoise noise; // w V = 1 with the model's own variance
-    for (std::size_t p = 0; p < m_Mean.size(); ++p)
-    {
-      if (m_FrameSums->ClassOf(p) != FrameSums::Unused)
-      {
-        noise.variance[m_FrameSums->ClassOf(p)] += 1.0;
-      }
-    }
-    const std::optional<OffsetLine> line = FitOffsetLine(*m_FrameSums, noise);
-    if (!line)
-    {
-      throw std::runtime_error("the pixels have one intensity; expected dark and bright areas");
-    }
-    m_Found.line = *line;
-    const FrameEquations equations = MakeFrameEquations(*m_FrameSums, noise, GradientClasses - 1);
-    const bool           isKnown = line->flickerZ > RequiredFlickerZ && std::isfinite(line->low);
-    m_OffsetInUse = isKnown ? line->offset : m_Found.model.darkestDn - m_Found.centreDn;
-    m_Found.motion = SolveMotion(equations, line->gamma, m_OffsetInUse);
-    const Eigen::MatrixXd motion = MotionColumns(m_Found.motion, line->gamma);
-    const std::size_t     most =
-      m_Settings.rollingShutter == RollingShutter::Off ? 0 : std::min<std::size_t>(12, (m_Frames - 1) / 6);
-    m_Found.local = FindLocalIllumination(*m_FrameSums, m_Found.motion, motion, line->gamma, m_OffsetInUse, most);
-    m_Basis = TemporalBasis(line->gamma, m_Found.local.series, motion);
+    m_Basis = FindSceneSeries(*m_FrameSums, m_Settings.rollingShutter, m_Found);
     m_Projections = ProjectionSums(m_Mean.size(), m_Basis.Size());
   }
 
@@ -487,142 +399,13 @@ private:
   EndProjections()
   {
     const std::vector<std::uint8_t> & all = m_Reference.usable;
-    std::vector<std::uint8_t>         mask = all;
     ProjectedVariance projected(m_Reference, m_Basis, m_Found.motion, m_Projections, m_Found.model, all, m_ParallelFor);
-    const auto        fit = [&](std::optional<VarianceLine> start, int iterations) {
-      const VarianceLine line = FitVarianceLine(projected.GetData(mask), m_ParallelFor, start, iterations);
-      if (!line.isDetermined)
-      {
-        throw std::runtime_error("too few pixels, or pixels of one intensity only, are left to fit the variance");
-      }
-      return line;
-    };
-    // The line of the flat classes tells which classes fit, the line of these which neighbourhoods do.
-    projected.Compute(m_Found.model.slopeDn);
-    VarianceLine line = fit(std::nullopt, 4);
-    projected.Compute(line.gain);
-    for (std::size_t p = 0; p < mask.size(); ++p)
-    {
-      mask[p] = all[p] != 0 && projected.ClassOf(p) <= 0.6 * ProjectedVariance::Classes ? 1 : 0;
-    }
-    line = fit(line, 4);
-    m_Found.classes = JudgeClasses(projected, line, all, m_ParallelFor);
-    const auto select = [&](const std::vector<std::uint8_t> & misfit) {
-      for (std::size_t p = 0; p < mask.size(); ++p)
-      {
-        const bool isRough = projected.ClassOf(p) >= m_Found.classes.firstBad;
-        const bool isMisfit = !misfit.empty() && misfit[p] != 0;
-        mask[p] = all[p] != 0 && !isRough && !isMisfit ? 1 : 0;
-        if (all[p] != 0)
-        {
-          m_PixelUse[p] = static_cast<std::uint8_t>(isMisfit  ? PixelUse::NotStatic
-                                                    : isRough ? PixelUse::Vibration
-                                                              : PixelUse::Used);
-        }
-      }
-    };
-    select({});
-    line = fit(line, 4);
-    for (int round = 0; round < 2; ++round)
-    {
-      select(FindLocalMisfit(projected, line, all, m_ParallelFor));
-      line = fit(line, 4);
-    }
-    projected.Compute(line.gain);
-    line = fit(line, 8);
-    m_Found.fromFlat = this->FlatHalf(projected, mask, line);
-    this->CorrectForNoisyMeans(line);
-    m_Found.variance = line;
-    m_Found.intensityChi2 = IntensityChi2(projected.GetData(mask), line, m_ParallelFor);
-    m_Found.notStatic = static_cast<std::size_t>(
-      std::count(m_PixelUse.begin(), m_PixelUse.end(), static_cast<std::uint8_t>(PixelUse::NotStatic)));
+    const std::vector<std::uint8_t> mask = FitStaticVariance(projected, all, m_Found, m_PixelUse, m_ParallelFor);
+    PolishSceneSeries(*m_FrameSums, projected, mask, m_Found);
     m_CorrectedVariance = projected.GetVariance();
     for (std::size_t p = 0; p < all.size(); ++p)
     {
-      m_CorrectedVariance[p] = all[p] != 0 ? m_CorrectedVariance[p] : std::nan("");
-    }
-    this->Polish(projected, line, mask);
-  }
-
-  /** The line through the smoother half of the pixels, where motion could do least. */
-  VarianceLine
-  FlatHalf(const ProjectedVariance & projected, const std::vector<std::uint8_t> & mask, const VarianceLine & line) const
-  {
-    std::array<std::size_t, ProjectedVariance::Classes> counts{};
-    std::size_t                                         total = 0;
-    for (std::size_t p = 0; p < mask.size(); ++p)
-    {
-      counts[projected.ClassOf(p)] += mask[p];
-      total += mask[p];
-    }
-    std::size_t last = 0;
-    for (std::size_t sum = counts[0]; last + 1 < counts.size() && 2 * sum < total; sum += counts[++last])
-    {
-    }
-    std::vector<std::uint8_t> flat = mask;
-    for (std::size_t p = 0; p < mask.size(); ++p)
-    {
-      flat[p] = projected.ClassOf(p) <= last ? mask[p] : 0;
-    }
-    return FitVarianceLine(projected.GetData(flat), m_ParallelFor, line, 4);
-  }
-
-  /** The mean has noise of its own, and it is correlated with the variance as the noise is skewed. Both together bias
-   * the slope's equation by -g sigma^2 / T a unit of weight. Estimator.md, 3.6. */
-  void
-  CorrectForNoisyMeans(VarianceLine & line) const
-  {
-    const double darkest = m_OffsetInUse + m_Found.centreDn;
-    const double readVariance = std::max(0.0, line.intercept + line.gain * darkest);
-    const double bias = -line.gain * readVariance / static_cast<double>(m_Frames) * line.weightSum / line.spreadDn2;
-    line.gain -= bias;
-    line.intercept += bias * line.centreDn;
-  }
-
-  /** Offset, flicker and shifts once more, with the noise that is now known. Needs no reading. */
-  void
-  Polish(const ProjectedVariance & projected, const VarianceLine & line, const std::vector<std::uint8_t> & mask)
-  {
-    RegressorNoise  noise;
-    InstrumentNoise instruments;
-    const double    offsetDn = m_OffsetInUse + m_Found.centreDn;
-    for (std::size_t p = 0; p < m_Mean.size(); ++p)
-    {
-      const std::uint8_t c = m_FrameSums->ClassOf(p);
-      if (c != FrameSums::Unused)
-      {
-        const double level = m_Reference.neighbourMean[p];
-        const double variance = line.At(level);
-        const double w = 1.0 / m_Found.model.NoiseVariance(level);
-        noise.variance[c] += w * variance;
-        noise.shot[c] += w * line.gain * std::max(0.0, level - offsetDn);
-        const Eigen::Vector2d z(m_FrameSums->SmoothX(p), m_FrameSums->SmoothY(p));
-        instruments.variance += m_FrameSums->SmoothWeight(p) * variance;
-        instruments.squares += variance * z * z.transpose();
-      }
-    }
-    const std::vector<double>       gamma = m_Found.line.gamma;
-    const std::optional<OffsetLine> polished = FitOffsetLine(*m_FrameSums, noise, gamma);
-    m_Found.line = polished ? *polished : m_Found.line;
-    const FrameEquations            equations = MakeFrameEquations(*m_FrameSums, noise, GradientClasses - 1, gamma);
-    const std::optional<OffsetLine> everywhere = FitOffsetLine(equations);
-    m_Found.motionPhi = everywhere ? everywhere->Widening() : 1.0;
-    m_Found.motion = SolveMotion(equations, m_Found.line.gamma, m_Found.line.offset);
-    m_Found.shifts = SolveShifts(*m_FrameSums, m_Found.motion, instruments, m_Found.line.gamma, m_Found.line.offset);
-    if (m_Found.local.series.cols() > 0)
-    {
-      const LocalOffsetData data{ projected,
-                                  line,
-                                  mask,
-                                  m_Found.centreDn,
-                                  m_Found.model.darkestDn,
-                                  m_Found.model.brightestDn - m_Found.model.darkestDn };
-      m_Found.isOffsetDrift = IsOffsetDrift(data);
-      if (!m_Found.isOffsetDrift)
-      {
-        m_Found.localOffset = FindLocalOffset(data);
-      }
-      m_Found.localFlicker = SumLocalFlicker(data);
+      m_CorrectedVariance[p] = all[p] != 0 ? m_CorrectedVariance[p] : std::numeric_limits<double>::quiet_NaN();
     }
   }
 
@@ -648,7 +431,6 @@ private:
   std::vector<std::uint8_t>  m_PixelUse;
   ReferenceFrame             m_Reference;
   std::unique_ptr<FrameSums> m_FrameSums;
-  double                     m_OffsetInUse{ 0.0 }; // minus the centre
   TemporalBasis              m_Basis;
   ProjectionSums             m_Projections;
   RefinedFindings            m_Found;

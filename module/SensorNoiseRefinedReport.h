@@ -18,14 +18,13 @@
 #ifndef SensorNoiseRefinedReport_h
 #define SensorNoiseRefinedReport_h
 
-#include "SensorNoiseNoiseParameters.h"
-#include "SensorNoiseRefinedFindings.h"
+#include "SensorNoiseMotionReport.h"
+#include "SensorNoiseOffsetReport.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,153 +32,8 @@
 namespace sensornoise
 {
 
-/** What the refined method's report is made of. */
-struct RefinedReportInput
-{
-  const RefinedSettings &           settings;
-  const FrameGeometry &             geometry;
-  std::size_t                       frames;
-  const StackSummary &              summary;
-  const std::vector<double> &       mean;
-  const std::vector<double> &       variance;
-  const std::vector<double> &       correctedVariance;
-  const std::vector<std::uint8_t> & valid;
-  const std::vector<std::uint8_t> & pixelUse;
-  const RefinedFindings &           found;
-};
-
 namespace detail
 {
-/** A value with its standard error and 95 % interval. */
-inline Quantity
-WithError(double value, double standardError, std::string unit, double student = 1.96)
-{
-  Quantity quantity = Quantity::Identified(value, std::move(unit));
-  quantity.standardError = standardError;
-  quantity.interval95 = Interval{ value - student * standardError, value + student * standardError };
-  return quantity;
-}
-
-/** What is not distinguishable from 0: no value, and an interval up to \a high. */
-inline Quantity
-UpperLimit(double high, std::string unit)
-{
-  Quantity quantity = Quantity::Without(EstimateStatus::UpperLimit, std::move(unit));
-  quantity.interval95 = Interval{ 0.0, high };
-  quantity.bracket = quantity.interval95;
-  return quantity;
-}
-
-/** A root of a squared quantity: its interval is the root of the square's, cut at 0; an interval that holds 0 gives an
- * upper limit and no value, and noise that carried the square below 0 does not lower it. */
-inline Quantity
-RootOf(double square, double standardError, std::string unit, double student = 1.96)
-{
-  const double high = std::sqrt(std::max(0.0, square) + student * standardError);
-  if (!(square - student * standardError > 0.0))
-  {
-    return UpperLimit(high, std::move(unit));
-  }
-  const double value = std::sqrt(square);
-  Quantity     quantity = WithError(value, standardError / (2.0 * value), std::move(unit));
-  quantity.interval95 = Interval{ std::sqrt(square - student * standardError), high };
-  return quantity;
-}
-
-/** The offset as the flicker tells it. */
-struct OffsetEstimate
-{
-  double      valueDn{ 0.0 };
-  double      standardErrorDn{ 0.0 };
-  Interval    interval;
-  double      phi{ 1.0 };
-  std::string obstacle; ///< why it cannot be told; empty: it can
-};
-
-inline OffsetEstimate
-EstimateOffset(const RefinedReportInput & input)
-{
-  const RefinedFindings & found = input.found;
-  const double            rangeDn = found.model.brightestDn - found.model.darkestDn;
-  OffsetEstimate          estimate;
-  double                  low = found.line.low;
-  double                  high = found.line.high;
-  estimate.valueDn = found.line.offset + found.centreDn;
-  estimate.standardErrorDn = found.line.standardError;
-  estimate.phi = found.line.phi;
-  const bool isLocal = found.local.series.cols() > 0 && !found.isOffsetDrift;
-  if (isLocal && found.localOffset)
-  {
-    estimate.valueDn = found.localOffset->offset + found.centreDn;
-    estimate.standardErrorDn = found.localOffset->standardError;
-    estimate.phi = found.localOffset->phi;
-    low = found.localOffset->low;
-    high = found.localOffset->high;
-  }
-  estimate.interval = Interval{ low + found.centreDn, high + found.centreDn };
-
-  const VarianceLine & v = found.variance;
-  const double         slackDn =
-    3.0 * estimate.standardErrorDn + 4.0 * std::sqrt(v.At(found.model.darkestDn) / static_cast<double>(input.frames));
-  const double slackBelowDn = slackDn + 4.0 * std::sqrt(v.covariance(1, 1)) / v.gain;
-  if (!(found.line.flickerZ > RequiredFlickerZ) && !isLocal)
-  {
-    estimate.obstacle = "the flicker exceeds its own noise by " + Text(found.line.flickerZ) +
-                        " standard deviations (expected more than 6)";
-  }
-  else if (isLocal && !found.localOffset)
-  {
-    estimate.obstacle = "the light changes differently over the frame, and no part of it tells the offset";
-  }
-  else if (!std::isfinite(low) || !std::isfinite(high) || high - low > 0.25 * rangeDn)
-  {
-    estimate.obstacle = "its interval, " + Text(low + found.centreDn) + " to " + Text(high + found.centreDn) +
-                        " DN, is wider than a quarter of the range of the scene, " + Text(rangeDn) + " DN";
-  }
-  else if (estimate.valueDn < -v.intercept / v.gain - slackBelowDn ||
-           estimate.valueDn > found.model.darkestDn + slackDn)
-  {
-    estimate.obstacle = "the flicker's zero, " + Text(estimate.valueDn) +
-                        " DN, contradicts sigma^2 >= 0 or the darkest level: parts of the light flicker differently";
-  }
-  else if (isLocal && found.localOffset->phi > 4.0)
-  {
-    estimate.obstacle = "the responses to the lamps do not meet in one zero (dispersion " +
-                        Text(found.localOffset->phi) + ", expected 1)";
-  }
-  return estimate;
-}
-
-/** The read noise as dark frames tell it; \a lineDn2 is the variance at the offset of the line through the others. */
-inline void
-FillDarkReadNoise(Report &             report,
-                  const DarkVariance & dark,
-                  double               quantisationDn2,
-                  double               lineDn2,
-                  double               lineErrorDn2)
-{
-  const double gain = *report.gain.value;
-  const double square = dark.valueDn2 - quantisationDn2;
-  const double error = dark.standardErrorDn2;
-  const double halfStepDn2 = 3.0 * quantisationDn2; // below it the codes hide the noise
-  if (square < halfStepDn2)
-  {
-    report.readNoise = UpperLimit(std::sqrt(halfStepDn2), "DN");
-    report.readNoiseElectrons = UpperLimit(std::sqrt(halfStepDn2) / gain, "e-");
-    return;
-  }
-  const double gainError = 2.0 * square / gain * *report.gain.standardError;
-  report.readNoise = RootOf(square, error, "DN");
-  report.readNoiseElectrons = RootOf(square / (gain * gain), std::hypot(error, gainError) / (gain * gain), "e-");
-  if (std::abs(square - lineDn2) > 4.0 * std::hypot(error, lineErrorDn2))
-  {
-    report.Warn("dark-frames-differ",
-                "at the offset the noise is " + Text(lineDn2) + " +- " + Text(lineErrorDn2) +
-                  " DN^2, but the dark frames have " + Text(square) + " +- " + Text(error) +
-                  " DN^2: another exposure, gain or temperature");
-  }
-}
-
 /** What is known of the bias of vibrations above 0.4 pixels, beyond which the expansion in derivatives fails: about
  * 0.15 % of the gain at 0.5 pixels, growing with the square (measured by measure-robustness); nothing below. */
 inline Eigen::Matrix2d
@@ -211,192 +65,6 @@ Disagreement(const VarianceLine & all, const VarianceLine & flat)
     added(0, 1) = added(1, 0) = std::copysign(std::sqrt(added(0, 0) * added(1, 1)), difference(0) * difference(1));
   }
   return added;
-}
-
-inline void
-FillOffsetAndReadNoise(Report &                   report,
-                       const RefinedReportInput & input,
-                       const Eigen::Matrix2d &    covariance,
-                       double                     quantisationDn2,
-                       double                     student)
-{
-  const RefinedFindings & found = input.found;
-  const VarianceLine &    v = found.variance;
-  const OffsetEstimate    flicker = EstimateOffset(input);
-  report.fit.offsetLinePhi = flicker.phi;
-
-  const double          lowestOffsetDn = -v.intercept / v.gain;
-  const double          darkestDn = std::max(lowestOffsetDn, found.model.darkestDn);
-  const double          largestNoiseDn2 = std::max(0.0, v.intercept + v.gain * darkestDn - quantisationDn2);
-  std::optional<double> offsetDn;
-  double                offsetErrorDn = 0.0;
-  if (input.settings.offset)
-  {
-    offsetDn = input.settings.offset->valueDn;
-    offsetErrorDn = input.settings.offset->standardErrorDn;
-    report.offset = WithError(*offsetDn, offsetErrorDn, "DN");
-    const double difference = flicker.valueDn - *offsetDn;
-    const double error = std::hypot(flicker.standardErrorDn, offsetErrorDn);
-    if (flicker.obstacle.empty() && std::abs(difference) > 3.0 * error)
-    {
-      report.Warn("steady-light",
-                  "the level that does not flicker is " + Text(flicker.valueDn) + " +- " +
-                    Text(flicker.standardErrorDn) + " DN, " + Text(difference) + " DN from the given offset: " +
-                    (difference > 0.0 ? "light that does not flicker, or dark current, makes the difference"
-                                      : "that is too high for these frames"));
-    }
-    const double slackDn = 3.0 * offsetErrorDn + 4.0 * std::sqrt(covariance(1, 1)) / v.gain;
-    const double rangeDn = found.model.brightestDn - found.model.darkestDn;
-    if (*offsetDn < lowestOffsetDn - slackDn || *offsetDn > darkestDn + slackDn + 0.01 * rangeDn)
-    {
-      report.Warn("offset-out-of-range",
-                  "the given offset, " + Text(*offsetDn) + " DN, is not between " + Text(lowestOffsetDn) + " and " +
-                    Text(darkestDn) + " DN, where sigma^2 >= 0 and the darkest pixels put it");
-    }
-  }
-  else if (flicker.obstacle.empty())
-  {
-    offsetDn = flicker.valueDn;
-    offsetErrorDn = flicker.standardErrorDn;
-    report.offset = WithError(*offsetDn, offsetErrorDn, "DN");
-    report.offset.interval95 = flicker.interval;
-  }
-  else
-  {
-    report.Warn("offset-not-identifiable",
-                flicker.obstacle + ": more flicker or more frames would help, or dark frames, or a known offset");
-  }
-  if (darkestDn > lowestOffsetDn)
-  {
-    report.offset.bracket = Interval{ lowestOffsetDn, darkestDn };
-  }
-  if (!offsetDn)
-  {
-    const auto bracket = report.offset.bracket;
-    report.offset = Quantity::Without(EstimateStatus::NotIdentifiable, "DN");
-    report.offset.bracket = bracket;
-    report.readNoise = Quantity::Without(EstimateStatus::NotIdentifiable, "DN");
-    report.readNoise.bracket = Interval{ 0.0, std::sqrt(largestNoiseDn2) };
-    report.readNoiseElectrons = Quantity::Without(EstimateStatus::NotIdentifiable, "e-");
-    report.readNoiseElectrons.bracket = Interval{ 0.0, std::sqrt(largestNoiseDn2) / v.gain };
-    return;
-  }
-  const double square = v.intercept + v.gain * *offsetDn - quantisationDn2;
-  const double error = std::sqrt(covariance(1, 1) + *offsetDn * *offsetDn * covariance(0, 0) +
-                                 2.0 * *offsetDn * covariance(0, 1) + v.gain * v.gain * offsetErrorDn * offsetErrorDn);
-  report.readNoise = RootOf(square, error, "DN", student);
-  report.readNoiseElectrons = RootOf(square / (v.gain * v.gain), error / (v.gain * v.gain), "e-", student);
-  if (square + 4.0 * error < 0.0)
-  {
-    report.readNoise = Quantity::Without(EstimateStatus::Failed, "DN");
-    report.readNoiseElectrons = Quantity::Without(EstimateStatus::Failed, "e-");
-  }
-  if (input.settings.offset && input.settings.offset->variance)
-  {
-    FillDarkReadNoise(report, *input.settings.offset->variance, quantisationDn2, square, error);
-  }
-  report.covariance = std::array<std::array<double, 3>, 3>{ { { covariance(0, 0), covariance(0, 1), 0.0 },
-                                                              { covariance(0, 1), covariance(1, 1), 0.0 },
-                                                              { 0.0, 0.0, offsetErrorDn * offsetErrorDn } } };
-  if (report.readNoise.status == EstimateStatus::UpperLimit)
-  {
-    report.Warn("read-noise-upper-limit",
-                "the read noise is below " + Text(*report.readNoise.bracket->high) +
-                  " DN and cannot be told from 0 or from the rounding to codes");
-  }
-}
-
-/** \a offset: known, identified, or else the darkest level, minus the centre; \a offsetErrorDn how far it may be off.
- */
-inline void
-FillFlickerAndMotion(Report & report, const RefinedReportInput & input, double offset, double offsetErrorDn)
-{
-  const RefinedFindings & found = input.found;
-  OffsetLine              line = found.line;
-  line.UseOffset(offset);
-  const auto frames = static_cast<double>(input.frames);
-  report.flicker = line.gamma;
-  const double noise = line.Widening() / line.precision;
-  double       squares = 0.0;
-  for (const double gamma : line.gamma)
-  {
-    squares += gamma * gamma;
-  }
-  const double variance = squares / (frames - 1.0) - noise;
-  const double fromOffset = 2.0 * variance * line.sensitivity * offsetErrorDn;
-  const double ownError =
-    2.0 * std::sqrt(std::max(0.0, variance) * noise / (frames - 1.0)) + noise * std::sqrt(2.0 / (frames - 1.0));
-  report.flickerSd = RootOf(variance, std::hypot(ownError, fromOffset), "1");
-  if (found.local.series.cols() > 0 && !found.isOffsetDrift)
-  {
-    const double sd = found.localFlicker.Sd(offset);
-    const double step = 1.0 + offsetErrorDn;
-    const double slope = (found.localFlicker.Sd(offset + step) - found.localFlicker.Sd(offset - step)) / (2.0 * step);
-    report.flickerSd = WithError(sd, std::hypot(slope * offsetErrorDn, sd * std::sqrt(noise)), "1");
-  }
-
-  const auto shift = [&](std::size_t stencil, std::size_t axis, Quantity & sd) {
-    const auto &        stencils = found.motion.stencils;
-    const auto          place = std::find(stencils.begin(), stencils.end(), stencil);
-    std::vector<double> series;
-    if (place == stencils.end())
-    {
-      sd = Quantity::Without(EstimateStatus::NotIdentifiable, "pixel");
-      return series;
-    }
-    const auto k = static_cast<Eigen::Index>(place - stencils.begin());
-    const auto spread = [&](const auto & coefficients, Eigen::Index column, double variance) {
-      series.assign(input.frames, 0.0);
-      double mean = 0.0;
-      for (std::size_t t = 0; t < input.frames; ++t)
-      {
-        series[t] = coefficients(static_cast<Eigen::Index>(t), column) / (1.0 + line.gamma[t]);
-        mean += series[t] / frames;
-      }
-      double sum = 0.0;
-      for (double & value : series)
-      {
-        value -= mean;
-        sum += value * value;
-      }
-      return sum / (frames - 1.0) - variance;
-    };
-    const double leastVariance = found.motion.covariance(k, k) * found.motionPhi;
-    double       square = spread(found.motion.coefficients, k, leastVariance);
-    double       error2 = leastVariance;
-    double       systematic = 0.0;
-    if (found.shifts)
-    {
-      const double leastSquares = std::sqrt(std::max(0.0, square));
-      const auto   i = static_cast<Eigen::Index>(axis);
-      error2 = found.shifts->covariance(i, i) * found.motionPhi;
-      square = spread(found.shifts->coefficients, i, error2);
-      systematic = 0.5 * std::abs(std::sqrt(std::max(0.0, square)) - leastSquares);
-    }
-    const double sdValue = std::sqrt(std::max(0.0, square));
-    const double error = std::hypot(2.0 * sdValue * std::sqrt(error2 / (frames - 1.0)),
-                                    error2 * std::sqrt(2.0 / (frames - 1.0)),
-                                    2.0 * sdValue * systematic);
-    sd = RootOf(square, error, "pixel");
-    return series;
-  };
-  const std::vector<double> x = shift(StencilX, 0, report.vibrationSdX);
-  const std::vector<double> y = shift(StencilY, 1, report.vibrationSdY);
-  report.vibrationCovariance = Quantity::Without(EstimateStatus::NotIdentifiable, "pixel^2");
-  if (!x.empty() && !y.empty())
-  {
-    double product = 0.0;
-    for (std::size_t t = 0; t < input.frames; ++t)
-    {
-      report.motion.push_back({ x[t], y[t] });
-      product += x[t] * y[t] / (frames - 1.0);
-    }
-    if (found.shifts)
-    {
-      product -= found.shifts->covariance(0, 1) * found.motionPhi;
-    }
-    report.vibrationCovariance = Quantity::Identified(product, "pixel^2");
-  }
 }
 
 inline void
@@ -493,7 +161,12 @@ MakeRefinedReport(const RefinedReportInput & input)
     offsetErrorDn = input.settings.offset ? input.settings.offset->standardErrorDn : flicker.standardErrorDn;
   }
   detail::FillFlickerAndMotion(report, input, offsetDn - found.centreDn, offsetErrorDn);
-  const double dispersion = std::max({ 1.0, found.intensityChi2, found.classes.reducedChi2 });
+  // Chi-squares count where they are above what chance makes them, by 2 of their standard deviations.
+  const auto beyondChance = [](double chi2, double freedom) {
+    return chi2 > 1.0 + 2.0 * std::sqrt(2.0 / freedom) ? chi2 : 1.0;
+  };
+  const double dispersion = std::max(beyondChance(found.intensityChi2, 62.0),
+                                     beyondChance(found.classes.reducedChi2, ProjectedVariance::Classes - 1.0));
   report.fit.reducedChi2 = found.intensityChi2;
   report.fit.curvature = v.curvature;
   report.fit.curvatureZ = v.curvatureSd > 0.0 ? v.curvature / v.curvatureSd : 0.0;
