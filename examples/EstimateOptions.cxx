@@ -65,19 +65,31 @@ EstimateOptions::Parse(int argc, char ** argv)
   std::string roiText;
   std::string framesText;
   std::string stepText;
+  std::string offsetText;
 
   CLI::App app("Measures gain, offset and read noise of a camera from a burst of raw frames of a static scene.\n"
                "FRAME...: 2-D image files in time order, or one 3-D stack file (.mha .mhd .nrrd .tif).\n"
                "Exit code: 0 done, 2 wrong use or unreadable input, 3 nothing could be estimated.");
   app.add_option("FRAME", files, "frames in time order, or one stack")->required();
-  app.add_option("--method", method, "published: Figure 2 of Sur & Grediac 2015")
-    ->check(CLI::IsMember({ "published" }))
+  app.add_option("--method", method, "refined, or published: Figure 2 of Sur & Grediac 2015")
+    ->check(CLI::IsMember({ "refined", "published" }))
     ->capture_default_str();
   app.add_option("--bit-depth", bitDepthText, "bits of the sensor's codes, 1 to 16, or auto")->capture_default_str();
   app.add_option("--clip", clipText, "LOW,HIGH: lowest and highest level that the sensor attains [DN]; else found");
   app.add_option("--step", stepText, "spacing of the codes [DN]; else found");
-  app.add_option("--rolling-shutter", rollingText, "auto, off, or the width sigma_y of a row's neighbourhood [rows]")
+  app
+    .add_option("--rolling-shutter",
+                rollingText,
+                "auto, off, or (for published) the width sigma_y of a row's neighbourhood [rows]")
     ->capture_default_str();
+  const auto offsetOption =
+    app.add_option("--offset", offsetText, "VALUE[,ERROR]: offset and its standard error [DN], if known; else found");
+  app
+    .add_option("--dark",
+                dark,
+                "frames without light, or one stack, of the same size and type and at the same exposure, gain and "
+                "temperature: they tell offset and read noise. Write them behind FRAME...")
+    ->excludes(offsetOption);
   app.add_option("--roi", roiText, "X,Y,W,H: only these pixels");
   app.add_option("--mask", mask, "image file: only pixels that are not 0");
   app.add_option("--frames", framesText, "A:B: only the frames A, A+1, ... B-1, counted from 0");
@@ -109,6 +121,19 @@ EstimateOptions::Parse(int argc, char ** argv)
       const auto levels = ReadNumbers<double>("--clip", clipText, ',', 2);
       clipLow = levels[0];
       clipHigh = levels[1];
+    }
+    if (!offsetText.empty())
+    {
+      const bool hasError = offsetText.find(',') != std::string::npos;
+      const auto numbers = ReadNumbers<double>("--offset", offsetText, ',', hasError ? 2 : 1);
+      offset = numbers[0];
+      offsetStandardError = hasError ? numbers[1] : 0.0;
+    }
+    if (method == "published" && (!offsetText.empty() || !dark.empty()))
+    {
+      throw CLI::ValidationError(offsetText.empty() ? "--dark" : "--offset",
+                                 "the method published finds the offset from the flicker alone; leave it out, or set "
+                                 "--method refined");
     }
     if (rollingText == "off")
     {

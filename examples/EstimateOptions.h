@@ -35,11 +35,14 @@ namespace sensornoise::tools
 struct EstimateOptions
 {
   std::vector<std::string>                           files;
-  std::string                                        method{ "published" };
+  std::string                                        method{ "refined" };
   unsigned int                                       bitDepth{ 0 }; ///< 0: found
   double                                             clipLow{ std::numeric_limits<double>::quiet_NaN() };
   double                                             clipHigh{ std::numeric_limits<double>::quiet_NaN() };
   double                                             step{ 0.0 }; ///< 0: found
+  double                                             offset{ std::numeric_limits<double>::quiet_NaN() };
+  double                                             offsetStandardError{ 0.0 };
+  std::vector<std::string>                           dark;
   RollingShutter                                     rollingShutter{ RollingShutter::Auto };
   double                                             rowSigma{ 50.0 };
   std::optional<std::array<long, 4>>                 roi;    ///< x, y, width, height
@@ -67,12 +70,15 @@ struct EstimateOptions
   void
   ApplyTo(TEstimator & estimator) const
   {
+    estimator.SetMethod(method);
     estimator.SetBitDepth(bitDepth);
     estimator.SetClipLow(clipLow);
     estimator.SetClipHigh(clipHigh);
     estimator.SetQuantisationStep(step);
     estimator.SetRollingShutter(rollingShutter);
     estimator.SetRowSigma(rowSigma);
+    estimator.SetOffset(offset);
+    estimator.SetOffsetStandardError(offsetStandardError);
   }
 };
 

@@ -129,7 +129,7 @@ MakeStressStack(const std::string & name, const std::string & reference, std::si
       });
     }
   }
-  std::uint16_t & middle = stack.codes[stack.codes.size() / 2 + size / 2];
+  std::uint16_t & middle = stack.codes[(stack.frames / 2 * size + size / 2) * size + size / 2];
   middle = static_cast<std::uint16_t>(middle + recipe.strayCodes);
   return stack;
 }

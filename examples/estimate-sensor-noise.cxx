@@ -128,6 +128,24 @@ ReadMask(const std::string & file, const FrameInput & input)
   return mask;
 }
 
+/** Opens the headers of dark frames, which must have the size and type of the others. */
+FrameInput
+OpenDark(const std::vector<std::string> & files, const FrameInput & input)
+{
+  const auto describe = [](const FrameInput & frames) {
+    std::string type = itk::ImageIOBase::GetComponentTypeAsString(frames.component);
+    std::replace(type.begin(), type.end(), '_', ' ');
+    return std::to_string(frames.width) + " x " + std::to_string(frames.height) + " pixels of type " + type;
+  };
+  FrameInput dark = OpenFrames(files);
+  if (describe(dark) != describe(input))
+  {
+    throw InputError("the dark frames have " + describe(dark) + " (" + files.front() + "), but the frames have " +
+                     describe(input));
+  }
+  return dark;
+}
+
 template <typename TPixel>
 sensornoise::Report
 Estimate(const EstimateOptions & options, const FrameInput & input, MapFiles * maps)
@@ -178,6 +196,18 @@ Estimate(const EstimateOptions & options, const FrameInput & input, MapFiles * m
     maskCrop->Update();
     estimator->SetMask(maskCrop->GetOutput());
   }
+  typename itk::ImageSource<StackType>::Pointer                   darkReader;
+  typename itk::ExtractImageFilter<StackType, StackType>::Pointer darkCrop;
+  if (!options.dark.empty())
+  {
+    darkReader = MakeReader<TPixel>(OpenDark(options.dark, input));
+    darkReader->UpdateOutputInformation();
+    typename StackType::RegionType dark = region;
+    dark.SetIndex(2, 0);
+    dark.SetSize(2, darkReader->GetOutput()->GetLargestPossibleRegion().GetSize(2));
+    darkCrop = Crop<StackType>(darkReader->GetOutput(), dark);
+    estimator->SetDark(darkCrop->GetOutput());
+  }
   if (!options.quiet && isatty(STDERR_FILENO) != 0)
   {
     ShowProgressOn(estimator.GetPointer());
@@ -212,7 +242,7 @@ bool
 IsWhyNothingIsEstimated(const sensornoise::Warning & warning)
 {
   return warning.code == "nothing-to-measure" || warning.code == "intensity-range-too-small" ||
-         warning.code == "variance-not-affine";
+         warning.code == "variance-not-affine" || warning.code == "codes-too-coarse";
 }
 
 int

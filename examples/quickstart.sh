@@ -22,7 +22,7 @@ python3 - "$work/truth.json" "$work/report.json" <<'PY'
 import json, sys
 
 truth, report = (json.load(open(name)) for name in sys.argv[1:])
-print(f"{'quantity':<24} {'truth':>10} {'estimate':>10}")
+print(f"{'quantity':<24} {'truth':>10} {'estimate':>10}  {'error':<11}")
 rows = [("gain g", truth["gain"], report["gain"]),
         ("offset mu", truth["offset"], report["offset"]),
         ("read noise sigma", truth["read_noise"], report["read_noise"]),
@@ -32,6 +32,7 @@ rows = [("gain g", truth["gain"], report["gain"]),
         ("vibration sd y", truth["realised_vibration_sd"][1], report["vibration"]["sd_y"])]
 for name, value, quantity in rows:
     estimate = "-" if quantity["value"] is None else f"{quantity['value']:.5g}"
-    print(f"{name:<24} {value:>10.5g} {estimate:>10} {quantity['unit']}")
+    error = "" if quantity["standard_error"] is None else f"+- {quantity['standard_error']:.2g}"
+    print(f"{name:<24} {value:>10.5g} {estimate:>10}  {error:<11} {quantity['unit']}")
 PY
 echo "stack, truth and report: $work"

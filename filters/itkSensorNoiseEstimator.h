@@ -18,7 +18,8 @@
 #ifndef itkSensorNoiseEstimator_h
 #define itkSensorNoiseEstimator_h
 
-#include "SensorNoisePublishedMethod.h"
+#include "SensorNoisePublishedSettings.h"
+#include "SensorNoiseRefinedSettings.h"
 #include "SensorNoiseReportJson.h"
 #include "SensorNoiseReportTable.h"
 #include "itkSensorNoiseStackSink.h"
@@ -26,6 +27,8 @@
 
 #include <limits>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace itk
 {
@@ -43,7 +46,8 @@ public:
    */
   enum class Method : uint8_t
   {
-    Published = 0 ///< Figure 2 of Sur & Gredi\'ac 2015, to the letter
+    Published = 0, ///< Figure 2 of Sur & Gredi\'ac 2015, to the letter: even areas only, no errors
+    Refined = 1    ///< all pixels of a still scene, with standard errors
   };
 };
 
@@ -51,17 +55,28 @@ public:
  * \brief Measures gain, offset and read noise of a camera, flicker and vibration, from a stack of a static scene.
  *
  * Inputs: 0 the stack, raw frames along the last axis, at least 5; "Mask", optional, of a frame's size: pixels of
- * value 0 are left out. Outputs: 0 the report (decorated sensornoise::Report: value, status and unit of each quantity);
- * of a frame's size 1 mean [DN], 2 variance [DN^2], 3 corrected variance [DN^2] (NaN: flicker not known), 4 pixel use
+ * value 0 are left out; "Dark", optional, for the method Refined: a stack of frames of the same size taken without
+ * light. Outputs: 0 the report (decorated sensornoise::Report: value, status and unit of each quantity); of a frame's
+ * size 1 mean [DN], 2 variance [DN^2], 3 corrected variance [DN^2] (NaN: not known), 4 pixel use
  * (sensornoise::PixelUse: 0 used, else why not).
  *
- * The method Published takes three passes over the stack, in chunks (see SensorNoiseStackSink), and gives the numbers
- * of the chain TemporalStatistics - VibrationMask - FlickerCorrection - TemporalStatistics - NoiseRegression to
- * rounding. Threaded; the same bits for any number of threads and chunks. Memory: about 70 bytes a pixel of a frame and
- * one chunk.
+ * The method Refined, the default, regresses every frame on the mean image and its derivatives, which gives flicker,
+ * offset and motion, takes these out of every pixel, and fits the variance that is left with the weights of its own
+ * noise: edges and texture take part, and what is measured of the sensor has a standard error and a 95 % interval.
+ * Light that changes in some places in another way than in others is looked for and allowed for. Read noise and
+ * intercept are the sensor's, without the noise of rounding to codes (total_intercept keeps that). See
+ * sensornoise::RefinedMethod.
+ *
+ * The method Published gives the numbers of the chain TemporalStatistics - VibrationMask - FlickerCorrection -
+ * TemporalStatistics - NoiseRegression to rounding, and no errors. See sensornoise::PublishedMethod.
+ *
+ * Both take three passes over the stack, in chunks (see SensorNoiseStackSink), and one over the dark frames. Threaded;
+ * the same bits for any number of threads and chunks. Memory, beside one chunk: about 250 bytes a pixel of a frame,
+ * more where the light is local (Published: 70), and 20 kB a frame.
  *
  * A stack that cannot be measured gives a report whose quantities are `failed` or `not-identifiable`, with a warning
- * that says why. Wrong use (fewer than 5 frames, frames under 3 x 3 pixels, a bit depth below the data) throws.
+ * that says why. Wrong use (fewer than 5 frames, frames under 3 x 3 pixels, a bit depth below the data, dark frames
+ * whose black level is cut off) throws.
  *
  * F. Sur, M. Gredi\'ac, SIAM J. Imaging Sci. 8(1), 2015, https://doi.org/10.1137/140977035.
  *
@@ -105,10 +120,15 @@ public:
   itkSetInputMacro(Mask, MaskImageType);
   itkGetInputMacro(Mask, MaskImageType);
 
-  /** How the noise is estimated. */
+  /** Frames without light, of the frames' size and at their exposure, gain and temperature (Refined only): they give
+   * the offset and, from two frames on, the read noise. Read in chunks. Not together with Offset. */
+  itkSetInputMacro(Dark, TStack);
+  itkGetInputMacro(Dark, TStack);
+
+  /** How the noise is estimated: Refined (default) or Published. */
   void
   SetMethod(MethodEnum method);
-  /** The same by name: "published". */
+  /** The same by name: "refined" or "published". */
   void
   SetMethod(const std::string & name);
   MethodEnum
@@ -117,18 +137,35 @@ public:
     return m_Method;
   }
 
-  /** Level of the test that finds pixels moved by vibrations, a probability. Default 0.01. */
+  std::string
+  GetMethodName() const
+  {
+    return m_Method == MethodEnum::Refined ? "refined" : "published";
+  }
+
+  /** The offset [DN], if it is known (Refined only): offset and read noise then need no flicker, and steady light is
+   * told from the offset. NaN (default): not known. */
+  itkSetMacro(Offset, double);
+  itkGetConstMacro(Offset, double);
+
+  /** Standard error of Offset [DN], 0 or more. Default 0. */
+  itkSetMacro(OffsetStandardError, double);
+  itkGetConstMacro(OffsetStandardError, double);
+
+  /** Level of the test that finds pixels moved by vibrations, a probability. Default 0.01. Refined does without. */
   itkSetMacro(Level, double);
   itkGetConstMacro(Level, double);
 
-  /** Quantiles of the mean at which the bright and the dark set lie, 0 to 1. Defaults 0.99 and 0.01. */
+  /** Quantiles of the mean at which the bright and the dark set lie, 0 to 1. Defaults 0.99 and 0.01. Refined does
+   * without. */
   itkSetMacro(BrightQuantile, double);
   itkGetConstMacro(BrightQuantile, double);
   itkSetMacro(DarkQuantile, double);
   itkGetConstMacro(DarkQuantile, double);
 
   /** Whether the flicker may differ from line to line: Off, Auto (default: found out, and sigma_y chosen by
-   * cross-validation) or Fixed (with RowSigma). */
+   * cross-validation) or Fixed (with RowSigma). Refined looks for any light that changes in some places in another way
+   * than in others, unless Off; to it, Fixed is Auto. */
   void
   SetRollingShutter(RollingShutterEnum mode);
   /** The same by name: "off", "auto" or "fixed". */
@@ -145,11 +182,11 @@ public:
     return m_RollingShutter;
   }
 
-  /** sigma_y of (3.28) for RollingShutter Fixed [lines]. Default 50, the paper's. */
+  /** sigma_y of (3.28) for RollingShutter Fixed [lines]. Default 50, the paper's. Refined does without. */
   itkSetMacro(RowSigma, double);
   itkGetConstMacro(RowSigma, double);
 
-  /** Axis along which the shutter travels: 1 = y (default, lines are rows), 0 = x. */
+  /** Axis along which the shutter travels: 1 = y (default, lines are rows), 0 = x. Refined does without. */
   itkSetMacro(ShutterAxis, unsigned int);
   itkGetConstMacro(ShutterAxis, unsigned int);
 
@@ -220,7 +257,7 @@ public:
 
 protected:
   SensorNoiseEstimator();
-  ~SensorNoiseEstimator() override = default;
+  ~SensorNoiseEstimator() override;
 
   using Superclass::MakeOutput;
   DataObjectPointer
@@ -233,10 +270,9 @@ protected:
   EnlargeOutputRequestedRegion(DataObject * output) override;
 
   unsigned int
-  NumberOfPasses() const override
-  {
-    return sensornoise::PublishedMethod<PixelType>::NumberOfPasses;
-  }
+  NumberOfPasses() const override;
+  void
+  GenerateNthInputRequestedRegion(unsigned int number) override;
   void
   StartPasses() override;
   void
@@ -247,10 +283,20 @@ protected:
   PrintSelf(std::ostream & os, Indent indent) const override;
 
 private:
+  // Defined in the .hxx: what reads the headers alone, as wrapping does, need not read the methods.
+  class DarkSink;
+  struct Estimation;
+
+  sensornoise::PublishedSettings
+  MakePublishedSettings() const;
+  sensornoise::RefinedSettings
+  MakeRefinedSettings(const std::vector<std::uint8_t> & mask);
   void
   FillOutputs();
 
-  MethodEnum         m_Method{ MethodEnum::Published };
+  MethodEnum         m_Method{ MethodEnum::Refined };
+  double             m_Offset{ std::numeric_limits<double>::quiet_NaN() };
+  double             m_OffsetStandardError{ 0.0 };
   double             m_Level{ 0.01 };
   double             m_BrightQuantile{ 0.99 };
   double             m_DarkQuantile{ 0.01 };
@@ -262,7 +308,7 @@ private:
   double             m_ClipHigh{ std::numeric_limits<double>::quiet_NaN() };
   double             m_QuantisationStep{ 0.0 };
 
-  std::unique_ptr<sensornoise::PublishedMethod<PixelType>> m_Estimation;
+  std::unique_ptr<Estimation> m_Estimation;
 };
 
 } // namespace itk

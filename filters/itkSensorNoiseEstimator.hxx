@@ -18,21 +18,113 @@
 #ifndef itkSensorNoiseEstimator_hxx
 #define itkSensorNoiseEstimator_hxx
 
+#include "SensorNoiseBlockSums.h"
+#include "SensorNoiseDarkFrames.h"
+#include "SensorNoisePublishedMethod.h"
+#include "SensorNoiseRefinedMethod.h"
+
 #include <algorithm>
-#include <vector>
+#include <cmath>
+#include <utility>
+#include <variant>
 
 namespace itk
 {
+
+/** The method at work: both have one interface. */
+template <typename TStack>
+struct SensorNoiseEstimator<TStack>::Estimation
+{
+  using Refined = sensornoise::RefinedMethod<PixelType>;
+  using Published = sensornoise::PublishedMethod<PixelType>;
+  static_assert(Refined::NumberOfPasses == Published::NumberOfPasses, "the methods read the stack equally often");
+
+  std::variant<Refined, Published> method;
+};
+
+/** Reads the dark frames once, in chunks. */
+template <typename TStack>
+class SensorNoiseEstimator<TStack>::DarkSink : public SensorNoiseStackSink<TStack>
+{
+public:
+  ITK_DISALLOW_COPY_AND_MOVE(DarkSink);
+
+  using Self = DarkSink;
+  using Pointer = SmartPointer<Self>;
+
+  itkNewMacro(Self);
+
+  const char *
+  GetNameOfClass() const override
+  {
+    return "DarkSink";
+  }
+
+  /** Without outputs ProcessObject would do nothing. */
+  void
+  Update() override
+  {
+    this->UpdateOutputInformation();
+    this->UpdateOutputData(nullptr);
+  }
+
+  sensornoise::KnownOffset
+  Measure(const sensornoise::CodeSettings & codes, const std::vector<std::uint8_t> & mask)
+  {
+    return sensornoise::MeasureDarkFrames<PixelType>(m_Moments, codes, mask, this->GetParallelFor());
+  }
+
+protected:
+  DarkSink() = default;
+  ~DarkSink() override = default;
+
+  unsigned int
+  NumberOfPasses() const override
+  {
+    return 1;
+  }
+  void
+  StartPasses() override
+  {
+    m_Moments = sensornoise::TemporalMoments<PixelType>(this->GetFrameRegion().GetNumberOfPixels());
+  }
+  void
+  ProcessFrames(unsigned int, const PixelType * frames, SizeValueType, SizeValueType count) override
+  {
+    const SizeValueType pixels = this->GetFrameRegion().GetNumberOfPixels();
+    sensornoise::ForBlocks(pixels, this->GetParallelFor(), [&](std::size_t begin, std::size_t end) {
+      m_Moments.AddFrames(frames, pixels, count, begin, end);
+    });
+    m_Moments.AdvanceFrames(count);
+  }
+  void
+  EndPass(unsigned int) override
+  {}
+
+private:
+  sensornoise::TemporalMoments<PixelType> m_Moments;
+};
 
 template <typename TStack>
 SensorNoiseEstimator<TStack>::SensorNoiseEstimator()
 {
   this->AddOptionalInputName("Mask", 1);
+  this->AddOptionalInputName("Dark", 2);
   this->SetNumberOfRequiredOutputs(5);
   for (DataObjectPointerArraySizeType i = 0; i < 5; ++i)
   {
     this->ProcessObject::SetNthOutput(i, this->MakeOutput(i));
   }
+}
+
+template <typename TStack>
+SensorNoiseEstimator<TStack>::~SensorNoiseEstimator() = default;
+
+template <typename TStack>
+unsigned int
+SensorNoiseEstimator<TStack>::NumberOfPasses() const
+{
+  return Estimation::Refined::NumberOfPasses;
 }
 
 template <typename TStack>
@@ -65,11 +157,11 @@ template <typename TStack>
 void
 SensorNoiseEstimator<TStack>::SetMethod(const std::string & name)
 {
-  if (name != "published")
+  if (name != "refined" && name != "published")
   {
-    itkExceptionMacro("the method is \"" << name << "\"; expected published");
+    itkExceptionMacro("the method is \"" << name << "\"; expected refined or published");
   }
-  this->SetMethod(MethodEnum::Published);
+  this->SetMethod(name == "refined" ? MethodEnum::Refined : MethodEnum::Published);
 }
 
 template <typename TStack>
@@ -107,6 +199,43 @@ SensorNoiseEstimator<TStack>::VerifyInputInformation() const
     itkExceptionMacro("the mask has the region " << mask->GetLargestPossibleRegion() << "but the frames have "
                                                  << this->GetFrameRegion());
   }
+  const TStack * dark = this->GetDark();
+  const bool     hasOffset = !std::isnan(m_Offset);
+  if (m_Method == MethodEnum::Published && (dark != nullptr || hasOffset))
+  {
+    itkExceptionMacro(
+      "" << (hasOffset ? "the offset" : "dark frames") << " cannot be used by the method published, "
+         << "which finds the offset from the flicker alone: leave it out, or set the method to refined");
+  }
+  if (dark == nullptr)
+  {
+    return;
+  }
+  if (hasOffset)
+  {
+    itkExceptionMacro("the offset " << m_Offset << " DN and dark frames were given; expected one of them");
+  }
+  const auto size = dark->GetLargestPossibleRegion().GetSize();
+  const auto frame = this->GetFrameRegion().GetSize();
+  if (size[0] != frame[0] || size[1] != frame[1])
+  {
+    itkExceptionMacro("the dark frames have " << size[0] << " x " << size[1] << " pixels, but the frames have "
+                                              << frame[0] << " x " << frame[1]);
+  }
+}
+
+template <typename TStack>
+void
+SensorNoiseEstimator<TStack>::GenerateNthInputRequestedRegion(unsigned int number)
+{
+  Superclass::GenerateNthInputRequestedRegion(number);
+  if (auto * dark = const_cast<TStack *>(this->GetDark()))
+  {
+    // They have been read before the first pass. Without this the pipeline would read them again, and whole.
+    auto region = dark->GetLargestPossibleRegion();
+    region.SetSize(2, 1);
+    dark->SetRequestedRegion(region);
+  }
 }
 
 template <typename TStack>
@@ -130,8 +259,8 @@ SensorNoiseEstimator<TStack>::EnlargeOutputRequestedRegion(DataObject *)
 }
 
 template <typename TStack>
-void
-SensorNoiseEstimator<TStack>::StartPasses()
+sensornoise::PublishedSettings
+SensorNoiseEstimator<TStack>::MakePublishedSettings() const
 {
   sensornoise::PublishedSettings settings;
   settings.level = m_Level;
@@ -141,9 +270,41 @@ SensorNoiseEstimator<TStack>::StartPasses()
   settings.sigmaLines = m_RowSigma;
   settings.shutterAxis = m_ShutterAxis;
   settings.codes = sensornoise::MakeCodeSettings(m_BitDepth, m_ClipLow, m_ClipHigh, m_QuantisationStep);
+  return settings;
+}
 
-  const auto                size = this->GetFrameRegion().GetSize();
-  std::vector<std::uint8_t> userMask;
+template <typename TStack>
+sensornoise::RefinedSettings
+SensorNoiseEstimator<TStack>::MakeRefinedSettings(const std::vector<std::uint8_t> & mask)
+{
+  sensornoise::RefinedSettings settings;
+  settings.rollingShutter = m_RollingShutter;
+  settings.codes = sensornoise::MakeCodeSettings(m_BitDepth, m_ClipLow, m_ClipHigh, m_QuantisationStep);
+  if (!std::isnan(m_Offset))
+  {
+    settings.offset = sensornoise::KnownOffset{ m_Offset, m_OffsetStandardError };
+  }
+  else if (const TStack * dark = this->GetDark())
+  {
+    settings.Validate();
+    const auto sink = DarkSink::New();
+    sink->SetInput(dark);
+    sink->SetNumberOfStreamDivisions(this->GetNumberOfStreamDivisions());
+    sink->SetNumberOfWorkUnits(this->GetNumberOfWorkUnits());
+    sink->Update();
+    settings.offset = sink->Measure(settings.codes, mask);
+  }
+  return settings;
+}
+
+template <typename TStack>
+void
+SensorNoiseEstimator<TStack>::StartPasses()
+{
+  const auto                       size = this->GetFrameRegion().GetSize();
+  const sensornoise::FrameGeometry geometry{ size[0], size[1], m_ShutterAxis };
+  const SizeValueType              frames = this->GetNumberOfFrames();
+  std::vector<std::uint8_t>        userMask;
   if (const MaskImageType * mask = this->GetMask())
   {
     auto * whole = const_cast<MaskImageType *>(mask);
@@ -151,26 +312,32 @@ SensorNoiseEstimator<TStack>::StartPasses()
     whole->Update();
     userMask.assign(mask->GetBufferPointer(), mask->GetBufferPointer() + size[0] * size[1]);
   }
-  m_Estimation = std::make_unique<sensornoise::PublishedMethod<PixelType>>(
-    settings,
-    sensornoise::FrameGeometry{ size[0], size[1], m_ShutterAxis },
-    this->GetNumberOfFrames(),
-    userMask,
-    this->GetParallelFor());
+  using Refined = typename Estimation::Refined;
+  using Published = typename Estimation::Published;
+  if (m_Method == MethodEnum::Refined)
+  {
+    m_Estimation = std::make_unique<Estimation>(
+      Estimation{ Refined(this->MakeRefinedSettings(userMask), geometry, frames, userMask, this->GetParallelFor()) });
+  }
+  else
+  {
+    m_Estimation = std::make_unique<Estimation>(
+      Estimation{ Published(this->MakePublishedSettings(), geometry, frames, userMask, this->GetParallelFor()) });
+  }
 }
 
 template <typename TStack>
 void
 SensorNoiseEstimator<TStack>::ProcessFrames(unsigned int, const PixelType * frames, SizeValueType, SizeValueType count)
 {
-  m_Estimation->AddFrames(frames, count);
+  std::visit([&](auto & method) { method.AddFrames(frames, count); }, m_Estimation->method);
 }
 
 template <typename TStack>
 void
 SensorNoiseEstimator<TStack>::EndPass(unsigned int pass)
 {
-  m_Estimation->EndPass();
+  std::visit([](auto & method) { method.EndPass(); }, m_Estimation->method);
   if (pass + 1 == this->NumberOfPasses())
   {
     this->FillOutputs();
@@ -182,7 +349,6 @@ template <typename TStack>
 void
 SensorNoiseEstimator<TStack>::FillOutputs()
 {
-  this->GetReportOutput()->Set(m_Estimation->GetReport());
   const auto fill = [](auto * image, const auto & values, auto missing) {
     image->SetBufferedRegion(image->GetLargestPossibleRegion());
     image->Allocate();
@@ -195,11 +361,16 @@ SensorNoiseEstimator<TStack>::FillOutputs()
       std::copy(values.begin(), values.end(), image->GetBufferPointer());
     }
   };
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  fill(this->GetMean(), m_Estimation->GetMean(), nan);
-  fill(this->GetVariance(), m_Estimation->GetVariance(), nan);
-  fill(this->GetCorrectedVariance(), m_Estimation->GetCorrectedVariance(), nan);
-  fill(this->GetPixelUse(), m_Estimation->GetPixelUse(), static_cast<unsigned char>(0));
+  std::visit(
+    [&](const auto & method) {
+      constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+      this->GetReportOutput()->Set(method.GetReport());
+      fill(this->GetMean(), method.GetMean(), nan);
+      fill(this->GetVariance(), method.GetVariance(), nan);
+      fill(this->GetCorrectedVariance(), method.GetCorrectedVariance(), nan);
+      fill(this->GetPixelUse(), method.GetPixelUse(), static_cast<unsigned char>(0));
+    },
+    m_Estimation->method);
 }
 
 template <typename TStack>
@@ -207,7 +378,9 @@ void
 SensorNoiseEstimator<TStack>::PrintSelf(std::ostream & os, Indent indent) const
 {
   Superclass::PrintSelf(os, indent);
-  os << indent << "Method: Published" << std::endl;
+  os << indent << "Method: " << this->GetMethodName() << std::endl;
+  os << indent << "Offset: " << m_Offset << std::endl;
+  os << indent << "OffsetStandardError: " << m_OffsetStandardError << std::endl;
   os << indent << "Level: " << m_Level << std::endl;
   os << indent << "BrightQuantile: " << m_BrightQuantile << std::endl;
   os << indent << "DarkQuantile: " << m_DarkQuantile << std::endl;

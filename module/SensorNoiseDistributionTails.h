@@ -62,10 +62,9 @@ template <typename TNumerator, typename TDenominator>
 double
 ContinuedFraction(TNumerator numerator, TDenominator denominator)
 {
-  constexpr double tiny = 1e-300;
   constexpr double precision = 1e-16;
   constexpr int    mostTerms = 10000000;
-  const auto       notZero = [](double value) { return value == 0.0 ? tiny : value; };
+  const auto       notZero = [](double value) { return value == 0.0 ? 1e-300 : value; };
   double           value = notZero(denominator(0));
   double           upper = value;
   double           lower = 0.0;

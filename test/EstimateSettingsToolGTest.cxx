@@ -59,7 +59,7 @@ TEST_F(EstimateSettingsTool, WhatIsGivenOfTheCodesIsInTheReport)
   EXPECT_EQ(found["clip_low"], 0.0);
   EXPECT_EQ(found["clip_high"], 4095.0);
   EXPECT_EQ(found["clip_source"], "code range");
-  EXPECT_EQ(JsonTextOf(stack + " --bit-depth auto --method published"), JsonTextOf(stack));
+  EXPECT_EQ(JsonTextOf(stack + " --bit-depth auto --method refined"), JsonTextOf(stack));
 
   const nlohmann::json bits = ReportOf(stack + " --bit-depth 14");
   EXPECT_EQ(bits["bit_depth"], 14);
@@ -77,7 +77,9 @@ TEST_F(EstimateSettingsTool, WhatIsGivenOfTheCodesIsInTheReport)
 
 TEST_F(EstimateSettingsTool, TheRollingShutterModeIsInTheReport)
 {
-  const std::string    stack = Write("s.mha", MakeBurst().GetPointer());
+  Write("s.mha", MakeBurst().GetPointer());
+  EXPECT_EQ(ReportOf("s.mha --rolling-shutter off")["settings"]["rolling_shutter"], "off");
+  const std::string    stack = "s.mha --method published";
   const nlohmann::json off = ReportOf(stack + " --rolling-shutter off");
   EXPECT_EQ(off["settings"]["rolling_shutter"], "off");
   EXPECT_EQ(off["settings"]["sigma_rows"], 0.0);
@@ -105,7 +107,8 @@ TEST_F(EstimateSettingsTool, MapsHoldMeanAndVarianceAndSayWhyAPixelIsLeftOut)
   mask->SetPixel({ { 0, 9 } }, 0);
   mask->SetPixel({ { 30, 30 } }, 0);
   Write("mask.png", mask.GetPointer());
-  const nlohmann::json report = ReportOf(Write("s.mha", burst.GetPointer()) + " --mask mask.png --maps some/maps");
+  Write("s.mha", burst.GetPointer());
+  const nlohmann::json report = ReportOf("s.mha --method published --mask mask.png --maps some/maps");
   EXPECT_EQ(FilesLeft(),
             (std::set<std::string>{ "s.mha",
                                     "mask.png",
@@ -149,6 +152,37 @@ TEST_F(EstimateSettingsTool, MapsHoldMeanAndVarianceAndSayWhyAPixelIsLeftOut)
   EXPECT_EQ(CountOf(uses, PixelUse::Vibration),
             64 * 64 - 4 * 63 - 2u - CountOf(uses, PixelUse::Used) - CountOf(uses, PixelUse::Clipped));
   EXPECT_GT(CountOf(uses, PixelUse::Vibration), 0u);
+}
+
+TEST_F(EstimateSettingsTool, MapsOfTheRefinedMethodSayWhyAPixelIsLeftOut)
+{
+  const auto burst = MakeBurst();
+  burst->SetPixel({ { 15, 17, 11 } }, 4095);
+  for (int t = 0; t < 24; ++t)
+  {
+    burst->SetPixel({ { 40, 41, t } }, 1000);
+  }
+  const auto mask = Make<UseType>({ { 64, 64 } }, 1);
+  mask->SetPixel({ { 30, 30 } }, 0);
+  Write("mask.png", mask.GetPointer());
+  const nlohmann::json report = ReportOf(Write("s.mha", burst.GetPointer()) + " --mask mask.png --maps maps");
+  const auto           corrected = Read<MapType>(Path("maps/corrected_variance.mha"));
+  const auto           uses = Read<UseType>(Path("maps/pixel_use.mha"));
+  EXPECT_EQ(UseAt(uses, 15, 17), PixelUse::Clipped);
+  EXPECT_EQ(UseAt(uses, 16, 17), PixelUse::NearClip);
+  EXPECT_EQ(UseAt(uses, 40, 41), PixelUse::Constant);
+  EXPECT_EQ(UseAt(uses, 30, 30), PixelUse::Masked);
+  EXPECT_EQ(UseAt(uses, 0, 20), PixelUse::Border);
+  EXPECT_EQ(CountOf(uses, PixelUse::Used), report["pixels"]["used"]);
+  EXPECT_GT(CountOf(uses, PixelUse::Used), 3000u);
+  EXPECT_EQ(CountOf(uses, PixelUse::Clipped), 1u);
+  for (int y = 0; y < 64; ++y)
+  {
+    for (int x = 0; x < 64; ++x)
+    {
+      EXPECT_TRUE(UseAt(uses, x, y) != PixelUse::Used || corrected->GetPixel({ { x, y } }) > 0.0) << x << ' ' << y;
+    }
+  }
 }
 
 TEST_F(EstimateSettingsTool, MapsOfARoiHaveItsSize)

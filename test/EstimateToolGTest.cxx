@@ -36,8 +36,9 @@ NamesOf(const nlohmann::json & object)
   return names;
 }
 
+/** \a hasError: with a standard error and an interval where it is identified. */
 void
-IsAQuantity(const nlohmann::json & report, const std::string & path, const std::string & unit)
+IsAQuantity(const nlohmann::json & report, const std::string & path, const std::string & unit, bool hasError)
 {
   SCOPED_TRACE(path);
   const nlohmann::json & quantity = report.at(nlohmann::json::json_pointer(path));
@@ -45,15 +46,23 @@ IsAQuantity(const nlohmann::json & report, const std::string & path, const std::
             (std::set<std::string>{ "value", "standard_error", "interval95", "status", "unit", "bracket" }));
   EXPECT_EQ(quantity["unit"], unit);
   EXPECT_EQ(quantity["value"].is_null(), quantity["status"] != "identified");
-  EXPECT_TRUE(quantity["standard_error"].is_null()); // the published method has none
-  EXPECT_TRUE(quantity["interval95"].is_null());
+  const bool isIdentified = quantity["status"] == "identified";
+  EXPECT_EQ(quantity["standard_error"].is_null(), !(hasError && isIdentified));
+  EXPECT_EQ(quantity["interval95"].is_null(), !(hasError && (isIdentified || quantity["status"] == "upper-limit")));
 }
 } // namespace
 
-TEST_F(EstimateTool, TheReportHasTheDocumentedNamesAndUnits)
+class EstimateToolWith
+  : public EstimateToolTest
+  , public ::testing::WithParamInterface<const char *>
+{};
+INSTANTIATE_TEST_SUITE_P(Method, EstimateToolWith, ::testing::Values("refined", "published"));
+
+TEST_P(EstimateToolWith, TheReportHasTheDocumentedNamesAndUnits)
 {
   const std::string    stack = Write("s.mha", MakeBurst().GetPointer());
-  const nlohmann::json report = ReportOf(stack);
+  const bool           isRefined = GetParam() == std::string("refined");
+  const nlohmann::json report = ReportOf(stack + " --method " + GetParam());
   EXPECT_EQ(m_Message, "");
   EXPECT_EQ(NamesOf(report),
             (std::set<std::string>{ "schema",
@@ -88,18 +97,18 @@ TEST_F(EstimateTool, TheReportHasTheDocumentedNamesAndUnits)
                                     "quadratic_baseline",
                                     "warnings",
                                     "scatter" }));
-  IsAQuantity(report, "/gain", "DN/e-");
-  IsAQuantity(report, "/offset", "DN");
-  IsAQuantity(report, "/read_noise", "DN");
-  IsAQuantity(report, "/read_noise_electrons", "e-");
-  IsAQuantity(report, "/intercept", "DN^2");
-  IsAQuantity(report, "/total_intercept", "DN^2");
-  IsAQuantity(report, "/flicker_sd", "1");
-  IsAQuantity(report, "/vibration/sd_x", "pixel");
-  IsAQuantity(report, "/vibration/sd_y", "pixel");
-  IsAQuantity(report, "/vibration/covariance", "pixel^2");
+  IsAQuantity(report, "/gain", "DN/e-", isRefined);
+  IsAQuantity(report, "/offset", "DN", isRefined);
+  IsAQuantity(report, "/read_noise", "DN", isRefined);
+  IsAQuantity(report, "/read_noise_electrons", "e-", isRefined);
+  IsAQuantity(report, "/intercept", "DN^2", isRefined);
+  IsAQuantity(report, "/total_intercept", "DN^2", isRefined);
+  IsAQuantity(report, "/flicker_sd", "1", isRefined);
+  IsAQuantity(report, "/vibration/sd_x", "pixel", isRefined);
+  IsAQuantity(report, "/vibration/sd_y", "pixel", isRefined);
+  IsAQuantity(report, "/vibration/covariance", "pixel^2", false);
   EXPECT_EQ(report["schema"], "itk-sensornoise-report/1");
-  EXPECT_EQ(report["method"], "published");
+  EXPECT_EQ(report["method"], GetParam());
   EXPECT_EQ(report["frames"], 24);
   EXPECT_EQ(report["width"], 64);
   EXPECT_EQ(report["height"], 64);
@@ -109,13 +118,25 @@ TEST_F(EstimateTool, TheReportHasTheDocumentedNamesAndUnits)
   EXPECT_EQ(NamesOf(report["fit"]),
             (std::set<std::string>{ "reduced_chi2", "curvature", "curvature_z", "offset_line_phi" }));
   EXPECT_EQ(report["covariance"]["of"], (std::vector<std::string>{ "gain", "intercept", "offset" }));
+  EXPECT_EQ(report["covariance"]["matrix"].is_null(), !isRefined);
+  EXPECT_EQ(report["motion"].is_null(), !isRefined);
+  if (isRefined)
+  {
+    EXPECT_EQ(report["covariance"]["matrix"].size(), 3u);
+    EXPECT_NEAR(
+      report["covariance"]["matrix"][0][0], std::pow(report["gain"]["standard_error"].get<double>(), 2), 1e-12);
+    EXPECT_EQ(report["motion"].size(), 24u);
+    EXPECT_EQ(report["motion"][0].size(), 2u);
+    EXPECT_EQ(JsonTextOf(stack), m_Output); // the default
+  }
   EXPECT_EQ(NamesOf(report["scatter"]), (std::set<std::string>{ "mean", "variance", "corrected_variance", "count" }));
   EXPECT_EQ(report["scatter"]["mean"].size(), report["scatter"]["count"].size());
 }
 
-TEST_F(EstimateTool, TheSimulatedCameraIsRecoveredAndItsFlickerIsNotMistakenForNoise)
+TEST_P(EstimateToolWith, TheSimulatedCameraIsRecoveredAndItsFlickerIsNotMistakenForNoise)
 {
-  const nlohmann::json report = ReportOf(Write("s.mha", MakeBurst(40, "128x128").GetPointer()));
+  const nlohmann::json report =
+    ReportOf(Write("s.mha", MakeBurst(40, "128x128").GetPointer()) + " --method " + GetParam());
   // Camera B: gain 1 DN/e-, offset 100 DN, read noise 8 DN. Some 10^4 pixels with variances of 39 degrees of freedom:
   // each is off by sqrt(2 / 39) = 23 %, all together by 0.2 %; the flicker estimate adds about 1 %.
   EXPECT_NEAR(report["gain"]["value"], 1.0, 0.04);
@@ -130,9 +151,9 @@ TEST_F(EstimateTool, TheSimulatedCameraIsRecoveredAndItsFlickerIsNotMistakenForN
   EXPECT_GT(report["affine_baseline"]["gain"], 3.0);
 }
 
-TEST_F(EstimateTool, ATableForPeopleIsOnStandardOutput)
+TEST_P(EstimateToolWith, ATableForPeopleIsOnStandardOutput)
 {
-  const std::string    stack = Write("s.mha", MakeBurst().GetPointer());
+  const std::string    stack = Write("s.mha", MakeBurst().GetPointer()) + " --method " + GetParam();
   const nlohmann::json report = ReportOf(stack);
   ASSERT_EQ(Run(stack), 0);
   EXPECT_EQ(m_Message, "");
@@ -146,11 +167,17 @@ TEST_F(EstimateTool, ATableForPeopleIsOnStandardOutput)
   for (const auto & [label, name] : rows)
   {
     char line[128];
+    char error[32] = "";
+    if (!report[name]["standard_error"].is_null())
+    {
+      std::snprintf(error, sizeof(error), "+- %-9.2g  ", report[name]["standard_error"].get<double>());
+    }
     std::snprintf(line,
                   sizeof(line),
-                  "\n%-24s %12.5g  %-8s %s",
+                  "\n%-24s %12.5g  %s%-8s %s",
                   label.c_str(),
                   report[name]["value"].get<double>(),
+                  error,
                   report[name]["unit"].get<std::string>().c_str(),
                   report[name]["status"].get<std::string>().c_str());
     EXPECT_NE(m_Output.find(line), std::string::npos) << line << " is not in\n" << m_Output;
@@ -176,7 +203,7 @@ TEST_F(EstimateTool, AFileAndStandardOutputHoldTheSameJson)
 TEST_F(EstimateTool, TheNumberOfThreadsChangesNothing)
 {
   const std::string stack = Write("s.mha", MakeBurst().GetPointer());
-  for (const std::string options : { " --rolling-shutter auto", " --rolling-shutter 8" })
+  for (const std::string options : { "", " --method published", " --method published --rolling-shutter 8" })
   {
     const std::string one = JsonTextOf(stack + options + " --threads 1");
     EXPECT_EQ(JsonTextOf(stack + options + " --threads 7"), one);
@@ -213,6 +240,8 @@ TEST_F(EstimateTool, HelpNamesEveryOptionAndTheExitCodes)
                                "--clip",
                                "--step",
                                "--rolling-shutter",
+                               "--offset",
+                               "--dark",
                                "--roi",
                                "--mask",
                                "--frames",

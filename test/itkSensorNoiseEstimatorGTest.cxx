@@ -45,10 +45,11 @@ constexpr unsigned int Frames = 25;
 
 template <typename TStack>
 auto
-EstimatorOf(const TStack * stack)
+EstimatorOf(const TStack * stack, const std::string & method = "refined")
 {
   auto estimator = itk::SensorNoiseEstimator<TStack>::New();
   estimator->SetInput(stack);
+  estimator->SetMethod(method);
   return estimator;
 }
 
@@ -229,7 +230,7 @@ TEST(SensorNoiseEstimator, EqualsTheChainMadeByHand)
                                               std::tuple(rolling, RollingShutter::Fixed, true),
                                               std::tuple(rolling, RollingShutter::Auto, true) })
   {
-    const auto estimator = EstimatorOf<StackType>(stack);
+    const auto estimator = EstimatorOf<StackType>(stack, "published");
     estimator->SetRollingShutter(mode);
     estimator->SetRowSigma(2.0);
     estimator->Update();
@@ -245,7 +246,7 @@ TEST(SensorNoiseEstimator, ChainOnOneFileReaderMayBePulledAgain)
 {
   const TemporaryFolder folder;
   const auto            file = WrittenTo<StackType>(folder.File("s.mha"), SimulatedStack());
-  const auto            estimator = EstimatorOf<StackType>(SimulatedStack());
+  const auto            estimator = EstimatorOf<StackType>(SimulatedStack(), "published");
   estimator->Update();
   auto reader = itk::ImageFileReader<StackType>::New();
   reader->SetFileName(file);
@@ -278,7 +279,7 @@ TEST(SensorNoiseEstimator, ChainOnOneFileReaderMayBePulledAgain)
 
 TEST(SensorNoiseEstimator, ChainFailsUntilTheReaderIsMended)
 {
-  const auto estimator = EstimatorOf<StackType>(SimulatedStack());
+  const auto estimator = EstimatorOf<StackType>(SimulatedStack(), "published");
   estimator->Update();
   const auto reader = StackReader<StackType>::Of(SimulatedStack());
   Chain      chain(reader->GetOutput(), Frames, RollingShutter::Auto);
@@ -311,7 +312,7 @@ TEST(SensorNoiseEstimator, ReadsTheStackInPassesTimesChunks)
 
 TEST(SensorNoiseEstimator, SecondUpdateDoesNoWorkAndEveryParameterDoes)
 {
-  const auto   estimator = EstimatorOf<StackType>(SimulatedStack());
+  const auto   estimator = EstimatorOf<StackType>(SimulatedStack(), "published");
   unsigned int runs = 0;
   estimator->AddObserver(itk::EndEvent(), [&runs](const itk::EventObject &) { ++runs; });
   const auto hasRun = [&] {
@@ -352,8 +353,18 @@ TEST(SensorNoiseEstimator, SecondUpdateDoesNoWorkAndEveryParameterDoes)
   estimator->SetQuantisationStep(1.0);
   EXPECT_TRUE(hasRun());
   EXPECT_FALSE(hasRun());
+  const auto report = estimator->GetReport();
+  estimator->SetMethod("refined");
+  EXPECT_TRUE(hasRun());
+  EXPECT_EQ(estimator->GetReport().method, "refined");
+  estimator->SetOffset(100.0);
+  EXPECT_TRUE(hasRun());
+  estimator->SetOffsetStandardError(0.5);
+  EXPECT_TRUE(hasRun());
+  EXPECT_EQ(estimator->GetReport().offset.value, 100.0);
+  EXPECT_EQ(estimator->GetReport().offset.standardError, 0.5);
   using Setting = std::pair<std::string, sensornoise::Report::SettingValue>;
-  const auto & settings = estimator->GetReport().settings;
+  const auto & settings = report.settings;
   for (const Setting & expected : { Setting("bright_quantile", 0.95),
                                     Setting("dark_quantile", 0.05),
                                     Setting("rolling_shutter", std::string("fixed")),
@@ -361,6 +372,21 @@ TEST(SensorNoiseEstimator, SecondUpdateDoesNoWorkAndEveryParameterDoes)
   {
     EXPECT_EQ(std::count(settings.begin(), settings.end(), expected), 1) << expected.first;
   }
+}
+
+TEST(SensorNoiseEstimator, RefinedIsTheDefaultAndMethodsHaveNames)
+{
+  const auto estimator = itk::SensorNoiseEstimator<StackType>::New();
+  EXPECT_EQ(estimator->GetMethod(), itk::SensorNoiseEstimatorEnums::Method::Refined);
+  EXPECT_EQ(estimator->GetMethodName(), "refined");
+  estimator->SetInput(SimulatedStack());
+  EXPECT_EQ(JsonOf(estimator), JsonOf(EstimatorOf<StackType>(SimulatedStack(), "refined")));
+  EXPECT_TRUE(estimator->GetReport().gain.standardError);
+  estimator->SetMethod(itk::SensorNoiseEstimatorEnums::Method::Published);
+  EXPECT_EQ(JsonOf(estimator), JsonOf(EstimatorOf<StackType>(SimulatedStack(), "published")));
+  EXPECT_FALSE(estimator->GetReport().gain.standardError);
+  EXPECT_SAYS(ErrorWhen([&] { estimator->SetMethod("best"); }),
+              "the method is \"best\"; expected refined or published");
 }
 
 TEST(SensorNoiseEstimator, MaskedPixelsAreLeftOut)
@@ -436,9 +462,16 @@ TEST(SensorNoiseEstimator, WrongInputIsRefusedWithTheNumbers)
   estimator->SetBitDepth(8);
   EXPECT_SAYS(ErrorOf(estimator), "end at 255 DN; give a larger bit depth");
   estimator->SetBitDepth(0);
+  estimator->SetMethod("published");
   estimator->SetLevel(1.5);
   EXPECT_SAYS(ErrorOf(estimator), "the level of the vibration test is 1.5");
   estimator->SetLevel(0.01);
+  estimator->SetOffset(100.0);
+  EXPECT_SAYS(ErrorOf(estimator), "the offset cannot be used by the method published");
+  estimator->SetMethod("refined");
+  estimator->SetOffset(std::numeric_limits<double>::infinity());
+  EXPECT_SAYS(ErrorOf(estimator), "the offset is inf DN");
+  estimator->SetOffset(std::numeric_limits<double>::quiet_NaN());
   EXPECT_EQ(JsonOf(estimator), JsonOf(EstimatorOf<StackType>(SimulatedStack())));
 }
 
@@ -507,4 +540,121 @@ TEST(SensorNoiseEstimator, AbortThrowsAndTheNextUpdateIsRight)
   EXPECT_THROW(estimator->Update(), itk::ProcessAborted);
   estimator->RemoveObserver(observer);
   EXPECT_EQ(JsonOf(estimator), JsonOf(EstimatorOf<StackType>(SimulatedStack())));
+}
+
+namespace
+{
+/** Frames of the same camera without light. */
+template <typename TStack>
+typename TStack::Pointer
+DarkStack(unsigned int frames, unsigned int width = Width)
+{
+  const auto source = TargetSource<TStack>(width, Height, frames);
+  source->SetElectrons(1e-9);
+  source->SetSeed(77);
+  typename TStack::Pointer stack = source->GetOutput();
+  source->Update();
+  stack->DisconnectPipeline();
+  return stack;
+}
+} // namespace
+
+// Camera B, mu = 100 DN and sigma = 8 DN (20 and 2 in 8 bits): within 4 standard errors.
+TYPED_TEST(SensorNoiseEstimatorOf, DarkFramesTellOffsetAndReadNoise)
+{
+  using Stack = itk::Image<TypeParam, 3>;
+  const auto estimator = EstimatorOf<Stack>(TargetStack<Stack>(Width, Height, Frames));
+  estimator->SetDark(DarkStack<Stack>(12));
+  estimator->Update();
+  const sensornoise::Report & report = estimator->GetReport();
+  const bool                  isByte = sizeof(TypeParam) == 1;
+  for (const auto & [quantity, truth] :
+       { std::pair(&report.offset, isByte ? 20.0 : 100.0), std::pair(&report.readNoise, isByte ? 2.0 : 8.0) })
+  {
+    ASSERT_TRUE(quantity->value && quantity->standardError);
+    EXPECT_NEAR(*quantity->value, truth, 4.0 * *quantity->standardError);
+  }
+  // sigma / sqrt(pixels x frames)
+  EXPECT_NEAR(*report.offset.standardError, (isByte ? 2.0 : 8.0) / std::sqrt(Width * Height * 12.0), 0.004);
+}
+
+TEST(SensorNoiseEstimator, OneDarkFrameTellsTheOffsetAlone)
+{
+  const auto estimator = EstimatorOf<StackType>(SimulatedStack());
+  estimator->SetDark(DarkStack<StackType>(1));
+  estimator->Update();
+  const sensornoise::Report & report = estimator->GetReport();
+  EXPECT_NEAR(*report.offset.value, 100.0, 4.0 * 8.0 / std::sqrt(Width * Height));
+  // From the line through the others' variance: its error is far from that of dark frames.
+  EXPECT_GT(report.readNoise.standardError.value_or(0.0), 0.1);
+}
+
+TEST(SensorNoiseEstimator, DarkFramesAreReadOnceInChunksAndChangeNoBit)
+{
+  const auto dark = DarkStack<StackType>(12);
+  const auto expected = EstimatorOf<StackType>(SimulatedStack());
+  expected->SetDark(dark);
+  const auto json = JsonOf(expected);
+  for (const unsigned int chunks : { 1u, 4u })
+  {
+    for (const unsigned int units : { 1u, 7u })
+    {
+      const auto reader = StackReader<StackType>::Of(dark);
+      const auto estimator = EstimatorOf<StackType>(SimulatedStack());
+      estimator->SetDark(reader->GetOutput());
+      estimator->SetNumberOfStreamDivisions(chunks);
+      estimator->SetNumberOfWorkUnits(units);
+      EXPECT_EQ(JsonOf(estimator), json) << chunks << " x " << units;
+      EXPECT_EQ(reader->WholeReads(), chunks == 1 ? 1u : 0u);
+      EXPECT_EQ(reader->Reads(), chunks == 1 ? 1u : chunks + 1) << "and one frame, which the pipeline keeps";
+      estimator->Update();
+      EXPECT_LE(reader->Reads(), chunks + 1);
+    }
+  }
+}
+
+TEST(SensorNoiseEstimator, DarkFramesMayHaveAnotherStartIndexAndAreMasked)
+{
+  const auto dark = DarkStack<StackType>(12);
+  const auto mask = ImageOf<MaskType>({ { Width, Height } }, [](const auto & index) { return index[0] < 48 ? 1 : 0; });
+  const auto expected = EstimatorOf<StackType>(SimulatedStack());
+  expected->SetDark(dark);
+  expected->SetMask(mask);
+  const auto moved = EstimatorOf<StackType>(SimulatedStack());
+  moved->SetMask(mask);
+  moved->SetDark(
+    MovedTo<StackType>({ { 3, -2, 50 } }, ImageOf<StackType>({ { Width, Height, 12 } }, [&](const auto & index) {
+                         return index[0] < 48 ? dark->GetPixel(index) : 3000;
+                       })));
+  EXPECT_EQ(JsonOf(moved), JsonOf(expected));
+}
+
+TEST(SensorNoiseEstimator, DarkFramesThatCannotBeUsedAreRefused)
+{
+  const auto estimator = EstimatorOf<StackType>(SimulatedStack());
+  const auto json = JsonOf(estimator);
+  estimator->SetDark(DarkStack<StackType>(12, Width - 1));
+  EXPECT_SAYS(ErrorOf(estimator), "the dark frames have 64 x 63 pixels, but the frames have 65 x 63");
+  estimator->SetDark(ConstantImage<StackType>({ { Width, Height, 9 } }, 0));
+  EXPECT_SAYS(ErrorOf(estimator), "their black level is cut off");
+  EXPECT_SAYS(ErrorOf(estimator), "their black level is cut off");
+  const auto dark = DarkStack<StackType>(12);
+  estimator->SetDark(dark);
+  estimator->SetOffset(100.0);
+  EXPECT_SAYS(ErrorOf(estimator), "the offset 100 DN and dark frames were given; expected one of them");
+  estimator->SetOffset(std::numeric_limits<double>::quiet_NaN());
+  estimator->SetMethod("published");
+  EXPECT_SAYS(ErrorOf(estimator), "dark frames cannot be used by the method published");
+  estimator->SetMethod("refined");
+  const auto reader = StackReader<StackType>::Of(dark);
+  estimator->SetDark(reader->GetOutput());
+  reader->Break(7);
+  EXPECT_SAYS(ErrorOf(estimator), "frame 7 is broken");
+  EXPECT_SAYS(ErrorOf(estimator), "frame 7 is broken");
+  reader->Mend();
+  const auto expected = EstimatorOf<StackType>(SimulatedStack());
+  expected->SetDark(dark);
+  EXPECT_EQ(JsonOf(estimator), JsonOf(expected));
+  estimator->SetDark(nullptr);
+  EXPECT_EQ(JsonOf(estimator), json);
 }

@@ -45,7 +45,7 @@ def parse_arguments() -> argparse.Namespace:
 
 def print_truth(report: Mapping[str, Any], truth: Mapping[str, Any]) -> None:
     """Prints the truth of a simulated stack beside the estimate."""
-    print(f"\n{'quantity':<18}{'truth':>10}{'estimate':>12}  unit")
+    print(f"\n{'quantity':<18}{'truth':>10}{'estimate':>12}  {'error':<11}  unit")
     for name, true in (
         ("gain", truth["gain"]),
         ("offset", truth["offset"]),
@@ -55,7 +55,9 @@ def print_truth(report: Mapping[str, Any], truth: Mapping[str, Any]) -> None:
     ):
         value = report[name]["value"]
         estimate = f"{value:.5g}" if value is not None else report[name]["status"]
-        print(f"{name:<18}{true:>10.5g}{estimate:>12}  {report[name]['unit']}")
+        error = report[name]["standard_error"]
+        text = "" if error is None else f"+- {error:.2g}"
+        print(f"{name:<18}{true:>10.5g}{estimate:>12}  {text:<11}  {report[name]['unit']}")
 
 
 def main() -> int:

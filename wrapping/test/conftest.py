@@ -66,6 +66,12 @@ def burst() -> np.ndarray:
 
 
 @pytest.fixture(scope="session")
+def dark() -> np.ndarray:
+    """Frames (12, 96, 128) of the camera of `burst` without light: mu = 100 DN, sigma = 8 DN."""
+    return itk.simulate_sensor_noise(frames=12, size=(128, 96), electrons=1e-9, seed=6)[0]
+
+
+@pytest.fixture(scope="session")
 def tool():
     """Runs a command-line tool of the same checkout: SENSORNOISE_BIN, else build/bin; the text it prints."""
     root = Path(__file__).resolve().parents[2]

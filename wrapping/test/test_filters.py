@@ -126,7 +126,7 @@ def test_chain_by_hand_gives_the_numbers_of_the_one_call_way(stack, statistics, 
     chain = itk.noise_regression_estimator(
         statistics[0], variance, mask, offset=correction.GetOffset(), number_of_frames=len(stack)
     )
-    whole = itk.estimate_sensor_noise(stack, rolling_shutter="off")
+    whole = itk.estimate_sensor_noise(stack, method="published", rolling_shutter="off")
     # The design's 1e-9.
     assert chain["gain"]["value"] == pytest.approx(whole["gain"]["value"], rel=1e-9)
     assert chain["intercept"]["value"] == pytest.approx(whole["intercept"]["value"], rel=1e-9)
@@ -168,14 +168,28 @@ def test_vibration_covariance_recovers_a_quadratic_form():
 
 
 def test_estimator_in_both_styles(stack, pixel):
-    report = itk.sensor_noise_estimator(stack, level=0.02, rolling_shutter="off")
+    parameters = {"method": "published", "level": 0.02, "rolling_shutter": "off"}
+    report = itk.sensor_noise_estimator(stack, **parameters)
     assert report["settings"]["level"] == 0.02
-    found = itk.SensorNoiseEstimator[stack_type(pixel)].New(image(stack), level=0.02, rolling_shutter="off")
+    found = itk.SensorNoiseEstimator[stack_type(pixel)].New(image(stack), **parameters)
     found.Update()
     assert json.loads(found.GetReportAsJson()) == report
-    assert report == itk.estimate_sensor_noise(stack, level=0.02, rolling_shutter="off")
+    assert report == itk.estimate_sensor_noise(stack, **parameters)
     assert array(found.GetMean()).shape == array(found.GetCorrectedVariance()).shape == stack.shape[1:]
     assert (array(found.GetPixelUse()) == 0).sum() == report["pixels"]["used"]
+
+
+def test_refined_estimator_in_both_styles(burst, dark):
+    report = itk.sensor_noise_estimator(burst, dark=dark)
+    found = itk.SensorNoiseEstimator.New(image(burst), dark=image(dark))
+    assert found.GetMethodName() == "refined"
+    found.Update()
+    assert json.loads(found.GetReportAsJson()) == report
+    assert report == itk.estimate_sensor_noise(burst, dark=dark)
+    known = itk.sensor_noise_estimator(burst, offset=100.0, offset_standard_error=0.5)
+    assert known == itk.estimate_sensor_noise(burst, offset=(100.0, 0.5))
+    with pytest.raises(ValueError, match="^dark has pixels of type uint8; expected uint16, as the stack"):
+        itk.sensor_noise_estimator(burst, dark=dark.astype(np.uint8))
 
 
 def test_sources_in_both_styles(pixel):

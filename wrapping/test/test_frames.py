@@ -70,7 +70,9 @@ def test_too_few_frames_are_what_itk_throws(count, make):
 
 
 WRONG_PARAMETERS = {
-    "method": ("refined", "method is 'refined'; expected 'published'"),
+    "method": ("best", "method is 'best'; expected 'refined' or 'published'"),
+    "offset": ((1, 2, 3), "offset is (1, 2, 3); expected a finite number or (number, standard error) [DN]"),
+    "dark": (STACK[:, 1:], "dark has 9 x 7 pixels of type uint16; expected 9 x 8 pixels of type uint16, as the frames"),
     "bit_depth": (17, "bit_depth is 17; expected a whole number from 1 to 16"),
     "clip": ((1, 2, 3), "clip is (1, 2, 3); expected (low, high)"),
     "step": (0, "step is 0; expected a number above 0"),

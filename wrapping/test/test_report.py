@@ -84,7 +84,7 @@ def test_plot_draws_the_scatter_and_the_line(report):
     np.testing.assert_array_equal(variance.get_ydata(), report["scatter"]["variance"])
     np.testing.assert_array_equal(corrected.get_ydata(), report["scatter"]["corrected_variance"])
     ends = np.array(line.get_xdata())
-    np.testing.assert_allclose(line.get_ydata(), report["gain"]["value"] * ends + report["intercept"]["value"])
+    np.testing.assert_allclose(line.get_ydata(), report["gain"]["value"] * ends + report["total_intercept"]["value"])
     assert report.plot(figure.axes[0]) is figure
     matplotlib.pyplot.close(figure)
 

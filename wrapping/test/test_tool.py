@@ -38,8 +38,14 @@ def mask(burst):
 
 OPTIONS = {
     "defaults": ({}, []),
+    "published": ({"method": "published"}, ["--method", "published"]),
+    "offset": ({"offset": 100}, ["--offset", "100"]),
+    "offset with error": ({"offset": (99.5, 0.25)}, ["--offset", "99.5,0.25"]),
     "shutter off": ({"rolling_shutter": "off"}, ["--rolling-shutter", "off"]),
-    "shutter width": ({"rolling_shutter": 12}, ["--rolling-shutter", "12"]),
+    "shutter width": (
+        {"method": "published", "rolling_shutter": 12},
+        ["--method", "published", "--rolling-shutter", "12"],
+    ),
     "roi": ({"roi": (10, 5, 100, 80)}, ["--roi", "10,5,100,80"]),
     "frames": ({"frame_range": (7, 41)}, ["--frames", "7:41"]),
     "codes": (
@@ -67,6 +73,18 @@ def test_mask_is_the_tool_s(tool, burst, stack_file, mask, tmp_path, roi):
     assert itk.estimate_sensor_noise(burst, mask=mask, roi=roi).to_json() == expected
     assert itk.estimate_sensor_noise(burst, mask=mask_file, roi=roi).to_json() == expected
     assert itk.estimate_sensor_noise(burst, mask=mask * 7.0, roi=roi).to_json() == expected
+
+
+@pytest.mark.parametrize("roi", [None, (10, 5, 100, 80)])
+def test_dark_frames_are_the_tool_s(tool, burst, dark, stack_file, tmp_path, roi):
+    names = [tmp_path / f"{number:03}.tif" for number in range(len(dark))]
+    for name, frame in zip(names, dark):
+        itk.imwrite(itk.image_from_array(frame), str(name))
+    flags = [] if roi is None else ["--roi", ",".join(map(str, roi))]
+    expected = tool("estimate-sensor-noise", stack_file, "--quiet", "--json", "-", *flags, "--dark", *names)
+    assert itk.estimate_sensor_noise(burst, dark=dark, roi=roi).to_json() == expected
+    assert itk.estimate_sensor_noise(burst, dark=names, roi=roi).to_json() == expected
+    assert itk.estimate_sensor_noise(stack_file, dark=list(dark), roi=roi).to_json() == expected
 
 
 def test_table_is_the_tool_s(tool, burst, stack_file):

@@ -34,7 +34,9 @@ from ._report import Report
 def estimate_sensor_noise(
     frames: Any,
     *,
-    method: Literal["published"] = "published",
+    method: Literal["refined", "published"] = "refined",
+    offset: float | tuple[float, float] | None = None,
+    dark: Any = None,
     bit_depth: int | None = None,
     clip: tuple[float, float] | None = None,
     step: float | None = None,
@@ -59,7 +61,14 @@ def estimate_sensor_noise(
         held together (NRRD and multi-page TIFF, which ITK cannot read in parts, are). Arrays are shared; one that is
         not C-contiguous or not in the machine's byte order is copied once.
     method
-        "published": Figure 2 of Sur & Grédiac 2015.
+        "refined": all pixels of a still scene, textured or not, and an error for every quantity. "published": Figure 2
+        of Sur & Grédiac 2015, even areas only, without errors.
+    offset
+        The offset [DN] if it is known, or (offset, standard error): offset and read noise then need no flicker, and
+        steady light is told from the offset. Default: found. "refined" only.
+    dark
+        Frames without light, as `frames`, of the same size and type and at the same exposure, gain and temperature:
+        they give the offset and, from two frames on, the read noise. Not together with `offset`. "refined" only.
     bit_depth
         Bits of the sensor's codes, 1 to 16. Default: found.
     clip
@@ -68,15 +77,16 @@ def estimate_sensor_noise(
         Spacing of the codes [DN]. Default: found.
     rolling_shutter
         Whether the flicker may differ from line to line: "auto" (found out), "off", or the width sigma_y of a line's
-        neighbourhood [lines].
+        neighbourhood [lines]. "refined" looks for any light that changes in some places in another way than in others,
+        unless "off", and needs no width.
     shutter_axis
-        Axis along which the shutter travels: "y" (lines are rows) or "x".
+        Axis along which the shutter travels: "y" (lines are rows) or "x". "refined" does without.
     level
-        Level of the test that finds pixels moved by vibrations, a probability.
+        Level of the test that finds pixels moved by vibrations, a probability. "refined" does without.
     quantiles
-        Quantiles of the mean at which the dark and the bright set lie, 0 to 1.
+        Quantiles of the mean at which the dark and the bright set lie, 0 to 1. "refined" does without.
     roi
-        (x, y, width, height) [pixel]: only these pixels.
+        (x, y, width, height) [pixel]: only these pixels, of the dark frames too.
     mask
         Only pixels where this is not 0: an array (y, x) of a frame's size, or the name of an image file.
     frame_range
@@ -101,14 +111,21 @@ def estimate_sensor_noise(
     """
     import itk
 
-    _options.one_of("method", method, ["published"])
+    _options.one_of("method", method, ["refined", "published"])
+    _check_what_is_known(method, offset, dark)
     span = None if frame_range is None else _frame_range(frame_range)
     stack = open_frames(frames, span)
     corner, size = _region(stack, roi, None if _is_cut(frames) else span)
     mask_array = None if mask is None else _mask_of(mask, stack.size[:2])
+    dark_stack = None if dark is None else _dark_of(dark, stack, corner, size)
     if size != stack.size:
         stack = crop(stack, corner, size)
     estimator = stack.estimator(itk.SensorNoiseEstimator)
+    estimator.SetMethod(method)
+    if offset is not None:
+        _set_offset(estimator, offset)
+    if dark_stack is not None:
+        estimator.SetDark(dark_stack.image)
     _set_parameters(estimator, bit_depth, clip, step, rolling_shutter, shutter_axis, level, quantiles)
     if mask_array is not None:
         rows, columns = slice(corner[1], corner[1] + size[1]), slice(corner[0], corner[0] + size[0])
@@ -121,6 +138,37 @@ def estimate_sensor_noise(
     with shown_progress(estimator, progress), itk_errors():
         estimator.Update()
     return Report.of(estimator)
+
+
+def _check_what_is_known(method: str, offset: Any, dark: Any) -> None:
+    given = [name for name, value in (("offset", offset), ("dark", dark)) if value is not None]
+    if given and method == "published":
+        raise ValueError(
+            f"{given[0]} was given and the method is 'published', which finds the offset from the flicker alone; "
+            f"expected no {given[0]}, or 'refined'"
+        )
+    if len(given) > 1:
+        raise ValueError("offset and dark were given; expected one of them")
+
+
+def _set_offset(estimator: Any, offset: Any) -> None:
+    expected = "a finite number or (number, standard error) [DN]"
+    if np.ndim(offset) == 0:
+        estimator.SetOffset(_options.number("offset", offset, expected))
+        return
+    value, error = _options.numbers("offset", offset, 2, expected)
+    estimator.SetOffset(value)
+    estimator.SetOffsetStandardError(error)
+
+
+def _dark_of(dark: Any, stack: Stack, corner: tuple[int, ...], size: tuple[int, ...]) -> Stack:
+    """The dark frames, cut as the stack is."""
+    opened = open_frames(dark, name="dark")
+    if (opened.size[:2], opened.pixel) != (stack.size[:2], stack.pixel):
+        found, expected = (f"{s.size[0]} x {s.size[1]} pixels of type {s.pixel}" for s in (opened, stack))
+        raise ValueError(f"dark has {found}; expected {expected}, as the frames")
+    corner, size = (*corner[:2], 0), (*size[:2], opened.size[2])
+    return opened if size == opened.size else crop(opened, corner, size)
 
 
 def _is_cut(frames: Any) -> bool:

@@ -45,11 +45,12 @@ def _frames_of_one_shape(**arrays: np.ndarray | None) -> None:
         raise ValueError(f"the shapes are {found}; expected one for all")
 
 
-def sensor_noise_estimator(stack: Any, *, mask: Any = None, **parameters: Any) -> Report:
+def sensor_noise_estimator(stack: Any, *, mask: Any = None, dark: Any = None, **parameters: Any) -> Report:
     """itk.SensorNoiseEstimator in functional style; estimate_sensor_noise() checks more and says it in its own words.
 
-    `stack` as `frames` there; `mask` an array (y, x), or an image, of a frame's size: pixels of value 0 are left out.
-    `parameters`: those of itk.SensorNoiseEstimator in snake case, for example `bit_depth=12, rolling_shutter="off"`.
+    `stack` as `frames` there; `mask` an array (y, x), or an image, of a frame's size: pixels of value 0 are left out;
+    `dark` frames without light, as `stack`. `parameters`: those of itk.SensorNoiseEstimator in snake case, for example
+    `method="published", bit_depth=12, rolling_shutter="off"`.
     Raises ValueError for wrong use, RuntimeError for what ITK threw.
     """
     import itk
@@ -60,6 +61,11 @@ def sensor_noise_estimator(stack: Any, *, mask: Any = None, **parameters: Any) -
     if mask is not None:
         mask_array = as_mask(mask, "mask")
         estimator.SetMask(view(mask_array))
+    if dark is not None:
+        dark_stack = open_frames(dark, name="dark")
+        if dark_stack.pixel != opened.pixel:
+            raise ValueError(f"dark has pixels of type {dark_stack.pixel}; expected {opened.pixel}, as the stack")
+        estimator.SetDark(dark_stack.image)
     with itk_errors():
         estimator.Update()
     return Report.of(estimator)

@@ -37,6 +37,8 @@ def new_axes() -> "Axes":
 def draw(report: Mapping[str, Any], axes: "Axes") -> "Figure":
     """Variance and corrected variance against mean, each point an average over pixels, and the line through the latter.
 
+    The line has the total intercept: codes add their noise to the points, too.
+
     Raises ValueError if no pixel was used.
     """
     scatter = report["scatter"]
@@ -48,7 +50,7 @@ def draw(report: Mapping[str, Any], axes: "Axes") -> "Figure":
         (scatter["corrected_variance"], "C0.", "variance, flicker corrected"),
     ):
         axes.plot(mean, [float("nan") if value is None else value for value in values], style, label=label)
-    gain, intercept = report["gain"]["value"], report["intercept"]["value"]
+    gain, intercept = report["gain"]["value"], report["total_intercept"]["value"]
     if gain is not None and intercept is not None:
         ends = [min(mean), max(mean)]
         label = f"{gain:.4g} mean {'+' if intercept >= 0 else '-'} {abs(intercept):.4g}"

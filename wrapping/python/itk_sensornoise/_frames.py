@@ -58,23 +58,24 @@ def is_name(value: Any) -> bool:
     return isinstance(value, (str, os.PathLike))
 
 
-def open_frames(frames: Any, frame_range: tuple[int, int] | None = None) -> Stack:
+def open_frames(frames: Any, frame_range: tuple[int, int] | None = None, name: str = "frames") -> Stack:
     """The frames as a stack: arrays are shared, files are read later, a few at a time.
 
     An array that is not C-contiguous or not in the machine's byte order is copied once. Of a list, the files outside
-    `frame_range` (first, one past the last) are not opened; a stack is left whole. Raises ValueError for anything else.
+    `frame_range` (first, one past the last) are not opened; a stack is left whole. Raises ValueError, with the `name` of
+    the parameter, for anything else.
     """
     if is_name(frames):
         return _from_files([frames], None)
     if isinstance(frames, (list, tuple)):
-        return _from_list(frames, frame_range)
+        return _from_list(frames, frame_range, name)
     if hasattr(frames, "GetLargestPossibleRegion"):
-        return _from_image(frames)
+        return _from_image(frames, name)
     if isinstance(frames, Iterator) or not hasattr(frames, "__array__"):
-        raise ValueError(f"frames is of type {type(frames).__name__}; {EXPECTED}")
-    array = as_array(frames, "frames")
-    pixel = require_pixel_type(array, "frames")
-    require_shape(array, "frames", "t, y, x")
+        raise ValueError(f"{name} is of type {type(frames).__name__}; {EXPECTED}")
+    array = as_array(frames, name)
+    pixel = require_pixel_type(array, name)
+    require_shape(array, name, "t, y, x")
     array = as_itk_order(array)
     return Stack(view(array), pixel, [array])
 
@@ -114,7 +115,7 @@ def _with_information(source: Any) -> Any:
     return source.GetOutput()
 
 
-def _from_image(image: Any) -> Stack:
+def _from_image(image: Any, name: str) -> Stack:
     import itk
 
     for pixel, (itk_name, _) in PIXEL_TYPES.items():
@@ -122,9 +123,9 @@ def _from_image(image: Any) -> Stack:
             with itk_errors():
                 image.UpdateOutputInformation()
             if 0 in image.GetLargestPossibleRegion().GetSize():
-                raise ValueError("frames is an itk.Image without pixels; expected at least 1 along each axis")
+                raise ValueError(f"{name} is an itk.Image without pixels; expected at least 1 along each axis")
             return Stack(image, pixel, [image])
-    raise ValueError(f"frames is an {type(image).__name__}; expected an itk.Image of 3 dimensions of {PIXEL_NAMES}")
+    raise ValueError(f"{name} is an {type(image).__name__}; expected an itk.Image of 3 dimensions of {PIXEL_NAMES}")
 
 
 def _from_files(names: Sequence[Any], frame_range: tuple[int, int] | None) -> Stack:
@@ -135,35 +136,36 @@ def _from_files(names: Sequence[Any], frame_range: tuple[int, int] | None) -> St
     return Stack(_with_information(reader), headers[0].pixel, [reader])
 
 
-def _from_list(frames: Sequence[Any], frame_range: tuple[int, int] | None) -> Stack:
+def _from_list(frames: Sequence[Any], frame_range: tuple[int, int] | None, name: str) -> Stack:
     if not frames:
-        raise ValueError(f"frames is an empty {type(frames).__name__}; expected at least 5 frames")
+        least = "5 frames" if name == "frames" else "1 frame"
+        raise ValueError(f"{name} is an empty {type(frames).__name__}; expected at least {least}")
     if frame_range is not None and len(frames) > 1 and frame_range[1] > len(frames):
         raise ValueError(f"frame_range ends at {frame_range[1]}, but there are {len(frames)} frames")
     named = sum(is_name(frame) for frame in frames)
     if named == len(frames):
         return _from_files(frames, frame_range)
     if named > 0:
-        raise ValueError(f"frames holds {named} file names and {len(frames) - named} others; expected one kind")
+        raise ValueError(f"{name} holds {named} file names and {len(frames) - named} others; expected one kind")
     if frame_range is not None and len(frames) > 1:
         frames = frames[frame_range[0] : frame_range[1]]
-    return _from_arrays(frames)
+    return _from_arrays(frames, name)
 
 
-def _from_arrays(frames: Sequence[Any]) -> Stack:
+def _from_arrays(frames: Sequence[Any], name: str) -> Stack:
     """Frames that stay where they are: ITK joins the ones of a chunk when it comes to them."""
     import itk
 
     arrays = []
     for number, frame in enumerate(frames):
-        name = f"frames[{number}]"
-        array = as_array(frame, name)
-        pixel = require_pixel_type(array, name)
-        require_shape(array, name, "y, x")
+        this = f"{name}[{number}]"
+        array = as_array(frame, this)
+        pixel = require_pixel_type(array, this)
+        require_shape(array, this, "y, x")
         arrays.append(as_itk_order(array))
         if array.shape != arrays[0].shape or pixel != arrays[0].dtype.name:
             raise ValueError(
-                f"{name} has shape {array.shape} and dtype {pixel}, but frames[0] has {arrays[0].shape} and "
+                f"{this} has shape {array.shape} and dtype {pixel}, but {name}[0] has {arrays[0].shape} and "
                 f"{arrays[0].dtype.name}; expected one shape and dtype for all"
             )
     component = getattr(itk, PIXEL_TYPES[arrays[0].dtype.name][0])

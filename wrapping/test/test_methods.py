@@ -1,0 +1,114 @@
+# ==========================================================================
+#
+#   Copyright the ITKSensorNoise contributors
+#
+#   Licensed under the Apache License, Version 2.0 (the "License");
+#   you may not use this file except in compliance with the License.
+#   You may obtain a copy of the License at
+#
+#          https://www.apache.org/licenses/LICENSE-2.0.txt
+#
+#   Unless required by applicable law or agreed to in writing, software
+#   distributed under the License is distributed on an "AS IS" BASIS,
+#   WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+#   See the License for the specific language governing permissions and
+#   limitations under the License.
+#
+# ==========================================================================*/
+"""The two methods, and an offset that is known: given, or from dark frames."""
+
+import itk
+import numpy as np
+import pytest
+
+
+def is_near(quantity, truth):
+    assert quantity["status"] == "identified"
+    return abs(quantity["value"] - truth) < 4 * quantity["standard_error"]
+
+
+def test_refined_is_the_default_and_has_errors(burst):
+    report = itk.estimate_sensor_noise(burst)
+    assert report["method"] == "refined"
+    assert report == itk.estimate_sensor_noise(burst, method="refined")
+    # Camera B: g = 1 DN/e-, mu = 100 DN, sigma = 8 DN.
+    for name, truth in (("gain", 1), ("offset", 100), ("read_noise", 8), ("intercept", -36)):
+        assert is_near(report[name], truth)
+        low, high = report[name]["interval95"]
+        assert low < report[name]["value"] < high
+    assert "+-" in str(report)
+    published = itk.estimate_sensor_noise(burst, method="published")
+    assert published["method"] == "published"
+    assert published["gain"]["standard_error"] is None and "+-" not in str(published)
+    assert published["pixels"]["used"] < report["pixels"]["used"]
+
+
+def test_dark_frames_tell_offset_and_read_noise(burst, dark):
+    report = itk.estimate_sensor_noise(burst, dark=dark)
+    assert is_near(report["offset"], 100) and is_near(report["read_noise"], 8)
+    # sigma / sqrt(N T) and sigma / sqrt(2 N (T - 1))
+    assert report["offset"]["standard_error"] == pytest.approx(8 / np.sqrt(dark.size), rel=0.1)
+    assert report["read_noise"]["standard_error"] == pytest.approx(8 / np.sqrt(2 * 128 * 96 * 11), rel=0.1)
+    assert report["settings"]["dark_frames"] == 12
+    assert report["warnings"] == []
+
+
+@pytest.mark.parametrize("make", [list, np.asfortranarray, itk.image_view_from_array])
+def test_dark_frames_in_any_form(burst, dark, make):
+    assert itk.estimate_sensor_noise(burst, dark=make(dark)) == itk.estimate_sensor_noise(burst, dark=dark)
+
+
+def test_one_dark_frame_tells_the_offset_only(burst, dark):
+    report = itk.estimate_sensor_noise(burst, dark=[dark[0]])
+    assert is_near(report["offset"], 100)
+    assert "dark_variance" not in report["settings"]
+
+
+def test_a_given_offset_needs_no_flicker():
+    steady, _ = itk.simulate_sensor_noise(frames=40, size=(128, 96), flicker_sd=0, seed=5)
+    blind = itk.estimate_sensor_noise(steady)
+    assert blind["offset"]["status"] == blind["read_noise"]["status"] == "not-identifiable"
+    report = itk.estimate_sensor_noise(steady, offset=(100, 0.5))
+    assert report["offset"]["value"] == 100 and report["offset"]["standard_error"] == 0.5
+    assert is_near(report["read_noise"], 8)
+    assert itk.estimate_sensor_noise(steady, offset=100)["settings"]["offset_standard_error"] == 0
+
+
+def test_dark_frames_of_another_camera_are_noticed(burst):
+    other, _ = itk.simulate_sensor_noise(frames=12, size=(128, 96), electrons=1e-9, read_noise=12)
+    report = itk.estimate_sensor_noise(burst, dark=other)
+    assert [warning["code"] for warning in report["warnings"]] == ["dark-frames-differ"]
+
+
+WRONG = {
+    "both": ({"offset": 3, "dark": True}, "offset and dark were given; expected one of them"),
+    "published offset": ({"offset": 3, "method": "published"}, "offset was given and the method is 'published'"),
+    "published dark": ({"dark": True, "method": "published"}, "dark was given and the method is 'published'"),
+    "text": ({"offset": "much"}, "offset is 'much'; expected a finite number or (number, standard error) [DN]"),
+    "no number": ({"offset": float("nan")}, "offset is nan; expected a finite number"),
+    "no frames": ({"dark": []}, "dark is an empty list; expected at least 1 frame"),
+    "a frame": ({"dark": np.ones((96, 128), np.uint16)}, "dark has 2 dimensions, shape (96, 128); expected 3"),
+    "ragged": ({"dark": [np.ones((96, 128), np.uint16), np.ones((9, 9), np.uint16)]}, "dark[1] has shape (9, 9)"),
+    "other type": (
+        {"dark": np.ones((6, 96, 128), np.uint8)},
+        "dark has 128 x 96 pixels of type uint8; expected 128 x 96 pixels of type uint16, as the frames",
+    ),
+    "no file": ({"dark": "no-such.mha"}, "no-such.mha: does not exist"),
+}
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_wrong_use_is_refused(burst, dark, case):
+    parameters, expected = WRONG[case]
+    if parameters.get("dark") is True:
+        parameters = {**parameters, "dark": dark}
+    with pytest.raises(ValueError) as error:
+        itk.estimate_sensor_noise(burst, **parameters)
+    assert str(error.value).splitlines()[0].startswith(expected)
+
+
+def test_dark_frames_without_a_black_level_are_what_itk_throws(burst):
+    with pytest.raises(RuntimeError, match="their black level is cut off"):
+        itk.estimate_sensor_noise(burst, dark=np.zeros((5, 96, 128), np.uint16))
+    with pytest.raises(RuntimeError, match="^the offset is 100.* expected .* a standard error of 0 or more"):
+        itk.estimate_sensor_noise(burst, offset=(100, -1))
