@@ -241,8 +241,12 @@ EstimateFor(const EstimateOptions & options, const FrameInput & input, MapFiles 
 bool
 IsWhyNothingIsEstimated(const sensornoise::Warning & warning)
 {
-  return warning.code == "nothing-to-measure" || warning.code == "intensity-range-too-small" ||
-         warning.code == "variance-not-affine" || warning.code == "codes-too-coarse";
+  const auto codes = { "nothing-to-measure",
+                       "too-little-to-measure",
+                       "intensity-range-too-small",
+                       "variance-not-affine",
+                       "codes-too-coarse" };
+  return std::find(codes.begin(), codes.end(), warning.code) != codes.end();
 }
 
 int

@@ -94,7 +94,7 @@ def test_pixel_types_that_hold_the_same_codes_agree(stack, codes, pixel):
     expected = itk.estimate_sensor_noise(codes, rolling_shutter="off", clip=(0, 255), step=1)
     assert report["pixels"] == expected["pixels"]
     # Integers: sums in another order, far below 1e-9. Means of floating-point numbers end in other bits, so that pixels
-    # on the edge of an iso-intensity set fall to the other side: 1e-4 is a fortieth of the gain's standard error,
-    # about sqrt(2 / 40 / 3000 pixels) = 0.4 %.
+    # on the edge of a set fall to the other side: 1e-4 is a fortieth of the gain's standard error, about
+    # sqrt(2 / 40 / 3000 pixels) = 0.4 %.
     rel = 1e-4 if pixel.startswith("float") else 1e-9
     assert report["gain"]["value"] == pytest.approx(expected["gain"]["value"], rel=rel)

@@ -129,7 +129,7 @@ def test_memory_stays_flat_for_a_list_of_files(fresh, tmp_path):
 
 @pytest.mark.parametrize("make", ["stack", "list(stack)", "itk.image_view_from_array(stack)"])
 def test_array_in_memory_is_not_copied(fresh, make):
-    """A stack of 200 MiB; the estimate has 70 bytes a pixel of a frame, 17 MiB; of a list, two chunks of up to 64."""
+    """A stack of 200 MiB; the memory of the estimate is taken by a first one; of a list, two chunks of up to 64 MiB."""
     code = PEAK + (
         "import itk, numpy as np\n"
         "itk.estimate_sensor_noise(np.random.default_rng(1).integers(9, 90, (6, 512, 512), dtype=np.uint16))\n"

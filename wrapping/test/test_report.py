@@ -70,7 +70,9 @@ def test_functions_can_be_pickled():
 
 
 def test_table_has_the_values(report):
-    assert re.search(rf"^gain g +{report['gain']['value']:.5g} +DN/e- +identified", str(report), re.MULTILINE)
+    gain = report["gain"]
+    row = rf"^gain g +{gain['value']:.5g} +\+- {gain['standard_error']:.2g} +DN/e- +identified"
+    assert re.search(row, str(report), re.MULTILINE)
     assert not str(report).endswith("\n")
     assert f"{report['gain']['value']:.5g} DN/e-" in repr(report)
 
