@@ -27,9 +27,75 @@
 namespace sensornoise
 {
 
-/** Sum of \a map over a square of 2 \a radius + 1 pixels about each pixel, cut at the frame's border.
+namespace detail
+{
+/** Running sums of 2 \a radius + 1 neighbours along a row, cut at its ends. */
+template <typename TValue>
+void
+SumAlongRow(const TValue * in, std::size_t width, std::size_t radius, double * out)
+{
+  const auto at = [&](std::size_t x) { return static_cast<double>(in[x]); };
+  double     sum = 0.0;
+  for (std::size_t x = 0; x < std::min(width, radius); ++x)
+  {
+    sum += at(x);
+  }
+  for (std::size_t x = 0; x < width; ++x)
+  {
+    const double next = x + radius < width ? at(x + radius) : 0.0;
+    sum += next - (x > radius ? at(x - radius - 1) : 0.0);
+    out[x] = sum;
+  }
+}
+} // namespace detail
+
+/** Sum of \a map over a square of 2 \a radius + 1 pixels about each pixel, cut at the frame's border; \a result is
+ * another map, whose memory is used again.
  *
  * Running sums along the rows, then along the columns: the cost does not depend on the radius. */
+template <typename TValue>
+void
+BoxSum(const std::vector<TValue> & map,
+       std::size_t                 width,
+       std::size_t                 height,
+       std::size_t                 radius,
+       const ParallelFor &         parallelFor,
+       std::vector<double> &       result)
+{
+  result.resize(map.size());
+  constexpr std::size_t band = 64; // rows that are summed together
+  parallelFor((height + band - 1) / band, [&](std::size_t b) {
+    const std::size_t   first = b * band;
+    const std::size_t   last = std::min(height, first + band);
+    std::vector<double> sum(width, 0.0);
+    std::vector<double> row(width);
+    const auto          add = [&](std::size_t y, double sign) {
+      detail::SumAlongRow(map.data() + y * width, width, radius, row.data());
+      for (std::size_t x = 0; x < width; ++x)
+      {
+        sum[x] += sign * row[x];
+      }
+    };
+    for (std::size_t y = first - std::min(first, radius); y < std::min(height, first + radius); ++y)
+    {
+      add(y, 1.0);
+    }
+    for (std::size_t y = first; y < last; ++y)
+    {
+      if (y + radius < height)
+      {
+        add(y + radius, 1.0);
+      }
+      if (y > first && y > radius)
+      {
+        add(y - radius - 1, -1.0);
+      }
+      std::copy(sum.begin(), sum.end(), result.begin() + static_cast<std::ptrdiff_t>(y * width));
+    }
+  });
+}
+
+/** The same, in a new map. */
 template <typename TValue>
 std::vector<double>
 BoxSum(const std::vector<TValue> & map,
@@ -38,41 +104,8 @@ BoxSum(const std::vector<TValue> & map,
        std::size_t                 radius,
        const ParallelFor &         parallelFor = SerialFor)
 {
-  std::vector<double> rows(map.size());
-  parallelFor(height, [&](std::size_t y) {
-    const TValue * in = map.data() + y * width;
-    double *       out = rows.data() + y * width;
-    double         sum = 0.0;
-    for (std::size_t x = 0; x < std::min(width, radius); ++x)
-    {
-      sum += static_cast<double>(in[x]);
-    }
-    for (std::size_t x = 0; x < width; ++x)
-    {
-      sum += x + radius < width ? static_cast<double>(in[x + radius]) : 0.0;
-      sum -= x > radius ? static_cast<double>(in[x - radius - 1]) : 0.0;
-      out[x] = sum;
-    }
-  });
-  std::vector<double>   result(map.size());
-  constexpr std::size_t strip = 64; // columns that are summed together
-  parallelFor((width + strip - 1) / strip, [&](std::size_t s) {
-    const std::size_t   first = s * strip;
-    const std::size_t   last = std::min(width, first + strip);
-    std::vector<double> sum(strip, 0.0);
-    for (std::size_t y = 0; y < height + radius; ++y)
-    {
-      for (std::size_t x = first; x < last; ++x)
-      {
-        sum[x - first] += y < height ? rows[y * width + x] : 0.0;
-        if (y >= radius)
-        {
-          sum[x - first] -= y > 2 * radius ? rows[(y - 2 * radius - 1) * width + x] : 0.0;
-          result[(y - radius) * width + x] = sum[x - first];
-        }
-      }
-    }
-  });
+  std::vector<double> result;
+  BoxSum(map, width, height, radius, parallelFor, result);
   return result;
 }
 

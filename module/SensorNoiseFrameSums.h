@@ -18,13 +18,13 @@
 #ifndef SensorNoiseFrameSums_h
 #define SensorNoiseFrameSums_h
 
-#include "SensorNoiseFrameProducts.h"
-#include "SensorNoiseProvisionalModel.h"
+#include "SensorNoiseFrameRegressors.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 namespace sensornoise
@@ -43,53 +43,34 @@ namespace sensornoise
  *
  * A frame's sums are made cell by cell in blocks of a fixed size: they do not depend on the chunks or the threads.
  * Sums of different frames are separate numbers, so parts of a stack are merged with the same bits. What needs no frame
- * is made by the constructor.
- * Memory: 25 bytes a pixel, 16 kB a frame. */
+ * is made by the constructor. Memory: 16 kB a frame. */
 class FrameSums
 {
 public:
-  static constexpr std::size_t  Instruments = 2;
-  static constexpr std::size_t  CellColumns = 2;
-  static constexpr std::size_t  Columns = FrameColumns + Instruments + CellColumns;
-  static constexpr std::uint8_t Unused = 255;
+  static constexpr std::size_t Instruments = FrameRegressors::Instruments;
 
   using ClassMatrix = Eigen::Matrix<double, FrameColumns, FrameColumns>;
   using ColumnVector = FrameProducts::ColumnVector;
 
-  /** Sums that need no frame, of one cell: of w, w I, w I^2, and of w D_k and w I D_k. */
+  /** Sums that need no frame, over one cell: of w X_k and w I X_k, I the mean minus the centre. */
   struct Cell
   {
-    std::size_t                          pixels{ 0 };
-    double                               w{ 0.0 };
-    double                               wI{ 0.0 };
-    double                               wII{ 0.0 };
-    std::array<double, NumberOfStencils> wD{};
-    std::array<double, NumberOfStencils> wID{};
+    std::size_t                      pixels{ 0 };
+    std::array<double, FrameColumns> sum{};
+    std::array<double, FrameColumns> sumI{};
   };
 
-  /** \a take has a nonzero value at the pixels to be summed; they must be usable. The frame must outlive the sums. */
-  FrameSums(const ReferenceFrame &            frame,
-            const ProvisionalModel &          model,
-            const std::vector<std::uint8_t> & take,
-            std::vector<double>               smoothX,
-            std::vector<double>               smoothY,
-            std::vector<double>               smoothWeight,
-            const ParallelFor &               parallelFor = SerialFor)
-    : m_Frame(&frame)
-    , m_Model(model)
-    , m_ClassOf(frame.mean.size(), Unused)
-    , m_SmoothX(std::move(smoothX))
-    , m_SmoothY(std::move(smoothY))
-    , m_SmoothWeight(std::move(smoothWeight))
-    , m_CellRows(std::clamp<std::size_t>(frame.geometry.height / 8, 1, 64))
-    , m_CellsPerRow(std::clamp<std::size_t>(frame.geometry.width / 32, 1, 16))
-    , m_Products(frame.mean.size(), frame.frames, m_CellRows * m_CellsPerRow)
+  explicit FrameSums(FrameRegressors regressors, const ParallelFor & parallelFor = SerialFor)
+    : m_Regressors(std::move(regressors))
+    , m_Frame(&m_Regressors.GetFrame())
+    , m_CellRows(std::clamp<std::size_t>(m_Frame->geometry.height / 8, 1, 64))
+    , m_CellsPerRow(std::clamp<std::size_t>(m_Frame->geometry.width / 32, 1, 16))
+    , m_Products(m_Frame->mean.size(), m_Frame->frames, m_CellRows * m_CellsPerRow)
     , m_ClassGram(GradientClasses, ClassMatrix::Zero())
     , m_InstrumentGram(Eigen::Matrix<double, Instruments, FrameColumns>::Zero())
     , m_Cells(m_CellRows * m_CellsPerRow)
   {
-    this->ClassifyPixels(take);
-    this->AddGroup<double>(nullptr, 0, 0, parallelFor); // the Gram matrices
+    this->SumColumns(parallelFor);
   }
 
   /** Adds frames first ... first + count - 1, stored one after the other. */
@@ -97,7 +78,7 @@ public:
   void
   AddFrames(const TPixel * frames, std::size_t first, std::size_t count, const ParallelFor & parallelFor)
   {
-    constexpr std::size_t group = 64; // bounds the memory of the parts
+    constexpr std::size_t group = 128; // bounds the memory of the parts
     for (std::size_t begin = 0; begin < count; begin += group)
     {
       const std::size_t size = std::min(group, count - begin);
@@ -133,26 +114,15 @@ public:
     return m_Products;
   }
 
+  const FrameRegressors &
+  GetRegressors() const
+  {
+    return m_Regressors;
+  }
   const ReferenceFrame &
   GetFrame() const
   {
     return *m_Frame;
-  }
-  const ProvisionalModel &
-  GetModel() const
-  {
-    return m_Model;
-  }
-  /** The level that is subtracted from the mean in column 1, for conditioning [DN]. */
-  double
-  GetCentreDn() const
-  {
-    return m_Model.averageDn;
-  }
-  std::uint8_t
-  ClassOf(std::size_t p) const
-  {
-    return m_ClassOf[p];
   }
   const ColumnVector &
   GetClassSums(std::size_t t, std::size_t gradientClass) const
@@ -185,268 +155,196 @@ public:
   {
     return m_InstrumentGram;
   }
-  double
-  SmoothX(std::size_t p) const
-  {
-    return m_SmoothX[p] * m_SmoothWeight[p];
-  }
-  double
-  SmoothY(std::size_t p) const
-  {
-    return m_SmoothY[p] * m_SmoothWeight[p];
-  }
-  double
-  SmoothWeight(std::size_t p) const
-  {
-    return m_SmoothWeight[p];
-  }
 
 private:
-  using Row = std::array<double, 16>; // Columns, padded for the vector units
-  static_assert(Columns <= 16, "a row holds all columns");
+  using Row = FrameRegressors::Row;
+  using ClassRows = std::array<Row, GradientClasses>;
 
   static constexpr std::size_t BlockSize = 512; // its rows stay in the second-level cache
+  static constexpr std::size_t Together = 4;    // series, and columns, whose sums stay in registers
 
   /** A run of pixels of a cell, ordered by class. */
   struct Block
   {
     std::vector<std::size_t>                     pixels;
     std::array<std::size_t, GradientClasses + 1> begin{};
-    std::vector<double>                          mean;
+    std::vector<FrameRegressors::Values>         values;
     std::vector<Row>                             rows;
   };
 
-  void
-  ClassifyPixels(const std::vector<std::uint8_t> & take)
-  {
-    const auto &      stencils = MotionStencils();
-    const std::size_t width = m_Frame->geometry.width;
-    const double *    mean = m_Frame->mean.data();
-    const auto        roughness = [&](std::size_t p) {
-      const double gx = ApplyStencil(stencils[StencilX], mean, width, p);
-      const double gy = ApplyStencil(stencils[StencilY], mean, width, p);
-      const double xx = ApplyStencil(stencils[StencilXX], mean, width, p);
-      const double yy = ApplyStencil(stencils[StencilYY], mean, width, p);
-      return (gx * gx + gy * gy + 0.25 * (xx * xx + yy * yy)) / m_Model.NoiseVariance(m_Frame->neighbourMean[p]);
-    };
-    std::vector<double> values;
-    for (const std::size_t p : detail::SamplePixels(take))
-    {
-      values.push_back(roughness(p));
-    }
-    std::array<double, GradientClasses - 1> edges{ 0.4, 0.6, 0.75, 0.87, 0.95 };
-    for (double & edge : edges)
-    {
-      edge = values.empty() ? 0.0 : Quantile(values, edge);
-    }
-    for (std::size_t p = 0; p < take.size(); ++p)
-    {
-      if (take[p] != 0)
-      {
-        m_ClassOf[p] =
-          static_cast<std::uint8_t>(std::lower_bound(edges.begin(), edges.end(), roughness(p)) - edges.begin());
-      }
-    }
-  }
-
-  /** Columns of pixel \a p, times their weights. */
-  void
-  FillRow(std::size_t p, Row & row, std::array<double, NumberOfStencils> & derivatives) const
-  {
-    const auto &      stencils = MotionStencils();
-    const std::size_t width = m_Frame->geometry.width;
-    const double      level = m_Frame->neighbourMean[p];
-    const double      w = 1.0 / m_Model.NoiseVariance(level);
-    const double      centred = m_Frame->mean[p] - this->GetCentreDn();
-    row.fill(0.0);
-    row[0] = w;
-    row[1] = w * centred;
-    for (std::size_t k = 0; k < NumberOfStencils; ++k)
-    {
-      derivatives[k] = ApplyStencil(stencils[k], m_Frame->mean.data(), width, p);
-      row[2 + k] = w * derivatives[k];
-    }
-    row[FrameColumns] = this->SmoothX(p);
-    row[FrameColumns + 1] = this->SmoothY(p);
-    // Motion that the derivatives do not explain is noise to the light's local changes.
-    const double motion = m_Model.MotionVariance(derivatives[StencilX], derivatives[StencilY]);
-    row[FrameColumns + Instruments] = 1.0 / (m_Model.NoiseVariance(level) + 0.2 * motion);
-    row[FrameColumns + Instruments + 1] = row[FrameColumns + Instruments] * centred;
-  }
-
-  void
-  AddToGrams(std::size_t                                        p,
-             const Row &                                        row,
-             const std::array<double, NumberOfStencils> &       derivatives,
-             Cell &                                             cell,
-             std::vector<ClassMatrix> &                         gram,
-             Eigen::Matrix<double, Instruments, FrameColumns> & instruments) const
-  {
-    const double centred = m_Frame->mean[p] - this->GetCentreDn();
-    ColumnVector values;
-    values(0) = 1.0;
-    values(1) = centred;
-    for (std::size_t k = 0; k < NumberOfStencils; ++k)
-    {
-      values(static_cast<Eigen::Index>(2 + k)) = derivatives[k];
-    }
-    gram[m_ClassOf[p]].noalias() += row[0] * values * values.transpose();
-    instruments.row(0) += row[FrameColumns] * values.transpose();
-    instruments.row(1) += row[FrameColumns + 1] * values.transpose();
-    const double w = row[FrameColumns + Instruments];
-    ++cell.pixels;
-    cell.w += w;
-    cell.wI += w * centred;
-    cell.wII += w * centred * centred;
-    for (std::size_t k = 0; k < NumberOfStencils; ++k)
-    {
-      cell.wD[k] += w * derivatives[k];
-      cell.wID[k] += w * centred * derivatives[k];
-    }
-  }
-
   Block
-  MakeBlock(const std::vector<std::size_t> & pixels) const
+  MakeBlock(const std::vector<std::size_t> & run) const
   {
     Block block;
-    for (std::size_t c = 0; c < GradientClasses; ++c)
+    for (const std::size_t p : run)
     {
-      block.begin[c] = block.pixels.size();
-      std::copy_if(pixels.begin(), pixels.end(), std::back_inserter(block.pixels), [&](std::size_t p) {
-        return m_ClassOf[p] == c;
-      });
+      ++block.begin[m_Regressors.ClassOf(p) + 1U];
     }
-    block.begin[GradientClasses] = block.pixels.size();
-    block.rows.resize(block.pixels.size());
+    std::partial_sum(block.begin.begin(), block.begin.end(), block.begin.begin());
+    std::array<std::size_t, GradientClasses + 1> next = block.begin;
+    block.pixels.resize(run.size());
+    block.values.reserve(run.size());
+    block.rows.reserve(run.size());
+    for (const std::size_t p : run)
+    {
+      block.pixels[next[m_Regressors.ClassOf(p)]++] = p;
+    }
     for (const std::size_t p : block.pixels)
     {
-      block.mean.push_back(m_Frame->mean[p]);
+      block.values.push_back(m_Regressors.ValuesOf(p));
+      block.rows.push_back(m_Regressors.RowOf(p, block.values.back()));
     }
     return block;
   }
 
-  /** Adds \a count frames; with 0, what needs no frame: Gram matrices and cells. */
+  /** Calls function(row of cells, cell, block) for all blocks, those of a row of cells in order. */
+  template <typename TFunction>
+  void
+  ForCellBlocks(const ParallelFor & parallelFor, TFunction function) const
+  {
+    parallelFor(m_CellRows, [&](std::size_t cellRow) {
+      const std::size_t height = m_Frame->geometry.height;
+      const std::size_t width = m_Frame->geometry.width;
+      for (std::size_t column = 0; column < m_CellsPerRow; ++column)
+      {
+        const std::size_t        cell = cellRow * m_CellsPerRow + column;
+        std::vector<std::size_t> run;
+        for (std::size_t y = height * cellRow / m_CellRows; y < height * (cellRow + 1) / m_CellRows; ++y)
+        {
+          for (std::size_t x = width * column / m_CellsPerRow; x < width * (column + 1) / m_CellsPerRow; ++x)
+          {
+            if (m_Regressors.ClassOf(y * width + x) != FrameRegressors::Unused)
+            {
+              run.push_back(y * width + x);
+            }
+            if (run.size() == BlockSize)
+            {
+              function(cellRow, cell, this->MakeBlock(run));
+              run.clear();
+            }
+          }
+        }
+        function(cellRow, cell, this->MakeBlock(run));
+      }
+    });
+  }
+
+  /** Adds the sums over a block of its rows times the values of \a count series, at most Together: value(i, k) is that
+   * of the block's pixel i. Returns them summed over the classes, too. A series' bits do not depend on those beside it.
+   */
+  template <typename TValue>
+  static std::array<Row, Together>
+  SumBlock(const Block & block, std::size_t count, TValue value, ClassRows * sums)
+  {
+    using Index = Eigen::Index;
+    using Vector = Eigen::Matrix<double, Together, 1>;
+    std::array<Vector, BlockSize> values;
+    for (std::size_t k = 0; k < Together; ++k)
+    {
+      for (std::size_t i = 0; i < block.pixels.size(); ++i)
+      {
+        values[i](static_cast<Index>(k)) = value(i, std::min(k, count - 1));
+      }
+    }
+    std::array<Row, Together> whole{};
+    for (std::size_t c = 0; c < GradientClasses; ++c)
+    {
+      for (std::size_t column = 0; column < FrameRegressors::Columns; column += Together)
+      {
+        Eigen::Matrix<double, Together, Together> sum = Eigen::Matrix<double, Together, Together>::Zero();
+        for (std::size_t i = block.begin[c]; i < block.begin[c + 1]; ++i)
+        {
+          sum.noalias() += Eigen::Map<const Vector>(block.rows[i].data() + column) * values[i].transpose();
+        }
+        for (std::size_t k = 0; k < count; ++k)
+        {
+          for (std::size_t j = 0; j < Together; ++j)
+          {
+            sums[k][c][column + j] += sum(static_cast<Index>(j), static_cast<Index>(k));
+            whole[k][column + j] += sum(static_cast<Index>(j), static_cast<Index>(k));
+          }
+        }
+      }
+    }
+    return whole;
+  }
+
+  /** What needs no frame: the rows times the columns' own values. */
+  void
+  SumColumns(const ParallelFor & parallelFor)
+  {
+    std::vector<std::array<ClassRows, FrameColumns>> parts(m_CellRows);
+    this->ForCellBlocks(parallelFor, [&](std::size_t cellRow, std::size_t c, const Block & block) {
+      Cell & cell = m_Cells[c];
+      cell.pixels += block.pixels.size();
+      for (std::size_t first = 0; first < FrameColumns; first += Together)
+      {
+        const std::size_t count = std::min(Together, FrameColumns - first);
+        const auto        value = [&](std::size_t i, std::size_t k) { return block.values[i][first + k]; };
+        const auto        whole = SumBlock(block, count, value, &parts[cellRow][first]);
+        for (std::size_t k = 0; k < count; ++k)
+        {
+          cell.sum[first + k] += whole[k][FrameColumns + Instruments];
+          cell.sumI[first + k] += whole[k][FrameColumns + Instruments + 1];
+        }
+      }
+    });
+    for (const auto & part : parts)
+    {
+      for (std::size_t k = 0; k < FrameColumns; ++k)
+      {
+        const auto column = static_cast<Eigen::Index>(k);
+        for (std::size_t c = 0; c < GradientClasses; ++c)
+        {
+          m_ClassGram[c].col(column) += Eigen::Map<const ColumnVector>(part[k][c].data());
+          m_InstrumentGram.col(column) += Eigen::Map<const Eigen::Vector2d>(part[k][c].data() + FrameColumns);
+        }
+      }
+    }
+  }
+
+  /** Adds \a count frames. */
   template <typename TPixel>
   void
   AddGroup(const TPixel * frames, std::size_t first, std::size_t count, const ParallelFor & parallelFor)
   {
-    struct Part
-    {
-      std::vector<std::array<Row, GradientClasses>>    sums;
-      std::vector<ClassMatrix>                         gram{ GradientClasses, ClassMatrix::Zero() };
-      Eigen::Matrix<double, Instruments, FrameColumns> instruments =
-        Eigen::Matrix<double, Instruments, FrameColumns>::Zero();
-    };
-    const bool        isGram = count == 0;
-    const std::size_t pixels = m_Frame->mean.size();
-    const std::size_t width = m_Frame->geometry.width;
-    std::vector<Part> parts(m_CellRows);
-    parallelFor(m_CellRows, [&](std::size_t cellRow) {
-      Part & part = parts[cellRow];
-      part.sums.assign(count, {});
-      const std::size_t top = m_Frame->geometry.height * cellRow / m_CellRows;
-      const std::size_t bottom = m_Frame->geometry.height * (cellRow + 1) / m_CellRows;
-      for (std::size_t column = 0; column < m_CellsPerRow; ++column)
+    const std::size_t                   pixels = m_Frame->mean.size();
+    std::vector<std::vector<ClassRows>> parts(m_CellRows, std::vector<ClassRows>(count));
+    this->ForCellBlocks(parallelFor, [&](std::size_t cellRow, std::size_t cell, const Block & block) {
+      for (std::size_t t = 0; t < count; t += Together)
       {
-        const std::size_t        c = cellRow * m_CellsPerRow + column;
-        const std::size_t        right = width * (column + 1) / m_CellsPerRow;
-        std::vector<std::size_t> run;
-        const auto               flush = [&] {
-          Block block = this->MakeBlock(run);
-          run.clear();
-          std::array<double, NumberOfStencils> derivatives{};
-          for (std::size_t i = 0; i < block.pixels.size(); ++i)
-          {
-            this->FillRow(block.pixels[i], block.rows[i], derivatives);
-            if (isGram)
-            {
-              this->AddToGrams(block.pixels[i], block.rows[i], derivatives, m_Cells[c], part.gram, part.instruments);
-            }
-          }
-          for (std::size_t t = 0; t < count; ++t)
-          {
-            this->AddBlock(block, frames + t * pixels, part.sums[t], m_Products.OfCell(first + t, c));
-          }
+        const std::size_t together = std::min(Together, count - t);
+        const auto        deviation = [&](std::size_t i, std::size_t k) {
+          const std::size_t p = block.pixels[i];
+          return static_cast<double>(frames[(t + k) * pixels + p]) - m_Frame->mean[p];
         };
-        for (std::size_t y = top; y < bottom; ++y)
+        const auto whole = SumBlock(block, together, deviation, &parts[cellRow][t]);
+        for (std::size_t k = 0; k < together; ++k)
         {
-          for (std::size_t p = y * width + width * column / m_CellsPerRow; p < y * width + right; ++p)
-          {
-            if (m_ClassOf[p] != Unused)
-            {
-              run.push_back(p);
-              if (run.size() == BlockSize)
-              {
-                flush();
-              }
-            }
-          }
+          m_Products.OfCell(first + t + k, cell)[0] += whole[k][FrameColumns + Instruments];
+          m_Products.OfCell(first + t + k, cell)[1] += whole[k][FrameColumns + Instruments + 1];
         }
-        flush();
       }
     });
-    for (const Part & part : parts)
+    for (const std::vector<ClassRows> & part : parts)
     {
       for (std::size_t t = 0; t < count; ++t)
       {
         for (std::size_t c = 0; c < GradientClasses; ++c)
         {
-          const Row & row = part.sums[t][c];
-          for (std::size_t k = 0; k < FrameColumns; ++k)
-          {
-            m_Products.OfClass(first + t, c)(static_cast<Eigen::Index>(k)) += row[k];
-          }
+          const Row & row = part[t][c];
+          m_Products.OfClass(first + t, c) += Eigen::Map<const ColumnVector>(row.data());
           m_Products.OfInstruments(first + t)[0] += row[FrameColumns];
           m_Products.OfInstruments(first + t)[1] += row[FrameColumns + 1];
         }
       }
-      for (std::size_t c = 0; c < GradientClasses && isGram; ++c)
-      {
-        m_ClassGram[c] += part.gram[c];
-      }
-      m_InstrumentGram += part.instruments;
     }
   }
 
-  template <typename TPixel>
-  static void
-  AddBlock(const Block &                      block,
-           const TPixel *                     frame,
-           std::array<Row, GradientClasses> & sums,
-           std::array<double, 2> &            cellSums)
-  {
-    std::array<double, 2> cell{ 0.0, 0.0 };
-    for (std::size_t c = 0; c < GradientClasses; ++c)
-    {
-      Row sum{};
-      for (std::size_t i = block.begin[c]; i < block.begin[c + 1]; ++i)
-      {
-        const double deviation = static_cast<double>(frame[block.pixels[i]]) - block.mean[i];
-        const Row &  row = block.rows[i];
-        for (std::size_t k = 0; k < row.size(); ++k)
-        {
-          sum[k] += deviation * row[k];
-        }
-      }
-      for (std::size_t k = 0; k < sum.size(); ++k)
-      {
-        sums[c][k] += sum[k];
-      }
-      cell[0] += sum[FrameColumns + Instruments];
-      cell[1] += sum[FrameColumns + Instruments + 1];
-    }
-    cellSums[0] += cell[0];
-    cellSums[1] += cell[1];
-  }
-
-  const ReferenceFrame *    m_Frame;
-  ProvisionalModel          m_Model;
-  std::vector<std::uint8_t> m_ClassOf;
-  std::vector<double>       m_SmoothX;
-  std::vector<double>       m_SmoothY;
-  std::vector<double>       m_SmoothWeight;
-  std::size_t               m_CellRows;
-  std::size_t               m_CellsPerRow;
+  FrameRegressors        m_Regressors;
+  const ReferenceFrame * m_Frame;
+  std::size_t            m_CellRows;
+  std::size_t            m_CellsPerRow;
 
   FrameProducts                                    m_Products;
   std::vector<ClassMatrix>                         m_ClassGram;

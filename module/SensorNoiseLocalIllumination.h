@@ -115,7 +115,7 @@ FindLocalIllumination(const FrameSums &           sums,
   std::vector<double>      precision;
   for (std::size_t c = 0; c < cells.size(); ++c)
   {
-    const double p = cells[c].wII - 2.0 * offset * cells[c].wI + offset * offset * cells[c].w;
+    const double p = cells[c].sumI[1] - 2.0 * offset * cells[c].sum[1] + offset * offset * cells[c].sum[0];
     if (static_cast<double>(cells[c].pixels) > std::max(20.0, 0.25 * pixels) && p > 0.0)
     {
       used.push_back(c);
@@ -143,8 +143,8 @@ FindLocalIllumination(const FrameSums &           sums,
       for (std::size_t k = 0; k < motion.stencils.size(); ++k)
       {
         const std::size_t stencil = motion.stencils[k];
-        response -=
-          motion.coefficients(t, static_cast<Eigen::Index>(k)) * (cell.wID[stencil] - offset * cell.wD[stencil]);
+        response -= motion.coefficients(t, static_cast<Eigen::Index>(k)) *
+                    (cell.sumI[2 + stencil] - offset * cell.sum[2 + stencil]);
       }
       whole(t, i) = response / std::sqrt(p);
     }

@@ -18,11 +18,11 @@
 #ifndef SensorNoiseLocalOffset_h
 #define SensorNoiseLocalOffset_h
 
-#include "SensorNoiseProjectedVariance.h"
+#include "SensorNoiseChiSquare.h"
+#include "SensorNoisePixelLight.h"
 
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -41,138 +41,8 @@ struct LocalOffset
   std::size_t patches{ 0 };
 };
 
-/** What the search for the offset is given. */
-struct LocalOffsetData
-{
-  const ProjectedVariance &         projected;
-  const VarianceLine &              line;
-  const std::vector<std::uint8_t> & mask;
-  double                            centreDn;
-  double                            darkestDn;
-  double                            rangeDn;
-};
-
 namespace detail
 {
-/** A way to cut the frame into patches. */
-struct Patches
-{
-  std::size_t height;
-  std::size_t width;
-  std::size_t across;
-
-  std::size_t
-  Of(std::size_t p, std::size_t frameWidth) const
-  {
-    return p / frameWidth / height * across + p % frameWidth / width;
-  }
-};
-
-/** Removes what motion leaked by chance into the responses: kappa_k times the derivatives, kappa common to the frame.
- * It is estimated against lines in the mean that are free in every 8 x 8 patch (Frisch & Waugh 1933), so that light
- * that differs over the frame does not bias it. Even derivatives resemble the mean locally and would shift the offset.
- */
-inline std::vector<std::vector<double>>
-ResponsesWithoutMotion(const LocalOffsetData & data)
-{
-  constexpr std::size_t  derivatives = 5;
-  const ReferenceFrame & frame = data.projected.GetFrame();
-  const std::size_t      width = frame.geometry.width;
-  const std::size_t      light = data.projected.GetBasis().NumberOfLightFactors();
-  const Patches          patches{ 8, 8, (width + 7) / 8 };
-  const std::size_t      count = patches.across * ((frame.geometry.height + 7) / 8);
-  const std::size_t      variables = derivatives + light;
-  // Per patch: n, w, wI, wII, then of each variable w z and w I z.
-  const std::size_t   stride = 4 + 2 * variables;
-  std::vector<double> sums(count * stride, 0.0);
-  std::vector<double> z(variables);
-  const auto          fill = [&](std::size_t p) {
-    for (std::size_t k = 0; k < derivatives; ++k)
-    {
-      z[k] = ApplyStencil(MotionStencils()[k], frame.mean.data(), width, p);
-    }
-    for (std::size_t j = 0; j < light; ++j)
-    {
-      z[derivatives + j] = data.projected.GetCoordinates().OfPixel(p)[j];
-    }
-  };
-  for (std::size_t p = 0; p < data.mask.size(); ++p)
-  {
-    if (data.mask[p] != 0)
-    {
-      const double w = 1.0 / data.line.At(frame.neighbourMean[p]);
-      const double centred = frame.mean[p] - data.centreDn;
-      double *     s = sums.data() + patches.Of(p, width) * stride;
-      fill(p);
-      s[0] += 1.0;
-      s[1] += w;
-      s[2] += w * centred;
-      s[3] += w * centred * centred;
-      for (std::size_t k = 0; k < variables; ++k)
-      {
-        s[4 + 2 * k] += w * z[k];
-        s[5 + 2 * k] += w * centred * z[k];
-      }
-    }
-  }
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(derivatives, derivatives);
-  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(derivatives, static_cast<Eigen::Index>(light));
-  for (std::size_t p = 0; p < data.mask.size(); ++p)
-  {
-    if (data.mask[p] != 0)
-    {
-      const double * s = sums.data() + patches.Of(p, width) * stride;
-      const double   determinant = s[1] * s[3] - s[2] * s[2];
-      if (s[0] > 20.0 && determinant > 1e-9 * s[1] * s[3])
-      {
-        const double w = 1.0 / data.line.At(frame.neighbourMean[p]);
-        const double centred = frame.mean[p] - data.centreDn;
-        fill(p);
-        for (std::size_t k = 0; k < variables; ++k)
-        {
-          const double slope = (s[1] * s[5 + 2 * k] - s[2] * s[4 + 2 * k]) / determinant;
-          const double level = (s[3] * s[4 + 2 * k] - s[2] * s[5 + 2 * k]) / determinant;
-          z[k] -= level + slope * centred;
-        }
-        for (std::size_t i = 0; i < derivatives; ++i)
-        {
-          for (std::size_t j = 0; j < derivatives; ++j)
-          {
-            gram(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) += w * z[i] * z[j];
-          }
-          for (std::size_t j = 0; j < light; ++j)
-          {
-            right(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) += w * z[i] * z[derivatives + j];
-          }
-        }
-      }
-    }
-  }
-  const Eigen::VectorXd                                   unit = (gram.diagonal().array() + 1e-300).rsqrt();
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
-  solver.setThreshold(1e-6);
-  solver.compute(unit.asDiagonal() * gram * unit.asDiagonal());
-  const Eigen::MatrixXd leak = unit.asDiagonal() * solver.solve(unit.asDiagonal() * right);
-
-  std::vector<std::vector<double>> responses(light, std::vector<double>(data.mask.size(), 0.0));
-  for (std::size_t p = 0; p < data.mask.size(); ++p)
-  {
-    if (data.mask[p] != 0)
-    {
-      fill(p);
-      for (std::size_t j = 0; j < light; ++j)
-      {
-        responses[j][p] = z[derivatives + j];
-        for (std::size_t k = 0; k < derivatives; ++k)
-        {
-          responses[j][p] -= leak(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j)) * z[k];
-        }
-      }
-    }
-  }
-  return responses;
-}
-
 /** Sums of a patch and, per response, r1 = sum w z and r2 = sum w I z. */
 struct PatchSums
 {
@@ -191,7 +61,7 @@ struct PatchSums
 };
 
 inline std::optional<LocalOffset>
-FitPatches(const std::vector<PatchSums> & patches, const LocalOffsetData & data)
+FitPatches(const std::vector<PatchSums> & patches, const PixelLight & data)
 {
   const auto profile = [&patches](double m) {
     double sum = 0.0;
@@ -272,7 +142,7 @@ FitPatches(const std::vector<PatchSums> & patches, const LocalOffsetData & data)
  * pixels and strips of rows are tried, and the one of the smallest standard error, which their dispersion widens,
  * serves. Estimator.md, 3.7. */
 inline std::optional<LocalOffset>
-FindLocalOffset(const LocalOffsetData & data)
+FindLocalOffset(const PixelLight & data)
 {
   const ReferenceFrame & frame = data.projected.GetFrame();
   const std::size_t      width = frame.geometry.width;
@@ -330,107 +200,6 @@ FindLocalOffset(const LocalOffsetData & data)
     }
   }
   return best;
-}
-
-/** Whether the further series of light are one line a + b mean over the whole frame: then a common offset drifts, and
- * no second light changes. */
-inline bool
-IsOffsetDrift(const LocalOffsetData & data)
-{
-  const ReferenceFrame & frame = data.projected.GetFrame();
-  const std::size_t      width = frame.geometry.width;
-  const std::size_t      light = data.projected.GetBasis().NumberOfLightFactors();
-  const detail::Patches  patches{ 32, 32, (width + 31) / 32 };
-  const std::size_t      count = patches.across * ((frame.geometry.height + 31) / 32);
-  for (std::size_t j = 1; j < light; ++j)
-  {
-    struct Sums
-    {
-      double w{ 0.0 }, wI{ 0.0 }, wII{ 0.0 }, z{ 0.0 }, zI{ 0.0 };
-    };
-    std::vector<Sums> parts(count);
-    Sums              whole;
-    for (std::size_t p = 0; p < data.mask.size(); ++p)
-    {
-      if (data.mask[p] != 0)
-      {
-        const double w = 1.0 / data.line.At(frame.neighbourMean[p]);
-        const double centred = frame.mean[p] - data.centreDn;
-        const double z = data.projected.GetCoordinates().OfPixel(p)[j];
-        for (Sums * s : { &parts[patches.Of(p, width)], &whole })
-        {
-          s->w += w;
-          s->wI += w * centred;
-          s->wII += w * centred * centred;
-          s->z += w * z;
-          s->zI += w * centred * z;
-        }
-      }
-    }
-    const double determinant = whole.w * whole.wII - whole.wI * whole.wI;
-    const double level = (whole.wII * whole.z - whole.wI * whole.zI) / determinant;
-    const double slope = (whole.w * whole.zI - whole.wI * whole.z) / determinant;
-    const double explained = level * whole.z + slope * whole.zI;
-    double       chi2 = 0.0;
-    double       used = 0.0;
-    for (const Sums & s : parts)
-    {
-      if (s.w > 0.0)
-      {
-        chi2 += std::pow(s.z - level * s.w - slope * s.wI, 2) / s.w;
-        used += 1.0;
-      }
-    }
-    if (chi2 > 4.0 * std::max(1.0, used - 2.0) || explained < 10.0 * chi2)
-    {
-      return false;
-    }
-  }
-  return light > 1;
-}
-
-/** Sums from which the spread of local light follows for any offset. */
-struct LocalFlicker
-{
-  double energy{ 0.0 }; ///< sum of (sum_j S_j^2 - noise) / noise
-  double w{ 0.0 };      ///< of w, w I and w I^2, I the mean minus the centre
-  double wI{ 0.0 };
-  double wII{ 0.0 };
-  double frames{ 0.0 };
-
-  /** Root mean square over the frame of the standard deviation over time of the light, relative to its mean:
-   * sqrt(sum w (sum_j S_j^2 - noise) / ((T - 1) sum w q^2)), q the mean above the offset (minus the centre). */
-  double
-  Sd(double offset) const
-  {
-    const double flux = wII - 2.0 * offset * wI + offset * offset * w;
-    return std::sqrt(std::max(0.0, energy / (flux * (frames - 1.0))));
-  }
-};
-
-inline LocalFlicker
-SumLocalFlicker(const LocalOffsetData & data)
-{
-  const ReferenceFrame & frame = data.projected.GetFrame();
-  const std::size_t      light = data.projected.GetBasis().NumberOfLightFactors();
-  LocalFlicker           sums;
-  sums.frames = static_cast<double>(frame.frames);
-  for (std::size_t p = 0; p < data.mask.size(); ++p)
-  {
-    if (data.mask[p] != 0)
-    {
-      const double noise = data.line.At(frame.neighbourMean[p]);
-      const double centred = frame.mean[p] - data.centreDn;
-      for (std::size_t j = 0; j < light; ++j)
-      {
-        sums.energy += std::pow(data.projected.GetCoordinates().OfPixel(p)[j], 2) / noise - 1.0;
-      }
-      sums.w += 1.0 / noise;
-      sums.wI += centred / noise;
-      sums.wII += centred * centred / noise;
-    }
-  }
-  return sums;
 }
 
 } // namespace sensornoise

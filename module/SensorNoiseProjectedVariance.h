@@ -18,6 +18,7 @@
 #ifndef SensorNoiseProjectedVariance_h
 #define SensorNoiseProjectedVariance_h
 
+#include "SensorNoiseBoxMean.h"
 #include "SensorNoiseProjectionSums.h"
 #include "SensorNoiseVarianceLine.h"
 
@@ -26,6 +27,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 namespace sensornoise
@@ -81,15 +83,15 @@ public:
     const auto              frames = static_cast<double>(frame.frames);
     const double            freedom = frames - 1.0 - static_cast<double>(basis.Size());
     ForBlocks(mask.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
+      constexpr std::size_t block = ProjectionSums::BlockPixels;
+      for (std::size_t p = begin; p < end; p += block)
+      {
+        this->Project(p, std::min(block, end - p), skew);
+      }
       for (std::size_t p = begin; p < end; ++p)
       {
         if (mask[p] != 0)
         {
-          double * coordinates = sums.OfPixel(p);
-          basis.ToCoordinates(coordinates, frame.mean[p] * frames);
-          const Eigen::Map<const Eigen::VectorXd> s(coordinates, skew.size());
-          m_Rss[p] = frame.squares[p] - s.squaredNorm();
-          m_Skew[p] = static_cast<float>(s.dot(skew));
           const double noise = model.NoiseVariance(frame.neighbourMean[p]);
           m_Freedom[p] = static_cast<float>(freedom * (1.0 - std::min(0.5, Leverage(motion, p) / noise)));
         }
@@ -150,24 +152,43 @@ public:
   }
 
 private:
+  /** Coordinates, residual squares and skew term of \a pixels pixels of one block of the sums. */
+  void
+  Project(std::size_t first, std::size_t pixels, const Eigen::VectorXd & skew)
+  {
+    if (m_Basis.Size() > 0)
+    {
+      m_Basis.ToCoordinates(&m_Sums.At(first, 0), ProjectionSums::BlockPixels, m_Frame.mean.data() + first, pixels);
+    }
+    std::copy_n(m_Frame.squares.data() + first, pixels, m_Rss.data() + first);
+    for (std::size_t j = 0; j < m_Basis.Size(); ++j)
+    {
+      const double * coordinates = &m_Sums.At(first, j);
+      const double   factor = skew(static_cast<Eigen::Index>(j));
+      for (std::size_t i = 0; i < pixels; ++i)
+      {
+        m_Rss[first + i] -= coordinates[i] * coordinates[i];
+        m_Skew[first + i] += static_cast<float>(factor * coordinates[i]);
+      }
+    }
+  }
+
   /** D' G^-1 D of pixel \a p. */
   double
   Leverage(const MotionSeries & motion, std::size_t p) const
   {
-    const auto size = static_cast<Eigen::Index>(motion.stencils.size());
-    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, NumberOfStencils, 1> derivatives(size);
-    for (Eigen::Index k = 0; k < size; ++k)
+    const std::size_t                    size = motion.stencils.size();
+    const auto                           all = ApplyStencils(m_Frame.mean.data(), m_Frame.geometry.width, p);
+    std::array<double, NumberOfStencils> derivatives{};
+    for (std::size_t k = 0; k < size; ++k)
     {
-      const Stencil & stencil = MotionStencils()[motion.stencils[static_cast<std::size_t>(k)]];
-      derivatives(k) = ApplyStencil(stencil, m_Frame.mean.data(), m_Frame.geometry.width, p);
+      derivatives[k] = all[motion.stencils[k]];
     }
     double sum = 0.0;
-    for (Eigen::Index i = 0; i < size; ++i)
+    for (std::size_t i = 0; i < size; ++i)
     {
-      for (Eigen::Index j = 0; j < size; ++j)
-      {
-        sum += derivatives(i) * motion.inverseGram(i, j) * derivatives(j);
-      }
+      const double * inverse = motion.inverseGram.data() + i * size;
+      sum += derivatives[i] * std::inner_product(inverse, inverse + size, derivatives.begin(), 0.0);
     }
     return sum;
   }
@@ -196,10 +217,12 @@ private:
     const auto          radius = static_cast<std::size_t>(sd < 0.35 ? 2.0 : 2.0 + std::ceil(3.0 * std::min(sd, 4.0)));
     std::vector<double> roughness = BoxSum(energy, width, m_Frame.geometry.height, radius, m_ParallelFor);
     std::vector<double> sample;
-    for (std::size_t p = 0; p < roughness.size(); ++p)
-    {
-      roughness[p] /= model.NoiseVariance(m_Frame.neighbourMean[p]);
-    }
+    ForBlocks(roughness.size(), m_ParallelFor, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t p = begin; p < end; ++p)
+      {
+        roughness[p] /= model.NoiseVariance(m_Frame.neighbourMean[p]);
+      }
+    });
     for (const std::size_t p : detail::SamplePixels(m_Mask))
     {
       sample.push_back(roughness[p]);
@@ -211,11 +234,13 @@ private:
       const double rank = c <= 15 ? 0.06 * static_cast<double>(c) : 0.92 + 0.075 * static_cast<double>(c - 16) / 7.0;
       edges.push_back(Quantile(sample, rank));
     }
-    for (std::size_t p = 0; p < roughness.size(); ++p)
-    {
-      m_ClassOf[p] =
-        static_cast<std::uint8_t>(std::lower_bound(edges.begin(), edges.end(), roughness[p]) - edges.begin());
-    }
+    ForBlocks(roughness.size(), m_ParallelFor, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t p = begin; p < end; ++p)
+      {
+        m_ClassOf[p] =
+          static_cast<std::uint8_t>(std::lower_bound(edges.begin(), edges.end(), roughness[p]) - edges.begin());
+      }
+    });
   }
 
   const ReferenceFrame &            m_Frame;

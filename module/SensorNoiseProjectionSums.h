@@ -44,10 +44,13 @@ namespace sensornoise
 class ProjectionSums
 {
 public:
+  /** Pixels whose sums with one series lie side by side; those of a block stay in the first-level cache. */
+  static constexpr std::size_t BlockPixels = 256;
+
   explicit ProjectionSums(std::size_t pixels = 0, std::size_t series = 0)
     : m_Pixels(pixels)
     , m_Series(series)
-    , m_Sums(pixels * series, 0.0)
+    , m_Sums((pixels + BlockPixels - 1) / BlockPixels * BlockPixels * series, 0.0)
   {}
 
   /** Adds frames firstFrame ... firstFrame + count - 1, stored one after the other, for the pixels [begin, end).
@@ -61,26 +64,16 @@ public:
             std::size_t           begin,
             std::size_t           end)
   {
-    constexpr std::size_t blockSize = 256; // the block's sums stay in the first-level cache
     constexpr std::size_t together = std::is_integral_v<TPixel> ? 4 : 1;
-    std::vector<double>   sums(blockSize * m_Series);
-    for (std::size_t block = begin; block < end; block += blockSize)
+    for (std::size_t p = begin; p < end;)
     {
-      const std::size_t size = std::min(blockSize, end - block);
-      for (std::size_t i = 0; i < size; ++i)
-      {
-        for (std::size_t j = 0; j < m_Series; ++j)
-        {
-          sums[j * blockSize + i] = m_Sums[(block + i) * m_Series + j];
-        }
-      }
+      const std::size_t size = std::min(end, (p / BlockPixels + 1) * BlockPixels) - p;
       for (std::size_t t = 0; t < count; t += together)
       {
-        double values[together][blockSize];
+        double values[together][BlockPixels];
         for (std::size_t k = 0; k < together; ++k)
         {
-          const TPixel * frame = frames + std::min(t + k, count - 1) * m_Pixels + block;
-          std::copy_n(frame, size, values[k]);
+          std::copy_n(frames + std::min(t + k, count - 1) * m_Pixels + p, size, values[k]);
         }
         for (std::size_t j = 0; j < m_Series; ++j)
         {
@@ -89,7 +82,7 @@ public:
           {
             weights[k] = t + k < count ? basis.Rounded(firstFrame + t + k, j) : 0.0;
           }
-          double * sum = sums.data() + j * blockSize;
+          double * sum = &this->At(p, j);
           for (std::size_t i = 0; i < size; ++i)
           {
             double added = 0.0;
@@ -101,13 +94,7 @@ public:
           }
         }
       }
-      for (std::size_t i = 0; i < size; ++i)
-      {
-        for (std::size_t j = 0; j < m_Series; ++j)
-        {
-          m_Sums[(block + i) * m_Series + j] = sums[j * blockSize + i];
-        }
-      }
+      p += size;
     }
   }
 
@@ -153,19 +140,25 @@ public:
   {
     return m_Series;
   }
-  /** The sums of pixel \a p, one a series; turned in place into coordinates by TemporalBasis::ToCoordinates. */
-  double *
-  OfPixel(std::size_t p)
+  /** The sum of pixel \a p with series \a j. Those of the next pixels of its block follow. */
+  double &
+  At(std::size_t p, std::size_t j)
   {
-    return m_Sums.data() + p * m_Series;
+    return m_Sums[this->IndexOf(p, j)];
   }
-  const double *
-  OfPixel(std::size_t p) const
+  double
+  At(std::size_t p, std::size_t j) const
   {
-    return m_Sums.data() + p * m_Series;
+    return m_Sums[this->IndexOf(p, j)];
   }
 
 private:
+  std::size_t
+  IndexOf(std::size_t p, std::size_t j) const
+  {
+    return (p / BlockPixels * m_Series + j) * BlockPixels + p % BlockPixels;
+  }
+
   static constexpr const char * Name = "ProjectionSums";
 
   std::size_t         m_Pixels;

@@ -84,7 +84,7 @@ namespace detail
 {
 /** Pixels among which quantiles and rough fits are taken: all usable ones, or evenly spread ones of a large frame. */
 inline std::vector<std::size_t>
-SamplePixels(const std::vector<std::uint8_t> & mask, std::size_t most = 262144)
+SamplePixels(const std::vector<std::uint8_t> & mask, std::size_t most = 32768)
 {
   const auto               count = static_cast<std::size_t>(std::count(mask.begin(), mask.end(), std::uint8_t{ 1 }));
   const std::size_t        stride = std::max<std::size_t>(1, count / most);
@@ -124,22 +124,32 @@ MediansOfBins(const std::vector<double> & values, const std::vector<std::size_t>
   return medians;
 }
 
+/** Edges between bins of equal count; a little below a value, so that rounding does not part equal values. */
+inline std::vector<double>
+EdgesOfEqualCount(std::vector<double> values, std::size_t bins)
+{
+  std::sort(values.begin(), values.end());
+  std::vector<double> edges;
+  for (std::size_t b = 1; b < bins && !values.empty(); ++b)
+  {
+    edges.push_back(values[b * values.size() / bins] - 1e-9 * (values.back() - values.front()));
+  }
+  return edges;
+}
+
+inline std::size_t
+BinOf(const std::vector<double> & edges, double value)
+{
+  return static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), value) - edges.begin());
+}
+
 /** Bins of equal count: the bin of each value. */
 inline std::vector<std::size_t>
 BinsOfEqualCount(const std::vector<double> & values, std::size_t bins)
 {
-  std::vector<double> sorted(values);
-  std::sort(sorted.begin(), sorted.end());
-  std::vector<double> edges;
-  for (std::size_t b = 1; b < bins; ++b)
-  {
-    edges.push_back(sorted[b * sorted.size() / bins]);
-  }
-  std::vector<std::size_t> binOf(values.size());
-  for (std::size_t i = 0; i < values.size(); ++i)
-  {
-    binOf[i] = static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), values[i]) - edges.begin());
-  }
+  const std::vector<double> edges = EdgesOfEqualCount(values, bins);
+  std::vector<std::size_t>  binOf(values.size());
+  std::transform(values.begin(), values.end(), binOf.begin(), [&edges](double value) { return BinOf(edges, value); });
   return binOf;
 }
 } // namespace detail

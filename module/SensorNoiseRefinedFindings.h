@@ -18,6 +18,7 @@
 #ifndef SensorNoiseRefinedFindings_h
 #define SensorNoiseRefinedFindings_h
 
+#include "SensorNoiseLocalFlicker.h"
 #include "SensorNoiseLocalOffset.h"
 #include "SensorNoiseOffsetLine.h"
 #include "SensorNoiseRefinedSettings.h"

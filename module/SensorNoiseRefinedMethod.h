@@ -21,13 +21,13 @@
 #include "SensorNoisePassFrames.h"
 #include "SensorNoiseRefinedReport.h"
 #include "SensorNoiseSceneSeries.h"
+#include "SensorNoiseStackMoments.h"
 #include "SensorNoiseStaticVariance.h"
 #include "SensorNoiseUsablePixels.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -85,8 +85,7 @@ public:
     , m_UserMask(mask)
     , m_ParallelFor(std::move(parallelFor))
     , m_InPass(frames)
-    , m_Moments(geometry.Pixels())
-    , m_FrameMeans(frames, 0.0)
+    , m_Moments(geometry.Pixels(), frames)
   {
     if (frames < MinimumFrames)
     {
@@ -115,19 +114,7 @@ public:
     const unsigned int pass = m_InPass.GetPass();
     if (pass == 0)
     {
-      m_FirstFrame = std::min(m_FirstFrame, first);
-      ForBlocks(pixels, m_ParallelFor, [&](std::size_t begin, std::size_t end) {
-        m_Moments.AddFrames(chunk, pixels, frames, begin, end);
-      });
-      m_Moments.AdvanceFrames(frames);
-      m_ParallelFor(frames, [&](std::size_t k) {
-        double sum = 0.0;
-        for (std::size_t p = k * pixels; p < (k + 1) * pixels; ++p)
-        {
-          sum += std::isfinite(static_cast<double>(chunk[p])) ? static_cast<double>(chunk[p]) : 0.0;
-        }
-        m_FrameMeans[first + k] = sum / static_cast<double>(pixels);
-      });
+      m_Moments.AddFrames(chunk, first, frames, m_ParallelFor);
     }
     else if (pass == 1 && m_FrameSums)
     {
@@ -158,15 +145,7 @@ public:
     WriteCount(out, this->FingerprintOfPass());
     if (m_InPass.GetPass() == 0)
     {
-      WriteNumbers(out, m_FrameMeans);
-      WriteCount(out, m_OtherMoments.size() + 1);
-      WriteCount(out, m_FirstFrame);
       m_Moments.Save(out);
-      for (const auto & [first, moments] : m_OtherMoments)
-      {
-        WriteCount(out, first);
-        moments.Save(out);
-      }
     }
     else if (m_FrameSums)
     {
@@ -190,30 +169,7 @@ public:
     }
     if (m_InPass.GetPass() == 0)
     {
-      std::vector<double> frameMeans(m_Frames);
-      ReadNumbers(in, frameMeans);
-      std::map<std::size_t, TemporalMoments<TPixel>> others;
-      for (std::uint64_t parts = ReadCount(in); parts > 0; --parts)
-      {
-        const std::size_t first = ReadCount(in);
-        others.try_emplace(first, pixels).first->second.Restore(in);
-      }
-      for (auto & [first, moments] : others)
-      {
-        if constexpr (std::is_integral_v<TPixel>)
-        {
-          m_Moments.Merge(moments);
-          m_FirstFrame = std::min(m_FirstFrame, first);
-        }
-        else if (moments.GetNumberOfFrames() > 0)
-        {
-          m_OtherMoments.emplace(first, std::move(moments));
-        }
-      }
-      for (std::size_t t = 0; t < m_Frames; ++t)
-      {
-        m_FrameMeans[t] += frameMeans[t];
-      }
+      m_Moments.Merge(in);
     }
     else if (m_FrameSums && m_InPass.GetPass() == 1)
     {
@@ -324,36 +280,15 @@ private:
     return fingerprint.GetValue();
   }
 
-  /** Floating-point moments are folded in the order of the frames: the same bits whoever merges what first. */
-  void
-  FoldMoments()
-  {
-    if (m_Moments.GetNumberOfFrames() > 0)
-    {
-      m_OtherMoments.emplace(m_FirstFrame, std::move(m_Moments));
-    }
-    m_Moments = TemporalMoments<TPixel>(m_Geometry.Pixels());
-    for (const auto & part : m_OtherMoments)
-    {
-      m_Moments.Merge(part.second);
-    }
-    m_OtherMoments.clear();
-  }
-
   void
   EndMoments()
   {
     const std::size_t pixels = m_Geometry.Pixels();
-    if (!m_OtherMoments.empty())
-    {
-      this->FoldMoments();
-    }
     m_Mean.resize(pixels);
     m_Variance.resize(pixels);
     m_Valid.resize(pixels);
     m_Summary = MakeStackMaps<TPixel>(
-      m_Moments, m_Settings.codes, m_ParallelFor, m_Mean.data(), m_Variance.data(), m_Valid.data());
-    m_Moments = TemporalMoments<TPixel>(0);
+      m_Moments.Take(), m_Settings.codes, m_ParallelFor, m_Mean.data(), m_Variance.data(), m_Valid.data());
     m_Reference = MakeReferenceFrame(m_Mean, m_Variance, m_Valid, m_Geometry, m_Frames, m_ParallelFor);
     m_PixelUse.resize(pixels);
     for (std::size_t p = 0; p < pixels; ++p)
@@ -366,7 +301,8 @@ private:
     }
     m_Found.model = FitProvisionalModel(m_Reference);
     m_Found.centreDn = m_Found.model.averageDn;
-    LeaveOutCoarseAndGuarded(m_Reference, m_PixelUse, m_Found, m_Summary.codes, m_FrameMeans, m_ParallelFor);
+    LeaveOutCoarseAndGuarded(
+      m_Reference, m_PixelUse, m_Found, m_Summary.codes, m_Moments.GetFrameMeans(), m_ParallelFor);
     if (!m_Found.failure.empty())
     {
       return;
@@ -379,13 +315,9 @@ private:
       whole[p] = unexplained[p] == 2 ? 0 : whole[p];
       take[p] = unexplained[p] != 0 ? 0 : take[p];
     }
-    m_FrameSums = std::make_unique<FrameSums>(m_Reference,
-                                              m_Found.model,
-                                              take,
-                                              SmoothedDerivative(m_Reference, StencilX, m_ParallelFor),
-                                              SmoothedDerivative(m_Reference, StencilY, m_ParallelFor),
-                                              InstrumentWeight(m_Reference, m_Found.model, whole, m_ParallelFor),
-                                              m_ParallelFor);
+    ShiftInstruments instruments = MakeShiftInstruments(m_Reference, m_Found.model, whole, m_ParallelFor);
+    FrameRegressors  regressors(m_Reference, m_Found.model, take, std::move(instruments), m_ParallelFor);
+    m_FrameSums = std::make_unique<FrameSums>(std::move(regressors), m_ParallelFor);
   }
 
   void
@@ -401,7 +333,7 @@ private:
     const std::vector<std::uint8_t> & all = m_Reference.usable;
     ProjectedVariance projected(m_Reference, m_Basis, m_Found.motion, m_Projections, m_Found.model, all, m_ParallelFor);
     const std::vector<std::uint8_t> mask = FitStaticVariance(projected, all, m_Found, m_PixelUse, m_ParallelFor);
-    PolishSceneSeries(*m_FrameSums, projected, mask, m_Found);
+    PolishSceneSeries(*m_FrameSums, projected, mask, m_Found, m_ParallelFor);
     m_CorrectedVariance = projected.GetVariance();
     for (std::size_t p = 0; p < all.size(); ++p)
     {
@@ -409,20 +341,13 @@ private:
     }
   }
 
-  RefinedSettings           m_Settings;
-  FrameGeometry             m_Geometry;
-  std::size_t               m_Frames;
-  std::vector<std::uint8_t> m_UserMask;
-  ParallelFor               m_ParallelFor;
-  PassFrames                m_InPass;
-  std::size_t               m_FirstFrame{ std::numeric_limits<std::size_t>::max() }; // of those in m_Moments
-
-  TemporalMoments<TPixel> m_Moments;
-  std::vector<double>     m_FrameMeans;
-
-  /** Floating-point moments of other processes, by their first frame. */
-  std::map<std::size_t, TemporalMoments<TPixel>> m_OtherMoments;
-
+  RefinedSettings            m_Settings;
+  FrameGeometry              m_Geometry;
+  std::size_t                m_Frames;
+  std::vector<std::uint8_t>  m_UserMask;
+  ParallelFor                m_ParallelFor;
+  PassFrames                 m_InPass;
+  StackMoments<TPixel>       m_Moments;
   StackSummary               m_Summary;
   std::vector<double>        m_Mean;
   std::vector<double>        m_Variance;

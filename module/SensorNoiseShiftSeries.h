@@ -18,10 +18,8 @@
 #ifndef SensorNoiseShiftSeries_h
 #define SensorNoiseShiftSeries_h
 
-#include "SensorNoiseBoxMean.h"
 #include "SensorNoiseFrameRegression.h"
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -80,80 +78,6 @@ SolveMotion(const FrameEquations & equations, const std::vector<double> & gamma,
   series.inverseGram = inverse;
   series.covariance = inverse * equations.rawGram.bottomRightCorner(motion, motion) * inverse;
   return series;
-}
-
-/** Half width of the box that smooths the derivatives twice along each axis: a triangle of standard deviation 2.8
- * pixels, whose instruments see long wavelengths only. */
-inline constexpr std::size_t InstrumentRadius = 3;
-
-/** The derivative of the mean by stencil \a k, smoothed. */
-inline std::vector<double>
-SmoothedDerivative(const ReferenceFrame & frame, StencilIndex k, const ParallelFor & parallelFor)
-{
-  const std::size_t   width = frame.geometry.width;
-  const std::size_t   height = frame.geometry.height;
-  std::vector<double> map(frame.mean.size(), 0.0);
-  parallelFor(height, [&](std::size_t y) {
-    for (std::size_t x = StencilMargin; x + StencilMargin < width; ++x)
-    {
-      if (y >= StencilMargin && y + StencilMargin < height)
-      {
-        map[y * width + x] = ApplyStencil(MotionStencils()[k], frame.mean.data(), width, y * width + x);
-      }
-    }
-  });
-  constexpr double side = 2.0 * InstrumentRadius + 1.0;
-  for (int pass = 0; pass < 2; ++pass)
-  {
-    map = BoxSum(map, width, height, InstrumentRadius, parallelFor);
-    for (double & value : map)
-    {
-      value /= side * side;
-    }
-  }
-  return map;
-}
-
-/** Weights of the instruments: the inverse noise, smoothed, and falling smoothly to 0 where pixels are missing from
- * \a mask. Rough weights, or an edge of which half is missing, would bring the short wavelengths back. */
-inline std::vector<double>
-InstrumentWeight(const ReferenceFrame &            frame,
-                 const ProvisionalModel &          model,
-                 const std::vector<std::uint8_t> & mask,
-                 const ParallelFor &               parallelFor)
-{
-  constexpr std::size_t     reach = 4;
-  constexpr std::size_t     radius = 8;
-  const std::size_t         width = frame.geometry.width;
-  const std::size_t         height = frame.geometry.height;
-  std::vector<std::uint8_t> missing(mask.size(), 0);
-  std::vector<double>       noise(mask.size());
-  for (std::size_t y = 0; y < height; ++y)
-  {
-    for (std::size_t x = 0; x < width; ++x)
-    {
-      const std::size_t p = y * width + x;
-      const bool        isInner =
-        x >= StencilMargin && x + StencilMargin < width && y >= StencilMargin && y + StencilMargin < height;
-      missing[p] = isInner && mask[p] == 0 ? 1 : 0;
-      noise[p] = model.NoiseVariance(frame.neighbourMean[p]);
-    }
-  }
-  std::vector<std::uint8_t> complete(mask.size());
-  const std::vector<double> near = BoxSum(missing, width, height, reach, parallelFor);
-  for (std::size_t p = 0; p < mask.size(); ++p)
-  {
-    complete[p] = near[p] < 0.5 ? 1 : 0;
-  }
-  std::vector<double>       weight = BoxSum(complete, width, height, reach, parallelFor);
-  const std::vector<double> smooth = BoxSum(noise, width, height, radius, parallelFor);
-  constexpr double          side = 2.0 * radius + 1.0;
-  constexpr double          area = (2.0 * reach + 1.0) * (2.0 * reach + 1.0);
-  for (std::size_t p = 0; p < mask.size(); ++p)
-  {
-    weight[p] *= side * side / (area * smooth[p]);
-  }
-  return weight;
 }
 
 /** Shifts of every frame times (1 + gamma_t), from instruments. */

@@ -19,7 +19,6 @@
 #define SensorNoiseStaticPixels_h
 
 #include "SensorNoiseBoxMean.h"
-#include "SensorNoiseIntensityIndex.h"
 #include "SensorNoiseProjectedVariance.h"
 
 #include <algorithm>
@@ -41,12 +40,21 @@ struct ClassFit
 
 namespace detail
 {
-/** The deviate of a chi-square variable over its degrees of freedom, about normal (Wilson & Hilferty 1931). */
-inline double
-WilsonHilferty(double ratio, double freedom)
+/** Whether a chi-square variable over its \a freedom is 4.5 standard deviations off or more: its cube root is about
+ * normal (Wilson & Hilferty 1931). */
+inline bool
+IsFarAbove(double ratio, double freedom)
 {
   const double s = 2.0 / (9.0 * freedom);
-  return (std::cbrt(std::max(0.0, ratio)) - (1.0 - s)) / std::sqrt(s);
+  const double limit = 1.0 - s + 4.5 * std::sqrt(s);
+  return !(ratio < limit * limit * limit);
+}
+inline bool
+IsFarOff(double ratio, double freedom)
+{
+  const double s = 2.0 / (9.0 * freedom);
+  const double limit = 1.0 - s - 4.5 * std::sqrt(s);
+  return IsFarAbove(ratio, freedom) || !(ratio > limit * limit * limit);
 }
 } // namespace detail
 
@@ -71,7 +79,7 @@ JudgeClasses(const ProjectedVariance &         projected,
       double *     own = s.data() + 4 * projected.ClassOf(p);
       own[0] += 1.0;
       const double freedom = line.EffectiveFreedom(projected.GetFreedom()[p], expected);
-      if (std::abs(detail::WilsonHilferty(ratio, freedom)) < 4.5)
+      if (!detail::IsFarOff(ratio, freedom))
       {
         own[1] += 1.0;
         own[2] += near * near;
@@ -123,9 +131,9 @@ JudgeClasses(const ProjectedVariance &         projected,
   return fit;
 }
 
-/** Marks pixels whose neighbourhood does not fit: 7 x 7 and 15 x 15 pixels whose mean variance exceeds the line by 5
- * standard deviations and 4 %, or that hold many outliers. Single noisy pixels are not its business: they are trimmed.
- * Estimator.md, 3.5. */
+/** Marks pixels whose neighbourhood does not fit: about a core of 15 x 15 pixels whose mean variance exceeds the line
+ * by 5 standard deviations and 4 %, or that hold 15 % outliers. Single noisy pixels are not its business: they are
+ * trimmed. Estimator.md, 3.5. */
 inline std::vector<std::uint8_t>
 FindLocalMisfit(const ProjectedVariance &         projected,
                 const VarianceLine &              line,
@@ -136,7 +144,6 @@ FindLocalMisfit(const ProjectedVariance &         projected,
   const std::size_t         width = frame.geometry.width;
   const std::size_t         height = frame.geometry.height;
   std::vector<float>        ratio(mask.size(), 0.0F);
-  std::vector<float>        freedom(mask.size(), 0.0F);
   std::vector<std::uint8_t> fits(mask.size(), 0);
   std::vector<std::uint8_t> rejected(mask.size(), 0);
   ForBlocks(mask.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
@@ -147,35 +154,32 @@ FindLocalMisfit(const ProjectedVariance &         projected,
         const double expected = line.At(frame.mean[p]);
         const double value = projected.GetVariance()[p] / expected;
         const double own = line.EffectiveFreedom(projected.GetFreedom()[p], expected);
-        fits[p] = detail::WilsonHilferty(value, own) < 4.5 ? 1 : 0;
+        fits[p] = detail::IsFarAbove(value, own) ? 0 : 1;
         rejected[p] = 1 - fits[p];
         ratio[p] = fits[p] != 0 ? static_cast<float>(value) : 0.0F;
-        freedom[p] = fits[p] != 0 ? static_cast<float>(own) : 0.0F;
       }
     }
   });
-  std::vector<std::uint8_t> misfit(mask.size(), 0);
-  for (const std::size_t radius : { std::size_t{ 3 }, std::size_t{ 7 } })
-  {
-    const double              area = std::pow(2.0 * static_cast<double>(radius) + 1.0, 2);
-    const double              mostRejected = (radius == 3 ? 0.25 : 0.15) * area;
-    const std::vector<double> count = BoxSum(fits, width, height, radius, parallelFor);
-    const std::vector<double> sum = BoxSum(ratio, width, height, radius, parallelFor);
-    const std::vector<double> freedoms = BoxSum(freedom, width, height, radius, parallelFor);
-    const std::vector<double> crowd = BoxSum(rejected, width, height, radius, parallelFor);
-    std::vector<std::uint8_t> core(mask.size(), 0);
-    for (std::size_t p = 0; p < mask.size(); ++p)
+  constexpr std::size_t     radius = 7;
+  constexpr double          area = (2.0 * radius + 1.0) * (2.0 * radius + 1.0);
+  std::vector<double>       count = BoxSum(fits, width, height, radius, parallelFor);
+  const std::vector<double> sum = BoxSum(ratio, width, height, radius, parallelFor);
+  const std::vector<double> crowd = BoxSum(rejected, width, height, radius, parallelFor);
+  const auto                freedom = static_cast<double>(frame.frames - 1 - projected.GetBasis().Size());
+  std::vector<std::uint8_t> core(mask.size());
+  ForBlocks(mask.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p)
     {
       const double excess = sum[p] / std::max(1.0, count[p]) - 1.0;
-      const double sd = std::sqrt(2.0 / std::max(1.0, freedoms[p]));
-      core[p] = (excess > std::max(5.0 * sd, 0.04) && count[p] > 0.3 * area) || crowd[p] > mostRejected ? 1 : 0;
+      const double own = line.EffectiveFreedom(freedom, line.At(frame.neighbourMean[p]));
+      const double sd = std::sqrt(2.0 / (own * std::max(1.0, count[p])));
+      core[p] = (excess > std::max(5.0 * sd, 0.04) && count[p] > 0.3 * area) || crowd[p] > 0.15 * area ? 1 : 0;
     }
-    const std::vector<double> grown = BoxSum(core, width, height, (2 * radius + 1) / 3, parallelFor);
-    for (std::size_t p = 0; p < mask.size(); ++p)
-    {
-      misfit[p] = misfit[p] != 0 || grown[p] > 0.5 ? 1 : 0;
-    }
-  }
+  });
+  BoxSum(core, width, height, (2 * radius + 1) / 3, parallelFor, count);
+  std::vector<std::uint8_t> misfit(mask.size());
+  std::transform(
+    count.begin(), count.end(), misfit.begin(), [](double cores) { return static_cast<std::uint8_t>(cores > 0.5); });
   return misfit;
 }
 
@@ -184,15 +188,19 @@ FindLocalMisfit(const ProjectedVariance &         projected,
 inline double
 IntensityChi2(const VarianceData & data, const VarianceLine & line, const ParallelFor & parallelFor)
 {
-  constexpr std::size_t     bins = 64;
-  std::vector<std::uint8_t> mask(data.mask, data.mask + data.pixels);
-  const IntensityIndex      index(data.neighbourMean, mask.data(), data.pixels);
+  constexpr std::size_t bins = 64;
+  std::vector<double>   level;
+  for (const std::size_t p : detail::SamplePixels({ data.mask, data.mask + data.pixels }))
+  {
+    level.push_back(data.neighbourMean[p]);
+  }
+  const std::vector<double> edges = detail::EdgesOfEqualCount(level, bins);
   const auto                sums = SumOverBlocks<2 * bins>(data.pixels, parallelFor, [&](std::size_t p, auto & s) {
-    const double expected = mask[p] != 0 ? line.At(data.mean[p]) : 1.0;
+    const double expected = data.mask[p] != 0 ? line.At(data.mean[p]) : 1.0;
     const double ratio = data.variance[p] / expected;
-    if (mask[p] != 0 && std::abs(detail::WilsonHilferty(ratio, data.freedom[p])) < 4.5)
+    if (data.mask[p] != 0 && !detail::IsFarOff(ratio, data.freedom[p]))
     {
-      double * own = s.data() + 2 * index.BinOf(data.neighbourMean[p], bins);
+      double * own = s.data() + 2 * detail::BinOf(edges, data.neighbourMean[p]);
       own[0] += 0.5 * data.freedom[p];
       own[1] += 0.5 * data.freedom[p] * (ratio - 1.0);
     }

@@ -19,6 +19,7 @@
 #define SensorNoiseStaticVariance_h
 
 #include "SensorNoiseRefinedFindings.h"
+#include "SensorNoiseVarianceFit.h"
 
 #include <algorithm>
 #include <array>
@@ -50,14 +51,13 @@ FitFlatHalf(const ProjectedVariance &         projected,
   }
   std::size_t last = 0;
   for (std::size_t sum = counts[0]; last + 1 < counts.size() && 2 * sum < total; sum += counts[++last])
-  {
-  }
+  {}
   std::vector<std::uint8_t> flat = mask;
   for (std::size_t p = 0; p < mask.size(); ++p)
   {
     flat[p] = projected.ClassOf(p) <= last ? mask[p] : 0;
   }
-  return FitVarianceLine(projected.GetData(flat), parallelFor, line, 4);
+  return FitVarianceLine(projected.GetData(flat), parallelFor, line, 3);
 }
 
 /** The mean has noise of its own, and it is correlated with the variance as the noise is skewed. Both together bias
@@ -85,47 +85,55 @@ FitStaticVariance(ProjectedVariance &               projected,
                   const ParallelFor &               parallelFor)
 {
   std::vector<std::uint8_t> mask = all;
-  const auto                fit = [&](std::optional<VarianceLine> start, int iterations) {
-    const VarianceLine line = FitVarianceLine(projected.GetData(mask), parallelFor, start, iterations);
+  const auto                require = [](const VarianceLine & line) {
     if (!line.isDetermined)
     {
       throw std::runtime_error("too few pixels, or pixels of one intensity only, are left to fit the variance");
     }
     return line;
   };
-  // The line of the flat classes tells which classes fit, the line of these which neighbourhoods do.
+  const auto follow = [&](const std::optional<VarianceLine> & start, int iterations) {
+    VarianceFit fit(projected.GetData(mask), parallelFor, start);
+    fit.Iterate(iterations);
+    return require(fit.GetLine());
+  };
+  // The line of the flat classes tells which neighbourhoods fit, and among these, which classes do.
   projected.Compute(found.model.slopeDn);
-  VarianceLine line = fit(std::nullopt, 4);
+  VarianceLine line = follow(std::nullopt, 2);
   projected.Compute(line.gain);
   for (std::size_t p = 0; p < mask.size(); ++p)
   {
     mask[p] = all[p] != 0 && projected.ClassOf(p) <= 0.6 * ProjectedVariance::Classes ? 1 : 0;
   }
-  line = fit(line, 4);
-  found.classes = JudgeClasses(projected, line, all, parallelFor);
-  const auto select = [&](const std::vector<std::uint8_t> & misfit) {
-    for (std::size_t p = 0; p < mask.size(); ++p)
-    {
-      const bool isRough = projected.ClassOf(p) >= found.classes.firstBad;
-      const bool isMisfit = !misfit.empty() && misfit[p] != 0;
-      mask[p] = all[p] != 0 && !isRough && !isMisfit ? 1 : 0;
-      if (all[p] != 0)
-      {
-        pixelUse[p] = static_cast<std::uint8_t>(isMisfit  ? PixelUse::NotStatic
-                                                : isRough ? PixelUse::Vibration
-                                                          : PixelUse::Used);
-      }
-    }
-  };
-  select({});
-  line = fit(line, 4);
+  line = follow(line, 3);
   for (int round = 0; round < 2; ++round)
   {
-    select(FindLocalMisfit(projected, line, all, parallelFor));
-    line = fit(line, 4);
+    const std::vector<std::uint8_t> misfit = FindLocalMisfit(projected, line, all, parallelFor);
+    for (std::size_t p = 0; p < mask.size(); ++p)
+    {
+      mask[p] = all[p] != 0 && misfit[p] == 0 ? 1 : 0;
+    }
+    found.classes = JudgeClasses(projected, line, mask, parallelFor);
+    for (std::size_t p = 0; p < mask.size(); ++p)
+    {
+      if (all[p] != 0)
+      {
+        const bool isRough = projected.ClassOf(p) >= found.classes.firstBad;
+        pixelUse[p] = static_cast<std::uint8_t>(misfit[p] != 0 ? PixelUse::NotStatic
+                                                : isRough      ? PixelUse::Vibration
+                                                               : PixelUse::Used);
+        mask[p] = isRough ? 0 : mask[p];
+      }
+    }
+    line = follow(line, 3);
+    const auto count = static_cast<double>(std::count(misfit.begin(), misfit.end(), std::uint8_t{ 1 }));
+    if (count < 1e-3 * static_cast<double>(misfit.size()))
+    {
+      break; // too few to have drawn the line
+    }
   }
   projected.Compute(line.gain);
-  line = fit(line, 8);
+  line = require(FitVarianceLine(projected.GetData(mask), parallelFor, line));
   found.fromFlat = detail::FitFlatHalf(projected, mask, line, parallelFor);
   detail::CorrectForNoisyMeans(line, found, projected.GetFrame().frames);
   found.variance = line;

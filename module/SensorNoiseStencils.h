@@ -20,7 +20,7 @@
 
 #include <array>
 #include <cstddef>
-#include <vector>
+#include <utility>
 
 namespace sensornoise
 {
@@ -33,14 +33,39 @@ struct StencilTap
   double weight;
 };
 
+/** The weights of a stencil, at most 6 of them. */
+class StencilTaps
+{
+public:
+  template <typename... TTaps>
+  constexpr explicit StencilTaps(TTaps... taps)
+    : m_Taps{ taps... }
+    , m_Size(sizeof...(taps))
+  {}
+  constexpr const StencilTap *
+  begin() const
+  {
+    return m_Taps.data();
+  }
+  constexpr const StencilTap *
+  end() const
+  {
+    return m_Taps.data() + m_Size;
+  }
+
+private:
+  std::array<StencilTap, 6> m_Taps;
+  std::size_t               m_Size;
+};
+
 /** A central difference on 5 x 5 pixels. */
 struct Stencil
 {
-  const char *            name;  ///< the derivatives that it takes: "x", "yy", "xxy", ...
-  int                     order; ///< of the derivative, 1 to 3
-  std::vector<StencilTap> taps;
+  const char * name;  ///< the derivatives that it takes: "x", "yy", "xxy", ...
+  int          order; ///< of the derivative, 1 to 3
+  StencilTaps  taps;
 
-  double
+  constexpr double
   CentreWeight() const
   {
     for (const StencilTap & tap : taps)
@@ -59,27 +84,42 @@ inline constexpr std::size_t StencilMargin = 2;
 
 inline constexpr std::size_t NumberOfStencils = 9;
 
+namespace detail
+{
+using Tap = StencilTap;
+inline constexpr std::array<Stencil, NumberOfStencils> Stencils{
+  { { "x", 1, StencilTaps(Tap{ 1, 0, 0.5 }, Tap{ -1, 0, -0.5 }) },
+    { "y", 1, StencilTaps(Tap{ 0, 1, 0.5 }, Tap{ 0, -1, -0.5 }) },
+    { "xx", 2, StencilTaps(Tap{ 1, 0, 1.0 }, Tap{ 0, 0, -2.0 }, Tap{ -1, 0, 1.0 }) },
+    { "yy", 2, StencilTaps(Tap{ 0, 1, 1.0 }, Tap{ 0, 0, -2.0 }, Tap{ 0, -1, 1.0 }) },
+    { "xy", 2, StencilTaps(Tap{ 1, 1, 0.25 }, Tap{ -1, -1, 0.25 }, Tap{ -1, 1, -0.25 }, Tap{ 1, -1, -0.25 }) },
+    { "xxx", 3, StencilTaps(Tap{ 2, 0, 0.5 }, Tap{ 1, 0, -1.0 }, Tap{ -1, 0, 1.0 }, Tap{ -2, 0, -0.5 }) },
+    { "yyy", 3, StencilTaps(Tap{ 0, 2, 0.5 }, Tap{ 0, 1, -1.0 }, Tap{ 0, -1, 1.0 }, Tap{ 0, -2, -0.5 }) },
+    { "xxy",
+      3,
+      StencilTaps(Tap{ 1, 1, 0.5 },
+                  Tap{ 0, 1, -1.0 },
+                  Tap{ -1, 1, 0.5 },
+                  Tap{ 1, -1, -0.5 },
+                  Tap{ 0, -1, 1.0 },
+                  Tap{ -1, -1, -0.5 }) },
+    { "xyy",
+      3,
+      StencilTaps(Tap{ 1, 1, 0.5 },
+                  Tap{ 1, 0, -1.0 },
+                  Tap{ 1, -1, 0.5 },
+                  Tap{ -1, 1, -0.5 },
+                  Tap{ -1, 0, 1.0 },
+                  Tap{ -1, -1, -0.5 }) } }
+};
+} // namespace detail
+
 /** The derivatives of the mean into which a small motion of the scene is expanded, up to the third order. First the two
  * of the first order. */
-inline const std::array<Stencil, NumberOfStencils> &
+constexpr const std::array<Stencil, NumberOfStencils> &
 MotionStencils()
 {
-  static const std::array<Stencil, NumberOfStencils> stencils{
-    { { "x", 1, { { 1, 0, 0.5 }, { -1, 0, -0.5 } } },
-      { "y", 1, { { 0, 1, 0.5 }, { 0, -1, -0.5 } } },
-      { "xx", 2, { { 1, 0, 1.0 }, { 0, 0, -2.0 }, { -1, 0, 1.0 } } },
-      { "yy", 2, { { 0, 1, 1.0 }, { 0, 0, -2.0 }, { 0, -1, 1.0 } } },
-      { "xy", 2, { { 1, 1, 0.25 }, { -1, -1, 0.25 }, { -1, 1, -0.25 }, { 1, -1, -0.25 } } },
-      { "xxx", 3, { { 2, 0, 0.5 }, { 1, 0, -1.0 }, { -1, 0, 1.0 }, { -2, 0, -0.5 } } },
-      { "yyy", 3, { { 0, 2, 0.5 }, { 0, 1, -1.0 }, { 0, -1, 1.0 }, { 0, -2, -0.5 } } },
-      { "xxy",
-        3,
-        { { 1, 1, 0.5 }, { 0, 1, -1.0 }, { -1, 1, 0.5 }, { 1, -1, -0.5 }, { 0, -1, 1.0 }, { -1, -1, -0.5 } } },
-      { "xyy",
-        3,
-        { { 1, 1, 0.5 }, { 1, 0, -1.0 }, { 1, -1, 0.5 }, { -1, 1, -0.5 }, { -1, 0, 1.0 }, { -1, -1, -0.5 } } } }
-  };
-  return stencils;
+  return detail::Stencils;
 }
 
 /** Index in MotionStencils(). */
@@ -103,6 +143,37 @@ ApplyStencil(const Stencil & stencil, const double * map, std::size_t width, std
     sum += tap.weight * map[static_cast<std::ptrdiff_t>(p) + offset];
   }
   return sum;
+}
+
+namespace detail
+{
+template <std::size_t VStencil>
+double
+ApplyStencil(const double * pixel, std::ptrdiff_t width)
+{
+  constexpr StencilTaps taps = Stencils[VStencil].taps;
+  double                sum = 0.0;
+  for (const StencilTap & tap : taps)
+  {
+    sum += tap.weight * pixel[tap.dy * width + tap.dx];
+  }
+  return sum;
+}
+
+template <std::size_t... VStencils>
+std::array<double, NumberOfStencils>
+ApplyStencils(const double * pixel, std::ptrdiff_t width, std::index_sequence<VStencils...>)
+{
+  return { ApplyStencil<VStencils>(pixel, width)... };
+}
+} // namespace detail
+
+/** All of MotionStencils() at pixel \a p. */
+inline std::array<double, NumberOfStencils>
+ApplyStencils(const double * map, std::size_t width, std::size_t p)
+{
+  return detail::ApplyStencils(
+    map + p, static_cast<std::ptrdiff_t>(width), std::make_index_sequence<NumberOfStencils>());
 }
 
 /** Sum of the products of two stencils' weights: what white noise of variance 1 in the map puts on the product of

@@ -20,6 +20,7 @@
 
 #include "SensorNoiseLocalIllumination.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -94,9 +95,10 @@ public:
     m_LightFactors = static_cast<std::size_t>(std::min(basis.cols(), Orthonormalise(light, frames).cols()));
     m_Rounded = (basis * Unit).array().round();
     m_Series = m_Rounded / Unit;
-    const Eigen::MatrixXd centred = m_Series.rowwise() - m_Series.colwise().mean();
-    m_Factor = Eigen::LLT<Eigen::MatrixXd>(centred.transpose() * centred).matrixL();
-    m_Basis = m_Factor.triangularView<Eigen::Lower>().solve(centred.transpose()).transpose();
+    const Eigen::MatrixXd             centred = m_Series.rowwise() - m_Series.colwise().mean();
+    const Eigen::LLT<Eigen::MatrixXd> factor(centred.transpose() * centred);
+    m_Inverse = factor.matrixL().solve(Eigen::MatrixXd::Identity(centred.cols(), centred.cols()));
+    m_Basis = centred * m_Inverse.transpose();
     m_Means = m_Series.colwise().mean();
   }
 
@@ -122,20 +124,36 @@ public:
   {
     return m_Rounded(static_cast<Eigen::Index>(t), static_cast<Eigen::Index>(j));
   }
-  /** Turns the sums over time of rounded series times pixel value, in place, into the coordinates of the pixel's time
-   * series in the basis; \a sum is the sum of the pixel's values. */
+  /** Turns the sums over time of rounded series times pixel value, in place, into the coordinates of the pixels' time
+   * series in the basis, for \a pixels pixels: sums[j stride + i] is that of pixel i with series j, means[i] the mean
+   * of its values. */
   void
-  ToCoordinates(double * sums, double sum) const
+  ToCoordinates(double * sums, std::size_t stride, const double * means, std::size_t pixels) const
   {
-    const auto size = static_cast<Eigen::Index>(this->Size());
-    for (Eigen::Index j = 0; j < size; ++j)
+    const auto frames = static_cast<double>(m_Basis.rows());
+    for (std::size_t j = 0; j < this->Size(); ++j)
     {
-      double value = sums[j] / Unit - m_Means(j) * sum;
-      for (Eigen::Index i = 0; i < j; ++i)
+      const double taken = m_Means(static_cast<Eigen::Index>(j)) * frames;
+      for (std::size_t i = 0; i < pixels; ++i)
       {
-        value -= m_Factor(j, i) * sums[i];
+        sums[j * stride + i] = sums[j * stride + i] / Unit - taken * means[i];
       }
-      sums[j] = value / m_Factor(j, j);
+    }
+    for (std::size_t j = this->Size(); j-- > 0;)
+    {
+      const auto row = static_cast<Eigen::Index>(j);
+      for (std::size_t i = 0; i < pixels; ++i)
+      {
+        sums[j * stride + i] *= m_Inverse(row, row);
+      }
+      for (std::size_t k = 0; k < j; ++k)
+      {
+        const double factor = m_Inverse(row, static_cast<Eigen::Index>(k));
+        for (std::size_t i = 0; i < pixels; ++i)
+        {
+          sums[j * stride + i] += factor * sums[k * stride + i];
+        }
+      }
     }
   }
 
@@ -144,7 +162,7 @@ private:
   Eigen::MatrixXd    m_Rounded;
   Eigen::MatrixXd    m_Series;
   Eigen::MatrixXd    m_Basis;
-  Eigen::MatrixXd    m_Factor;
+  Eigen::MatrixXd    m_Inverse; // of the lower triangle that turns coordinates into centred sums
   Eigen::RowVectorXd m_Means;
 };
 

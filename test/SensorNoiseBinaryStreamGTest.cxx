@@ -88,7 +88,7 @@ Make(std::size_t pixels)
   ProjectionSums sums(pixels, 3);
   for (std::size_t i = 0; i < pixels * 3; ++i)
   {
-    sums.OfPixel(0)[i] = std::sqrt(static_cast<double>(i));
+    sums.At(i / 3, i % 3) = std::sqrt(static_cast<double>(i));
   }
   return sums;
 }

@@ -60,7 +60,7 @@ DenseFit(const SyntheticFrames &          frames,
   std::vector<std::size_t> pixels;
   for (std::size_t p = 0; p < frames.Pixels(); ++p)
   {
-    if (sums.ClassOf(p) <= lastClass)
+    if (sums.GetRegressors().ClassOf(p) <= lastClass)
     {
       pixels.push_back(p);
     }
@@ -162,7 +162,7 @@ TEST(SensorNoiseFrameRegression, NoiseOfTheRegressorsIsTakenOffTheGramMatrix)
 {
   // White noise of variance V / T in the mean adds its stencils' inner products; the mean is a stencil of one pixel.
   const RegressorNoise       noise = SomeNoise();
-  const std::vector<Stencil> own{ { "", 0, {} }, { "1", 0, { { 0, 0, 1.0 } } } };
+  const std::vector<Stencil> own{ { "", 0, StencilTaps() }, { "1", 0, StencilTaps(StencilTap{ 0, 0, 1.0 }) } };
   for (const std::size_t last : { std::size_t{ 3 }, LastClass })
   {
     const FrameEquations  equations = MakeFrameEquations(NoisySums(), noise, last);

@@ -61,8 +61,8 @@ ExpectSameBits(const FrameSums & a, const FrameSums & b)
   ASSERT_EQ(a.GetCells().size(), b.GetCells().size());
   for (std::size_t c = 0; c < a.GetCells().size(); ++c)
   {
-    EXPECT_EQ(a.GetCells()[c].wII, b.GetCells()[c].wII) << c;
-    EXPECT_EQ(a.GetCells()[c].wID, b.GetCells()[c].wID) << c;
+    EXPECT_EQ(a.GetCells()[c].sum, b.GetCells()[c].sum) << c;
+    EXPECT_EQ(a.GetCells()[c].sumI, b.GetCells()[c].sumI) << c;
   }
 }
 
@@ -92,8 +92,8 @@ TEST(SensorNoiseFrameSums, ClassSumsEqualBruteForce)
       {
         const double          deviation = Frames().Frame(t)[p] - Frames().reference.mean[p];
         const Eigen::VectorXd term = Frames().Weight(p) * deviation * Frames().ColumnsOf(p);
-        sum[sums.ClassOf(p)] += term;
-        size[sums.ClassOf(p)] += term.cwiseAbs();
+        sum[sums.GetRegressors().ClassOf(p)] += term;
+        size[sums.GetRegressors().ClassOf(p)] += term.cwiseAbs();
       }
     }
     for (std::size_t c = 0; c < GradientClasses; ++c)
@@ -110,12 +110,12 @@ TEST(SensorNoiseFrameSums, ClassGramsEqualBruteForce)
   std::vector<std::size_t>     count(GradientClasses, 0);
   for (std::size_t p = 0; p < Frames().Pixels(); ++p)
   {
-    ASSERT_EQ(sums.ClassOf(p) == FrameSums::Unused, Frames().take[p] == 0) << p;
+    ASSERT_EQ(sums.GetRegressors().ClassOf(p) == FrameRegressors::Unused, Frames().take[p] == 0) << p;
     if (Frames().take[p] != 0)
     {
       const auto columns = Frames().ColumnsOf(p);
-      gram[sums.ClassOf(p)] += Frames().Weight(p) * columns * columns.transpose();
-      ++count[sums.ClassOf(p)];
+      gram[sums.GetRegressors().ClassOf(p)] += Frames().Weight(p) * columns * columns.transpose();
+      ++count[sums.GetRegressors().ClassOf(p)];
     }
   }
   for (std::size_t c = 0; c < GradientClasses; ++c)
@@ -137,7 +137,7 @@ TEST(SensorNoiseFrameSums, InstrumentsEqualBruteForce)
   {
     if (Frames().take[p] != 0)
     {
-      const Eigen::Vector2d instruments(sums.SmoothX(p), sums.SmoothY(p));
+      const Eigen::Vector2d instruments(sums.GetRegressors().InstrumentX(p), sums.GetRegressors().InstrumentY(p));
       sum += (Frames().Frame(t)[p] - Frames().reference.mean[p]) * instruments;
       gram += instruments * Frames().ColumnsOf(p).transpose();
     }
@@ -166,13 +166,10 @@ TEST(SensorNoiseFrameSums, CellsPartTheWholeFrame)
   {
     const FrameSums::Cell & cell = sums.GetCells()[c];
     whole.pixels += cell.pixels;
-    whole.w += cell.w;
-    whole.wI += cell.wI;
-    whole.wII += cell.wII;
-    for (std::size_t k = 0; k < NumberOfStencils; ++k)
+    for (std::size_t k = 0; k < FrameColumns; ++k)
     {
-      whole.wD[k] += cell.wD[k];
-      whole.wID[k] += cell.wID[k];
+      whole.sum[k] += cell.sum[k];
+      whole.sumI[k] += cell.sumI[k];
     }
     cellSums[0] += sums.GetCellSums(t, c)[0];
     cellSums[1] += sums.GetCellSums(t, c)[1];
@@ -181,14 +178,11 @@ TEST(SensorNoiseFrameSums, CellsPartTheWholeFrame)
   const auto near = [&](double value, double expected, Eigen::Index i, Eigen::Index j) {
     EXPECT_NEAR(value, expected, 1e-12 * std::sqrt(gram(i, i) * gram(j, j))) << i << ' ' << j;
   };
-  near(whole.w, gram(0, 0), 0, 0);
-  near(whole.wI, gram(0, 1), 0, 1);
-  near(whole.wII, gram(1, 1), 1, 1);
-  for (std::size_t k = 0; k < NumberOfStencils; ++k)
+  for (std::size_t k = 0; k < FrameColumns; ++k)
   {
-    const auto column = static_cast<Eigen::Index>(2 + k);
-    near(whole.wD[k], gram(0, column), 0, column);
-    near(whole.wID[k], gram(1, column), 1, column);
+    const auto column = static_cast<Eigen::Index>(k);
+    near(whole.sum[k], gram(0, column), 0, column);
+    near(whole.sumI[k], gram(1, column), 1, column);
   }
   EXPECT_NEAR(cellSums[0], frame(0), 1e-10 * std::sqrt(gram(0, 0)));
   EXPECT_NEAR(cellSums[1], frame(1), 1e-10 * std::sqrt(gram(1, 1)));
@@ -204,7 +198,7 @@ TEST(SensorNoiseFrameSums, RougherClassesHaveLargerGradients)
     double     pixels = 0.0;
     for (std::size_t p = 0; p < Frames().Pixels(); ++p)
     {
-      pixels += sums.ClassOf(p) == c ? 1.0 : 0.0;
+      pixels += sums.GetRegressors().ClassOf(p) == c ? 1.0 : 0.0;
     }
     energy.push_back((gram(2, 2) + gram(3, 3)) / pixels);
     EXPECT_TRUE(c == 0 || energy[c] > energy[c - 1]) << c;

@@ -144,13 +144,10 @@ struct SyntheticFrames
   FrameSums
   EmptySums(const ParallelFor & parallelFor = SerialFor) const
   {
-    return { reference,
-             model,
-             take,
-             SmoothedDerivative(reference, StencilX, parallelFor),
-             SmoothedDerivative(reference, StencilY, parallelFor),
-             std::vector<double>(this->Pixels(), 1e-3),
-             parallelFor };
+    ShiftInstruments instruments{ SmoothedDerivative(reference, StencilX, parallelFor),
+                                  SmoothedDerivative(reference, StencilY, parallelFor),
+                                  std::vector<double>(this->Pixels(), 1e-3) };
+    return FrameSums(FrameRegressors(reference, model, take, std::move(instruments)), parallelFor);
   }
   FrameSums
   Sums() const

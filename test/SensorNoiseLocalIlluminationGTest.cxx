@@ -67,7 +67,7 @@ Find(const SyntheticFrames & frames,
 {
   const FrameSums           sums = frames.Sums();
   const std::vector<double> gamma(lights.flicker.data(), lights.flicker.data() + Frames);
-  const double              offset = Offset - sums.GetCentreDn();
+  const double              offset = Offset - sums.GetRegressors().GetCentreDn();
   const FrameEquations      equations = MakeFrameEquations(sums, {}, GradientClasses - 1);
   const MotionSeries        series = SolveMotion(equations, gamma, offset);
   return FindLocalIllumination(
@@ -165,7 +165,7 @@ TEST(SensorNoiseLocalIllumination, ShortBurstsAndFewCellsGiveNothing)
   MotionSeries             still;
   still.coefficients.resize(5, 0);
   const auto none = FindLocalIllumination(
-    sums, still, Eigen::MatrixXd(5, 0), std::vector<double>(5, 0.0), Offset - sums.GetCentreDn(), Most);
+    sums, still, Eigen::MatrixXd(5, 0), std::vector<double>(5, 0.0), Offset - sums.GetRegressors().GetCentreDn(), Most);
   EXPECT_EQ(none.series.cols(), 0);
   EXPECT_EQ(none.series.rows(), 5);
 }

@@ -15,6 +15,7 @@
  *  limitations under the License.
  *
  *=========================================================================*/
+#include "SensorNoiseLocalFlicker.h"
 #include "SensorNoiseLocalOffset.h"
 
 #include "SensorNoiseProjectionTestHelper.h"
@@ -63,7 +64,7 @@ struct Scene
     }
     return series;
   }
-  LocalOffsetData
+  PixelLight
   Data() const
   {
     return { projected, line, input.mask, CentreDn, 400.0, 1200.0 };

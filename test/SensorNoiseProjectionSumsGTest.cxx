@@ -95,7 +95,7 @@ ExpectSameBits(const ProjectionSums & a, const ProjectionSums & b)
   ASSERT_EQ(a.GetNumberOfSeries(), b.GetNumberOfSeries());
   for (std::size_t i = 0; i < Pixels * Series; ++i)
   {
-    ASSERT_EQ(a.OfPixel(0)[i], b.OfPixel(0)[i]) << i;
+    ASSERT_EQ(a.At(i / Series, i % Series), b.At(i / Series, i % Series)) << i;
   }
 }
 } // namespace
@@ -134,7 +134,7 @@ TYPED_TEST(SensorNoiseProjectionSumsOf, AreSumsOfSeriesTimesValue)
         size += std::abs(product);
       }
       const long double tolerance = std::is_integral_v<TypeParam> ? 0.0L : 1e-15L * size;
-      ASSERT_LE(std::abs(sums.OfPixel(p)[j] - sum), tolerance) << p << ' ' << j;
+      ASSERT_LE(std::abs(sums.At(p, j) - sum), tolerance) << p << ' ' << j;
     }
   }
 }
@@ -157,7 +157,8 @@ TYPED_TEST(SensorNoiseProjectionSumsOf, MergedPartsAgreeWithTheWhole)
   for (std::size_t i = 0; i < Pixels * Series; ++i)
   {
     // 23 products of up to 2^20 times 2,000.
-    ASSERT_NEAR(backwards.OfPixel(0)[i], whole.OfPixel(0)[i], 1e-15 * 23.0 * 2000.0 * TemporalBasis::Unit) << i;
+    const double tolerance = 1e-15 * 23.0 * 2000.0 * TemporalBasis::Unit;
+    ASSERT_NEAR(backwards.At(i / Series, i % Series), whole.At(i / Series, i % Series), tolerance) << i;
   }
 }
 
@@ -180,11 +181,12 @@ TEST(SensorNoiseProjectionSums, ResidualSquaresOfMergedChunksAreTheWholes)
     std::vector<double> rss;
     for (std::size_t p = 0; p < Pixels; ++p)
     {
-      Basis().ToCoordinates(sums.OfPixel(p), moments.GetMean(p) * static_cast<double>(Frames));
+      const double mean = moments.GetMean(p);
+      Basis().ToCoordinates(&sums.At(p, 0), ProjectionSums::BlockPixels, &mean, 1);
       rss.push_back(moments.GetSumOfSquaredDeviations(p));
       for (std::size_t j = 0; j < Series; ++j)
       {
-        rss.back() -= sums.OfPixel(p)[j] * sums.OfPixel(p)[j];
+        rss.back() -= sums.At(p, j) * sums.At(p, j);
       }
     }
     return rss;

@@ -67,7 +67,7 @@ struct Fit
     : frames(Width, Height, Changes(), noise)
     , sums(frames.Sums())
     , equations(MakeFrameEquations(sums, {}, GradientClasses - 1))
-    , offset(OffsetDn - sums.GetCentreDn())
+    , offset(OffsetDn - sums.GetRegressors().GetCentreDn())
   {
     motion = SolveMotion(equations, Flicker(), offset);
   }

@@ -17,6 +17,7 @@
  *=========================================================================*/
 #include "SensorNoiseStaticPixels.h"
 
+#include "SensorNoiseChiSquare.h"
 #include "SensorNoiseProjectionTestHelper.h"
 
 #include <gtest/gtest.h>
@@ -142,16 +143,22 @@ TEST(SensorNoiseStaticPixels, SingleNoisyPixelsAreNotTheirSurroundings)
   EXPECT_EQ(std::count(misfit.begin(), misfit.end(), std::uint8_t{ 1 }), 0);
 }
 
-TEST(SensorNoiseStaticPixels, WilsonHilfertyDeviatesAreAboutNormal)
+TEST(SensorNoiseStaticPixels, FarOffIsFourAndAHalfStandardDeviations)
 {
   for (const double freedom : { 10.0, 30.0, 100.0 })
   {
-    for (const double z : { -3.0, -1.0, 0.0, 1.0, 3.0 })
-    {
-      const double ratio = z < 0.0 ? ChiSquareQuantile(0.5 * std::erfc(-z / std::sqrt(2.0)), freedom) / freedom
-                                   : ChiSquareUpperQuantile(0.5 * std::erfc(z / std::sqrt(2.0)), freedom) / freedom;
-      EXPECT_NEAR(detail::WilsonHilferty(ratio, freedom), z, 0.1) << freedom;
-    }
+    // The normal deviates' tail probabilities; the cube root is about 0.1 standard deviations off.
+    const auto above = [&](double z) {
+      return ChiSquareUpperQuantile(0.5 * std::erfc(z / std::sqrt(2.0)), freedom) / freedom;
+    };
+    const auto below = [&](double z) {
+      return ChiSquareQuantile(0.5 * std::erfc(z / std::sqrt(2.0)), freedom) / freedom;
+    };
+    EXPECT_TRUE(detail::IsFarAbove(above(4.7), freedom) && detail::IsFarOff(above(4.7), freedom)) << freedom;
+    EXPECT_FALSE(detail::IsFarAbove(above(4.3), freedom) || detail::IsFarOff(above(4.3), freedom)) << freedom;
+    EXPECT_FALSE(detail::IsFarAbove(below(6.0), freedom)) << freedom;
+    EXPECT_FALSE(detail::IsFarOff(below(3.8), freedom)) << freedom;
+    EXPECT_TRUE(detail::IsFarOff(below(5.2), freedom)) << freedom;
   }
 }
 

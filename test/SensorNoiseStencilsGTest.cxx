@@ -131,6 +131,20 @@ TEST(SensorNoiseStencils, ExchangedAxesGiveAnotherOfThem)
   }
 }
 
+TEST(SensorNoiseStencils, AllAtOnceAreThoseOfEach)
+{
+  std::vector<double> map(81);
+  for (std::size_t i = 0; i < map.size(); ++i)
+  {
+    map[i] = static_cast<double>(i * i % 17);
+  }
+  const auto all = ApplyStencils(map.data(), 9, 3 * 9 + 5);
+  for (std::size_t k = 0; k < NumberOfStencils; ++k)
+  {
+    EXPECT_EQ(all[k], ApplyStencil(MotionStencils()[k], map.data(), 9, 3 * 9 + 5)) << k;
+  }
+}
+
 TEST(SensorNoiseStencils, KeepWithinTheMargin)
 {
   for (const Stencil & stencil : MotionStencils())

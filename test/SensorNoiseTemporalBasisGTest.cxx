@@ -81,7 +81,8 @@ Eigen::VectorXd
 CoordinatesOf(const TemporalBasis & basis, const Eigen::VectorXd & y)
 {
   Eigen::VectorXd sums = RoundedOf(basis).transpose() * y;
-  basis.ToCoordinates(sums.data(), y.sum());
+  const double    mean = y.mean();
+  basis.ToCoordinates(sums.data(), 1, &mean, 1);
   return sums;
 }
 } // namespace

@@ -15,7 +15,7 @@
  *  limitations under the License.
  *
  *=========================================================================*/
-#include "SensorNoiseVarianceLine.h"
+#include "SensorNoiseVarianceFit.h"
 
 #include "SensorNoiseStackTestHelper.h"
 
@@ -108,7 +108,7 @@ TEST(SensorNoiseChiSquareTrim, DegreesOfFreedomAreRoundedAndHeldInTheRange)
   EXPECT_GT(ChiSquareTrim(0.1, 0.2).Of(0.1).high, 1.0); // at least one
 }
 
-TEST(SensorNoiseVarianceLine, ExactLineIsRecovered)
+TEST(SensorNoiseVarianceFit, ExactLineIsRecovered)
 {
   // Every variance is on the line, but counted as the mean of a trimmed distribution.
   const double trimmed = ChiSquareTrim(Freedom, Freedom).Of(Freedom).mean;
@@ -122,7 +122,7 @@ TEST(SensorNoiseVarianceLine, ExactLineIsRecovered)
   EXPECT_EQ(line.trimmedFraction, 0.0);
 }
 
-TEST(SensorNoiseVarianceLine, NoisyLineIsRecoveredWithinItsErrors)
+TEST(SensorNoiseVarianceFit, NoisyLineIsRecoveredWithinItsErrors)
 {
   const Maps maps(true);
   const auto line = maps.Fit();
@@ -145,7 +145,7 @@ TEST(SensorNoiseVarianceLine, NoisyLineIsRecoveredWithinItsErrors)
   EXPECT_NEAR(line.covariance(0, 1) / fisher(0, 1), 1.0, 0.1);
 }
 
-TEST(SensorNoiseVarianceLine, FollowsTheUnitsAndTheLevel)
+TEST(SensorNoiseVarianceFit, FollowsTheUnitsAndTheLevel)
 {
   const Maps       maps(true);
   const auto       line = maps.Fit();
@@ -166,7 +166,7 @@ TEST(SensorNoiseVarianceLine, FollowsTheUnitsAndTheLevel)
   EXPECT_EQ(other.trimmedFraction, line.trimmedFraction);
 }
 
-TEST(SensorNoiseVarianceLine, ParabolaIsFoundBesideTheLine)
+TEST(SensorNoiseVarianceFit, ParabolaIsFoundBesideTheLine)
 {
   Maps             maps(false);
   constexpr double curvature = 2e-6;
@@ -184,7 +184,7 @@ TEST(SensorNoiseVarianceLine, ParabolaIsFoundBesideTheLine)
   }
 }
 
-TEST(SensorNoiseVarianceLine, OutliersAndPixelsOutsideTheMaskHaveNoPart)
+TEST(SensorNoiseVarianceFit, OutliersAndPixelsOutsideTheMaskHaveNoPart)
 {
   const Maps maps(true);
   const auto expected = maps.Fit();
@@ -211,7 +211,7 @@ TEST(SensorNoiseVarianceLine, OutliersAndPixelsOutsideTheMaskHaveNoPart)
   EXPECT_EQ(masked.Fit().covariance, part.covariance);
 }
 
-TEST(SensorNoiseVarianceLine, ThreadsChangeNoBit)
+TEST(SensorNoiseVarianceFit, ThreadsChangeNoBit)
 {
   const Maps maps(true);
   const auto expected = maps.Fit();
@@ -222,7 +222,7 @@ TEST(SensorNoiseVarianceLine, ThreadsChangeNoBit)
   EXPECT_EQ(line.curvature, expected.curvature);
 }
 
-TEST(SensorNoiseVarianceLine, OneIntensityOrTooFewPixelsDetermineNothing)
+TEST(SensorNoiseVarianceFit, OneIntensityOrTooFewPixelsDetermineNothing)
 {
   Maps maps(true);
   maps.mean.assign(Pixels, 500.0);

@@ -1,0 +1,165 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef SensorNoisePixelLight_h
+#define SensorNoisePixelLight_h
+
+#include "SensorNoiseProjectedVariance.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** The projected stack and what is known of it when the light is looked at, pixel by pixel. */
+struct PixelLight
+{
+  const ProjectedVariance &         projected;
+  const VarianceLine &              line;
+  const std::vector<std::uint8_t> & mask;
+  double                            centreDn;
+  double                            darkestDn;
+  double                            rangeDn;
+};
+
+namespace detail
+{
+/** A way to cut the frame into patches. */
+struct Patches
+{
+  std::size_t height;
+  std::size_t width;
+  std::size_t across;
+
+  std::size_t
+  Of(std::size_t p, std::size_t frameWidth) const
+  {
+    return p / frameWidth / height * across + p % frameWidth / width;
+  }
+};
+
+/** Removes what motion leaked by chance into the responses: kappa_k times the derivatives, kappa common to the frame.
+ * It is estimated against lines in the mean that are free in every 8 x 8 patch (Frisch & Waugh 1933), so that light
+ * that differs over the frame does not bias it. Even derivatives resemble the mean locally and would shift the offset.
+ */
+inline std::vector<std::vector<double>>
+ResponsesWithoutMotion(const PixelLight & data)
+{
+  constexpr std::size_t  derivatives = 5;
+  const ReferenceFrame & frame = data.projected.GetFrame();
+  const std::size_t      width = frame.geometry.width;
+  const std::size_t      light = data.projected.GetBasis().NumberOfLightFactors();
+  const Patches          patches{ 8, 8, (width + 7) / 8 };
+  const std::size_t      count = patches.across * ((frame.geometry.height + 7) / 8);
+  const std::size_t      variables = derivatives + light;
+  // Per patch: n, w, wI, wII, then of each variable w z and w I z.
+  const std::size_t   stride = 4 + 2 * variables;
+  std::vector<double> sums(count * stride, 0.0);
+  std::vector<double> z(variables);
+  const auto          fill = [&](std::size_t p) {
+    for (std::size_t k = 0; k < derivatives; ++k)
+    {
+      z[k] = ApplyStencil(MotionStencils()[k], frame.mean.data(), width, p);
+    }
+    for (std::size_t j = 0; j < light; ++j)
+    {
+      z[derivatives + j] = data.projected.GetCoordinates().At(p, j);
+    }
+  };
+  for (std::size_t p = 0; p < data.mask.size(); ++p)
+  {
+    if (data.mask[p] != 0)
+    {
+      const double w = 1.0 / data.line.At(frame.neighbourMean[p]);
+      const double centred = frame.mean[p] - data.centreDn;
+      double *     s = sums.data() + patches.Of(p, width) * stride;
+      fill(p);
+      s[0] += 1.0;
+      s[1] += w;
+      s[2] += w * centred;
+      s[3] += w * centred * centred;
+      for (std::size_t k = 0; k < variables; ++k)
+      {
+        s[4 + 2 * k] += w * z[k];
+        s[5 + 2 * k] += w * centred * z[k];
+      }
+    }
+  }
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(derivatives, derivatives);
+  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(derivatives, static_cast<Eigen::Index>(light));
+  for (std::size_t p = 0; p < data.mask.size(); ++p)
+  {
+    if (data.mask[p] != 0)
+    {
+      const double * s = sums.data() + patches.Of(p, width) * stride;
+      const double   determinant = s[1] * s[3] - s[2] * s[2];
+      if (s[0] > 20.0 && determinant > 1e-9 * s[1] * s[3])
+      {
+        const double w = 1.0 / data.line.At(frame.neighbourMean[p]);
+        const double centred = frame.mean[p] - data.centreDn;
+        fill(p);
+        for (std::size_t k = 0; k < variables; ++k)
+        {
+          const double slope = (s[1] * s[5 + 2 * k] - s[2] * s[4 + 2 * k]) / determinant;
+          const double level = (s[3] * s[4 + 2 * k] - s[2] * s[5 + 2 * k]) / determinant;
+          z[k] -= level + slope * centred;
+        }
+        for (std::size_t i = 0; i < derivatives; ++i)
+        {
+          for (std::size_t j = 0; j < derivatives; ++j)
+          {
+            gram(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) += w * z[i] * z[j];
+          }
+          for (std::size_t j = 0; j < light; ++j)
+          {
+            right(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) += w * z[i] * z[derivatives + j];
+          }
+        }
+      }
+    }
+  }
+  const Eigen::VectorXd                                   unit = (gram.diagonal().array() + 1e-300).rsqrt();
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
+  solver.setThreshold(1e-6);
+  solver.compute(unit.asDiagonal() * gram * unit.asDiagonal());
+  const Eigen::MatrixXd leak = unit.asDiagonal() * solver.solve(unit.asDiagonal() * right);
+
+  std::vector<std::vector<double>> responses(light, std::vector<double>(data.mask.size(), 0.0));
+  for (std::size_t p = 0; p < data.mask.size(); ++p)
+  {
+    if (data.mask[p] != 0)
+    {
+      fill(p);
+      for (std::size_t j = 0; j < light; ++j)
+      {
+        responses[j][p] = z[derivatives + j];
+        for (std::size_t k = 0; k < derivatives; ++k)
+        {
+          responses[j][p] -= leak(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j)) * z[k];
+        }
+      }
+    }
+  }
+  return responses;
+}
+} // namespace detail
+
+} // namespace sensornoise
+
+#endif
