@@ -135,8 +135,7 @@ ReadSumsHeader(std::istream & in, const std::string & name, std::uint64_t pixels
   std::string found(word.data(), std::find(word.begin(), word.end(), '\0'));
   if (found != name)
   {
-    std::replace_if(
-      found.begin(), found.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    std::replace_if(found.begin(), found.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
     throw std::runtime_error("a stream holds other sums: found \"" + found + "\", expected \"" + name + "\"");
   }
   std::uint32_t version = 0;

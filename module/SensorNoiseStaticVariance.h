@@ -51,7 +51,8 @@ FitFlatHalf(const ProjectedVariance &         projected,
   }
   std::size_t last = 0;
   for (std::size_t sum = counts[0]; last + 1 < counts.size() && 2 * sum < total; sum += counts[++last])
-  {}
+  {
+  }
   std::vector<std::uint8_t> flat = mask;
   for (std::size_t p = 0; p < mask.size(); ++p)
   {

@@ -479,9 +479,8 @@ TEST(SensorNoiseEstimator, StackThatCannotBeMeasuredGivesAReportThatSaysWhy)
 {
   const StackType::SizeType size{ { 40, 30, 9 } };
   const auto                first = TargetStack<StackType>(40, 32, 1);
-  const auto                identical = ImageOf<StackType>(size, [&](const auto & index) {
-    return first->GetPixel(StackType::IndexType{ { index[0], index[1], 0 } });
-  });
+  const auto                identical = ImageOf<StackType>(
+    size, [&](const auto & index) { return first->GetPixel(StackType::IndexType{ { index[0], index[1], 0 } }); });
   for (const auto & [stack, clipped] : { std::pair(ConstantImage<StackType>(size, 4095), true),
                                          std::pair(ConstantImage<StackType>(size, 0), true),
                                          std::pair(ConstantImage<StackType>(size, 1000), false),

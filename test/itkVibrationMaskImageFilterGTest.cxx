@@ -42,12 +42,9 @@ struct Maps
     std::mt19937_64                        random(7);
     std::uniform_real_distribution<double> uniform(0.0, 1.0);
     const FrameType::SizeType              size{ { Width, Height } };
-    mean = ImageOf<FrameType>(
-      size, [&](const auto &) { return 1000.0 + uniform(random); }, start);
-    variance = ImageOf<FrameType>(
-      size, [&](const auto &) { return 1.5 * uniform(random); }, start);
-    valid = ImageOf<MaskType>(
-      size, [&](const auto &) { return uniform(random) < 0.9 ? 1 : 0; }, start);
+    mean = ImageOf<FrameType>(size, [&](const auto &) { return 1000.0 + uniform(random); }, start);
+    variance = ImageOf<FrameType>(size, [&](const auto &) { return 1.5 * uniform(random); }, start);
+    valid = ImageOf<MaskType>(size, [&](const auto &) { return uniform(random) < 0.9 ? 1 : 0; }, start);
     mean->GetBufferPointer()[10 * Width + 10] = std::numeric_limits<double>::quiet_NaN();
     variance->GetBufferPointer()[12 * Width + 4] = 0.0;
   }
