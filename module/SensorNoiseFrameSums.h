@@ -168,6 +168,7 @@ private:
   {
     std::vector<std::size_t>                     pixels;
     std::array<std::size_t, GradientClasses + 1> begin{};
+    std::vector<double>                          mean;
     std::vector<FrameRegressors::Values>         values;
     std::vector<Row>                             rows;
   };
@@ -183,6 +184,7 @@ private:
     std::partial_sum(block.begin.begin(), block.begin.end(), block.begin.begin());
     std::array<std::size_t, GradientClasses + 1> next = block.begin;
     block.pixels.resize(run.size());
+    block.mean.reserve(run.size());
     block.values.reserve(run.size());
     block.rows.reserve(run.size());
     for (const std::size_t p : run)
@@ -191,6 +193,7 @@ private:
     }
     for (const std::size_t p : block.pixels)
     {
+      block.mean.push_back(m_Frame->mean[p]);
       block.values.push_back(m_Regressors.ValuesOf(p));
       block.rows.push_back(m_Regressors.RowOf(p, block.values.back()));
     }
@@ -315,8 +318,7 @@ private:
       {
         const std::size_t together = std::min(Together, count - t);
         const auto        deviation = [&](std::size_t i, std::size_t k) {
-          const std::size_t p = block.pixels[i];
-          return static_cast<double>(frames[(t + k) * pixels + p]) - m_Frame->mean[p];
+          return static_cast<double>(frames[(t + k) * pixels + block.pixels[i]]) - block.mean[i];
         };
         const auto whole = SumBlock(block, together, deviation, &parts[cellRow][t]);
         for (std::size_t k = 0; k < together; ++k)

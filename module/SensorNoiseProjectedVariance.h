@@ -118,6 +118,12 @@ public:
   {
     return m_Variance;
   }
+  /** Gives the variance away. */
+  std::vector<double>
+  TakeVariance()
+  {
+    return std::move(m_Variance);
+  }
   const std::vector<float> &
   GetFreedom() const
   {

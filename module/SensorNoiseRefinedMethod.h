@@ -334,7 +334,7 @@ private:
     ProjectedVariance projected(m_Reference, m_Basis, m_Found.motion, m_Projections, m_Found.model, all, m_ParallelFor);
     const std::vector<std::uint8_t> mask = FitStaticVariance(projected, all, m_Found, m_PixelUse, m_ParallelFor);
     PolishSceneSeries(*m_FrameSums, projected, mask, m_Found, m_ParallelFor);
-    m_CorrectedVariance = projected.GetVariance();
+    m_CorrectedVariance = projected.TakeVariance();
     for (std::size_t p = 0; p < all.size(); ++p)
     {
       m_CorrectedVariance[p] = all[p] != 0 ? m_CorrectedVariance[p] : std::numeric_limits<double>::quiet_NaN();

@@ -106,7 +106,7 @@ FitStaticVariance(ProjectedVariance &               projected,
   {
     mask[p] = all[p] != 0 && projected.ClassOf(p) <= 0.6 * ProjectedVariance::Classes ? 1 : 0;
   }
-  line = follow(line, 3);
+  line = follow(line, 2);
   for (int round = 0; round < 2; ++round)
   {
     const std::vector<std::uint8_t> misfit = FindLocalMisfit(projected, line, all, parallelFor);
