@@ -30,20 +30,19 @@ namespace sensornoise
 namespace detail
 {
 /** Running sums of 2 \a radius + 1 neighbours along a row, cut at its ends. */
-template <typename TValue>
-void
-SumAlongRow(const TValue * in, std::size_t width, std::size_t radius, double * out)
+inline void
+SumAlongRow(const std::vector<double> & in, std::size_t radius, double * out)
 {
-  const auto at = [&](std::size_t x) { return static_cast<double>(in[x]); };
-  double     sum = 0.0;
+  const std::size_t width = in.size();
+  double            sum = 0.0;
   for (std::size_t x = 0; x < std::min(width, radius); ++x)
   {
-    sum += at(x);
+    sum += in[x];
   }
   for (std::size_t x = 0; x < width; ++x)
   {
-    const double next = x + radius < width ? at(x + radius) : 0.0;
-    sum += next - (x > radius ? at(x - radius - 1) : 0.0);
+    const double next = x + radius < width ? in[x + radius] : 0.0;
+    sum += next - (x > radius ? in[x - radius - 1] : 0.0);
     out[x] = sum;
   }
 }
@@ -52,7 +51,7 @@ SumAlongRow(const TValue * in, std::size_t width, std::size_t radius, double * o
 /** Sum of \a map over a square of 2 \a radius + 1 pixels about each pixel, cut at the frame's border; \a result is
  * another map, whose memory is used again.
  *
- * Running sums along the rows, then along the columns: the cost does not depend on the radius. */
+ * Running sums along the columns, then along the rows: the cost does not depend on the radius. */
 template <typename TValue>
 void
 BoxSum(const std::vector<TValue> & map,
@@ -67,13 +66,12 @@ BoxSum(const std::vector<TValue> & map,
   parallelFor((height + band - 1) / band, [&](std::size_t b) {
     const std::size_t   first = b * band;
     const std::size_t   last = std::min(height, first + band);
-    std::vector<double> sum(width, 0.0);
-    std::vector<double> row(width);
+    std::vector<double> columns(width, 0.0);
     const auto          add = [&](std::size_t y, double sign) {
-      detail::SumAlongRow(map.data() + y * width, width, radius, row.data());
+      const TValue * row = map.data() + y * width;
       for (std::size_t x = 0; x < width; ++x)
       {
-        sum[x] += sign * row[x];
+        columns[x] += sign * static_cast<double>(row[x]);
       }
     };
     for (std::size_t y = first - std::min(first, radius); y < std::min(height, first + radius); ++y)
@@ -90,7 +88,7 @@ BoxSum(const std::vector<TValue> & map,
       {
         add(y - radius - 1, -1.0);
       }
-      std::copy(sum.begin(), sum.end(), result.begin() + static_cast<std::ptrdiff_t>(y * width));
+      detail::SumAlongRow(columns, radius, result.data() + y * width);
     }
   });
 }

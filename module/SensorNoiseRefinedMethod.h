@@ -45,7 +45,7 @@ namespace sensornoise
  * offset. Pass 3 projects every pixel's time series on these few series; what is left is sensor noise, whose
  * regression on the mean gives gain and intercept. Usage as PublishedMethod.
  *
- * Same bits for any number of threads and any chunks. Memory: about 90 bytes a pixel and 8 more a series (4 to 20), 20
+ * Same bits for any number of threads and any chunks. Memory: about 130 bytes a pixel and 8 more a series (4 to 20), 20
  * kB a frame. A stack that cannot be measured ends in a report whose quantities are `failed`, with a warning that says
  * why; wrong use throws std::invalid_argument.
  *
