@@ -38,19 +38,20 @@ namespace sensornoise
  *
  * With the coordinates S_j of the time series in the basis, J of them, and the sum of squares SS about the mean,
  *
- *     RSS = SS - sum_j S_j^2,    V = (RSS + g sum_i S_i sum_j K_ij) / ((T - 1 - J) (1 - h)),    K_ij = sum_t Q_tj^2
- * Q_ti.
+ *     RSS = SS - sum_j S_j^2,   K_ij = sum_t Q_tj^2 Q_ti,
+ *
+ *     V = (RSS + g sum_i S_i sum_j K_ij) / ((T - 1 - J) (1 - h)).
  *
  * The pixel's response to each series is free: the projection is exact on edges, for any optics and interpolation, for
  * pixels of different sensitivity, and for light that differs over the frame. Estimator.md, 3.5, which this simplifies:
  *
  * - The noise changes with the light, so a series that lives on the frames in which a pixel is bright takes out more
- * than its share. The coordinates themselves tell how the pixel's light changes, by flicker or by motion: the second
+ *   than its share. The coordinates themselves tell how the pixel's light changes, by flicker or by motion: the second
  *   term, 0.1 to 0.5 % of g.
  * - The motion series were estimated from the same pixels and follow their noise by the pixel's leverage,
  *   h = w D' G^-1 D, which counts in the few pixels that dominate the regression.
- * - With both, every series can be projected out of every pixel; no class of pixels need be told which it pays for,
- *   which costs 5 to 15 % of the degrees of freedom and leaves no bias below a threshold.
+ * - With both, every series can be projected out of every pixel, for 5 to 15 % of the degrees of freedom; no class of
+ *   pixels need be told which series it pays for, and no bias below a threshold is left.
  *
  * Pixels are sorted into 24 classes by the energy of the derivatives in their neighbourhood over the noise, for the
  * test of fit (JudgeClasses). */

@@ -75,9 +75,9 @@ CorrectForNoisyMeans(VarianceLine & line, const RefinedFindings & found, std::si
 } // namespace detail
 
 /** Finds the pixels that fit a static scene and the line of their variance, from the flat classes outwards. Files both
- * in
- * \a found and the pixels' use in \a pixelUse; returns the mask of the pixels used. Throws std::runtime_error if too
- * few are left. */
+ * in \a found, and the pixels' use in \a pixelUse; returns the mask of the pixels used. Neighbourhoods are judged
+ * before classes: a thing that moves across the frame lies in all of them. Throws std::runtime_error if too few are
+ * left. */
 inline std::vector<std::uint8_t>
 FitStaticVariance(ProjectedVariance &               projected,
                   const std::vector<std::uint8_t> & all,

@@ -82,7 +82,8 @@ public:
   static constexpr double Unit = 1048576.0; // 2^20
 
   TemporalBasis() = default;
-  /** At most 0.4 (T - 1) series: a short burst leaves out the last of the motion's. */
+  /** At most 0.6 (T - 2) series: a short burst leaves out the last of the motion's. (With 0.4 (T - 1) vibrations of 0.3
+   * pixels bias the gain of 20 frames of texture by 0.15 %.) */
   TemporalBasis(const std::vector<double> & gamma, const Eigen::MatrixXd & local, const Eigen::MatrixXd & motion)
   {
     const auto      frames = static_cast<Eigen::Index>(gamma.size());
@@ -91,7 +92,7 @@ public:
     light.rightCols(local.cols()) = local;
     Eigen::MatrixXd all(frames, light.cols() + motion.cols());
     all << light, motion;
-    const Eigen::MatrixXd basis = Orthonormalise(all, std::max<Eigen::Index>(light.cols(), 2 * (frames - 1) / 5));
+    const Eigen::MatrixXd basis = Orthonormalise(all, std::max<Eigen::Index>(light.cols(), 3 * (frames - 2) / 5));
     m_LightFactors = static_cast<std::size_t>(std::min(basis.cols(), Orthonormalise(light, frames).cols()));
     m_Rounded = (basis * Unit).array().round();
     m_Series = m_Rounded / Unit;

@@ -181,7 +181,7 @@ TEST(SensorNoiseTemporalBasis, ShortBurstKeepsTheLightAndEnoughDegreesOfFreedom)
   const Eigen::MatrixXd series = Normal(Frames, 30, 14);
   const TemporalBasis   basis = BasisOf(series, 2);
   EXPECT_GE(basis.Size(), 3u);
-  EXPECT_LE(static_cast<double>(basis.Size()), 0.4 * static_cast<double>(Frames - 1));
+  EXPECT_LE(static_cast<double>(basis.Size()), 0.6 * static_cast<double>(Frames - 2));
   EXPECT_EQ(basis.NumberOfLightFactors(), 3u);
 }
 
