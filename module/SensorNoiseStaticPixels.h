@@ -59,8 +59,8 @@ IsFarOff(double ratio, double freedom)
 } // namespace detail
 
 /** Compares the classes' mean variance with the flat classes'. A class is bad if it deviates upwards by more than 2.5
- * standard errors and 0.15 %, or holds 1 % more outliers; the first class
- * of two bad ones in a row, and all rougher ones, are left out. Estimator.md, 3.5. */
+ * standard errors and 0.15 %, or holds 1 % more outliers; the first class of two bad ones in a row, and all rougher
+ * ones, are left out. Estimator.md, 3.5. */
 inline ClassFit
 JudgeClasses(const ProjectedVariance &         projected,
              const VarianceLine &              line,
