@@ -94,7 +94,8 @@ public:
         if (mask[p] != 0)
         {
           const double noise = model.NoiseVariance(frame.neighbourMean[p]);
-          m_Freedom[p] = static_cast<float>(freedom * (1.0 - std::min(0.5, Leverage(motion, p) / noise)));
+          const double leverage = this->Leverage(motion, p, 1e-5 * noise) / noise;
+          m_Freedom[p] = static_cast<float>(freedom * (1.0 - std::min(0.5, leverage)));
         }
       }
     });
@@ -180,16 +181,22 @@ private:
     }
   }
 
-  /** D' G^-1 D of pixel \a p. */
+  /** D' G^-1 D of pixel \a p; 0 where it is below \a negligible, by the bound K sum_k D_k^2 (G^-1)_kk for K series. */
   double
-  Leverage(const MotionSeries & motion, std::size_t p) const
+  Leverage(const MotionSeries & motion, std::size_t p, double negligible) const
   {
     const std::size_t                    size = motion.stencils.size();
     const auto                           all = ApplyStencils(m_Frame.mean.data(), m_Frame.geometry.width, p);
     std::array<double, NumberOfStencils> derivatives{};
+    double                               bound = 0.0;
     for (std::size_t k = 0; k < size; ++k)
     {
       derivatives[k] = all[motion.stencils[k]];
+      bound += derivatives[k] * derivatives[k] * motion.inverseGram.data()[k * size + k];
+    }
+    if (static_cast<double>(size) * bound < negligible)
+    {
+      return 0.0;
     }
     double sum = 0.0;
     for (std::size_t i = 0; i < size; ++i)

@@ -137,7 +137,8 @@ TEST(SensorNoiseProjectedVariance, LeverageOfTheMotionCostsDegreesOfFreedom)
       const double          leverage =
         d.dot(input.motion.inverseGram * d) / input.model.NoiseVariance(input.frame.neighbourMean[p]);
       ASSERT_LT(leverage, 0.5);
-      ASSERT_NEAR(projected.GetFreedom()[p], FreedomWithoutMotion() * (1.0 - leverage), 1e-5) << p;
+      ASSERT_NEAR(projected.GetFreedom()[p], FreedomWithoutMotion() * (1.0 - leverage), 1e-5 * FreedomWithoutMotion())
+        << p;
       largest = std::max(largest, leverage);
     }
   }
