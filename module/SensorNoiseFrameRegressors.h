@@ -131,15 +131,11 @@ private:
   void
   ClassifyPixels(const std::vector<std::uint8_t> & take, const ParallelFor & parallelFor)
   {
-    const auto &      stencils = MotionStencils();
     const std::size_t width = m_Frame->geometry.width;
     const double *    mean = m_Frame->mean.data();
     const auto        roughness = [&](std::size_t p) {
-      const double gx = ApplyStencil(stencils[StencilX], mean, width, p);
-      const double gy = ApplyStencil(stencils[StencilY], mean, width, p);
-      const double xx = ApplyStencil(stencils[StencilXX], mean, width, p);
-      const double yy = ApplyStencil(stencils[StencilYY], mean, width, p);
-      return (gx * gx + gy * gy + 0.25 * (xx * xx + yy * yy)) / m_Model.NoiseVariance(m_Frame->neighbourMean[p]);
+      const auto d = ApplyStencils(mean, width, p);
+      return detail::StencilEnergy(d) / m_Model.NoiseVariance(m_Frame->neighbourMean[p]);
     };
     std::vector<double> values;
     for (const std::size_t p : detail::SamplePixels(take))

@@ -50,15 +50,15 @@ FindGuardBand(const ReferenceFrame &   frame,
   {
     return guarded;
   }
-  const auto & stencils = MotionStencils();
   const double half = 0.5 * codes.quantisationStepDn;
   ForBlocks(guarded.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p)
     {
       if (frame.usable[p] != 0)
       {
-        const double gx = ApplyStencil(stencils[StencilX], frame.mean.data(), frame.geometry.width, p);
-        const double gy = ApplyStencil(stencils[StencilY], frame.mean.data(), frame.geometry.width, p);
+        const auto   derivatives = ApplyStencils(frame.mean.data(), frame.geometry.width, p);
+        const double gx = derivatives[StencilX];
+        const double gy = derivatives[StencilY];
         const double level = frame.neighbourMean[p];
         const double flux = std::max(0.0, level - model.darkestDn);
         const double noise = model.NoiseVariance(level);
@@ -80,15 +80,15 @@ FindGuardBand(const ReferenceFrame &   frame,
 inline std::vector<std::uint8_t>
 FindUnexplained(const ReferenceFrame & frame, const ProvisionalModel & model, const ParallelFor & parallelFor)
 {
-  const auto &              stencils = MotionStencils();
   std::vector<std::uint8_t> unexplained(frame.mean.size(), 0);
   ForBlocks(unexplained.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p)
     {
       if (frame.usable[p] != 0)
       {
-        const double gx = ApplyStencil(stencils[StencilX], frame.mean.data(), frame.geometry.width, p);
-        const double gy = ApplyStencil(stencils[StencilY], frame.mean.data(), frame.geometry.width, p);
+        const auto   derivatives = ApplyStencils(frame.mean.data(), frame.geometry.width, p);
+        const double gx = derivatives[StencilX];
+        const double gy = derivatives[StencilY];
         const double expected = std::max(0.2 * model.interceptDn2, model.RawVariance(frame.neighbourMean[p], gx, gy));
         unexplained[p] = frame.RawVariance(p) > model.largestRatio * expected ? 1 : 0;
       }

@@ -210,7 +210,6 @@ private:
   void
   Classify(const ProvisionalModel & model)
   {
-    const auto &       stencils = MotionStencils();
     const std::size_t  width = m_Frame.geometry.width;
     std::vector<float> energy(m_Mask.size(), 0.0F);
     ForBlocks(m_Mask.size(), m_ParallelFor, [&](std::size_t begin, std::size_t end) {
@@ -218,12 +217,7 @@ private:
       {
         if (m_Frame.usable[p] != 0)
         {
-          const double * mean = m_Frame.mean.data();
-          const double   gx = ApplyStencil(stencils[StencilX], mean, width, p);
-          const double   gy = ApplyStencil(stencils[StencilY], mean, width, p);
-          const double   xx = ApplyStencil(stencils[StencilXX], mean, width, p);
-          const double   yy = ApplyStencil(stencils[StencilYY], mean, width, p);
-          energy[p] = static_cast<float>(gx * gx + gy * gy + 0.25 * (xx * xx + yy * yy));
+          energy[p] = static_cast<float>(detail::StencilEnergy(ApplyStencils(m_Frame.mean.data(), width, p)));
         }
       }
     });

@@ -89,12 +89,13 @@ SamplePixels(const std::vector<std::uint8_t> & mask, std::size_t most = 32768)
   const auto               count = static_cast<std::size_t>(std::count(mask.begin(), mask.end(), std::uint8_t{ 1 }));
   const std::size_t        stride = std::max<std::size_t>(1, count / most);
   std::vector<std::size_t> sample;
-  std::size_t              seen = 0;
+  std::size_t              skip = 0;
   for (std::size_t p = 0; p < mask.size(); ++p)
   {
-    if (mask[p] != 0 && seen++ % stride == 0)
+    if (mask[p] != 0 && skip-- == 0)
     {
       sample.push_back(p);
+      skip = stride - 1;
     }
   }
   return sample;

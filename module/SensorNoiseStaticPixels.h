@@ -162,18 +162,21 @@ FindLocalMisfit(const ProjectedVariance &         projected,
   });
   constexpr std::size_t     radius = 7;
   constexpr double          area = (2.0 * radius + 1.0) * (2.0 * radius + 1.0);
-  std::vector<double>       count = BoxSum(fits, width, height, radius, parallelFor);
-  const std::vector<double> sum = BoxSum(ratio, width, height, radius, parallelFor);
-  const std::vector<double> crowd = BoxSum(rejected, width, height, radius, parallelFor);
   const auto                freedom = static_cast<double>(frame.frames - 1 - projected.GetBasis().Size());
+  std::vector<double>       sum = BoxSum(rejected, width, height, radius, parallelFor);
   std::vector<std::uint8_t> core(mask.size());
+  std::transform(sum.begin(), sum.end(), core.begin(), [area](double crowd) {
+    return static_cast<std::uint8_t>(crowd > 0.15 * area);
+  });
+  BoxSum(ratio, width, height, radius, parallelFor, sum);
+  std::vector<double> count = BoxSum(fits, width, height, radius, parallelFor);
   ForBlocks(mask.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p)
     {
       const double excess = sum[p] / std::max(1.0, count[p]) - 1.0;
       const double own = line.EffectiveFreedom(freedom, line.At(frame.neighbourMean[p]));
       const double sd = std::sqrt(2.0 / (own * std::max(1.0, count[p])));
-      core[p] = (excess > std::max(5.0 * sd, 0.04) && count[p] > 0.3 * area) || crowd[p] > 0.15 * area ? 1 : 0;
+      core[p] = core[p] != 0 || (excess > std::max(5.0 * sd, 0.04) && count[p] > 0.3 * area) ? 1 : 0;
     }
   });
   BoxSum(core, width, height, (2 * radius + 1) / 3, parallelFor, count);

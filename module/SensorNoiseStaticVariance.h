@@ -100,13 +100,12 @@ FitStaticVariance(ProjectedVariance &               projected,
   };
   // The line of the flat classes tells which neighbourhoods fit, and among these, which classes do.
   projected.Compute(found.model.slopeDn);
-  VarianceLine line = follow(std::nullopt, 2);
-  projected.Compute(line.gain);
   for (std::size_t p = 0; p < mask.size(); ++p)
   {
     mask[p] = all[p] != 0 && projected.ClassOf(p) <= 0.6 * ProjectedVariance::Classes ? 1 : 0;
   }
-  line = follow(line, 2);
+  VarianceLine line = follow(std::nullopt, 3);
+  projected.Compute(line.gain);
   for (int round = 0; round < 2; ++round)
   {
     const std::vector<std::uint8_t> misfit = FindLocalMisfit(projected, line, all, parallelFor);
