@@ -78,9 +78,8 @@ ReadPass(const StackType * stack)
       const unsigned short * const samples = stack->GetBufferPointer() + b * size;
       for (std::size_t first = 0; first < size; first += 32768)
       {
-        const std::size_t last = std::min(size, first + 32768);
-        std::uint32_t     sum = 0; // 32768 samples of 16 bits fit; 32-bit sums vectorise
-        for (std::size_t i = first; i < last; ++i)
+        std::uint32_t sum = 0; // 32768 samples of 16 bits fit; 32-bit sums vectorise
+        for (std::size_t i = first; i < std::min(size, first + 32768); ++i)
         {
           sum += samples[i];
         }
