@@ -92,11 +92,6 @@ public:
   {
     m_Products.Merge(products);
   }
-  void
-  Merge(const FrameSums & other)
-  {
-    m_Products.Merge(other.m_Products);
-  }
   /** Writes, or replaces, the sums of the frames that were added: see FrameProducts. */
   void
   Save(std::ostream & out) const

@@ -20,6 +20,7 @@
 
 #include "SensorNoiseProjectedVariance.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -73,10 +74,7 @@ ResponsesWithoutMotion(const PixelLight & data)
   std::vector<double> sums(count * stride, 0.0);
   std::vector<double> z(variables);
   const auto          fill = [&](std::size_t p) {
-    for (std::size_t k = 0; k < derivatives; ++k)
-    {
-      z[k] = ApplyStencil(MotionStencils()[k], frame.mean.data(), width, p);
-    }
+    std::copy_n(ApplyStencils(frame.mean.data(), width, p).begin(), derivatives, z.begin());
     for (std::size_t j = 0; j < light; ++j)
     {
       z[derivatives + j] = data.projected.GetCoordinates().At(p, j);

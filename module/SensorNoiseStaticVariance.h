@@ -85,7 +85,7 @@ FitStaticVariance(ProjectedVariance &               projected,
                   std::vector<std::uint8_t> &       pixelUse,
                   const ParallelFor &               parallelFor)
 {
-  std::vector<std::uint8_t> mask = all;
+  std::vector<std::uint8_t> mask(all.size());
   const auto                require = [](const VarianceLine & line) {
     if (!line.isDetermined)
     {

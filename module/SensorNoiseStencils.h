@@ -149,7 +149,7 @@ namespace detail
 {
 template <std::size_t VStencil>
 double
-ApplyStencil(const double * pixel, std::ptrdiff_t width)
+ValueOfStencil(const double * pixel, std::ptrdiff_t width)
 {
   constexpr StencilTaps taps = Stencils[VStencil].taps;
   double                sum = 0.0;
@@ -162,9 +162,9 @@ ApplyStencil(const double * pixel, std::ptrdiff_t width)
 
 template <std::size_t... VStencils>
 std::array<double, NumberOfStencils>
-ApplyStencils(const double * pixel, std::ptrdiff_t width, std::index_sequence<VStencils...>)
+ValuesOfStencils(const double * pixel, std::ptrdiff_t width, std::index_sequence<VStencils...>)
 {
-  return { ApplyStencil<VStencils>(pixel, width)... };
+  return { ValueOfStencil<VStencils>(pixel, width)... };
 }
 } // namespace detail
 
@@ -172,7 +172,7 @@ ApplyStencils(const double * pixel, std::ptrdiff_t width, std::index_sequence<VS
 inline std::array<double, NumberOfStencils>
 ApplyStencils(const double * map, std::size_t width, std::size_t p)
 {
-  return detail::ApplyStencils(
+  return detail::ValuesOfStencils(
     map + p, static_cast<std::ptrdiff_t>(width), std::make_index_sequence<NumberOfStencils>());
 }
 

@@ -20,7 +20,6 @@
 
 #include "SensorNoiseMedianLine.h"
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>

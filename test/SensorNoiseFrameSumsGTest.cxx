@@ -228,11 +228,11 @@ TEST(SensorNoiseFrameSums, MergedPartsHaveTheWholesBits)
   FrameSums restored = Frames().EmptySums();
   restored.Restore(stream);
   ExpectSameBits(restored, PartOf(0, 3));
-  merged.Merge(restored);
+  merged.Merge(restored.GetProducts());
   merged.Merge(PartOf(1, 3).GetProducts());
   ExpectSameBits(merged, expected);
   FrameSums none = Frames().EmptySums(); // a process that adds no frame
-  none.Merge(expected);
+  none.Merge(expected.GetProducts());
   ExpectSameBits(none, expected);
 }
 
@@ -241,6 +241,6 @@ TEST(SensorNoiseFrameSums, MergeRefusesOtherFrames)
   FrameSums             sums = Frames().EmptySums();
   const SyntheticFrames fewer(Width, Height, FlickerAndMotion(7, 100.0, 0.1));
   const SyntheticFrames wider(Width + 1, Height, FlickerAndMotion(70, 100.0, 0.1));
-  EXPECT_THROW(sums.Merge(fewer.EmptySums()), std::invalid_argument);
-  EXPECT_THROW(sums.Merge(wider.EmptySums()), std::invalid_argument);
+  EXPECT_THROW(sums.Merge(fewer.EmptySums().GetProducts()), std::invalid_argument);
+  EXPECT_THROW(sums.Merge(wider.EmptySums().GetProducts()), std::invalid_argument);
 }

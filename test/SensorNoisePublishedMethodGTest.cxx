@@ -18,41 +18,21 @@
 #include "SensorNoisePublishedMethod.h"
 
 #include "SensorNoiseReportJson.h"
-#include "SensorNoiseSimulator.h"
+#include "SensorNoiseStackTestHelper.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <string>
-#include <thread>
 #include <vector>
 
 using namespace sensornoise;
+using test::Stack;
 
 namespace
 {
-/** A stack, frame after frame. */
-template <typename TPixel>
-struct Stack
-{
-  std::size_t         width;
-  std::size_t         height;
-  std::size_t         frames;
-  std::vector<TPixel> pixels;
-
-  template <typename TOther, typename TFunction>
-  Stack<TOther>
-  Map(TFunction function) const
-  {
-    Stack<TOther> mapped{ width, height, frames, std::vector<TOther>(pixels.size()) };
-    std::transform(
-      pixels.begin(), pixels.end(), mapped.pixels.begin(), [&](TPixel u) { return static_cast<TOther>(function(u)); });
-    return mapped;
-  }
-};
 using Codes = unsigned short;
 
 /** Patches of 16 grey levels seen by camera B of the paper, with flicker, without vibration and without blur, whose
@@ -72,13 +52,7 @@ template <typename TPixel = Codes>
 Stack<TPixel>
 Simulate(const SimulationSettings & settings, std::size_t width = 64, std::size_t height = 56)
 {
-  const StackSimulator simulator(MakeTargetScene(width, height), width, height, settings);
-  Stack<TPixel>        stack{ width, height, settings.frames, std::vector<TPixel>(width * height * settings.frames) };
-  for (std::size_t row = 0; row < settings.frames * height; ++row)
-  {
-    simulator.RenderRow(row / height, row % height, stack.pixels.data() + row * width);
-  }
-  return stack;
+  return test::Simulate<TPixel>(settings, width, height);
 }
 
 /** A stack for the identities: 40 frames with flicker of 5 %. */
@@ -116,22 +90,6 @@ Measure(const Stack<TPixel> &             stack,
     method.EndPass();
   }
   return method;
-}
-
-void
-FourThreads(std::size_t count, const std::function<void(std::size_t)> & function)
-{
-  std::vector<std::thread> threads;
-  for (std::size_t first = 0; first < 4; ++first)
-  {
-    threads.emplace_back([=, &function] {
-      for (std::size_t i = first; i < count; i += 4)
-      {
-        function(i);
-      }
-    });
-  }
-  std::for_each(threads.begin(), threads.end(), [](std::thread & thread) { thread.join(); });
 }
 
 double
@@ -253,7 +211,7 @@ TEST(SensorNoisePublishedMethod, AnyChunksAndThreadsGiveTheSameBits)
     const auto expected = Measure(stack);
     for (const std::size_t chunk : { 1, 7, 30 })
     {
-      const auto method = Measure(stack, {}, chunk, {}, FourThreads);
+      const auto method = Measure(stack, {}, chunk, {}, test::Threads(4));
       EXPECT_EQ(ToJson(method.GetReport()), ToJson(expected.GetReport())) << chunk;
       EXPECT_EQ(method.GetMean(), expected.GetMean()) << chunk;
       EXPECT_EQ(method.GetVariance(), expected.GetVariance()) << chunk;

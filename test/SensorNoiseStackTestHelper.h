@@ -48,14 +48,14 @@ struct Stack
   {
     return pixels.data() + t * width * height;
   }
-  /** The same stack with function(u) in place of u. */
-  template <typename TFunction>
-  Stack
+  /** The same stack, of \a TOther, with function(u) in place of u. */
+  template <typename TOther = TPixel, typename TFunction>
+  Stack<TOther>
   Map(TFunction function) const
   {
-    Stack mapped = *this;
+    Stack<TOther> mapped{ width, height, frames, std::vector<TOther>(pixels.size()) };
     std::transform(
-      pixels.begin(), pixels.end(), mapped.pixels.begin(), [&](TPixel u) { return static_cast<TPixel>(function(u)); });
+      pixels.begin(), pixels.end(), mapped.pixels.begin(), [&](TPixel u) { return static_cast<TOther>(function(u)); });
     return mapped;
   }
 };

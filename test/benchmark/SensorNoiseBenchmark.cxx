@@ -15,8 +15,9 @@
  *  limitations under the License.
  *
  *=========================================================================*/
-// Speed, as ratios to the yardstick: one plain vectorised read pass over the stack in memory, by the same threads and
-// in the same run, just before what is measured. Counter read_passes: the median of these ratios.
+// Speed, as ratios to the yardstick: one plain read pass over the stack in memory, by the same threads and in the same
+// run, just before what is measured. How far the compiler vectorises it differs from build to build, by a factor of 2.
+// Counter read_passes: the median of these ratios.
 //
 //   SensorNoiseBenchmark [--benchmark_filter=...]     stack: 1376 x 1040 x 100 unsigned short, 2 threads
 
