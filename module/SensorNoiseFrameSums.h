@@ -18,13 +18,13 @@
 #ifndef SensorNoiseFrameSums_h
 #define SensorNoiseFrameSums_h
 
-#include "SensorNoiseFrameRegressors.h"
+#include "SensorNoiseRegressorBand.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
+#include <functional>
 #include <vector>
 
 namespace sensornoise
@@ -41,7 +41,7 @@ namespace sensornoise
  * rectangular cells the sums of w d_t and w (mean - centre) d_t, for light that differs over the frame (see
  * LocalIllumination). Estimator.md, 3.3.
  *
- * A frame's sums are made cell by cell in blocks of a fixed size: they do not depend on the chunks or the threads.
+ * A frame's sums are made line by line in bands of a fixed height: they do not depend on the chunks or the threads.
  * Sums of different frames are separate numbers, so parts of a stack are merged with the same bits. What needs no frame
  * is made by the constructor. Memory: 16 kB a frame. */
 class FrameSums
@@ -155,135 +155,62 @@ private:
   using Row = FrameRegressors::Row;
   using ClassRows = std::array<Row, GradientClasses>;
 
-  static constexpr std::size_t BlockSize = 512; // its rows stay in the second-level cache
-  static constexpr std::size_t Together = 4;    // series, and columns, whose sums stay in registers
+  static constexpr std::size_t BandPixels = 4096; // the band's rows stay in the second-level cache
 
-  /** A run of pixels of a cell, ordered by class. */
-  struct Block
-  {
-    std::vector<std::size_t>                     pixels;
-    std::array<std::size_t, GradientClasses + 1> begin{};
-    std::vector<double>                          mean;
-    std::vector<FrameRegressors::Values>         values;
-    std::vector<Row>                             rows;
-  };
-
-  Block
-  MakeBlock(const std::vector<std::size_t> & run) const
-  {
-    Block block;
-    for (const std::size_t p : run)
-    {
-      ++block.begin[m_Regressors.ClassOf(p) + 1U];
-    }
-    std::partial_sum(block.begin.begin(), block.begin.end(), block.begin.begin());
-    std::array<std::size_t, GradientClasses + 1> next = block.begin;
-    block.pixels.resize(run.size());
-    block.mean.reserve(run.size());
-    block.values.reserve(run.size());
-    block.rows.reserve(run.size());
-    for (const std::size_t p : run)
-    {
-      block.pixels[next[m_Regressors.ClassOf(p)]++] = p;
-    }
-    for (const std::size_t p : block.pixels)
-    {
-      block.mean.push_back(m_Frame->mean[p]);
-      block.values.push_back(m_Regressors.ValuesOf(p));
-      block.rows.push_back(m_Regressors.RowOf(p, block.values.back()));
-    }
-    return block;
-  }
-
-  /** Calls function(row of cells, cell, block) for all blocks, those of a row of cells in order. */
-  template <typename TFunction>
+  /** Calls function(row of cells, band) for all bands, those of a row of cells in order. */
+  template <typename TScalar, typename TFunction>
   void
-  ForCellBlocks(const ParallelFor & parallelFor, TFunction function) const
+  ForBands(const ParallelFor & parallelFor, TFunction function) const
   {
     parallelFor(m_CellRows, [&](std::size_t cellRow) {
-      const std::size_t height = m_Frame->geometry.height;
-      const std::size_t width = m_Frame->geometry.width;
-      for (std::size_t column = 0; column < m_CellsPerRow; ++column)
+      const FrameGeometry & geometry = m_Frame->geometry;
+      const std::size_t     end = geometry.height * (cellRow + 1) / m_CellRows;
+      const std::size_t     lines = std::max<std::size_t>(1, BandPixels / geometry.width);
+      for (std::size_t y = geometry.height * cellRow / m_CellRows; y < end; y += lines)
       {
-        const std::size_t        cell = cellRow * m_CellsPerRow + column;
-        std::vector<std::size_t> run;
-        for (std::size_t y = height * cellRow / m_CellRows; y < height * (cellRow + 1) / m_CellRows; ++y)
-        {
-          for (std::size_t x = width * column / m_CellsPerRow; x < width * (column + 1) / m_CellsPerRow; ++x)
-          {
-            if (m_Regressors.ClassOf(y * width + x) != FrameRegressors::Unused)
-            {
-              run.push_back(y * width + x);
-            }
-            if (run.size() == BlockSize)
-            {
-              function(cellRow, cell, this->MakeBlock(run));
-              run.clear();
-            }
-          }
-        }
-        function(cellRow, cell, this->MakeBlock(run));
+        function(cellRow, RegressorBand<TScalar>(m_Regressors, y, std::min(lines, end - y), m_CellsPerRow));
       }
     });
-  }
-
-  /** Adds the sums over a block of its rows times the values of \a count series, at most Together: value(i, k) is that
-   * of the block's pixel i. Returns them summed over the classes, too. A series' bits do not depend on those beside it.
-   */
-  template <typename TValue>
-  static std::array<Row, Together>
-  SumBlock(const Block & block, std::size_t count, TValue value, ClassRows * sums)
-  {
-    using Index = Eigen::Index;
-    using Vector = Eigen::Matrix<double, Together, 1>;
-    std::array<Vector, BlockSize> values;
-    for (std::size_t k = 0; k < Together; ++k)
-    {
-      for (std::size_t i = 0; i < block.pixels.size(); ++i)
-      {
-        values[i](static_cast<Index>(k)) = value(i, std::min(k, count - 1));
-      }
-    }
-    std::array<Row, Together> whole{};
-    for (std::size_t c = 0; c < GradientClasses; ++c)
-    {
-      for (std::size_t column = 0; column < FrameRegressors::Columns; column += Together)
-      {
-        Eigen::Matrix<double, Together, Together> sum = Eigen::Matrix<double, Together, Together>::Zero();
-        for (std::size_t i = block.begin[c]; i < block.begin[c + 1]; ++i)
-        {
-          sum.noalias() += Eigen::Map<const Vector>(block.rows[i].data() + column) * values[i].transpose();
-        }
-        for (std::size_t k = 0; k < count; ++k)
-        {
-          for (std::size_t j = 0; j < Together; ++j)
-          {
-            sums[k][c][column + j] += sum(static_cast<Index>(j), static_cast<Index>(k));
-            whole[k][column + j] += sum(static_cast<Index>(j), static_cast<Index>(k));
-          }
-        }
-      }
-    }
-    return whole;
   }
 
   /** What needs no frame: the rows times the columns' own values. */
   void
   SumColumns(const ParallelFor & parallelFor)
   {
+    using Band = RegressorBand<double>;
     std::vector<std::array<ClassRows, FrameColumns>> parts(m_CellRows);
-    this->ForCellBlocks(parallelFor, [&](std::size_t cellRow, std::size_t c, const Block & block) {
-      Cell & cell = m_Cells[c];
-      cell.pixels += block.pixels.size();
-      for (std::size_t first = 0; first < FrameColumns; first += Together)
+    this->ForBands<double>(parallelFor, [&](std::size_t cellRow, const Band & band) {
+      Cell * const cells = m_Cells.data() + cellRow * m_CellsPerRow;
+      for (const Band::Group & group : band.GetGroups())
       {
-        const std::size_t count = std::min(Together, FrameColumns - first);
-        const auto        value = [&](std::size_t i, std::size_t k) { return block.values[i][first + k]; };
-        const auto        whole = SumBlock(block, count, value, &parts[cellRow][first]);
-        for (std::size_t k = 0; k < count; ++k)
+        cells[group.cell].pixels += group.end - group.begin;
+      }
+      std::vector<FrameRegressors::Values> columns(band.Pixels());
+      for (const std::uint32_t i : band.GetOrder())
+      {
+        columns[i] = m_Regressors.ValuesOf(band.First() + i);
+      }
+      std::vector<Band::Vector> values(band.Pixels());
+      std::vector<Band::Sums>   sums;
+      for (std::size_t first = 0; first < FrameColumns; first += Band::Together)
+      {
+        const std::size_t count = std::min(Band::Together, FrameColumns - first);
+        for (const std::uint32_t i : band.GetOrder())
         {
-          cell.sum[first + k] += whole[k][FrameColumns + Instruments];
-          cell.sumI[first + k] += whole[k][FrameColumns + Instruments + 1];
+          std::copy_n(columns[i].data() + first, count, values[i].data());
+        }
+        band.Multiply(values, sums);
+        for (std::size_t g = 0; g < sums.size(); ++g)
+        {
+          const Band::Group & group = band.GetGroups()[g];
+          for (std::size_t k = 0; k < count; ++k)
+          {
+            const double * const sum = sums[g].col(static_cast<Eigen::Index>(k)).data();
+            Row &                row = parts[cellRow][first + k][group.gradientClass];
+            std::transform(row.begin(), row.end(), sum, row.begin(), std::plus<double>());
+            cells[group.cell].sum[first + k] += sum[FrameColumns + Instruments];
+            cells[group.cell].sumI[first + k] += sum[FrameColumns + Instruments + 1];
+          }
         }
       }
     });
@@ -301,25 +228,56 @@ private:
     }
   }
 
+  /** What four frames deviate from the mean. */
+  template <typename TPixel>
+  static void
+  FillDeviations(const TPixel *                              a,
+                 const TPixel *                              b,
+                 const TPixel *                              c,
+                 const TPixel *                              d,
+                 const double *                              mean,
+                 std::vector<RegressorBand<float>::Vector> & deviations)
+  {
+    float * out = deviations.data()->data();
+    for (std::size_t i = 0; i < deviations.size(); ++i)
+    {
+      out[4 * i] = static_cast<float>(static_cast<double>(a[i]) - mean[i]);
+      out[4 * i + 1] = static_cast<float>(static_cast<double>(b[i]) - mean[i]);
+      out[4 * i + 2] = static_cast<float>(static_cast<double>(c[i]) - mean[i]);
+      out[4 * i + 3] = static_cast<float>(static_cast<double>(d[i]) - mean[i]);
+    }
+  }
+
   /** Adds \a count frames. */
   template <typename TPixel>
   void
   AddGroup(const TPixel * frames, std::size_t first, std::size_t count, const ParallelFor & parallelFor)
   {
-    const std::size_t                   pixels = m_Frame->mean.size();
+    using Band = RegressorBand<float>;
     std::vector<std::vector<ClassRows>> parts(m_CellRows, std::vector<ClassRows>(count));
-    this->ForCellBlocks(parallelFor, [&](std::size_t cellRow, std::size_t cell, const Block & block) {
-      for (std::size_t t = 0; t < count; t += Together)
+    this->ForBands<float>(parallelFor, [&](std::size_t cellRow, const Band & band) {
+      std::vector<Band::Vector> deviations(band.Pixels());
+      std::vector<Band::Sums>   sums;
+      for (std::size_t t = 0; t < count; t += Band::Together)
       {
-        const std::size_t together = std::min(Together, count - t);
-        const auto        deviation = [&](std::size_t i, std::size_t k) {
-          return static_cast<double>(frames[(t + k) * pixels + block.pixels[i]]) - block.mean[i];
+        const std::size_t together = std::min(Band::Together, count - t);
+        const auto        frame = [&](std::size_t k) {
+          return frames + (t + std::min(k, together - 1)) * m_Frame->mean.size() + band.First();
         };
-        const auto whole = SumBlock(block, together, deviation, &parts[cellRow][t]);
-        for (std::size_t k = 0; k < together; ++k)
+        FillDeviations(frame(0), frame(1), frame(2), frame(3), m_Frame->mean.data() + band.First(), deviations);
+        band.Multiply(deviations, sums);
+        for (std::size_t g = 0; g < sums.size(); ++g)
         {
-          m_Products.OfCell(first + t + k, cell)[0] += whole[k][FrameColumns + Instruments];
-          m_Products.OfCell(first + t + k, cell)[1] += whole[k][FrameColumns + Instruments + 1];
+          const Band::Group & group = band.GetGroups()[g];
+          for (std::size_t k = 0; k < together; ++k)
+          {
+            const float * const     sum = sums[g].col(static_cast<Eigen::Index>(k)).data();
+            Row &                   row = parts[cellRow][t + k][group.gradientClass];
+            std::array<double, 2> & cell = m_Products.OfCell(first + t + k, cellRow * m_CellsPerRow + group.cell);
+            std::transform(row.begin(), row.end(), sum, row.begin(), std::plus<double>());
+            cell[0] += static_cast<double>(sum[FrameColumns + Instruments]);
+            cell[1] += static_cast<double>(sum[FrameColumns + Instruments + 1]);
+          }
         }
       }
     });

@@ -142,21 +142,24 @@ FitPatches(const std::vector<PatchSums> & patches, const PixelLight & data)
  * pixels and strips of rows are tried, and the one of the smallest standard error, which their dispersion widens,
  * serves. Estimator.md, 3.7. */
 inline std::optional<LocalOffset>
-FindLocalOffset(const PixelLight & data)
+FindLocalOffset(const PixelLight & data, const ParallelFor & parallelFor = SerialFor)
 {
   const ReferenceFrame & frame = data.projected.GetFrame();
   const std::size_t      width = frame.geometry.width;
   const std::size_t      height = frame.geometry.height;
   const std::size_t      light = data.projected.GetBasis().NumberOfLightFactors();
-  const auto             responses = detail::ResponsesWithoutMotion(data);
+  const auto             responses = detail::ResponsesWithoutMotion(data, parallelFor);
   const auto             frames = static_cast<double>(frame.frames);
 
-  std::optional<LocalOffset> best;
-  const std::size_t sizes[6][2] = { { 64, 64 }, { 32, 32 }, { 16, 16 }, { 8, 8 }, { 4, width }, { 16, width } };
-  for (const auto & size : sizes)
-  {
-    const detail::Patches          patches{ size[0], size[1], (width + size[1] - 1) / size[1] };
-    std::vector<detail::PatchSums> sums(patches.across * ((height + size[0] - 1) / size[0]));
+  constexpr std::size_t                                trials = 6;
+  std::array<std::optional<LocalOffset>, trials>       fits;
+  const std::array<std::array<std::size_t, 2>, trials> sizes{
+    { { 64, 64 }, { 32, 32 }, { 16, 16 }, { 8, 8 }, { 4, width }, { 16, width } }
+  };
+  parallelFor(trials, [&](std::size_t trial) {
+    const auto [patchHeight, patchWidth] = sizes[trial];
+    const detail::Patches          patches{ patchHeight, patchWidth, (width + patchWidth - 1) / patchWidth };
+    std::vector<detail::PatchSums> sums(patches.across * ((height + patchHeight - 1) / patchHeight));
     for (detail::PatchSums & s : sums)
     {
       s.r1.assign(light, 0.0);
@@ -192,11 +195,15 @@ FindLocalOffset(const PixelLight & data)
     }
     if (!good.empty())
     {
-      const std::optional<LocalOffset> fit = detail::FitPatches(good, data);
-      if (fit && (!best || fit->standardError < best->standardError))
-      {
-        best = fit;
-      }
+      fits[trial] = detail::FitPatches(good, data);
+    }
+  });
+  std::optional<LocalOffset> best;
+  for (const std::optional<LocalOffset> & fit : fits)
+  {
+    if (fit && (!best || fit->standardError < best->standardError))
+    {
+      best = fit;
     }
   }
   return best;

@@ -60,34 +60,43 @@ struct Patches
  * that differs over the frame does not bias it. Even derivatives resemble the mean locally and would shift the offset.
  */
 inline std::vector<std::vector<double>>
-ResponsesWithoutMotion(const PixelLight & data)
+ResponsesWithoutMotion(const PixelLight & data, const ParallelFor & parallelFor)
 {
   constexpr std::size_t  derivatives = 5;
   const ReferenceFrame & frame = data.projected.GetFrame();
   const std::size_t      width = frame.geometry.width;
   const std::size_t      light = data.projected.GetBasis().NumberOfLightFactors();
   const Patches          patches{ 8, 8, (width + 7) / 8 };
-  const std::size_t      count = patches.across * ((frame.geometry.height + 7) / 8);
+  const std::size_t      bands = (frame.geometry.height + 7) / 8; // lines of patches
   const std::size_t      variables = derivatives + light;
-  // Per patch: n, w, wI, wII, then of each variable w z and w I z.
-  const std::size_t   stride = 4 + 2 * variables;
-  std::vector<double> sums(count * stride, 0.0);
-  std::vector<double> z(variables);
-  const auto          fill = [&](std::size_t p) {
+  const auto             fill = [&](std::size_t p, std::vector<double> & z) {
     std::copy_n(ApplyStencils(frame.mean.data(), width, p).begin(), derivatives, z.begin());
     for (std::size_t j = 0; j < light; ++j)
     {
       z[derivatives + j] = data.projected.GetCoordinates().At(p, j);
     }
   };
-  for (std::size_t p = 0; p < data.mask.size(); ++p)
-  {
-    if (data.mask[p] != 0)
+  // Calls function(pixel, weight, mean minus the centre, its derivatives and coordinates).
+  const auto forBand = [&](std::size_t band, auto function) {
+    std::vector<double> z(variables);
+    for (std::size_t p = 8 * band * width; p < std::min(data.mask.size(), 8 * (band + 1) * width); ++p)
     {
-      const double w = 1.0 / data.line.At(frame.neighbourMean[p]);
-      const double centred = frame.mean[p] - data.centreDn;
-      double *     s = sums.data() + patches.Of(p, width) * stride;
-      fill(p);
+      if (data.mask[p] != 0)
+      {
+        fill(p, z);
+        function(p, 1.0 / data.line.At(frame.neighbourMean[p]), frame.mean[p] - data.centreDn, z);
+      }
+    }
+  };
+  // The derivatives, freed of the patches' lines, times themselves and times the coordinates.
+  std::vector<Eigen::MatrixXd> parts(bands, Eigen::MatrixXd::Zero(derivatives, static_cast<Eigen::Index>(variables)));
+  parallelFor(bands, [&](std::size_t band) {
+    // Per patch: n, w, wI, wII, then of each variable w z and w I z.
+    const std::size_t   stride = 4 + 2 * variables;
+    std::vector<double> sums(patches.across * stride, 0.0);
+    const auto          of = [&](std::size_t p) { return sums.data() + p % width / patches.width * stride; };
+    forBand(band, [&](std::size_t p, double w, double centred, const std::vector<double> & z) {
+      double * s = of(p);
       s[0] += 1.0;
       s[1] += w;
       s[2] += w * centred;
@@ -97,41 +106,30 @@ ResponsesWithoutMotion(const PixelLight & data)
         s[4 + 2 * k] += w * z[k];
         s[5 + 2 * k] += w * centred * z[k];
       }
-    }
-  }
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(derivatives, derivatives);
-  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(derivatives, static_cast<Eigen::Index>(light));
-  for (std::size_t p = 0; p < data.mask.size(); ++p)
-  {
-    if (data.mask[p] != 0)
-    {
-      const double * s = sums.data() + patches.Of(p, width) * stride;
+    });
+    forBand(band, [&](std::size_t p, double w, double centred, std::vector<double> & z) {
+      const double * s = of(p);
       const double   determinant = s[1] * s[3] - s[2] * s[2];
       if (s[0] > 20.0 && determinant > 1e-9 * s[1] * s[3])
       {
-        const double w = 1.0 / data.line.At(frame.neighbourMean[p]);
-        const double centred = frame.mean[p] - data.centreDn;
-        fill(p);
         for (std::size_t k = 0; k < variables; ++k)
         {
           const double slope = (s[1] * s[5 + 2 * k] - s[2] * s[4 + 2 * k]) / determinant;
           const double level = (s[3] * s[4 + 2 * k] - s[2] * s[5 + 2 * k]) / determinant;
           z[k] -= level + slope * centred;
         }
-        for (std::size_t i = 0; i < derivatives; ++i)
-        {
-          for (std::size_t j = 0; j < derivatives; ++j)
-          {
-            gram(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) += w * z[i] * z[j];
-          }
-          for (std::size_t j = 0; j < light; ++j)
-          {
-            right(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) += w * z[i] * z[derivatives + j];
-          }
-        }
+        const Eigen::Map<const Eigen::VectorXd> free(z.data(), static_cast<Eigen::Index>(variables));
+        parts[band].noalias() += w * free.head<derivatives>() * free.transpose();
       }
-    }
+    });
+  });
+  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(derivatives, static_cast<Eigen::Index>(variables));
+  for (const Eigen::MatrixXd & part : parts)
+  {
+    products += part;
   }
+  const Eigen::MatrixXd                                   gram = products.leftCols<derivatives>();
+  const Eigen::MatrixXd                                   right = products.rightCols(static_cast<Eigen::Index>(light));
   const Eigen::VectorXd                                   unit = (gram.diagonal().array() + 1e-300).rsqrt();
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
   solver.setThreshold(1e-6);
@@ -139,11 +137,8 @@ ResponsesWithoutMotion(const PixelLight & data)
   const Eigen::MatrixXd leak = unit.asDiagonal() * solver.solve(unit.asDiagonal() * right);
 
   std::vector<std::vector<double>> responses(light, std::vector<double>(data.mask.size(), 0.0));
-  for (std::size_t p = 0; p < data.mask.size(); ++p)
-  {
-    if (data.mask[p] != 0)
-    {
-      fill(p);
+  parallelFor(bands, [&](std::size_t band) {
+    forBand(band, [&](std::size_t p, double, double, const std::vector<double> & z) {
       for (std::size_t j = 0; j < light; ++j)
       {
         responses[j][p] = z[derivatives + j];
@@ -152,8 +147,8 @@ ResponsesWithoutMotion(const PixelLight & data)
           responses[j][p] -= leak(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j)) * z[k];
         }
       }
-    }
-  }
+    });
+  });
   return responses;
 }
 } // namespace detail

@@ -27,7 +27,6 @@
 #include <string>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 namespace sensornoise
 {
@@ -47,11 +46,16 @@ public:
   /** Pixels whose sums with one series lie side by side; those of a block stay in the first-level cache. */
   static constexpr std::size_t BlockPixels = 256;
 
-  explicit ProjectionSums(std::size_t pixels = 0, std::size_t series = 0)
+  explicit ProjectionSums(std::size_t pixels = 0, std::size_t series = 0, const ParallelFor & parallelFor = SerialFor)
     : m_Pixels(pixels)
     , m_Series(series)
-    , m_Sums((pixels + BlockPixels - 1) / BlockPixels * BlockPixels * series, 0.0)
-  {}
+    , m_Sums(static_cast<Eigen::Index>((pixels + BlockPixels - 1) / BlockPixels * BlockPixels * series))
+  {
+    // The memory's first use is slow: all threads share it.
+    ForBlocks(static_cast<std::size_t>(m_Sums.size()), parallelFor, [this](std::size_t begin, std::size_t end) {
+      std::fill(m_Sums.data() + begin, m_Sums.data() + end, 0.0);
+    });
+  }
 
   /** Adds frames firstFrame ... firstFrame + count - 1, stored one after the other, for the pixels [begin, end).
    * Different ranges may be added at the same time. */
@@ -108,10 +112,7 @@ public:
                                   std::to_string(other.m_Series) + " series cannot be merged into those of " +
                                   std::to_string(m_Pixels) + " pixels on " + std::to_string(m_Series));
     }
-    for (std::size_t i = 0; i < m_Sums.size(); ++i)
-    {
-      m_Sums[i] += other.m_Sums[i];
-    }
+    m_Sums += other.m_Sums;
   }
 
   /** Writes the sums, see BinaryStream. */
@@ -120,7 +121,7 @@ public:
   {
     WriteSumsHeader(out, Name, m_Pixels, 0);
     WriteCount(out, m_Series);
-    WriteNumbers(out, m_Sums);
+    WriteNumbers(out, m_Sums.data(), static_cast<std::size_t>(m_Sums.size()));
   }
 
   /** Replaces the sums by those of a stream. Throws std::runtime_error, and changes nothing, if it holds other sums, or
@@ -131,7 +132,7 @@ public:
     ProjectionSums read(m_Pixels, m_Series);
     ReadSumsHeader(in, Name, m_Pixels);
     RequireCount("series", ReadCount(in), m_Series);
-    ReadNumbers(in, read.m_Sums);
+    ReadNumbers(in, read.m_Sums.data(), static_cast<std::size_t>(read.m_Sums.size()));
     *this = std::move(read);
   }
 
@@ -144,12 +145,12 @@ public:
   double &
   At(std::size_t p, std::size_t j)
   {
-    return m_Sums[this->IndexOf(p, j)];
+    return m_Sums.data()[this->IndexOf(p, j)];
   }
   double
   At(std::size_t p, std::size_t j) const
   {
-    return m_Sums[this->IndexOf(p, j)];
+    return m_Sums.data()[this->IndexOf(p, j)];
   }
 
 private:
@@ -161,9 +162,9 @@ private:
 
   static constexpr const char * Name = "ProjectionSums";
 
-  std::size_t         m_Pixels;
-  std::size_t         m_Series;
-  std::vector<double> m_Sums;
+  std::size_t    m_Pixels;
+  std::size_t    m_Series;
+  Eigen::ArrayXd m_Sums; // unlike std::vector, not filled by one thread
 };
 
 } // namespace sensornoise

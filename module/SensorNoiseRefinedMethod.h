@@ -324,7 +324,7 @@ private:
   EndFrameSums()
   {
     m_Basis = FindSceneSeries(*m_FrameSums, m_Settings.rollingShutter, m_Found);
-    m_Projections = ProjectionSums(m_Mean.size(), m_Basis.Size());
+    m_Projections = ProjectionSums(m_Mean.size(), m_Basis.Size(), m_ParallelFor);
   }
 
   void

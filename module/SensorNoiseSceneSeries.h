@@ -145,7 +145,7 @@ PolishSceneSeries(const FrameSums &                 sums,
     found.isOffsetDrift = IsOffsetDrift(data);
     if (!found.isOffsetDrift)
     {
-      found.localOffset = FindLocalOffset(data);
+      found.localOffset = FindLocalOffset(data, parallelFor);
     }
     found.localFlicker = SumLocalFlicker(data);
   }
