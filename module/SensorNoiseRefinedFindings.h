@@ -47,6 +47,7 @@ struct RefinedFindings
   std::optional<InstrumentShifts> shifts;
   VarianceLine                    variance; ///< corrected for the noise of the means
   VarianceLine                    fromFlat; ///< of the smoother half of the pixels, not corrected
+  Eigen::Matrix2d                 tailDisagreement{ Eigen::Matrix2d::Zero() }; ///< see VarianceFit
   ClassFit                        classes;
   double                          intensityChi2{ 1.0 }; ///< of the mean residuals of 64 intensity bins
   double                          motionPhi{ 1.0 };     ///< dispersion of the frames over all gradient classes

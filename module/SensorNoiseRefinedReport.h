@@ -189,8 +189,8 @@ MakeRefinedReport(const RefinedReportInput & input)
   }
   const double          step = input.summary.codes.quantisationStepDn;
   const double          quantisationDn2 = step * step / 12.0;
-  const Eigen::Matrix2d covariance =
-    v.covariance * dispersion + detail::Disagreement(v, found.fromFlat) + detail::StrongVibration(v, found.model);
+  const Eigen::Matrix2d covariance = v.covariance * dispersion + detail::Disagreement(v, found.fromFlat) +
+                                     found.tailDisagreement + detail::StrongVibration(v, found.model);
   const double student = StudentQuantile(0.975, static_cast<double>(input.frames) - 2.0);
   if (std::sqrt(covariance(0, 0)) > 0.25 * v.gain || static_cast<double>(report.pixels.used) < 0.1 * found.usable)
   {

@@ -133,7 +133,11 @@ FitStaticVariance(ProjectedVariance &               projected,
     }
   }
   projected.Compute(line.gain);
-  line = require(FitVarianceLine(projected.GetData(mask), parallelFor, line));
+  VarianceFit fit(projected.GetData(mask), parallelFor, line);
+  fit.Iterate(8);
+  fit.FillErrors();
+  line = require(fit.GetLine());
+  found.tailDisagreement = fit.TailDisagreement();
   found.fromFlat = detail::FitFlatHalf(projected, mask, line, parallelFor);
   detail::CorrectForNoisyMeans(line, found, projected.GetFrame().frames);
   found.variance = line;

@@ -21,6 +21,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -209,6 +210,36 @@ TEST(SensorNoiseVarianceFit, OutliersAndPixelsOutsideTheMaskHaveNoPart)
   }
   EXPECT_EQ(masked.Fit().gain, part.gain);
   EXPECT_EQ(masked.Fit().covariance, part.covariance);
+}
+
+TEST(SensorNoiseVarianceFit, PixelsWithNoiseOfTheirOwnWidenTheErrors)
+{
+  // 4 % of the pixels have 60 % more variance, 2.3 standard deviations: too little to be told one by one.
+  const auto errors = [](const Maps & maps) {
+    const VarianceData data{ maps.mean.data(),    maps.neighbourMean.data(), maps.variance.data(),
+                             maps.freedom.data(), maps.mask.data(),          Pixels };
+    VarianceFit        fit(data, SerialFor, std::nullopt);
+    fit.Iterate(8);
+    fit.FillErrors();
+    // At the centre, where the line is known best.
+    const VarianceLine &  line = fit.GetLine();
+    const Eigen::Vector2d at(line.centreDn, 1.0);
+    const double          error = line.At(line.centreDn) - (Intercept + Gain * line.centreDn);
+    const double          sampling = at.dot(line.covariance * at);
+    return std::array<double, 3>{ error, sampling, at.dot(fit.TailDisagreement() * at) };
+  };
+  Maps       maps(true);
+  const auto plain = errors(maps);
+  EXPECT_LT(std::abs(plain[0]), 3.0 * std::sqrt(plain[1]));
+  EXPECT_LT(plain[2], plain[1]);
+  for (std::size_t p = 0; p < Pixels; p += 25)
+  {
+    maps.variance[p] *= 1.6;
+  }
+  const auto   noisy = errors(maps);
+  const double raised = noisy[0] - plain[0];
+  EXPECT_GT(raised, 5.0 * std::sqrt(noisy[1]));
+  EXPECT_LT(raised, 3.0 * std::sqrt(noisy[1] + noisy[2]));
 }
 
 TEST(SensorNoiseVarianceFit, ThreadsChangeNoBit)
