@@ -86,15 +86,17 @@ FitMedians(const VarianceData & data, const FreedomRange & freedoms)
   constexpr std::size_t bins = 40;
   const auto            binOf = BinsOfEqualCount(level, bins);
   std::vector<double>   value;
-  std::vector<double>   meanOfBin(bins, 0.0);
+  std::vector<double>   centred;
   std::vector<double>   count(bins, 0.0);
   for (std::size_t i = 0; i < sample.size(); ++i)
   {
     value.push_back(data.variance[sample[i]] / trim.Of(data.freedom[sample[i]]).median);
-    meanOfBin[binOf[i]] += data.mean[sample[i]] - line.centreDn;
+    centred.push_back(data.mean[sample[i]] - line.centreDn);
     count[binOf[i]] += 1.0;
   }
+  // Medians on both axes: where a bin holds parts of two patches, they are those of the larger part.
   const auto medians = MediansOfBins(value, binOf, bins);
+  const auto levels = MediansOfBins(centred, binOf, bins);
   double     s0 = 0.0, s1 = 0.0, s2 = 0.0, r0 = 0.0, r1 = 0.0;
   double     lowest = std::numeric_limits<double>::infinity();
   for (std::size_t b = 0; b < bins; ++b)
@@ -102,7 +104,7 @@ FitMedians(const VarianceData & data, const FreedomRange & freedoms)
     if (count[b] > 5.0 && medians[b] > 0.0)
     {
       const double w = count[b] / (medians[b] * medians[b]);
-      const double x = meanOfBin[b] / count[b];
+      const double x = levels[b];
       s0 += w;
       s1 += w * x;
       s2 += w * x * x;

@@ -242,6 +242,31 @@ TEST(SensorNoiseVarianceFit, PixelsWithNoiseOfTheirOwnWidenTheErrors)
   EXPECT_LT(raised, 3.0 * std::sqrt(noisy[1] + noisy[2]));
 }
 
+TEST(SensorNoiseVarianceFit, StartsBetweenPatchesOfFewLevels)
+{
+  // Ten patches, the darkest with hardly any noise; its last bin of intensity holds a tenth of the next patch. A bin
+  // whose level were a mean and whose variance a median would draw the first line far off, where nothing is kept.
+  constexpr double                 gain = 5.0;
+  Maps                             maps(true);
+  std::mt19937                     random(42);
+  std::uniform_real_distribution<> uniform(-1.0, 1.0);
+  for (std::size_t p = 0; p < Pixels; ++p)
+  {
+    const std::size_t patch = p < 2450 ? 0 : 1 + p % 9;
+    const double      electrons = 80.0 * static_cast<double>(patch);
+    maps.mean[p] = 200.0 + gain * electrons;
+    maps.neighbourMean[p] = maps.mean[p] + uniform(random);
+    const double                    variance = 9.0 + gain * gain * electrons;
+    const double                    freedom = Freedom / (1.0 + 0.5 * gain * gain / variance);
+    std::gamma_distribution<double> gamma(0.5 * freedom, 2.0 / freedom);
+    maps.variance[p] = variance * gamma(random);
+  }
+  const VarianceLine line = maps.Fit();
+  ASSERT_TRUE(line.isDetermined);
+  EXPECT_NEAR(line.gain, gain, 4.0 * std::sqrt(line.covariance(0, 0)));
+  EXPECT_LT(std::sqrt(line.covariance(0, 0)), 0.01 * gain);
+}
+
 TEST(SensorNoiseVarianceFit, ThreadsChangeNoBit)
 {
   const Maps maps(true);
