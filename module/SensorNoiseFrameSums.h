@@ -190,7 +190,7 @@ private:
       {
         columns[i] = m_Regressors.ValuesOf(band.First() + i);
       }
-      std::vector<Band::Vector> values(band.Pixels());
+      std::vector<Band::Vector> values(band.Pixels(), Band::Vector::Zero());
       std::vector<Band::Sums>   sums;
       for (std::size_t first = 0; first < FrameColumns; first += Band::Together)
       {

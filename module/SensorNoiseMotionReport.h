@@ -72,7 +72,7 @@ FillFlickerAndMotion(Report & report, const RefinedReportInput & input, double o
       return series;
     }
     const auto k = static_cast<Eigen::Index>(place - stencils.begin());
-    const auto spread = [&](const auto & coefficients, Eigen::Index column, double variance) {
+    const auto spread = [&](const auto & coefficients, Eigen::Index column, double noiseSquare) {
       series.assign(input.frames, 0.0);
       double mean = 0.0;
       for (std::size_t t = 0; t < input.frames; ++t)
@@ -86,7 +86,7 @@ FillFlickerAndMotion(Report & report, const RefinedReportInput & input, double o
         value -= mean;
         sum += value * value;
       }
-      return sum / (frames - 1.0) - variance;
+      return sum / (frames - 1.0) - noiseSquare;
     };
     const double leastVariance = found.motion.covariance(k, k) * found.motionPhi;
     double       square = spread(found.motion.coefficients, k, leastVariance);
