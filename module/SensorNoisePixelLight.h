@@ -66,24 +66,21 @@ ResponsesWithoutMotion(const PixelLight & data, const ParallelFor & parallelFor)
   const ReferenceFrame & frame = data.projected.GetFrame();
   const std::size_t      width = frame.geometry.width;
   const std::size_t      light = data.projected.GetBasis().NumberOfLightFactors();
-  const Patches          patches{ 8, 8, (width + 7) / 8 };
-  const std::size_t      bands = (frame.geometry.height + 7) / 8; // lines of patches
+  constexpr std::size_t  side = 8;
+  const std::size_t      bands = (frame.geometry.height + side - 1) / side; // lines of patches
   const std::size_t      variables = derivatives + light;
-  const auto             fill = [&](std::size_t p, std::vector<double> & z) {
-    std::copy_n(ApplyStencils(frame.mean.data(), width, p).begin(), derivatives, z.begin());
-    for (std::size_t j = 0; j < light; ++j)
-    {
-      z[derivatives + j] = data.projected.GetCoordinates().At(p, j);
-    }
-  };
   // Calls function(pixel, weight, mean minus the centre, its derivatives and coordinates).
   const auto forBand = [&](std::size_t band, auto function) {
     std::vector<double> z(variables);
-    for (std::size_t p = 8 * band * width; p < std::min(data.mask.size(), 8 * (band + 1) * width); ++p)
+    for (std::size_t p = side * band * width; p < std::min(data.mask.size(), side * (band + 1) * width); ++p)
     {
       if (data.mask[p] != 0)
       {
-        fill(p, z);
+        std::copy_n(ApplyStencils(frame.mean.data(), width, p).begin(), derivatives, z.begin());
+        for (std::size_t j = 0; j < light; ++j)
+        {
+          z[derivatives + j] = data.projected.GetCoordinates().At(p, j);
+        }
         function(p, 1.0 / data.line.At(frame.neighbourMean[p]), frame.mean[p] - data.centreDn, z);
       }
     }
@@ -93,8 +90,8 @@ ResponsesWithoutMotion(const PixelLight & data, const ParallelFor & parallelFor)
   parallelFor(bands, [&](std::size_t band) {
     // Per patch: n, w, wI, wII, then of each variable w z and w I z.
     const std::size_t   stride = 4 + 2 * variables;
-    std::vector<double> sums(patches.across * stride, 0.0);
-    const auto          of = [&](std::size_t p) { return sums.data() + p % width / patches.width * stride; };
+    std::vector<double> sums((width + side - 1) / side * stride, 0.0);
+    const auto          of = [&](std::size_t p) { return sums.data() + p % width / side * stride; };
     forBand(band, [&](std::size_t p, double w, double centred, const std::vector<double> & z) {
       double * s = of(p);
       s[0] += 1.0;
