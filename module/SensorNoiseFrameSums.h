@@ -158,7 +158,7 @@ private:
   static constexpr std::size_t BandPixels = 4096; // the band's rows stay in the second-level cache
 
   /** Calls function(row of cells, band) for all bands, those of a row of cells in order. */
-  template <typename TScalar, typename TFunction>
+  template <typename TFunction>
   void
   ForBands(const ParallelFor & parallelFor, TFunction function) const
   {
@@ -168,7 +168,7 @@ private:
       const std::size_t     lines = std::max<std::size_t>(1, BandPixels / geometry.width);
       for (std::size_t y = geometry.height * cellRow / m_CellRows; y < end; y += lines)
       {
-        function(cellRow, RegressorBand<TScalar>(m_Regressors, y, std::min(lines, end - y), m_CellsPerRow));
+        function(cellRow, RegressorBand(m_Regressors, y, std::min(lines, end - y), m_CellsPerRow));
       }
     });
   }
@@ -177,11 +177,10 @@ private:
   void
   SumColumns(const ParallelFor & parallelFor)
   {
-    using Band = RegressorBand<double>;
     std::vector<std::array<ClassRows, FrameColumns>> parts(m_CellRows);
-    this->ForBands<double>(parallelFor, [&](std::size_t cellRow, const Band & band) {
+    this->ForBands(parallelFor, [&](std::size_t cellRow, const RegressorBand & band) {
       Cell * const cells = m_Cells.data() + cellRow * m_CellsPerRow;
-      for (const Band::Group & group : band.GetGroups())
+      for (const RegressorBand::Group & group : band.GetGroups())
       {
         cells[group.cell].pixels += group.end - group.begin;
       }
@@ -190,11 +189,11 @@ private:
       {
         columns[i] = m_Regressors.ValuesOf(band.First() + i);
       }
-      std::vector<Band::Vector> values(band.Pixels(), Band::Vector::Zero());
-      std::vector<Band::Sums>   sums;
-      for (std::size_t first = 0; first < FrameColumns; first += Band::Together)
+      std::vector<RegressorBand::Vector> values(band.Pixels(), RegressorBand::Vector::Zero());
+      std::vector<RegressorBand::Sums>   sums;
+      for (std::size_t first = 0; first < FrameColumns; first += RegressorBand::Together)
       {
-        const std::size_t count = std::min(Band::Together, FrameColumns - first);
+        const std::size_t count = std::min(RegressorBand::Together, FrameColumns - first);
         for (const std::uint32_t i : band.GetOrder())
         {
           std::copy_n(columns[i].data() + first, count, values[i].data());
@@ -202,7 +201,7 @@ private:
         band.Multiply(values, sums);
         for (std::size_t g = 0; g < sums.size(); ++g)
         {
-          const Band::Group & group = band.GetGroups()[g];
+          const RegressorBand::Group & group = band.GetGroups()[g];
           for (std::size_t k = 0; k < count; ++k)
           {
             const double * const sum = sums[g].col(static_cast<Eigen::Index>(k)).data();
@@ -231,20 +230,20 @@ private:
   /** What four frames deviate from the mean. */
   template <typename TPixel>
   static void
-  FillDeviations(const TPixel *                              a,
-                 const TPixel *                              b,
-                 const TPixel *                              c,
-                 const TPixel *                              d,
-                 const double *                              mean,
-                 std::vector<RegressorBand<float>::Vector> & deviations)
+  FillDeviations(const TPixel *                       a,
+                 const TPixel *                       b,
+                 const TPixel *                       c,
+                 const TPixel *                       d,
+                 const double *                       mean,
+                 std::vector<RegressorBand::Vector> & deviations)
   {
-    float * out = deviations.data()->data();
+    double * out = deviations.data()->data();
     for (std::size_t i = 0; i < deviations.size(); ++i)
     {
-      out[4 * i] = static_cast<float>(static_cast<double>(a[i]) - mean[i]);
-      out[4 * i + 1] = static_cast<float>(static_cast<double>(b[i]) - mean[i]);
-      out[4 * i + 2] = static_cast<float>(static_cast<double>(c[i]) - mean[i]);
-      out[4 * i + 3] = static_cast<float>(static_cast<double>(d[i]) - mean[i]);
+      out[4 * i] = static_cast<double>(a[i]) - mean[i];
+      out[4 * i + 1] = static_cast<double>(b[i]) - mean[i];
+      out[4 * i + 2] = static_cast<double>(c[i]) - mean[i];
+      out[4 * i + 3] = static_cast<double>(d[i]) - mean[i];
     }
   }
 
@@ -253,14 +252,13 @@ private:
   void
   AddGroup(const TPixel * frames, std::size_t first, std::size_t count, const ParallelFor & parallelFor)
   {
-    using Band = RegressorBand<float>;
     std::vector<std::vector<ClassRows>> parts(m_CellRows, std::vector<ClassRows>(count));
-    this->ForBands<float>(parallelFor, [&](std::size_t cellRow, const Band & band) {
-      std::vector<Band::Vector> deviations(band.Pixels());
-      std::vector<Band::Sums>   sums;
-      for (std::size_t t = 0; t < count; t += Band::Together)
+    this->ForBands(parallelFor, [&](std::size_t cellRow, const RegressorBand & band) {
+      std::vector<RegressorBand::Vector> deviations(band.Pixels());
+      std::vector<RegressorBand::Sums>   sums;
+      for (std::size_t t = 0; t < count; t += RegressorBand::Together)
       {
-        const std::size_t together = std::min(Band::Together, count - t);
+        const std::size_t together = std::min(RegressorBand::Together, count - t);
         const auto        frame = [&](std::size_t k) {
           return frames + (t + std::min(k, together - 1)) * m_Frame->mean.size() + band.First();
         };
@@ -268,15 +266,15 @@ private:
         band.Multiply(deviations, sums);
         for (std::size_t g = 0; g < sums.size(); ++g)
         {
-          const Band::Group & group = band.GetGroups()[g];
+          const RegressorBand::Group & group = band.GetGroups()[g];
           for (std::size_t k = 0; k < together; ++k)
           {
-            const float * const     sum = sums[g].col(static_cast<Eigen::Index>(k)).data();
+            const double * const    sum = sums[g].col(static_cast<Eigen::Index>(k)).data();
             Row &                   row = parts[cellRow][t + k][group.gradientClass];
             std::array<double, 2> & cell = m_Products.OfCell(first + t + k, cellRow * m_CellsPerRow + group.cell);
             std::transform(row.begin(), row.end(), sum, row.begin(), std::plus<double>());
-            cell[0] += static_cast<double>(sum[FrameColumns + Instruments]);
-            cell[1] += static_cast<double>(sum[FrameColumns + Instruments + 1]);
+            cell[0] += sum[FrameColumns + Instruments];
+            cell[1] += sum[FrameColumns + Instruments + 1];
           }
         }
       }

@@ -20,7 +20,6 @@
 
 #include "SensorNoiseFrameRegressors.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -34,18 +33,14 @@ namespace sensornoise
  * with series.
  *
  * Whole lines are read from memory in one piece; the rows stay in the second-level cache while all frames pass, and the
- * sums of one cell and class in registers. With \a TScalar float the rounding of a product is 1e-7 of itself, and at
- * random from pixel to pixel: nothing beside its noise. */
-template <typename TScalar>
+ * sums of one cell and class in registers. */
 class RegressorBand
 {
 public:
   static constexpr std::size_t Together = 4; // series whose sums stay in registers
 
-  using Index = Eigen::Index;
-  using Vector = Eigen::Matrix<TScalar, Together, 1>; // the values of series at a pixel
-  using Row = Eigen::Matrix<TScalar, FrameRegressors::Row{}.size(), 1>;
-  using Sums = Eigen::Matrix<TScalar, Row::RowsAtCompileTime, Together>;
+  using Vector = Eigen::Matrix<double, Together, 1>; // the values of series at a pixel
+  using Sums = Eigen::Matrix<double, FrameRegressors::Row{}.size(), Together>;
 
   /** The pixels of one class in one cell of the band, which has \a cells cells side by side. */
   struct Group
@@ -92,10 +87,8 @@ public:
     m_Rows.resize(begin.back());
     forUsed([&](std::size_t i, std::size_t group) {
       const std::size_t place = begin[group]++;
-      const auto        row = regressors.RowOf(m_First + i, regressors.ValuesOf(m_First + i));
       m_Order[place] = static_cast<std::uint32_t>(i);
-      std::transform(
-        row.begin(), row.end(), m_Rows[place].data(), [](double value) { return static_cast<TScalar>(value); });
+      m_Rows[place] = regressors.RowOf(m_First + i, regressors.ValuesOf(m_First + i));
     });
   }
 
@@ -127,28 +120,29 @@ public:
   void
   Multiply(const std::vector<Vector> & values, std::vector<Sums> & sums) const
   {
-    constexpr Index part = 8; // columns whose sums stay in registers
+    constexpr Eigen::Index part = 4; // columns whose sums stay in registers
     sums.resize(m_Groups.size());
     for (std::size_t g = 0; g < m_Groups.size(); ++g)
     {
-      for (Index column = 0; column < Row::RowsAtCompileTime; column += part)
+      for (Eigen::Index column = 0; column < Sums::RowsAtCompileTime; column += part)
       {
-        Eigen::Matrix<TScalar, part, Together> sum = Eigen::Matrix<TScalar, part, Together>::Zero();
+        Eigen::Matrix<double, part, Together> sum = Eigen::Matrix<double, part, Together>::Zero();
         for (std::size_t i = m_Groups[g].begin; i < m_Groups[g].end; ++i)
         {
-          sum.noalias() += m_Rows[i].template segment<part>(column) * values[m_Order[i]].transpose();
+          const Eigen::Map<const Eigen::Matrix<double, part, 1>> columns(m_Rows[i].data() + column);
+          sum.noalias() += columns * values[m_Order[i]].transpose();
         }
-        sums[g].template middleRows<part>(column) = sum;
+        sums[g].middleRows<part>(column) = sum;
       }
     }
   }
 
 private:
-  std::size_t                m_First;
-  std::size_t                m_Pixels;
-  std::vector<Group>         m_Groups;
-  std::vector<std::uint32_t> m_Order;
-  std::vector<Row>           m_Rows;
+  std::size_t                       m_First;
+  std::size_t                       m_Pixels;
+  std::vector<Group>                m_Groups;
+  std::vector<std::uint32_t>        m_Order;
+  std::vector<FrameRegressors::Row> m_Rows;
 };
 
 } // namespace sensornoise

@@ -232,9 +232,8 @@ TEST(SensorNoiseRefinedMethodInvariance, MirroredFramesMirrorTheShifts)
     ExpectSame(ScalarsOf(method.GetReport()), after, 1e-9); // the cells' columns are mirrored, too
     for (std::size_t t = 0; t < Frames; ++t)
     {
-      // Frames are summed in single precision, and the mirrored ones in another order.
-      EXPECT_NEAR(other.GetReport().motion[t][0], -method.GetReport().motion[t][0], 0x1p-23);
-      EXPECT_NEAR(other.GetReport().motion[t][1], method.GetReport().motion[t][1], 0x1p-23);
+      EXPECT_NEAR(other.GetReport().motion[t][0], -method.GetReport().motion[t][0], 1e-9);
+      EXPECT_NEAR(other.GetReport().motion[t][1], method.GetReport().motion[t][1], 1e-9);
     }
   }
 }
