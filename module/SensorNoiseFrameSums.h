@@ -173,6 +173,29 @@ private:
     });
   }
 
+  /** Adds the sums of \a count series over a band to theirs over the classes, and calls function(cell of the band,
+   * series, sum of w, sum of w I) for the cells, group by group. */
+  template <typename TFunction>
+  static void
+  AddToClasses(const RegressorBand &                    band,
+               const std::vector<RegressorBand::Sums> & sums,
+               std::size_t                              count,
+               ClassRows *                              parts,
+               TFunction                                function)
+  {
+    for (std::size_t g = 0; g < sums.size(); ++g)
+    {
+      const RegressorBand::Group & group = band.GetGroups()[g];
+      for (std::size_t k = 0; k < count; ++k)
+      {
+        const double * const sum = sums[g].col(static_cast<Eigen::Index>(k)).data();
+        Row &                row = parts[k][group.gradientClass];
+        std::transform(row.begin(), row.end(), sum, row.begin(), std::plus<double>());
+        function(group.cell, k, sum[FrameColumns + Instruments], sum[FrameColumns + Instruments + 1]);
+      }
+    }
+  }
+
   /** What needs no frame: the rows times the columns' own values. */
   void
   SumColumns(const ParallelFor & parallelFor)
@@ -199,18 +222,11 @@ private:
           std::copy_n(columns[i].data() + first, count, values[i].data());
         }
         band.Multiply(values, sums);
-        for (std::size_t g = 0; g < sums.size(); ++g)
-        {
-          const RegressorBand::Group & group = band.GetGroups()[g];
-          for (std::size_t k = 0; k < count; ++k)
-          {
-            const double * const sum = sums[g].col(static_cast<Eigen::Index>(k)).data();
-            Row &                row = parts[cellRow][first + k][group.gradientClass];
-            std::transform(row.begin(), row.end(), sum, row.begin(), std::plus<double>());
-            cells[group.cell].sum[first + k] += sum[FrameColumns + Instruments];
-            cells[group.cell].sumI[first + k] += sum[FrameColumns + Instruments + 1];
-          }
-        }
+        AddToClasses(
+          band, sums, count, &parts[cellRow][first], [&](std::size_t cell, std::size_t k, double w, double wI) {
+            cells[cell].sum[first + k] += w;
+            cells[cell].sumI[first + k] += wI;
+          });
       }
     });
     for (const auto & part : parts)
@@ -227,26 +243,6 @@ private:
     }
   }
 
-  /** What four frames deviate from the mean. */
-  template <typename TPixel>
-  static void
-  FillDeviations(const TPixel *                       a,
-                 const TPixel *                       b,
-                 const TPixel *                       c,
-                 const TPixel *                       d,
-                 const double *                       mean,
-                 std::vector<RegressorBand::Vector> & deviations)
-  {
-    double * out = deviations.data()->data();
-    for (std::size_t i = 0; i < deviations.size(); ++i)
-    {
-      out[4 * i] = static_cast<double>(a[i]) - mean[i];
-      out[4 * i + 1] = static_cast<double>(b[i]) - mean[i];
-      out[4 * i + 2] = static_cast<double>(c[i]) - mean[i];
-      out[4 * i + 3] = static_cast<double>(d[i]) - mean[i];
-    }
-  }
-
   /** Adds \a count frames. */
   template <typename TPixel>
   void
@@ -254,29 +250,27 @@ private:
   {
     std::vector<std::vector<ClassRows>> parts(m_CellRows, std::vector<ClassRows>(count));
     this->ForBands(parallelFor, [&](std::size_t cellRow, const RegressorBand & band) {
+      const double * const               mean = m_Frame->mean.data() + band.First();
       std::vector<RegressorBand::Vector> deviations(band.Pixels());
       std::vector<RegressorBand::Sums>   sums;
       for (std::size_t t = 0; t < count; t += RegressorBand::Together)
       {
         const std::size_t together = std::min(RegressorBand::Together, count - t);
-        const auto        frame = [&](std::size_t k) {
-          return frames + (t + std::min(k, together - 1)) * m_Frame->mean.size() + band.First();
-        };
-        FillDeviations(frame(0), frame(1), frame(2), frame(3), m_Frame->mean.data() + band.First(), deviations);
-        band.Multiply(deviations, sums);
-        for (std::size_t g = 0; g < sums.size(); ++g)
+        for (std::size_t k = 0; k < RegressorBand::Together; ++k)
         {
-          const RegressorBand::Group & group = band.GetGroups()[g];
-          for (std::size_t k = 0; k < together; ++k)
+          const TPixel * const frame = frames + (t + std::min(k, together - 1)) * m_Frame->mean.size() + band.First();
+          for (std::size_t i = 0; i < band.Pixels(); ++i)
           {
-            const double * const    sum = sums[g].col(static_cast<Eigen::Index>(k)).data();
-            Row &                   row = parts[cellRow][t + k][group.gradientClass];
-            std::array<double, 2> & cell = m_Products.OfCell(first + t + k, cellRow * m_CellsPerRow + group.cell);
-            std::transform(row.begin(), row.end(), sum, row.begin(), std::plus<double>());
-            cell[0] += sum[FrameColumns + Instruments];
-            cell[1] += sum[FrameColumns + Instruments + 1];
+            deviations[i](static_cast<Eigen::Index>(k)) = static_cast<double>(frame[i]) - mean[i];
           }
         }
+        band.Multiply(deviations, sums);
+        AddToClasses(
+          band, sums, together, &parts[cellRow][t], [&](std::size_t cell, std::size_t k, double w, double wI) {
+            std::array<double, 2> & ofCell = m_Products.OfCell(first + t + k, cellRow * m_CellsPerRow + cell);
+            ofCell[0] += w;
+            ofCell[1] += wI;
+          });
       }
     });
     for (const std::vector<ClassRows> & part : parts)

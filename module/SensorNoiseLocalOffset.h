@@ -21,6 +21,7 @@
 #include "SensorNoiseChiSquare.h"
 #include "SensorNoisePixelLight.h"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>

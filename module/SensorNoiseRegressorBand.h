@@ -58,13 +58,13 @@ public:
     const std::size_t        width = regressors.GetFrame().geometry.width;
     std::vector<std::size_t> begin(cells * GradientClasses + 1, 0);
     const auto               forUsed = [&](auto function) {
-      for (std::size_t i = 0; i < m_Pixels;)
+      for (std::size_t line = 0; line < lines; ++line)
       {
         for (std::size_t cell = 0; cell < cells; ++cell)
         {
-          const std::size_t line = i / width;
-          for (const std::size_t end = line * width + width * (cell + 1) / cells; i < end; ++i)
+          for (std::size_t x = width * cell / cells; x < width * (cell + 1) / cells; ++x)
           {
+            const std::size_t  i = line * width + x;
             const std::uint8_t gradientClass = regressors.ClassOf(m_First + i);
             if (gradientClass != FrameRegressors::Unused)
             {

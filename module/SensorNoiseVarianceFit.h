@@ -153,6 +153,10 @@ public:
   Eigen::Matrix2d
   TailDisagreement() const
   {
+    if (!m_Line.isDetermined)
+    {
+      return Eigen::Matrix2d::Zero();
+    }
     constexpr double      tail = 0.02;
     const ChiSquareTrim   close = this->MakeTrim(tail);
     const auto            s = SumOverBlocks<5>(m_Data.pixels, m_ParallelFor, [&](std::size_t p, auto & sums) {
