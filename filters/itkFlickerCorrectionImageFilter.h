@@ -18,7 +18,7 @@
 #ifndef itkFlickerCorrectionImageFilter_h
 #define itkFlickerCorrectionImageFilter_h
 
-#include "SensorNoiseFlicker.h"
+#include "sensornoise/published/FlickerEstimate.h"
 #include "itkImage.h"
 #include "itkImageToImageFilter.h"
 #include "itkSimpleDataObjectDecorator.h"

@@ -18,7 +18,7 @@
 #ifndef itkFlickerCorrectionImageFilter_hxx
 #define itkFlickerCorrectionImageFilter_hxx
 
-#include "SensorNoisePublishedSettings.h"
+#include "sensornoise/published/PublishedSettings.h"
 #include "itkImageScanlineIterator.h"
 
 #include <algorithm>

@@ -18,9 +18,9 @@
 #ifndef itkNoiseRegressionEstimator_h
 #define itkNoiseRegressionEstimator_h
 
-#include "SensorNoiseNoiseParameters.h"
-#include "SensorNoiseReportJson.h"
-#include "SensorNoiseReportTable.h"
+#include "sensornoise/published/NoiseParameters.h"
+#include "sensornoise/report/ReportJson.h"
+#include "sensornoise/report/ReportTable.h"
 #include "itkImage.h"
 #include "itkProcessObject.h"
 #include "itkSensorNoiseResult.h"

@@ -18,10 +18,10 @@
 #ifndef itkSensorNoiseEstimator_h
 #define itkSensorNoiseEstimator_h
 
-#include "SensorNoisePublishedSettings.h"
-#include "SensorNoiseRefinedSettings.h"
-#include "SensorNoiseReportJson.h"
-#include "SensorNoiseReportTable.h"
+#include "sensornoise/published/PublishedSettings.h"
+#include "sensornoise/refined/RefinedSettings.h"
+#include "sensornoise/report/ReportJson.h"
+#include "sensornoise/report/ReportTable.h"
 #include "itkSensorNoiseStackSink.h"
 #include "itkSensorNoiseResult.h"
 

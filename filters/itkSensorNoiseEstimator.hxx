@@ -18,10 +18,10 @@
 #ifndef itkSensorNoiseEstimator_hxx
 #define itkSensorNoiseEstimator_hxx
 
-#include "SensorNoiseBlockSums.h"
-#include "SensorNoiseDarkFrames.h"
-#include "SensorNoisePublishedMethod.h"
-#include "SensorNoiseRefinedMethod.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/moments/DarkFrames.h"
+#include "sensornoise/published/PublishedMethod.h"
+#include "sensornoise/refined/RefinedMethod.h"
 
 #include <algorithm>
 #include <cmath>

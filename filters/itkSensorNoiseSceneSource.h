@@ -18,7 +18,7 @@
 #ifndef itkSensorNoiseSceneSource_h
 #define itkSensorNoiseSceneSource_h
 
-#include "SensorNoiseScenes.h"
+#include "sensornoise/simulation/Scenes.h"
 #include "itkImage.h"
 #include "itkImageSource.h"
 

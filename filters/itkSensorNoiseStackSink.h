@@ -18,7 +18,7 @@
 #ifndef itkSensorNoiseStackSink_h
 #define itkSensorNoiseStackSink_h
 
-#include "SensorNoiseStackMaps.h"
+#include "sensornoise/moments/StackMaps.h"
 #include "itkImage.h"
 #include "itkImageSink.h"
 

@@ -18,8 +18,8 @@
 #ifndef itkSensorNoiseStackSource_h
 #define itkSensorNoiseStackSource_h
 
-#include "SensorNoiseSimulator.h"
-#include "SensorNoiseTruthJson.h"
+#include "sensornoise/simulation/Simulator.h"
+#include "sensornoise/simulation/TruthJson.h"
 
 #include "itkImage.h"
 #include "itkImageSource.h"

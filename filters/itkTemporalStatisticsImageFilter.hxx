@@ -18,7 +18,7 @@
 #ifndef itkTemporalStatisticsImageFilter_hxx
 #define itkTemporalStatisticsImageFilter_hxx
 
-#include "SensorNoisePublishedSettings.h"
+#include "sensornoise/published/PublishedSettings.h"
 
 namespace itk
 {

@@ -18,7 +18,7 @@
 #ifndef itkVibrationCovarianceEstimator_h
 #define itkVibrationCovarianceEstimator_h
 
-#include "SensorNoiseVibrationCovariance.h"
+#include "sensornoise/published/VibrationCovariance.h"
 #include "itkImage.h"
 #include "itkProcessObject.h"
 #include "itkSensorNoiseResult.h"

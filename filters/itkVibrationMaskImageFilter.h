@@ -18,7 +18,7 @@
 #ifndef itkVibrationMaskImageFilter_h
 #define itkVibrationMaskImageFilter_h
 
-#include "SensorNoiseVibrationMask.h"
+#include "sensornoise/published/VibrationMask.h"
 #include "itkImage.h"
 #include "itkImageToImageFilter.h"
 

@@ -21,7 +21,7 @@
 //
 //   SensorNoiseBenchmark [--benchmark_filter=...]     stack: 1376 x 1040 x 100 unsigned short, 2 threads
 
-#include "SensorNoiseScenes.h"
+#include "sensornoise/simulation/Scenes.h"
 #include "itkMultiThreaderBase.h"
 #include "itkSensorNoiseEstimator.h"
 #include "itkSensorNoiseStackSource.h"

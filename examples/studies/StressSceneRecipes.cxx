@@ -1,0 +1,215 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "studies/StressRecipe.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sensornoise::tools
+{
+namespace
+{
+using Row = StressRecipe::RowOfElectrons;
+
+constexpr double        Pi = 3.14159265358979323846;
+constexpr std::uint64_t SeriesStream = 110;
+
+/** One smooth random function of the rows a frame, independent from frame to frame: 32 waves with normal wave numbers
+ * add up to a nearly Gaussian process of covariance sd^2 exp(-d^2 / (2 length^2)) at distance d. */
+std::vector<double>
+DrawFlickerOfRows(const StressRecipe & recipe, double sd, double lengthRows)
+{
+  constexpr int       waves = 32;
+  std::vector<double> gamma(recipe.settings.frames * recipe.size, 0.0);
+  for (std::size_t t = 0; t < recipe.settings.frames; ++t)
+  {
+    CounterSeededRandom random(recipe.settings.seed, SeriesStream, t);
+    for (int k = 0; k < waves; ++k)
+    {
+      const double waveNumber = random.Normal() / lengthRows;
+      const double phase = 2.0 * Pi * random.Uniform();
+      for (std::size_t y = 0; y < recipe.size; ++y)
+      {
+        gamma[t * recipe.size + y] +=
+          sd * std::sqrt(2.0 / waves) * std::cos(waveNumber * static_cast<double>(y) + phase);
+      }
+    }
+  }
+  return gamma;
+}
+
+void
+PrepareRandomRolling(StressRecipe & recipe)
+{
+  recipe.settings.conditions.flickerSd = 0.0;
+  const auto gamma = DrawFlickerOfRows(recipe, 0.05, 200.0);
+  recipe.light = [gamma, size = recipe.size](const auto &, std::size_t t, std::size_t y, Row & electrons) {
+    for (double & value : electrons)
+    {
+      value *= std::max(0.0, 1.0 + gamma[t * size + y]);
+    }
+  };
+}
+
+/** Two lamps of their own flicker; the share of the second rises from 0 to 1 along the diagonal. */
+void
+PrepareTwoLamps(StressRecipe & recipe)
+{
+  recipe.settings.conditions.flickerSd = 0.0;
+  std::vector<double> gamma;
+  for (std::size_t t = 0; t < recipe.settings.frames; ++t)
+  {
+    CounterSeededRandom random(recipe.settings.seed, SeriesStream, t);
+    gamma.push_back(0.05 * random.Normal());
+    gamma.push_back(0.05 * random.Normal());
+  }
+  recipe.light = [gamma](const auto &, std::size_t t, std::size_t y, Row & electrons) {
+    for (std::size_t x = 0; x < electrons.size(); ++x)
+    {
+      const double along = static_cast<double>(x + y) / (2.0 * static_cast<double>(electrons.size()) - 2.0);
+      const double share = 0.5 - 0.5 * std::cos(Pi * along);
+      electrons[x] *= 1.0 + (1.0 - share) * gamma[2 * t] + share * gamma[2 * t + 1];
+    }
+  };
+}
+
+/** All the light, or a smooth pattern of half of it, decays exponentially by 20 % over the burst. */
+void
+PrepareBleaching(StressRecipe & recipe, bool isMixed)
+{
+  const double rate = std::log(0.8) / static_cast<double>(recipe.settings.frames - 1);
+  recipe.light = [rate, isMixed](const auto &, std::size_t t, std::size_t y, Row & electrons) {
+    const double decay = std::exp(rate * static_cast<double>(t));
+    const double scale = 3.0 * Pi / static_cast<double>(electrons.size());
+    for (std::size_t x = 0; x < electrons.size(); ++x)
+    {
+      const double wave = std::sin(scale * static_cast<double>(x)) * std::sin(scale * static_cast<double>(y) + 0.5);
+      const double share = isMixed ? 0.5 + 0.5 * wave : 1.0;
+      electrons[x] *= 1.0 - share + share * decay;
+    }
+  };
+}
+
+/** A disk of 5 % of the area that crosses the scene slantwise, with an edge one pixel wide. */
+void
+PrepareMovingDisk(StressRecipe & recipe)
+{
+  const auto   size = static_cast<double>(recipe.size);
+  const double radius = size * std::sqrt(0.05 / Pi);
+  const double brightness = 0.6 * recipe.settings.camera.electrons;
+  const double last = static_cast<double>(recipe.settings.frames - 1);
+  recipe.light = [=](const SimulatedSeries & series, std::size_t t, std::size_t y, Row & electrons) {
+    const double along = static_cast<double>(t) / last;
+    const double dy = static_cast<double>(y) - size * (0.4 + 0.2 * along);
+    for (std::size_t x = 0; x < electrons.size(); ++x)
+    {
+      const double dx = static_cast<double>(x) - (along * (size + 2.0 * radius) - radius);
+      const double cover = std::clamp(radius + 0.5 - std::hypot(dx, dy), 0.0, 1.0);
+      electrons[x] += cover * (brightness * (1.0 + series.gamma[t]) - electrons[x]);
+    }
+  };
+}
+
+/** The middle quarter of the frame sways sideways by 2 pixels, once in 17.3 frames. */
+void
+PrepareWavingQuarter(StressRecipe & recipe)
+{
+  recipe.light = [](const auto &, std::size_t t, std::size_t y, Row & electrons) {
+    const std::size_t first = electrons.size() / 4;
+    const std::size_t end = first + electrons.size() / 2;
+    const double      shift = 2.0 * std::sin(2.0 * Pi * static_cast<double>(t) / 17.3);
+    const double      whole = std::floor(shift);
+    if (y >= first && y < end)
+    {
+      const Row still = electrons;
+      for (std::size_t x = first; x < end; ++x)
+      {
+        const auto from = x + static_cast<std::size_t>(whole + 2.0) - 2;
+        electrons[x] = still[from] + (shift - whole) * (still[from + 1] - still[from]);
+      }
+    }
+  };
+}
+
+void
+PrepareBrightFrame(StressRecipe & recipe)
+{
+  recipe.light = [middle = recipe.settings.frames / 2](const auto &, std::size_t t, std::size_t, Row & electrons) {
+    for (double & value : electrons)
+    {
+      value *= t == middle ? 1.2 : 1.0;
+    }
+  };
+}
+
+void
+PrepareVeil(StressRecipe & recipe)
+{
+  recipe.light = [](const auto &, std::size_t, std::size_t, Row & electrons) {
+    for (double & value : electrons)
+    {
+      value += 200.0;
+    }
+  };
+}
+} // namespace
+
+void
+AppendSceneRecipes(std::vector<StressRecipeEntry> & entries)
+{
+  entries.push_back({ { "plain", "camera B, condition 3, nothing added" }, [](StressRecipe &) {} });
+  for (const int period : { 2000, 600, 200, 80 })
+  {
+    entries.push_back({ { "rolling" + std::to_string(period), "rolling shutter, bands of so many rows" },
+                        [=](StressRecipe & recipe) { recipe.settings.rollingShutterPeriodRows = period; } });
+  }
+  entries.push_back({ { "rolling_random200", "smooth random flicker of the rows, 5 %, correlated over 200 rows" },
+                      PrepareRandomRolling });
+  entries.push_back(
+    { { "two_lamps", "two lamps with 5 % flicker each, each with its own part of the scene" }, PrepareTwoLamps });
+  entries.push_back({ { "bleach_uniform", "all light decays by 20 %, flicker 1 %" }, [](StressRecipe & recipe) {
+                       recipe.settings.conditions.flickerSd = 0.01;
+                       PrepareBleaching(recipe, false);
+                     } });
+  entries.push_back({ { "bleach_mixed", "a smooth half of the light decays by 20 %, flicker 5 %" },
+                      [](StressRecipe & recipe) { PrepareBleaching(recipe, true); } });
+  entries.push_back({ { "moving_disk", "a disk of 5 % of the area crosses the scene" }, PrepareMovingDisk });
+  entries.push_back({ { "waving_quarter", "a quarter of the frame sways by 2 pixels" }, PrepareWavingQuarter });
+  entries.push_back({ { "bright_frame", "one frame is 20 % brighter" }, PrepareBrightFrame });
+  entries.push_back({ { "no_flicker", "the light is perfectly steady" },
+                      [](StressRecipe & recipe) { recipe.settings.conditions.flickerSd = 0.0; } });
+  entries.push_back({ { "flicker0.001", "flicker 0.1 %" },
+                      [](StressRecipe & recipe) { recipe.settings.conditions.flickerSd = 0.001; } });
+  entries.push_back(
+    { { "veil200", "200 e- of steady light: by flicker alone the offset is found 200 DN too high" }, PrepareVeil });
+  for (const double shift : { 0.5, 1.0 })
+  {
+    entries.push_back({ { shift < 1.0 ? "vibration0.5" : "vibration1.0", "vibration of so many pixels rms in x and y" },
+                        [=](StressRecipe & recipe) {
+                          recipe.settings.conditions.vibrationSdXPixels = shift;
+                          recipe.settings.conditions.vibrationSdYPixels = shift;
+                        } });
+  }
+  for (const int frames : { 5, 10, 20 })
+  {
+    entries.push_back({ { "T" + std::to_string(frames), "a burst of so many frames" },
+                        [=](StressRecipe & recipe) { recipe.settings.frames = static_cast<std::size_t>(frames); } });
+  }
+}
+
+} // namespace sensornoise::tools

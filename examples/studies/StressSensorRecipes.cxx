@@ -1,0 +1,150 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/simulation/Scenes.h"
+#include "studies/StressRecipe.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sensornoise::tools
+{
+namespace
+{
+constexpr double        TopCode = 4095.0;
+constexpr std::uint64_t TelegraphStream = 120;
+constexpr std::uint64_t DriftStream = 122;
+
+/** 1 % of the pixels are 20 DN higher in half of the frames, at random. */
+void
+PrepareTelegraph(StressRecipe & recipe)
+{
+  const std::uint64_t       seed = recipe.settings.seed;
+  std::vector<std::uint8_t> isRestless(recipe.size * recipe.size);
+  CounterSeededRandom       random(seed, TelegraphStream);
+  std::generate(isRestless.begin(), isRestless.end(), [&] { return random.Uniform() < 0.01 ? 1 : 0; });
+  recipe.levelDn = [=](std::size_t t, std::size_t pixel) {
+    return isRestless[pixel] != 0 && CounterSeededRandom(seed, TelegraphStream + 1, t, pixel).Uniform() < 0.5 ? 20.0
+                                                                                                              : 0.0;
+  };
+}
+
+/** The offset wanders slowly, the same everywhere, with mean 0 and 3 DN rms over the burst. */
+void
+PrepareBlackDrift(StressRecipe & recipe)
+{
+  constexpr double    twoPi = 6.283185307179586476925;
+  const auto          frames = static_cast<double>(recipe.settings.frames);
+  CounterSeededRandom random(recipe.settings.seed, DriftStream);
+  const double        phase = twoPi * random.Uniform();
+  const double        secondPhase = twoPi * random.Uniform();
+  std::vector<double> drift;
+  double              sum = 0.0;
+  double              squares = 0.0;
+  for (double t = 0.0; t < frames; t += 1.0)
+  {
+    drift.push_back(std::sin(twoPi * 0.7 * t / frames + phase) +
+                    0.5 * std::sin(twoPi * 2.3 * t / frames + secondPhase));
+    sum += drift.back();
+    squares += drift.back() * drift.back();
+  }
+  const double mean = sum / frames;
+  const double rms = std::sqrt(squares / frames - mean * mean);
+  std::for_each(drift.begin(), drift.end(), [=](double & value) { value = 3.0 * (value - mean) / rms; });
+  recipe.levelDn = [drift](std::size_t t, std::size_t) { return drift[t]; };
+}
+
+/** So much light that 5 % of the pixels are at the top code or would be above it. */
+void
+PrepareClippedHighlights(StressRecipe & recipe)
+{
+  const std::size_t   size = recipe.size;
+  const double        blur = recipe.settings.opticalBlurPixels;
+  std::vector<double> level = ScaleToRange(GaussianBlur(recipe.scene, size, size, blur), 0.0, 1.0);
+  const auto          rank = level.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(level.size()));
+  std::nth_element(level.begin(), rank, level.end());
+  CameraModel & camera = recipe.settings.camera;
+  camera.electrons = (TopCode - camera.offsetDn) / (camera.gainDnPerElectron * *rank);
+}
+
+/** The camera applies a tone curve: code = top (u / 4095)^(1 / gamma). */
+StressRecipeEntry
+MakeGammaEntry(const char * name, double gamma, double top)
+{
+  return { { name, "the codes went through a tone curve, u^(1/gamma)", StressExpectation::Refused },
+           [=](StressRecipe & recipe) {
+             recipe.recode = [=](double code) { return top * std::pow(code / TopCode, 1.0 / gamma); };
+             recipe.isEightBit = top < 256.0;
+           } };
+}
+
+/** 3000 e- on 210 codes of 8 bits, with less read noise than a code step. */
+StressRecipeEntry
+MakeCoarseEntry(const char * name, double readNoiseDn)
+{
+  return { { name, "8-bit codes, read noise (hundredths of DN in the name) below the code step" },
+           [=](StressRecipe & recipe) {
+             recipe.settings.camera = { 3000.0, 0.07, 10.0, readNoiseDn };
+             recipe.settings.bitDepth = 8;
+             recipe.isEightBit = true;
+           } };
+}
+
+StressRecipeEntry
+MakeScaledEntry(const char * name, const char * what, double scale, std::uint16_t strayCodes)
+{
+  return { { name, what }, [=](StressRecipe & recipe) {
+            recipe.recode = [=](double code) { return scale * code; };
+            recipe.scale = scale;
+            recipe.strayCodes = strayCodes;
+          } };
+}
+} // namespace
+
+void
+AppendSensorRecipes(std::vector<StressRecipeEntry> & entries)
+{
+  entries.push_back({ { "hot_pixels", "1 % of the pixels have 10 times the read noise" },
+                      [](StressRecipe & recipe) { recipe.settings.hotPixelFraction = 0.01; } });
+  entries.push_back({ { "telegraph", "1 % of the pixels jump by 20 DN at random" }, PrepareTelegraph });
+  entries.push_back({ { "prnu_dsnu", "PRNU 1 %, DSNU 2 DN" }, [](StressRecipe & recipe) {
+                       recipe.settings.prnuSd = 0.01;
+                       recipe.settings.dsnuSdDn = 2.0;
+                     } });
+  entries.push_back({ { "black_drift", "the offset drifts slowly, 3 DN rms" }, PrepareBlackDrift });
+  entries.push_back(
+    { { "clipped_highlights", "5 % of the pixels exceed the 12-bit range" }, PrepareClippedHighlights });
+  entries.push_back({ { "saturation60", "the sensor saturates at 60 % of the code range" },
+                      [](StressRecipe & recipe) { recipe.settings.clipHighDn = std::floor(0.6 * TopCode); } });
+  entries.push_back({ { "floor_pedestal", "nothing below the offset is recorded" },
+                      [](StressRecipe & recipe) { recipe.settings.clipLowDn = recipe.settings.camera.offsetDn; } });
+  entries.push_back({ { "low_sigma", "gain 5 DN/e-, read noise 3 DN, condition 2" }, [](StressRecipe & recipe) {
+                       recipe.settings.camera = { 600.0, 5.0, 200.0, 3.0 };
+                       recipe.settings.conditions = PaperConditions(2);
+                     } });
+  entries.push_back(MakeCoarseEntry("eight_bit_coarse25", 0.25));
+  entries.push_back(MakeCoarseEntry("eight_bit_coarse12", 0.12));
+  entries.push_back(MakeScaledEntry("left_aligned16", "12-bit codes times 16", 16.0, 0));
+  entries.push_back(MakeScaledEntry("stray_code", "12-bit codes times 16, one sample 5 higher", 16.0, 5));
+  entries.push_back(MakeScaledEntry("rescaled", "12-bit codes times 65535/4095, rounded", 65535.0 / TopCode, 0));
+  entries.push_back(MakeGammaEntry("gamma13_12bit", 1.3, TopCode));
+  entries.push_back(MakeGammaEntry("gamma22_12bit", 2.2, TopCode));
+  entries.push_back(MakeGammaEntry("gamma13_8bit", 1.3, 255.0));
+  entries.push_back(MakeGammaEntry("gamma22_8bit", 2.2, 255.0));
+}
+
+} // namespace sensornoise::tools

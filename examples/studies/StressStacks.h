@@ -1,0 +1,81 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef StressStacks_h
+#define StressStacks_h
+
+#include "sensornoise/simulation/SimulationSettings.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+/** \file
+ * Simulated bursts with what goes wrong in real life: light that is not the same everywhere, things that move, sensors
+ * with flaws, codes that are not the sensor's own. Every stack is a function of its name, reference, size and seed. */
+
+namespace sensornoise::tools
+{
+
+/** What an estimator should make of a case. */
+enum class StressExpectation
+{
+  Measured, ///< gain and intercept as they are
+  Refused   ///< the codes are no affine function of the light: the gain is `failed`
+};
+
+/** One kind of trouble. */
+struct StressCase
+{
+  std::string       name;
+  std::string       what; ///< one line for people
+  StressExpectation expectation{ StressExpectation::Measured };
+};
+
+/** A burst, frame after frame, and what is true of its codes. */
+struct StressStack
+{
+  std::vector<std::uint16_t> codes;
+  std::size_t                width{ 0 };
+  std::size_t                height{ 0 };
+  std::size_t                frames{ 0 };
+  bool                       isEightBit{ false }; ///< a camera would give it in bytes
+  double                     gain{ 0.0 };         ///< g [DN/e-]
+  double                     offset{ 0.0 };       ///< mu [DN]
+  double                     readNoise{ 0.0 };    ///< sigma [DN]
+
+  /** sigma^2 - g mu [DN^2]. */
+  double
+  Intercept() const
+  {
+    return readNoise * readNoise - gain * offset;
+  }
+};
+
+/** All cases, in the order in which they are reported. */
+std::vector<StressCase>
+GetStressCases();
+
+/** Simulates a case with a square reference image, "target" or "texture".
+ * \throws std::invalid_argument if the case or the reference is not known. */
+StressStack
+MakeStressStack(const std::string & name, const std::string & reference, std::size_t size, std::uint64_t seed);
+
+} // namespace sensornoise::tools
+
+#endif

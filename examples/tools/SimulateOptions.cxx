@@ -1,0 +1,70 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "tools/SimulateOptions.h"
+
+#include <CLI/CLI.hpp>
+
+namespace sensornoise::tools
+{
+
+bool
+SimulateOptions::Parse(int argc, char ** argv)
+{
+  CLI::App app{ "Simulates a burst of raw frames of a camera whose noise is known, under flickering light and on a "
+                "trembling floor (Sur and Grediac 2015, section 4.2)." };
+  app.option_defaults()->always_capture_default();
+  app.add_option("--output", output, "Stack to write: .mha (streamed, any length), .nrrd, .tif or .tiff")->required();
+  app.add_option("--truth", truth, "JSON file to write, with what an estimator should find");
+  app.add_option("--reference", reference, "Scene: target, bars, texture, or a grey image file");
+  app.add_option("--size", size, "Width x height of the scene, as 512x512 (the default)");
+  app.add_option("--camera", camera, "Camera of the paper's Table 1: A, B or C");
+  app.add_option("--gain", gain, "Gain instead of the camera's [DN/e-]");
+  app.add_option("--offset", offset, "Offset instead of the camera's [DN]");
+  app.add_option("--read-noise", readNoise, "Read noise instead of the camera's [DN]");
+  app.add_option("--electrons", electrons, "Electrons of the brightest pixel instead of the camera's");
+  app.add_option("--condition", condition, "Light and floor of the paper's Table 1: 1, 2 or 3");
+  app.add_option("--flicker-sd", flickerSd, "Standard deviation of the flicker instead of the condition's");
+  app
+    .add_option(
+      "--vibration-sd", vibrationSd, "Standard deviations X,Y of the shifts instead of the condition's [pixel]")
+    ->delimiter(',')
+    ->expected(2)
+    ->default_str("");
+  app.add_option("--rolling-shutter",
+                 rollingShutterPeriod,
+                 "Period of a pulsing lamp in rows of a rolling shutter; 0: the whole frame flickers");
+  app.add_option("--frames", frames, "Number of frames");
+  app.add_option("--bit-depth", bitDepth, "Bits of the converter, at most 16; 0: no clipping below 65535");
+  app.add_option("--clip", clip, "Levels LOW,HIGH between which the sensor itself is limited [DN]")
+    ->delimiter(',')
+    ->expected(2)
+    ->default_str("");
+  app.add_option("--seed", seed, "Seed of the noise; the scene stays the same");
+  try
+  {
+    app.parse(argc, argv);
+  }
+  catch (const CLI::Success & request)
+  {
+    app.exit(request); // --help
+    return false;
+  }
+  return true;
+}
+
+} // namespace sensornoise::tools

@@ -1,0 +1,241 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+// Simulates a burst of raw frames with known noise, and writes what an estimator should find beside it:
+//   simulate-sensor-noise --output stack.mha --truth truth.json --reference target --camera B --condition 3
+
+#include "tools/PendingFile.h"
+#include "tools/SimulateOptions.h"
+
+#include "itkSensorNoiseSceneSource.h"
+#include "itkSensorNoiseStackSource.h"
+
+#include "itkImageFileReader.h"
+#include "itkImageFileWriter.h"
+#include "itkImageIOFactory.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <regex>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace
+{
+namespace fs = std::filesystem;
+using sensornoise::tools::PendingFile;
+using sensornoise::tools::SimulateOptions;
+using ReferenceType = itk::Image<double, 2>;
+using StackType = itk::Image<unsigned short, 3>;
+using SourceType = itk::SensorNoiseStackSource<StackType>;
+
+/** ITK's readers turn colour into grey and take the first slice of a volume without a word; the header tells. */
+ReferenceType::Pointer
+ReadReference(const std::string & name)
+{
+  if (!fs::is_regular_file(name))
+  {
+    throw std::runtime_error("the reference " + name + " is neither target, bars or texture nor a file");
+  }
+  const auto io = itk::ImageIOFactory::CreateImageIO(name.c_str(), itk::ImageIOFactory::IOFileModeEnum::ReadMode);
+  if (!io)
+  {
+    throw std::runtime_error("the reference " + name + " is not an image of a format that ITK reads");
+  }
+  io->SetFileName(name);
+  io->ReadImageInformation();
+  bool isFlat = true;
+  for (unsigned int axis = 2; axis < io->GetNumberOfDimensions(); ++axis)
+  {
+    isFlat = isFlat && io->GetDimensions(axis) == 1;
+  }
+  if (io->GetNumberOfComponents() != 1 || !isFlat)
+  {
+    throw std::runtime_error("the reference " + name + " has " + std::to_string(io->GetNumberOfComponents()) +
+                             " components and " + std::to_string(io->GetNumberOfDimensions()) +
+                             " dimensions; expected one grey image");
+  }
+  const auto reader = itk::ImageFileReader<ReferenceType>::New();
+  reader->SetFileName(name);
+  reader->Update();
+  return reader->GetOutput();
+}
+
+ReferenceType::Pointer
+MakeReference(const SimulateOptions & options)
+{
+  const bool isScene = options.reference == "target" || options.reference == "bars" || options.reference == "texture";
+  if (!isScene)
+  {
+    if (!options.size.empty())
+    {
+      throw std::runtime_error(
+        "--size is for the scenes target, bars and texture; a reference file keeps its own size");
+    }
+    return ReadReference(options.reference);
+  }
+  const std::string size = options.size.empty() ? "512x512" : options.size;
+  std::smatch       match;
+  if (!std::regex_match(size, match, std::regex("([0-9]{1,5})x([0-9]{1,5})")))
+  {
+    throw std::runtime_error("the size is \"" + size + "\"; expected WIDTHxHEIGHT in pixels, for example 512x512");
+  }
+  auto scene = itk::SensorNoiseSceneSource<ReferenceType>::New();
+  scene->SetScene(options.reference);
+  scene->SetWidth(std::stoul(match[1]));
+  scene->SetHeight(std::stoul(match[2]));
+  scene->Update();
+  return scene->GetOutput();
+}
+
+SourceType::Pointer
+MakeSource(const SimulateOptions & options)
+{
+  auto source = SourceType::New();
+  if (options.camera.size() != 1)
+  {
+    throw std::runtime_error("camera \"" + options.camera + "\" is not known; expected A, B or C");
+  }
+  const sensornoise::CameraModel     camera = sensornoise::PaperCamera(options.camera[0]);
+  const sensornoise::SceneConditions conditions = sensornoise::PaperConditions(options.condition);
+  source->SetElectrons(options.electrons.value_or(camera.electrons));
+  source->SetGain(options.gain.value_or(camera.gainDnPerElectron));
+  source->SetOffset(options.offset.value_or(camera.offsetDn));
+  source->SetReadNoise(options.readNoise.value_or(camera.readNoiseDn));
+  source->SetFlickerSd(options.flickerSd.value_or(conditions.flickerSd));
+  source->SetVibrationSdX(options.vibrationSd.empty() ? conditions.vibrationSdXPixels : options.vibrationSd[0]);
+  source->SetVibrationSdY(options.vibrationSd.empty() ? conditions.vibrationSdYPixels : options.vibrationSd[1]);
+  source->SetRollingShutterPeriod(options.rollingShutterPeriod);
+  source->SetNumberOfFrames(options.frames);
+  source->SetBitDepth(options.bitDepth);
+  source->SetSeed(options.seed);
+  if (!options.clip.empty())
+  {
+    source->SetClipLow(options.clip[0]);
+    source->SetClipHigh(options.clip[1]);
+  }
+  source->SetReference(MakeReference(options));
+  return source;
+}
+
+/** The module's record of the truth, with what only the command line knows; camera and condition are null if one of
+ * their values was replaced. */
+nlohmann::ordered_json
+TruthAsJson(const SimulateOptions & options, const SourceType & source)
+{
+  auto       json = nlohmann::ordered_json::parse(source.GetTruthAsJson());
+  const bool isPaperCamera = !options.gain && !options.offset && !options.readNoise && !options.electrons;
+  const bool isPaperCondition = !options.flickerSd && options.vibrationSd.empty();
+  json["reference"] = options.reference;
+  json["camera"] = isPaperCamera ? nlohmann::ordered_json(options.camera) : nullptr;
+  json["condition"] = isPaperCondition ? nlohmann::ordered_json(options.condition) : nullptr;
+  return json;
+}
+
+void
+WriteStack(SourceType & source, const fs::path & name, const std::string & target)
+{
+  constexpr std::uint64_t chunkBytes = 64 * 1024 * 1024;
+  const auto              pixels = source.GetOutput()->GetLargestPossibleRegion().GetNumberOfPixels();
+  const auto              writer = itk::ImageFileWriter<StackType>::New();
+  writer->SetInput(source.GetOutput());
+  writer->SetFileName(name.string());
+  writer->SetNumberOfStreamDivisions(static_cast<unsigned int>(1 + pixels * sizeof(StackType::PixelType) / chunkBytes));
+  writer->Update();
+  // ITK's MetaImage writer does not look whether the disk was full; no format here compresses.
+  if (fs::file_size(name) < pixels * sizeof(StackType::PixelType))
+  {
+    throw std::runtime_error("cannot write " + target + ": the disk may be full");
+  }
+}
+
+void
+Run(const SimulateOptions & options)
+{
+  std::string extension = fs::path(options.output).extension().string();
+  std::transform(
+    extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::vector<std::string> known{ ".mha", ".nrrd", ".tif", ".tiff" };
+  if (std::find(known.begin(), known.end(), extension) == known.end())
+  {
+    throw std::runtime_error("the output is " + options.output +
+                             "; expected a name that ends in .mha, .nrrd, .tif or .tiff");
+  }
+  if (!options.truth.empty() && fs::absolute(options.truth) == fs::absolute(options.output))
+  {
+    throw std::runtime_error("--output and --truth are the same file, " + options.output);
+  }
+  const auto source = MakeSource(options);
+  source->UpdateOutputInformation();
+
+  PendingFile                stack(options.output);
+  std::optional<PendingFile> truth;
+  if (!options.truth.empty())
+  {
+    truth.emplace(options.truth);
+    truth->Write(TruthAsJson(options, *source).dump(1) + '\n');
+  }
+  WriteStack(*source, stack.Temporary(), options.output);
+  stack.Commit();
+  if (truth)
+  {
+    truth->Commit();
+  }
+}
+
+/** The words of an ITK error, without the class and the address in front and on one line. */
+std::string
+Sentence(const itk::ExceptionObject & error)
+{
+  std::string       text = error.GetDescription();
+  const std::size_t prefix = text.find("): ");
+  text.erase(0, prefix == std::string::npos ? 0 : prefix + 3);
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+} // namespace
+
+int
+main(int argc, char * argv[])
+{
+  SimulateOptions options;
+  try
+  {
+    if (options.Parse(argc, argv))
+    {
+      Run(options);
+    }
+    return 0;
+  }
+  catch (const itk::ExceptionObject & error)
+  {
+    std::cerr << "simulate-sensor-noise: " << Sentence(error) << '\n';
+  }
+  catch (const std::exception & error)
+  {
+    std::cerr << "simulate-sensor-noise: " << error.what() << '\n';
+  }
+  return 2;
+}

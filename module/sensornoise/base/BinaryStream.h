@@ -1,0 +1,197 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_base_BinaryStream_h
+#define sensornoise_base_BinaryStream_h
+
+#include "sensornoise/simulation/Random.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <istream>
+#include <limits>
+#include <ostream>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+/** \file
+ * Sums on their way to another process, or to a file: a header that names the class, then the numbers as they lie in
+ * memory, which is little-endian and IEEE 754 on every platform of ITK. They are meant for the same version of the
+ * module on the same kind of machine, not for an archive. */
+
+namespace sensornoise
+{
+
+/** Version of what follows the header; a machine that is not little-endian reads another one. */
+inline constexpr std::uint32_t SumsVersion = 1;
+
+/** Writes \a count numbers. Throws std::runtime_error if the stream does not take them. */
+template <typename TNumber>
+void
+WriteNumbers(std::ostream & out, const TNumber * numbers, std::size_t count)
+{
+  static_assert(std::is_arithmetic_v<TNumber>, "numbers are written as they lie in memory");
+  const std::size_t bytes = count * sizeof(TNumber);
+  if (!out.write(reinterpret_cast<const char *>(numbers), static_cast<std::streamsize>(bytes)))
+  {
+    throw std::runtime_error("a stream does not take " + std::to_string(bytes) + " bytes of sums");
+  }
+}
+
+template <typename TNumber>
+void
+WriteNumbers(std::ostream & out, const std::vector<TNumber> & numbers)
+{
+  WriteNumbers(out, numbers.data(), numbers.size());
+}
+
+inline void
+WriteCount(std::ostream & out, std::uint64_t count)
+{
+  WriteNumbers(out, &count, 1);
+}
+
+/** Reads \a count numbers. Throws std::runtime_error if the stream ends before. */
+template <typename TNumber>
+void
+ReadNumbers(std::istream & in, TNumber * numbers, std::size_t count)
+{
+  static_assert(std::is_arithmetic_v<TNumber>, "numbers are read as they lie in memory");
+  const auto bytes = static_cast<std::streamsize>(count * sizeof(TNumber));
+  in.read(reinterpret_cast<char *>(numbers), bytes);
+  if (in.gcount() != bytes)
+  {
+    throw std::runtime_error("a stream of sums ends early: found " + std::to_string(in.gcount()) + " bytes, expected " +
+                             std::to_string(bytes));
+  }
+}
+
+/** Reads as many numbers as the vector has. */
+template <typename TNumber>
+void
+ReadNumbers(std::istream & in, std::vector<TNumber> & numbers)
+{
+  ReadNumbers(in, numbers.data(), numbers.size());
+}
+
+inline std::uint64_t
+ReadCount(std::istream & in)
+{
+  std::uint64_t count = 0;
+  ReadNumbers(in, &count, 1);
+  return count;
+}
+
+/** Throws std::runtime_error unless the \a found number of \a what is the \a expected one. */
+inline void
+RequireCount(const char * what, std::uint64_t found, std::uint64_t expected)
+{
+  if (found != expected)
+  {
+    throw std::runtime_error("the sums of a stream do not fit: found " + std::to_string(found) + " " + what +
+                             ", expected " + std::to_string(expected));
+  }
+}
+
+/** Writes the header of a class's sums; \a frames: how many were summed, 0 where the class does not count them. */
+inline void
+WriteSumsHeader(std::ostream & out, const std::string & name, std::uint64_t pixels, std::uint64_t frames)
+{
+  std::array<char, 32> word{};
+  std::copy_n(name.begin(), std::min(name.size(), word.size()), word.begin());
+  WriteNumbers(out, word.data(), word.size());
+  WriteNumbers(out, &SumsVersion, 1);
+  WriteCount(out, pixels);
+  WriteCount(out, frames);
+}
+
+/** Reads a header and returns the number of frames. Throws std::runtime_error if it is that of another class, another
+ * version or other frames' size. */
+inline std::uint64_t
+ReadSumsHeader(std::istream & in, const std::string & name, std::uint64_t pixels)
+{
+  std::array<char, 32> word{};
+  ReadNumbers(in, word.data(), word.size());
+  std::string found(word.data(), std::find(word.begin(), word.end(), '\0'));
+  if (found != name)
+  {
+    std::replace_if(found.begin(), found.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    throw std::runtime_error("a stream holds other sums: found \"" + found + "\", expected \"" + name + "\"");
+  }
+  std::uint32_t version = 0;
+  ReadNumbers(in, &version, 1);
+  if (version != SumsVersion)
+  {
+    throw std::runtime_error("a stream holds another version of \"" + name + "\": found " + std::to_string(version) +
+                             ", expected " + std::to_string(SumsVersion));
+  }
+  RequireCount("pixels", ReadCount(in), pixels);
+  return ReadCount(in);
+}
+
+/** "uint16", "float" ...: part of the name of sums that depend on it. */
+template <typename TPixel>
+std::string
+PixelName()
+{
+  if (std::is_floating_point_v<TPixel>)
+  {
+    return sizeof(TPixel) == sizeof(float) ? "float" : "double";
+  }
+  return (std::is_unsigned_v<TPixel> ? "uint" : "int") + std::to_string(8 * sizeof(TPixel));
+}
+
+/** \class Fingerprint
+ * \brief One number that tells whether two processes go on from the same data, bit by bit; all NaN are alike. */
+class Fingerprint
+{
+public:
+  template <typename TNumber>
+  void
+  Add(const TNumber * numbers, std::size_t count)
+  {
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      TNumber number = numbers[i];
+      if constexpr (std::is_floating_point_v<TNumber>)
+      {
+        number = std::isnan(number) ? std::numeric_limits<TNumber>::quiet_NaN() : number;
+      }
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, &number, sizeof(number));
+      m_Value = MixBits((m_Value ^ bits) + 0x9e3779b97f4a7c15ULL); // the golden ratio: else zeros would not count
+    }
+  }
+  std::uint64_t
+  GetValue() const
+  {
+    return m_Value;
+  }
+
+private:
+  std::uint64_t m_Value{ 0 };
+};
+
+} // namespace sensornoise
+
+#endif

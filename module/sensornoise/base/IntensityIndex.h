@@ -1,0 +1,196 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_base_IntensityIndex_h
+#define sensornoise_base_IntensityIndex_h
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** The quantile \a q (0 to 1) of \a values, linear between order statistics. Reorders \a values. */
+inline double
+Quantile(std::vector<double> & values, double q)
+{
+  if (values.empty())
+  {
+    throw std::invalid_argument("a quantile of no value was asked for");
+  }
+  const double position = q * static_cast<double>(values.size() - 1);
+  const auto   below = static_cast<std::size_t>(position);
+  const auto   nth = values.begin() + static_cast<std::ptrdiff_t>(below);
+  std::nth_element(values.begin(), nth, values.end());
+  if (below + 1 == values.size())
+  {
+    return *nth;
+  }
+  const double lower = *nth;
+  const double upper = *std::min_element(nth + 1, values.end());
+  return lower + (position - static_cast<double>(below)) * (upper - lower);
+}
+
+/** \class IntensityIndex
+ * \brief Finds quantiles, neighbours in intensity and bins of equal count among the pixels of a mask without sorting.
+ *
+ * A histogram of 65,536 cells between the lowest and the highest mean narrows each question down to a few cells, whose
+ * pixels are then ordered exactly; only the bins of equal count are equal up to one cell. The maps and the mask must
+ * outlive the index and must not change.
+ */
+class IntensityIndex
+{
+public:
+  IntensityIndex(const double * mean, const std::uint8_t * mask, std::size_t pixels)
+    : m_Mean(mean)
+    , m_Mask(mask)
+    , m_Pixels(pixels)
+    , m_Cumulative(Cells + 1, 0)
+  {
+    m_Lowest = std::numeric_limits<double>::infinity();
+    double highest = -m_Lowest;
+    for (std::size_t p = 0; p < pixels; ++p)
+    {
+      if (mask[p] != 0)
+      {
+        m_Lowest = std::min(m_Lowest, mean[p]);
+        highest = std::max(highest, mean[p]);
+      }
+    }
+    m_CellsPerDn = highest > m_Lowest ? static_cast<double>(Cells) / (highest - m_Lowest) : 0.0;
+    for (std::size_t p = 0; p < pixels; ++p)
+    {
+      if (mask[p] != 0)
+      {
+        ++m_Cumulative[this->CellOf(mean[p]) + 1];
+      }
+    }
+    for (std::size_t cell = 0; cell < Cells; ++cell)
+    {
+      m_Cumulative[cell + 1] += m_Cumulative[cell];
+    }
+  }
+
+  /** Number of pixels of the mask. */
+  std::size_t
+  Count() const
+  {
+    return m_Cumulative[Cells];
+  }
+
+  /** The quantile \a q (0 to 1) of the mean [DN]. */
+  double
+  QuantileDn(double q) const
+  {
+    if (this->Count() == 0)
+    {
+      throw std::invalid_argument("a quantile of no pixel was asked for");
+    }
+    const double        position = q * static_cast<double>(this->Count() - 1);
+    const auto          below = static_cast<std::size_t>(position);
+    const std::size_t   first = this->CellOfRank(below);
+    const std::size_t   last = this->CellOfRank(std::min(below + 1, this->Count() - 1));
+    std::vector<double> values;
+    for (std::size_t p = 0; p < m_Pixels; ++p)
+    {
+      if (m_Mask[p] != 0 && this->CellOf(m_Mean[p]) >= first && this->CellOf(m_Mean[p]) <= last)
+      {
+        values.push_back(m_Mean[p]);
+      }
+    }
+    std::sort(values.begin(), values.end());
+    const std::size_t rank = below - m_Cumulative[first];
+    const double      lower = values[rank];
+    const double      upper = values[std::min(rank + 1, values.size() - 1)];
+    return lower + (position - static_cast<double>(below)) * (upper - lower);
+  }
+
+  /** The distance from \a levelDn within which the \a count nearest pixels lie [DN]. */
+  double
+  ReachDn(double levelDn, std::size_t count) const
+  {
+    count = std::min(count, this->Count());
+    const std::size_t centre = this->CellOf(levelDn);
+    std::size_t       margin = 1;
+    while (this->CountBetween(centre, margin) < count)
+    {
+      margin *= 2;
+    }
+    // A cell's pixels may all be at its far side; one more cell, as the edges of cells are rounded.
+    const double        limit = m_CellsPerDn > 0.0 ? static_cast<double>(margin + 2) / m_CellsPerDn : 1.0;
+    std::vector<double> distances;
+    for (std::size_t p = 0; p < m_Pixels; ++p)
+    {
+      const double distance = m_Mask[p] != 0 ? std::abs(m_Mean[p] - levelDn) : -1.0;
+      if (distance >= 0.0 && distance <= limit)
+      {
+        distances.push_back(distance);
+      }
+    }
+    const auto nth = distances.begin() + static_cast<std::ptrdiff_t>(count - 1);
+    std::nth_element(distances.begin(), nth, distances.end());
+    return *nth;
+  }
+
+  /** Which of \a bins bins of equal count holds a pixel of mean \a meanDn. */
+  std::size_t
+  BinOf(double meanDn, std::size_t bins) const
+  {
+    const std::size_t cell = this->CellOf(meanDn);
+    const std::size_t middle = (m_Cumulative[cell] + m_Cumulative[cell + 1]) / 2;
+    return std::min(bins - 1, middle * bins / std::max<std::size_t>(1, this->Count()));
+  }
+
+private:
+  static constexpr std::size_t Cells = 65536;
+
+  std::size_t
+  CellOf(double meanDn) const
+  {
+    const double cell = (meanDn - m_Lowest) * m_CellsPerDn;
+    return cell <= 0.0 ? 0 : std::min(Cells - 1, static_cast<std::size_t>(cell));
+  }
+  std::size_t
+  CellOfRank(std::size_t rank) const
+  {
+    const auto next = std::upper_bound(m_Cumulative.begin(), m_Cumulative.end(), rank);
+    return static_cast<std::size_t>(next - m_Cumulative.begin()) - 1;
+  }
+  std::size_t
+  CountBetween(std::size_t centre, std::size_t margin) const
+  {
+    const std::size_t first = centre > margin ? centre - margin : 0;
+    const std::size_t last = std::min(Cells, centre + margin + 1);
+    return m_Cumulative[last] - m_Cumulative[first];
+  }
+
+  const double *           m_Mean;
+  const std::uint8_t *     m_Mask;
+  std::size_t              m_Pixels;
+  double                   m_Lowest;
+  double                   m_CellsPerDn;
+  std::vector<std::size_t> m_Cumulative; // pixels below each cell
+};
+
+} // namespace sensornoise
+
+#endif

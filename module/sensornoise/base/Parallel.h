@@ -1,0 +1,96 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_base_Parallel_h
+#define sensornoise_base_Parallel_h
+
+#include "sensornoise/moments/StackMaps.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** Pixels of a block: the unit in which maps are computed and sums are folded. */
+inline constexpr std::size_t PixelsPerBlock = 8192;
+
+/** Calls function(begin, end) for blocks of \a count pixels, in any order and possibly at the same time. */
+template <typename TFunction>
+void
+ForBlocks(std::size_t count, const ParallelFor & parallelFor, TFunction function)
+{
+  parallelFor((count + PixelsPerBlock - 1) / PixelsPerBlock,
+              [&](std::size_t b) { function(b * PixelsPerBlock, std::min(count, (b + 1) * PixelsPerBlock)); });
+}
+
+/** Sums over \a count pixels: function(pixel, sums) adds one pixel's share to \a sums. Each block is summed on its own
+ * and the blocks are folded in order, so that the result has the same bits for any number of threads. */
+template <std::size_t VSums, typename TFunction>
+std::array<double, VSums>
+SumOverBlocks(std::size_t count, const ParallelFor & parallelFor, TFunction function)
+{
+  std::vector<std::array<double, VSums>> parts((count + PixelsPerBlock - 1) / PixelsPerBlock);
+  parallelFor(parts.size(), [&](std::size_t b) {
+    std::array<double, VSums> sums{};
+    for (std::size_t p = b * PixelsPerBlock; p < std::min(count, (b + 1) * PixelsPerBlock); ++p)
+    {
+      function(p, sums);
+    }
+    parts[b] = sums;
+  });
+  std::array<double, VSums> total{};
+  for (const auto & part : parts)
+  {
+    for (std::size_t k = 0; k < VSums; ++k)
+    {
+      total[k] += part[k];
+    }
+  }
+  return total;
+}
+
+/** The same for sums whose number is known at run time; function(pixel, double * sums). */
+template <typename TFunction>
+std::vector<double>
+SumOverBlocks(std::size_t count, const ParallelFor & parallelFor, std::size_t size, TFunction function)
+{
+  std::vector<std::vector<double>> parts((count + PixelsPerBlock - 1) / PixelsPerBlock);
+  parallelFor(parts.size(), [&](std::size_t b) {
+    std::vector<double> sums(size, 0.0);
+    for (std::size_t p = b * PixelsPerBlock; p < std::min(count, (b + 1) * PixelsPerBlock); ++p)
+    {
+      function(p, sums.data());
+    }
+    parts[b] = std::move(sums);
+  });
+  std::vector<double> total(size, 0.0);
+  for (const auto & part : parts)
+  {
+    for (std::size_t k = 0; k < size; ++k)
+    {
+      total[k] += part[k];
+    }
+  }
+  return total;
+}
+
+} // namespace sensornoise
+
+#endif

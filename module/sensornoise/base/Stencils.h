@@ -1,0 +1,209 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_base_Stencils_h
+#define sensornoise_base_Stencils_h
+
+#include <array>
+#include <cstddef>
+#include <utility>
+
+namespace sensornoise
+{
+
+/** One weight of a stencil, at column \a dx and row \a dy from the pixel. */
+struct StencilTap
+{
+  int    dx;
+  int    dy;
+  double weight;
+};
+
+/** The weights of a stencil, at most 6 of them. */
+class StencilTaps
+{
+public:
+  template <typename... TTaps>
+  constexpr explicit StencilTaps(TTaps... taps)
+    : m_Taps{ taps... }
+    , m_Size(sizeof...(taps))
+  {}
+  constexpr const StencilTap *
+  begin() const
+  {
+    return m_Taps.data();
+  }
+  constexpr const StencilTap *
+  end() const
+  {
+    return m_Taps.data() + m_Size;
+  }
+
+private:
+  std::array<StencilTap, 6> m_Taps;
+  std::size_t               m_Size;
+};
+
+/** A central difference on 5 x 5 pixels. */
+struct Stencil
+{
+  const char * name;  ///< the derivatives that it takes: "x", "yy", "xxy", ...
+  int          order; ///< of the derivative, 1 to 3
+  StencilTaps  taps;
+
+  constexpr double
+  CentreWeight() const
+  {
+    for (const StencilTap & tap : taps)
+    {
+      if (tap.dx == 0 && tap.dy == 0)
+      {
+        return tap.weight;
+      }
+    }
+    return 0.0;
+  }
+};
+
+/** Pixels next to the frame's border for which the stencils are not defined. */
+inline constexpr std::size_t StencilMargin = 2;
+
+inline constexpr std::size_t NumberOfStencils = 9;
+
+namespace detail
+{
+using Tap = StencilTap;
+inline constexpr std::array<Stencil, NumberOfStencils> Stencils{
+  { { "x", 1, StencilTaps(Tap{ 1, 0, 0.5 }, Tap{ -1, 0, -0.5 }) },
+    { "y", 1, StencilTaps(Tap{ 0, 1, 0.5 }, Tap{ 0, -1, -0.5 }) },
+    { "xx", 2, StencilTaps(Tap{ 1, 0, 1.0 }, Tap{ 0, 0, -2.0 }, Tap{ -1, 0, 1.0 }) },
+    { "yy", 2, StencilTaps(Tap{ 0, 1, 1.0 }, Tap{ 0, 0, -2.0 }, Tap{ 0, -1, 1.0 }) },
+    { "xy", 2, StencilTaps(Tap{ 1, 1, 0.25 }, Tap{ -1, -1, 0.25 }, Tap{ -1, 1, -0.25 }, Tap{ 1, -1, -0.25 }) },
+    { "xxx", 3, StencilTaps(Tap{ 2, 0, 0.5 }, Tap{ 1, 0, -1.0 }, Tap{ -1, 0, 1.0 }, Tap{ -2, 0, -0.5 }) },
+    { "yyy", 3, StencilTaps(Tap{ 0, 2, 0.5 }, Tap{ 0, 1, -1.0 }, Tap{ 0, -1, 1.0 }, Tap{ 0, -2, -0.5 }) },
+    { "xxy",
+      3,
+      StencilTaps(Tap{ 1, 1, 0.5 },
+                  Tap{ 0, 1, -1.0 },
+                  Tap{ -1, 1, 0.5 },
+                  Tap{ 1, -1, -0.5 },
+                  Tap{ 0, -1, 1.0 },
+                  Tap{ -1, -1, -0.5 }) },
+    { "xyy",
+      3,
+      StencilTaps(Tap{ 1, 1, 0.5 },
+                  Tap{ 1, 0, -1.0 },
+                  Tap{ 1, -1, 0.5 },
+                  Tap{ -1, 1, -0.5 },
+                  Tap{ -1, 0, 1.0 },
+                  Tap{ -1, -1, -0.5 }) } }
+};
+} // namespace detail
+
+/** The derivatives of the mean into which a small motion of the scene is expanded, up to the third order. First the two
+ * of the first order. */
+constexpr const std::array<Stencil, NumberOfStencils> &
+MotionStencils()
+{
+  return detail::Stencils;
+}
+
+/** Index in MotionStencils(). */
+enum StencilIndex : std::size_t
+{
+  StencilX = 0,
+  StencilY = 1,
+  StencilXX = 2,
+  StencilYY = 3,
+  StencilXY = 4
+};
+
+/** The stencil's value at pixel \a p of a map of \a width columns; \a p is StencilMargin pixels from the border. */
+inline double
+ApplyStencil(const Stencil & stencil, const double * map, std::size_t width, std::size_t p)
+{
+  double sum = 0.0;
+  for (const StencilTap & tap : stencil.taps)
+  {
+    const auto offset = static_cast<std::ptrdiff_t>(tap.dy) * static_cast<std::ptrdiff_t>(width) + tap.dx;
+    sum += tap.weight * map[static_cast<std::ptrdiff_t>(p) + offset];
+  }
+  return sum;
+}
+
+namespace detail
+{
+template <std::size_t VStencil>
+double
+ValueOfStencil(const double * pixel, std::ptrdiff_t width)
+{
+  constexpr StencilTaps taps = Stencils[VStencil].taps;
+  double                sum = 0.0;
+  for (const StencilTap & tap : taps)
+  {
+    sum += tap.weight * pixel[tap.dy * width + tap.dx];
+  }
+  return sum;
+}
+
+template <std::size_t... VStencils>
+std::array<double, NumberOfStencils>
+ValuesOfStencils(const double * pixel, std::ptrdiff_t width, std::index_sequence<VStencils...>)
+{
+  return { ValueOfStencil<VStencils>(pixel, width)... };
+}
+} // namespace detail
+
+/** All of MotionStencils() at pixel \a p. */
+inline std::array<double, NumberOfStencils>
+ApplyStencils(const double * map, std::size_t width, std::size_t p)
+{
+  return detail::ValuesOfStencils(
+    map + p, static_cast<std::ptrdiff_t>(width), std::make_index_sequence<NumberOfStencils>());
+}
+
+namespace detail
+{
+/** What a motion of about a pixel would do to the pixel: the square of the gradient and a quarter of the curvature's.
+ */
+inline double
+StencilEnergy(const std::array<double, NumberOfStencils> & d)
+{
+  return d[StencilX] * d[StencilX] + d[StencilY] * d[StencilY] +
+         0.25 * (d[StencilXX] * d[StencilXX] + d[StencilYY] * d[StencilYY]);
+}
+} // namespace detail
+
+/** Sum of the products of two stencils' weights: what white noise of variance 1 in the map puts on the product of
+ * their values. */
+inline double
+InnerProduct(const Stencil & a, const Stencil & b)
+{
+  double sum = 0.0;
+  for (const StencilTap & s : a.taps)
+  {
+    for (const StencilTap & t : b.taps)
+    {
+      sum += s.dx == t.dx && s.dy == t.dy ? s.weight * t.weight : 0.0;
+    }
+  }
+  return sum;
+}
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,81 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_pixels_VarianceLine_h
+#define sensornoise_pixels_VarianceLine_h
+
+#include "sensornoise/base/Eigen.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+namespace sensornoise
+{
+
+/** Maps of a regression of the variance on the mean. */
+struct VarianceData
+{
+  const double *       mean;          ///< [DN]
+  const double *       neighbourMean; ///< mean of the 8 neighbours [DN]
+  const double *       variance;      ///< unbiased [DN^2]
+  const float *        freedom;       ///< degrees of freedom of the variance
+  const std::uint8_t * mask;
+  std::size_t          pixels;
+};
+
+/** variance = intercept + gain mean, and how sure. */
+struct VarianceLine
+{
+  double          gain{ 0.0 };
+  double          intercept{ 0.0 };
+  double          lowestDn2{ 0.0 };                      ///< the line is cut there where it serves as a variance
+  Eigen::Matrix2d covariance{ Eigen::Matrix2d::Zero() }; ///< of (gain, intercept), sandwich
+  double          weightSum{ 0.0 };                      ///< of the weights
+  double          centreDn{ 0.0 };                       ///< weighted mean of the means
+  double          spreadDn2{ 0.0 };                      ///< weighted sum of their squared deviations
+  double          curvature{ 0.0 };                      ///< of the parabola in its place [1]
+  double          curvatureTilt{ 0.0 };                  ///< of the parabola's departure, see BendAt()
+  double          curvatureLift{ 0.0 };
+  double          curvatureSd{ 0.0 };     ///< standard error of the curvature
+  double          trimmedFraction{ 0.0 }; ///< of the pixels
+  bool            isDetermined{ false };
+
+  double
+  At(double meanDn) const
+  {
+    return std::max(lowestDn2, intercept + gain * meanDn);
+  }
+  /** The degrees of freedom of the normal sample variance that scatters as much as this one. Shot noise has the fourth
+   * cumulant g^3 q, at most g^2 V, so that Var(s^2) / V^2 = 2 / freedom + g^2 / (V T) where few electrons make a DN. */
+  double
+  EffectiveFreedom(double freedom, double varianceDn2) const
+  {
+    return freedom / (1.0 + 0.5 * gain * gain / varianceDn2);
+  }
+  /** How far the parabola in the line's place departs from it [DN^2]. */
+  double
+  BendAt(double meanDn) const
+  {
+    const double x = meanDn - centreDn;
+    return curvature * (x * x - curvatureTilt * x - curvatureLift);
+  }
+};
+
+} // namespace sensornoise
+
+#endif

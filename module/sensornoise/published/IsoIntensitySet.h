@@ -1,0 +1,203 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_published_IsoIntensitySet_h
+#define sensornoise_published_IsoIntensitySet_h
+
+#include "sensornoise/base/IntensityIndex.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** \class IsoIntensitySet
+ * \brief Pixels of nearly one intensity, over which a frame's response is averaged: S^* or S_* of (3.7) and (3.13).
+ *
+ * Sur & Gredi\'ac 2015, https://doi.org/10.1137/140977035. The level u is a quantile of the mean over the pixels kept
+ * by the vibration mask. The set is |mean - u| <= 3 sigma_u, with the weights exp(-(mean - u)^2 / (2 sigma_u^2)) of
+ * Remark 1.
+ *
+ * The paper leaves open what sigma_u, "the associated standard deviation", is. Here it is the standard deviation of the
+ * *mean* at that level: the median temporal standard deviation of the pixels nearest to the level, over sqrt(T). Read
+ * as the standard deviation of one frame it gives spreads of the offset up to ten times smaller than those of the
+ * paper's tables.
+ *
+ * Remark 3 lets the quantile move where the set is too small. Here it moves inwards by 1 % up to four times, and
+ * then the band widens by factors of 2, until the set holds MinimumPixels; wideningSteps counts both.
+ */
+struct IsoIntensitySet
+{
+  static constexpr std::size_t MinimumPixels = 30;
+
+  double                     levelDn{ 0.0 };             ///< u^* or u_* [DN]
+  double                     levelSdDn{ 0.0 };           ///< sigma_u: of the mean, at that level [DN]
+  double                     bandSdDn{ 0.0 };            ///< sigma_u of the weights: levelSdDn unless widened [DN]
+  double                     temporalVarianceDn2{ 0.0 }; ///< of one frame, at that level [DN^2]
+  double                     quantile{ 0.0 };            ///< the quantile that was used, 0 to 1
+  unsigned int               wideningSteps{ 0 };         ///< 0: as asked for
+  std::vector<std::uint32_t> pixels;                     ///< ascending
+  std::vector<double>        weights;                    ///< of each pixel; their sum is 1
+
+  /** Number of equally weighted pixels that would average noise as well: 1 / sum w^2. */
+  double
+  EffectivePixels() const
+  {
+    double squares = 0.0;
+    for (const double weight : weights)
+    {
+      squares += weight * weight;
+    }
+    return squares > 0.0 ? 1.0 / squares : 0.0;
+  }
+};
+
+/** Finds the iso-intensity set at a quantile. */
+class IsoIntensitySetFinder
+{
+public:
+  /** Frame-sized maps of \a pixels pixels: mean [DN], temporal variance [DN^2], mask; they must outlive the finder.
+   * \a frames is T. Throws std::runtime_error if the mask keeps fewer than MinimumPixels. */
+  IsoIntensitySetFinder(const double *       mean,
+                        const double *       variance,
+                        const std::uint8_t * mask,
+                        std::size_t          pixels,
+                        std::size_t          frames)
+    : m_Mean(mean)
+    , m_Variance(variance)
+    , m_Mask(mask)
+    , m_Pixels(pixels)
+    , m_Frames(frames)
+    , m_Index(mean, mask, pixels)
+  {
+    if (m_Index.Count() < IsoIntensitySet::MinimumPixels)
+    {
+      throw std::runtime_error("only " + std::to_string(m_Index.Count()) +
+                               " pixels are neither clipped nor moved by vibrations; expected at least " +
+                               std::to_string(IsoIntensitySet::MinimumPixels));
+    }
+  }
+
+  /** The set at \a quantile (0 to 1); where it is too small the quantile moves towards 1/2 (Remark 3). Throws
+   * std::runtime_error if no width of the band gives enough pixels. */
+  IsoIntensitySet
+  Find(double quantile) const
+  {
+    constexpr unsigned int quantileSteps = 4;
+    constexpr unsigned int bandSteps = 12;
+    const double           inwards = quantile < 0.5 ? 0.01 : -0.01;
+    IsoIntensitySet        set;
+    double                 band = 1.0;
+    for (unsigned int step = 0; step <= quantileSteps + bandSteps; ++step)
+    {
+      if (step <= quantileSteps)
+      {
+        set.quantile = quantile + inwards * static_cast<double>(step);
+        this->SetLevel(set);
+      }
+      else
+      {
+        band *= 2.0;
+      }
+      set.wideningSteps = step;
+      set.bandSdDn = band * set.levelSdDn;
+      this->Fill(set);
+      if (set.pixels.size() >= IsoIntensitySet::MinimumPixels)
+      {
+        return set;
+      }
+    }
+    throw std::runtime_error("found " + std::to_string(set.pixels.size()) + " pixels of nearly the intensity " +
+                             std::to_string(set.levelDn) + " DN; expected at least " +
+                             std::to_string(IsoIntensitySet::MinimumPixels) + " (the scene has too few even areas)");
+  }
+
+  /** The pixels within 6 sigma_u of \a bright's level, equally weighted: the set from which gamma_t(y) is estimated
+   * line by line, (3.28).
+   *
+   * The paper takes S^* itself. But where the flicker differs from line to line, so does a line's mean over T frames,
+   * by about sigma_u; and u^* is the level of the brightest lines, so that S^* misses whole lines. As v = u / ubar is
+   * relative to each pixel's own mean, the pixels need not be of one intensity. */
+  IsoIntensitySet
+  FindLineSet(const IsoIntensitySet & bright) const
+  {
+    IsoIntensitySet set = bright;
+    set.bandSdDn = 2.0 * bright.bandSdDn;
+    this->Fill(set);
+    set.weights.assign(set.pixels.size(), 1.0 / static_cast<double>(set.pixels.size()));
+    return set;
+  }
+
+private:
+  void
+  SetLevel(IsoIntensitySet & set) const
+  {
+    set.levelDn = m_Index.QuantileDn(set.quantile);
+    const double        reach = m_Index.ReachDn(set.levelDn, std::max<std::size_t>(25, m_Index.Count() / 2000));
+    std::vector<double> variances;
+    for (std::size_t p = 0; p < m_Pixels; ++p)
+    {
+      if (m_Mask[p] != 0 && std::abs(m_Mean[p] - set.levelDn) <= reach)
+      {
+        variances.push_back(m_Variance[p]);
+      }
+    }
+    set.temporalVarianceDn2 = Quantile(variances, 0.5);
+    set.levelSdDn = std::sqrt(set.temporalVarianceDn2 / static_cast<double>(m_Frames));
+  }
+
+  void
+  Fill(IsoIntensitySet & set) const
+  {
+    const double sdDn = set.bandSdDn;
+    set.pixels.clear();
+    set.weights.clear();
+    double total = 0.0;
+    for (std::size_t p = 0; p < m_Pixels; ++p)
+    {
+      const double distance = std::abs(m_Mean[p] - set.levelDn);
+      if (m_Mask[p] != 0 && distance <= 3.0 * sdDn)
+      {
+        const double deviation = distance / sdDn;
+        const double weight = std::exp(-0.5 * deviation * deviation);
+        set.pixels.push_back(static_cast<std::uint32_t>(p));
+        set.weights.push_back(weight);
+        total += weight;
+      }
+    }
+    for (double & weight : set.weights)
+    {
+      weight /= total;
+    }
+  }
+
+  const double *       m_Mean;
+  const double *       m_Variance;
+  const std::uint8_t * m_Mask;
+  std::size_t          m_Pixels;
+  std::size_t          m_Frames;
+  IntensityIndex       m_Index;
+};
+
+} // namespace sensornoise
+
+#endif

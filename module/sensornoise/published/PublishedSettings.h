@@ -1,0 +1,74 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_published_PublishedSettings_h
+#define sensornoise_published_PublishedSettings_h
+
+#include "sensornoise/moments/Codes.h"
+#include "sensornoise/published/FlickerEstimate.h"
+#include "sensornoise/published/VibrationMask.h"
+
+#include <stdexcept>
+#include <string>
+
+namespace sensornoise
+{
+
+/** Every parameter of the published method, with the paper's values (Sur & Gredi\'ac 2015). */
+struct PublishedSettings
+{
+  /** Level of the test that finds pixels moved by vibrations (section 3.1), a probability. Larger: fewer pixels kept.
+   */
+  double level{ 0.01 };
+  /** Quantiles of the mean at which S^* and S_* lie (section 3.2), 0 to 1. */
+  double brightQuantile{ 0.99 };
+  double darkQuantile{ 0.01 };
+  /** Whether the flicker may differ from line to line (section 3.5). Auto finds out. */
+  RollingShutter rollingShutter{ RollingShutter::Auto };
+  /** sigma_y of (3.28) for RollingShutter::Fixed [lines]. */
+  double sigmaLines{ 50.0 };
+  /** Axis along which the shutter travels: 1 = y, lines are rows; 0 = x. */
+  unsigned int shutterAxis{ 1 };
+  /** What is known of the codes; the rest is found. */
+  CodeSettings codes;
+
+  /** Throws std::invalid_argument if a parameter is out of its range. */
+  void
+  Validate() const
+  {
+    ChiSquare2Quantile(level);
+    if (!(darkQuantile >= 0.0 && darkQuantile < brightQuantile && brightQuantile <= 1.0))
+    {
+      throw std::invalid_argument("the dark and bright quantiles are " + std::to_string(darkQuantile) + " and " +
+                                  std::to_string(brightQuantile) + "; expected 0 <= dark < bright <= 1");
+    }
+    if (rollingShutter == RollingShutter::Fixed && !(sigmaLines > 0.0))
+    {
+      throw std::invalid_argument("sigma_y of the rolling shutter is " + std::to_string(sigmaLines) +
+                                  " lines; expected a positive number");
+    }
+    if (shutterAxis > 1)
+    {
+      throw std::invalid_argument("the shutter axis is " + std::to_string(shutterAxis) + "; expected 0 (x) or 1 (y)");
+    }
+    ValidateCodeSettings(codes);
+  }
+};
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,116 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_published_VibrationMask_h
+#define sensornoise_published_VibrationMask_h
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** Centred differences of a frame-sized map at an inner pixel [DN/pixel], (3.1) of Sur & Gredi\'ac 2015. */
+struct Gradient
+{
+  double x;
+  double y;
+};
+
+inline Gradient
+CentredGradient(const double * map, std::size_t width, std::size_t p)
+{
+  return { 0.5 * (map[p + 1] - map[p - 1]), 0.5 * (map[p + width] - map[p - width]) };
+}
+
+/** The quantile that a chi-square variable of 2 degrees of freedom exceeds with probability \a level: -2 ln(level).
+ * 1 % gives 9.21, the paper's figure. */
+inline double
+ChiSquare2Quantile(double level)
+{
+  if (!(level > 0.0 && level < 1.0))
+  {
+    throw std::invalid_argument("the level of the vibration test is " + std::to_string(level) +
+                                "; expected a probability between 0 and 1");
+  }
+  return -2.0 * std::log(level);
+}
+
+/** The test of section 3.1 for \a count neighbouring inner pixels of a row: sets \a kept to 1 where
+ * 2 T |grad ubar|^2 < quantile var(u). \a stride is the distance to the next row of \a mean. \a valid may be null. */
+inline void
+TestVibrationOfRow(const double *       mean,
+                   std::ptrdiff_t       stride,
+                   const double *       variance,
+                   const std::uint8_t * valid,
+                   std::size_t          count,
+                   std::size_t          frames,
+                   double               quantile,
+                   std::uint8_t *       kept)
+{
+  const double scale = 2.0 * static_cast<double>(frames);
+  for (std::size_t x = 0; x < count; ++x)
+  {
+    const double * const centre = mean + x;
+    const double         dx = 0.5 * (centre[1] - centre[-1]);
+    const double         dy = 0.5 * (centre[stride] - centre[-stride]);
+    const bool           still = scale * (dx * dx + dy * dy) < quantile * variance[x];
+    kept[x] = still && (valid == nullptr || valid[x] != 0) ? 1 : 0;
+  }
+}
+
+/** Marks the pixels whose gradient noise alone explains, so that vibrations leave their variance alone.
+ *
+ * Section 3.1 of Sur & Gredi\'ac 2015 (https://doi.org/10.1137/140977035): where E(u) is locally constant,
+ * 2 T |grad ubar|^2 / var(u) follows a chi-square law of 2 degrees of freedom. A pixel is kept (1) if that is below the
+ * quantile of \a level. Not kept (0): pixels on the border, which have no centred difference, pixels that are not
+ * \a valid (null: all are), pixels that never vary, and pixels beside one that is not finite.
+ *
+ * The variance is the temporal one as it is, flicker included, as in the paper. */
+inline std::vector<std::uint8_t>
+VibrationMask(const double *       mean,
+              const double *       variance,
+              const std::uint8_t * valid,
+              std::size_t          width,
+              std::size_t          height,
+              std::size_t          frames,
+              double               level)
+{
+  const double              quantile = ChiSquare2Quantile(level);
+  std::vector<std::uint8_t> mask(width * height, 0);
+  for (std::size_t y = 1; y + 1 < height && width > 2; ++y)
+  {
+    const std::size_t p = y * width + 1;
+    TestVibrationOfRow(mean + p,
+                       static_cast<std::ptrdiff_t>(width),
+                       variance + p,
+                       valid == nullptr ? nullptr : valid + p,
+                       width - 2,
+                       frames,
+                       quantile,
+                       mask.data() + p);
+  }
+  return mask;
+}
+
+} // namespace sensornoise
+
+#endif

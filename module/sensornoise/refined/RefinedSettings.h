@@ -1,0 +1,77 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_refined_RefinedSettings_h
+#define sensornoise_refined_RefinedSettings_h
+
+#include "sensornoise/moments/Codes.h"
+#include "sensornoise/published/FlickerEstimate.h"
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+namespace sensornoise
+{
+
+/** Temporal variance of dark frames, that of rounding to whole codes included, and its standard error. */
+struct DarkVariance
+{
+  double valueDn2{ 0.0 };
+  double standardErrorDn2{ 0.0 };
+};
+
+/** An offset that is known from elsewhere: given, or measured with dark frames, which tell the read noise, too. */
+struct KnownOffset
+{
+  double                      valueDn{ 0.0 };
+  double                      standardErrorDn{ 0.0 };
+  std::size_t                 darkFrames{ 0 }; ///< frames that it was measured with; 0: it was given
+  std::optional<DarkVariance> variance{};      ///< null: fewer than two dark frames
+};
+
+/** Every parameter of the refined method. */
+struct RefinedSettings
+{
+  /** Off: the light changes everywhere alike. Otherwise light that changes in some places in another way than in
+   * others (a rolling shutter, a second lamp, a patch that bleaches) is looked for, and needs no width. */
+  RollingShutter rollingShutter{ RollingShutter::Auto };
+  /** The offset, if it is known: offset and read noise then need no flicker. */
+  std::optional<KnownOffset> offset;
+  /** What is known of the codes; the rest is found. */
+  CodeSettings codes;
+
+  /** Throws std::invalid_argument if a parameter is out of its range. */
+  void
+  Validate() const
+  {
+    ValidateCodeSettings(codes);
+    if (offset &&
+        !(std::isfinite(offset->valueDn) && std::isfinite(offset->standardErrorDn) && offset->standardErrorDn >= 0.0))
+    {
+      throw std::invalid_argument("the offset is " + std::to_string(offset->valueDn) + " DN with a standard error of " +
+                                  std::to_string(offset->standardErrorDn) +
+                                  " DN; expected a finite number and a standard error of 0 or more");
+    }
+  }
+};
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,203 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_report_JsonWriter_h
+#define sensornoise_report_JsonWriter_h
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** \class JsonWriter
+ * \brief Appends JSON to a string.
+ * Numbers are the shortest that read back as the same double; NaN and infinity, which JSON
+ * does not know, are null. */
+class JsonWriter
+{
+public:
+  explicit JsonWriter(std::string & text)
+    : m_Text(text)
+  {}
+
+  void
+  Write(double number)
+  {
+    if (!std::isfinite(number))
+    {
+      m_Text += "null";
+      return;
+    }
+    char       buffer[32];
+    const auto end = std::to_chars(buffer, buffer + sizeof(buffer), number).ptr;
+    m_Text.append(buffer, end);
+  }
+  void
+  Write(std::size_t number)
+  {
+    m_Text += std::to_string(number);
+  }
+  void
+  Write(int number)
+  {
+    m_Text += std::to_string(number);
+  }
+  void
+  Write(unsigned int number)
+  {
+    m_Text += std::to_string(number);
+  }
+  void
+  Write(bool truth)
+  {
+    m_Text += truth ? "true" : "false";
+  }
+  void
+  Write(const char * string)
+  {
+    this->Write(std::string(string));
+  }
+  void
+  Write(const std::string & string)
+  {
+    m_Text += '"';
+    for (const char c : string)
+    {
+      if (c == '"' || c == '\\')
+      {
+        m_Text += '\\';
+        m_Text += c;
+      }
+      else if (static_cast<unsigned char>(c) < 0x20)
+      {
+        char buffer[8];
+        std::snprintf(buffer, sizeof(buffer), "\\u%04x", static_cast<unsigned int>(c));
+        m_Text += buffer;
+      }
+      else
+      {
+        m_Text += c;
+      }
+    }
+    m_Text += '"';
+  }
+  template <typename T>
+  void
+  Write(const std::optional<T> & optional)
+  {
+    if (optional)
+    {
+      this->Write(*optional);
+    }
+    else
+    {
+      m_Text += "null";
+    }
+  }
+  template <typename... TAlternatives>
+  void
+  Write(const std::variant<TAlternatives...> & value)
+  {
+    std::visit([this](const auto & held) { this->Write(held); }, value);
+  }
+  template <typename T, std::size_t VSize>
+  void
+  Write(const std::array<T, VSize> & values)
+  {
+    this->WriteList(values);
+  }
+  template <typename T>
+  void
+  Write(const std::vector<T> & values)
+  {
+    this->WriteList(values);
+  }
+  /** Any other type: by a function WriteJson(JsonWriter &, const T &) beside it. */
+  template <typename T>
+  void
+  Write(const T & value)
+  {
+    WriteJson(*this, value);
+  }
+
+  /** Writes {...} around the members that \a members writes. */
+  template <typename TMembers>
+  void
+  Object(TMembers members)
+  {
+    m_Text += '{';
+    m_First = true;
+    members();
+    m_Text += '}';
+    m_First = false;
+  }
+  template <typename T>
+  JsonWriter &
+  Member(const char * name, const T & value)
+  {
+    this->Name(name);
+    this->Write(value);
+    m_First = false;
+    return *this;
+  }
+  template <typename TMembers>
+  JsonWriter &
+  ObjectMember(const char * name, TMembers members)
+  {
+    this->Name(name);
+    this->Object(members);
+    return *this;
+  }
+
+private:
+  void
+  Name(const char * name)
+  {
+    m_Text += m_First ? "" : ", ";
+    this->Write(name);
+    m_Text += ": ";
+  }
+  template <typename TValues>
+  void
+  WriteList(const TValues & values)
+  {
+    m_Text += '[';
+    const char * separator = "";
+    for (const auto & value : values)
+    {
+      m_Text += separator;
+      this->Write(value);
+      separator = ", ";
+    }
+    m_Text += ']';
+  }
+
+  std::string & m_Text;
+  bool          m_First{ true };
+};
+
+} // namespace sensornoise
+
+#endif

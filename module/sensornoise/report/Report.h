@@ -1,0 +1,194 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_report_Report_h
+#define sensornoise_report_Report_h
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** What can be said of a quantity. */
+enum class EstimateStatus : std::uint8_t
+{
+  Identified,      ///< value stands
+  NotIdentifiable, ///< the data cannot give it: value is null, the bracket stands where one exists
+  UpperLimit,      ///< indistinguishable from zero: value is null, the bracket's upper end limits it
+  Failed           ///< the data contradict the model: value is null
+};
+
+/** Two ends; an end that is not bounded is null. */
+struct Interval
+{
+  std::optional<double> low;
+  std::optional<double> high;
+};
+
+/** One estimated quantity: its value only where it is identified. */
+struct Quantity
+{
+  std::optional<double>   value;
+  std::optional<double>   standardError; ///< null: the method has none
+  std::optional<Interval> interval95;    ///< null: the method has none
+  EstimateStatus          status{ EstimateStatus::Failed };
+  std::string             unit;
+  std::optional<Interval> bracket; ///< physical limits (sigma^2 >= 0, flux >= 0), where they exist
+
+  static Quantity
+  Identified(double number, std::string unit)
+  {
+    Quantity quantity;
+    quantity.value = number;
+    quantity.status = EstimateStatus::Identified;
+    quantity.unit = std::move(unit);
+    return quantity;
+  }
+  static Quantity
+  Without(EstimateStatus status, std::string unit)
+  {
+    Quantity quantity;
+    quantity.status = status;
+    quantity.unit = std::move(unit);
+    return quantity;
+  }
+};
+
+/** Something that the user should know. */
+struct Warning
+{
+  std::string code;    ///< stable, for programs
+  std::string message; ///< one sentence, for people
+};
+
+/** Why a pixel takes part in the estimate of the gain or not: the values of the pixel-use map. */
+enum class PixelUse : std::uint8_t
+{
+  Used = 0,
+  Clipped = 1,        ///< a frame holds a clip level
+  NotFinite = 2,      ///< a frame holds NaN or infinity
+  Vibration = 3,      ///< its gradient is more than noise explains
+  Border = 4,         ///< it has no centred difference
+  Constant = 5,       ///< it never varies
+  FlickerUnknown = 6, ///< the bright set does not reach its line
+  Masked = 7,         ///< the user left it out
+  NearClip = 8,       ///< it could have come to a clip level, or a neighbour is clipped or not finite
+  NotStatic = 9,      ///< its variance does not fit, nor does that of its surroundings: something moved
+  Outlier = 10,       ///< its variance is beyond the tails of the noise's distribution
+  CoarseCodes = 11    ///< its noise is below half a code step
+};
+
+/** \class Report
+ * \brief All that was measured from one stack: the record whose JSON is "itk-sensornoise-report/1".
+ *
+ * The member names are those of the JSON record in camel case; units stand in each quantity.
+ */
+struct Report
+{
+  using SettingValue = std::variant<double, bool, std::string>;
+
+  std::string                                       method;
+  std::vector<std::pair<std::string, SettingValue>> settings; ///< every parameter as used
+
+  std::size_t           frames{ 0 };
+  std::size_t           width{ 0 };
+  std::size_t           height{ 0 };
+  std::string           channel{ "mono" };
+  std::optional<int>    bitDepth;
+  std::string           bitDepthSource{ "none" };
+  std::optional<double> quantisationStepDn; ///< null: the data have no codes
+  std::optional<double> clipLowDn;
+  std::optional<double> clipHighDn;
+  std::string           clipSource{ "none" };
+
+  struct Pixels
+  {
+    std::size_t total{ 0 };
+    std::size_t valid{ 0 };
+    std::size_t used{ 0 };
+    std::size_t clipped{ 0 };
+    std::size_t notFinite{ 0 };
+  } pixels;
+
+  Quantity gain{ Quantity::Without(EstimateStatus::Failed, "DN/e-") };
+  Quantity offset{ Quantity::Without(EstimateStatus::Failed, "DN") };
+  Quantity readNoise{ Quantity::Without(EstimateStatus::Failed, "DN") };
+  Quantity readNoiseElectrons{ Quantity::Without(EstimateStatus::Failed, "e-") };
+  Quantity intercept{ Quantity::Without(EstimateStatus::Failed, "DN^2") };      ///< sigma^2 - g mu
+  Quantity totalIntercept{ Quantity::Without(EstimateStatus::Failed, "DN^2") }; ///< with the codes' noise
+  std::optional<std::array<std::array<double, 3>, 3>> covariance;               ///< of gain, intercept, offset
+
+  Quantity flickerSd{ Quantity::Without(EstimateStatus::Failed, "1") };
+  Quantity vibrationSdX{ Quantity::Without(EstimateStatus::Failed, "pixel") };
+  Quantity vibrationSdY{ Quantity::Without(EstimateStatus::Failed, "pixel") };
+  Quantity vibrationCovariance{ Quantity::Without(EstimateStatus::Failed, "pixel^2") };
+
+  std::vector<double>                flicker;     ///< gamma_t of every frame [1]
+  std::vector<std::vector<double>>   flickerRows; ///< gamma_t(y): frame by frame; empty: null in JSON
+  std::vector<std::array<double, 2>> motion;      ///< (alpha_t, beta_t) [pixel]; empty: the method has none
+
+  struct Fit
+  {
+    std::optional<double> reducedChi2;
+    std::optional<double> curvature;
+    std::optional<double> curvatureZ;
+    std::optional<double> offsetLinePhi;
+  } fit;
+  struct Baseline
+  {
+    double curvature{ 0.0 };
+    double gain{ 0.0 };
+    double intercept{ 0.0 };
+  };
+  std::optional<Baseline> affineBaseline;    ///< the line through the uncorrected variance: ignores flicker
+  std::optional<Baseline> quadraticBaseline; ///< the parabola through the uncorrected variance, (2.21)
+
+  std::vector<Warning> warnings;
+
+  /** Figure 4: averages over bins of equal count of the pixels used. */
+  struct Scatter
+  {
+    std::vector<double>      mean;
+    std::vector<double>      variance;
+    std::vector<double>      correctedVariance;
+    std::vector<std::size_t> count;
+  } scatter;
+
+  /** Whether anything was estimated. */
+  bool
+  IsUsable() const
+  {
+    return gain.status == EstimateStatus::Identified || intercept.status == EstimateStatus::Identified;
+  }
+
+  void
+  Warn(std::string code, std::string message)
+  {
+    warnings.push_back({ std::move(code), std::move(message) });
+  }
+};
+
+} // namespace sensornoise
+
+#endif

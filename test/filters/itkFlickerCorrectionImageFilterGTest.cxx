@@ -1,0 +1,426 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "itkFlickerCorrectionImageFilter.h"
+
+#include "helpers/PipelineTestHelper.h"
+
+#include "itkCastImageFilter.h"
+#include "itkImageFileReader.h"
+#include "itkPipelineMonitorImageFilter.h"
+#include "itkStreamingImageFilter.h"
+#include "itkTemporalStatisticsImageFilter.h"
+#include "itkVibrationMaskImageFilter.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace
+{
+using namespace sensornoisetest;
+using StackType = itk::Image<unsigned short, 3>;
+using DoubleStackType = itk::Image<double, 3>;
+using RollingShutter = sensornoise::RollingShutter;
+constexpr unsigned int Width = 65;
+constexpr unsigned int Height = 63;
+constexpr unsigned int Frames = 25;
+constexpr double       Offset = 90.0;
+
+/** The filter with the mean, variance and vibration mask of the stack itself, all from one source. */
+template <typename TStack>
+struct Chain
+{
+  explicit Chain(TStack * stack, unsigned int frames = Frames)
+  {
+    statistics->SetInput(stack);
+    mask->SetInput(statistics->GetMean());
+    mask->SetVariance(statistics->GetVariance());
+    mask->SetValidMask(statistics->GetValidMask());
+    mask->SetNumberOfFrames(frames);
+    filter->SetInput(stack);
+    filter->SetMean(statistics->GetMean());
+    filter->SetVariance(statistics->GetVariance());
+    filter->SetMask(mask->GetOutput());
+  }
+  typename itk::TemporalStatisticsImageFilter<TStack>::Pointer statistics =
+    itk::TemporalStatisticsImageFilter<TStack>::New();
+  itk::VibrationMaskImageFilter<>::Pointer                    mask = itk::VibrationMaskImageFilter<>::New();
+  typename itk::FlickerCorrectionImageFilter<TStack>::Pointer filter = itk::FlickerCorrectionImageFilter<TStack>::New();
+};
+
+/** gamma_t of a noise-free stack: no whole period, but mean 0. */
+double
+GammaOf(itk::IndexValueType t)
+{
+  return t == static_cast<itk::IndexValueType>(Frames) - 1 ? 0.0 : 0.1 * ((t % 2) * 2 - 1) * (1.0 + t / 2);
+}
+
+/** mu + (1 + gamma_t)(level - mu) without noise, at the level that levelOf(index) says. */
+template <typename TFunction>
+DoubleStackType::Pointer
+NoiseFreeStack(const TFunction & levelOf)
+{
+  return ImageOf<DoubleStackType>({ { Width, Height, Frames } }, [&](const auto & index) {
+    return Offset + (1.0 + 0.05 * GammaOf(index[2])) * (levelOf(index) - Offset);
+  });
+}
+
+StackType::Pointer
+SimulatedStack()
+{
+  static const StackType::Pointer stack = TargetStack<StackType>(Width, Height, Frames);
+  return stack;
+}
+
+/** The corrected stack, pulled in \a chunks chunks. */
+template <typename TFilter>
+std::vector<double>
+CorrectedInChunks(const TFilter & filter, unsigned int chunks)
+{
+  const auto streamer = itk::StreamingImageFilter<DoubleStackType, DoubleStackType>::New();
+  streamer->SetInput(filter->GetOutput());
+  streamer->SetNumberOfStreamDivisions(chunks);
+  streamer->Update();
+  return PixelsOf(streamer->GetOutput());
+}
+} // namespace
+
+// u = mu + (1 + gamma_t)(L - mu) has the mean L, and u^ = u - (1 + gamma_t)(L - mu) = mu. Numbers up to 2000 and a
+// regression of 25 frames round to below 1e-9.
+TEST(FlickerCorrectionImageFilter, NoiseFreeStackBecomesTheOffset)
+{
+  for (const RollingShutter mode : { RollingShutter::Off, RollingShutter::Auto, RollingShutter::Fixed })
+  {
+    const auto stack = NoiseFreeStack([](const auto & index) { return index[0] < 30 ? 200.0 : 2000.0; });
+    Chain      chain(stack.GetPointer());
+    chain.filter->SetMask(ConstantImage<MaskType>({ { Width, Height } }, 1));
+    chain.filter->SetRollingShutter(mode);
+    chain.filter->Update();
+    EXPECT_NEAR(chain.filter->GetFlicker().offsetDn, Offset, 1e-9);
+    const auto corrected = PixelsOf(chain.filter->GetOutput());
+    const auto extremes = std::minmax_element(corrected.begin(), corrected.end());
+    EXPECT_NEAR(*extremes.first, Offset, 1e-9);
+    EXPECT_NEAR(*extremes.second, Offset, 1e-9);
+    for (unsigned int t = 0; t < Frames; ++t)
+    {
+      EXPECT_NEAR(chain.filter->GetFlicker().Gamma(t, 7), 0.05 * GammaOf(t), 1e-12);
+    }
+  }
+}
+
+// The mean of v^* over time is 1 by construction, so that of gamma_t is 0 and that of u^ is ubar - (ubar - mu) = mu.
+TEST(FlickerCorrectionImageFilter, CorrectedStackHasTheOffsetAsItsMean)
+{
+  for (const RollingShutter mode : { RollingShutter::Off, RollingShutter::Fixed })
+  {
+    Chain chain(SimulatedStack().GetPointer());
+    chain.filter->SetRollingShutter(mode);
+    const auto statistics = itk::TemporalStatisticsImageFilter<DoubleStackType>::New();
+    statistics->SetInput(chain.filter->GetOutput());
+    statistics->Update();
+    for (const double mean : PixelsOf(statistics->GetMean()))
+    {
+      EXPECT_NEAR(mean, chain.filter->GetFlicker().offsetDn, 1e-9);
+    }
+    EXPECT_EQ(chain.filter->GetOffset(), chain.filter->GetFlicker().offsetDn);
+  }
+}
+
+// v^* averages the relative noise sqrt(g (u^* - mu) + sigma^2) / u^* over the bright set's effective pixels;
+// gamma_t = (v^* - 1) u^* / (u^* - mu).
+TEST(FlickerCorrectionImageFilter, SimulatedFlickerIsRecovered)
+{
+  const auto source = TargetSource<StackType>(Width, Height, Frames);
+  Chain      chain(source->GetOutput());
+  chain.filter->SetRollingShutter(RollingShutter::Off);
+  chain.filter->Update();
+  const auto & bright = chain.filter->GetBrightSet();
+  const double sd = std::sqrt((bright.levelDn - 100.0 + 64.0) / bright.EffectivePixels()) / (bright.levelDn - 100.0);
+  for (unsigned int t = 0; t < Frames; ++t)
+  {
+    EXPECT_NEAR(chain.filter->GetFlicker().gamma[t], source->GetTruth().normalisedFlicker[t], 5.0 * sd) << t;
+  }
+  EXPECT_LT(sd, 0.01);
+  EXPECT_GT(bright.levelDn, chain.filter->GetDarkSet().levelDn);
+}
+
+TEST(FlickerCorrectionImageFilter, WithoutFlickerTheOffsetOutputIsNaN)
+{
+  const auto source = TargetSource<StackType>(Width, Height, Frames);
+  source->SetFlickerSd(0.0);
+  Chain chain(source->GetOutput());
+  chain.filter->Update();
+  EXPECT_TRUE(std::isnan(chain.filter->GetOffset()));
+  EXPECT_TRUE(std::isfinite(chain.filter->GetFlicker().offsetDn));
+}
+
+TEST(FlickerCorrectionImageFilter, SameBitsForAnyChunksAndWorkUnits)
+{
+  for (const RollingShutter mode : { RollingShutter::Off, RollingShutter::Fixed })
+  {
+    Chain whole(SimulatedStack().GetPointer());
+    whole.filter->SetRollingShutter(mode);
+    whole.filter->Update();
+    const auto expected = PixelsOf(whole.filter->GetOutput());
+    for (const unsigned int chunks : { 1u, 3u, Frames })
+    {
+      for (const unsigned int units : { 1u, 7u })
+      {
+        const auto reader = StackReader<StackType>::Of(SimulatedStack());
+        Chain      chain(reader->GetOutput());
+        chain.statistics->SetNumberOfStreamDivisions(chunks);
+        chain.filter->SetRollingShutter(mode);
+        chain.filter->SetNumberOfWorkUnits(units);
+        EXPECT_TRUE(HaveTheSameBits(CorrectedInChunks(chain.filter, chunks), expected)) << chunks << " x " << units;
+      }
+    }
+  }
+}
+
+TEST(FlickerCorrectionImageFilter, StreamsAndMakesNoMoreThanWasAskedFor)
+{
+  const TemporaryFolder folder;
+  auto                  reader = itk::ImageFileReader<StackType>::New();
+  reader->SetFileName(WrittenTo<StackType>(folder.File("s.mha"), SimulatedStack()));
+  Chain      chain(reader->GetOutput());
+  const auto monitor = itk::PipelineMonitorImageFilter<DoubleStackType>::New();
+  monitor->SetInput(chain.filter->GetOutput());
+  const auto statistics = itk::TemporalStatisticsImageFilter<DoubleStackType>::New();
+  statistics->SetInput(monitor->GetOutput());
+  statistics->SetNumberOfStreamDivisions(5);
+  statistics->Update();
+  EXPECT_TRUE(monitor->VerifyAllInputCanStream(5));
+}
+
+TEST(FlickerCorrectionImageFilter, EveryStackFileGivesTheSameBits)
+{
+  const TemporaryFolder folder;
+  Chain                 expected(SimulatedStack().GetPointer());
+  expected.filter->Update();
+  for (const char * name : { "s.mha", "s.nrrd", "s.tif" })
+  {
+    auto reader = itk::ImageFileReader<StackType>::New();
+    reader->SetFileName(WrittenTo<StackType>(folder.File(name), SimulatedStack()));
+    Chain chain(reader->GetOutput());
+    chain.statistics->SetNumberOfStreamDivisions(4);
+    EXPECT_TRUE(HaveTheSameBits(CorrectedInChunks(chain.filter, 3), PixelsOf(expected.filter->GetOutput()))) << name;
+  }
+}
+
+// 10 frames of 8 MiB: the pass for the flicker takes chunks of 8 and 2 frames.
+TEST(FlickerCorrectionImageFilter, LargeStackIsLookedAtInChunks)
+{
+  const auto tile = TargetStack<StackType>(64, 64, 10);
+  const auto stack = ImageOf<StackType>({ { 1024, 1024, 10 } }, [&](const auto & index) {
+    return tile->GetPixel(StackType::IndexType{ { index[0] % 64, index[1] % 64, index[2] } });
+  });
+  Chain      whole(stack.GetPointer(), 10);
+  const auto cast = itk::CastImageFilter<StackType, DoubleStackType>::New();
+  cast->SetInput(stack);
+  std::vector<itk::SizeValueType> chunks;
+  cast->AddObserver(itk::EndEvent(), [&](const itk::EventObject &) {
+    chunks.push_back(cast->GetOutput()->GetBufferedRegion().GetSize(2));
+  });
+  const auto filter = itk::FlickerCorrectionImageFilter<DoubleStackType>::New();
+  filter->SetInput(cast->GetOutput());
+  filter->SetMean(whole.statistics->GetMean());
+  filter->SetVariance(whole.statistics->GetVariance());
+  filter->SetMask(whole.mask->GetOutput());
+  filter->GetOffsetOutput()->Update();
+  EXPECT_EQ(chunks, (std::vector<itk::SizeValueType>{ 1, 8, 2, 1 }));
+  whole.filter->GetOffsetOutput()->Update();
+  EXPECT_EQ(filter->GetFlicker().gamma, whole.filter->GetFlicker().gamma);
+  EXPECT_EQ(filter->GetFlicker().offsetDn, whole.filter->GetFlicker().offsetDn);
+}
+
+// Whoever asks for the offset first, before any frame, must not have the corrected stack made whole.
+TEST(FlickerCorrectionImageFilter, OffsetAloneMakesOneFrame)
+{
+  const auto         reader = StackReader<StackType>::Of(SimulatedStack());
+  Chain              chain(reader->GetOutput());
+  itk::SizeValueType most = 0;
+  chain.filter->AddObserver(itk::EndEvent(), [&](const itk::EventObject &) {
+    most = std::max(most, chain.filter->GetOutput()->GetBufferedRegion().GetSize(2));
+  });
+  chain.filter->GetOffsetOutput()->Update();
+  EXPECT_EQ(most, 1u);
+  Chain whole(SimulatedStack().GetPointer());
+  whole.filter->Update();
+  EXPECT_EQ(chain.filter->GetOffset(), whole.filter->GetOffset());
+  EXPECT_TRUE(HaveTheSameBits(CorrectedInChunks(chain.filter, 5), PixelsOf(whole.filter->GetOutput())));
+  EXPECT_EQ(most, 5u);
+  chain.filter->UpdateLargestPossibleRegion();
+  EXPECT_TRUE(HaveTheSameBits<DoubleStackType>(chain.filter->GetOutput(), whole.filter->GetOutput()));
+}
+
+// The reader's frames are released after use, so that each look at the whole stack is one estimate.
+TEST(FlickerCorrectionImageFilter, EstimateIsKeptUntilSomethingChanges)
+{
+  Chain whole(SimulatedStack().GetPointer());
+  whole.mask->Update();
+  const auto reader = StackReader<StackType>::Of(SimulatedStack());
+  reader->GetOutput()->ReleaseDataFlagOn();
+  const auto filter = itk::FlickerCorrectionImageFilter<StackType>::New();
+  filter->SetInput(reader->GetOutput());
+  filter->SetMean(whole.statistics->GetMean());
+  filter->SetVariance(whole.statistics->GetVariance());
+  filter->SetMask(whole.mask->GetOutput());
+  const auto estimatesOfAnUpdate = [&] {
+    const unsigned int before = reader->WholeReads();
+    CorrectedInChunks(filter, 5);
+    return reader->WholeReads() - before;
+  };
+  EXPECT_EQ(estimatesOfAnUpdate(), 1u);
+  EXPECT_EQ(reader->Reads(), 6u);
+  EXPECT_EQ(estimatesOfAnUpdate(), 0u);
+  EXPECT_EQ(reader->Reads(), 11u);
+  filter->SetDarkQuantile(0.02);
+  EXPECT_EQ(estimatesOfAnUpdate(), 1u);
+  EXPECT_EQ(estimatesOfAnUpdate(), 0u);
+  filter->SetRollingShutter(RollingShutter::Off);
+  EXPECT_EQ(estimatesOfAnUpdate(), 1u);
+  whole.mask->SetLevel(0.02);
+  EXPECT_EQ(estimatesOfAnUpdate(), 1u);
+  reader->Modified();
+  EXPECT_EQ(estimatesOfAnUpdate(), 1u);
+  EXPECT_EQ(estimatesOfAnUpdate(), 0u);
+  filter->SetDarkQuantile(0.01);
+  filter->SetRollingShutter(RollingShutter::Auto);
+  whole.mask->SetLevel(0.01);
+  whole.filter->Update();
+  EXPECT_TRUE(HaveTheSameBits(CorrectedInChunks(filter, 5), PixelsOf(whole.filter->GetOutput())));
+}
+
+TEST(FlickerCorrectionImageFilter, SecondUpdateDoesNoWork)
+{
+  const auto   reader = StackReader<StackType>::Of(SimulatedStack());
+  Chain        chain(reader->GetOutput());
+  unsigned int runs = 0;
+  chain.filter->AddObserver(itk::EndEvent(), [&runs](const itk::EventObject &) { ++runs; });
+  chain.filter->Update();
+  const unsigned int reads = reader->Reads();
+  chain.filter->Update();
+  chain.filter->GetOffsetOutput()->Update();
+  EXPECT_EQ(runs, 1u);
+  EXPECT_EQ(reader->Reads(), reads);
+}
+
+TEST(FlickerCorrectionImageFilter, LinesThatTheBrightSetDoesNotReachAreNaN)
+{
+  // Bright rows 0 to 19; with sigma_y = 4 the flicker is known up to row 23.
+  const auto isBright = [](const auto & index) { return index[1] < 20; };
+  const auto stack = NoiseFreeStack([&](const auto & index) { return isBright(index) ? 2000.0 : 200.0; });
+  Chain      chain(stack.GetPointer());
+  chain.filter->SetMask(ConstantImage<MaskType>({ { Width, Height } }, 1));
+  chain.filter->SetRollingShutter(RollingShutter::Fixed);
+  chain.filter->SetRowSigma(4.0);
+  chain.filter->Update();
+  for (itk::ImageRegionIteratorWithIndex<DoubleStackType> it(chain.filter->GetOutput(),
+                                                             stack->GetLargestPossibleRegion());
+       !it.IsAtEnd();
+       ++it)
+  {
+    ASSERT_EQ(std::isnan(it.Get()), it.GetIndex()[1] >= 24) << it.GetIndex();
+  }
+}
+
+// Columns instead of rows: the transposed stack gives the transposed result. Sums over the sets run in another order,
+// 300 numbers of order 1, which rounds to 300 x 2^-53 x 3000 DN < 1e-9.
+TEST(FlickerCorrectionImageFilter, ShutterMayTravelAlongX)
+{
+  const auto swap = [](const auto & index) { return StackType::IndexType{ { index[1], index[0], index[2] } }; };
+  const auto transposed = ImageOf<StackType>(
+    { { Height, Width, Frames } }, [&](const auto & index) { return SimulatedStack()->GetPixel(swap(index)); });
+  Chain rows(SimulatedStack().GetPointer());
+  Chain columns(transposed.GetPointer());
+  columns.filter->SetShutterAxis(0);
+  for (const auto & filter : { rows.filter, columns.filter })
+  {
+    filter->SetRollingShutter(RollingShutter::Fixed);
+    filter->SetRowSigma(10.0);
+    filter->Update();
+  }
+  double worst = 0.0;
+  for (itk::ImageRegionIteratorWithIndex<DoubleStackType> it(rows.filter->GetOutput(),
+                                                             SimulatedStack()->GetLargestPossibleRegion());
+       !it.IsAtEnd();
+       ++it)
+  {
+    const double other = columns.filter->GetOutput()->GetPixel(swap(it.GetIndex()));
+    EXPECT_EQ(std::isnan(it.Get()), std::isnan(other));
+    worst = std::isnan(other) ? worst : std::max(worst, std::abs(it.Get() - other));
+  }
+  EXPECT_LT(worst, 1e-9);
+}
+
+TEST(FlickerCorrectionImageFilter, StartIndexDoesNotMatter)
+{
+  const auto moved = MovedTo<StackType>({ { -3, 11, 5 } }, SimulatedStack());
+  Chain      chain(moved.GetPointer());
+  chain.filter->Update();
+  EXPECT_EQ(chain.filter->GetOutput()->GetLargestPossibleRegion(), moved->GetLargestPossibleRegion());
+  Chain expected(SimulatedStack().GetPointer());
+  expected.filter->Update();
+  EXPECT_TRUE(HaveTheSameBits<DoubleStackType>(chain.filter->GetOutput(), expected.filter->GetOutput()));
+}
+
+TEST(FlickerCorrectionImageFilter, WrongInputIsRefusedWithTheNumbers)
+{
+  Chain  chain(SimulatedStack().GetPointer());
+  auto & filter = chain.filter;
+  filter->SetMask(ConstantImage<MaskType>({ { Width, Height } }, 0));
+  EXPECT_SAYS(ErrorOf(filter), "only 0 pixels are neither clipped nor moved by vibrations; expected at least 30");
+  EXPECT_SAYS(ErrorOf(filter), "only 0 pixels");
+  filter->SetMask(ConstantImage<MaskType>({ { Width, Height + 1 } }, 1));
+  EXPECT_SAYS(ErrorOf(filter), "the mask has the region");
+  filter->SetMask(chain.mask->GetOutput());
+  filter->SetMean(ConstantImage<FrameType>({ { Width - 1, Height } }, 1));
+  EXPECT_SAYS(ErrorOf(filter), "the mean has the region");
+  filter->SetMean(chain.statistics->GetMean());
+  filter->SetDarkQuantile(0.999);
+  EXPECT_SAYS(ErrorOf(filter), "the dark and bright quantiles are 0.999000 and 0.990000");
+  filter->SetDarkQuantile(0.01);
+  filter->SetShutterAxis(2);
+  EXPECT_SAYS(ErrorOf(filter), "the shutter axis is 2");
+  filter->SetShutterAxis(1);
+  filter->SetRollingShutter(RollingShutter::Fixed);
+  filter->SetRowSigma(0.0);
+  EXPECT_SAYS(ErrorOf(filter), "sigma_y of the rolling shutter is 0.0");
+  filter->SetRowSigma(50.0);
+  EXPECT_EQ(ErrorOf(filter), "no error");
+  filter->SetMean(nullptr);
+  EXPECT_SAYS(ErrorOf(filter), "Input Mean is required but not set");
+  const auto two = TargetStack<StackType>(Width, Height, 2);
+  Chain      shortChain(two.GetPointer(), 2);
+  EXPECT_SAYS(ErrorOf(shortChain.filter), "the stack has 2 frame(s); flicker and offset need at least 3");
+}
+
+TEST(FlickerCorrectionImageFilter, FailsUntilTheReaderIsMended)
+{
+  const auto reader = StackReader<StackType>::Of(SimulatedStack());
+  Chain      chain(reader->GetOutput());
+  chain.statistics->SetNumberOfStreamDivisions(5);
+  reader->Break(17);
+  EXPECT_SAYS(ErrorOf(chain.filter), "frame 17 is broken");
+  EXPECT_SAYS(ErrorOf(chain.filter), "frame 17 is broken");
+  EXPECT_SAYS(ErrorWhen([&] { chain.filter->GetOffsetOutput()->Update(); }), "frame 17 is broken");
+  reader->Mend();
+  EXPECT_EQ(ErrorOf(chain.filter), "no error");
+  Chain expected(SimulatedStack().GetPointer());
+  expected.filter->Update();
+  EXPECT_TRUE(HaveTheSameBits<DoubleStackType>(chain.filter->GetOutput(), expected.filter->GetOutput()));
+}

@@ -1,0 +1,76 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_test_MergeTestHelper_h
+#define sensornoise_test_MergeTestHelper_h
+
+#include "helpers/RefinedTestHelper.h"
+
+#include <cstddef>
+
+/** \file
+ * The refined method, run on parts of a stack. */
+
+namespace sensornoise::test::merge
+{
+
+inline constexpr std::size_t Width = 96;
+inline constexpr std::size_t Height = 80;
+inline constexpr std::size_t Frames = 24;
+
+template <typename TPixel>
+const Stack<TPixel> &
+SmallStack()
+{
+  static const auto stack = Simulate<TPixel>(FlickeringSettings(Frames), Width, Height);
+  return stack;
+}
+
+template <typename TPixel>
+RefinedMethod<TPixel>
+MethodOf(const Stack<TPixel> & stack)
+{
+  return RefinedMethod<TPixel>(WithCodes(), GeometryOf(stack), stack.frames);
+}
+
+/** Which of \a processes reads a frame. */
+using Reader = std::size_t (*)(std::size_t t, std::size_t processes);
+
+inline std::size_t
+InRuns(std::size_t t, std::size_t processes)
+{
+  return t * processes / Frames;
+}
+inline std::size_t
+InTurn(std::size_t t, std::size_t processes)
+{
+  return t % processes;
+}
+
+template <typename TPixel>
+void
+AddPart(RefinedMethod<TPixel> & method, const Stack<TPixel> & stack, std::size_t process, std::size_t count, Reader of)
+{
+  for (std::size_t t = 0; t < stack.frames; ++t)
+  {
+    of(t, count) == process ? method.AddFrames(stack.Frame(t), 1) : method.SkipFrames(1);
+  }
+}
+
+} // namespace sensornoise::test::merge
+
+#endif

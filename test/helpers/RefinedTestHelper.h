@@ -1,0 +1,79 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_test_RefinedTestHelper_h
+#define sensornoise_test_RefinedTestHelper_h
+
+#include "sensornoise/refined/RefinedMethod.h"
+#include "helpers/StackTestHelper.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+/** \file
+ * The refined method, run on stacks. */
+
+namespace sensornoise::test
+{
+
+/** Codes of 16 bits, with the clip levels of 12 bits above \a lowDn. */
+inline RefinedSettings
+WithCodes(double stepDn = 1.0, double lowDn = 0.0)
+{
+  RefinedSettings settings;
+  settings.codes = MakeCodeSettings(16, lowDn, lowDn + 4095.0 * stepDn, stepDn);
+  return settings;
+}
+
+template <typename TPixel>
+FrameGeometry
+GeometryOf(const Stack<TPixel> & stack)
+{
+  return { stack.width, stack.height, 1 };
+}
+
+template <typename TPixel>
+RefinedMethod<TPixel>
+Measure(const Stack<TPixel> &   stack,
+        const RefinedSettings & settings = WithCodes(),
+        std::size_t             chunk = 1000,
+        const ParallelFor &     parallelFor = SerialFor)
+{
+  RefinedMethod<TPixel> method(settings, GeometryOf(stack), stack.frames, {}, parallelFor);
+  for (unsigned int pass = 0; pass < method.NumberOfPasses; ++pass)
+  {
+    for (std::size_t t = 0; t < stack.frames; t += chunk)
+    {
+      method.AddFrames(stack.Frame(t), std::min(chunk, stack.frames - t));
+    }
+    method.EndPass();
+  }
+  return method;
+}
+
+inline double
+ValueOf(const Quantity & quantity)
+{
+  EXPECT_EQ(quantity.status, EstimateStatus::Identified) << quantity.unit;
+  return quantity.value.value_or(std::nan(""));
+}
+
+} // namespace sensornoise::test
+
+#endif

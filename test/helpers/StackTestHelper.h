@@ -1,0 +1,118 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_test_StackTestHelper_h
+#define sensornoise_test_StackTestHelper_h
+
+#include "sensornoise/simulation/Simulator.h"
+#include "sensornoise/moments/StackMaps.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <thread>
+#include <vector>
+
+/** \file
+ * Simulated stacks, and threads. */
+
+namespace sensornoise::test
+{
+
+/** A stack, frame after frame. */
+template <typename TPixel>
+struct Stack
+{
+  std::size_t         width;
+  std::size_t         height;
+  std::size_t         frames;
+  std::vector<TPixel> pixels;
+
+  const TPixel *
+  Frame(std::size_t t) const
+  {
+    return pixels.data() + t * width * height;
+  }
+  /** The same stack, of \a TOther, with function(u) in place of u. */
+  template <typename TOther = TPixel, typename TFunction>
+  Stack<TOther>
+  Map(TFunction function) const
+  {
+    Stack<TOther> mapped{ width, height, frames, std::vector<TOther>(pixels.size()) };
+    std::transform(
+      pixels.begin(), pixels.end(), mapped.pixels.begin(), [&](TPixel u) { return static_cast<TOther>(function(u)); });
+    return mapped;
+  }
+};
+
+/** Camera B of the paper, with flicker and vibration that a small stack shows well. */
+inline SimulationSettings
+FlickeringSettings(std::size_t frames)
+{
+  SimulationSettings settings;
+  settings.conditions = { 0.05, 0.05, 0.02 };
+  settings.frames = frames;
+  settings.seed = 11;
+  return settings;
+}
+
+template <typename TPixel>
+Stack<TPixel>
+Simulate(const SimulationSettings &  settings,
+         std::size_t                 width,
+         std::size_t                 height,
+         const std::vector<double> & scene = {})
+{
+  const StackSimulator simulator(scene.empty() ? MakeTargetScene(width, height) : scene, width, height, settings);
+  Stack<TPixel>        stack{ width, height, settings.frames, std::vector<TPixel>(width * height * settings.frames) };
+  for (std::size_t row = 0; row < settings.frames * height; ++row)
+  {
+    simulator.RenderRow(row / height, row % height, stack.pixels.data() + row * width);
+  }
+  return stack;
+}
+
+/** A ParallelFor of \a count threads, which take the pieces in turn and backwards. */
+inline ParallelFor
+Threads(std::size_t count)
+{
+  return [count](std::size_t pieces, const std::function<void(std::size_t)> & function) {
+    std::vector<std::thread> threads;
+    for (std::size_t first = 0; first < std::min(count, pieces); ++first)
+    {
+      threads.emplace_back([=, &function] {
+        for (std::size_t i = first; i < pieces; i += count)
+        {
+          function(pieces - 1 - i);
+        }
+      });
+    }
+    std::for_each(threads.begin(), threads.end(), [](std::thread & thread) { thread.join(); });
+  };
+}
+
+template <typename TNumber>
+bool
+HaveSameBits(const std::vector<TNumber> & a, const std::vector<TNumber> & b)
+{
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(TNumber)) == 0;
+}
+
+} // namespace sensornoise::test
+
+#endif

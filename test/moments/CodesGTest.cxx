@@ -1,0 +1,286 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/moments/Codes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+using namespace sensornoise;
+
+namespace
+{
+constexpr double NoisyDn2 = 400.0; // noise of 20 DN: above half a step of 1 and of 16
+
+/** The extremes over time of a stack's pixels. */
+struct Extremes
+{
+  CodeHistogram minima;
+  CodeHistogram maxima;
+
+  void
+  AddPixels(int count, int minimum, int maximum)
+  {
+    for (int i = 0; i < count; ++i)
+    {
+      minima.Add(minimum);
+      maxima.Add(maximum);
+    }
+  }
+  CodeRange
+  Find(const CodeSettings & settings = {}, double varianceDn2 = NoisyDn2) const
+  {
+    return FindCodes(minima, maxima, varianceDn2, settings);
+  }
+};
+
+/** Two pixels at every code from \a lowest to \a highest in steps of \a step, whose extremes lie \a spread codes apart.
+ */
+Extremes
+PixelsAtEveryCode(int lowest, int highest, int step, int spread)
+{
+  Extremes extremes;
+  for (int code = lowest; code + spread * step <= highest; code += step)
+  {
+    extremes.AddPixels(2, code, code + spread * step);
+  }
+  return extremes;
+}
+
+std::vector<std::int32_t>
+CodesScaledBy(double factor, int count)
+{
+  std::vector<std::int32_t> codes;
+  for (int code = 0; code < count; ++code)
+  {
+    codes.push_back(static_cast<std::int32_t>(std::floor(code * factor + 0.5)));
+  }
+  return codes;
+}
+
+void
+ExpectMessageHolds(const Extremes & extremes, const CodeSettings & settings, const std::vector<std::string> & words)
+{
+  try
+  {
+    extremes.Find(settings);
+    FAIL() << "nothing was thrown";
+  }
+  catch (const std::invalid_argument & error)
+  {
+    for (const std::string & word : words)
+    {
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+    }
+  }
+}
+} // namespace
+
+TEST(SensorNoiseCodes, StepIsTheMajorityOfTheSpacings)
+{
+  bool regular = false;
+  EXPECT_EQ(FindQuantisationStep(CodesScaledBy(1.0, 1000), regular), 1.0);
+  EXPECT_TRUE(regular);
+  EXPECT_EQ(FindQuantisationStep(CodesScaledBy(16.0, 1000), regular), 16.0);
+  EXPECT_TRUE(regular);
+  auto gaps = CodesScaledBy(16.0, 1000); // every third code is not attained: the majority still is 16
+  for (std::size_t i = gaps.size() - 1; i > 0; --i)
+  {
+    if (i % 10 == 3)
+    {
+      gaps.erase(gaps.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+  }
+  EXPECT_EQ(FindQuantisationStep(gaps, regular), 16.0);
+  EXPECT_TRUE(regular);
+}
+
+TEST(SensorNoiseCodes, RescaledDataAreIrregular)
+{
+  bool regular = true;
+  // 4,096 codes drift through all 16 remainders: 1 in 16 stays on any grid.
+  EXPECT_EQ(FindQuantisationStep(CodesScaledBy(65535.0 / 4095.0, 4096), regular), 16.0);
+  EXPECT_FALSE(regular);
+}
+
+TEST(SensorNoiseCodes, FewStrayCodesDoNotMatter)
+{
+  bool regular = false;
+  auto codes = CodesScaledBy(16.0, 1000);
+  codes.insert(codes.begin() + 500, 499 * 16 + 5); // 1 of 1,001: under 2 %
+  EXPECT_EQ(FindQuantisationStep(codes, regular), 16.0);
+  EXPECT_TRUE(regular);
+}
+
+TEST(SensorNoiseCodes, TooFewCodesHaveTheStepOne)
+{
+  bool regular = false;
+  EXPECT_EQ(FindQuantisationStep({}, regular), 1.0);
+  EXPECT_EQ(FindQuantisationStep({ 40 }, regular), 1.0);
+  EXPECT_EQ(FindQuantisationStep({ 40, 43, 50 }, regular), 1.0);
+  EXPECT_TRUE(regular);
+}
+
+TEST(SensorNoiseCodes, BitDepthIsTheSmallestThatHoldsTheCodes)
+{
+  const std::vector<std::pair<int, int>> highestAndBits{ { 255, 8 },    { 256, 10 },  { 1023, 10 },  { 1024, 12 },
+                                                         { 4095, 12 },  { 4096, 14 }, { 16383, 14 }, { 16384, 16 },
+                                                         { 65535, 16 }, { 200, 8 } };
+  for (const auto & expected : highestAndBits)
+  {
+    const CodeRange range = PixelsAtEveryCode(expected.first - 150, expected.first, 1, 40).Find();
+    EXPECT_EQ(range.bitDepth, expected.second) << expected.first;
+    EXPECT_EQ(range.bitDepthSource, "data");
+    EXPECT_EQ(range.quantisationStepDn, 1.0);
+  }
+  const CodeRange aligned = PixelsAtEveryCode(0, 4095 * 16, 16, 5).Find(); // 12 bits left-aligned in 16
+  EXPECT_EQ(aligned.quantisationStepDn, 16.0);
+  EXPECT_EQ(aligned.bitDepth, 12);
+  EXPECT_EQ(aligned.clipHighDn, 4095.0 * 16.0);
+}
+
+TEST(SensorNoiseCodes, WithoutPileUpTheCodeRangeClips)
+{
+  CodeSettings settings;
+  settings.bitDepth = 12;
+  const CodeRange range = PixelsAtEveryCode(100, 3000, 1, 40).Find(settings);
+  EXPECT_EQ(range.bitDepth, 12);
+  EXPECT_EQ(range.bitDepthSource, "given");
+  EXPECT_EQ(range.clipLowDn, 0.0);
+  EXPECT_EQ(range.clipHighDn, 4095.0);
+  EXPECT_EQ(range.clipSource, "code range");
+}
+
+TEST(SensorNoiseCodes, DataBeyondTheBitDepthAreRefusedWithBothNumbers)
+{
+  CodeSettings settings;
+  settings.bitDepth = 10;
+  ExpectMessageHolds(PixelsAtEveryCode(100, 3000, 1, 40), settings, { "3000", "10 bits", "1023" });
+  EXPECT_THROW(Extremes().Find(), std::invalid_argument); // no pixel
+}
+
+TEST(SensorNoiseCodes, PileUpsAreFound)
+{
+  Extremes extremes = PixelsAtEveryCode(100, 3400, 1, 40);
+  extremes.AddPixels(200, 3350, 3400); // saturate at 3,400 of 4,095
+  CodeRange range = extremes.Find();
+  EXPECT_EQ(range.clipHighDn, 3400.0);
+  EXPECT_EQ(range.clipLowDn, 0.0);
+  EXPECT_EQ(range.clipSource, "low: code range, high: pile-up");
+  extremes.AddPixels(200, 100, 150); // rest on a floor of 100
+  range = extremes.Find();
+  EXPECT_EQ(range.clipLowDn, 100.0);
+  EXPECT_EQ(range.clipHighDn, 3400.0);
+  EXPECT_EQ(range.clipSource, "pile-up");
+  EXPECT_TRUE(range.IsClipped(100.0, 150.0));
+  EXPECT_TRUE(range.IsClipped(3350.0, 3400.0));
+  EXPECT_FALSE(range.IsClipped(101.0, 3399.0));
+}
+
+TEST(SensorNoiseCodes, PileUpNeedsEightPixelsAndThreeTimesItsNeighbours)
+{
+  for (const int pixels : { 5, 6, 50 }) // and 2 more of PixelsAtEveryCode
+  {
+    Extremes extremes = PixelsAtEveryCode(100, 3400, 1, 40);
+    extremes.AddPixels(pixels, 3350, 3400);
+    EXPECT_EQ(extremes.Find().clipHighDn, pixels >= 6 ? 3400.0 : 4095.0) << pixels;
+    extremes.AddPixels(16, 3345, 3390); // 18 with those of PixelsAtEveryCode: 55 are needed at the end
+    EXPECT_EQ(extremes.Find().clipHighDn, 4095.0) << pixels;
+  }
+}
+
+TEST(SensorNoiseCodes, PileUpOfLeftAlignedCodesIsFound)
+{
+  Extremes extremes = PixelsAtEveryCode(1600, 3400 * 16, 16, 40);
+  extremes.AddPixels(200, 3350 * 16, 3400 * 16);
+  EXPECT_EQ(extremes.Find().clipHighDn, 3400.0 * 16.0);
+}
+
+TEST(SensorNoiseCodes, GivenValuesWin)
+{
+  Extremes extremes = PixelsAtEveryCode(100, 3400, 1, 40);
+  extremes.AddPixels(200, 3350, 3400);
+  extremes.AddPixels(200, 100, 150);
+  CodeRange range = extremes.Find(MakeCodeSettings(14, 50.0, 3300.0, 2.0));
+  EXPECT_EQ(range.bitDepth, 14);
+  EXPECT_EQ(range.clipLowDn, 50.0);
+  EXPECT_EQ(range.clipHighDn, 3300.0);
+  EXPECT_EQ(range.quantisationStepDn, 2.0);
+  EXPECT_EQ(range.clipSource, "given");
+  range = extremes.Find(MakeCodeSettings(0, std::nan(""), 3300.0, 0.0));
+  EXPECT_EQ(range.clipSource, "low: pile-up, high: given");
+  EXPECT_EQ(range.clipLowDn, 100.0);
+}
+
+TEST(SensorNoiseCodes, PlainNumbersThatAreToBeFoundAreNotSet)
+{
+  const double       nan = std::numeric_limits<double>::quiet_NaN();
+  const CodeSettings settings = MakeCodeSettings(0, nan, nan, 0.0);
+  EXPECT_FALSE(settings.bitDepth || settings.clipLowDn || settings.clipHighDn || settings.quantisationStepDn);
+}
+
+TEST(SensorNoiseCodes, NoiseBelowHalfAStepTrustsTheCodeRangeOnly)
+{
+  Extremes extremes = PixelsAtEveryCode(100, 3400, 1, 0);
+  extremes.AddPixels(200, 3400, 3400);
+  EXPECT_EQ(extremes.Find({}, 0.24).clipHighDn, 4095.0);
+  EXPECT_EQ(extremes.Find({}, 0.25).clipHighDn, 3400.0); // (1/2)^2: the first that is trusted
+}
+
+TEST(SensorNoiseCodes, ConstantStackHasNoPileUp)
+{
+  Extremes extremes;
+  extremes.AddPixels(1000, 700, 700);
+  const CodeRange range = extremes.Find({}, 0.0);
+  EXPECT_EQ(range.clipLowDn, 0.0);
+  EXPECT_EQ(range.clipHighDn, 1023.0);
+  EXPECT_EQ(range.clipSource, "code range");
+  EXPECT_FALSE(range.IsClipped(700.0, 700.0));
+}
+
+TEST(SensorNoiseCodes, SignedDataReachBelowZero)
+{
+  Extremes  extremes = PixelsAtEveryCode(-300, 900, 1, 40);
+  CodeRange range = extremes.Find();
+  EXPECT_EQ(range.clipLowDn, -32768.0);
+  EXPECT_EQ(range.bitDepth, 10);
+  extremes.AddPixels(200, -300, -250);
+  EXPECT_EQ(extremes.Find().clipLowDn, -300.0);
+  extremes.AddPixels(1, -32768, 0); // the ends of the types fit the histogram
+  extremes.AddPixels(1, 0, 65535);
+  range = extremes.Find();
+  EXPECT_EQ(range.clipHighDn, 65535.0);
+  EXPECT_TRUE(range.IsClipped(-32768.0, 0.0));
+}
+
+TEST(SensorNoiseCodes, FloatingPointDataHaveOnlyWhatIsGiven)
+{
+  CodeRange range = GivenCodes({});
+  EXPECT_FALSE(range.bitDepth || range.clipLowDn || range.clipHighDn);
+  EXPECT_EQ(range.quantisationStepDn, 0.0);
+  EXPECT_EQ(range.clipSource, "none");
+  EXPECT_FALSE(range.IsClipped(-1e300, 1e300));
+  range = GivenCodes(MakeCodeSettings(12, 0.0, 4095.0, 1.0));
+  EXPECT_EQ(range.bitDepth, 12);
+  EXPECT_EQ(range.clipSource, "given");
+  EXPECT_TRUE(range.IsClipped(10.0, 4095.0));
+}

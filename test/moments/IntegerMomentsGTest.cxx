@@ -1,0 +1,241 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/moments/IntegerMoments.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+using namespace sensornoise;
+
+namespace
+{
+/** Frames of values over the whole range of the type; every eighth is one of its ends. */
+template <typename TPixel>
+std::vector<TPixel>
+RandomFrames(std::size_t pixels, std::size_t frames, std::uint64_t seed)
+{
+  using Limits = std::numeric_limits<TPixel>;
+  std::mt19937_64     random(seed);
+  std::vector<TPixel> stack(pixels * frames);
+  for (TPixel & value : stack)
+  {
+    const std::uint64_t bits = random();
+    value = bits % 8 == 0 ? (bits % 16 == 0 ? Limits::min() : Limits::max()) : static_cast<TPixel>(bits >> 32);
+  }
+  return stack;
+}
+
+template <typename TPixel>
+IntegerMoments<TPixel>
+MomentsOf(const std::vector<TPixel> & stack, std::size_t pixels, std::size_t first, std::size_t last)
+{
+  IntegerMoments<TPixel> moments(pixels);
+  moments.AddFrames(stack.data() + first * pixels, pixels, last - first, 0, pixels);
+  moments.AdvanceFrames(last - first);
+  return moments;
+}
+
+template <typename TPixel>
+IntegerMoments<TPixel>
+MomentsOf(const std::vector<TPixel> & stack, std::size_t pixels)
+{
+  return MomentsOf(stack, pixels, 0, stack.size() / pixels);
+}
+
+/** Mean = S/n and squared deviations = (n Q - S^2)/n, with S, Q and n Q - S^2 exact 64-bit integers. */
+template <typename TPixel>
+void
+ExpectMomentsEqualBruteForce(const IntegerMoments<TPixel> & moments,
+                             const std::vector<TPixel> &    stack,
+                             std::size_t                    pixels)
+{
+  const std::size_t frames = stack.size() / pixels;
+  const auto        n = static_cast<std::int64_t>(frames);
+  ASSERT_EQ(moments.GetNumberOfFrames(), frames);
+  for (std::size_t p = 0; p < pixels; ++p)
+  {
+    std::int64_t sum = 0;
+    std::int64_t squares = 0;
+    double       lowest = stack[p];
+    double       highest = stack[p];
+    for (std::size_t t = 0; t < frames; ++t)
+    {
+      const std::int64_t value = stack[t * pixels + p];
+      sum += value;
+      squares += value * value;
+      lowest = std::min(lowest, static_cast<double>(value));
+      highest = std::max(highest, static_cast<double>(value));
+    }
+    const double deviations = static_cast<double>(n * squares - sum * sum) / static_cast<double>(n);
+    // The mean is rounded as S/n and once more after the shift by at most 2^15: two halves of a last digit of 2^16.
+    const double meanTolerance = 65536.0 * std::numeric_limits<double>::epsilon();
+    ASSERT_NEAR(moments.GetMean(p), static_cast<double>(sum) / static_cast<double>(n), meanTolerance) << p;
+    ASSERT_DOUBLE_EQ(moments.GetSumOfSquaredDeviations(p), deviations) << p;
+    ASSERT_DOUBLE_EQ(moments.GetVariance(p), deviations / static_cast<double>(n - 1)) << p;
+    ASSERT_EQ(moments.GetMinimum(p), lowest) << p;
+    ASSERT_EQ(moments.GetMaximum(p), highest) << p;
+    ASSERT_TRUE(moments.IsFinite(p));
+  }
+}
+
+template <typename TPixel>
+void
+ExpectSameBits(const IntegerMoments<TPixel> & a, const IntegerMoments<TPixel> & b)
+{
+  ASSERT_EQ(a.GetNumberOfFrames(), b.GetNumberOfFrames());
+  ASSERT_EQ(a.GetNumberOfPixels(), b.GetNumberOfPixels());
+  for (std::size_t p = 0; p < a.GetNumberOfPixels(); ++p)
+  {
+    ASSERT_EQ(a.GetMean(p), b.GetMean(p)) << p;
+    ASSERT_EQ(a.GetSumOfSquaredDeviations(p), b.GetSumOfSquaredDeviations(p)) << p;
+    ASSERT_EQ(a.GetMinimum(p), b.GetMinimum(p)) << p;
+    ASSERT_EQ(a.GetMaximum(p), b.GetMaximum(p)) << p;
+  }
+}
+
+/** \a high of \a n frames hold \a top and the others \a bottom: the mean squared deviation is a two-point law's. */
+template <typename TPixel>
+void
+ExpectTwoPointLaw(std::size_t n, std::size_t high, TPixel bottom, TPixel top)
+{
+  std::vector<TPixel> stack(2 * n, bottom); // pixel 0 begins with the high frames, pixel 1 ends with them
+  for (std::size_t t = 0; t < high; ++t)
+  {
+    stack[2 * t] = top;
+    stack[2 * (n - 1 - t) + 1] = top;
+  }
+  const auto   moments = MomentsOf(stack, 2);
+  const double share = static_cast<double>(high) / static_cast<double>(n);
+  const double height = static_cast<double>(top) - static_cast<double>(bottom);
+  for (std::size_t p = 0; p < 2; ++p)
+  {
+    EXPECT_NEAR(moments.GetMean(p), bottom + share * height, 65536.0 * std::numeric_limits<double>::epsilon());
+    EXPECT_DOUBLE_EQ(moments.GetSumOfSquaredDeviations(p), share * static_cast<double>(n - high) * height * height);
+  }
+}
+} // namespace
+
+template <typename TPixel>
+class SensorNoiseIntegerMoments : public ::testing::Test
+{};
+using PixelTypes = ::testing::Types<unsigned char, signed char, unsigned short, short>;
+TYPED_TEST_SUITE(SensorNoiseIntegerMoments, PixelTypes);
+
+TYPED_TEST(SensorNoiseIntegerMoments, EqualBruteForceForEvenAndOddNumbersOfFrames)
+{
+  constexpr std::size_t pixels = 2100; // more than two blocks
+  for (const std::size_t frames : { 2, 3, 36, 37 })
+  {
+    const auto stack = RandomFrames<TypeParam>(pixels, frames, frames);
+    ExpectMomentsEqualBruteForce(MomentsOf(stack, pixels), stack, pixels);
+  }
+}
+
+TYPED_TEST(SensorNoiseIntegerMoments, ChunksAndRangesOfPixelsChangeNoBit)
+{
+  constexpr std::size_t     pixels = 2100;
+  constexpr std::size_t     frames = 29;
+  const auto                stack = RandomFrames<TypeParam>(pixels, frames, 4);
+  IntegerMoments<TypeParam> moments(pixels);
+  for (std::size_t t = 0, chunk = 1; t < frames; t += chunk, chunk = std::min(chunk + 3, frames - t))
+  {
+    for (const auto & range : { std::pair{ 700, 2100 }, std::pair{ 0, 1 }, std::pair{ 1, 700 } })
+    {
+      moments.AddFrames(stack.data() + t * pixels,
+                        pixels,
+                        chunk,
+                        static_cast<std::size_t>(range.first),
+                        static_cast<std::size_t>(range.second));
+    }
+    moments.AdvanceFrames(chunk);
+  }
+  ExpectSameBits(moments, MomentsOf(stack, pixels));
+}
+
+TYPED_TEST(SensorNoiseIntegerMoments, MergingInAnyOrderChangesNoBit)
+{
+  constexpr std::size_t pixels = 50;
+  const auto            stack = RandomFrames<TypeParam>(pixels, 31, 5);
+  const auto            whole = MomentsOf(stack, pixels);
+  const auto            a = MomentsOf(stack, pixels, 0, 7);
+  const auto            b = MomentsOf(stack, pixels, 7, 20);
+  const auto            c = MomentsOf(stack, pixels, 20, 31);
+  auto                  forwards = a;
+  forwards.Merge(b);
+  forwards.Merge(c);
+  auto backwards = IntegerMoments<TypeParam>(pixels); // begins empty
+  backwards.Merge(c);
+  backwards.Merge(a);
+  backwards.Merge(b);
+  ExpectSameBits(forwards, whole);
+  ExpectSameBits(backwards, whole);
+}
+
+TYPED_TEST(SensorNoiseIntegerMoments, ConstantPixelHasNoVariance)
+{
+  using Limits = std::numeric_limits<TypeParam>;
+  for (const TypeParam value : { Limits::min(), Limits::max(), TypeParam{ 0 }, TypeParam{ 77 } })
+  {
+    const auto moments = MomentsOf(std::vector<TypeParam>(3 * 11, value), 3);
+    EXPECT_EQ(moments.GetMean(1), value);
+    EXPECT_EQ(moments.GetVariance(1), 0.0);
+    EXPECT_EQ(moments.GetMinimum(1), value);
+    EXPECT_EQ(moments.GetMaximum(1), value);
+  }
+}
+
+TYPED_TEST(SensorNoiseIntegerMoments, SeventyThousandFramesAtTheEndsOfTheRangeAreExact)
+{
+  using Limits = std::numeric_limits<TypeParam>;
+  for (const std::size_t high : { 0, 1, 35000, 69999, 70000 })
+  {
+    ExpectTwoPointLaw<TypeParam>(70000, high, Limits::min(), Limits::max());
+  }
+  ExpectTwoPointLaw<TypeParam>(70001, 30000, Limits::min(), Limits::max());
+}
+
+TYPED_TEST(SensorNoiseIntegerMoments, FramesMayLieApart)
+{
+  constexpr std::size_t     pixels = 5;
+  constexpr std::size_t     stride = 9;
+  const auto                wide = RandomFrames<TypeParam>(stride, 6, 8);
+  IntegerMoments<TypeParam> moments(pixels);
+  moments.AddFrames(wide.data(), stride, 6, 0, pixels);
+  moments.AdvanceFrames(6);
+  std::vector<TypeParam> narrow;
+  for (std::size_t i = 0; i < wide.size(); ++i)
+  {
+    if (i % stride < pixels)
+    {
+      narrow.push_back(wide[i]);
+    }
+  }
+  ExpectMomentsEqualBruteForce(moments, narrow, pixels);
+}
+
+TYPED_TEST(SensorNoiseIntegerMoments, MergeRefusesAnotherNumberOfPixels)
+{
+  IntegerMoments<TypeParam> moments(4);
+  EXPECT_THROW(moments.Merge(IntegerMoments<TypeParam>(5)), std::invalid_argument);
+}

@@ -1,0 +1,94 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/moments/PassFrames.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <stdexcept>
+
+using namespace sensornoise;
+
+namespace
+{
+/** Frame \a t of five. */
+PassFrames
+Only(std::size_t t)
+{
+  PassFrames frames(5);
+  frames.Skip(t);
+  EXPECT_EQ(frames.Add(1), t);
+  return frames;
+}
+} // namespace
+
+TEST(SensorNoisePassFrames, GivesEachFrameItsPlace)
+{
+  PassFrames frames(5);
+  EXPECT_EQ(frames.GetPass(), 0u);
+  EXPECT_EQ(frames.Add(2), 0u);
+  frames.Skip(1);
+  EXPECT_EQ(frames.Add(2), 3u);
+}
+
+TEST(SensorNoisePassFrames, HasNoMoreFramesThanThePass)
+{
+  PassFrames frames(5);
+  EXPECT_THROW(frames.Add(6), std::logic_error);
+  EXPECT_THROW(frames.Skip(6), std::logic_error);
+  frames.Add(3);
+  EXPECT_THROW(frames.Add(3), std::logic_error);
+  EXPECT_EQ(frames.Add(2), 3u); // refused frames leave the place
+  EXPECT_THROW(frames.Skip(1), std::logic_error);
+}
+
+TEST(SensorNoisePassFrames, PassEndsWithAllFramesOnly)
+{
+  PassFrames frames(5);
+  frames.Add(2);
+  frames.Skip(1);
+  frames.Add(2);
+  EXPECT_THROW(frames.EndPass(), std::logic_error);
+  frames.Merge(Only(2));
+  frames.EndPass();
+  EXPECT_EQ(frames.GetPass(), 1u);
+  EXPECT_EQ(frames.Add(5), 0u);
+}
+
+TEST(SensorNoisePassFrames, NoFrameComesTwice)
+{
+  PassFrames frames = Only(1);
+  EXPECT_THROW(frames.Merge(Only(1)), std::runtime_error);
+  EXPECT_THROW(frames.RequireApart(Only(1)), std::runtime_error);
+  EXPECT_NO_THROW(frames.RequireApart(Only(2)));
+  frames.Merge(Only(3));
+  EXPECT_EQ(frames.Add(1), 2u);
+  EXPECT_THROW(frames.Add(1), std::logic_error); // frame 3 came by the merge
+}
+
+TEST(SensorNoisePassFrames, TravelInAStreamOfTheSamePass)
+{
+  std::stringstream stream;
+  Only(4).Save(stream);
+  Only(4).Save(stream);
+  PassFrames frames(5);
+  frames.Merge(frames.ReadOther(stream));
+  frames.Add(4);
+  frames.EndPass();
+  EXPECT_THROW(frames.ReadOther(stream), std::runtime_error); // of the pass before
+}

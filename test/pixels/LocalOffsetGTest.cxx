@@ -1,0 +1,117 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/pixels/LocalFlicker.h"
+#include "sensornoise/pixels/LocalOffset.h"
+
+#include "helpers/ProjectionTestHelper.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+using namespace sensornoise::test::projection;
+
+namespace
+{
+constexpr double OffsetDn = 120.0;
+constexpr double CentreDn = 950.0;
+
+/** A pixel's responses to the two series of light, given its mean. */
+using Responses = std::function<Eigen::Vector2d(std::size_t p, double mean)>;
+
+/** Noise of 400 DN^2 and pixels that respond to light. */
+struct Scene
+{
+  Input             input;
+  ProjectedVariance projected;
+  VarianceLine      line;
+
+  explicit Scene(const Responses & responses)
+    : input(Series(responses))
+    , projected(input.Project())
+  {
+    projected.Compute(0.0);
+    line.intercept = 400.0;
+  }
+  static Eigen::MatrixXd
+  Series(const Responses & responses)
+  {
+    const std::vector<double> mean = WavyScene(Width, Height);
+    Eigen::MatrixXd           series = NormalSeries();
+    for (std::size_t p = 0; p < Pixels; ++p)
+    {
+      series.col(static_cast<Eigen::Index>(p)) += Basis().GetBasis().leftCols<2>() * responses(p, mean[p]);
+    }
+    return series;
+  }
+  PixelLight
+  Data() const
+  {
+    return { projected, line, input.mask, CentreDn, 400.0, 1200.0 };
+  }
+};
+
+/** Light that is the same everywhere, and light that falls a little from the left. */
+Eigen::Vector2d
+TwoLamps(std::size_t p, double mean)
+{
+  const double x = static_cast<double>(p % Width) / Width;
+  return (mean - OffsetDn) * Eigen::Vector2d(0.3, 0.4 + 0.02 * x);
+}
+
+/** Light that is the same everywhere, and a level that drifts. */
+Eigen::Vector2d
+OneLampAndADrift(std::size_t, double mean)
+{
+  return { 0.3 * (mean - OffsetDn), 300.0 };
+}
+} // namespace
+
+TEST(SensorNoiseLocalOffset, LampsMeetInTheOffset)
+{
+  const Scene scene(TwoLamps);
+  const auto  found = FindLocalOffset(scene.Data());
+  ASSERT_TRUE(found);
+  EXPECT_GT(found->patches, 0u);
+  EXPECT_LT(found->standardError, 20.0);
+  EXPECT_NEAR(found->offset + CentreDn, OffsetDn, 5.0 * found->standardError);
+  EXPECT_LT(found->low, found->offset);
+  EXPECT_GT(found->high, found->offset);
+  EXPECT_LT(found->phi, 3.0);
+}
+
+TEST(SensorNoiseLocalOffset, LampsWithoutACommonZeroAreTold)
+{
+  // The second lamp's light is not proportional to the first's: a part of the scene glows.
+  const Scene scene([](std::size_t p, double mean) {
+    return Eigen::Vector2d(0.3 * (mean - OffsetDn), 0.4 * (mean - (p % Width < Width / 2 ? 700.0 : -500.0)));
+  });
+  const auto  found = FindLocalOffset(scene.Data());
+  EXPECT_TRUE(!found || found->phi > 4.0);
+}
+
+TEST(SensorNoiseLocalOffset, DriftingLevelIsOneLineOverTheFrame)
+{
+  EXPECT_TRUE(IsOffsetDrift(Scene(OneLampAndADrift).Data()));
+  EXPECT_FALSE(IsOffsetDrift(Scene(TwoLamps).Data()));
+}

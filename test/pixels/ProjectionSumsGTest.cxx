@@ -1,0 +1,204 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/pixels/ProjectionSums.h"
+
+#include "sensornoise/moments/IntegerMoments.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+using namespace sensornoise;
+
+namespace
+{
+constexpr std::size_t Pixels = 300; // more than a block
+constexpr std::size_t Frames = 23;
+constexpr std::size_t Series = 5;
+
+const TemporalBasis &
+Basis()
+{
+  static const auto basis = [] {
+    std::mt19937               random(3);
+    std::normal_distribution<> normal;
+    std::vector<double>        flicker(Frames);
+    Eigen::MatrixXd            motion(Frames, Series - 1);
+    for (std::size_t t = 0; t < Frames; ++t)
+    {
+      flicker[t] = normal(random);
+      for (Eigen::Index j = 0; j < motion.cols(); ++j)
+      {
+        motion(static_cast<Eigen::Index>(t), j) = normal(random);
+      }
+    }
+    return TemporalBasis(flicker, Eigen::MatrixXd(Frames, 0), motion);
+  }();
+  return basis;
+}
+
+/** Values over the whole range of the type, or about 1000 in floating point. */
+template <typename TPixel>
+std::vector<TPixel>
+Stack()
+{
+  std::mt19937_64            random(5);
+  std::normal_distribution<> normal(1000.0, 100.0);
+  std::vector<TPixel>        stack(Pixels * Frames);
+  for (TPixel & value : stack)
+  {
+    value = std::is_integral_v<TPixel> ? static_cast<TPixel>(random() >> 20) : static_cast<TPixel>(normal(random));
+  }
+  return stack;
+}
+
+/** The sums of the frames [first, last), added in chunks. */
+template <typename TPixel>
+ProjectionSums
+SumsOf(const std::vector<TPixel> & stack, std::size_t first, std::size_t last, std::size_t chunk = Frames)
+{
+  ProjectionSums sums(Pixels, Series);
+  for (std::size_t t = first; t < last; t += chunk)
+  {
+    const std::size_t count = std::min(chunk, last - t);
+    sums.AddFrames(Basis(), stack.data() + t * Pixels, t, count, 100, Pixels);
+    sums.AddFrames(Basis(), stack.data() + t * Pixels, t, count, 0, 100);
+  }
+  return sums;
+}
+
+void
+ExpectSameBits(const ProjectionSums & a, const ProjectionSums & b)
+{
+  ASSERT_EQ(a.GetNumberOfSeries(), b.GetNumberOfSeries());
+  for (std::size_t i = 0; i < Pixels * Series; ++i)
+  {
+    ASSERT_EQ(a.At(i / Series, i % Series), b.At(i / Series, i % Series)) << i;
+  }
+}
+} // namespace
+
+template <typename TPixel>
+class SensorNoiseProjectionSumsOf : public ::testing::Test
+{};
+using PixelTypes = ::testing::Types<unsigned char, short, unsigned short, float, double>;
+TYPED_TEST_SUITE(SensorNoiseProjectionSumsOf, PixelTypes);
+
+TYPED_TEST(SensorNoiseProjectionSumsOf, AnyChunksAndRangesOfPixelsGiveTheSameBits)
+{
+  const auto stack = Stack<TypeParam>();
+  const auto expected = SumsOf(stack, 0, Frames);
+  for (const std::size_t chunk : { 1, 3, 4, 10 })
+  {
+    ExpectSameBits(SumsOf(stack, 0, Frames, chunk), expected);
+  }
+}
+
+TYPED_TEST(SensorNoiseProjectionSumsOf, AreSumsOfSeriesTimesValue)
+{
+  ASSERT_EQ(Basis().Size(), Series);
+  const auto stack = Stack<TypeParam>();
+  const auto sums = SumsOf(stack, 0, Frames);
+  for (std::size_t p = 0; p < Pixels; ++p)
+  {
+    for (std::size_t j = 0; j < Series; ++j)
+    {
+      long double sum = 0.0L; // of 64 bits: exact for integers
+      long double size = 0.0L;
+      for (std::size_t t = 0; t < Frames; ++t)
+      {
+        const long double product = static_cast<long double>(Basis().Rounded(t, j)) * stack[t * Pixels + p];
+        sum += product;
+        size += std::abs(product);
+      }
+      const long double tolerance = std::is_integral_v<TypeParam> ? 0.0L : 1e-15L * size;
+      ASSERT_LE(std::abs(sums.At(p, j) - sum), tolerance) << p << ' ' << j;
+    }
+  }
+}
+
+TYPED_TEST(SensorNoiseProjectionSumsOf, MergedPartsAgreeWithTheWhole)
+{
+  const auto stack = Stack<TypeParam>();
+  const auto whole = SumsOf(stack, 0, Frames);
+  const auto a = SumsOf(stack, 0, 7);
+  const auto b = SumsOf(stack, 7, 8);
+  const auto c = SumsOf(stack, 8, Frames);
+  auto       backwards = ProjectionSums(Pixels, Series);
+  backwards.Merge(c);
+  backwards.Merge(a);
+  backwards.Merge(b);
+  if (std::is_integral_v<TypeParam>)
+  {
+    ExpectSameBits(backwards, whole);
+  }
+  for (std::size_t i = 0; i < Pixels * Series; ++i)
+  {
+    // 23 products of up to 2^20 times 2,000.
+    const double tolerance = 1e-15 * 23.0 * 2000.0 * TemporalBasis::Unit;
+    ASSERT_NEAR(backwards.At(i / Series, i % Series), whole.At(i / Series, i % Series), tolerance) << i;
+  }
+}
+
+TEST(SensorNoiseProjectionSums, ResidualSquaresOfMergedChunksAreTheWholes)
+{
+  // RSS = M2 - C' P^-1 C of merged chunks, estimator.md 6: from exact sums the same bits, whatever the order.
+  using Codes = unsigned short;
+  const auto stack = Stack<Codes>();
+  const auto rssOf = [&](const std::vector<std::pair<std::size_t, std::size_t>> & parts) {
+    IntegerMoments<Codes> moments(Pixels);
+    ProjectionSums        sums(Pixels, Series);
+    for (const auto & [first, last] : parts)
+    {
+      IntegerMoments<Codes> own(Pixels);
+      own.AddFrames(stack.data() + first * Pixels, Pixels, last - first, 0, Pixels);
+      own.AdvanceFrames(last - first);
+      moments.Merge(own);
+      sums.Merge(SumsOf(stack, first, last));
+    }
+    std::vector<double> rss;
+    for (std::size_t p = 0; p < Pixels; ++p)
+    {
+      const double mean = moments.GetMean(p);
+      Basis().ToCoordinates(&sums.At(p, 0), ProjectionSums::BlockPixels, &mean, 1);
+      rss.push_back(moments.GetSumOfSquaredDeviations(p));
+      for (std::size_t j = 0; j < Series; ++j)
+      {
+        rss.back() -= sums.At(p, j) * sums.At(p, j);
+      }
+    }
+    return rss;
+  };
+  const auto whole = rssOf({ { 0, Frames } });
+  EXPECT_EQ(rssOf({ { 15, Frames }, { 0, 4 }, { 4, 15 } }), whole);
+  EXPECT_GT(*std::min_element(whole.begin(), whole.end()), 0.0);
+}
+
+TEST(SensorNoiseProjectionSums, MergeRefusesOtherSizes)
+{
+  ProjectionSums sums(4, 2);
+  EXPECT_THROW(sums.Merge(ProjectionSums(5, 2)), std::invalid_argument);
+  EXPECT_THROW(sums.Merge(ProjectionSums(4, 3)), std::invalid_argument);
+}

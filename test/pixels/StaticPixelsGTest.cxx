@@ -1,0 +1,175 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/pixels/StaticPixels.h"
+
+#include "sensornoise/base/ChiSquare.h"
+#include "helpers/ProjectionTestHelper.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <numeric>
+#include <vector>
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+using namespace sensornoise::test::projection;
+
+namespace
+{
+/** Noise of one variance, 400 DN^2, that is larger by a factor at some pixels. */
+struct Noise
+{
+  Input             input;
+  ProjectedVariance projected;
+  VarianceLine      line;
+
+  explicit Noise(const std::function<double(std::size_t p)> & factor)
+    : input(Series(factor))
+    , projected(input.Project())
+  {
+    projected.Compute(0.0);
+    line.intercept = 400.0;
+    line.isDetermined = true;
+  }
+  static Eigen::MatrixXd
+  Series(const std::function<double(std::size_t p)> & factor)
+  {
+    Eigen::MatrixXd series = NormalSeries();
+    for (std::size_t p = 0; p < Pixels; ++p)
+    {
+      series.col(static_cast<Eigen::Index>(p)) *= std::sqrt(factor(p));
+    }
+    return series;
+  }
+  ClassFit
+  Judge() const
+  {
+    return JudgeClasses(projected, line, input.mask, SerialFor);
+  }
+  std::vector<std::uint8_t>
+  Misfit() const
+  {
+    return FindLocalMisfit(projected, line, input.mask, SerialFor);
+  }
+};
+
+double
+Everywhere(std::size_t)
+{
+  return 1.0;
+}
+
+/** 14 x 14 pixels in the middle. */
+bool
+IsInPatch(std::size_t p, std::size_t margin = 0)
+{
+  const std::size_t x = p % Width;
+  const std::size_t y = p / Width;
+  return x >= 30 + margin && x < 44 - margin && y >= 25 + margin && y < 39 - margin;
+}
+} // namespace
+
+TEST(SensorNoiseStaticPixels, NoiseFitsInAllClassesAndPlaces)
+{
+  const Noise noise(Everywhere);
+  const auto  fit = noise.Judge();
+  EXPECT_EQ(fit.firstBad, ProjectedVariance::Classes);
+  ASSERT_EQ(fit.ratio.size(), ProjectedVariance::Classes);
+  EXPECT_NEAR(fit.reducedChi2, 1.0, 1.5); // 23 degrees of freedom: 5 standard deviations of sqrt(2 / 23)
+  for (std::size_t c = 0; c < 15; ++c)
+  {
+    EXPECT_NEAR(fit.ratio[c], 1.0, 0.08) << c; // 5 sqrt(2 / 26 / 280 pixels)
+  }
+  const auto misfit = noise.Misfit();
+  EXPECT_EQ(std::count(misfit.begin(), misfit.end(), std::uint8_t{ 1 }), 0);
+}
+
+TEST(SensorNoiseStaticPixels, RoughPixelsOfTooLargeAVarianceAreLeftOut)
+{
+  const Noise plain(Everywhere);
+  const Noise noise([&](std::size_t p) { return plain.projected.ClassOf(p) >= 16 ? 1.8 : 1.0; });
+  const auto  fit = noise.Judge();
+  // The class of a pixel hardly depends on its noise: some near the edge of class 16 change places.
+  EXPECT_GE(fit.firstBad, 15u);
+  EXPECT_LE(fit.firstBad, 17u);
+  EXPECT_GT(fit.ratio[20], 1.4);
+}
+
+TEST(SensorNoiseStaticPixels, PatchOfTooLargeAVarianceIsFound)
+{
+  const auto misfit = Noise([](std::size_t p) { return IsInPatch(p) ? 2.5 : 1.0; }).Misfit();
+  for (std::size_t p = 0; p < Pixels; ++p)
+  {
+    if (IsInPatch(p))
+    {
+      EXPECT_EQ(misfit[p], 1) << p % Width << ' ' << p / Width;
+    }
+    const bool isFar = p % Width < 10 || p % Width >= 64 || p / Width < 5 || p / Width >= 59;
+    EXPECT_FALSE(isFar && misfit[p] != 0) << p % Width << ' ' << p / Width;
+  }
+}
+
+TEST(SensorNoiseStaticPixels, PatchOfMovingThingsIsFound)
+{
+  const auto misfit = Noise([](std::size_t p) { return IsInPatch(p) ? 100.0 : 1.0; }).Misfit();
+  for (std::size_t p = 0; p < Pixels; ++p)
+  {
+    EXPECT_FALSE(IsInPatch(p) && misfit[p] == 0) << p % Width << ' ' << p / Width;
+  }
+}
+
+TEST(SensorNoiseStaticPixels, SingleNoisyPixelsAreNotTheirSurroundings)
+{
+  const auto misfit = Noise([](std::size_t p) { return p % 97 == 0 ? 100.0 : 1.0; }).Misfit();
+  EXPECT_EQ(std::count(misfit.begin(), misfit.end(), std::uint8_t{ 1 }), 0);
+}
+
+TEST(SensorNoiseStaticPixels, FarOffIsFourAndAHalfStandardDeviations)
+{
+  for (const double freedom : { 10.0, 30.0, 100.0 })
+  {
+    // The normal deviates' tail probabilities; the cube root is about 0.1 standard deviations off.
+    const auto above = [&](double z) {
+      return ChiSquareUpperQuantile(0.5 * std::erfc(z / std::sqrt(2.0)), freedom) / freedom;
+    };
+    const auto below = [&](double z) {
+      return ChiSquareQuantile(0.5 * std::erfc(z / std::sqrt(2.0)), freedom) / freedom;
+    };
+    EXPECT_TRUE(detail::IsFarAbove(above(4.7), freedom) && detail::IsFarOff(above(4.7), freedom)) << freedom;
+    EXPECT_FALSE(detail::IsFarAbove(above(4.3), freedom) || detail::IsFarOff(above(4.3), freedom)) << freedom;
+    EXPECT_FALSE(detail::IsFarAbove(below(6.0), freedom)) << freedom;
+    EXPECT_FALSE(detail::IsFarOff(below(3.8), freedom)) << freedom;
+    EXPECT_TRUE(detail::IsFarOff(below(5.2), freedom)) << freedom;
+  }
+}
+
+TEST(SensorNoiseStaticPixels, IntensityChi2KnowsAWaveInTheVariance)
+{
+  const auto  mean = WavyScene(Width, Height);
+  const Noise plain(Everywhere);
+  const Noise wavy([&](std::size_t p) { return 1.0 + 0.2 * std::sin(0.03 * mean[p]); });
+  const auto  chi2Of = [](const Noise & noise) {
+    return IntensityChi2(noise.projected.GetData(noise.input.mask), noise.line, SerialFor);
+  };
+  EXPECT_NEAR(chi2Of(plain), 1.0, 0.9); // 62 degrees of freedom: 5 standard deviations of sqrt(2 / 62)
+  EXPECT_GT(chi2Of(wavy), 3.0);
+}

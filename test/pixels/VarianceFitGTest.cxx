@@ -1,0 +1,292 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/pixels/VarianceFit.h"
+
+#include "helpers/StackTestHelper.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+using namespace sensornoise;
+
+namespace
+{
+constexpr std::size_t Pixels = 20000; // more than two blocks
+constexpr float       Freedom = 30.0F;
+constexpr double      Gain = 0.05; // many electrons a DN: the variances are those of normal noise
+constexpr double      Intercept = -2.0;
+
+/** Maps of means from 100 to 1,100 and variances about a line. */
+struct Maps
+{
+  std::vector<double>       mean;
+  std::vector<double>       neighbourMean;
+  std::vector<double>       variance;
+  std::vector<float>        freedom = std::vector<float>(Pixels, Freedom);
+  std::vector<std::uint8_t> mask = std::vector<std::uint8_t>(Pixels, 1);
+
+  explicit Maps(bool isNoisy)
+  {
+    std::mt19937                     random(41);
+    std::uniform_real_distribution<> uniform(100.0, 1100.0);
+    std::chi_squared_distribution<>  chiSquare(Freedom);
+    std::normal_distribution<>       normal;
+    for (std::size_t p = 0; p < Pixels; ++p)
+    {
+      mean.push_back(uniform(random));
+      neighbourMean.push_back(mean.back() + (isNoisy ? 5.0 * normal(random) : 0.0));
+      variance.push_back((Intercept + Gain * mean.back()) * (isNoisy ? chiSquare(random) / Freedom : 1.0));
+    }
+  }
+  VarianceLine
+  Fit(const ParallelFor & parallelFor = SerialFor) const
+  {
+    return FitVarianceLine({ mean.data(), neighbourMean.data(), variance.data(), freedom.data(), mask.data(), Pixels },
+                           parallelFor);
+  }
+};
+
+/** The integral over chi-square's density times x^power from \a low to \a high, by Simpson's rule. */
+double
+Integrate(double k, double low, double high, int power)
+{
+  const auto density = [&](double x) {
+    return std::exp((0.5 * k - 1.0) * std::log(x) - 0.5 * x - 0.5 * k * std::log(2.0) - std::lgamma(0.5 * k)) *
+           std::pow(x, power);
+  };
+  constexpr int steps = 4000;
+  double        sum = density(low) + density(high);
+  for (int i = 1; i < steps; ++i)
+  {
+    sum += (i % 2 == 1 ? 4.0 : 2.0) * density(low + (high - low) * i / steps);
+  }
+  return sum * (high - low) / steps / 3.0;
+}
+} // namespace
+
+TEST(SensorNoiseChiSquareTrim, MeanFactorAgreesWithNumericalIntegration)
+{
+  const ChiSquareTrim trim(4.0, 200.0);
+  for (const double k : { 4.0, 17.0, 95.0, 200.0 })
+  {
+    const auto & limits = trim.Of(k);
+    const double inside = Integrate(k, k * limits.low, k * limits.high, 0);
+    EXPECT_NEAR(inside, 1.0 - 2.0 * ChiSquareTrim::Tail, 1e-9) << k;
+    EXPECT_NEAR(Integrate(k, 1e-9, k * limits.low, 0), ChiSquareTrim::Tail, 1e-8) << k;
+    EXPECT_NEAR(limits.mean, Integrate(k, k * limits.low, k * limits.high, 1) / inside / k, 1e-9) << k;
+    EXPECT_NEAR(Integrate(k, 1e-9, k * limits.median, 0), 0.5, 1e-8) << k;
+  }
+}
+
+TEST(SensorNoiseChiSquareTrim, DegreesOfFreedomAreRoundedAndHeldInTheRange)
+{
+  const ChiSquareTrim trim(10.2, 20.7);
+  EXPECT_EQ(trim.Of(12.4).high, trim.Of(12.0).high);
+  EXPECT_EQ(trim.Of(3.0).high, trim.Of(10.0).high);
+  EXPECT_EQ(trim.Of(99.0).high, trim.Of(21.0).high);
+  EXPECT_GT(trim.Of(10.0).high, trim.Of(21.0).high);
+  EXPECT_GT(ChiSquareTrim(0.1, 0.2).Of(0.1).high, 1.0); // at least one
+}
+
+TEST(SensorNoiseVarianceFit, ExactLineIsRecovered)
+{
+  // Every variance is on the line, but counted as the mean of a trimmed distribution.
+  const double trimmed = ChiSquareTrim(Freedom, Freedom).Of(Freedom).mean;
+  const auto   line = Maps(false).Fit();
+  ASSERT_TRUE(line.isDetermined);
+  EXPECT_NEAR(line.gain * trimmed, Gain, 1e-9);
+  EXPECT_NEAR(line.intercept * trimmed, Intercept, 1e-6);
+  EXPECT_NEAR(line.At(500.0) * trimmed, Intercept + 500.0 * Gain, 1e-6);
+  EXPECT_GE(line.At(-1e9), line.lowestDn2); // the line is cut where it would not be a variance
+  EXPECT_GT(line.lowestDn2, 0.0);
+  EXPECT_EQ(line.trimmedFraction, 0.0);
+}
+
+TEST(SensorNoiseVarianceFit, NoisyLineIsRecoveredWithinItsErrors)
+{
+  const Maps maps(true);
+  const auto line = maps.Fit();
+  ASSERT_TRUE(line.isDetermined);
+  EXPECT_NEAR(line.gain, Gain, 4.0 * std::sqrt(line.covariance(0, 0)));
+  EXPECT_NEAR(line.intercept, Intercept, 4.0 * std::sqrt(line.covariance(1, 1)));
+  EXPECT_NEAR(line.curvature, 0.0, 4.0 * line.curvatureSd);
+  // Two tails of 1e-4 of 20,000 pixels: 4, Poisson.
+  EXPECT_LT(line.trimmedFraction, 20.0 / Pixels);
+  // The sandwich is the inverse information if the weights are right: sum freedom / (2 V^2) (x, 1)'(x, 1).
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  for (const double mean : maps.mean)
+  {
+    const Eigen::Vector2d row(mean, 1.0);
+    information += 0.5 * Freedom / std::pow(Intercept + Gain * mean, 2) * row * row.transpose();
+  }
+  const Eigen::Matrix2d fisher = information.inverse();
+  EXPECT_NEAR(line.covariance(0, 0) / fisher(0, 0), 1.0, 0.1); // sd of a sum of 20,000 squares and wrong weights: 3 %
+  EXPECT_NEAR(line.covariance(1, 1) / fisher(1, 1), 1.0, 0.1);
+  EXPECT_NEAR(line.covariance(0, 1) / fisher(0, 1), 1.0, 0.1);
+}
+
+TEST(SensorNoiseVarianceFit, FollowsTheUnitsAndTheLevel)
+{
+  const Maps       maps(true);
+  const auto       line = maps.Fit();
+  constexpr double scale = 3.7; // of the samples
+  constexpr double added = 2000.0;
+  Maps             changed = maps;
+  for (std::size_t p = 0; p < Pixels; ++p)
+  {
+    changed.mean[p] = scale * maps.mean[p] + added;
+    changed.neighbourMean[p] = scale * maps.neighbourMean[p] + added;
+    changed.variance[p] = scale * scale * maps.variance[p];
+  }
+  const auto other = changed.Fit();
+  EXPECT_NEAR(other.gain, scale * line.gain, 1e-9 * scale * line.gain);
+  EXPECT_NEAR(other.intercept, scale * scale * line.intercept - other.gain * added, 1e-6);
+  EXPECT_NEAR(other.covariance(0, 0), scale * scale * line.covariance(0, 0), 1e-7 * other.covariance(0, 0));
+  EXPECT_NEAR(other.curvature, line.curvature, 1e-6 * line.curvatureSd);
+  EXPECT_EQ(other.trimmedFraction, line.trimmedFraction);
+}
+
+TEST(SensorNoiseVarianceFit, ParabolaIsFoundBesideTheLine)
+{
+  Maps             maps(false);
+  constexpr double curvature = 2e-6;
+  const auto       parabola = [&](double x) { return Intercept + Gain * x + curvature * x * x; };
+  for (std::size_t p = 0; p < Pixels; ++p)
+  {
+    maps.variance[p] = parabola(maps.mean[p]);
+  }
+  const double trimmed = ChiSquareTrim(Freedom, Freedom).Of(Freedom).mean;
+  const auto   line = maps.Fit();
+  EXPECT_NEAR(line.curvature * trimmed, curvature, 1e-6 * curvature);
+  for (const double x : { 100.0, 600.0, 1100.0 })
+  {
+    EXPECT_NEAR((line.At(x) + line.BendAt(x)) * trimmed, parabola(x), 1e-4) << x;
+  }
+}
+
+TEST(SensorNoiseVarianceFit, OutliersAndPixelsOutsideTheMaskHaveNoPart)
+{
+  const Maps maps(true);
+  const auto expected = maps.Fit();
+  Maps       spoiled = maps;
+  for (std::size_t p = 0; p < Pixels; p += 100)
+  {
+    spoiled.variance[p] *= p % 200 == 0 ? 1e4 : 1e-4;
+  }
+  const auto line = spoiled.Fit();
+  EXPECT_NEAR(line.gain, expected.gain, 0.5 * std::sqrt(expected.covariance(0, 0)));
+  EXPECT_NEAR(line.trimmedFraction, 0.01, 1e-3);
+  Maps masked = maps;
+  for (std::size_t p = 0; p < Pixels; p += 3)
+  {
+    masked.mask[p] = 0;
+  }
+  const auto part = masked.Fit();
+  for (std::size_t p = 0; p < Pixels; p += 3)
+  {
+    masked.variance[p] = masked.mean[p] = masked.neighbourMean[p] = std::nan("");
+    masked.freedom[p] = 0.0F;
+  }
+  EXPECT_EQ(masked.Fit().gain, part.gain);
+  EXPECT_EQ(masked.Fit().covariance, part.covariance);
+}
+
+TEST(SensorNoiseVarianceFit, PixelsWithNoiseOfTheirOwnWidenTheErrors)
+{
+  // 4 % of the pixels have 60 % more variance, 2.3 standard deviations: too little to be told one by one.
+  const auto errors = [](const Maps & maps) {
+    const VarianceData data{ maps.mean.data(),    maps.neighbourMean.data(), maps.variance.data(),
+                             maps.freedom.data(), maps.mask.data(),          Pixels };
+    VarianceFit        fit(data, SerialFor, std::nullopt);
+    fit.Iterate(8);
+    fit.FillErrors();
+    // At the centre, where the line is known best.
+    const VarianceLine &  line = fit.GetLine();
+    const Eigen::Vector2d at(line.centreDn, 1.0);
+    const double          error = line.At(line.centreDn) - (Intercept + Gain * line.centreDn);
+    const double          sampling = at.dot(line.covariance * at);
+    return std::array<double, 3>{ error, sampling, at.dot(fit.TailDisagreement() * at) };
+  };
+  Maps       maps(true);
+  const auto plain = errors(maps);
+  EXPECT_LT(std::abs(plain[0]), 3.0 * std::sqrt(plain[1]));
+  EXPECT_LT(plain[2], plain[1]);
+  for (std::size_t p = 0; p < Pixels; p += 25)
+  {
+    maps.variance[p] *= 1.6;
+  }
+  const auto   noisy = errors(maps);
+  const double raised = noisy[0] - plain[0];
+  EXPECT_GT(raised, 5.0 * std::sqrt(noisy[1]));
+  EXPECT_LT(raised, 3.0 * std::sqrt(noisy[1] + noisy[2]));
+}
+
+TEST(SensorNoiseVarianceFit, StartsBetweenPatchesOfFewLevels)
+{
+  // Ten patches, the darkest with hardly any noise; its last bin of intensity holds a tenth of the next patch. A bin
+  // whose level were a mean and whose variance a median would draw the first line far off, where nothing is kept.
+  constexpr double                 gain = 5.0;
+  Maps                             maps(true);
+  std::mt19937                     random(42);
+  std::uniform_real_distribution<> uniform(-1.0, 1.0);
+  for (std::size_t p = 0; p < Pixels; ++p)
+  {
+    const std::size_t patch = p < 2450 ? 0 : 1 + p % 9;
+    const double      electrons = 80.0 * static_cast<double>(patch);
+    maps.mean[p] = 200.0 + gain * electrons;
+    maps.neighbourMean[p] = maps.mean[p] + uniform(random);
+    const double                    variance = 9.0 + gain * gain * electrons;
+    const double                    freedom = Freedom / (1.0 + 0.5 * gain * gain / variance);
+    std::gamma_distribution<double> gamma(0.5 * freedom, 2.0 / freedom);
+    maps.variance[p] = variance * gamma(random);
+  }
+  const VarianceLine line = maps.Fit();
+  ASSERT_TRUE(line.isDetermined);
+  EXPECT_NEAR(line.gain, gain, 4.0 * std::sqrt(line.covariance(0, 0)));
+  EXPECT_LT(std::sqrt(line.covariance(0, 0)), 0.01 * gain);
+}
+
+TEST(SensorNoiseVarianceFit, ThreadsChangeNoBit)
+{
+  const Maps maps(true);
+  const auto expected = maps.Fit();
+  const auto line = maps.Fit(test::Threads(3));
+  EXPECT_EQ(line.gain, expected.gain);
+  EXPECT_EQ(line.intercept, expected.intercept);
+  EXPECT_EQ(line.covariance, expected.covariance);
+  EXPECT_EQ(line.curvature, expected.curvature);
+}
+
+TEST(SensorNoiseVarianceFit, OneIntensityOrTooFewPixelsDetermineNothing)
+{
+  Maps maps(true);
+  maps.mean.assign(Pixels, 500.0);
+  maps.neighbourMean = maps.mean;
+  EXPECT_FALSE(maps.Fit().isDetermined);
+  maps = Maps(true);
+  maps.mask.assign(Pixels, 0);
+  EXPECT_FALSE(maps.Fit().isDetermined);
+  std::fill_n(maps.mask.begin(), 9, std::uint8_t{ 1 });
+  EXPECT_FALSE(maps.Fit().isDetermined);
+}

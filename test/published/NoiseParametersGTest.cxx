@@ -1,0 +1,170 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/published/NoiseParameters.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace sensornoise;
+
+namespace
+{
+/** The line of a camera: slope g, intercept sigma^2 - g mu. */
+PolynomialFit
+LineOf(double gain, double intercept)
+{
+  PolynomialFit line;
+  line.slope = gain;
+  line.intercept = intercept;
+  line.pixels = 1000;
+  line.isDetermined = true;
+  return line;
+}
+
+PolynomialFit
+LineOfCamera(double gain, double offset, double readNoise)
+{
+  return LineOf(gain, readNoise * readNoise - gain * offset);
+}
+
+std::vector<Quantity>
+ParametersOf(const Report & report)
+{
+  return { report.gain,      report.offset,        report.readNoise, report.readNoiseElectrons,
+           report.intercept, report.totalIntercept };
+}
+
+void
+ExpectUnitsOfTheSchema(const Report & report)
+{
+  EXPECT_EQ(report.gain.unit, "DN/e-");
+  EXPECT_EQ(report.offset.unit, "DN");
+  EXPECT_EQ(report.readNoise.unit, "DN");
+  EXPECT_EQ(report.readNoiseElectrons.unit, "e-");
+  EXPECT_EQ(report.intercept.unit, "DN^2");
+  EXPECT_EQ(report.totalIntercept.unit, "DN^2");
+}
+
+void
+ExpectInterval(const std::optional<Interval> & interval, double low, double high)
+{
+  ASSERT_TRUE(interval.has_value());
+  ASSERT_TRUE(interval->low && interval->high);
+  EXPECT_NEAR(*interval->low, low, 1e-9);
+  EXPECT_NEAR(*interval->high, high, 1e-9);
+}
+} // namespace
+
+TEST(SensorNoiseNoiseParameters, CameraIsRecoveredFromItsLineAndOffset)
+{
+  Report report;
+  FillNoiseParameters(report, LineOfCamera(0.3, 40.0, 3.0), 40.0, 60.0);
+  for (const Quantity & quantity : ParametersOf(report))
+  {
+    EXPECT_EQ(quantity.status, EstimateStatus::Identified) << quantity.unit;
+    EXPECT_FALSE(quantity.standardError || quantity.interval95); // the paper has none
+  }
+  EXPECT_DOUBLE_EQ(*report.gain.value, 0.3);
+  EXPECT_DOUBLE_EQ(*report.offset.value, 40.0);
+  EXPECT_NEAR(*report.readNoise.value, 3.0, 1e-12);
+  EXPECT_NEAR(*report.readNoiseElectrons.value, 10.0, 1e-12);
+  EXPECT_DOUBLE_EQ(*report.intercept.value, 9.0 - 12.0);
+  EXPECT_EQ(report.totalIntercept.value, report.intercept.value); // nothing is removed for the codes
+  EXPECT_TRUE(report.warnings.empty());
+  EXPECT_TRUE(report.IsUsable());
+  ExpectUnitsOfTheSchema(report);
+}
+
+TEST(SensorNoiseNoiseParameters, WithoutOffsetTheBracketsStand)
+{
+  Report report;
+  FillNoiseParameters(report, LineOfCamera(0.5, 40.0, 3.0), std::nullopt, 60.0);
+  EXPECT_EQ(report.gain.status, EstimateStatus::Identified);
+  EXPECT_EQ(report.intercept.status, EstimateStatus::Identified);
+  for (const Quantity * quantity : { &report.offset, &report.readNoise, &report.readNoiseElectrons })
+  {
+    EXPECT_EQ(quantity->status, EstimateStatus::NotIdentifiable) << quantity->unit;
+    EXPECT_FALSE(quantity->value) << quantity->unit;
+  }
+  // sigma^2 = 0 at mu = 40 - 9/0.5 = 22; at mu = 60, sigma^2 = 9 + 0.5 (60 - 40) = 19: both ends hold the camera's.
+  ExpectInterval(report.offset.bracket, 22.0, 60.0);
+  ExpectInterval(report.readNoise.bracket, 0.0, std::sqrt(19.0));
+  ExpectInterval(report.readNoiseElectrons.bracket, 0.0, std::sqrt(19.0) / 0.5);
+  ExpectUnitsOfTheSchema(report);
+}
+
+TEST(SensorNoiseNoiseParameters, WithoutDarkestMeanThereIsNoBracket)
+{
+  Report report;
+  FillNoiseParameters(report, LineOfCamera(0.5, 40.0, 3.0), std::nullopt, std::nullopt);
+  EXPECT_FALSE(report.offset.bracket || report.readNoise.bracket);
+  Report contradiction; // the darkest mean below the level where sigma^2 = 0
+  FillNoiseParameters(contradiction, LineOfCamera(0.5, 40.0, 3.0), std::nullopt, 21.9);
+  EXPECT_FALSE(contradiction.offset.bracket || contradiction.readNoise.bracket);
+}
+
+TEST(SensorNoiseNoiseParameters, NegativeSquareOfTheReadNoiseIsNotIdentifiable)
+{
+  Report report;
+  FillNoiseParameters(report, LineOf(1.0, -105.0), 100.0, 120.0);
+  EXPECT_EQ(report.offset.status, EstimateStatus::Identified);
+  EXPECT_EQ(report.readNoise.status, EstimateStatus::NotIdentifiable);
+  EXPECT_EQ(report.readNoiseElectrons.status, EstimateStatus::NotIdentifiable);
+  EXPECT_FALSE(report.readNoise.value);
+  ExpectInterval(report.readNoise.bracket, 0.0, std::sqrt(15.0));
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_EQ(report.warnings[0].code, "read-noise-not-identifiable");
+  EXPECT_NE(report.warnings[0].message.find("-5.0"), std::string::npos) << report.warnings[0].message;
+}
+
+TEST(SensorNoiseNoiseParameters, GainThatIsNotPositiveFailsEverything)
+{
+  PolynomialFit undetermined;
+  undetermined.pixels = 77;
+  for (const PolynomialFit & line : { LineOf(0.0, 10.0), LineOf(-0.1, 10.0), LineOf(std::nan(""), 10.0), undetermined })
+  {
+    Report report;
+    FillNoiseParameters(report, line, 40.0, 60.0);
+    for (const Quantity & quantity : ParametersOf(report))
+    {
+      EXPECT_EQ(quantity.status, EstimateStatus::Failed) << quantity.unit;
+      EXPECT_FALSE(quantity.value || quantity.bracket) << quantity.unit;
+    }
+    ASSERT_EQ(report.warnings.size(), 1u);
+    EXPECT_EQ(report.warnings[0].code, "variance-not-affine");
+    EXPECT_FALSE(report.IsUsable());
+    ExpectUnitsOfTheSchema(report);
+    EXPECT_EQ(report.warnings[0].message.find("77 pixels") != std::string::npos, !line.isDetermined);
+  }
+}
+
+TEST(SensorNoiseNoiseParameters, OneStatusCanBeSetForAllParameters)
+{
+  Report report;
+  FillNoiseParameters(report, LineOfCamera(0.3, 40.0, 3.0), 40.0, 60.0);
+  SetSensorParameters(report, EstimateStatus::NotIdentifiable);
+  for (const Quantity & quantity : ParametersOf(report))
+  {
+    EXPECT_EQ(quantity.status, EstimateStatus::NotIdentifiable);
+    EXPECT_FALSE(quantity.value || quantity.bracket);
+  }
+  ExpectUnitsOfTheSchema(report);
+}

@@ -1,0 +1,199 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "helpers/RefinedTestHelper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+// What the refined method does with an offset that is known. Camera B: g = 1 DN/e-, mu = 100 DN, sigma = 8 DN.
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+
+namespace
+{
+constexpr std::size_t Size = 128;
+constexpr std::size_t Frames = 40;
+using Codes = unsigned short;
+
+SimulationSettings
+WithFlicker(double flickerSd)
+{
+  SimulationSettings settings = FlickeringSettings(Frames);
+  settings.conditions.flickerSd = flickerSd;
+  return settings;
+}
+
+/** The target scene under light that flickers, and \a veilElectrons of light that does not. */
+Stack<Codes>
+SimulateVeil(double flickerSd, double veilElectrons)
+{
+  const SimulationSettings settings = WithFlicker(flickerSd);
+  const StackSimulator     simulator(MakeTargetScene(Size, Size), Size, Size, settings);
+  Stack<Codes>             stack{ Size, Size, Frames, std::vector<Codes>(Size * Size * Frames) };
+  std::vector<double>      electrons(Size);
+  for (std::size_t row = 0; row < Frames * Size; ++row)
+  {
+    CounterSeededRandom random(settings.seed, 100, row);
+    simulator.ExpectedElectronsRow(row / Size, row % Size, electrons.data());
+    for (std::size_t x = 0; x < Size; ++x)
+    {
+      const double light = static_cast<double>(random.Poisson(electrons[x] + veilElectrons));
+      stack.pixels[row * Size + x] = static_cast<Codes>(std::lround(light + 100.0 + 8.0 * random.Normal()));
+    }
+  }
+  return stack;
+}
+
+Report
+ReportOf(const Stack<Codes> & stack, const std::optional<KnownOffset> & offset = std::nullopt)
+{
+  RefinedSettings settings;
+  settings.offset = offset;
+  return Measure(stack, settings).GetReport();
+}
+
+/** As dark frames that hold the truth would tell it. */
+KnownOffset
+DarkOf(double varianceDn2, double errorDn2)
+{
+  return { 100.0, 0.02, 20, DarkVariance{ varianceDn2, errorDn2 } };
+}
+
+bool
+Warns(const Report & report, const std::string & code)
+{
+  return std::any_of(report.warnings.begin(), report.warnings.end(), [&](const Warning & w) { return w.code == code; });
+}
+
+/** Identified, and within 4 standard errors of the truth. */
+void
+ExpectTruth(const Quantity & quantity, double truth)
+{
+  EXPECT_NEAR(ValueOf(quantity), truth, 4.0 * quantity.standardError.value_or(0.0));
+  EXPECT_GT(quantity.standardError.value_or(0.0), 0.0);
+}
+} // namespace
+
+TEST(SensorNoiseKnownOffset, SteadyLightIsToldFromTheOffset)
+{
+  const Stack<Codes> stack = SimulateVeil(0.05, 200.0);
+  const Report       blind = ReportOf(stack);
+  ExpectTruth(blind.offset, 300.0); // the level that does not flicker
+  EXPECT_FALSE(Warns(blind, "steady-light"));
+
+  const Report report = ReportOf(stack, KnownOffset{ 100.0, 0.1 });
+  EXPECT_EQ(report.offset.value, 100.0);
+  EXPECT_EQ(report.offset.standardError, 0.1);
+  ExpectTruth(report.gain, 1.0);
+  ExpectTruth(report.readNoise, 8.0);
+  ExpectTruth(report.readNoiseElectrons, 8.0);
+  EXPECT_TRUE(Warns(report, "steady-light"));
+  EXPECT_FALSE(Warns(report, "offset-out-of-range"));
+}
+
+TEST(SensorNoiseKnownOffset, WithoutSteadyLightThereIsNoWarning)
+{
+  const Report report = ReportOf(SimulateVeil(0.05, 0.0), KnownOffset{ 100.0, 0.1 });
+  ExpectTruth(report.readNoise, 8.0);
+  EXPECT_TRUE(report.warnings.empty()) << report.warnings.front().code;
+}
+
+TEST(SensorNoiseKnownOffset, NoFlickerIsNeeded)
+{
+  const Stack<Codes> stack = Simulate<Codes>(WithFlicker(0.0), Size, Size);
+  const Report       blind = ReportOf(stack);
+  EXPECT_EQ(blind.offset.status, EstimateStatus::NotIdentifiable);
+  EXPECT_EQ(blind.readNoise.status, EstimateStatus::NotIdentifiable);
+  EXPECT_TRUE(Warns(blind, "offset-not-identifiable"));
+
+  const Report report = ReportOf(stack, KnownOffset{ 100.0, 0.5 });
+  EXPECT_EQ(report.offset.value, 100.0);
+  ExpectTruth(report.readNoise, 8.0);
+  ASSERT_TRUE(report.covariance);
+  EXPECT_EQ((*report.covariance)[2][2], 0.25);
+  EXPECT_TRUE(report.warnings.empty()) << report.warnings.front().code;
+  // The offset's error alone makes g 0.5 DN / (2 sigma) = 0.031 DN of that of the read noise.
+  EXPECT_GT(*report.readNoise.standardError, 0.031);
+}
+
+TEST(SensorNoiseKnownOffset, DarkFramesTellTheReadNoise)
+{
+  const Stack<Codes> stack = Simulate<Codes>(WithFlicker(0.05), Size, Size);
+  const Report       report = ReportOf(stack, DarkOf(64.0 + 1.0 / 12.0, 0.32));
+  EXPECT_NEAR(ValueOf(report.readNoise), 8.0, 1e-9);
+  EXPECT_NEAR(*report.readNoise.standardError, 0.32 / 16.0, 1e-9);
+  ASSERT_TRUE(report.readNoise.interval95);
+  EXPECT_NEAR(*report.readNoise.interval95->low, std::sqrt(64.0 - 1.96 * 0.32), 1e-9);
+  EXPECT_NEAR(ValueOf(report.readNoiseElectrons), 8.0 / *report.gain.value, 1e-9);
+  EXPECT_GT(*report.readNoiseElectrons.standardError, *report.readNoise.standardError);
+  EXPECT_TRUE(report.warnings.empty()) << report.warnings.front().code;
+
+  using Setting = std::pair<std::string, Report::SettingValue>;
+  for (const Setting & expected : { Setting("offset", 100.0),
+                                    Setting("offset_standard_error", 0.02),
+                                    Setting("dark_frames", 20.0),
+                                    Setting("dark_variance", 64.0 + 1.0 / 12.0),
+                                    Setting("dark_variance_standard_error", 0.32) })
+  {
+    EXPECT_EQ(std::count(report.settings.begin(), report.settings.end(), expected), 1) << expected.first;
+  }
+}
+
+TEST(SensorNoiseKnownOffset, DarkFramesOfAnotherCameraAreNoticed)
+{
+  const Stack<Codes> stack = Simulate<Codes>(WithFlicker(0.05), Size, Size);
+  EXPECT_TRUE(Warns(ReportOf(stack, DarkOf(81.0, 0.32)), "dark-frames-differ"));
+}
+
+TEST(SensorNoiseKnownOffset, ReadNoiseThatTheDarkFramesDoNotShowIsAnUpperLimit)
+{
+  const Stack<Codes> stack = Simulate<Codes>(WithFlicker(0.05), Size, Size);
+  const Report       noisy = ReportOf(stack, DarkOf(64.0, 40.0)); // 64 - 1.96 x 40 is below 0
+  EXPECT_EQ(noisy.readNoise.status, EstimateStatus::UpperLimit);
+  EXPECT_FALSE(noisy.readNoise.value);
+  EXPECT_NEAR(*noisy.readNoise.bracket->high, std::sqrt(64.0 - 1.0 / 12.0 + 1.96 * 40.0), 1e-9);
+  EXPECT_TRUE(Warns(noisy, "read-noise-upper-limit"));
+  const Report coarse = ReportOf(stack, DarkOf(0.2, 0.001)); // of codes with a step of 1 DN
+  EXPECT_EQ(coarse.readNoise.status, EstimateStatus::UpperLimit);
+  EXPECT_NEAR(*coarse.readNoise.bracket->high, 0.5, 1e-12);
+}
+
+TEST(SensorNoiseKnownOffset, OffsetThatTheDataContradictIsNoticed)
+{
+  const Stack<Codes> stack = Simulate<Codes>(WithFlicker(0.05), Size, Size);
+  const Report       low = ReportOf(stack, KnownOffset{ 10.0, 0.1 }); // sigma^2 = -36 + 10 < 0
+  EXPECT_TRUE(Warns(low, "offset-out-of-range"));
+  EXPECT_EQ(low.readNoise.status, EstimateStatus::Failed);
+  EXPECT_EQ(low.readNoiseElectrons.status, EstimateStatus::Failed);
+  EXPECT_TRUE(Warns(ReportOf(stack, KnownOffset{ 900.0, 0.1 }), "offset-out-of-range"));
+  EXPECT_FALSE(Warns(ReportOf(stack, KnownOffset{ 100.0, 0.1 }), "offset-out-of-range"));
+}
+
+TEST(SensorNoiseKnownOffset, OffsetThatIsNoNumberIsRefused)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const KnownOffset & offset : { KnownOffset{ nan, 0.0 }, KnownOffset{ 1.0, -1.0 }, KnownOffset{ 1.0, nan } })
+  {
+    RefinedSettings settings;
+    settings.offset = offset;
+    EXPECT_THROW(settings.Validate(), std::invalid_argument);
+  }
+}

@@ -1,0 +1,186 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "helpers/MergeTestHelper.h"
+
+#include "sensornoise/report/ReportJson.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+using namespace sensornoise::test::merge;
+
+namespace
+{
+using Codes = unsigned short;
+
+/** Measures with several processes, each of which reads a part of the frames and merges the others' sums in an order of
+ * its own. */
+template <typename TPixel>
+std::vector<std::unique_ptr<RefinedMethod<TPixel>>>
+MeasureInParts(const Stack<TPixel> & stack, std::size_t count, Reader of)
+{
+  std::vector<std::unique_ptr<RefinedMethod<TPixel>>> processes;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    processes.push_back(std::make_unique<RefinedMethod<TPixel>>(WithCodes(), GeometryOf(stack), stack.frames));
+  }
+  for (unsigned int pass = 0; pass < RefinedMethod<TPixel>::NumberOfPasses; ++pass)
+  {
+    std::vector<std::string> sums;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      AddPart(*processes[i], stack, i, count, of);
+      std::ostringstream out;
+      processes[i]->SaveSums(out);
+      sums.push_back(out.str());
+    }
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      for (std::size_t k = 1; k < count; ++k)
+      {
+        std::istringstream in(sums[(i % 2 == 0 ? i + k : i + count - k) % count]);
+        processes[i]->MergeSums(in);
+      }
+      processes[i]->EndPass();
+    }
+  }
+  return processes;
+}
+
+template <typename TPixel>
+void
+ExpectSameBits(const RefinedMethod<TPixel> & a, const RefinedMethod<TPixel> & b)
+{
+  EXPECT_EQ(ToJson(a.GetReport()), ToJson(b.GetReport()));
+  EXPECT_TRUE(HaveSameBits(a.GetMean(), b.GetMean()));
+  EXPECT_TRUE(HaveSameBits(a.GetVariance(), b.GetVariance()));
+  EXPECT_TRUE(HaveSameBits(a.GetCorrectedVariance(), b.GetCorrectedVariance()));
+  EXPECT_TRUE(HaveSameBits(a.GetPixelUse(), b.GetPixelUse()));
+}
+
+template <typename TPixel>
+void
+ExpectNear(const Quantity & a, const Quantity & b, double relative)
+{
+  EXPECT_NEAR(ValueOf(a), ValueOf(b), relative * std::abs(ValueOf(b))) << b.unit;
+  EXPECT_NEAR(*a.standardError, *b.standardError, 1e-6 * *b.standardError) << b.unit;
+}
+} // namespace
+
+TEST(SensorNoiseRefinedMethodMerge, PartsOfIntegerFramesGiveTheWholesBits)
+{
+  const auto & stack = SmallStack<Codes>();
+  const auto   whole = Measure(stack);
+  ASSERT_EQ(whole.GetReport().gain.status, EstimateStatus::Identified);
+  for (const Reader reader : { InRuns, InTurn })
+  {
+    for (const std::size_t processes : { 2, 3 })
+    {
+      for (const auto & method : MeasureInParts(stack, processes, reader))
+      {
+        ExpectSameBits(*method, whole);
+      }
+    }
+  }
+}
+
+TEST(SensorNoiseRefinedMethodMerge, PartsOfFloatingPointFramesAgreeWithTheWholeAndBitByBitAmongThemselves)
+{
+  const auto & stack = SmallStack<float>();
+  const auto   wholeMethod = Measure(stack);
+  const auto & whole = wholeMethod.GetReport();
+  for (const Reader reader : { InRuns, InTurn })
+  {
+    for (const std::size_t processes : { 2, 3 })
+    {
+      const auto   methods = MeasureInParts(stack, processes, reader);
+      const auto & report = methods[0]->GetReport();
+      ExpectNear<float>(report.gain, whole.gain, 1e-9);
+      ExpectNear<float>(report.offset, whole.offset, 1e-9);
+      ExpectNear<float>(report.readNoise, whole.readNoise, 1e-9);
+      ExpectNear<float>(report.intercept, whole.intercept, 1e-9);
+      ExpectNear<float>(report.flickerSd, whole.flickerSd, 1e-9);
+      ExpectNear<float>(report.vibrationSdX, whole.vibrationSdX, 1e-9);
+      ExpectNear<float>(report.vibrationSdY, whole.vibrationSdY, 1e-9);
+      EXPECT_TRUE(HaveSameBits(methods[0]->GetPixelUse(), wholeMethod.GetPixelUse()));
+      // Means and series, on which the next pass of all processes is based, must not differ at all.
+      for (const auto & method : methods)
+      {
+        EXPECT_TRUE(HaveSameBits(method->GetMean(), methods[0]->GetMean()));
+        EXPECT_EQ(method->GetReport().offset.value, report.offset.value);
+      }
+    }
+  }
+}
+
+TEST(SensorNoiseRefinedMethodMerge, SavedSumsHoldTheMergedOnes)
+{
+  // A chain instead of an exchange of all with all: 0 hands to 1, 1 hands both to 2, which reads the rest.
+  const auto & stack = SmallStack<float>();
+  const auto   expected = MeasureInParts(stack, 3, InRuns);
+  auto         method = MethodOf(stack);
+  std::string  sums;
+  for (std::size_t i = 0; i < 2; ++i)
+  {
+    auto link = MethodOf(stack);
+    AddPart(link, stack, i, 3, InRuns);
+    if (!sums.empty())
+    {
+      std::istringstream in(sums);
+      link.MergeSums(in);
+    }
+    std::ostringstream out;
+    link.SaveSums(out);
+    sums = out.str();
+  }
+  std::istringstream in(sums);
+  method.MergeSums(in);
+  AddPart(method, stack, 2, 3, InRuns);
+  method.EndPass();
+  EXPECT_TRUE(HaveSameBits(method.GetMean(), expected[0]->GetMean()));
+  EXPECT_TRUE(HaveSameBits(method.GetVariance(), expected[0]->GetVariance()));
+}
+
+TEST(SensorNoiseRefinedMethodMerge, ProcessWithoutFramesMayTakePart)
+{
+  const auto & stack = SmallStack<Codes>();
+  const auto   whole = Measure(stack);
+  auto         reader = MethodOf(stack);
+  auto         idle = MethodOf(stack);
+  for (unsigned int pass = 0; pass < reader.NumberOfPasses; ++pass)
+  {
+    reader.AddFrames(stack.Frame(0), Frames);
+    for (auto * const from : { &idle, &reader }) // nothing into the reader, all into the idle one
+    {
+      std::stringstream sums;
+      from->SaveSums(sums);
+      (from == &idle ? reader : idle).MergeSums(sums);
+    }
+    reader.EndPass();
+    idle.EndPass();
+  }
+  ExpectSameBits(reader, whole);
+  ExpectSameBits(idle, whole);
+}

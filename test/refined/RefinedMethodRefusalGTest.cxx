@@ -1,0 +1,135 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "helpers/MergeTestHelper.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+using namespace sensornoise::test::merge;
+
+namespace
+{
+using Codes = unsigned short;
+
+/** Runs \a function and returns what it complains of. */
+template <typename TError, typename TFunction>
+std::string
+MessageOf(TFunction function)
+{
+  try
+  {
+    function();
+  }
+  catch (const TError & error)
+  {
+    return error.what();
+  }
+  return "nothing was thrown";
+}
+
+} // namespace
+
+TEST(SensorNoiseRefinedMethodRefusal, SumsThatDoNotFitAreRefusedAndChangeNothing)
+{
+  const auto & stack = SmallStack<Codes>();
+  const auto   save = [](const auto & method) {
+    std::ostringstream out;
+    method.SaveSums(out);
+    return out.str();
+  };
+  auto method = MethodOf(stack);
+  AddPart(method, stack, 0, 2, InRuns);
+  const std::string before = save(method);
+  const auto        complaint = [&](const std::string & sums) {
+    return MessageOf<std::runtime_error>([&] {
+      std::istringstream in(sums);
+      method.MergeSums(in);
+    });
+  };
+  const auto has = [](const std::string & text, const std::string & part) { return text.find(part) != text.npos; };
+
+  EXPECT_TRUE(has(complaint(before), "frame 0")); // its own
+  auto other = MethodOf(stack);
+  AddPart(other, stack, 1, 2, InRuns);
+  const std::string good = save(other);
+  for (const std::size_t size : { std::size_t{ 0 }, std::size_t{ 20 }, std::size_t{ 60 }, good.size() - 1 })
+  {
+    EXPECT_TRUE(has(complaint(good.substr(0, size)), "ends early")) << size;
+  }
+  EXPECT_TRUE(has(complaint("some text, which is long enough to be a header of sums"), "expected \"RefinedMethod"));
+  EXPECT_TRUE(has(complaint(save(MethodOf(SmallStack<float>()))), "found \"RefinedMethod float\""));
+  EXPECT_TRUE(has(complaint(save(RefinedMethod<Codes>({}, { Width, Height + 1, 1 }, Frames))), "pixels"));
+  EXPECT_TRUE(has(complaint(save(RefinedMethod<Codes>({}, { Height, Width, 1 }, Frames))), "other settings"));
+  EXPECT_TRUE(has(complaint(save(RefinedMethod<Codes>({}, { Width, Height, 1 }, Frames + 1))), "25 frames"));
+  const std::vector<std::uint8_t> mask(Width * Height, 1);
+  EXPECT_TRUE(has(complaint(save(RefinedMethod<Codes>({}, { Width, Height, 1 }, Frames, mask))), "another mask"));
+  auto second = MethodOf(stack);
+  second.AddFrames(stack.Frame(0), Frames);
+  second.EndPass();
+  EXPECT_TRUE(has(complaint(save(second)), "pass"));
+  EXPECT_EQ(save(method), before);
+
+  std::istringstream in(good);
+  method.MergeSums(in);
+  EXPECT_NO_THROW(method.EndPass());
+}
+
+TEST(SensorNoiseRefinedMethodRefusal, SumsOfOtherPassesBeforeAreRefused)
+{
+  const auto & stack = SmallStack<Codes>();
+  const auto   brighter = stack.Map([](Codes u) { return u + 1; });
+  auto         method = MethodOf(stack);
+  auto         other = MethodOf(stack);
+  method.AddFrames(stack.Frame(0), Frames);
+  other.AddFrames(brighter.Frame(0), Frames);
+  method.EndPass();
+  other.EndPass();
+  std::stringstream sums;
+  other.SaveSums(sums);
+  EXPECT_THROW(method.MergeSums(sums), std::runtime_error);
+}
+
+TEST(SensorNoiseRefinedMethodRefusal, MissingAndRepeatedFramesAreRefused)
+{
+  const auto & stack = SmallStack<Codes>();
+  auto         method = MethodOf(stack);
+  AddPart(method, stack, 0, 2, InRuns);
+  EXPECT_THROW(method.SkipFrames(1), std::logic_error);
+  EXPECT_THROW(method.EndPass(), std::logic_error);
+  auto other = MethodOf(stack);
+  AddPart(other, stack, 1, 2, InRuns);
+  std::stringstream sums;
+  method.SaveSums(sums);
+  other.MergeSums(sums);
+  EXPECT_NO_THROW(other.EndPass());
+  other.AddFrames(stack.Frame(0), 1);
+  EXPECT_THROW(other.AddFrames(stack.Frame(0), Frames), std::logic_error);
+
+  auto late = MethodOf(stack); // frame 0 comes with the sums, and is then read
+  sums.clear();
+  sums.seekg(0);
+  late.MergeSums(sums);
+  EXPECT_THROW(late.AddFrames(stack.Frame(0), 1), std::logic_error);
+}

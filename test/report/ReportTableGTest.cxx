@@ -1,0 +1,82 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/report/ReportTable.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+using namespace sensornoise;
+
+namespace
+{
+/** The line of the table that begins with these words. */
+std::string
+LineOf(const Report & report, const std::string & words)
+{
+  const std::string table = MakeTable(report);
+  const std::size_t start = table.find("\n" + words);
+  return start == std::string::npos ? "" : table.substr(start + 1, table.find('\n', start + 1) - start - 1);
+}
+} // namespace
+
+TEST(SensorNoiseReportTable, ValuesHaveTheirErrorsAndIntervals)
+{
+  Report report;
+  report.gain = Quantity::Identified(0.998765, "DN/e-");
+  report.gain.standardError = 0.00123;
+  report.gain.interval95 = Interval{ 0.9963, 1.0012 };
+  report.gain.bracket = Interval{ 0.0, std::nullopt };
+  EXPECT_EQ(LineOf(report, "quantity"),
+            "quantity                        value  error         unit     status            95 % interval or limits");
+  EXPECT_EQ(LineOf(report, "gain g"),
+            "gain g                        0.99877  +- 0.0012     DN/e-    identified        [0.9963, 1.0012]");
+  EXPECT_EQ(LineOf(report, "offset mu"),
+            "offset mu                           -                DN       failed            ");
+}
+
+TEST(SensorNoiseReportTable, WithoutAnyErrorThereIsNoColumnForThem)
+{
+  Report report;
+  report.offset = Quantity::Identified(99.7, "DN");
+  report.offset.bracket = Interval{ 35.8, std::nullopt };
+  EXPECT_EQ(LineOf(report, "quantity"), "quantity                        value  unit     status            limits");
+  EXPECT_EQ(LineOf(report, "offset mu"), "offset mu                        99.7  DN       identified        [35.8, -]");
+}
+
+TEST(SensorNoiseReportTable, WhatIsNotDistinguishableFromZeroHasItsLimitForAValue)
+{
+  Report report;
+  report.readNoise = Quantity::Without(EstimateStatus::UpperLimit, "DN");
+  report.readNoise.bracket = Interval{ 0.0, 1.25 };
+  report.flickerSd = Quantity::Without(EstimateStatus::UpperLimit, "1");
+  EXPECT_EQ(LineOf(report, "read noise sigma  "),
+            "read noise sigma               < 1.25  DN       upper-limit       [0, 1.25]");
+  EXPECT_EQ(LineOf(report, "flicker sd"), "flicker sd                          -  1        upper-limit       ");
+}
+
+TEST(SensorNoiseReportTable, FitIsShownAsFarAsItIsKnown)
+{
+  Report report;
+  EXPECT_EQ(LineOf(report, "fit:"), "");
+  report.fit.reducedChi2 = 1.02;
+  EXPECT_EQ(LineOf(report, "fit:"), "fit: reduced chi2 1.02 (1: only sampling noise is left)");
+  report.fit.offsetLinePhi = 0.98;
+  EXPECT_EQ(LineOf(report, "fit:"),
+            "fit: reduced chi2 1.02 (1: only sampling noise is left), offset line 0.98 (1: one flicker for all)");
+}

@@ -1,0 +1,242 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/series/FrameEquations.h"
+
+#include "helpers/FrameTestHelper.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+
+namespace
+{
+constexpr std::size_t Width = 70;
+constexpr std::size_t Height = 45;
+constexpr std::size_t LastClass = GradientClasses - 1;
+
+/** Frames with flicker and motion of all orders, with noise of the model's variance. */
+const SyntheticFrames &
+NoisyFrames()
+{
+  static const SyntheticFrames frames(Width, Height, FlickerAndMotion(24, 100.0, 0.3), 1.0);
+  return frames;
+}
+
+const FrameSums &
+NoisySums()
+{
+  static const FrameSums sums = NoisyFrames().Sums();
+  return sums;
+}
+
+/** Coefficients of frame \a t by weighted least squares over single pixels, with an orthogonal decomposition. */
+Eigen::VectorXd
+DenseFit(const SyntheticFrames &          frames,
+         const FrameSums &                sums,
+         const std::vector<std::size_t> & active,
+         std::size_t                      lastClass,
+         std::size_t                      t)
+{
+  std::vector<std::size_t> pixels;
+  for (std::size_t p = 0; p < frames.Pixels(); ++p)
+  {
+    if (sums.GetRegressors().ClassOf(p) <= lastClass)
+    {
+      pixels.push_back(p);
+    }
+  }
+  Eigen::MatrixXd design(pixels.size(), active.size());
+  Eigen::VectorXd change(pixels.size());
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+  {
+    const double root = std::sqrt(frames.Weight(pixels[i]));
+    const auto   columns = frames.ColumnsOf(pixels[i]);
+    const auto   row = static_cast<Eigen::Index>(i);
+    for (std::size_t k = 0; k < active.size(); ++k)
+    {
+      design(row, static_cast<Eigen::Index>(k)) = root * columns(static_cast<Eigen::Index>(active[k]));
+    }
+    change(row) = root * (frames.Frame(t)[pixels[i]] - frames.reference.mean[pixels[i]]);
+  }
+  return design.householderQr().solve(change);
+}
+
+RegressorNoise
+SomeNoise()
+{
+  RegressorNoise noise;
+  for (std::size_t c = 0; c < GradientClasses; ++c)
+  {
+    noise.variance[c] = 100.0 + 10.0 * static_cast<double>(c);
+    noise.shot[c] = 50.0 + 7.0 * static_cast<double>(c);
+  }
+  return noise;
+}
+
+double
+SumUpTo(const std::array<double, GradientClasses> & values, std::size_t last)
+{
+  double sum = 0.0;
+  for (std::size_t c = 0; c <= last; ++c)
+  {
+    sum += values[c];
+  }
+  return sum;
+}
+
+double
+CentreWeightOf(std::size_t column)
+{
+  return column == 0 ? 0.0 : column == 1 ? 1.0 : MotionStencils()[column - 2].CentreWeight();
+}
+} // namespace
+
+TEST(SensorNoiseFrameRegression, EqualsDenseWeightedLeastSquares)
+{
+  for (const std::size_t lastClass : { std::size_t{ 2 }, LastClass })
+  {
+    const FrameEquations equations = MakeFrameEquations(NoisySums(), {}, lastClass);
+    ASSERT_GT(equations.active.size(), 4u) << "the motion has higher orders";
+    for (const std::size_t t : { 0, 23 })
+    {
+      const Eigen::VectorXd expected = DenseFit(NoisyFrames(), NoisySums(), equations.active, lastClass, t);
+      const auto            row = static_cast<Eigen::Index>(t);
+      const Eigen::VectorXd all = equations.gram.ldlt().solve(equations.right.row(row).transpose());
+      const Eigen::Vector2d light = equations.light.ldlt().solve(equations.response.row(row).transpose());
+      EXPECT_LT((all - expected).norm(), 1e-9 * expected.norm()) << t;
+      EXPECT_LT((light - expected.head<2>()).norm(), 1e-9 * expected.norm()) << t;
+    }
+  }
+}
+
+TEST(SensorNoiseFrameRegression, FindsWhatNoiseFreeFramesAreMadeOf)
+{
+  const auto            changes = FlickerAndMotion(24, 100.0, 0.3);
+  const SyntheticFrames frames(Width, Height, changes);
+  const FrameEquations  equations = MakeFrameEquations(frames.Sums(), {}, LastClass);
+  ASSERT_EQ(equations.active.size(), FrameColumns);
+  for (std::size_t t = 0; t < changes.size(); ++t)
+  {
+    const Eigen::VectorXd fit =
+      equations.gram.ldlt().solve(equations.right.row(static_cast<Eigen::Index>(t)).transpose());
+    const FrameChange & change = changes[t];
+    EXPECT_NEAR(fit(0), change.level + change.slope * frames.model.averageDn, 1e-7) << t;
+    EXPECT_NEAR(fit(1), change.slope, 1e-10) << t;
+    for (std::size_t k = 0; k < NumberOfStencils; ++k)
+    {
+      EXPECT_NEAR(fit(static_cast<Eigen::Index>(2 + k)), change.motion[k], 1e-9) << t << ' ' << k;
+    }
+  }
+}
+
+TEST(SensorNoiseFrameRegression, MotionIsPartialledOutOfTheLight)
+{
+  // The Schur complement is the inverse of the light's block of the inverse.
+  const FrameEquations equations = MakeFrameEquations(NoisySums(), SomeNoise(), LastClass);
+  ASSERT_GT(equations.active.size(), 2u);
+  const Eigen::Matrix2d expected = equations.gram.inverse().topLeftCorner<2, 2>().inverse();
+  EXPECT_LT((equations.light - expected).norm(), 1e-9 * expected.norm());
+}
+
+TEST(SensorNoiseFrameRegression, NoiseOfTheRegressorsIsTakenOffTheGramMatrix)
+{
+  // White noise of variance V / T in the mean adds its stencils' inner products; the mean is a stencil of one pixel.
+  const RegressorNoise       noise = SomeNoise();
+  const std::vector<Stencil> own{ { "", 0, StencilTaps() }, { "1", 0, StencilTaps(StencilTap{ 0, 0, 1.0 }) } };
+  for (const std::size_t last : { std::size_t{ 3 }, LastClass })
+  {
+    const FrameEquations  equations = MakeFrameEquations(NoisySums(), noise, last);
+    const Eigen::MatrixXd taken = equations.rawGram - equations.gram;
+    for (std::size_t i = 0; i < equations.active.size(); ++i)
+    {
+      for (std::size_t j = 0; j < equations.active.size(); ++j)
+      {
+        const auto stencil = [&](std::size_t column) {
+          return column < 2 ? own[column] : MotionStencils()[column - 2];
+        };
+        const double product = InnerProduct(stencil(equations.active[i]), stencil(equations.active[j]));
+        EXPECT_NEAR(taken(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)),
+                    SumUpTo(noise.variance, last) / 24.0 * product,
+                    1e-9 * equations.rawGram.norm())
+          << i << ' ' << j;
+      }
+    }
+  }
+}
+
+TEST(SensorNoiseFrameRegression, FlickeringNoiseIsTakenOffTheRightHandSide)
+{
+  const RegressorNoise noise = SomeNoise();
+  std::vector<double>  gamma;
+  for (std::size_t t = 0; t < 24; ++t)
+  {
+    gamma.push_back(0.1 * std::sin(static_cast<double>(t)));
+  }
+  const std::size_t    last = 4;
+  const FrameEquations with = MakeFrameEquations(NoisySums(), noise, last, gamma);
+  const FrameEquations without = MakeFrameEquations(NoisySums(), noise, last);
+  ASSERT_EQ(with.active, without.active);
+  for (std::size_t t = 0; t < gamma.size(); ++t)
+  {
+    for (std::size_t k = 0; k < with.active.size(); ++k)
+    {
+      const auto   row = static_cast<Eigen::Index>(t);
+      const auto   column = static_cast<Eigen::Index>(k);
+      const double expected = gamma[t] * CentreWeightOf(with.active[k]) * SumUpTo(noise.shot, last) / 24.0;
+      EXPECT_NEAR(without.right(row, column) - with.right(row, column),
+                  expected,
+                  1e-13 * without.right.cwiseAbs().maxCoeff() + 1e-12)
+        << t << ' ' << k;
+    }
+  }
+}
+
+TEST(SensorNoiseFrameRegression, MotionThatIsNotThereIsEliminated)
+{
+  const auto activeOf = [](std::size_t frames, double motion) {
+    const SyntheticFrames noisy(Width, Height, FlickerAndMotion(frames, 100.0, motion), 1.0);
+    return MakeFrameEquations(noisy.Sums(), {}, LastClass).active;
+  };
+  const auto largestOrder = [](const std::vector<std::size_t> & active) {
+    int largest = 0;
+    for (const std::size_t column : active)
+    {
+      largest = std::max(largest, column < 2 ? 0 : MotionStencils()[column - 2].order);
+    }
+    return largest;
+  };
+  EXPECT_EQ(activeOf(24, 0.0), (std::vector<std::size_t>{ 0, 1, 2 + StencilX, 2 + StencilY }));
+  EXPECT_EQ(largestOrder(activeOf(24, 0.3)), 3);
+  EXPECT_EQ(largestOrder(activeOf(19, 0.3)), 2); // fewer than 20 frames
+}
+
+TEST(SensorNoiseFrameRegression, MotionThatIsLostInTheNoiseOfTheMeanIsNotActive)
+{
+  RegressorNoise noise;
+  // More than the whole of the x derivative's energy.
+  noise.variance[0] = 24.0 * NoisySums().GetClassGram(0)(2, 2) / InnerProduct(MotionStencils()[0], MotionStencils()[0]);
+  const FrameEquations equations = MakeFrameEquations(NoisySums(), noise, 0);
+  EXPECT_FALSE(equations.Find(2 + StencilX));
+  EXPECT_EQ(equations.Find(0), 0u);
+  EXPECT_EQ(equations.Find(1), 1u);
+}

@@ -1,0 +1,246 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/series/FrameSums.h"
+
+#include "helpers/FrameTestHelper.h"
+#include "helpers/StackTestHelper.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+
+namespace
+{
+constexpr std::size_t Width = 70;
+constexpr std::size_t Height = 45;
+
+/** 70 frames, more than are summed together, of noise and change. */
+const SyntheticFrames &
+Frames()
+{
+  static const SyntheticFrames frames(Width, Height, FlickerAndMotion(70, 100.0, 0.1), 1.0);
+  return frames;
+}
+
+void
+ExpectSameBits(const FrameSums & a, const FrameSums & b)
+{
+  const auto saved = [](const FrameSums & sums) {
+    std::ostringstream out;
+    sums.Save(out);
+    return out.str();
+  };
+  EXPECT_EQ(saved(a), saved(b));
+  for (std::size_t c = 0; c < GradientClasses; ++c)
+  {
+    EXPECT_EQ(a.GetClassGram(c), b.GetClassGram(c)) << c;
+  }
+  EXPECT_EQ(a.GetInstrumentGram(), b.GetInstrumentGram());
+  ASSERT_EQ(a.GetCells().size(), b.GetCells().size());
+  for (std::size_t c = 0; c < a.GetCells().size(); ++c)
+  {
+    EXPECT_EQ(a.GetCells()[c].sum, b.GetCells()[c].sum) << c;
+    EXPECT_EQ(a.GetCells()[c].sumI, b.GetCells()[c].sumI) << c;
+  }
+}
+
+/** The sums of the frames t with t % parts == part. */
+FrameSums
+PartOf(std::size_t part, std::size_t parts)
+{
+  FrameSums sums = Frames().EmptySums();
+  for (std::size_t t = part; t < Frames().Frames(); t += parts)
+  {
+    sums.AddFrames(Frames().Frame(t), t, 1, SerialFor);
+  }
+  return sums;
+}
+} // namespace
+
+TEST(SensorNoiseFrameSums, ClassSumsEqualBruteForce)
+{
+  const FrameSums sums = Frames().Sums();
+  for (const std::size_t t : { std::size_t{ 0 }, std::size_t{ 66 } })
+  {
+    std::vector<Eigen::VectorXd> sum(GradientClasses, Eigen::VectorXd::Zero(FrameColumns));
+    std::vector<Eigen::VectorXd> size(GradientClasses, Eigen::VectorXd::Zero(FrameColumns));
+    for (std::size_t p = 0; p < Frames().Pixels(); ++p)
+    {
+      if (Frames().take[p] != 0)
+      {
+        const double          deviation = Frames().Frame(t)[p] - Frames().reference.mean[p];
+        const Eigen::VectorXd term = Frames().Weight(p) * deviation * Frames().ColumnsOf(p);
+        sum[sums.GetRegressors().ClassOf(p)] += term;
+        size[sums.GetRegressors().ClassOf(p)] += term.cwiseAbs();
+      }
+    }
+    for (std::size_t c = 0; c < GradientClasses; ++c)
+    {
+      EXPECT_TRUE(((sums.GetClassSums(t, c) - sum[c]).array().abs() <= 1e-13 * size[c].array()).all()) << t << ' ' << c;
+    }
+  }
+}
+
+TEST(SensorNoiseFrameSums, ClassGramsEqualBruteForce)
+{
+  const FrameSums              sums = Frames().EmptySums();
+  std::vector<Eigen::MatrixXd> gram(GradientClasses, Eigen::MatrixXd::Zero(FrameColumns, FrameColumns));
+  std::vector<std::size_t>     count(GradientClasses, 0);
+  for (std::size_t p = 0; p < Frames().Pixels(); ++p)
+  {
+    ASSERT_EQ(sums.GetRegressors().ClassOf(p) == FrameRegressors::Unused, Frames().take[p] == 0) << p;
+    if (Frames().take[p] != 0)
+    {
+      const auto columns = Frames().ColumnsOf(p);
+      gram[sums.GetRegressors().ClassOf(p)] += Frames().Weight(p) * columns * columns.transpose();
+      ++count[sums.GetRegressors().ClassOf(p)];
+    }
+  }
+  for (std::size_t c = 0; c < GradientClasses; ++c)
+  {
+    const Eigen::VectorXd unit = gram[c].diagonal().cwiseSqrt();
+    const Eigen::MatrixXd error = (sums.GetClassGram(c) - gram[c]).cwiseQuotient(unit * unit.transpose());
+    EXPECT_LT(error.cwiseAbs().maxCoeff(), 1e-12) << c;
+    EXPECT_GT(count[c], 0u) << c;
+  }
+}
+
+TEST(SensorNoiseFrameSums, InstrumentsEqualBruteForce)
+{
+  const FrameSums       sums = Frames().Sums();
+  constexpr std::size_t t = 3;
+  Eigen::Vector2d       sum = Eigen::Vector2d::Zero();
+  Eigen::MatrixXd       gram = Eigen::MatrixXd::Zero(2, FrameColumns);
+  for (std::size_t p = 0; p < Frames().Pixels(); ++p)
+  {
+    if (Frames().take[p] != 0)
+    {
+      const Eigen::Vector2d instruments(sums.GetRegressors().InstrumentX(p), sums.GetRegressors().InstrumentY(p));
+      sum += (Frames().Frame(t)[p] - Frames().reference.mean[p]) * instruments;
+      gram += instruments * Frames().ColumnsOf(p).transpose();
+    }
+  }
+  EXPECT_NEAR(sums.GetInstrumentSums(t)[0], sum(0), 1e-10 * sum.norm());
+  EXPECT_NEAR(sums.GetInstrumentSums(t)[1], sum(1), 1e-10 * sum.norm());
+  EXPECT_LT((sums.GetInstrumentGram() - gram).norm(), 1e-11 * gram.norm());
+}
+
+TEST(SensorNoiseFrameSums, CellsPartTheWholeFrame)
+{
+  // The model has no motion, so the cells' weights are the classes'.
+  const FrameSums sums = Frames().Sums();
+  ASSERT_GT(sums.GetCells().size(), 1u);
+  FrameSums::ClassMatrix gram = FrameSums::ClassMatrix::Zero();
+  Eigen::VectorXd        frame = Eigen::VectorXd::Zero(FrameColumns);
+  constexpr std::size_t  t = 69;
+  for (std::size_t c = 0; c < GradientClasses; ++c)
+  {
+    gram += sums.GetClassGram(c);
+    frame += sums.GetClassSums(t, c);
+  }
+  FrameSums::Cell whole;
+  double          cellSums[2] = { 0.0, 0.0 };
+  for (std::size_t c = 0; c < sums.GetCells().size(); ++c)
+  {
+    const FrameSums::Cell & cell = sums.GetCells()[c];
+    whole.pixels += cell.pixels;
+    for (std::size_t k = 0; k < FrameColumns; ++k)
+    {
+      whole.sum[k] += cell.sum[k];
+      whole.sumI[k] += cell.sumI[k];
+    }
+    cellSums[0] += sums.GetCellSums(t, c)[0];
+    cellSums[1] += sums.GetCellSums(t, c)[1];
+  }
+  EXPECT_EQ(whole.pixels, (Width - 4) * (Height - 4));
+  const auto near = [&](double value, double expected, Eigen::Index i, Eigen::Index j) {
+    EXPECT_NEAR(value, expected, 1e-12 * std::sqrt(gram(i, i) * gram(j, j))) << i << ' ' << j;
+  };
+  for (std::size_t k = 0; k < FrameColumns; ++k)
+  {
+    const auto column = static_cast<Eigen::Index>(k);
+    near(whole.sum[k], gram(0, column), 0, column);
+    near(whole.sumI[k], gram(1, column), 1, column);
+  }
+  EXPECT_NEAR(cellSums[0], frame(0), 1e-10 * std::sqrt(gram(0, 0)));
+  EXPECT_NEAR(cellSums[1], frame(1), 1e-10 * std::sqrt(gram(1, 1)));
+}
+
+TEST(SensorNoiseFrameSums, RougherClassesHaveLargerGradients)
+{
+  const FrameSums     sums = Frames().EmptySums();
+  std::vector<double> energy; // mean of w (x^2 + y^2)
+  for (std::size_t c = 0; c < GradientClasses; ++c)
+  {
+    const auto gram = sums.GetClassGram(c);
+    double     pixels = 0.0;
+    for (std::size_t p = 0; p < Frames().Pixels(); ++p)
+    {
+      pixels += sums.GetRegressors().ClassOf(p) == c ? 1.0 : 0.0;
+    }
+    energy.push_back((gram(2, 2) + gram(3, 3)) / pixels);
+    EXPECT_TRUE(c == 0 || energy[c] > energy[c - 1]) << c;
+  }
+}
+
+TEST(SensorNoiseFrameSums, ChunksAndThreadsChangeNoBit)
+{
+  const FrameSums expected = Frames().Sums();
+  for (const std::size_t threads : { 2, 7 })
+  {
+    FrameSums sums = Frames().EmptySums(Threads(threads));
+    for (std::size_t t = 0; t < Frames().Frames(); t += threads)
+    {
+      sums.AddFrames(Frames().Frame(t), t, std::min(threads, Frames().Frames() - t), Threads(threads));
+    }
+    ExpectSameBits(sums, expected);
+  }
+}
+
+TEST(SensorNoiseFrameSums, MergedPartsHaveTheWholesBits)
+{
+  const FrameSums   expected = Frames().Sums();
+  FrameSums         merged = PartOf(2, 3);
+  std::stringstream stream;
+  PartOf(0, 3).Save(stream);
+  FrameSums restored = Frames().EmptySums();
+  restored.Restore(stream);
+  ExpectSameBits(restored, PartOf(0, 3));
+  merged.Merge(restored.GetProducts());
+  merged.Merge(PartOf(1, 3).GetProducts());
+  ExpectSameBits(merged, expected);
+  FrameSums none = Frames().EmptySums(); // a process that adds no frame
+  none.Merge(expected.GetProducts());
+  ExpectSameBits(none, expected);
+}
+
+TEST(SensorNoiseFrameSums, MergeRefusesOtherFrames)
+{
+  FrameSums             sums = Frames().EmptySums();
+  const SyntheticFrames fewer(Width, Height, FlickerAndMotion(7, 100.0, 0.1));
+  const SyntheticFrames wider(Width + 1, Height, FlickerAndMotion(70, 100.0, 0.1));
+  EXPECT_THROW(sums.Merge(fewer.EmptySums().GetProducts()), std::invalid_argument);
+  EXPECT_THROW(sums.Merge(wider.EmptySums().GetProducts()), std::invalid_argument);
+}

@@ -1,0 +1,197 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/series/LocalIllumination.h"
+
+#include "helpers/FrameTestHelper.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <random>
+#include <vector>
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+
+namespace
+{
+constexpr std::size_t Width = 96;
+constexpr std::size_t Height = 80;
+constexpr std::size_t Frames = 50;
+constexpr std::size_t Most = 8;
+constexpr double      Offset = 100.0;
+
+Eigen::VectorXd
+Normal(std::size_t seed)
+{
+  std::mt19937               random(static_cast<unsigned int>(seed));
+  std::normal_distribution<> normal;
+  Eigen::VectorXd            series(static_cast<Eigen::Index>(Frames));
+  for (Eigen::Index t = 0; t < series.size(); ++t)
+  {
+    series(t) = normal(random);
+  }
+  return series;
+}
+
+/** Flicker of 5 % and two lamps that light the left and the lower part. */
+struct Lights
+{
+  Eigen::VectorXd flicker = 0.05 * Normal(1);
+  Eigen::VectorXd left = Normal(2);
+  Eigen::VectorXd below = Normal(3);
+};
+
+LocalIllumination
+Find(const SyntheticFrames & frames,
+     const Lights &          lights,
+     std::size_t             most = Most,
+     const Eigen::MatrixXd & motion = {})
+{
+  const FrameSums           sums = frames.Sums();
+  const std::vector<double> gamma(lights.flicker.data(), lights.flicker.data() + Frames);
+  const double              offset = Offset - sums.GetRegressors().GetCentreDn();
+  const FrameEquations      equations = MakeFrameEquations(sums, {}, GradientClasses - 1);
+  const MotionSeries        series = SolveMotion(equations, gamma, offset);
+  return FindLocalIllumination(
+    sums, series, motion.size() > 0 ? motion : Eigen::MatrixXd(series.coefficients), gamma, offset, most);
+}
+
+/** Frames with flicker, noise, and lamps of a relative size. */
+SyntheticFrames
+Lit(const Lights & lights, double lamps)
+{
+  std::vector<FrameChange> changes(Frames);
+  for (std::size_t t = 0; t < Frames; ++t)
+  {
+    changes[t].slope = lights.flicker(static_cast<Eigen::Index>(t));
+    changes[t].level = -Offset * changes[t].slope;
+  }
+  SyntheticFrames frames(Width, Height, changes, 1.0);
+  for (std::size_t i = 0; i < frames.pixels.size(); ++i)
+  {
+    const auto        t = static_cast<Eigen::Index>(i / frames.Pixels());
+    const std::size_t p = i % frames.Pixels();
+    const double      x = static_cast<double>(p % Width) / Width;
+    const double      y = static_cast<double>(p / Width) / Height;
+    const double      light = lights.left(t) * (0.5 - x) + lights.below(t) * std::cos(6.0 * y);
+    frames.pixels[i] += lamps * light * (frames.reference.mean[p] - Offset);
+  }
+  return frames;
+}
+
+/** The share of the centred \a series that the columns and the constant do not span. */
+double
+Unexplained(const Eigen::VectorXd & series, const Eigen::MatrixXd & columns)
+{
+  const Eigen::MatrixXd basis = Orthonormalise(columns, columns.cols());
+  const Eigen::VectorXd centred = series.array() - series.mean();
+  return (centred - basis * (basis.transpose() * centred)).squaredNorm() / centred.squaredNorm();
+}
+} // namespace
+
+TEST(SensorNoiseLocalIllumination, TwoPlantedLampsAreFound)
+{
+  const Lights lights;
+  const auto   found = Find(Lit(lights, 0.01), lights);
+  ASSERT_EQ(found.series.cols(), 2);
+  EXPECT_EQ(found.series.rows(), static_cast<Eigen::Index>(Frames));
+  EXPECT_GT(found.excess, 2.0);
+  // The lamps' series are known but for what the global flicker takes, up to the noise.
+  Eigen::MatrixXd columns(Frames, 3);
+  columns << lights.flicker, found.series;
+  EXPECT_LT(Unexplained(lights.left, columns), 0.01);
+  EXPECT_LT(Unexplained(lights.below, columns), 0.01);
+  EXPECT_GT(Unexplained(Normal(99), columns), 0.5);
+}
+
+TEST(SensorNoiseLocalIllumination, NothingIsFoundInNoise)
+{
+  for (std::size_t seed = 1; seed <= 10; ++seed)
+  {
+    Lights lights;
+    lights.flicker = 0.05 * Normal(100 * seed);
+    const auto found = Find(Lit(lights, 0.0), lights);
+    EXPECT_EQ(found.series.cols(), 0) << seed;
+    EXPECT_LT(found.excess, 1.0) << seed;
+    EXPECT_GT(found.excess, 0.5) << seed; // the noise's edge is known, not only bounded
+  }
+}
+
+TEST(SensorNoiseLocalIllumination, NoMoreSeriesThanAskedForTheStrongestFirst)
+{
+  Lights lights;
+  lights.below *= 0.3;
+  const auto frames = Lit(lights, 0.02);
+  const auto found = Find(frames, lights, 1);
+  ASSERT_EQ(found.series.cols(), 1);
+  Eigen::MatrixXd columns(Frames, 2);
+  columns << lights.flicker, found.series;
+  EXPECT_LT(Unexplained(lights.left, columns), Unexplained(lights.below, columns));
+  EXPECT_EQ(Find(frames, lights, 0).series.cols(), 0);
+}
+
+TEST(SensorNoiseLocalIllumination, WhatResemblesMotionIsNotLight)
+{
+  const Lights    lights;
+  Eigen::MatrixXd motion(Frames, 2);
+  motion << lights.left, lights.below;
+  EXPECT_EQ(Find(Lit(lights, 0.01), lights, Most, motion).series.cols(), 0);
+}
+
+TEST(SensorNoiseLocalIllumination, ShortBurstsAndFewCellsGiveNothing)
+{
+  const Lights             lights;
+  std::vector<FrameChange> changes(5);
+  const SyntheticFrames    burst(Width, Height, changes, 1.0);
+  const FrameSums          sums = burst.Sums();
+  MotionSeries             still;
+  still.coefficients.resize(5, 0);
+  const auto none = FindLocalIllumination(
+    sums, still, Eigen::MatrixXd(5, 0), std::vector<double>(5, 0.0), Offset - sums.GetRegressors().GetCentreDn(), Most);
+  EXPECT_EQ(none.series.cols(), 0);
+  EXPECT_EQ(none.series.rows(), 5);
+}
+
+TEST(SensorNoiseLocalIllumination, MedianNoiseEigenvalueAgreesWithASimulation)
+{
+  std::mt19937               random(61);
+  std::normal_distribution<> normal;
+  constexpr Eigen::Index     longer = 200;
+  constexpr int              repeats = 10;
+  for (const Eigen::Index shorter : { 20, 100, 200 })
+  {
+    double mean = 0.0;
+    for (int repeat = 0; repeat < repeats; ++repeat)
+    {
+      Eigen::MatrixXd noise(longer, shorter);
+      for (Eigen::Index i = 0; i < noise.size(); ++i)
+      {
+        noise(i) = normal(random);
+      }
+      const Eigen::MatrixXd gram = noise.transpose() * noise / static_cast<double>(longer);
+      const Eigen::VectorXd values =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(gram, Eigen::EigenvaluesOnly).eigenvalues();
+      mean += 0.5 * (values(shorter / 2 - 1) + values(shorter / 2)) / repeats;
+    }
+    const double expected = detail::MedianNoiseEigenvalue(static_cast<double>(shorter) / longer);
+    EXPECT_NEAR(mean / expected, 1.0, 0.03) << shorter; // 5 standard deviations of such a mean, and 1 / 200
+  }
+}

@@ -1,0 +1,206 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/series/MotionSeries.h"
+
+#include "helpers/FrameTestHelper.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+
+namespace
+{
+constexpr std::size_t Width = 70;
+constexpr std::size_t Height = 55;
+constexpr std::size_t Frames = 24;
+constexpr double      OffsetDn = 120.0;
+
+const std::vector<FrameChange> &
+Changes()
+{
+  static const auto changes = FlickerAndMotion(Frames, OffsetDn, 1.0);
+  return changes;
+}
+
+std::vector<double>
+Flicker()
+{
+  std::vector<double> gamma;
+  for (const FrameChange & change : Changes())
+  {
+    gamma.push_back(change.slope);
+  }
+  return gamma;
+}
+
+/** What the regression is given and finds. */
+struct Fit
+{
+  SyntheticFrames frames;
+  FrameSums       sums;
+  FrameEquations  equations;
+  MotionSeries    motion;
+  double          offset;
+
+  explicit Fit(double noise)
+    : frames(Width, Height, Changes(), noise)
+    , sums(frames.Sums())
+    , equations(MakeFrameEquations(sums, {}, GradientClasses - 1))
+    , offset(OffsetDn - sums.GetRegressors().GetCentreDn())
+  {
+    motion = SolveMotion(equations, Flicker(), offset);
+  }
+};
+} // namespace
+
+TEST(SensorNoiseShiftSeries, MotionOfNoiseFreeFramesIsFound)
+{
+  const Fit fit(0.0);
+  ASSERT_EQ(fit.motion.stencils.size(), NumberOfStencils);
+  for (std::size_t t = 0; t < Frames; ++t)
+  {
+    for (std::size_t k = 0; k < NumberOfStencils; ++k)
+    {
+      EXPECT_NEAR(fit.motion.Get(t, k), Changes()[t].motion[k], 1e-8) << t << ' ' << k;
+    }
+  }
+}
+
+TEST(SensorNoiseShiftSeries, MotionIsTheDenseFitOnceTheLightIsTakenOff)
+{
+  const Fit         fit(1.0);
+  const auto        size = static_cast<Eigen::Index>(fit.motion.stencils.size());
+  Eigen::MatrixXd   gram = Eigen::MatrixXd::Zero(size, size);
+  Eigen::VectorXd   right = Eigen::VectorXd::Zero(size);
+  const std::size_t t = 5;
+  for (std::size_t p = 0; p < fit.frames.Pixels(); ++p)
+  {
+    if (fit.frames.take[p] != 0)
+    {
+      Eigen::VectorXd derivatives(size);
+      for (Eigen::Index i = 0; i < size; ++i)
+      {
+        derivatives(i) = fit.frames.Derivative(fit.motion.stencils[static_cast<std::size_t>(i)], p);
+      }
+      const double mean = fit.frames.reference.mean[p];
+      const double rest = fit.frames.Frame(t)[p] - mean - Flicker()[t] * (mean - OffsetDn);
+      gram += fit.frames.Weight(p) * derivatives * derivatives.transpose();
+      right += fit.frames.Weight(p) * rest * derivatives;
+    }
+  }
+  const Eigen::VectorXd expected = gram.ldlt().solve(right);
+  EXPECT_LT((fit.motion.coefficients.row(t).transpose() - expected).norm(), 1e-9 * expected.norm());
+  // With weights 1 / V the coefficients' covariance is the inverse of the Gram matrix.
+  EXPECT_LT((fit.motion.covariance - gram.inverse()).norm(), 1e-8 * gram.inverse().norm());
+}
+
+TEST(SensorNoiseShiftSeries, InactiveStencilsHaveTheCoefficientZero)
+{
+  MotionSeries series;
+  series.stencils = { StencilY };
+  series.coefficients = Eigen::MatrixXd::Constant(3, 1, 7.0);
+  EXPECT_EQ(series.Get(2, StencilY), 7.0);
+  EXPECT_EQ(series.Get(2, StencilX), 0.0);
+}
+
+TEST(SensorNoiseShiftSeries, InstrumentsFindTheShiftsOfNoiseFreeFrames)
+{
+  const Fit  fit(0.0);
+  const auto shifts = SolveShifts(fit.sums, fit.motion, {}, Flicker(), fit.offset);
+  ASSERT_TRUE(shifts);
+  for (std::size_t t = 0; t < Frames; ++t)
+  {
+    const auto row = static_cast<Eigen::Index>(t);
+    EXPECT_NEAR(shifts->coefficients(row, 0), Changes()[t].motion[StencilX], 1e-7) << t;
+    EXPECT_NEAR(shifts->coefficients(row, 1), Changes()[t].motion[StencilY], 1e-7) << t;
+  }
+}
+
+TEST(SensorNoiseShiftSeries, NoiseThatInstrumentsShareWithTheRegressorsIsTakenOff)
+{
+  // White noise of variance V / T in the mean adds V / T times the product of a smoothed derivative's and the plain
+  // derivative's weights to their Gram matrix; the weights of the smoothed one are its response to an impulse.
+  ReferenceFrame impulse;
+  impulse.geometry = { 41, 41, 1 };
+  impulse.mean.assign(41 * 41, 0.0);
+  impulse.mean[20 * 41 + 20] = 1.0;
+  const std::vector<double> response = SmoothedDerivative(impulse, StencilX, SerialFor);
+  double                    shared = 0.0; // sum over dx of response(-dx) weight(dx)
+  for (const StencilTap & tap : MotionStencils()[StencilX].taps)
+  {
+    shared += tap.weight * response[static_cast<std::size_t>((20 - tap.dy) * 41 + 20 - tap.dx)];
+  }
+  ASSERT_GT(shared, 0.0);
+  const Fit       fit(0.0);
+  InstrumentNoise noise;
+  // As much as takes a tenth off.
+  noise.variance = 0.1 * static_cast<double>(Frames) / shared * fit.sums.GetInstrumentGram()(0, 2 + StencilX);
+  const auto shifts = SolveShifts(fit.sums, fit.motion, noise, Flicker(), fit.offset);
+  const auto plain = SolveShifts(fit.sums, fit.motion, {}, Flicker(), fit.offset);
+  ASSERT_TRUE(shifts && plain);
+  Eigen::Matrix2d        gradient = fit.sums.GetInstrumentGram().middleCols<2>(2 + StencilX);
+  const auto             rest = plain->coefficients * gradient.transpose();
+  const Eigen::MatrixX2d expected = rest;
+  gradient.diagonal().array() -= shared * noise.variance / static_cast<double>(Frames);
+  EXPECT_LT((shifts->coefficients * gradient.transpose() - expected).norm(), 1e-9 * expected.norm());
+}
+
+TEST(SensorNoiseShiftSeries, BothFirstDerivativesAreNeeded)
+{
+  Fit fit(0.0);
+  fit.motion.stencils.erase(fit.motion.stencils.begin() + 1);
+  fit.motion.coefficients.conservativeResize(Eigen::NoChange, fit.motion.coefficients.cols() - 1);
+  EXPECT_FALSE(SolveShifts(fit.sums, fit.motion, {}, Flicker(), fit.offset));
+}
+
+TEST(SensorNoiseShiftSeries, SmoothedDerivativeOfARampIsItsSlope)
+{
+  ReferenceFrame ramp;
+  ramp.geometry = { 50, 40, 1 };
+  for (std::size_t p = 0; p < 50 * 40; ++p)
+  {
+    ramp.mean.push_back(3.0 * static_cast<double>(p % 50) - 2.0 * static_cast<double>(p / 50));
+  }
+  const std::size_t middle = 20 * 50 + 25;
+  EXPECT_NEAR(SmoothedDerivative(ramp, StencilX, SerialFor)[middle], 3.0, 1e-12);
+  EXPECT_NEAR(SmoothedDerivative(ramp, StencilY, SerialFor)[middle], -2.0, 1e-12);
+}
+
+TEST(SensorNoiseShiftSeries, InstrumentWeightIsTheInverseNoiseAndFallsToZeroWherePixelsAreMissing)
+{
+  SyntheticFrames frames(Width, Height, std::vector<FrameChange>(5));
+  frames.model.slopeDn = 0.0; // one noise variance
+  auto              mask = frames.take;
+  const std::size_t hole = 27 * Width + 20;
+  mask[hole] = 0;
+  const auto   weight = InstrumentWeight(frames.reference, frames.model, mask, SerialFor);
+  const double full = 1.0 / frames.model.NoiseVariance(500.0);
+  EXPECT_NEAR(weight[27 * Width + 50], full, 1e-12); // far away
+  EXPECT_EQ(weight[hole], 0.0);
+  for (std::size_t x = 20; x < 50; ++x)
+  {
+    EXPECT_GE(weight[27 * Width + x + 1] + 1e-12, weight[27 * Width + x]) << x;
+    EXPECT_LT(weight[27 * Width + x + 1] - weight[27 * Width + x], 0.5 * full) << x;
+  }
+}

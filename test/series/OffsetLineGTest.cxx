@@ -1,0 +1,219 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/series/OffsetLine.h"
+
+#include "helpers/FrameTestHelper.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <random>
+#include <vector>
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+
+namespace
+{
+/** Equations of light alone: response = light (a_t, d_t)' + noise of covariance light. */
+FrameEquations
+LightOf(std::size_t frames, double offset, double flicker, double noise, double drift = 0.0)
+{
+  std::mt19937               random(31);
+  std::normal_distribution<> normal;
+  FrameEquations             equations;
+  equations.light << 4000.0, 90000.0, 90000.0, 9e6;
+  const Eigen::Matrix2d factor = equations.light.llt().matrixL();
+  equations.response.resize(static_cast<Eigen::Index>(frames), 2);
+  for (Eigen::Index t = 0; t < equations.response.rows(); ++t)
+  {
+    const double          gamma = flicker * normal(random);
+    const Eigen::Vector2d change(-offset * gamma + drift * normal(random), gamma);
+    const Eigen::Vector2d white(normal(random), normal(random));
+    equations.response.row(t) = equations.light * change + noise * factor * white;
+  }
+  return equations;
+}
+
+/** J(m) as it is defined. */
+double
+Profile(const FrameEquations & equations, double m)
+{
+  const Eigen::Vector2d v(-m, 1.0);
+  double                sum = 0.0;
+  for (Eigen::Index t = 0; t < equations.response.rows(); ++t)
+  {
+    sum += std::pow(v.dot(equations.response.row(t)), 2);
+  }
+  return sum / v.dot(equations.light * v);
+}
+
+/** The place of the maximum of J: a grid, then ever finer ones. */
+double
+BruteForceMaximum(const FrameEquations & equations)
+{
+  double low = -1e4;
+  double high = 1e4;
+  double best = 0.0;
+  for (int round = 0; round < 12; ++round)
+  {
+    const double step = (high - low) / 1000.0;
+    double       largest = -1.0;
+    for (int i = 0; i <= 1000; ++i)
+    {
+      const double value = Profile(equations, low + i * step);
+      if (value > largest)
+      {
+        largest = value;
+        best = low + i * step;
+      }
+    }
+    low = best - 20.0 * step;
+    high = best + 20.0 * step;
+  }
+  return best;
+}
+} // namespace
+
+TEST(SensorNoiseOffsetLine, ExactLineIsRecovered)
+{
+  const FrameEquations equations = LightOf(30, 250.0, 0.05, 0.0);
+  const auto           line = FitOffsetLine(equations);
+  ASSERT_TRUE(line);
+  EXPECT_NEAR(line->offset, 250.0, 1e-7);
+  EXPECT_NEAR(line->phi, 0.0, 1e-7);
+  ASSERT_EQ(line->gamma.size(), 30u);
+  for (Eigen::Index t = 0; t < 30; ++t)
+  {
+    // response = light (-mu, 1)' gamma_t
+    const Eigen::Vector2d own = equations.light.ldlt().solve(equations.response.row(t).transpose());
+    EXPECT_NEAR(line->gamma[static_cast<std::size_t>(t)], own(1), 1e-10);
+  }
+}
+
+TEST(SensorNoiseOffsetLine, OffsetMaximisesTheProfileLikelihood)
+{
+  for (const double flicker : { 0.001, 0.02 })
+  {
+    const FrameEquations equations = LightOf(25, -40.0, flicker, 1.0, 0.05);
+    const auto           line = FitOffsetLine(equations);
+    ASSERT_TRUE(line);
+    // A maximum is flat: its place is known to the root of the precision of J.
+    EXPECT_NEAR(line->offset, BruteForceMaximum(equations), 1e-6 * line->standardError + 1e-5) << flicker;
+    for (const double distance : { -1e5, -300.0, -1.0, 1.0, 300.0, 1e5 })
+    {
+      EXPECT_GT(Profile(equations, line->offset), Profile(equations, line->offset + distance)) << distance;
+    }
+  }
+}
+
+TEST(SensorNoiseOffsetLine, IntervalIsWhereTheProfileIsHighEnough)
+{
+  for (const double drift : { 0.0, 0.5 }) // a drift makes phi much larger than 1
+  {
+    const FrameEquations equations = LightOf(40, 100.0, 0.02, 1.0, drift);
+    const auto           line = FitOffsetLine(equations);
+    ASSERT_TRUE(line);
+    EXPECT_EQ(line->phi > 2.0, drift > 0.0) << line->phi;
+    ASSERT_TRUE(std::isfinite(line->low) && std::isfinite(line->high));
+    EXPECT_LT(line->low, line->offset);
+    EXPECT_GT(line->high, line->offset);
+    const double top = Profile(equations, line->offset);
+    const double drop = std::pow(StudentQuantile(0.975, 38.0), 2) * line->Widening();
+    EXPECT_NEAR(Profile(equations, line->low), top - drop, 0.01 * drop) << drift;
+    EXPECT_NEAR(Profile(equations, line->high), Profile(equations, line->low), 1e-9 * top) << drift;
+    EXPECT_NEAR(line->high - line->low,
+                2.0 * StudentQuantile(0.975, 38.0) * line->standardError,
+                0.2 * (line->high - line->low)); // about a parabola
+  }
+}
+
+TEST(SensorNoiseOffsetLine, DispersionIsWhatTheLineLeaves)
+{
+  for (const double drift : { 0.0, 0.5 })
+  {
+    const FrameEquations equations = LightOf(40, 100.0, 0.02, 1.0, drift);
+    const auto           line = FitOffsetLine(equations);
+    ASSERT_TRUE(line);
+    // sum_t r' G^-1 r is the fit of a_t and d_t by any numbers, J(m) that by the line.
+    const double all = (equations.response * equations.light.inverse() * equations.response.transpose()).trace();
+    EXPECT_NEAR(line->phi, (all - Profile(equations, line->offset)) / 38.0, 1e-9 * all) << drift;
+  }
+}
+
+TEST(SensorNoiseOffsetLine, IntervalIsUnboundedWhereNoDirectionStandsOut)
+{
+  // Noise alone, as strong in every direction: J(m) is the same everywhere.
+  FrameEquations        equations = LightOf(40, 100.0, 0.0, 1.0);
+  const Eigen::Matrix2d factor = equations.light.llt().matrixL();
+  for (Eigen::Index t = 0; t < 40; ++t)
+  {
+    const double angle = 6.2831853071795865 * static_cast<double>(t) / 40.0;
+    equations.response.row(t) = std::sqrt(2.0) * factor * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+  }
+  const auto line = FitOffsetLine(equations);
+  ASSERT_TRUE(line);
+  EXPECT_TRUE(std::isinf(line->low) && line->low < 0.0);
+  EXPECT_TRUE(std::isinf(line->high) && line->high > 0.0);
+  EXPECT_LT(FitOffsetLine(LightOf(40, 100.0, 0.0, 1.0))->flickerZ, 6.0);
+  EXPECT_GT(FitOffsetLine(LightOf(40, 100.0, 0.02, 1.0))->flickerZ, 6.0);
+}
+
+TEST(SensorNoiseOffsetLine, FollowsTheUnitsAndTheLevel)
+{
+  // mean -> mean + b: columns (1, I + b); the light's matrix and responses change by B = (1 0; b 1), the offset by b.
+  const FrameEquations equations = LightOf(30, 100.0, 0.02, 1.0);
+  const auto           line = FitOffsetLine(equations);
+  Eigen::Matrix2d      b;
+  b << 1.0, 0.0, 700.0, 1.0;
+  FrameEquations moved = equations;
+  moved.light = b * equations.light * b.transpose();
+  moved.response = equations.response * b.transpose();
+  const auto shifted = FitOffsetLine(moved);
+  ASSERT_TRUE(line && shifted);
+  EXPECT_NEAR(shifted->offset, line->offset + 700.0, 1e-7);
+  EXPECT_NEAR(shifted->low, line->low + 700.0, 1e-7);
+  EXPECT_NEAR(shifted->standardError, line->standardError, 1e-7 * line->standardError);
+  EXPECT_NEAR(shifted->phi, line->phi, 1e-9);
+  for (std::size_t t = 0; t < 30; ++t)
+  {
+    EXPECT_NEAR(shifted->gamma[t], line->gamma[t], 1e-10);
+  }
+}
+
+TEST(SensorNoiseOffsetLine, IsNullIfTheMatrixIsNotPositive)
+{
+  FrameEquations equations = LightOf(30, 100.0, 0.02, 1.0);
+  equations.light << 1.0, 2.0, 2.0, 4.0 - 1e-9; // pixels of one intensity
+  EXPECT_FALSE(FitOffsetLine(equations));
+  equations = LightOf(30, 100.0, 0.02, 1.0);
+  equations.response(3, 1) = std::nan("");
+  EXPECT_FALSE(FitOffsetLine(equations));
+}
+
+TEST(SensorNoiseOffsetLine, FramesWithMotionLieOnOneLine)
+{
+  // With motion of all orders and no noise, over all gradient classes.
+  const SyntheticFrames frames(70, 45, FlickerAndMotion(24, 120.0, 2.0));
+  const FrameSums       sums = frames.Sums();
+  const auto            line = FitOffsetLine(sums, {});
+  ASSERT_TRUE(line);
+  EXPECT_NEAR(line->offset + sums.GetRegressors().GetCentreDn(), 120.0, 1e-5);
+  EXPECT_LT(line->lastClass, GradientClasses);
+}

@@ -1,0 +1,169 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "helpers/EstimateToolTestHelper.h"
+
+#include <limits>
+
+namespace
+{
+
+/** Stacks of which nothing can be estimated, wrong use, and output that cannot be written. */
+class EstimateFailureTool : public EstimateToolTest
+{};
+} // namespace
+
+TEST_F(EstimateFailureTool, ClippedPixelsGiveNoEstimate)
+{
+  for (const unsigned short level : { 0, 4095 })
+  {
+    Write("s.mha", Make<StackType>({ { 32, 32, 20 } }, level).GetPointer());
+    GivesNoEstimate("s.mha --bit-depth 12", { "only 0 pixels", "clip", "expected at least" });
+    GivesNoEstimate("s.mha --bit-depth 12 --method published", { "only 0 pixels", "clip", "expected at least" });
+  }
+  Write("s.mha", MakeBurst().GetPointer());
+  GivesNoEstimate("s.mha --clip 0,1", { "only 0 pixels", "clip", "expected at least" });
+}
+
+TEST_F(EstimateFailureTool, AConstantStackGivesNoEstimate)
+{
+  for (const std::string name : { "s.mha", "s.nrrd", "s.tif" })
+  {
+    GivesNoEstimate(Write(name, Make<StackType>({ { 32, 32, 20 } }, 700).GetPointer()),
+                    { "only 0 pixels", "expected at least" });
+  }
+}
+
+TEST_F(EstimateFailureTool, TheSameFrameTwelveTimesGivesNoEstimate)
+{
+  const std::string name = WriteList<unsigned short>(MakeBurst(1), ".tif").front();
+  GivesNoEstimate(Joined(std::vector<std::string>(12, name)), { "only 0 pixels", "expected at least" });
+}
+
+TEST_F(EstimateFailureTool, PixelsThatAreAllNaNGiveNoEstimate)
+{
+  using FloatStack = itk::Image<float, 3>;
+  const auto nan = Make<FloatStack>({ { 32, 32, 20 } }, std::numeric_limits<float>::quiet_NaN());
+  GivesNoEstimate(Write("s.mha", nan.GetPointer()), { "only 0 pixels", "expected at least" });
+  const nlohmann::json report = ReportOf("s.mha", 3);
+  EXPECT_EQ(report["pixels"]["not_finite"], 32 * 32);
+}
+
+TEST_F(EstimateFailureTool, OneIntensityGivesNoEstimate)
+{
+  const auto      stack = Make<StackType>({ { 48, 48, 20 } }, 0);
+  std::mt19937_64 random(1);
+  std::for_each(stack->GetBufferPointer(), stack->GetBufferPointer() + 48 * 48 * 20, [&random](unsigned short & pixel) {
+    pixel = static_cast<unsigned short>(1000 + random() % 64);
+  });
+  GivesNoEstimate(Write("s.mha", stack.GetPointer()), {});
+  GivesNoEstimate("s.mha --method published", { "the even areas span", "expected more than", "dark and bright" });
+}
+
+TEST_F(EstimateFailureTool, CodesThatHideTheNoiseGiveNoEstimate)
+{
+  const auto stack = MakeBurst();
+  std::for_each(stack->GetBufferPointer(), stack->GetBufferPointer() + 64 * 64 * 24, [](unsigned short & pixel) {
+    pixel = static_cast<unsigned short>(pixel / 128 * 128);
+  });
+  GivesNoEstimate(Write("s.mha", stack.GetPointer()), { "code step of 128 DN", "use more bits" });
+}
+
+TEST_F(EstimateFailureTool, AReportWithoutAnEstimateIsWrittenWhole)
+{
+  Write("s.mha", Make<StackType>({ { 32, 32, 20 } }, 700).GetPointer());
+  EXPECT_EQ(Run("s.mha --json r.json"), 3);
+  EXPECT_EQ(nlohmann::json::parse(ReadText(Path("r.json")))["gain"]["status"], "failed");
+  EXPECT_NE(m_Output.find("20 frames of 32 x 32 pixels"), std::string::npos);
+}
+
+TEST_F(EstimateFailureTool, UnknownAndMalformedOptionsAreRefused)
+{
+  const std::string stack = Write("s.mha", MakeBurst().GetPointer());
+  IsRefused(stack + " --colour red", { "--colour" });
+  IsRefused(stack + " --bayer RGGB", { "--bayer" });
+  IsRefused(stack + " --method best", { "--method", "best", "refined", "published" });
+  IsRefused(stack + " --bit-depth 17", { "--bit-depth", "17", "1 to 16" });
+  IsRefused(stack + " --bit-depth many", { "--bit-depth", "many" });
+  IsRefused(stack + " --clip 100", { "--clip", "holds 1 numbers", "expected 2" });
+  IsRefused(stack + " --clip 100,50", { "clip levels", "100", "50", "expected low < high" });
+  IsRefused(stack + " --step 0", { "--step", "0 is not a positive number" });
+  IsRefused(stack + " --rolling-shutter never", { "--rolling-shutter", "never" });
+  IsRefused(stack + " --rolling-shutter 0", { "--rolling-shutter", "positive number of rows" });
+  IsRefused(stack + " --threads 0", { "--threads", "0", "1 to 1024" });
+  IsRefused(stack + " --threads", { "--threads" });
+}
+
+TEST_F(EstimateFailureTool, RoiAndFramesOutsideTheStackAreRefused)
+{
+  const auto        burst = MakeBurst();
+  const std::string stack = Write("s.mha", burst.GetPointer());
+  const std::string list = Joined(WriteList<unsigned short>(burst, ".tif"));
+  for (const std::string & input : { stack, list })
+  {
+    IsRefused(input + " --roi 40,0,25,10", { "25 x 10 pixels from 40,0", "64 x 64 pixels" });
+    IsRefused(input + " --frames 10:25", { "--frames", "24" });
+  }
+  IsRefused(stack + " --roi 0,0,10", { "--roi", "holds 3 numbers", "expected 4" });
+  IsRefused(stack + " --roi 0,0,10,x", { "--roi", "\"x\"", "not a number" });
+  IsRefused(stack + " --roi 0,0,0,10", { "--roi", "0,0,0,10", "no pixels" });
+  IsRefused(stack + " --roi=-1,0,10,10", { "--roi", "negative corner" });
+  IsRefused(stack + " --frames 7", { "--frames", "holds 1 numbers", "expected 2" });
+  IsRefused(stack + " --frames 7:7", { "--frames", "7:7 holds no frame" });
+  IsRefused(stack + " --frames 3:7", { "the stack has 4 frames", "expected at least 5" });
+}
+
+TEST_F(EstimateFailureTool, OutputThatCannotBeWrittenIsNoticedBeforeTheWorkBegins)
+{
+  const std::string stack = Write("s.mha", MakeBurst().GetPointer());
+  const auto        isRefused = [&](const std::string & options, const std::vector<std::string> & parts) {
+    EXPECT_EQ(Run(stack + options), 2) << m_Message;
+    SaysInOneSentence(parts);
+    EXPECT_EQ(m_Output, "");
+    EXPECT_EQ(FilesLeft(), (std::set<std::string>{ "s.mha" }));
+  };
+  isRefused(" --json nowhere/r.json", { "cannot write nowhere/r.json", "no folder nowhere" });
+  isRefused(" --maps s.mha", { "cannot write s.mha/mean.mha", "no folder s.mha" });
+  std::filesystem::create_directories(Path("r.json"));
+  isRefused(" --json r.json", { "cannot write r.json", "it is a folder" });
+}
+
+#ifndef _WIN32
+TEST_F(EstimateFailureTool, AFullDiskLeavesNothing)
+{
+  const std::string stack = Write("s.mha", MakeBurst().GetPointer());
+  // No file may grow beyond a few kilobytes, and the shell's signal for that is ignored: writing fails as on a full
+  // disk.
+  const std::string tool = "trap '' XFSZ; ulimit -f 16; \"" SENSORNOISE_BIN "/estimate-sensor-noise\" s.mha --quiet ";
+  EXPECT_EQ(RunCommand(tool + "--json r.json"), 2);
+  SaysInOneSentence({ "cannot write r.json" });
+  EXPECT_EQ(RunCommand(tool + "--maps maps"), 2);
+  EXPECT_NE(m_Message.find("cannot write maps/mean.mha: the disk may be full"), std::string::npos) << m_Message;
+  EXPECT_EQ(FilesLeft(), (std::set<std::string>{ "s.mha" }));
+}
+
+TEST_F(EstimateFailureTool, StandardOutputThatIsFullIsAnError)
+{
+  if (!std::filesystem::exists("/dev/full"))
+  {
+    GTEST_SKIP() << "there is no /dev/full here";
+  }
+  Write("s.mha", MakeBurst().GetPointer());
+  EXPECT_EQ(RunCommand("\"" SENSORNOISE_BIN "/estimate-sensor-noise\" s.mha --quiet --json - > /dev/full"), 2);
+  SaysInOneSentence({ "cannot write", "standard output" });
+}
+#endif

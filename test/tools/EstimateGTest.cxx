@@ -1,0 +1,256 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "helpers/EstimateToolTestHelper.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace
+{
+
+using EstimateTool = EstimateToolTest;
+
+std::set<std::string>
+NamesOf(const nlohmann::json & object)
+{
+  std::set<std::string> names;
+  for (const auto & member : object.items())
+  {
+    names.insert(member.key());
+  }
+  return names;
+}
+
+/** \a hasError: with a standard error and an interval where it is identified. */
+void
+IsAQuantity(const nlohmann::json & report, const std::string & path, const std::string & unit, bool hasError)
+{
+  SCOPED_TRACE(path);
+  const nlohmann::json & quantity = report.at(nlohmann::json::json_pointer(path));
+  EXPECT_EQ(NamesOf(quantity),
+            (std::set<std::string>{ "value", "standard_error", "interval95", "status", "unit", "bracket" }));
+  EXPECT_EQ(quantity["unit"], unit);
+  EXPECT_EQ(quantity["value"].is_null(), quantity["status"] != "identified");
+  const bool isIdentified = quantity["status"] == "identified";
+  EXPECT_EQ(quantity["standard_error"].is_null(), !(hasError && isIdentified));
+  EXPECT_EQ(quantity["interval95"].is_null(), !(hasError && (isIdentified || quantity["status"] == "upper-limit")));
+}
+} // namespace
+
+class EstimateToolWith
+  : public EstimateToolTest
+  , public ::testing::WithParamInterface<const char *>
+{};
+INSTANTIATE_TEST_SUITE_P(Method, EstimateToolWith, ::testing::Values("refined", "published"));
+
+TEST_P(EstimateToolWith, TheReportHasTheDocumentedNamesAndUnits)
+{
+  const std::string    stack = Write("s.mha", MakeBurst().GetPointer());
+  const bool           isRefined = GetParam() == std::string("refined");
+  const nlohmann::json report = ReportOf(stack + " --method " + GetParam());
+  EXPECT_EQ(m_Message, "");
+  EXPECT_EQ(NamesOf(report),
+            (std::set<std::string>{ "schema",
+                                    "version",
+                                    "method",
+                                    "settings",
+                                    "frames",
+                                    "width",
+                                    "height",
+                                    "channel",
+                                    "bit_depth",
+                                    "bit_depth_source",
+                                    "quantisation_step",
+                                    "clip_low",
+                                    "clip_high",
+                                    "clip_source",
+                                    "pixels",
+                                    "gain",
+                                    "offset",
+                                    "read_noise",
+                                    "read_noise_electrons",
+                                    "intercept",
+                                    "total_intercept",
+                                    "covariance",
+                                    "flicker_sd",
+                                    "vibration",
+                                    "flicker",
+                                    "flicker_rows",
+                                    "motion",
+                                    "fit",
+                                    "affine_baseline",
+                                    "quadratic_baseline",
+                                    "warnings",
+                                    "scatter" }));
+  IsAQuantity(report, "/gain", "DN/e-", isRefined);
+  IsAQuantity(report, "/offset", "DN", isRefined);
+  IsAQuantity(report, "/read_noise", "DN", isRefined);
+  IsAQuantity(report, "/read_noise_electrons", "e-", isRefined);
+  IsAQuantity(report, "/intercept", "DN^2", isRefined);
+  IsAQuantity(report, "/total_intercept", "DN^2", isRefined);
+  IsAQuantity(report, "/flicker_sd", "1", isRefined);
+  IsAQuantity(report, "/vibration/sd_x", "pixel", isRefined);
+  IsAQuantity(report, "/vibration/sd_y", "pixel", isRefined);
+  IsAQuantity(report, "/vibration/covariance", "pixel^2", false);
+  EXPECT_EQ(report["schema"], "itk-sensornoise-report/1");
+  EXPECT_EQ(report["method"], GetParam());
+  EXPECT_EQ(report["frames"], 24);
+  EXPECT_EQ(report["width"], 64);
+  EXPECT_EQ(report["height"], 64);
+  EXPECT_EQ(report["flicker"].size(), 24u);
+  EXPECT_EQ(NamesOf(report["pixels"]), (std::set<std::string>{ "total", "valid", "used", "clipped", "not_finite" }));
+  EXPECT_EQ(report["pixels"]["total"], 64 * 64);
+  EXPECT_EQ(NamesOf(report["fit"]),
+            (std::set<std::string>{ "reduced_chi2", "curvature", "curvature_z", "offset_line_phi" }));
+  EXPECT_EQ(report["covariance"]["of"], (std::vector<std::string>{ "gain", "intercept", "offset" }));
+  EXPECT_EQ(report["covariance"]["matrix"].is_null(), !isRefined);
+  EXPECT_EQ(report["motion"].is_null(), !isRefined);
+  if (isRefined)
+  {
+    EXPECT_EQ(report["covariance"]["matrix"].size(), 3u);
+    EXPECT_NEAR(
+      report["covariance"]["matrix"][0][0], std::pow(report["gain"]["standard_error"].get<double>(), 2), 1e-12);
+    EXPECT_EQ(report["motion"].size(), 24u);
+    EXPECT_EQ(report["motion"][0].size(), 2u);
+    EXPECT_EQ(JsonTextOf(stack), m_Output); // the default
+  }
+  EXPECT_EQ(NamesOf(report["scatter"]), (std::set<std::string>{ "mean", "variance", "corrected_variance", "count" }));
+  EXPECT_EQ(report["scatter"]["mean"].size(), report["scatter"]["count"].size());
+}
+
+TEST_P(EstimateToolWith, TheSimulatedCameraIsRecoveredAndItsFlickerIsNotMistakenForNoise)
+{
+  const nlohmann::json report =
+    ReportOf(Write("s.mha", MakeBurst(40, "128x128").GetPointer()) + " --method " + GetParam());
+  // Camera B: gain 1 DN/e-, offset 100 DN, read noise 8 DN. Some 10^4 pixels with variances of 39 degrees of freedom:
+  // each is off by sqrt(2 / 39) = 23 %, all together by 0.2 %; the flicker estimate adds about 1 %.
+  EXPECT_NEAR(report["gain"]["value"], 1.0, 0.04);
+  // The offset's spread is about 3 DN for a burst as short as this.
+  EXPECT_NEAR(report["offset"]["value"], 100.0, 12.0);
+  // sigma^2 = intercept + g mu, so that of the read noise is about 12 / (2 x 8) DN.
+  EXPECT_NEAR(report["read_noise"]["value"], 8.0, 1.0);
+  EXPECT_NEAR(report["read_noise_electrons"]["value"],
+              report["read_noise"]["value"].get<double>() / report["gain"]["value"].get<double>(),
+              1e-12);
+  // A line through the uncorrected variance takes flicker of 5 % at up to 3000 DN for noise.
+  EXPECT_GT(report["affine_baseline"]["gain"], 3.0);
+}
+
+TEST_P(EstimateToolWith, ATableForPeopleIsOnStandardOutput)
+{
+  const std::string    stack = Write("s.mha", MakeBurst().GetPointer()) + " --method " + GetParam();
+  const nlohmann::json report = ReportOf(stack);
+  ASSERT_EQ(Run(stack), 0);
+  EXPECT_EQ(m_Message, "");
+  EXPECT_NE(m_Output.find("24 frames of 64 x 64 pixels, 12 bits (data)"), std::string::npos) << m_Output;
+  const std::vector<std::pair<std::string, std::string>> rows{ { "gain g", "gain" },
+                                                               { "offset mu", "offset" },
+                                                               { "read noise sigma", "read_noise" },
+                                                               { "read noise sigma / g", "read_noise_electrons" },
+                                                               { "intercept sigma^2 - g mu", "intercept" },
+                                                               { "flicker sd", "flicker_sd" } };
+  for (const auto & [label, name] : rows)
+  {
+    char line[128];
+    char error[32] = "";
+    if (!report[name]["standard_error"].is_null())
+    {
+      std::snprintf(error, sizeof(error), "+- %-9.2g  ", report[name]["standard_error"].get<double>());
+    }
+    std::snprintf(line,
+                  sizeof(line),
+                  "\n%-24s %12.5g  %s%-8s %s",
+                  label.c_str(),
+                  report[name]["value"].get<double>(),
+                  error,
+                  report[name]["unit"].get<std::string>().c_str(),
+                  report[name]["status"].get<std::string>().c_str());
+    EXPECT_NE(m_Output.find(line), std::string::npos) << line << " is not in\n" << m_Output;
+  }
+}
+
+TEST_F(EstimateTool, AFileAndStandardOutputHoldTheSameJson)
+{
+  const std::string stack = Write("s.mha", MakeBurst().GetPointer());
+  const std::string text = JsonTextOf(stack);
+  EXPECT_EQ(text.front(), '{');
+  ASSERT_EQ(Run(stack + " --json r.json"), 0);
+  EXPECT_EQ(m_Output.rfind("24 frames", 0), 0u); // the table
+  EXPECT_EQ(ReadText(Path("r.json")), text);
+  EXPECT_EQ(FilesLeft(), (std::set<std::string>{ "s.mha", "r.json" }));
+
+  WriteText("r.json", "an older report");
+  ASSERT_EQ(Run(stack + " --quiet --json r.json"), 0);
+  EXPECT_EQ(m_Output, "");
+  EXPECT_EQ(ReadText(Path("r.json")), text);
+}
+
+TEST_F(EstimateTool, TheNumberOfThreadsChangesNothing)
+{
+  const std::string stack = Write("s.mha", MakeBurst().GetPointer());
+  for (const std::string options : { "", " --method published", " --method published --rolling-shutter 8" })
+  {
+    const std::string one = JsonTextOf(stack + options + " --threads 1");
+    EXPECT_EQ(JsonTextOf(stack + options + " --threads 7"), one);
+    EXPECT_EQ(JsonTextOf(stack + options), one);
+  }
+}
+
+TEST_F(EstimateTool, WarningsAreOnStandardErrorAndInTheReport)
+{
+  const nlohmann::json report = ReportOf(Write("s.mha", MakeBurst(12).GetPointer()));
+  ASSERT_FALSE(report["warnings"].empty());
+  EXPECT_EQ(report["warnings"][0]["code"], "few-frames");
+  std::string expected;
+  for (const auto & warning : report["warnings"])
+  {
+    expected += "warning: " + warning["message"].get<std::string>() + " [" + warning["code"].get<std::string>() + "]\n";
+  }
+  EXPECT_EQ(m_Message, expected);
+}
+
+TEST_F(EstimateTool, NoProgressGoesIntoAPipe)
+{
+  ASSERT_EQ(Run(Write("s.mha", MakeBurst().GetPointer())), 0);
+  EXPECT_EQ(m_Message, "");
+  EXPECT_EQ(m_Output.find('\r'), std::string::npos);
+}
+
+TEST_F(EstimateTool, HelpNamesEveryOptionAndTheExitCodes)
+{
+  EXPECT_EQ(Run("--help"), 0);
+  EXPECT_EQ(m_Message, "");
+  for (const char * option : { "--method",
+                               "--bit-depth",
+                               "--clip",
+                               "--step",
+                               "--rolling-shutter",
+                               "--offset",
+                               "--dark",
+                               "--roi",
+                               "--mask",
+                               "--frames",
+                               "--threads",
+                               "--json",
+                               "--maps",
+                               "--quiet",
+                               "Exit code" })
+  {
+    EXPECT_NE(m_Output.find(option), std::string::npos) << option;
+  }
+}

@@ -1,0 +1,253 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "helpers/EstimateToolTestHelper.h"
+
+#include <array>
+#include <cmath>
+
+namespace
+{
+
+/** A burst of a real camera, which is not in the repository: Photron FASTCAM Nova S16, 15 frames of 384 x 384 pixels,
+ * 12 bits, 30000 frames a second (ball_12bit.mraw of pyMRAW, MIT licence). A plate at rest fills the rows 334 to 383;
+ * above it a ball moves in front of a saturated background. Nobody has published the camera's gain, so that the numbers
+ * below are those that a program without any code in common found in the same pixels. */
+class RealBurstTool : public EstimateToolTest
+{
+protected:
+  static std::filesystem::path
+  FindBurst()
+  {
+    const char * const given = std::getenv("SENSORNOISE_BURST");
+    return given != nullptr ? std::filesystem::path(given)
+                            : std::filesystem::path(SENSORNOISE_SOURCE) / "../shared/data/ball_12bit.mraw";
+  }
+  int
+  Unpack(const std::string & arguments)
+  {
+    return RunCommand("python3 \"" SENSORNOISE_SOURCE "/examples/mraw-to-mha.py\" " + arguments);
+  }
+  bool
+  HasPython()
+  {
+    return RunCommand("python3 --version") == 0;
+  }
+};
+
+/** A test that needs the burst skips without it, and says so. */
+class RealBurstOnFileTool : public RealBurstTool
+{
+protected:
+  void
+  SetUp() override
+  {
+    RealBurstTool::SetUp();
+    if (!std::filesystem::exists(FindBurst()))
+    {
+      GTEST_SKIP() << "skipped: there is no file " << FindBurst().string()
+                   << "; set SENSORNOISE_BURST to the path of ball_12bit.mraw";
+    }
+    if (!HasPython())
+    {
+      GTEST_SKIP() << "skipped: python3, which unpacks " << FindBurst().string() << ", cannot be run";
+    }
+    ASSERT_EQ(Unpack("\"" + std::filesystem::absolute(FindBurst()).string() + "\" ball.mha --size 384x384"), 0)
+      << m_Message;
+  }
+
+  /** A report, whether or not anything was estimated. */
+  nlohmann::json
+  ReportOfBurst(const std::string & options)
+  {
+    const int exitCode = Run("ball.mha --quiet --json - " + options);
+    EXPECT_TRUE(exitCode == 0 || exitCode == 3) << exitCode << m_Message;
+    EXPECT_TRUE(nlohmann::json::accept(m_Output)) << m_Output; // JSON knows no NaN
+    const nlohmann::json report = nlohmann::json::parse(m_Output, nullptr, false);
+    EXPECT_EQ(exitCode == 3, report["gain"]["value"].is_null() && report["intercept"]["value"].is_null());
+    return report;
+  }
+};
+
+std::set<std::string>
+WarningsOf(const nlohmann::json & report)
+{
+  std::set<std::string> codes;
+  for (const auto & warning : report["warnings"])
+  {
+    codes.insert(warning["code"].get<std::string>());
+  }
+  return codes;
+}
+
+/** Constant and slope of the least-squares line. */
+std::array<double, 2>
+LineThrough(const std::vector<double> & x, const std::vector<double> & y)
+{
+  const auto n = static_cast<double>(x.size());
+  double     sx = 0.0;
+  double     sy = 0.0;
+  double     sxx = 0.0;
+  double     sxy = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i)
+  {
+    sx += x[i];
+    sy += y[i];
+    sxx += x[i] * x[i];
+    sxy += x[i] * y[i];
+  }
+  const double slope = (sxy - sx * sy / n) / (sxx - sx * sx / n);
+  return { (sy - slope * sx) / n, slope };
+}
+
+const std::string plate = "--roi 0,334,384,50 ";
+} // namespace
+
+TEST_F(RealBurstTool, PackedPixelsAreUnpacked)
+{
+  if (!HasPython())
+  {
+    GTEST_SKIP() << "skipped: python3 cannot be run";
+  }
+  // 2 frames of 2 x 2 pixels: 123 abc 000 fff and 001 800 fed 987, each in 12 bits
+  const std::array<unsigned char, 12> packed{ 0x12, 0x3a, 0xbc, 0x00, 0x0f, 0xff, 0x00, 0x18, 0x00, 0xfe, 0xd9, 0x87 };
+  WriteText("s.mraw", std::string(packed.begin(), packed.end()));
+  ASSERT_EQ(Unpack("s.mraw s.mha --size 2x2"), 0) << m_Message;
+  EXPECT_EQ(m_Output + m_Message, "");
+  const auto stack = Read<StackType>(Path("s.mha"));
+  ASSERT_EQ(stack->GetLargestPossibleRegion().GetSize(), (itk::Size<3>{ { 2, 2, 2 } }));
+  EXPECT_EQ((std::vector<unsigned short>(stack->GetBufferPointer(), stack->GetBufferPointer() + 8)),
+            (std::vector<unsigned short>{ 0x123, 0xabc, 0x000, 0xfff, 0x001, 0x800, 0xfed, 0x987 }));
+  ASSERT_EQ(Unpack("s.mraw one.mha --size 2x2 --frames 1"), 0) << m_Message;
+  EXPECT_EQ(Read<StackType>(Path("one.mha"))->GetLargestPossibleRegion().GetSize(2), 1u);
+}
+
+TEST_F(RealBurstTool, UnpackingIsRefusedWithTheReasonAndLeavesNothing)
+{
+  if (!HasPython())
+  {
+    GTEST_SKIP() << "skipped: python3 cannot be run";
+  }
+  WriteText("s.mraw", std::string(12, 'x'));
+  const auto isRefused = [this](const std::string & arguments, const std::string & words) {
+    EXPECT_EQ(Unpack(arguments), 2) << arguments;
+    EXPECT_NE(m_Message.find(words), std::string::npos) << m_Message;
+    EXPECT_EQ(m_Message.find("Traceback"), std::string::npos) << m_Message;
+    EXPECT_EQ(FilesLeft(), (std::set<std::string>{ "s.mraw" }));
+  };
+  isRefused("s.mraw s.mha", "--size");
+  isRefused("s.mraw s.mha --size 2", "expected WIDTHxHEIGHT");
+  isRefused("s.mraw s.mha --size 3x1", "odd number of pixels");
+  isRefused("s.mraw s.mha --size 4x4", "s.mraw has 12 bytes; expected a multiple of 24");
+  isRefused("s.mraw s.mha --size 2x2 --frames 3", "s.mraw has 2 frames; expected at least the 3");
+  isRefused("s.mraw s.mha --size 2x2 --frames 0", "expected 1 or more");
+  isRefused("s.mraw s.tif --size 2x2", "expected a name that ends in .mha");
+  isRefused("s.mraw nowhere/s.mha --size 2x2", "there is no folder nowhere");
+  isRefused("nowhere.mraw s.mha --size 2x2", "nowhere.mraw: No such file");
+}
+
+TEST_F(RealBurstOnFileTool, MeanAndVarianceOfThePlateAreThoseOfAnotherProgram)
+{
+  const nlohmann::json report = ReportOfBurst(plate + "--maps maps");
+  EXPECT_EQ(report["frames"], 15);
+  EXPECT_EQ(report["bit_depth"], 12);
+  EXPECT_EQ(report["clip_high"], 4095.0);
+  const auto            mean = Read<itk::Image<double, 2>>(Path("maps/mean.mha"));
+  const auto            variance = Read<itk::Image<double, 2>>(Path("maps/variance.mha"));
+  std::vector<double>   x;
+  std::vector<double>   y;
+  constexpr std::size_t pixels = 384 * 50;
+  for (std::size_t p = 0; p < pixels; ++p)
+  {
+    if (mean->GetBufferPointer()[p] < 3000.0)
+    {
+      x.push_back(mean->GetBufferPointer()[p]);
+      y.push_back(variance->GetBufferPointer()[p]);
+    }
+  }
+  // The other program's figures, to the digits that it gave: 17254 pixels, variance = 70.9 DN^2 + 0.4534 DN mean. The
+  // line is 0.001 of its slope and 0.5 DN^2 off if it divides by another number or leaves out a few clipped pixels.
+  EXPECT_EQ(x.size(), 17254u);
+  const auto [constant, slope] = LineThrough(x, y);
+  EXPECT_NEAR(slope, 0.4534, 0.0005);
+  EXPECT_NEAR(constant, 70.9, 0.5);
+}
+
+// Flicker steepens the other program's line, 0.4534, by 4 %.
+TEST_F(RealBurstOnFileTool, TheRefinedGainOfThePlateIsTheOtherProgramsWithoutTheFlicker)
+{
+  const nlohmann::json report = ReportOfBurst(plate);
+  ASSERT_EQ(report["gain"]["status"], "identified");
+  EXPECT_NEAR(report["gain"]["value"], 0.96 * 0.4534, 4.0 * report["gain"]["standard_error"].get<double>());
+  EXPECT_LT(report["gain"]["standard_error"], 0.01);
+  EXPECT_GT(report["pixels"]["used"], 384 * 50 / 2);
+}
+
+// The plate flickers by 0.26 %, and the plate's texture leaves the published method's mask a sixteenth of its pixels,
+// mostly dark: far too little for a flicker that small. That is what the report has to say.
+TEST_F(RealBurstOnFileTool, TheFlickerOfThePlateIsTooSmallForOffsetAndReadNoise)
+{
+  const nlohmann::json        report = ReportOfBurst(plate + "--method published");
+  const std::set<std::string> warnings = WarningsOf(report);
+  EXPECT_EQ(warnings.count("few-frames"), 1u);
+  EXPECT_EQ(warnings.count("offset-not-identifiable"), 1u);
+  EXPECT_EQ(report["offset"]["status"], "not-identifiable");
+  EXPECT_EQ(report["read_noise"]["status"], "not-identifiable");
+  EXPECT_EQ(report["flicker_sd"]["status"], "upper-limit");
+  EXPECT_GT(report["flicker_sd"]["bracket"][1], 0.00261);
+  // Flicker can only steepen the line, by 4 % of the plate's 0.4534 according to the other program; the pixels that the
+  // mask keeps are few, and their line is within a third of it.
+  EXPECT_NEAR(report["affine_baseline"]["gain"], 0.4534, 0.15);
+  if (!report["gain"]["value"].is_null() && std::abs(report["gain"]["value"].get<double>() - 0.436) > 0.1)
+  {
+    EXPECT_TRUE(warnings.count("offset-line-misfit") + warnings.count("corrected-variance-curved") > 0) << m_Message;
+    EXPECT_GT(report["fit"]["reduced_chi2"], 2.0);
+  }
+}
+
+TEST_F(RealBurstOnFileTool, TheSaturatedBackgroundAndTheBallAreNotMistakenForThePlate)
+{
+  const nlohmann::json refined = ReportOfBurst("");
+  EXPECT_EQ(WarningsOf(refined).count("near-clip-level"), 1u);
+  EXPECT_LT(refined["pixels"]["used"], 384 * 384 / 10);
+  if (!refined["gain"]["value"].is_null())
+  {
+    EXPECT_NEAR(refined["gain"]["value"], 0.96 * 0.4534, 4.0 * refined["gain"]["standard_error"].get<double>());
+  }
+  const nlohmann::json report = ReportOfBurst("--method published");
+  EXPECT_EQ(report["width"], 384);
+  EXPECT_EQ(report["height"], 384);
+  EXPECT_GT(report["pixels"]["clipped"], 384 * 384 * 3 / 4);
+  EXPECT_LT(report["pixels"]["used"], 384 * 384 / 10);
+  // The ball and its shadow change the light by tens of per cent where they pass. No line describes that.
+  const std::set<std::string> warnings = WarningsOf(report);
+  EXPECT_TRUE(warnings.count("offset-line-misfit") + warnings.count("corrected-variance-curved") +
+                warnings.count("variance-not-affine") >
+              0)
+    << m_Message;
+}
+
+TEST_F(RealBurstOnFileTool, ThreadsAndPartsChangeNothing)
+{
+  for (const std::string & options : { plate, plate + "--method published " })
+  {
+    ReportOfBurst(options + "--threads 1");
+    const std::string one = m_Output;
+    ReportOfBurst(options + "--threads 7");
+    EXPECT_EQ(m_Output, one);
+  }
+}
