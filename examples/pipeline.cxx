@@ -22,6 +22,7 @@
 // This is Figure 2 of F. Sur, M. Gredi'ac, SIAM J. Imaging Sci. 8(1), 2015. SensorNoiseEstimator gives the same numbers
 // in fewer passes over the stack.
 
+#include "sensornoise/report/Report.h"
 #include "itkFlickerCorrectionImageFilter.h"
 #include "itkImageFileReader.h"
 #include "itkNoiseRegressionEstimator.h"
@@ -30,6 +31,8 @@
 
 #include <cstdlib>
 #include <iostream>
+#include <string>
+#include <utility>
 
 int
 main(int argc, char * argv[])

@@ -18,10 +18,17 @@
 #ifndef itkFlickerCorrectionImageFilter_h
 #define itkFlickerCorrectionImageFilter_h
 
+#include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/RollingShutter.h"
 #include "sensornoise/published/FlickerEstimate.h"
+#include "sensornoise/published/IsoIntensitySet.h"
 #include "itkImage.h"
 #include "itkImageToImageFilter.h"
 #include "itkSimpleDataObjectDecorator.h"
+
+#include <ostream>
+#include <string>
+#include <vector>
 
 namespace itk
 {

@@ -18,11 +18,21 @@
 #ifndef itkFlickerCorrectionImageFilter_hxx
 #define itkFlickerCorrectionImageFilter_hxx
 
+#include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/RequiredFlickerZ.h"
+#include "sensornoise/base/RollingShutter.h"
+#include "sensornoise/published/FlickerEstimate.h"
+#include "sensornoise/published/FlickerSums.h"
+#include "sensornoise/published/IsoIntensitySet.h"
 #include "sensornoise/published/PublishedSettings.h"
 #include "itkImageScanlineIterator.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
+#include <ostream>
+#include <stdexcept>
+#include <string>
 
 namespace itk
 {

@@ -18,13 +18,17 @@
 #ifndef itkNoiseRegressionEstimator_h
 #define itkNoiseRegressionEstimator_h
 
-#include "sensornoise/published/NoiseParameters.h"
+#include "sensornoise/published/FlickerEstimate.h"
 #include "sensornoise/report/ReportJson.h"
+#include "sensornoise/report/Report.h"
 #include "sensornoise/report/ReportTable.h"
 #include "itkImage.h"
 #include "itkProcessObject.h"
 #include "itkSensorNoiseResult.h"
 #include "itkSimpleDataObjectDecorator.h"
+
+#include <ostream>
+#include <string>
 
 namespace itk
 {

@@ -18,6 +18,14 @@
 #ifndef itkNoiseRegressionEstimator_hxx
 #define itkNoiseRegressionEstimator_hxx
 
+#include "sensornoise/base/PolynomialFit.h"
+#include "sensornoise/published/NoiseParameters.h"
+#include "sensornoise/report/Report.h"
+
+#include <cmath>
+#include <optional>
+#include <ostream>
+
 namespace itk
 {
 

@@ -18,15 +18,19 @@
 #ifndef itkSensorNoiseEstimator_h
 #define itkSensorNoiseEstimator_h
 
+#include "sensornoise/base/RollingShutter.h"
+#include "sensornoise/report/ReportJson.h"
 #include "sensornoise/published/PublishedSettings.h"
 #include "sensornoise/refined/RefinedSettings.h"
-#include "sensornoise/report/ReportJson.h"
+#include "sensornoise/report/Report.h"
 #include "sensornoise/report/ReportTable.h"
 #include "itkSensorNoiseStackSink.h"
 #include "itkSensorNoiseResult.h"
 
+#include <cstdint>
 #include <limits>
 #include <memory>
+#include <ostream>
 #include <string>
 #include <vector>
 

@@ -18,15 +18,29 @@
 #ifndef itkSensorNoiseEstimator_hxx
 #define itkSensorNoiseEstimator_hxx
 
+#include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/RollingShutter.h"
+#include "sensornoise/moments/Codes.h"
 #include "sensornoise/moments/DarkFrames.h"
+#include "sensornoise/moments/KnownOffset.h"
+#include "sensornoise/moments/TemporalMoments.h"
 #include "sensornoise/published/PublishedMethod.h"
+#include "sensornoise/published/PublishedSettings.h"
 #include "sensornoise/refined/RefinedMethod.h"
+#include "sensornoise/refined/RefinedSettings.h"
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <ostream>
+#include <stdexcept>
+#include <string>
 #include <variant>
+#include <vector>
 
 namespace itk
 {

@@ -23,6 +23,8 @@
 #include "itkImageSource.h"
 
 #include <algorithm>
+#include <ostream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 

@@ -18,9 +18,11 @@
 #ifndef itkSensorNoiseStackSink_h
 #define itkSensorNoiseStackSink_h
 
-#include "sensornoise/moments/StackMaps.h"
+#include "sensornoise/base/Parallel.h"
 #include "itkImage.h"
 #include "itkImageSink.h"
+
+#include <ostream>
 
 namespace itk
 {

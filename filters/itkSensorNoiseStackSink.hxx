@@ -18,7 +18,12 @@
 #ifndef itkSensorNoiseStackSink_hxx
 #define itkSensorNoiseStackSink_hxx
 
+#include "sensornoise/base/Parallel.h"
+
 #include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <ostream>
 
 namespace itk
 {

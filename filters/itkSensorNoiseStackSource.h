@@ -18,14 +18,17 @@
 #ifndef itkSensorNoiseStackSource_h
 #define itkSensorNoiseStackSource_h
 
-#include "sensornoise/simulation/Simulator.h"
+#include "sensornoise/simulation/SimulationSettings.h"
 #include "sensornoise/simulation/TruthJson.h"
-
+#include "sensornoise/simulation/Simulator.h"
 #include "itkImage.h"
 #include "itkImageSource.h"
 #include "itkNumericTraits.h"
 
+#include <cstdint>
 #include <memory>
+#include <ostream>
+#include <string>
 
 namespace itk
 {

@@ -18,11 +18,16 @@
 #ifndef itkSensorNoiseStackSource_hxx
 #define itkSensorNoiseStackSource_hxx
 
+#include "sensornoise/moments/Codes.h"
+#include "sensornoise/simulation/SimulationSettings.h"
+#include "sensornoise/simulation/Simulator.h"
 #include "itkSensorNoiseStackSource.h"
-
 #include "itkImageRegionConstIterator.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <ostream>
 #include <stdexcept>
 #include <vector>
 

@@ -18,9 +18,13 @@
 #ifndef itkTemporalStatisticsImageFilter_h
 #define itkTemporalStatisticsImageFilter_h
 
+#include "sensornoise/moments/StackMaps.h"
+#include "sensornoise/moments/TemporalMoments.h"
 #include "itkSensorNoiseStackSink.h"
 
 #include <limits>
+#include <ostream>
+#include <string>
 
 namespace itk
 {

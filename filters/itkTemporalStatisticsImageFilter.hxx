@@ -18,7 +18,13 @@
 #ifndef itkTemporalStatisticsImageFilter_hxx
 #define itkTemporalStatisticsImageFilter_hxx
 
+#include "sensornoise/moments/Codes.h"
+#include "sensornoise/moments/StackMaps.h"
+#include "sensornoise/moments/TemporalMoments.h"
 #include "sensornoise/published/PublishedSettings.h"
+
+#include <cstddef>
+#include <ostream>
 
 namespace itk
 {

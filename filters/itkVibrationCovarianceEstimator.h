@@ -18,10 +18,13 @@
 #ifndef itkVibrationCovarianceEstimator_h
 #define itkVibrationCovarianceEstimator_h
 
+#include "sensornoise/published/FlickerEstimate.h"
 #include "sensornoise/published/VibrationCovariance.h"
 #include "itkImage.h"
 #include "itkProcessObject.h"
 #include "itkSensorNoiseResult.h"
+
+#include <ostream>
 
 namespace itk
 {

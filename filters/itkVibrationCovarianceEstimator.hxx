@@ -18,6 +18,10 @@
 #ifndef itkVibrationCovarianceEstimator_hxx
 #define itkVibrationCovarianceEstimator_hxx
 
+#include "sensornoise/published/VibrationCovariance.h"
+
+#include <ostream>
+
 namespace itk
 {
 

@@ -18,9 +18,10 @@
 #ifndef itkVibrationMaskImageFilter_h
 #define itkVibrationMaskImageFilter_h
 
-#include "sensornoise/published/VibrationMask.h"
 #include "itkImage.h"
 #include "itkImageToImageFilter.h"
+
+#include <ostream>
 
 namespace itk
 {

@@ -18,7 +18,11 @@
 #ifndef itkVibrationMaskImageFilter_hxx
 #define itkVibrationMaskImageFilter_hxx
 
+#include "sensornoise/published/VibrationMask.h"
+
 #include <algorithm>
+#include <cstddef>
+#include <ostream>
 
 namespace itk
 {

@@ -17,6 +17,9 @@
  *=========================================================================*/
 #include "input/FormatCompleteness.h"
 
+#include <cstdint>
+#include <string>
+
 namespace sensornoise::tools
 {
 namespace fs = std::filesystem;

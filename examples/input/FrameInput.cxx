@@ -16,14 +16,15 @@
  *
  *=========================================================================*/
 #include "input/FrameInput.h"
-
 #include "itkImageIOFactory.h"
 
-#include <tiffio.h>
-
-#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <tiffio.h>
+#include <vector>
 
 namespace sensornoise::tools
 {

@@ -18,13 +18,14 @@
 #include "input/FormatCompleteness.h"
 #include "input/TextHeader.h"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <cstdlib>
 #include <fstream>
 #include <memory>
+#include <string>
+#include <zlib.h>
 
 namespace sensornoise::tools
 {

@@ -18,7 +18,9 @@
 #include "input/FormatCompleteness.h"
 #include "input/TextHeader.h"
 
+#include <cstdint>
 #include <cstdlib>
+#include <string>
 
 namespace sensornoise::tools
 {

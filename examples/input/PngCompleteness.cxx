@@ -18,7 +18,9 @@
 #include "input/FormatCompleteness.h"
 
 #include <array>
+#include <cstdint>
 #include <fstream>
+#include <string>
 
 namespace sensornoise::tools
 {

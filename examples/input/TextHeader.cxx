@@ -17,8 +17,11 @@
  *=========================================================================*/
 #include "input/TextHeader.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <string>
 
 namespace sensornoise::tools
 {

@@ -18,10 +18,12 @@
 #include "input/FormatCompleteness.h"
 #include "input/TextHeader.h"
 
-#include <tiffio.h>
-
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <memory>
+#include <string>
+#include <tiffio.h>
 
 namespace sensornoise::tools
 {

@@ -18,11 +18,17 @@
 #ifndef EfficiencyStack_h
 #define EfficiencyStack_h
 
-#include "studies/EfficiencyTable.h"
+#include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/PixelUse.h"
 #include "sensornoise/limits/CramerRaoBound.h"
+#include "sensornoise/limits/CramerRaoInformation.h"
+#include "sensornoise/limits/PrecisionLimit.h"
 #include "sensornoise/published/PublishedMethod.h"
 #include "sensornoise/refined/RefinedMethod.h"
+#include "sensornoise/report/Report.h"
+#include "sensornoise/simulation/SimulationSettings.h"
 #include "sensornoise/simulation/Simulator.h"
+#include "studies/EfficiencyTable.h"
 
 #include <algorithm>
 #include <cstddef>

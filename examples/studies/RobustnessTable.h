@@ -18,8 +18,11 @@
 #ifndef RobustnessTable_h
 #define RobustnessTable_h
 
+#include "sensornoise/report/Quantities.h"
+#include "sensornoise/report/Report.h"
 #include "studies/RobustnessRun.h"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <optional>

@@ -18,13 +18,12 @@
 #ifndef StressRecipe_h
 #define StressRecipe_h
 
-#include "sensornoise/simulation/Simulator.h"
+#include "sensornoise/simulation/SimulationSettings.h"
 #include "studies/StressStacks.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <string>
 #include <vector>
 
 namespace sensornoise::tools

@@ -15,10 +15,16 @@
  *  limitations under the License.
  *
  *=========================================================================*/
+#include "sensornoise/simulation/Random.h"
+#include "sensornoise/simulation/SimulationSettings.h"
 #include "studies/StressRecipe.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 namespace sensornoise::tools
 {

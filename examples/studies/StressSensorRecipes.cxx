@@ -16,10 +16,15 @@
  *
  *=========================================================================*/
 #include "sensornoise/simulation/Scenes.h"
+#include "sensornoise/simulation/Random.h"
+#include "sensornoise/simulation/SimulationSettings.h"
 #include "studies/StressRecipe.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace sensornoise::tools
 {

@@ -15,14 +15,21 @@
  *  limitations under the License.
  *
  *=========================================================================*/
-#include "studies/StressStacks.h"
-
 #include "sensornoise/simulation/Scenes.h"
+#include "sensornoise/moments/Codes.h"
+#include "sensornoise/simulation/Random.h"
+#include "sensornoise/simulation/SimulationSettings.h"
+#include "sensornoise/simulation/Simulator.h"
+#include "studies/StressStacks.h"
 #include "studies/StressRecipe.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace sensornoise::tools
 {

@@ -18,8 +18,6 @@
 #ifndef StressStacks_h
 #define StressStacks_h
 
-#include "sensornoise/simulation/SimulationSettings.h"
-
 #include <cstddef>
 #include <cstdint>
 #include <string>

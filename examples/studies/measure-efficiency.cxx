@@ -18,17 +18,19 @@
 // Measures how close the estimates come to the Cramer-Rao bound: simulates stacks of the cameras and conditions of
 // Table 1 of Sur & Gredi'ac 2015 and compares estimates and 95 % intervals with the truth. See --help.
 
+#include "sensornoise/report/ReportJson.h"
+#include "sensornoise/report/Report.h"
+#include "sensornoise/series/FrameEquations.h"
+#include "sensornoise/simulation/Scenes.h"
+#include "sensornoise/simulation/SimulationSettings.h"
 #include "studies/EfficiencyStack.h"
 #include "studies/EfficiencyTable.h"
-#include "sensornoise/report/ReportJson.h"
-#include "sensornoise/simulation/Scenes.h"
-
 #include "itkImageFileReader.h"
 
 #include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
@@ -36,6 +38,7 @@
 #include <iostream>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>

@@ -18,20 +18,26 @@
 // Runs the simulations of Tables 2 and 3 and Figures 6 to 8 of Sur & Gredi'ac 2015 and prints the estimates' mean and
 // twice their standard deviation beside the truth and the paper's own figures. See --help.
 
-#include "studies/PaperTables.h"
 #include "sensornoise/published/PublishedMethod.h"
+#include "sensornoise/published/FlickerEstimate.h"
+#include "sensornoise/report/Report.h"
 #include "sensornoise/simulation/Scenes.h"
+#include "sensornoise/simulation/SimulationSettings.h"
 #include "sensornoise/simulation/Simulator.h"
+#include "studies/PaperTables.h"
 
 #include <CLI/CLI.hpp>
-
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>

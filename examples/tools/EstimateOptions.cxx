@@ -15,15 +15,18 @@
  *  limitations under the License.
  *
  *=========================================================================*/
+#include "sensornoise/base/BinaryStream.h"
+#include "sensornoise/base/RollingShutter.h"
 #include "tools/EstimateOptions.h"
-
 #include "input/FrameInput.h"
 
 #include <CLI/CLI.hpp>
-
-#include <cmath>
+#include <cstddef>
 #include <iostream>
+#include <optional>
 #include <sstream>
+#include <string>
+#include <vector>
 
 namespace sensornoise::tools
 {

@@ -18,7 +18,7 @@
 #ifndef EstimateOptions_h
 #define EstimateOptions_h
 
-#include "sensornoise/published/FlickerEstimate.h"
+#include "sensornoise/base/RollingShutter.h"
 
 #include <array>
 #include <cstddef>

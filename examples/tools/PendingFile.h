@@ -20,9 +20,9 @@
 
 #include <filesystem>
 #include <fstream>
-#include <random>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace sensornoise::tools
 {

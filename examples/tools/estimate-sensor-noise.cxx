@@ -17,13 +17,13 @@
  *=========================================================================*/
 // Measures the noise of a camera from a burst of raw frames on files. See --help, and README.md.
 
+#include "sensornoise/report/ReportJson.h"
+#include "sensornoise/report/Report.h"
+#include "sensornoise/report/ReportTable.h"
 #include "tools/EstimateOptions.h"
 #include "input/FrameInput.h"
 #include "tools/MapFiles.h"
 #include "tools/PendingFile.h"
-#include "sensornoise/report/ReportJson.h"
-#include "sensornoise/report/ReportTable.h"
-
 #include "itkCommand.h"
 #include "itkExtractImageFilter.h"
 #include "itkImageFileReader.h"
@@ -31,14 +31,15 @@
 #include "itkSensorNoiseEstimator.h"
 
 #include <algorithm>
-#include <cstdio>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <stdexcept>
 #include <string>
-#include <vector>
-
 #include <unistd.h>
+#include <vector>
 
 namespace
 {

@@ -18,23 +18,22 @@
 // Simulates a burst of raw frames with known noise, and writes what an estimator should find beside it:
 //   simulate-sensor-noise --output stack.mha --truth truth.json --reference target --camera B --condition 3
 
+#include "sensornoise/simulation/SimulationSettings.h"
 #include "tools/PendingFile.h"
 #include "tools/SimulateOptions.h"
-
 #include "itkSensorNoiseSceneSource.h"
 #include "itkSensorNoiseStackSource.h"
-
 #include "itkImageFileReader.h"
 #include "itkImageFileWriter.h"
 #include "itkImageIOFactory.h"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <regex>
 #include <stdexcept>

@@ -16,15 +16,14 @@
  *
  *=========================================================================*/
 #include "sensornoise/base/BinaryStream.h"
-
-#include "sensornoise/series/FrameProducts.h"
+#include "sensornoise/moments/FloatingMoments.h"
+#include "sensornoise/moments/IntegerMoments.h"
 #include "sensornoise/pixels/ProjectionSums.h"
-#include "sensornoise/moments/TemporalMoments.h"
-
-#include <gtest/gtest.h>
+#include "sensornoise/series/FrameProducts.h"
 
 #include <cmath>
-#include <cstdint>
+#include <cstddef>
+#include <gtest/gtest.h>
 #include <limits>
 #include <sstream>
 #include <stdexcept>

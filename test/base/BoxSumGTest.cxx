@@ -16,11 +16,12 @@
  *
  *=========================================================================*/
 #include "sensornoise/base/BoxSum.h"
-
-#include <gtest/gtest.h>
+#include "sensornoise/base/Parallel.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <gtest/gtest.h>
 #include <random>
 #include <utility>
 #include <vector>

@@ -16,13 +16,16 @@
  *
  *=========================================================================*/
 #include "sensornoise/base/IntensityIndex.h"
-
-#include <gtest/gtest.h>
+#include "sensornoise/base/Quantiles.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <gtest/gtest.h>
 #include <random>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 using namespace sensornoise;

@@ -17,9 +17,10 @@
  *=========================================================================*/
 #include "sensornoise/base/PolynomialFit.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <gtest/gtest.h>
 #include <limits>
 #include <random>
 #include <vector>

@@ -27,10 +27,10 @@
 #include "itkSensorNoiseStackSource.h"
 #include "itkTemporalStatisticsImageFilter.h"
 
-#include <benchmark/benchmark.h>
-
 #include <algorithm>
+#include <benchmark/benchmark.h>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <numeric>
 #include <vector>

@@ -15,10 +15,9 @@
  *  limitations under the License.
  *
  *=========================================================================*/
+#include "sensornoise/base/RollingShutter.h"
 #include "itkFlickerCorrectionImageFilter.h"
-
 #include "helpers/PipelineTestHelper.h"
-
 #include "itkCastImageFilter.h"
 #include "itkImageFileReader.h"
 #include "itkPipelineMonitorImageFilter.h"
@@ -28,6 +27,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace
 {

@@ -15,13 +15,15 @@
  *  limitations under the License.
  *
  *=========================================================================*/
+#include "sensornoise/report/Report.h"
 #include "itkNoiseRegressionEstimator.h"
-
 #include "helpers/PipelineTestHelper.h"
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <random>
+#include <string>
 
 namespace
 {

@@ -15,11 +15,13 @@
  *  limitations under the License.
  *
  *=========================================================================*/
-#include "itkSensorNoiseEstimator.h"
-
-#include "helpers/PipelineTestHelper.h"
-
 #include "sensornoise/report/ReportJson.h"
+#include "sensornoise/base/PixelUse.h"
+#include "sensornoise/base/RollingShutter.h"
+#include "sensornoise/report/Report.h"
+#include "sensornoise/simulation/Scenes.h"
+#include "itkSensorNoiseEstimator.h"
+#include "helpers/PipelineTestHelper.h"
 #include "itkFlickerCorrectionImageFilter.h"
 #include "itkImageFileReader.h"
 #include "itkNoiseRegressionEstimator.h"
@@ -29,7 +31,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <initializer_list>
 #include <limits>
+#include <string>
+#include <utility>
 
 namespace
 {

@@ -15,10 +15,10 @@
  *  limitations under the License.
  *
  *=========================================================================*/
+#include "sensornoise/simulation/Scenes.h"
 #include "itkSensorNoiseSceneSource.h"
 
 #include <gtest/gtest.h>
-
 #include <string>
 #include <vector>
 

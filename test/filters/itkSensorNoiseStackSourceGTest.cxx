@@ -15,16 +15,17 @@
  *  limitations under the License.
  *
  *=========================================================================*/
+#include "sensornoise/simulation/Scenes.h"
+#include "sensornoise/simulation/SimulationSettings.h"
+#include "sensornoise/simulation/Simulator.h"
 #include "itkSensorNoiseStackSource.h"
-
 #include "itkImageRegionConstIterator.h"
 #include "itkPipelineMonitorImageFilter.h"
 #include "itkStreamingImageFilter.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
-
 #include <limits>
-#include <memory>
 #include <sstream>
 #include <string>
 #include <vector>

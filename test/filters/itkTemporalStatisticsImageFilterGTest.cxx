@@ -16,9 +16,7 @@
  *
  *=========================================================================*/
 #include "itkTemporalStatisticsImageFilter.h"
-
 #include "helpers/PipelineTestHelper.h"
-
 #include "itkCastImageFilter.h"
 #include "itkImageFileReader.h"
 #include "itkImageSeriesReader.h"
@@ -26,8 +24,13 @@
 #include "itkPipelineMonitorImageFilter.h"
 #include "itkStandardDeviationProjectionImageFilter.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace
 {

@@ -15,13 +15,15 @@
  *  limitations under the License.
  *
  *=========================================================================*/
+#include "sensornoise/published/VibrationCovariance.h"
+#include "sensornoise/published/VibrationMask.h"
+#include "sensornoise/simulation/Scenes.h"
 #include "itkVibrationCovarianceEstimator.h"
-
 #include "helpers/PipelineTestHelper.h"
-
 #include "itkTemporalStatisticsImageFilter.h"
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace

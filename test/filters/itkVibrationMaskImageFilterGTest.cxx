@@ -15,16 +15,18 @@
  *  limitations under the License.
  *
  *=========================================================================*/
+#include "sensornoise/published/VibrationMask.h"
 #include "itkVibrationMaskImageFilter.h"
-
 #include "helpers/PipelineTestHelper.h"
-
 #include "itkCastImageFilter.h"
 #include "itkPipelineMonitorImageFilter.h"
 #include "itkStreamingImageFilter.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <random>
+#include <vector>
 
 namespace
 {

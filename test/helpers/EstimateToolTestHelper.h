@@ -22,15 +22,14 @@
 #include "itkImageFileReader.h"
 #include "itkImageFileWriter.h"
 
-#include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
+#include <cstddef>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <gtest/gtest.h>
 #include <iterator>
-#include <random>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 #include <string>

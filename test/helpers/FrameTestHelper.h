@@ -18,7 +18,15 @@
 #ifndef sensornoise_test_FrameTestHelper_h
 #define sensornoise_test_FrameTestHelper_h
 
-#include "sensornoise/series/MotionSeries.h"
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/Stencils.h"
+#include "sensornoise/scene/ProvisionalModel.h"
+#include "sensornoise/scene/ReferenceFrame.h"
+#include "sensornoise/series/FrameProducts.h"
+#include "sensornoise/series/FrameRegressors.h"
+#include "sensornoise/series/FrameSums.h"
+#include "sensornoise/series/ShiftInstruments.h"
 
 #include <array>
 #include <cmath>

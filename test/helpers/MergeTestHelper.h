@@ -18,6 +18,7 @@
 #ifndef sensornoise_test_MergeTestHelper_h
 #define sensornoise_test_MergeTestHelper_h
 
+#include "sensornoise/refined/RefinedMethod.h"
 #include "helpers/RefinedTestHelper.h"
 
 #include <cstddef>

@@ -26,10 +26,10 @@
 #include "itkImageSource.h"
 #include "itkSensorNoiseStackSource.h"
 
-#include <gtest/gtest.h>
-
-#include <cstring>
+#include <algorithm>
+#include <cstddef>
 #include <filesystem>
+#include <gtest/gtest.h>
 #include <string>
 #include <vector>
 

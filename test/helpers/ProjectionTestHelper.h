@@ -18,8 +18,15 @@
 #ifndef sensornoise_test_ProjectionTestHelper_h
 #define sensornoise_test_ProjectionTestHelper_h
 
-#include "helpers/FrameTestHelper.h"
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/Parallel.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
+#include "sensornoise/pixels/ProjectionSums.h"
+#include "sensornoise/scene/ProvisionalModel.h"
+#include "sensornoise/scene/ReferenceFrame.h"
+#include "sensornoise/series/MotionSeries.h"
+#include "sensornoise/series/TemporalBasis.h"
+#include "helpers/FrameTestHelper.h"
 
 #include <cmath>
 #include <cstddef>

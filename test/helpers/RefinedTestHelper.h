@@ -18,13 +18,18 @@
 #ifndef sensornoise_test_RefinedTestHelper_h
 #define sensornoise_test_RefinedTestHelper_h
 
+#include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/moments/Codes.h"
 #include "sensornoise/refined/RefinedMethod.h"
+#include "sensornoise/refined/RefinedSettings.h"
+#include "sensornoise/report/Report.h"
 #include "helpers/StackTestHelper.h"
-
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <gtest/gtest.h>
 
 /** \file
  * The refined method, run on stacks. */

@@ -18,12 +18,13 @@
 #ifndef sensornoise_test_StackTestHelper_h
 #define sensornoise_test_StackTestHelper_h
 
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/simulation/Scenes.h"
+#include "sensornoise/simulation/SimulationSettings.h"
 #include "sensornoise/simulation/Simulator.h"
-#include "sensornoise/moments/StackMaps.h"
 
 #include <algorithm>
-#include <cstdint>
-#include <cstring>
+#include <cstddef>
 #include <functional>
 #include <thread>
 #include <vector>

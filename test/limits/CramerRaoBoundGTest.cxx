@@ -16,15 +16,19 @@
  *
  *=========================================================================*/
 #include "sensornoise/limits/CramerRaoBound.h"
-
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/limits/CramerRaoInformation.h"
+#include "sensornoise/limits/PrecisionLimit.h"
 #include "sensornoise/simulation/Scenes.h"
-
-#include <gtest/gtest.h>
+#include "sensornoise/simulation/SimulationSettings.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <gtest/gtest.h>
 #include <stdexcept>
 #include <thread>
 #include <vector>

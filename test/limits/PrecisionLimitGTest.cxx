@@ -17,10 +17,10 @@
  *=========================================================================*/
 #include "sensornoise/limits/PrecisionLimit.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <gtest/gtest.h>
 #include <stdexcept>
 #include <string>
 #include <vector>

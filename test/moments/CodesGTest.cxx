@@ -17,12 +17,14 @@
  *=========================================================================*/
 #include "sensornoise/moments/Codes.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <gtest/gtest.h>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace sensornoise;

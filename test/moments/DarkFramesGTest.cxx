@@ -16,14 +16,22 @@
  *
  *=========================================================================*/
 #include "sensornoise/moments/DarkFrames.h"
-
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/moments/Codes.h"
+#include "sensornoise/moments/KnownOffset.h"
+#include "sensornoise/moments/TemporalMoments.h"
+#include "sensornoise/simulation/SimulationSettings.h"
 #include "helpers/StackTestHelper.h"
 
-#include <gtest/gtest.h>
-
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <gtest/gtest.h>
 #include <limits>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 using namespace sensornoise;
 using namespace sensornoise::test;

@@ -17,14 +17,14 @@
  *=========================================================================*/
 #include "sensornoise/moments/FloatingMoments.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <cstddef>
+#include <gtest/gtest.h>
 #include <limits>
 #include <random>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 using namespace sensornoise;

@@ -17,13 +17,14 @@
  *=========================================================================*/
 #include "sensornoise/moments/IntegerMoments.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <gtest/gtest.h>
 #include <limits>
 #include <random>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 using namespace sensornoise;

@@ -17,8 +17,8 @@
  *=========================================================================*/
 #include "sensornoise/moments/PassFrames.h"
 
+#include <cstddef>
 #include <gtest/gtest.h>
-
 #include <sstream>
 #include <stdexcept>
 

@@ -16,15 +16,16 @@
  *
  *=========================================================================*/
 #include "sensornoise/pixels/LocalFlicker.h"
+#include "sensornoise/base/Eigen.h"
 #include "sensornoise/pixels/LocalOffset.h"
-
+#include "sensornoise/pixels/PixelLight.h"
+#include "sensornoise/pixels/ProjectedVariance.h"
+#include "sensornoise/pixels/VarianceLine.h"
 #include "helpers/ProjectionTestHelper.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <cstddef>
 #include <functional>
+#include <gtest/gtest.h>
 #include <vector>
 
 using namespace sensornoise;

@@ -16,16 +16,15 @@
  *
  *=========================================================================*/
 #include "sensornoise/pixels/ProjectedVariance.h"
-
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/Stencils.h"
 #include "helpers/ProjectionTestHelper.h"
 #include "helpers/StackTestHelper.h"
 
-#include <gtest/gtest.h>
-
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <random>
+#include <gtest/gtest.h>
 #include <vector>
 
 using namespace sensornoise;

@@ -16,14 +16,14 @@
  *
  *=========================================================================*/
 #include "sensornoise/pixels/ProjectionSums.h"
-
+#include "sensornoise/base/Eigen.h"
 #include "sensornoise/moments/IntegerMoments.h"
-
-#include <gtest/gtest.h>
+#include "sensornoise/series/TemporalBasis.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
-#include <cstdint>
+#include <gtest/gtest.h>
 #include <random>
 #include <stdexcept>
 #include <type_traits>

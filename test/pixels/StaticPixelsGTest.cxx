@@ -16,17 +16,19 @@
  *
  *=========================================================================*/
 #include "sensornoise/pixels/StaticPixels.h"
-
 #include "sensornoise/base/ChiSquare.h"
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/pixels/ProjectedVariance.h"
+#include "sensornoise/pixels/VarianceLine.h"
 #include "helpers/ProjectionTestHelper.h"
-
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
-#include <numeric>
+#include <gtest/gtest.h>
 #include <vector>
 
 using namespace sensornoise;

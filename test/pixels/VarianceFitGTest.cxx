@@ -16,15 +16,19 @@
  *
  *=========================================================================*/
 #include "sensornoise/pixels/VarianceFit.h"
-
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/pixels/ChiSquareTrim.h"
+#include "sensornoise/pixels/VarianceLine.h"
 #include "helpers/StackTestHelper.h"
 
-#include <gtest/gtest.h>
-
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <gtest/gtest.h>
+#include <optional>
 #include <random>
 #include <vector>
 

@@ -16,12 +16,14 @@
  *
  *=========================================================================*/
 #include "sensornoise/published/CorrectedVariance.h"
-
-#include <gtest/gtest.h>
+#include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/published/FlickerEstimate.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <gtest/gtest.h>
 #include <random>
 #include <vector>
 
@@ -62,7 +64,7 @@ RandomFlicker(Lines lines)
   }
   if (lines != Lines::Whole)
   {
-    flicker.lines = GeometryOf(lines).Lines();
+    flicker.lines = GeometryOf(lines).Rows();
     flicker.lineKnown.assign(flicker.lines, 1);
     for (std::size_t i = 0; i < Frames * flicker.lines; ++i)
     {
@@ -82,7 +84,7 @@ FramesWith(const FlickerEstimate & flicker, const FrameGeometry & geometry)
   for (std::size_t i = 0; i < stack.size(); ++i)
   {
     const std::size_t p = i % Pixels;
-    const double      flux = (1.0 + flicker.Gamma(i / Pixels, geometry.LineOf(p))) * 50.0 * static_cast<double>(1 + p);
+    const double      flux = (1.0 + flicker.Gamma(i / Pixels, geometry.RowOf(p))) * 50.0 * static_cast<double>(1 + p);
     stack[i] = static_cast<std::uint16_t>(OffsetDn + flux + 8.0 + std::sqrt(flux) * normal(random));
   }
   return stack;
@@ -124,7 +126,7 @@ ExpectVarianceOfTheExplicitStack(Lines lines)
   {
     const Series raw([&](std::size_t t) { return static_cast<long double>(stack[t * Pixels + p]); });
     const Series hat([&](std::size_t t) {
-      const long double gamma = flicker.Gamma(t, geometry.LineOf(p));
+      const long double gamma = flicker.Gamma(t, geometry.RowOf(p));
       return stack[t * Pixels + p] - (1.0L + gamma) * (raw.mean - static_cast<long double>(OffsetDn));
     });
     const auto   expected = static_cast<double>(hat.squares / (Frames - 1));

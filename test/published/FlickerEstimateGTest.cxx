@@ -16,12 +16,18 @@
  *
  *=========================================================================*/
 #include "sensornoise/published/FlickerEstimate.h"
-
-#include <gtest/gtest.h>
+#include "sensornoise/base/RequiredFlickerZ.h"
+#include "sensornoise/base/RollingShutter.h"
+#include "sensornoise/published/FlickerSums.h"
+#include "sensornoise/published/IsoIntensitySet.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <gtest/gtest.h>
 #include <random>
+#include <utility>
 #include <vector>
 
 using namespace sensornoise;

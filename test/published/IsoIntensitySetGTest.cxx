@@ -17,13 +17,15 @@
  *=========================================================================*/
 #include "sensornoise/published/IsoIntensitySet.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <gtest/gtest.h>
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace sensornoise;

@@ -16,12 +16,15 @@
  *
  *=========================================================================*/
 #include "sensornoise/published/LineFlicker.h"
-
-#include <gtest/gtest.h>
+#include "sensornoise/published/FlickerSums.h"
+#include "sensornoise/published/IsoIntensitySet.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <gtest/gtest.h>
 #include <random>
 #include <vector>
 

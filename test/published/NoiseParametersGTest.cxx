@@ -16,10 +16,13 @@
  *
  *=========================================================================*/
 #include "sensornoise/published/NoiseParameters.h"
-
-#include <gtest/gtest.h>
+#include "sensornoise/base/PolynomialFit.h"
+#include "sensornoise/report/Quantities.h"
+#include "sensornoise/report/Report.h"
 
 #include <cmath>
+#include <gtest/gtest.h>
+#include <optional>
 #include <string>
 #include <vector>
 

@@ -16,15 +16,25 @@
  *
  *=========================================================================*/
 #include "sensornoise/published/PublishedMethod.h"
-
 #include "sensornoise/report/ReportJson.h"
+#include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/PixelUse.h"
+#include "sensornoise/base/RollingShutter.h"
+#include "sensornoise/moments/Codes.h"
+#include "sensornoise/published/PublishedSettings.h"
+#include "sensornoise/report/Report.h"
+#include "sensornoise/simulation/Random.h"
+#include "sensornoise/simulation/SimulationSettings.h"
 #include "helpers/StackTestHelper.h"
-
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <gtest/gtest.h>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <vector>
 

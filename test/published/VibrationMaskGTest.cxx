@@ -17,10 +17,11 @@
  *=========================================================================*/
 #include "sensornoise/published/VibrationMask.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <gtest/gtest.h>
 #include <limits>
 #include <random>
 #include <stdexcept>

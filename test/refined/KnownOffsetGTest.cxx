@@ -15,12 +15,25 @@
  *  limitations under the License.
  *
  *=========================================================================*/
+#include "sensornoise/moments/KnownOffset.h"
+#include "sensornoise/refined/RefinedSettings.h"
+#include "sensornoise/report/Quantities.h"
+#include "sensornoise/report/Report.h"
+#include "sensornoise/simulation/Random.h"
+#include "sensornoise/simulation/Scenes.h"
+#include "sensornoise/simulation/SimulationSettings.h"
+#include "sensornoise/simulation/Simulator.h"
 #include "helpers/RefinedTestHelper.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <optional>
+#include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 // What the refined method does with an offset that is known. Camera B: g = 1 DN/e-, mu = 100 DN, sigma = 8 DN.
 

@@ -15,14 +15,21 @@
  *  limitations under the License.
  *
  *=========================================================================*/
+#include "sensornoise/report/ReportJson.h"
+#include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/PixelUse.h"
+#include "sensornoise/refined/RefinedMethod.h"
+#include "sensornoise/refined/RefinedSettings.h"
+#include "sensornoise/report/Report.h"
+#include "sensornoise/simulation/Scenes.h"
+#include "sensornoise/simulation/SimulationSettings.h"
 #include "helpers/RefinedTestHelper.h"
 
-#include "sensornoise/report/ReportJson.h"
-
-#include <gtest/gtest.h>
-
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <gtest/gtest.h>
 #include <limits>
 #include <stdexcept>
 #include <string>

@@ -15,17 +15,19 @@
  *  limitations under the License.
  *
  *=========================================================================*/
+#include "sensornoise/report/Report.h"
+#include "sensornoise/simulation/Scenes.h"
+#include "sensornoise/simulation/SimulationSettings.h"
 #include "helpers/RefinedTestHelper.h"
-
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <gtest/gtest.h>
 #include <map>
 #include <string>
 #include <utility>
-#include <vector>
 
 using namespace sensornoise;
 using namespace sensornoise::test;

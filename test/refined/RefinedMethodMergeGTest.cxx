@@ -15,13 +15,14 @@
  *  limitations under the License.
  *
  *=========================================================================*/
+#include "sensornoise/report/ReportJson.h"
+#include "sensornoise/refined/RefinedMethod.h"
+#include "sensornoise/report/Report.h"
 #include "helpers/MergeTestHelper.h"
 
-#include "sensornoise/report/ReportJson.h"
-
-#include <gtest/gtest.h>
-
 #include <cmath>
+#include <cstddef>
+#include <gtest/gtest.h>
 #include <memory>
 #include <sstream>
 #include <string>

@@ -15,11 +15,12 @@
  *  limitations under the License.
  *
  *=========================================================================*/
+#include "sensornoise/refined/RefinedMethod.h"
 #include "helpers/MergeTestHelper.h"
 
-#include <gtest/gtest.h>
-
+#include <cstddef>
 #include <cstdint>
+#include <gtest/gtest.h>
 #include <sstream>
 #include <stdexcept>
 #include <string>

@@ -16,15 +16,18 @@
  *
  *=========================================================================*/
 #include "sensornoise/report/ReportJson.h"
-
-#include <gtest/gtest.h>
+#include "sensornoise/report/Quantities.h"
+#include "sensornoise/report/Report.h"
+#include "sensornoise/report/ReportTable.h"
 
 #include <cctype>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
-#include <cstring>
+#include <gtest/gtest.h>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>

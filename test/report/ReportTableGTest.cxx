@@ -16,9 +16,12 @@
  *
  *=========================================================================*/
 #include "sensornoise/report/ReportTable.h"
+#include "sensornoise/report/Quantities.h"
+#include "sensornoise/report/Report.h"
 
+#include <cstddef>
 #include <gtest/gtest.h>
-
+#include <optional>
 #include <string>
 
 using namespace sensornoise;

@@ -16,14 +16,15 @@
  *
  *=========================================================================*/
 #include "sensornoise/scene/GuardBand.h"
-
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/moments/Codes.h"
 #include "helpers/FrameTestHelper.h"
-
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <gtest/gtest.h>
 #include <vector>
 
 using namespace sensornoise;

@@ -16,15 +16,18 @@
  *
  *=========================================================================*/
 #include "sensornoise/scene/ProvisionalModel.h"
-
+#include "sensornoise/base/Quantiles.h"
+#include "sensornoise/base/Stencils.h"
+#include "sensornoise/scene/ReferenceFrame.h"
 #include "helpers/FrameTestHelper.h"
-
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <gtest/gtest.h>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 using namespace sensornoise;
@@ -150,10 +153,10 @@ TEST(SensorNoiseProvisionalModel, SampleIsEvenAndKeepsAllOfASmallFrame)
   {
     mask[p] = 1;
   }
-  const auto all = detail::SamplePixels(mask);
+  const auto all = SamplePixels(mask);
   ASSERT_EQ(all.size(), 500u);
   EXPECT_EQ(all[7], 14u);
-  const auto some = detail::SamplePixels(mask, 50);
+  const auto some = SamplePixels(mask, 50);
   ASSERT_GE(some.size(), 50u);
   EXPECT_LT(some.size(), 100u);
   for (std::size_t i = 1; i < some.size(); ++i)
@@ -170,8 +173,8 @@ TEST(SensorNoiseProvisionalModel, BinsHaveEqualCountsAndMedians)
   {
     values.push_back(std::sin(static_cast<double>(i)));
   }
-  const auto               binOf = detail::BinsOfEqualCount(values, 32);
-  const auto               medians = detail::MediansOfBins(values, binOf, 32);
+  const auto               binOf = BinsOfEqualCount(values, 32);
+  const auto               medians = MediansOfBins(values, binOf, 32);
   std::vector<std::size_t> counts(32, 0);
   for (std::size_t i = 0; i < values.size(); ++i)
   {
@@ -183,5 +186,5 @@ TEST(SensorNoiseProvisionalModel, BinsHaveEqualCountsAndMedians)
   {
     EXPECT_DOUBLE_EQ(medians[b], 0.5 * (values[10 * b + 4] + values[10 * b + 5])) << b;
   }
-  EXPECT_TRUE(std::isnan(detail::MediansOfBins({}, {}, 1)[0]));
+  EXPECT_TRUE(std::isnan(MediansOfBins({}, {}, 1)[0]));
 }

@@ -16,14 +16,13 @@
  *
  *=========================================================================*/
 #include "sensornoise/scene/ReferenceFrame.h"
-
+#include "sensornoise/base/Parallel.h"
 #include "helpers/StackTestHelper.h"
-
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <gtest/gtest.h>
 #include <limits>
 #include <random>
 #include <vector>

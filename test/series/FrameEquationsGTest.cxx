@@ -16,13 +16,17 @@
  *
  *=========================================================================*/
 #include "sensornoise/series/FrameEquations.h"
-
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/Stencils.h"
+#include "sensornoise/series/FrameProducts.h"
+#include "sensornoise/series/FrameSums.h"
 #include "helpers/FrameTestHelper.h"
 
-#include <gtest/gtest.h>
-
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <gtest/gtest.h>
 #include <vector>
 
 using namespace sensornoise;

@@ -16,14 +16,17 @@
  *
  *=========================================================================*/
 #include "sensornoise/series/FrameSums.h"
-
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/series/FrameProducts.h"
+#include "sensornoise/series/FrameRegressors.h"
 #include "helpers/FrameTestHelper.h"
 #include "helpers/StackTestHelper.h"
 
-#include <gtest/gtest.h>
-
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <gtest/gtest.h>
 #include <sstream>
 #include <stdexcept>
 #include <vector>

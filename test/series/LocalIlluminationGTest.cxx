@@ -16,14 +16,16 @@
  *
  *=========================================================================*/
 #include "sensornoise/series/LocalIllumination.h"
-
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/series/FrameEquations.h"
+#include "sensornoise/series/FrameProducts.h"
+#include "sensornoise/series/FrameSums.h"
+#include "sensornoise/series/MotionSeries.h"
 #include "helpers/FrameTestHelper.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <gtest/gtest.h>
 #include <random>
 #include <vector>
 

@@ -16,14 +16,18 @@
  *
  *=========================================================================*/
 #include "sensornoise/series/MotionSeries.h"
-
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/Stencils.h"
+#include "sensornoise/scene/ReferenceFrame.h"
+#include "sensornoise/series/FrameEquations.h"
+#include "sensornoise/series/FrameProducts.h"
+#include "sensornoise/series/FrameSums.h"
+#include "sensornoise/series/ShiftInstruments.h"
 #include "helpers/FrameTestHelper.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
+#include <gtest/gtest.h>
 #include <vector>
 
 using namespace sensornoise;

@@ -16,15 +16,17 @@
  *
  *=========================================================================*/
 #include "sensornoise/series/OffsetLine.h"
-
+#include "sensornoise/base/ChiSquare.h"
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/series/FrameEquations.h"
+#include "sensornoise/series/FrameProducts.h"
+#include "sensornoise/series/FrameSums.h"
 #include "helpers/FrameTestHelper.h"
-
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstddef>
+#include <gtest/gtest.h>
 #include <random>
-#include <vector>
 
 using namespace sensornoise;
 using namespace sensornoise::test;

@@ -16,11 +16,12 @@
  *
  *=========================================================================*/
 #include "sensornoise/series/TemporalBasis.h"
-
-#include <gtest/gtest.h>
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/series/MotionSeries.h"
 
 #include <cmath>
 #include <cstddef>
+#include <gtest/gtest.h>
 #include <random>
 #include <vector>
 

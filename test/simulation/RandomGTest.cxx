@@ -17,10 +17,10 @@
  *=========================================================================*/
 #include "sensornoise/simulation/Random.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <gtest/gtest.h>
 #include <vector>
 
 namespace

@@ -16,14 +16,16 @@
  *
  *=========================================================================*/
 #include "sensornoise/simulation/Scenes.h"
-#include "sensornoise/simulation/Simulator.h"
-
-#include <gtest/gtest.h>
+#include "sensornoise/simulation/Random.h"
+#include "sensornoise/simulation/SimulationSettings.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <gtest/gtest.h>
 #include <map>
 #include <set>
+#include <stdexcept>
 #include <vector>
 
 using namespace sensornoise;

@@ -16,14 +16,19 @@
  *
  *=========================================================================*/
 #include "sensornoise/simulation/Simulator.h"
-
-#include <gtest/gtest.h>
+#include "sensornoise/moments/Codes.h"
+#include "sensornoise/simulation/Scenes.h"
+#include "sensornoise/simulation/SimulationSettings.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <gtest/gtest.h>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace sensornoise;

@@ -16,8 +16,11 @@
  *
  *=========================================================================*/
 #include "helpers/EstimateToolTestHelper.h"
-
 #include "itkRGBPixel.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
 
 namespace
 {

@@ -18,6 +18,7 @@
 #include "helpers/EstimateToolTestHelper.h"
 
 #include <cmath>
+#include <string>
 
 namespace
 {

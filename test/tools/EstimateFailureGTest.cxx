@@ -17,7 +17,11 @@
  *=========================================================================*/
 #include "helpers/EstimateToolTestHelper.h"
 
+#include <algorithm>
 #include <limits>
+#include <random>
+#include <string>
+#include <vector>
 
 namespace
 {

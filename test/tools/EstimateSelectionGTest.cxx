@@ -17,6 +17,11 @@
  *=========================================================================*/
 #include "helpers/EstimateToolTestHelper.h"
 
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <vector>
+
 namespace
 {
 

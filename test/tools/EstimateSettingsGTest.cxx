@@ -15,12 +15,14 @@
  *  limitations under the License.
  *
  *=========================================================================*/
+#include "sensornoise/report/Report.h"
+#include "sensornoise/base/PixelUse.h"
 #include "helpers/EstimateToolTestHelper.h"
 
-#include "sensornoise/report/Report.h"
-
-#include <cmath>
+#include <algorithm>
+#include <cstddef>
 #include <limits>
+#include <string>
 
 namespace
 {

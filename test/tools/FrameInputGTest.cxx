@@ -16,18 +16,16 @@
  *
  *=========================================================================*/
 #include "input/FrameInput.h"
-
 #include "itkImageFileWriter.h"
 #include "itkImageRegionIteratorWithIndex.h"
 #include "itkRGBPixel.h"
 
-#include <gtest/gtest.h>
-
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <gtest/gtest.h>
 #include <map>
-#include <random>
 #include <string>
 #include <type_traits>
 #include <vector>

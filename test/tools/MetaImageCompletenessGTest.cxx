@@ -16,16 +16,14 @@
  *
  *=========================================================================*/
 #include "input/FrameInput.h"
-
 #include "itkImageFileWriter.h"
 #include "itkImageRegionIteratorWithIndex.h"
 
-#include <gtest/gtest.h>
-
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <gtest/gtest.h>
 #include <iterator>
-#include <random>
 #include <string>
 #include <vector>
 

@@ -19,6 +19,9 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
 
 namespace
 {

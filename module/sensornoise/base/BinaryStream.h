@@ -18,7 +18,7 @@
 #ifndef sensornoise_base_BinaryStream_h
 #define sensornoise_base_BinaryStream_h
 
-#include "sensornoise/simulation/Random.h"
+#include "sensornoise/base/MixBits.h"
 
 #include <algorithm>
 #include <array>

@@ -18,7 +18,7 @@
 #ifndef sensornoise_base_BoxSum_h
 #define sensornoise_base_BoxSum_h
 
-#include "sensornoise/moments/StackMaps.h"
+#include "sensornoise/base/Parallel.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -18,6 +18,7 @@
 #ifndef sensornoise_base_IntensityIndex_h
 #define sensornoise_base_IntensityIndex_h
 
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -28,27 +29,6 @@
 
 namespace sensornoise
 {
-
-/** The quantile \a q (0 to 1) of \a values, linear between order statistics. Reorders \a values. */
-inline double
-Quantile(std::vector<double> & values, double q)
-{
-  if (values.empty())
-  {
-    throw std::invalid_argument("a quantile of no value was asked for");
-  }
-  const double position = q * static_cast<double>(values.size() - 1);
-  const auto   below = static_cast<std::size_t>(position);
-  const auto   nth = values.begin() + static_cast<std::ptrdiff_t>(below);
-  std::nth_element(values.begin(), nth, values.end());
-  if (below + 1 == values.size())
-  {
-    return *nth;
-  }
-  const double lower = *nth;
-  const double upper = *std::min_element(nth + 1, values.end());
-  return lower + (position - static_cast<double>(below)) * (upper - lower);
-}
 
 /** \class IntensityIndex
  * \brief Finds quantiles, neighbours in intensity and bins of equal count among the pixels of a mask without sorting.

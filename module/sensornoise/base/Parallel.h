@@ -18,15 +18,28 @@
 #ifndef sensornoise_base_Parallel_h
 #define sensornoise_base_Parallel_h
 
-#include "sensornoise/moments/StackMaps.h"
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
+#include <utility>
 #include <vector>
 
 namespace sensornoise
 {
+
+/** Calls a function for 0 ... count-1, in any order and possibly at the same time. */
+using ParallelFor = std::function<void(std::size_t count, const std::function<void(std::size_t)> & function)>;
+
+/** The ParallelFor of one thread. */
+inline void
+SerialFor(std::size_t count, const std::function<void(std::size_t)> & function)
+{
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    function(i);
+  }
+}
 
 /** Pixels of a block: the unit in which maps are computed and sums are folded. */
 inline constexpr std::size_t PixelsPerBlock = 8192;

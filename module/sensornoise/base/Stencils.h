@@ -176,8 +176,6 @@ ApplyStencils(const double * map, std::size_t width, std::size_t p)
     map + p, static_cast<std::ptrdiff_t>(width), std::make_index_sequence<NumberOfStencils>());
 }
 
-namespace detail
-{
 /** What a motion of about a pixel would do to the pixel: the square of the gradient and a quarter of the curvature's.
  */
 inline double
@@ -186,8 +184,6 @@ StencilEnergy(const std::array<double, NumberOfStencils> & d)
   return d[StencilX] * d[StencilX] + d[StencilY] * d[StencilY] +
          0.25 * (d[StencilXX] * d[StencilXX] + d[StencilYY] * d[StencilYY]);
 }
-} // namespace detail
-
 /** Sum of the products of two stencils' weights: what white noise of variance 1 in the map puts on the product of
  * their values. */
 inline double

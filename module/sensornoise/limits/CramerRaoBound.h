@@ -18,9 +18,11 @@
 #ifndef sensornoise_limits_CramerRaoBound_h
 #define sensornoise_limits_CramerRaoBound_h
 
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/Parallel.h"
 #include "sensornoise/limits/CramerRaoInformation.h"
 #include "sensornoise/limits/PrecisionLimit.h"
-#include "sensornoise/moments/StackMaps.h"
+#include "sensornoise/simulation/SimulationSettings.h"
 
 #include <algorithm>
 #include <cmath>

@@ -19,8 +19,12 @@
 #define sensornoise_moments_DarkFrames_h
 
 #include "sensornoise/base/ChiSquare.h"
-#include "sensornoise/refined/RefinedSettings.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/Quantiles.h"
+#include "sensornoise/moments/Codes.h"
+#include "sensornoise/moments/KnownOffset.h"
 #include "sensornoise/moments/StackMaps.h"
+#include "sensornoise/moments/TemporalMoments.h"
 
 #include <algorithm>
 #include <cmath>

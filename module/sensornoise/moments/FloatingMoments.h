@@ -23,7 +23,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <istream>
 #include <limits>
+#include <ostream>
 #include <stdexcept>
 #include <string>
 #include <type_traits>

@@ -18,34 +18,21 @@
 #ifndef sensornoise_moments_StackMaps_h
 #define sensornoise_moments_StackMaps_h
 
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/Quantiles.h"
 #include "sensornoise/moments/Codes.h"
-#include "sensornoise/base/IntensityIndex.h"
 #include "sensornoise/moments/TemporalMoments.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <type_traits>
 #include <vector>
 
 namespace sensornoise
 {
-
-/** Calls a function for 0 ... count-1, in any order and possibly at the same time. */
-using ParallelFor = std::function<void(std::size_t count, const std::function<void(std::size_t)> & function)>;
-
-/** The ParallelFor of one thread. */
-inline void
-SerialFor(std::size_t count, const std::function<void(std::size_t)> & function)
-{
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    function(i);
-  }
-}
 
 /** What the moments of a stack say beside mean and variance. */
 struct StackSummary

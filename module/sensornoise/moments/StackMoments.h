@@ -26,10 +26,14 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <istream>
 #include <limits>
 #include <map>
 #include <numeric>
+#include <ostream>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace sensornoise

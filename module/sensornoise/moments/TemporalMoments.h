@@ -21,6 +21,8 @@
 #include "sensornoise/moments/FloatingMoments.h"
 #include "sensornoise/moments/IntegerMoments.h"
 
+#include <type_traits>
+
 namespace sensornoise
 {
 

@@ -19,6 +19,7 @@
 #define sensornoise_pixels_LocalFlicker_h
 
 #include "sensornoise/pixels/PixelLight.h"
+#include "sensornoise/scene/ReferenceFrame.h"
 
 #include <algorithm>
 #include <cmath>

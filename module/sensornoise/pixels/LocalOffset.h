@@ -19,8 +19,11 @@
 #define sensornoise_pixels_LocalOffset_h
 
 #include "sensornoise/base/ChiSquare.h"
+#include "sensornoise/base/Parallel.h"
 #include "sensornoise/pixels/PixelLight.h"
+#include "sensornoise/scene/ReferenceFrame.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>

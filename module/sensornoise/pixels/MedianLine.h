@@ -19,8 +19,8 @@
 #define sensornoise_pixels_MedianLine_h
 
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/Quantiles.h"
 #include "sensornoise/pixels/ChiSquareTrim.h"
-#include "sensornoise/scene/ProvisionalModel.h"
 #include "sensornoise/pixels/VarianceLine.h"
 
 #include <algorithm>
@@ -124,7 +124,6 @@ FitMedians(const VarianceData & data, const FreedomRange & freedoms)
   return line;
 }
 } // namespace detail
-
 
 } // namespace sensornoise
 

@@ -18,7 +18,12 @@
 #ifndef sensornoise_pixels_PixelLight_h
 #define sensornoise_pixels_PixelLight_h
 
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/Stencils.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
+#include "sensornoise/pixels/VarianceLine.h"
+#include "sensornoise/scene/ReferenceFrame.h"
 
 #include <algorithm>
 #include <cstddef>

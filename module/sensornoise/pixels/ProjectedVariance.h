@@ -19,8 +19,16 @@
 #define sensornoise_pixels_ProjectedVariance_h
 
 #include "sensornoise/base/BoxSum.h"
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/Quantiles.h"
+#include "sensornoise/base/Stencils.h"
 #include "sensornoise/pixels/ProjectionSums.h"
 #include "sensornoise/pixels/VarianceLine.h"
+#include "sensornoise/scene/ProvisionalModel.h"
+#include "sensornoise/scene/ReferenceFrame.h"
+#include "sensornoise/series/MotionSeries.h"
+#include "sensornoise/series/TemporalBasis.h"
 
 #include <algorithm>
 #include <array>
@@ -28,6 +36,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace sensornoise
@@ -217,7 +226,7 @@ private:
       {
         if (m_Frame.usable[p] != 0)
         {
-          energy[p] = static_cast<float>(detail::StencilEnergy(ApplyStencils(m_Frame.mean.data(), width, p)));
+          energy[p] = static_cast<float>(StencilEnergy(ApplyStencils(m_Frame.mean.data(), width, p)));
         }
       }
     });
@@ -231,7 +240,7 @@ private:
         roughness[p] /= model.NoiseVariance(m_Frame.neighbourMean[p]);
       }
     });
-    for (const std::size_t p : detail::SamplePixels(m_Mask))
+    for (const std::size_t p : SamplePixels(m_Mask))
     {
       sample.push_back(roughness[p]);
     }

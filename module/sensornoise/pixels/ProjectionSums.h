@@ -19,10 +19,14 @@
 #define sensornoise_pixels_ProjectionSums_h
 
 #include "sensornoise/base/BinaryStream.h"
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/Parallel.h"
 #include "sensornoise/series/TemporalBasis.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <istream>
+#include <ostream>
 #include <stdexcept>
 #include <string>
 #include <type_traits>

@@ -19,7 +19,11 @@
 #define sensornoise_pixels_StaticPixels_h
 
 #include "sensornoise/base/BoxSum.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/Quantiles.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
+#include "sensornoise/pixels/VarianceLine.h"
+#include "sensornoise/scene/ReferenceFrame.h"
 
 #include <algorithm>
 #include <cmath>
@@ -105,7 +109,7 @@ JudgeClasses(const ProjectedVariance &         projected,
     }
   }
   reference /= std::max(1.0, count);
-  const double usual = detail::QuantileOf({ outliers.begin(), outliers.begin() + flat }, 0.5);
+  const double usual = QuantileOf({ outliers.begin(), outliers.begin() + flat }, 0.5);
   const auto   isBad = [&](std::size_t c) {
     return fit.ratio[c] / reference - 1.0 > std::max(2.5 * error[c], 0.0015) || outliers[c] > usual + 0.01;
   };
@@ -193,17 +197,17 @@ IntensityChi2(const VarianceData & data, const VarianceLine & line, const Parall
 {
   constexpr std::size_t bins = 64;
   std::vector<double>   level;
-  for (const std::size_t p : detail::SamplePixels({ data.mask, data.mask + data.pixels }))
+  for (const std::size_t p : SamplePixels({ data.mask, data.mask + data.pixels }))
   {
     level.push_back(data.neighbourMean[p]);
   }
-  const std::vector<double> edges = detail::EdgesOfEqualCount(level, bins);
+  const std::vector<double> edges = EdgesOfEqualCount(level, bins);
   const auto                sums = SumOverBlocks<2 * bins>(data.pixels, parallelFor, [&](std::size_t p, auto & s) {
     const double expected = data.mask[p] != 0 ? line.At(data.mean[p]) : 1.0;
     const double ratio = data.variance[p] / expected;
     if (data.mask[p] != 0 && !detail::IsFarOff(ratio, data.freedom[p]))
     {
-      double * own = s.data() + 2 * detail::BinOf(edges, data.neighbourMean[p]);
+      double * own = s.data() + 2 * BinOf(edges, data.neighbourMean[p]);
       own[0] += 0.5 * data.freedom[p];
       own[1] += 0.5 * data.freedom[p] * (ratio - 1.0);
     }

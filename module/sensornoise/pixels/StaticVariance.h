@@ -18,12 +18,16 @@
 #ifndef sensornoise_pixels_StaticVariance_h
 #define sensornoise_pixels_StaticVariance_h
 
-#include "sensornoise/refined/RefinedFindings.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/PixelUse.h"
+#include "sensornoise/pixels/ProjectedVariance.h"
+#include "sensornoise/pixels/StaticPixels.h"
 #include "sensornoise/pixels/VarianceFit.h"
+#include "sensornoise/pixels/VarianceLine.h"
+#include "sensornoise/refined/RefinedFindings.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>

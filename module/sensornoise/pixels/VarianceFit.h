@@ -18,7 +18,11 @@
 #ifndef sensornoise_pixels_VarianceFit_h
 #define sensornoise_pixels_VarianceFit_h
 
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/pixels/ChiSquareTrim.h"
 #include "sensornoise/pixels/MedianLine.h"
+#include "sensornoise/pixels/VarianceLine.h"
 
 #include <cmath>
 #include <cstddef>

@@ -18,10 +18,11 @@
 #ifndef sensornoise_published_CorrectedVariance_h
 #define sensornoise_published_CorrectedVariance_h
 
+#include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/published/FlickerEstimate.h"
 
-#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -107,7 +108,7 @@ public:
   double
   GetVariance(std::size_t p, double meanDn, double sumOfSquaredDeviationsDn2) const
   {
-    const std::size_t line = m_Lines > 1 ? m_Geometry.LineOf(p) : 0;
+    const std::size_t line = m_Lines > 1 ? m_Geometry.RowOf(p) : 0;
     if (!m_Known.empty() && m_Known[line] == 0)
     {
       return std::numeric_limits<double>::quiet_NaN();

@@ -18,48 +18,20 @@
 #ifndef sensornoise_published_FlickerEstimate_h
 #define sensornoise_published_FlickerEstimate_h
 
+#include "sensornoise/base/RollingShutter.h"
+#include "sensornoise/published/FlickerSums.h"
+#include "sensornoise/published/IsoIntensitySet.h"
 #include "sensornoise/published/LineFlicker.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <stdexcept>
-#include <string>
+#include <utility>
 #include <vector>
 
 namespace sensornoise
 {
-
-/** How the flicker may vary inside a frame. */
-enum class RollingShutter : std::uint8_t
-{
-  Off,  ///< one gamma_t a frame, section 3.2
-  Auto, ///< gamma_t(y) where the data show it, sigma_y by cross-validation
-  Fixed ///< gamma_t(y) with the given sigma_y, section 3.5
-};
-
-/** The mode of a name: "off", "auto" or "fixed". Throws std::invalid_argument for others. */
-inline RollingShutter
-RollingShutterOf(const std::string & name)
-{
-  if (name != "off" && name != "auto" && name != "fixed")
-  {
-    throw std::invalid_argument("the rolling shutter is \"" + name + "\"; expected off, auto or fixed");
-  }
-  return name == "off" ? RollingShutter::Off : name == "auto" ? RollingShutter::Auto : RollingShutter::Fixed;
-}
-
-inline const char *
-NameOf(RollingShutter mode)
-{
-  return mode == RollingShutter::Off ? "off" : mode == RollingShutter::Auto ? "auto" : "fixed";
-}
-
-/** Offset and read noise are identified if the variance of v^* exceeds its sampling noise by this many of its standard
- * deviations. */
-inline constexpr double RequiredFlickerZ = 6.0;
 
 /** Flicker and offset of a stack, sections 3.2 and 3.5 of Sur & Gredi\'ac 2015. */
 struct FlickerEstimate

@@ -18,6 +18,7 @@
 #ifndef sensornoise_published_FlickerSums_h
 #define sensornoise_published_FlickerSums_h
 
+#include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/published/IsoIntensitySet.h"
 
 #include <algorithm>
@@ -27,30 +28,6 @@
 
 namespace sensornoise
 {
-
-/** Size of a frame and the axis along which its lines are exposed one after the other. */
-struct FrameGeometry
-{
-  std::size_t  width{ 0 };
-  std::size_t  height{ 0 };
-  unsigned int shutterAxis{ 1 }; ///< 1: lines are rows, the shutter travels along y; 0: columns, along x
-
-  std::size_t
-  Pixels() const
-  {
-    return width * height;
-  }
-  std::size_t
-  Lines() const
-  {
-    return shutterAxis == 0 ? width : height;
-  }
-  std::size_t
-  LineOf(std::size_t p) const
-  {
-    return shutterAxis == 0 ? p % width : p / width;
-  }
-};
 
 /** \class FlickerSums
  * \brief Sums of each frame over the bright and the dark set, all that flicker and offset are estimated from.
@@ -74,7 +51,7 @@ public:
               std::size_t             frames,
               const IsoIntensitySet & lineSet = {})
     : m_Frames(frames)
-    , m_Lines(lineSet.pixels.empty() ? 0 : geometry.Lines())
+    , m_Lines(lineSet.pixels.empty() ? 0 : geometry.Rows())
     , m_BrightRatios(frames, 0.0)
     , m_DarkResiduals(frames, 0.0)
     , m_BrightSpreads(frames, 0.0)
@@ -87,7 +64,7 @@ public:
   {
     for (std::size_t i = 0; i < lineSet.pixels.size(); ++i)
     {
-      m_LineOf.push_back(static_cast<std::uint32_t>(geometry.LineOf(lineSet.pixels[i])));
+      m_LineOf.push_back(static_cast<std::uint32_t>(geometry.RowOf(lineSet.pixels[i])));
       m_LineWeights[m_LineOf[i]] += lineSet.weights[i];
     }
   }

@@ -19,7 +19,9 @@
 #define sensornoise_published_IsoIntensitySet_h
 
 #include "sensornoise/base/IntensityIndex.h"
+#include "sensornoise/base/Quantiles.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

@@ -19,30 +19,15 @@
 #define sensornoise_published_NoiseParameters_h
 
 #include "sensornoise/base/PolynomialFit.h"
+#include "sensornoise/report/Quantities.h"
 #include "sensornoise/report/Report.h"
 
 #include <cmath>
-#include <cstddef>
 #include <optional>
 #include <string>
 
 namespace sensornoise
 {
-
-/** Marks every parameter of the sensor \a status, without a value. */
-inline void
-SetSensorParameters(Report & report, EstimateStatus status)
-{
-  for (Quantity * quantity : { &report.gain,
-                               &report.offset,
-                               &report.readNoise,
-                               &report.readNoiseElectrons,
-                               &report.intercept,
-                               &report.totalIntercept })
-  {
-    *quantity = Quantity::Without(status, quantity->unit);
-  }
-}
 
 /** Fills gain, intercept, offset and read noise from the line through the corrected variance, section 3.3 of
  * Sur & Gredi\'ac 2015 (https://doi.org/10.1137/140977035): g is the slope, sigma^2 - g mu the intercept, and

@@ -18,9 +18,13 @@
 #ifndef sensornoise_published_PublishedFindings_h
 #define sensornoise_published_PublishedFindings_h
 
+#include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/moments/StackMaps.h"
+#include "sensornoise/published/FlickerEstimate.h"
+#include "sensornoise/published/IsoIntensitySet.h"
 #include "sensornoise/published/PublishedSettings.h"
+#include "sensornoise/report/Quantities.h"
 #include "sensornoise/report/Report.h"
-#include "sensornoise/report/StackReport.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -18,15 +18,28 @@
 #ifndef sensornoise_published_PublishedMethod_h
 #define sensornoise_published_PublishedMethod_h
 
-#include "sensornoise/published/CorrectedVariance.h"
-#include "sensornoise/published/PublishedReport.h"
+#include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/PixelUse.h"
+#include "sensornoise/base/RollingShutter.h"
 #include "sensornoise/moments/StackMaps.h"
+#include "sensornoise/moments/TemporalMoments.h"
+#include "sensornoise/published/CorrectedVariance.h"
+#include "sensornoise/published/FlickerEstimate.h"
+#include "sensornoise/published/FlickerSums.h"
+#include "sensornoise/published/IsoIntensitySet.h"
+#include "sensornoise/published/PublishedReport.h"
+#include "sensornoise/published/PublishedSettings.h"
+#include "sensornoise/published/VibrationMask.h"
+#include "sensornoise/report/Report.h"
 
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sensornoise

@@ -19,16 +19,23 @@
 #define sensornoise_published_PublishedReport_h
 
 #include "sensornoise/base/IntensityIndex.h"
+#include "sensornoise/base/RollingShutter.h"
+#include "sensornoise/base/PolynomialFit.h"
+#include "sensornoise/base/RequiredFlickerZ.h"
+#include "sensornoise/published/FlickerEstimate.h"
 #include "sensornoise/published/NoiseParameters.h"
 #include "sensornoise/published/PublishedFindings.h"
+#include "sensornoise/published/PublishedSettings.h"
 #include "sensornoise/published/VibrationCovariance.h"
+#include "sensornoise/report/Quantities.h"
+#include "sensornoise/report/Report.h"
+#include "sensornoise/report/StackReport.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
+#include <limits>
+#include <optional>
 #include <string>
-#include <vector>
 
 namespace sensornoise
 {
@@ -119,9 +126,8 @@ MakePublishedReport(const PublishedFindings & found)
   {
     SetSensorParameters(report, EstimateStatus::NotIdentifiable);
     report.Warn("intensity-range-too-small",
-                "the even areas span " + detail::Text(contrastDn) + " DN, expected more than " +
-                  detail::Text(6.0 * spreadDn) + " DN (6 standard deviations of their means): use a scene with dark " +
-                  "and bright areas");
+                "the even areas span " + Text(contrastDn) + " DN, expected more than " + Text(6.0 * spreadDn) +
+                  " DN (6 standard deviations of their means): use a scene with dark " + "and bright areas");
     return report;
   }
 
@@ -135,8 +141,8 @@ MakePublishedReport(const PublishedFindings & found)
   if (!identified)
   {
     report.Warn("offset-not-identifiable",
-                "the flicker (sd " + detail::Text(flicker.flickerSd) + ") exceeds the noise of its estimate by " +
-                  detail::Text(flicker.flickerZ) + " standard deviations, expected more than 6: use a lamp that " +
+                "the flicker (sd " + Text(flicker.flickerSd) + ") exceeds the noise of its estimate by " +
+                  Text(flicker.flickerZ) + " standard deviations, expected more than 6: use a lamp that " +
                   "flickers more, or more frames, or dark frames");
   }
   // The darkest mean bounds the offset (flux >= 0); being a mean of noise it may lie below it by some of its errors.
@@ -152,7 +158,7 @@ MakePublishedReport(const PublishedFindings & found)
   if (std::abs(quality.curvatureZ) > 5.0 && std::abs(bendDn2) > 0.03 * middleDn2)
   {
     report.Warn("corrected-variance-curved",
-                "the corrected variance bends by " + detail::Text(100.0 * bendDn2 / middleDn2) +
+                "the corrected variance bends by " + Text(100.0 * bendDn2 / middleDn2) +
                   " % of itself (expected under 3 %): vibrations, several lamps, or data that are not linear");
   }
 

@@ -18,8 +18,8 @@
 #ifndef sensornoise_published_PublishedSettings_h
 #define sensornoise_published_PublishedSettings_h
 
+#include "sensornoise/base/RollingShutter.h"
 #include "sensornoise/moments/Codes.h"
-#include "sensornoise/published/FlickerEstimate.h"
 #include "sensornoise/published/VibrationMask.h"
 
 #include <stdexcept>

@@ -18,14 +18,15 @@
 #ifndef sensornoise_refined_MotionReport_h
 #define sensornoise_refined_MotionReport_h
 
-#include "sensornoise/refined/OffsetReport.h"
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/refined/RefinedFindings.h"
+#include "sensornoise/report/Quantities.h"
+#include "sensornoise/report/Report.h"
+#include "sensornoise/series/OffsetLine.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <string>
 #include <vector>
 
 namespace sensornoise

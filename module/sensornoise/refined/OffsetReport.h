@@ -18,17 +18,19 @@
 #ifndef sensornoise_refined_OffsetReport_h
 #define sensornoise_refined_OffsetReport_h
 
-#include "sensornoise/published/NoiseParameters.h"
-#include "sensornoise/report/Quantities.h"
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/RequiredFlickerZ.h"
+#include "sensornoise/moments/KnownOffset.h"
+#include "sensornoise/pixels/VarianceLine.h"
 #include "sensornoise/refined/RefinedFindings.h"
+#include "sensornoise/report/Quantities.h"
+#include "sensornoise/report/Report.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace sensornoise
 {

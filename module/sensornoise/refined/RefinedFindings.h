@@ -18,18 +18,24 @@
 #ifndef sensornoise_refined_RefinedFindings_h
 #define sensornoise_refined_RefinedFindings_h
 
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/moments/StackMaps.h"
 #include "sensornoise/pixels/LocalFlicker.h"
 #include "sensornoise/pixels/LocalOffset.h"
-#include "sensornoise/series/OffsetLine.h"
-#include "sensornoise/refined/RefinedSettings.h"
-#include "sensornoise/series/MotionSeries.h"
-#include "sensornoise/report/StackReport.h"
 #include "sensornoise/pixels/StaticPixels.h"
+#include "sensornoise/pixels/VarianceLine.h"
+#include "sensornoise/refined/RefinedSettings.h"
+#include "sensornoise/scene/ProvisionalModel.h"
+#include "sensornoise/series/LocalIllumination.h"
+#include "sensornoise/series/MotionSeries.h"
+#include "sensornoise/series/OffsetLine.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sensornoise

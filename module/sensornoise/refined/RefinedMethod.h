@@ -18,20 +18,40 @@
 #ifndef sensornoise_refined_RefinedMethod_h
 #define sensornoise_refined_RefinedMethod_h
 
+#include "sensornoise/base/BinaryStream.h"
+#include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/PixelUse.h"
 #include "sensornoise/moments/PassFrames.h"
-#include "sensornoise/refined/RefinedReport.h"
-#include "sensornoise/series/SceneSeries.h"
+#include "sensornoise/moments/StackMaps.h"
 #include "sensornoise/moments/StackMoments.h"
+#include "sensornoise/pixels/ProjectedVariance.h"
+#include "sensornoise/pixels/ProjectionSums.h"
 #include "sensornoise/pixels/StaticVariance.h"
+#include "sensornoise/refined/RefinedFindings.h"
+#include "sensornoise/refined/RefinedReport.h"
+#include "sensornoise/refined/RefinedSettings.h"
+#include "sensornoise/report/Report.h"
+#include "sensornoise/scene/GuardBand.h"
+#include "sensornoise/scene/ProvisionalModel.h"
+#include "sensornoise/scene/ReferenceFrame.h"
 #include "sensornoise/scene/UsablePixels.h"
+#include "sensornoise/series/FrameProducts.h"
+#include "sensornoise/series/FrameRegressors.h"
+#include "sensornoise/series/FrameSums.h"
+#include "sensornoise/series/SceneSeries.h"
+#include "sensornoise/series/ShiftInstruments.h"
+#include "sensornoise/series/TemporalBasis.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <istream>
 #include <limits>
 #include <memory>
-#include <optional>
+#include <ostream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sensornoise

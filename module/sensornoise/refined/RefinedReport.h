@@ -18,14 +18,24 @@
 #ifndef sensornoise_refined_RefinedReport_h
 #define sensornoise_refined_RefinedReport_h
 
+#include "sensornoise/base/ChiSquare.h"
+#include "sensornoise/base/RollingShutter.h"
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/PixelUse.h"
+#include "sensornoise/pixels/ProjectedVariance.h"
+#include "sensornoise/pixels/VarianceLine.h"
 #include "sensornoise/refined/MotionReport.h"
 #include "sensornoise/refined/OffsetReport.h"
+#include "sensornoise/refined/RefinedFindings.h"
+#include "sensornoise/report/Quantities.h"
+#include "sensornoise/report/Report.h"
+#include "sensornoise/report/StackReport.h"
+#include "sensornoise/scene/ProvisionalModel.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -181,9 +191,9 @@ MakeRefinedReport(const RefinedReportInput & input)
     SetSensorParameters(report, EstimateStatus::Failed);
     report.Warn("variance-not-affine",
                 v.gain > 0.0
-                  ? "the variance bends against the mean by " + detail::Text(100.0 * bend) +
+                  ? "the variance bends against the mean by " + Text(100.0 * bend) +
                       " % of itself (expected less than 3 %): the data are not raw (gamma, compression), or not linear"
-                  : "the variance does not rise with the mean (slope " + detail::Text(v.gain) +
+                  : "the variance does not rise with the mean (slope " + Text(v.gain) +
                       " DN/e-, expected above 0): the data are not raw, or hold too little noise");
     return report;
   }
@@ -197,15 +207,15 @@ MakeRefinedReport(const RefinedReportInput & input)
     SetSensorParameters(report, EstimateStatus::NotIdentifiable);
     report.Warn(
       "too-little-to-measure",
-      detail::Text(100.0 * static_cast<double>(report.pixels.used) / std::max(1.0, found.usable)) +
+      Text(100.0 * static_cast<double>(report.pixels.used) / std::max(1.0, found.usable)) +
         " % of the pixels that are not clipped fit a static scene (expected at least 10 %) and give a gain of " +
-        detail::Text(v.gain) + " +- " + detail::Text(std::sqrt(covariance(0, 0))) +
+        Text(v.gain) + " +- " + Text(std::sqrt(covariance(0, 0))) +
         " DN/e-: the scene is not static, or too dark; choose a static part of it");
     return report;
   }
-  report.gain = detail::WithError(v.gain, std::sqrt(covariance(0, 0)), "DN/e-", student);
-  report.totalIntercept = detail::WithError(v.intercept, std::sqrt(covariance(1, 1)), "DN^2", student);
-  report.intercept = detail::WithError(v.intercept - quantisationDn2, std::sqrt(covariance(1, 1)), "DN^2", student);
+  report.gain = WithError(v.gain, std::sqrt(covariance(0, 0)), "DN/e-", student);
+  report.totalIntercept = WithError(v.intercept, std::sqrt(covariance(1, 1)), "DN^2", student);
+  report.intercept = WithError(v.intercept - quantisationDn2, std::sqrt(covariance(1, 1)), "DN^2", student);
   detail::FillOffsetAndReadNoise(report, input, covariance, quantisationDn2, student);
   return report;
 }

@@ -18,33 +18,17 @@
 #ifndef sensornoise_refined_RefinedSettings_h
 #define sensornoise_refined_RefinedSettings_h
 
+#include "sensornoise/base/RollingShutter.h"
 #include "sensornoise/moments/Codes.h"
-#include "sensornoise/published/FlickerEstimate.h"
+#include "sensornoise/moments/KnownOffset.h"
 
 #include <cmath>
-#include <cstddef>
 #include <optional>
 #include <stdexcept>
 #include <string>
 
 namespace sensornoise
 {
-
-/** Temporal variance of dark frames, that of rounding to whole codes included, and its standard error. */
-struct DarkVariance
-{
-  double valueDn2{ 0.0 };
-  double standardErrorDn2{ 0.0 };
-};
-
-/** An offset that is known from elsewhere: given, or measured with dark frames, which tell the read noise, too. */
-struct KnownOffset
-{
-  double                      valueDn{ 0.0 };
-  double                      standardErrorDn{ 0.0 };
-  std::size_t                 darkFrames{ 0 }; ///< frames that it was measured with; 0: it was given
-  std::optional<DarkVariance> variance{};      ///< null: fewer than two dark frames
-};
 
 /** Every parameter of the refined method. */
 struct RefinedSettings

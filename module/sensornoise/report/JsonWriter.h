@@ -18,6 +18,7 @@
 #ifndef sensornoise_report_JsonWriter_h
 #define sensornoise_report_JsonWriter_h
 
+
 #include <array>
 #include <charconv>
 #include <cmath>

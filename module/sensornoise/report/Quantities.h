@@ -22,14 +22,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <utility>
 
 namespace sensornoise
 {
 
-namespace detail
+/** A number as people read it. */
+inline std::string
+Text(double number)
 {
+  std::ostringstream text;
+  text.precision(6);
+  text << number;
+  return text.str();
+}
+
 /** A value with its standard error and 95 % interval. */
 inline Quantity
 WithError(double value, double standardError, std::string unit, double student = 1.96)
@@ -65,7 +74,20 @@ RootOf(double square, double standardError, std::string unit, double student = 1
   quantity.interval95 = Interval{ std::sqrt(square - student * standardError), high };
   return quantity;
 }
-} // namespace detail
+/** Marks every parameter of the sensor \a status, without a value. */
+inline void
+SetSensorParameters(Report & report, EstimateStatus status)
+{
+  for (Quantity * quantity : { &report.gain,
+                               &report.offset,
+                               &report.readNoise,
+                               &report.readNoiseElectrons,
+                               &report.intercept,
+                               &report.totalIntercept })
+  {
+    *quantity = Quantity::Without(status, quantity->unit);
+  }
+}
 
 } // namespace sensornoise
 

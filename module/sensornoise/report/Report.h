@@ -18,6 +18,7 @@
 #ifndef sensornoise_report_Report_h
 #define sensornoise_report_Report_h
 
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -80,23 +81,6 @@ struct Warning
 {
   std::string code;    ///< stable, for programs
   std::string message; ///< one sentence, for people
-};
-
-/** Why a pixel takes part in the estimate of the gain or not: the values of the pixel-use map. */
-enum class PixelUse : std::uint8_t
-{
-  Used = 0,
-  Clipped = 1,        ///< a frame holds a clip level
-  NotFinite = 2,      ///< a frame holds NaN or infinity
-  Vibration = 3,      ///< its gradient is more than noise explains
-  Border = 4,         ///< it has no centred difference
-  Constant = 5,       ///< it never varies
-  FlickerUnknown = 6, ///< the bright set does not reach its line
-  Masked = 7,         ///< the user left it out
-  NearClip = 8,       ///< it could have come to a clip level, or a neighbour is clipped or not finite
-  NotStatic = 9,      ///< its variance does not fit, nor does that of its surroundings: something moved
-  Outlier = 10,       ///< its variance is beyond the tails of the noise's distribution
-  CoarseCodes = 11    ///< its noise is below half a code step
 };
 
 /** \class Report

@@ -18,6 +18,7 @@
 #ifndef sensornoise_report_ReportTable_h
 #define sensornoise_report_ReportTable_h
 
+#include "sensornoise/report/Report.h"
 #include "sensornoise/report/ReportJson.h"
 
 #include <algorithm>

@@ -18,34 +18,23 @@
 #ifndef sensornoise_report_StackReport_h
 #define sensornoise_report_StackReport_h
 
-#include "sensornoise/published/FlickerSums.h"
+#include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/IntensityIndex.h"
+#include "sensornoise/base/PixelUse.h"
 #include "sensornoise/base/PolynomialFit.h"
-#include "sensornoise/report/Report.h"
+#include "sensornoise/moments/Codes.h"
 #include "sensornoise/moments/StackMaps.h"
+#include "sensornoise/report/Quantities.h"
+#include "sensornoise/report/Report.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <sstream>
 #include <string>
 #include <vector>
 
 namespace sensornoise
 {
-
-namespace detail
-{
-/** A number as people read it. */
-inline std::string
-Text(double number)
-{
-  std::ostringstream text;
-  text.precision(6);
-  text << number;
-  return text.str();
-}
-} // namespace detail
 
 /** Files what the report says of the stack itself, whatever the method. */
 inline void
@@ -92,14 +81,13 @@ WarnOfStack(Report & report, std::size_t frames, const StackSummary & summary)
   if (codes.clipSource.find("pile-up") != std::string::npos)
   {
     report.Warn("clip-level-found",
-                "the sensor attains only the levels " + detail::Text(*codes.clipLowDn) + " to " +
-                  detail::Text(*codes.clipHighDn) + " DN (" + codes.clipSource +
-                  "); pixels that reach an end are left out");
+                "the sensor attains only the levels " + Text(*codes.clipLowDn) + " to " + Text(*codes.clipHighDn) +
+                  " DN (" + codes.clipSource + "); pixels that reach an end are left out");
   }
   if (!codes.isRegular)
   {
     report.Warn("irregular-codes",
-                "the spacing of the grey levels varies about " + detail::Text(codes.quantisationStepDn) +
+                "the spacing of the grey levels varies about " + Text(codes.quantisationStepDn) +
                   " DN: the data were rescaled and their quantisation noise is not known");
   }
   if (summary.notFinite > 0)

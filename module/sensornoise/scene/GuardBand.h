@@ -19,7 +19,11 @@
 #define sensornoise_scene_GuardBand_h
 
 #include "sensornoise/base/BoxSum.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/Stencils.h"
+#include "sensornoise/moments/Codes.h"
 #include "sensornoise/scene/ProvisionalModel.h"
+#include "sensornoise/scene/ReferenceFrame.h"
 
 #include <algorithm>
 #include <cmath>

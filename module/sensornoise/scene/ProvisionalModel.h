@@ -19,15 +19,16 @@
 #define sensornoise_scene_ProvisionalModel_h
 
 #include "sensornoise/base/Eigen.h"
-#include "sensornoise/base/IntensityIndex.h"
+#include "sensornoise/base/Quantiles.h"
+#include "sensornoise/base/Stencils.h"
 #include "sensornoise/scene/ReferenceFrame.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace sensornoise
@@ -80,87 +81,12 @@ struct ProvisionalModel
   }
 };
 
-namespace detail
-{
-/** Pixels among which quantiles and rough fits are taken: all usable ones, or evenly spread ones of a large frame. */
-inline std::vector<std::size_t>
-SamplePixels(const std::vector<std::uint8_t> & mask, std::size_t most = 32768)
-{
-  const auto               count = static_cast<std::size_t>(std::count(mask.begin(), mask.end(), std::uint8_t{ 1 }));
-  const std::size_t        stride = std::max<std::size_t>(1, count / most);
-  std::vector<std::size_t> sample;
-  std::size_t              skip = 0;
-  for (std::size_t p = 0; p < mask.size(); ++p)
-  {
-    if (mask[p] != 0 && skip-- == 0)
-    {
-      sample.push_back(p);
-      skip = stride - 1;
-    }
-  }
-  return sample;
-}
-
-/** Quantile() that leaves the order of the values alone. */
-inline double
-QuantileOf(std::vector<double> values, double q)
-{
-  return Quantile(values, q);
-}
-
-/** Median of the values of each of \a bins; NaN where a bin is empty. */
-inline std::vector<double>
-MediansOfBins(const std::vector<double> & values, const std::vector<std::size_t> & binOf, std::size_t bins)
-{
-  std::vector<std::vector<double>> groups(bins);
-  for (std::size_t i = 0; i < values.size(); ++i)
-  {
-    groups[binOf[i]].push_back(values[i]);
-  }
-  std::vector<double> medians(bins);
-  for (std::size_t b = 0; b < bins; ++b)
-  {
-    medians[b] = groups[b].empty() ? std::nan("") : Quantile(groups[b], 0.5);
-  }
-  return medians;
-}
-
-/** Edges between bins of equal count; a little below a value, so that rounding does not part equal values. */
-inline std::vector<double>
-EdgesOfEqualCount(std::vector<double> values, std::size_t bins)
-{
-  std::sort(values.begin(), values.end());
-  std::vector<double> edges;
-  for (std::size_t b = 1; b < bins && !values.empty(); ++b)
-  {
-    edges.push_back(values[b * values.size() / bins] - 1e-9 * (values.back() - values.front()));
-  }
-  return edges;
-}
-
-inline std::size_t
-BinOf(const std::vector<double> & edges, double value)
-{
-  return static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), value) - edges.begin());
-}
-
-/** Bins of equal count: the bin of each value. */
-inline std::vector<std::size_t>
-BinsOfEqualCount(const std::vector<double> & values, std::size_t bins)
-{
-  const std::vector<double> edges = EdgesOfEqualCount(values, bins);
-  std::vector<std::size_t>  binOf(values.size());
-  std::transform(values.begin(), values.end(), binOf.begin(), [&edges](double value) { return BinOf(edges, value); });
-  return binOf;
-}
-} // namespace detail
-
 /** Fits the model. It starts from the medians of 32 intensity bins of the smoother half of the pixels and trims pixels
  * whose variance is far above the model's five times. Throws std::runtime_error if fewer than 100 pixels are usable. */
 inline ProvisionalModel
 FitProvisionalModel(const ReferenceFrame & frame)
 {
-  const std::vector<std::size_t> sample = detail::SamplePixels(frame.usable);
+  const std::vector<std::size_t> sample = SamplePixels(frame.usable);
   const std::size_t              n = sample.size();
   if (n < 100)
   {
@@ -195,8 +121,8 @@ FitProvisionalModel(const ReferenceFrame & frame)
     energy[i] = gx * gx + gy * gy;
     design.row(static_cast<Eigen::Index>(i)) << 1.0, x, x * x, gx * gx, gy * gy, gx * gy;
   }
-  const std::vector<std::size_t> binOf = detail::BinsOfEqualCount(level, 32);
-  const double                   middleEnergy = detail::QuantileOf(energy, 0.5);
+  const std::vector<std::size_t> binOf = BinsOfEqualCount(level, 32);
+  const double                   middleEnergy = QuantileOf(energy, 0.5);
   std::vector<double>            smooth;
   std::vector<std::size_t>       smoothBin;
   for (std::size_t i = 0; i < n; ++i)
@@ -207,7 +133,7 @@ FitProvisionalModel(const ReferenceFrame & frame)
       smoothBin.push_back(binOf[i]);
     }
   }
-  std::vector<double> medians = detail::MediansOfBins(smooth, smoothBin, 32);
+  std::vector<double> medians = MediansOfBins(smooth, smoothBin, 32);
   double              largest = 0.0;
   double              lowest = 0.0;
   for (const double median : medians)
@@ -252,8 +178,8 @@ FitProvisionalModel(const ReferenceFrame & frame)
       keep[i] = raw[i] < model.largestRatio * predicted[i] ? 1 : 0;
     }
   }
-  model.interceptDn2 = std::max({ theta(0), 0.3 * detail::QuantileOf(raw, 0.001), 1e-3 * lowest });
-  const double averageRaw = detail::QuantileOf(raw, 0.5);
+  model.interceptDn2 = std::max({ theta(0), 0.3 * QuantileOf(raw, 0.001), 1e-3 * lowest });
+  const double averageRaw = QuantileOf(raw, 0.5);
   const double averageX = std::max(1e-9, model.averageDn - model.darkestDn);
   model.slopeDn = theta(1) > 0.0 ? theta(1) / scale : 0.1 * averageRaw / averageX;
   model.flickerVariance = std::max(0.0, theta(2)) / (scale * scale);

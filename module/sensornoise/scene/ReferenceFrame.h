@@ -18,14 +18,13 @@
 #ifndef sensornoise_scene_ReferenceFrame_h
 #define sensornoise_scene_ReferenceFrame_h
 
+#include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/Parallel.h"
-#include "sensornoise/published/FlickerSums.h"
 #include "sensornoise/base/Stencils.h"
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace sensornoise

@@ -18,8 +18,15 @@
 #ifndef sensornoise_scene_UsablePixels_h
 #define sensornoise_scene_UsablePixels_h
 
-#include "sensornoise/scene/GuardBand.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/PixelUse.h"
+#include "sensornoise/base/Stencils.h"
+#include "sensornoise/moments/Codes.h"
 #include "sensornoise/refined/RefinedFindings.h"
+#include "sensornoise/report/Quantities.h"
+#include "sensornoise/scene/GuardBand.h"
+#include "sensornoise/scene/ProvisionalModel.h"
+#include "sensornoise/scene/ReferenceFrame.h"
 
 #include <algorithm>
 #include <cmath>
@@ -96,8 +103,8 @@ LeaveOutCoarseAndGuarded(ReferenceFrame &            frame,
   if (static_cast<double>(found.coarse) > 0.02 * usable)
   {
     found.Fail("codes-too-coarse",
-               "the noise of " + detail::Text(100.0 * static_cast<double>(found.coarse) / usable) +
-                 " % of the pixels, the darkest, is below half a code step of " + detail::Text(step) +
+               "the noise of " + Text(100.0 * static_cast<double>(found.coarse) / usable) +
+                 " % of the pixels, the darkest, is below half a code step of " + Text(step) +
                  " DN, where the codes hide it: use more bits, or a higher analogue gain");
   }
 }

@@ -18,6 +18,9 @@
 #ifndef sensornoise_series_FrameEquations_h
 #define sensornoise_series_FrameEquations_h
 
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/Stencils.h"
+#include "sensornoise/series/FrameProducts.h"
 #include "sensornoise/series/FrameSums.h"
 
 #include <algorithm>

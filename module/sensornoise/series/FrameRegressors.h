@@ -18,6 +18,11 @@
 #ifndef sensornoise_series_FrameRegressors_h
 #define sensornoise_series_FrameRegressors_h
 
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/Quantiles.h"
+#include "sensornoise/base/Stencils.h"
+#include "sensornoise/scene/ProvisionalModel.h"
+#include "sensornoise/scene/ReferenceFrame.h"
 #include "sensornoise/series/FrameProducts.h"
 #include "sensornoise/series/ShiftInstruments.h"
 
@@ -25,6 +30,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace sensornoise
@@ -135,10 +141,10 @@ private:
     const double *    mean = m_Frame->mean.data();
     const auto        roughness = [&](std::size_t p) {
       const auto d = ApplyStencils(mean, width, p);
-      return detail::StencilEnergy(d) / m_Model.NoiseVariance(m_Frame->neighbourMean[p]);
+      return StencilEnergy(d) / m_Model.NoiseVariance(m_Frame->neighbourMean[p]);
     };
     std::vector<double> values;
-    for (const std::size_t p : detail::SamplePixels(take))
+    for (const std::size_t p : SamplePixels(take))
     {
       values.push_back(roughness(p));
     }

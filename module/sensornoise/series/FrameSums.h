@@ -18,6 +18,12 @@
 #ifndef sensornoise_series_FrameSums_h
 #define sensornoise_series_FrameSums_h
 
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/scene/ReferenceFrame.h"
+#include "sensornoise/series/FrameProducts.h"
+#include "sensornoise/series/FrameRegressors.h"
 #include "sensornoise/series/RegressorBand.h"
 
 #include <algorithm>
@@ -25,6 +31,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <istream>
+#include <ostream>
+#include <utility>
 #include <vector>
 
 namespace sensornoise

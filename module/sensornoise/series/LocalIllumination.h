@@ -18,6 +18,9 @@
 #ifndef sensornoise_series_LocalIllumination_h
 #define sensornoise_series_LocalIllumination_h
 
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/Quantiles.h"
+#include "sensornoise/series/FrameSums.h"
 #include "sensornoise/series/MotionSeries.h"
 
 #include <algorithm>
@@ -171,7 +174,7 @@ FindLocalIllumination(const FrameSums &           sums,
     }
     sizes[static_cast<std::size_t>(i)] = std::sqrt(std::max(1e-30, Quantile(squares, 0.5) / 0.455));
   }
-  const double typical = detail::QuantileOf(sizes, 0.5);
+  const double typical = QuantileOf(sizes, 0.5);
   for (Eigen::Index i = 0; i < count; ++i)
   {
     const double size = std::max(sizes[static_cast<std::size_t>(i)], typical);
@@ -191,7 +194,7 @@ FindLocalIllumination(const FrameSums &           sums,
     values.push_back(eigen.eigenvalues()(gram.rows() - 1 - i));
   }
   const double ratio = static_cast<double>(shorter) / longer;
-  const double noise = detail::QuantileOf(values, 0.5) / (detail::MedianNoiseEigenvalue(ratio) * longer);
+  const double noise = QuantileOf(values, 0.5) / (detail::MedianNoiseEigenvalue(ratio) * longer);
   const double edge = 1.25 * noise * std::pow(std::sqrt(static_cast<double>(shorter)) + std::sqrt(longer), 2);
   found.excess = values.front() / edge;
   Eigen::Index factors = 0;

@@ -18,12 +18,14 @@
 #ifndef sensornoise_series_MotionSeries_h
 #define sensornoise_series_MotionSeries_h
 
+#include "sensornoise/base/Eigen.h"
 #include "sensornoise/series/FrameEquations.h"
+#include "sensornoise/series/FrameProducts.h"
+#include "sensornoise/series/FrameSums.h"
+#include "sensornoise/series/ShiftInstruments.h"
 
-#include <cmath>
 #include <cstddef>
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace sensornoise

@@ -19,12 +19,17 @@
 #define sensornoise_series_OffsetLine_h
 
 #include "sensornoise/base/ChiSquare.h"
+#include "sensornoise/base/Eigen.h"
 #include "sensornoise/series/FrameEquations.h"
+#include "sensornoise/series/FrameProducts.h"
+#include "sensornoise/series/FrameSums.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace sensornoise

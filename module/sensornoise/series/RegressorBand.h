@@ -18,6 +18,8 @@
 #ifndef sensornoise_series_RegressorBand_h
 #define sensornoise_series_RegressorBand_h
 
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/series/FrameProducts.h"
 #include "sensornoise/series/FrameRegressors.h"
 
 #include <cstddef>

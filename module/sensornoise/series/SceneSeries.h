@@ -18,7 +18,26 @@
 #ifndef sensornoise_series_SceneSeries_h
 #define sensornoise_series_SceneSeries_h
 
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/RequiredFlickerZ.h"
+#include "sensornoise/base/RollingShutter.h"
+#include "sensornoise/pixels/LocalFlicker.h"
+#include "sensornoise/pixels/LocalOffset.h"
+#include "sensornoise/pixels/PixelLight.h"
+#include "sensornoise/pixels/ProjectedVariance.h"
+#include "sensornoise/pixels/VarianceLine.h"
 #include "sensornoise/refined/RefinedFindings.h"
+#include "sensornoise/scene/ReferenceFrame.h"
+#include "sensornoise/series/FrameEquations.h"
+#include "sensornoise/series/FrameProducts.h"
+#include "sensornoise/series/FrameRegressors.h"
+#include "sensornoise/series/FrameSums.h"
+#include "sensornoise/series/LocalIllumination.h"
+#include "sensornoise/series/MotionSeries.h"
+#include "sensornoise/series/OffsetLine.h"
+#include "sensornoise/series/ShiftInstruments.h"
+#include "sensornoise/series/TemporalBasis.h"
 
 #include <algorithm>
 #include <cmath>

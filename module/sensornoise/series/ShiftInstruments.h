@@ -18,9 +18,11 @@
 #ifndef sensornoise_series_ShiftInstruments_h
 #define sensornoise_series_ShiftInstruments_h
 
-#include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/BoxSum.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/Stencils.h"
 #include "sensornoise/scene/ProvisionalModel.h"
+#include "sensornoise/scene/ReferenceFrame.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -18,13 +18,13 @@
 #ifndef sensornoise_series_TemporalBasis_h
 #define sensornoise_series_TemporalBasis_h
 
+#include "sensornoise/base/Eigen.h"
 #include "sensornoise/series/LocalIllumination.h"
+#include "sensornoise/series/MotionSeries.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <utility>
 #include <vector>
 

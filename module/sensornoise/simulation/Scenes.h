@@ -18,6 +18,7 @@
 #ifndef sensornoise_simulation_Scenes_h
 #define sensornoise_simulation_Scenes_h
 
+#include "sensornoise/base/MixBits.h"
 #include "sensornoise/simulation/Random.h"
 
 #include <algorithm>

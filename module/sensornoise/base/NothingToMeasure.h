@@ -1,0 +1,55 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_base_NothingToMeasure_h
+#define sensornoise_base_NothingToMeasure_h
+
+#include "SensorNoiseExport.h"
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace sensornoise
+{
+
+/** \class NothingToMeasure
+ * \brief A stack that is read without error, but cannot be measured: it ends in a report that says why.
+ *
+ * Every other exception is an error of its own and passes through the methods. */
+class SensorNoise_EXPORT NothingToMeasure : public std::runtime_error
+{
+public:
+  /** \a code is that of the report's warning, \a message one sentence for people. */
+  explicit NothingToMeasure(const std::string & message, std::string code = "nothing-to-measure")
+    : std::runtime_error(message)
+    , m_Code(std::move(code))
+  {}
+
+  const std::string &
+  GetCode() const
+  {
+    return m_Code;
+  }
+
+private:
+  std::string m_Code;
+};
+
+} // namespace sensornoise
+
+#endif

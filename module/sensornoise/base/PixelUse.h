@@ -1,0 +1,45 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_base_PixelUse_h
+#define sensornoise_base_PixelUse_h
+
+#include <cstdint>
+
+namespace sensornoise
+{
+
+/** Why a pixel takes part in the estimate of the gain or not: the values of the pixel-use map. */
+enum class PixelUse : std::uint8_t
+{
+  Used = 0,
+  Clipped = 1,        ///< a frame holds a clip level
+  NotFinite = 2,      ///< a frame holds NaN or infinity
+  Vibration = 3,      ///< its gradient is more than noise explains
+  Border = 4,         ///< it has no centred difference
+  Constant = 5,       ///< it never varies
+  FlickerUnknown = 6, ///< the bright set does not reach its line
+  Masked = 7,         ///< the user left it out
+  NearClip = 8,       ///< it could have come to a clip level, or a neighbour is clipped or not finite
+  NotStatic = 9,      ///< its variance does not fit, nor does that of its surroundings: something moved
+  Outlier = 10,       ///< its variance is beyond the tails of the noise's distribution
+  CoarseCodes = 11    ///< its noise is below half a code step
+};
+
+} // namespace sensornoise
+
+#endif

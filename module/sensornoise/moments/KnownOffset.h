@@ -1,0 +1,45 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_moments_KnownOffset_h
+#define sensornoise_moments_KnownOffset_h
+
+#include <cstddef>
+#include <optional>
+
+namespace sensornoise
+{
+
+/** Temporal variance of dark frames, that of rounding to whole codes included, and its standard error. */
+struct DarkVariance
+{
+  double valueDn2{ 0.0 };
+  double standardErrorDn2{ 0.0 };
+};
+
+/** An offset that is known from elsewhere: given, or measured with dark frames, which tell the read noise, too. */
+struct KnownOffset
+{
+  double                      valueDn{ 0.0 };
+  double                      standardErrorDn{ 0.0 };
+  std::size_t                 darkFrames{ 0 }; ///< frames that it was measured with; 0: it was given
+  std::optional<DarkVariance> variance{};      ///< null: fewer than two dark frames
+};
+
+} // namespace sensornoise
+
+#endif
