@@ -4,6 +4,7 @@ though lamps flicker and the floor trembles. After F. Sur and M. Grediac, SIAM J
 https://doi.org/10.1137/140977035")
 
 itk_module(SensorNoise
+  ENABLE_SHARED
   DEPENDS
     ITKCommon
     ITKEigen3

@@ -7,6 +7,7 @@ set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 option(SensorNoise_BUILD_EXAMPLES "Build the command-line tools and the example programs" ON)
+option(BUILD_SHARED_LIBS "Build a shared library" OFF)
 option(BUILD_TESTING "Build the tests" ON)
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -21,15 +22,8 @@ endif()
 find_package(ITK 5.2.1 REQUIRED COMPONENTS ${_modules})
 include(${ITK_USE_FILE})
 
-add_library(SensorNoise INTERFACE)
-add_library(SensorNoise::SensorNoise ALIAS SensorNoise)
-target_compile_features(SensorNoise INTERFACE cxx_std_17)
-target_include_directories(
-  SensorNoise INTERFACE "$<BUILD_INTERFACE:${SensorNoise_SOURCE_DIR}/filters;${SensorNoise_SOURCE_DIR}/module>"
-                        "$<INSTALL_INTERFACE:${SensorNoise_INSTALL_INCLUDE_DIR}>")
-target_link_libraries(SensorNoise INTERFACE ITKCommon)
+add_subdirectory(module)
 
-install(TARGETS SensorNoise EXPORT SensorNoiseTargets)
 install(EXPORT SensorNoiseTargets NAMESPACE SensorNoise:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/SensorNoise)
 configure_package_config_file(cmake/SensorNoiseConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/SensorNoiseConfig.cmake
                               INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/SensorNoise)

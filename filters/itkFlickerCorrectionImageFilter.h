@@ -18,6 +18,7 @@
 #ifndef itkFlickerCorrectionImageFilter_h
 #define itkFlickerCorrectionImageFilter_h
 
+#include "SensorNoiseExport.h"
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/RollingShutter.h"
 #include "sensornoise/published/FlickerEstimate.h"
@@ -92,8 +93,8 @@ public:
   itkSetMacro(DarkQuantile, double);
   itkGetConstMacro(DarkQuantile, double);
 
-  /** Whether the flicker may differ from line to line: Off, Auto (default: found out, and sigma_y chosen by
-   * cross-validation) or Fixed (with RowSigma). */
+  /** Whether the flicker may differ from row to row: Off, Auto (default: found out, and sigma_y chosen by
+   * cross-validation) or Fixed (with SigmaRows). */
   void
   SetRollingShutter(RollingShutterEnum mode);
   /** The same by name: "off", "auto" or "fixed". */
@@ -110,11 +111,11 @@ public:
     return m_RollingShutter;
   }
 
-  /** sigma_y of (3.28) for RollingShutter Fixed [lines]. Default 50, the paper's. */
-  itkSetMacro(RowSigma, double);
-  itkGetConstMacro(RowSigma, double);
+  /** sigma_y of (3.28) for RollingShutter Fixed [rows]. Default 50, the paper's. */
+  itkSetMacro(SigmaRows, double);
+  itkGetConstMacro(SigmaRows, double);
 
-  /** Axis along which the shutter travels: 1 = y (default, lines are rows), 0 = x. */
+  /** Axis along which the shutter travels: 1 = y (default); 0 = x, the rows are then columns of the frame. */
   itkSetMacro(ShutterAxis, unsigned int);
   itkGetConstMacro(ShutterAxis, unsigned int);
 
@@ -126,16 +127,16 @@ public:
   }
   /** Its members one by one: gamma_t of every frame [1]; gamma_t(y), frame by frame, empty if one flicker serves the
    * whole frame; v^*(t) [1] and v_*(t) [DN], the scatter whose slope is K [DN]; the flicker's standard deviation [1];
-   * sigma_y [lines], 0 if one flicker serves; and mu [DN] whether or not it is identified. */
+   * sigma_y [rows], 0 if one flicker serves; and mu [DN] whether or not it is identified. */
   std::vector<double>
   GetGamma() const
   {
     return m_Flicker.gamma;
   }
   std::vector<double>
-  GetGammaLines() const
+  GetGammaRows() const
   {
-    return m_Flicker.gammaLines;
+    return m_Flicker.gammaRows;
   }
   std::vector<double>
   GetBrightRatio() const
@@ -158,9 +159,9 @@ public:
     return m_Flicker.flickerSd;
   }
   double
-  GetLineSigma() const
+  GetFoundSigmaRows() const
   {
-    return m_Flicker.sigmaLines;
+    return m_Flicker.sigmaRows;
   }
   double
   GetRawOffset() const
@@ -230,7 +231,7 @@ private:
   double             m_BrightQuantile{ 0.99 };
   double             m_DarkQuantile{ 0.01 };
   RollingShutterEnum m_RollingShutter{ RollingShutterEnum::Auto };
-  double             m_RowSigma{ 50.0 };
+  double             m_SigmaRows{ 50.0 };
   unsigned int       m_ShutterAxis{ 1 };
 
   sensornoise::IsoIntensitySet m_BrightSet;
@@ -239,10 +240,13 @@ private:
   TimeStamp                    m_EstimateTime;
 };
 
-} // namespace itk
+// Instantiated once, in the library.
+extern template class SensorNoise_EXPORT FlickerCorrectionImageFilter<Image<unsigned char, 3>>;
+extern template class SensorNoise_EXPORT FlickerCorrectionImageFilter<Image<unsigned short, 3>>;
+extern template class SensorNoise_EXPORT FlickerCorrectionImageFilter<Image<short, 3>>;
+extern template class SensorNoise_EXPORT FlickerCorrectionImageFilter<Image<float, 3>>;
+extern template class SensorNoise_EXPORT FlickerCorrectionImageFilter<Image<double, 3>>;
 
-#ifndef ITK_MANUAL_INSTANTIATION
-#  include "itkFlickerCorrectionImageFilter.hxx"
-#endif
+} // namespace itk
 
 #endif

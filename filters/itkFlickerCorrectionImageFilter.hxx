@@ -18,6 +18,8 @@
 #ifndef itkFlickerCorrectionImageFilter_hxx
 #define itkFlickerCorrectionImageFilter_hxx
 
+#include "itkSensorNoiseChunks.h"
+#include "itkSensorNoiseErrors.h"
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/RequiredFlickerZ.h"
 #include "sensornoise/base/RollingShutter.h"
@@ -62,14 +64,7 @@ template <typename TStack>
 void
 FlickerCorrectionImageFilter<TStack>::SetRollingShutter(const std::string & name)
 {
-  try
-  {
-    this->SetRollingShutter(sensornoise::RollingShutterOf(name));
-  }
-  catch (const std::invalid_argument & error)
-  {
-    itkExceptionMacro("" << error.what());
-  }
+  this->SetRollingShutter(WithItkErrors(this, [&name] { return sensornoise::RollingShutterOf(name); }));
 }
 
 template <typename TStack>
@@ -161,13 +156,12 @@ FlickerCorrectionImageFilter<TStack>::EstimateFlicker()
   {
     itkExceptionMacro("the stack has " << frames << " frame(s); flicker and offset need at least 3");
   }
-  try
-  {
+  WithItkErrors(this, [&] {
     sensornoise::PublishedSettings settings;
     settings.brightQuantile = m_BrightQuantile;
     settings.darkQuantile = m_DarkQuantile;
     settings.rollingShutter = m_RollingShutter;
-    settings.sigmaLines = m_RowSigma;
+    settings.sigmaRows = m_SigmaRows;
     settings.shutterAxis = m_ShutterAxis;
     settings.Validate();
 
@@ -176,13 +170,11 @@ FlickerCorrectionImageFilter<TStack>::EstimateFlicker()
       mean, this->GetVariance()->GetBufferPointer(), this->GetMask()->GetBufferPointer(), pixels, frames);
     m_BrightSet = finder.Find(m_BrightQuantile);
     m_DarkSet = finder.Find(m_DarkQuantile);
-    const bool                         byLine = m_RollingShutter != RollingShutterEnum::Off;
-    const sensornoise::IsoIntensitySet lineSet =
-      byLine ? finder.FindLineSet(m_BrightSet) : sensornoise::IsoIntensitySet();
-    sensornoise::FlickerSums sums(m_BrightSet, m_DarkSet, mean, geometry, frames, lineSet);
+    const bool                         byRow = m_RollingShutter != RollingShutterEnum::Off;
+    const sensornoise::IsoIntensitySet rowSet = byRow ? finder.FindRowSet(m_BrightSet) : sensornoise::IsoIntensitySet();
+    sensornoise::FlickerSums           sums(m_BrightSet, m_DarkSet, mean, geometry, frames, rowSet);
 
-    const SizeValueType frameBytes = std::max<SizeValueType>(1, pixels * sizeof(typename StackType::PixelType));
-    const SizeValueType chunkFrames = std::max<SizeValueType>(1, (SizeValueType{ 64 } << 20) / frameBytes);
+    const SizeValueType chunkFrames = SensorNoiseFramesPerChunk(pixels * sizeof(typename StackType::PixelType));
     const bool          isInMemory = stack->GetBufferedRegion() == whole;
     for (SizeValueType first = 0; first < frames; first += chunkFrames)
     {
@@ -198,16 +190,8 @@ FlickerCorrectionImageFilter<TStack>::EstimateFlicker()
       this->GetMultiThreader()->ParallelizeArray(
         0, chunk.GetSize(2), [&](SizeValueType k) { sums.AddFrame(buffer + k * pixels, first + k); }, nullptr);
     }
-    m_Flicker = sensornoise::EstimateFlicker(sums, m_BrightSet, m_DarkSet, m_RollingShutter, m_RowSigma);
-  }
-  catch (const ExceptionObject &)
-  {
-    throw;
-  }
-  catch (const std::exception & error)
-  {
-    itkExceptionMacro("" << error.what());
-  }
+    m_Flicker = sensornoise::EstimateFlicker(sums, m_BrightSet, m_DarkSet, m_RollingShutter, m_SigmaRows);
+  });
   m_EstimateTime.Modified();
 }
 
@@ -247,9 +231,9 @@ FlickerCorrectionImageFilter<TStack>::DynamicThreadedGenerateData(const RegionTy
     const double * reference = mean->GetBufferPointer() + mean->ComputeOffset({ { start[0], start[1] } });
     for (; !in.IsAtEndOfLine(); ++in, ++out, ++reference, ++x)
     {
-      const std::size_t line = m_ShutterAxis == 0 ? x : y;
-      out.Set(m_Flicker.IsKnown(line)
-                ? static_cast<double>(in.Get()) - (1.0 + m_Flicker.Gamma(t, line)) * (*reference - offset)
+      const std::size_t row = m_ShutterAxis == 0 ? x : y;
+      out.Set(m_Flicker.IsKnown(row)
+                ? static_cast<double>(in.Get()) - (1.0 + m_Flicker.Gamma(t, row)) * (*reference - offset)
                 : std::numeric_limits<double>::quiet_NaN());
     }
   }
@@ -259,15 +243,7 @@ template <typename TStack>
 void
 FlickerCorrectionImageFilter<TStack>::UpdateOutputInformation()
 {
-  try
-  {
-    Superclass::UpdateOutputInformation();
-  }
-  catch (...)
-  {
-    this->ResetPipeline();
-    throw;
-  }
+  ResetAfterError(this, [this] { Superclass::UpdateOutputInformation(); });
 }
 
 template <typename TStack>
@@ -289,12 +265,11 @@ FlickerCorrectionImageFilter<TStack>::UpdateOutputData(DataObject * output)
   }
   try
   {
-    Superclass::UpdateOutputData(output);
+    ResetAfterError(this, [this, output] { Superclass::UpdateOutputData(output); });
   }
   catch (...)
   {
     this->GetOutput()->SetRequestedRegion(requested);
-    this->ResetPipeline();
     throw;
   }
   this->GetOutput()->SetRequestedRegion(requested);
@@ -308,7 +283,7 @@ FlickerCorrectionImageFilter<TStack>::PrintSelf(std::ostream & os, Indent indent
   os << indent << "BrightQuantile: " << m_BrightQuantile << std::endl;
   os << indent << "DarkQuantile: " << m_DarkQuantile << std::endl;
   os << indent << "RollingShutter: " << sensornoise::NameOf(m_RollingShutter) << std::endl;
-  os << indent << "RowSigma: " << m_RowSigma << std::endl;
+  os << indent << "SigmaRows: " << m_SigmaRows << std::endl;
   os << indent << "ShutterAxis: " << m_ShutterAxis << std::endl;
 }
 

@@ -18,6 +18,7 @@
 #ifndef itkNoiseRegressionEstimator_h
 #define itkNoiseRegressionEstimator_h
 
+#include "SensorNoiseExport.h"
 #include "sensornoise/published/FlickerEstimate.h"
 #include "sensornoise/report/ReportJson.h"
 #include "sensornoise/report/Report.h"
@@ -145,10 +146,9 @@ private:
   SizeValueType m_NumberOfFrames{ 0 };
 };
 
-} // namespace itk
+// Instantiated once, in the library.
+extern template class SensorNoise_EXPORT NoiseRegressionEstimator<Image<double, 2>>;
 
-#ifndef ITK_MANUAL_INSTANTIATION
-#  include "itkNoiseRegressionEstimator.hxx"
-#endif
+} // namespace itk
 
 #endif

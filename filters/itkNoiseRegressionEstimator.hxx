@@ -18,6 +18,7 @@
 #ifndef itkNoiseRegressionEstimator_hxx
 #define itkNoiseRegressionEstimator_hxx
 
+#include "itkSensorNoiseErrors.h"
 #include "sensornoise/base/PolynomialFit.h"
 #include "sensornoise/published/NoiseParameters.h"
 #include "sensornoise/report/Report.h"
@@ -84,30 +85,14 @@ template <typename TFrame>
 void
 NoiseRegressionEstimator<TFrame>::UpdateOutputInformation()
 {
-  try
-  {
-    Superclass::UpdateOutputInformation();
-  }
-  catch (...)
-  {
-    this->ResetPipeline();
-    throw;
-  }
+  ResetAfterError(this, [this] { Superclass::UpdateOutputInformation(); });
 }
 
 template <typename TFrame>
 void
 NoiseRegressionEstimator<TFrame>::UpdateOutputData(DataObject * output)
 {
-  try
-  {
-    Superclass::UpdateOutputData(output);
-  }
-  catch (...)
-  {
-    this->ResetPipeline();
-    throw;
-  }
+  ResetAfterError(this, [this, output] { Superclass::UpdateOutputData(output); });
 }
 
 template <typename TFrame>

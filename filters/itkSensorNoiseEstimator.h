@@ -18,6 +18,7 @@
 #ifndef itkSensorNoiseEstimator_h
 #define itkSensorNoiseEstimator_h
 
+#include "SensorNoiseExport.h"
 #include "sensornoise/base/RollingShutter.h"
 #include "sensornoise/report/ReportJson.h"
 #include "sensornoise/published/PublishedSettings.h"
@@ -167,8 +168,8 @@ public:
   itkSetMacro(DarkQuantile, double);
   itkGetConstMacro(DarkQuantile, double);
 
-  /** Whether the flicker may differ from line to line: Off, Auto (default: found out, and sigma_y chosen by
-   * cross-validation) or Fixed (with RowSigma). Refined looks for any light that changes in some places in another way
+  /** Whether the flicker may differ from row to row: Off, Auto (default: found out, and sigma_y chosen by
+   * cross-validation) or Fixed (with SigmaRows). Refined looks for any light that changes in some places in another way
    * than in others, unless Off; to it, Fixed is Auto. */
   void
   SetRollingShutter(RollingShutterEnum mode);
@@ -186,11 +187,12 @@ public:
     return m_RollingShutter;
   }
 
-  /** sigma_y of (3.28) for RollingShutter Fixed [lines]. Default 50, the paper's. Refined does without. */
-  itkSetMacro(RowSigma, double);
-  itkGetConstMacro(RowSigma, double);
+  /** sigma_y of (3.28) for RollingShutter Fixed [rows]. Default 50, the paper's. Refined does without. */
+  itkSetMacro(SigmaRows, double);
+  itkGetConstMacro(SigmaRows, double);
 
-  /** Axis along which the shutter travels: 1 = y (default, lines are rows), 0 = x. Refined does without. */
+  /** Axis along which the shutter travels: 1 = y (default, row by row), 0 = x (column by column). Refined does without.
+   */
   itkSetMacro(ShutterAxis, unsigned int);
   itkGetConstMacro(ShutterAxis, unsigned int);
 
@@ -305,7 +307,7 @@ private:
   double             m_BrightQuantile{ 0.99 };
   double             m_DarkQuantile{ 0.01 };
   RollingShutterEnum m_RollingShutter{ RollingShutterEnum::Auto };
-  double             m_RowSigma{ 50.0 };
+  double             m_SigmaRows{ 50.0 };
   unsigned int       m_ShutterAxis{ 1 };
   unsigned int       m_BitDepth{ 0 };
   double             m_ClipLow{ std::numeric_limits<double>::quiet_NaN() };
@@ -315,10 +317,13 @@ private:
   std::unique_ptr<Estimation> m_Estimation;
 };
 
-} // namespace itk
+// Instantiated once, in the library.
+extern template class SensorNoise_EXPORT SensorNoiseEstimator<Image<unsigned char, 3>>;
+extern template class SensorNoise_EXPORT SensorNoiseEstimator<Image<unsigned short, 3>>;
+extern template class SensorNoise_EXPORT SensorNoiseEstimator<Image<short, 3>>;
+extern template class SensorNoise_EXPORT SensorNoiseEstimator<Image<float, 3>>;
+extern template class SensorNoise_EXPORT SensorNoiseEstimator<Image<double, 3>>;
 
-#ifndef ITK_MANUAL_INSTANTIATION
-#  include "itkSensorNoiseEstimator.hxx"
-#endif
+} // namespace itk
 
 #endif

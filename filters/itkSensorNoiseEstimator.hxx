@@ -18,6 +18,7 @@
 #ifndef itkSensorNoiseEstimator_hxx
 #define itkSensorNoiseEstimator_hxx
 
+#include "itkSensorNoiseErrors.h"
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/RollingShutter.h"
@@ -182,14 +183,7 @@ template <typename TStack>
 void
 SensorNoiseEstimator<TStack>::SetRollingShutter(const std::string & name)
 {
-  try
-  {
-    this->SetRollingShutter(sensornoise::RollingShutterOf(name));
-  }
-  catch (const std::invalid_argument & error)
-  {
-    itkExceptionMacro("" << error.what());
-  }
+  this->SetRollingShutter(WithItkErrors(this, [&name] { return sensornoise::RollingShutterOf(name); }));
 }
 
 template <typename TStack>
@@ -281,7 +275,7 @@ SensorNoiseEstimator<TStack>::MakePublishedSettings() const
   settings.brightQuantile = m_BrightQuantile;
   settings.darkQuantile = m_DarkQuantile;
   settings.rollingShutter = m_RollingShutter;
-  settings.sigmaLines = m_RowSigma;
+  settings.sigmaRows = m_SigmaRows;
   settings.shutterAxis = m_ShutterAxis;
   settings.codes = sensornoise::MakeCodeSettings(m_BitDepth, m_ClipLow, m_ClipHigh, m_QuantisationStep);
   return settings;
@@ -399,7 +393,7 @@ SensorNoiseEstimator<TStack>::PrintSelf(std::ostream & os, Indent indent) const
   os << indent << "BrightQuantile: " << m_BrightQuantile << std::endl;
   os << indent << "DarkQuantile: " << m_DarkQuantile << std::endl;
   os << indent << "RollingShutter: " << sensornoise::NameOf(m_RollingShutter) << std::endl;
-  os << indent << "RowSigma: " << m_RowSigma << std::endl;
+  os << indent << "SigmaRows: " << m_SigmaRows << std::endl;
   os << indent << "ShutterAxis: " << m_ShutterAxis << std::endl;
   os << indent << "BitDepth: " << m_BitDepth << std::endl;
   os << indent << "ClipLow: " << m_ClipLow << std::endl;

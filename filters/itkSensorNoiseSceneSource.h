@@ -18,9 +18,11 @@
 #ifndef itkSensorNoiseSceneSource_h
 #define itkSensorNoiseSceneSource_h
 
+#include "SensorNoiseExport.h"
 #include "sensornoise/simulation/Scenes.h"
 #include "itkImage.h"
 #include "itkImageSource.h"
+#include "itkSensorNoiseErrors.h"
 
 #include <algorithm>
 #include <ostream>
@@ -90,26 +92,12 @@ protected:
   void
   GenerateData() override
   {
-    std::vector<double> scene;
-    try
-    {
-      if (m_Scene == "target")
-      {
-        scene = sensornoise::MakeTargetScene(m_Width, m_Height);
-      }
-      else if (m_Scene == "bars")
-      {
-        scene = sensornoise::MakeBarsScene(m_Width, m_Height);
-      }
-      else if (m_Scene == "texture")
-      {
-        scene = sensornoise::MakeTextureScene(m_Width, m_Height);
-      }
-    }
-    catch (const std::invalid_argument & error)
-    {
-      itkExceptionMacro("" << error.what());
-    }
+    const std::vector<double> scene = WithItkErrors<std::invalid_argument>(this, [this] {
+      return m_Scene == "target"    ? sensornoise::MakeTargetScene(m_Width, m_Height)
+             : m_Scene == "bars"    ? sensornoise::MakeBarsScene(m_Width, m_Height)
+             : m_Scene == "texture" ? sensornoise::MakeTextureScene(m_Width, m_Height)
+                                    : std::vector<double>();
+    });
     if (scene.empty())
     {
       itkExceptionMacro("the scene is \"" << m_Scene << "\"; expected target, bars or texture");
@@ -132,6 +120,9 @@ private:
   SizeValueType m_Width{ 512 };
   SizeValueType m_Height{ 512 };
 };
+
+// Instantiated once, in the library.
+extern template class SensorNoise_EXPORT SensorNoiseSceneSource<Image<double, 2>>;
 
 } // namespace itk
 

@@ -18,6 +18,7 @@
 #ifndef itkSensorNoiseStackSink_h
 #define itkSensorNoiseStackSink_h
 
+#include "SensorNoiseExport.h"
 #include "sensornoise/base/Parallel.h"
 #include "itkImage.h"
 #include "itkImageSink.h"
@@ -154,10 +155,13 @@ private:
   StackRegionType m_Chunk;
 };
 
-} // namespace itk
+// Instantiated once, in the library.
+extern template class SensorNoise_EXPORT SensorNoiseStackSink<Image<unsigned char, 3>>;
+extern template class SensorNoise_EXPORT SensorNoiseStackSink<Image<unsigned short, 3>>;
+extern template class SensorNoise_EXPORT SensorNoiseStackSink<Image<short, 3>>;
+extern template class SensorNoise_EXPORT SensorNoiseStackSink<Image<float, 3>>;
+extern template class SensorNoise_EXPORT SensorNoiseStackSink<Image<double, 3>>;
 
-#ifndef ITK_MANUAL_INSTANTIATION
-#  include "itkSensorNoiseStackSink.hxx"
-#endif
+} // namespace itk
 
 #endif

@@ -18,6 +18,8 @@
 #ifndef itkSensorNoiseStackSink_hxx
 #define itkSensorNoiseStackSink_hxx
 
+#include "itkSensorNoiseChunks.h"
+#include "itkSensorNoiseErrors.h"
 #include "sensornoise/base/Parallel.h"
 
 #include <algorithm>
@@ -43,37 +45,14 @@ template <typename TStack>
 void
 SensorNoiseStackSink<TStack>::UpdateOutputInformation()
 {
-  try
-  {
-    Superclass::UpdateOutputInformation();
-  }
-  catch (...)
-  {
-    this->ResetPipeline();
-    throw;
-  }
+  ResetAfterError(this, [this] { Superclass::UpdateOutputInformation(); });
 }
 
 template <typename TStack>
 void
 SensorNoiseStackSink<TStack>::UpdateOutputData(DataObject * output)
 {
-  // A reader that threw leaves this filter marked as updating: without the reset the next Update() would return a
-  // partial result without a word.
-  try
-  {
-    Superclass::UpdateOutputData(output);
-  }
-  catch (const ExceptionObject &)
-  {
-    this->ResetPipeline();
-    throw;
-  }
-  catch (const std::exception & error)
-  {
-    this->ResetPipeline();
-    itkExceptionMacro("" << error.what());
-  }
+  ResetAfterError(this, [&] { WithItkErrors(this, [&] { Superclass::UpdateOutputData(output); }); });
 }
 
 template <typename TStack>
@@ -144,10 +123,8 @@ SensorNoiseStackSink<TStack>::ChooseNumberOfChunks() const
   {
     return 1;
   }
-  constexpr SizeValueType chunkBytes = 64 << 20;
-  const SizeValueType     frameBytes =
-    std::max<SizeValueType>(1, this->GetFrameRegion().GetNumberOfPixels() * sizeof(PixelType));
-  const SizeValueType framesPerChunk = std::max<SizeValueType>(1, chunkBytes / frameBytes);
+  const SizeValueType framesPerChunk =
+    SensorNoiseFramesPerChunk(this->GetFrameRegion().GetNumberOfPixels() * sizeof(PixelType));
   return static_cast<unsigned int>((frames + framesPerChunk - 1) / framesPerChunk);
 }
 

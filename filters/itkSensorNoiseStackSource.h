@@ -18,6 +18,8 @@
 #ifndef itkSensorNoiseStackSource_h
 #define itkSensorNoiseStackSource_h
 
+#include "SensorNoiseExport.h"
+#include "sensornoise/simulation/SimulationTruth.h"
 #include "sensornoise/simulation/SimulationSettings.h"
 #include "sensornoise/simulation/TruthJson.h"
 #include "sensornoise/simulation/Simulator.h"
@@ -246,10 +248,13 @@ private:
   std::unique_ptr<const sensornoise::StackSimulator> m_Simulator;
   TimeStamp                                          m_SimulatorTime;
 };
-} // namespace itk
+// Instantiated once, in the library.
+extern template class SensorNoise_EXPORT SensorNoiseStackSource<Image<unsigned char, 3>>;
+extern template class SensorNoise_EXPORT SensorNoiseStackSource<Image<unsigned short, 3>>;
+extern template class SensorNoise_EXPORT SensorNoiseStackSource<Image<short, 3>>;
+extern template class SensorNoise_EXPORT SensorNoiseStackSource<Image<float, 3>>;
+extern template class SensorNoise_EXPORT SensorNoiseStackSource<Image<double, 3>>;
 
-#ifndef ITK_MANUAL_INSTANTIATION
-#  include "itkSensorNoiseStackSource.hxx"
-#endif
+} // namespace itk
 
 #endif // itkSensorNoiseStackSource_h

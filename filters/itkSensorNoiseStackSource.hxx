@@ -18,7 +18,9 @@
 #ifndef itkSensorNoiseStackSource_hxx
 #define itkSensorNoiseStackSource_hxx
 
+#include "itkSensorNoiseErrors.h"
 #include "sensornoise/moments/Codes.h"
+#include "sensornoise/simulation/SimulationTruth.h"
 #include "sensornoise/simulation/SimulationSettings.h"
 #include "sensornoise/simulation/Simulator.h"
 #include "itkSensorNoiseStackSource.h"
@@ -33,6 +35,11 @@
 
 namespace itk
 {
+
+namespace
+{
+constexpr const char * Impossible = "the simulation is not possible: ";
+} // namespace
 
 template <typename TOutputStack>
 SensorNoiseStackSource<TOutputStack>::SensorNoiseStackSource()
@@ -57,35 +64,23 @@ template <typename TOutputStack>
 void
 SensorNoiseStackSource<TOutputStack>::SetCamera(char name)
 {
-  try
-  {
-    const sensornoise::CameraModel camera = sensornoise::PaperCamera(name);
-    this->SetElectrons(camera.electrons);
-    this->SetGain(camera.gainDnPerElectron);
-    this->SetOffset(camera.offsetDn);
-    this->SetReadNoise(camera.readNoiseDn);
-  }
-  catch (const std::invalid_argument & error)
-  {
-    itkExceptionMacro("the simulation is not possible: " << error.what());
-  }
+  const sensornoise::CameraModel camera =
+    WithItkErrors<std::invalid_argument>(this, [name] { return sensornoise::PaperCamera(name); }, Impossible);
+  this->SetElectrons(camera.electrons);
+  this->SetGain(camera.gainDnPerElectron);
+  this->SetOffset(camera.offsetDn);
+  this->SetReadNoise(camera.readNoiseDn);
 }
 
 template <typename TOutputStack>
 void
 SensorNoiseStackSource<TOutputStack>::SetConditions(int number)
 {
-  try
-  {
-    const sensornoise::SceneConditions conditions = sensornoise::PaperConditions(number);
-    this->SetFlickerSd(conditions.flickerSd);
-    this->SetVibrationSdX(conditions.vibrationSdXPixels);
-    this->SetVibrationSdY(conditions.vibrationSdYPixels);
-  }
-  catch (const std::invalid_argument & error)
-  {
-    itkExceptionMacro("the simulation is not possible: " << error.what());
-  }
+  const sensornoise::SceneConditions conditions =
+    WithItkErrors<std::invalid_argument>(this, [number] { return sensornoise::PaperConditions(number); }, Impossible);
+  this->SetFlickerSd(conditions.flickerSd);
+  this->SetVibrationSdX(conditions.vibrationSdXPixels);
+  this->SetVibrationSdY(conditions.vibrationSdYPixels);
 }
 
 template <typename TOutputStack>
@@ -123,16 +118,15 @@ SensorNoiseStackSource<TOutputStack>::GenerateOutputInformation()
   OutputStackType *          stack = this->GetOutput();
   const auto                 frame = reference->GetLargestPossibleRegion();
 
-  try
-  {
-    const sensornoise::SimulationSettings settings = this->MakeSettings();
-    m_Truth = sensornoise::DrawTruth(settings, frame.GetSize(1));
-    sensornoise::StackSimulator::CodeRange<OutputPixelType>(settings);
-  }
-  catch (const std::invalid_argument & error)
-  {
-    itkExceptionMacro("the simulation is not possible: " << error.what());
-  }
+  m_Truth = WithItkErrors<std::invalid_argument>(
+    this,
+    [&] {
+      const sensornoise::SimulationSettings settings = this->MakeSettings();
+      sensornoise::SimulationTruth          truth = sensornoise::DrawTruth(settings, frame.GetSize(1));
+      sensornoise::StackSimulator::CodeRange<OutputPixelType>(settings);
+      return truth;
+    },
+    Impossible);
 
   OutputRegionType                        region;
   typename OutputStackType::SpacingType   spacing;
@@ -172,30 +166,14 @@ template <typename TOutputStack>
 void
 SensorNoiseStackSource<TOutputStack>::UpdateOutputInformation()
 {
-  try
-  {
-    Superclass::UpdateOutputInformation();
-  }
-  catch (...)
-  {
-    this->ResetPipeline();
-    throw;
-  }
+  ResetAfterError(this, [this] { Superclass::UpdateOutputInformation(); });
 }
 
 template <typename TOutputStack>
 void
 SensorNoiseStackSource<TOutputStack>::UpdateOutputData(DataObject * output)
 {
-  try
-  {
-    Superclass::UpdateOutputData(output);
-  }
-  catch (...)
-  {
-    this->ResetPipeline();
-    throw;
-  }
+  ResetAfterError(this, [this, output] { Superclass::UpdateOutputData(output); });
 }
 
 template <typename TOutputStack>
@@ -214,16 +192,14 @@ SensorNoiseStackSource<TOutputStack>::BeforeThreadedGenerateData()
   {
     values.push_back(it.Get());
   }
-  try
-  {
-    m_Simulator = std::make_unique<const sensornoise::StackSimulator>(
-      values, frame.GetSize(0), frame.GetSize(1), this->MakeSettings());
-  }
-  catch (const std::invalid_argument & error)
-  {
-    m_Simulator.reset();
-    itkExceptionMacro("the simulation is not possible: " << error.what());
-  }
+  m_Simulator.reset();
+  m_Simulator = WithItkErrors<std::invalid_argument>(
+    this,
+    [&] {
+      return std::make_unique<const sensornoise::StackSimulator>(
+        values, frame.GetSize(0), frame.GetSize(1), this->MakeSettings());
+    },
+    Impossible);
   m_SimulatorTime.Modified();
 }
 

@@ -18,6 +18,7 @@
 #ifndef itkTemporalStatisticsImageFilter_h
 #define itkTemporalStatisticsImageFilter_h
 
+#include "SensorNoiseExport.h"
 #include "sensornoise/moments/StackMaps.h"
 #include "sensornoise/moments/TemporalMoments.h"
 #include "itkSensorNoiseStackSink.h"
@@ -202,10 +203,13 @@ private:
   sensornoise::StackSummary               m_Summary;
 };
 
-} // namespace itk
+// Instantiated once, in the library.
+extern template class SensorNoise_EXPORT TemporalStatisticsImageFilter<Image<unsigned char, 3>>;
+extern template class SensorNoise_EXPORT TemporalStatisticsImageFilter<Image<unsigned short, 3>>;
+extern template class SensorNoise_EXPORT TemporalStatisticsImageFilter<Image<short, 3>>;
+extern template class SensorNoise_EXPORT TemporalStatisticsImageFilter<Image<float, 3>>;
+extern template class SensorNoise_EXPORT TemporalStatisticsImageFilter<Image<double, 3>>;
 
-#ifndef ITK_MANUAL_INSTANTIATION
-#  include "itkTemporalStatisticsImageFilter.hxx"
-#endif
+} // namespace itk
 
 #endif

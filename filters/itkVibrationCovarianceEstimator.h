@@ -18,6 +18,7 @@
 #ifndef itkVibrationCovarianceEstimator_h
 #define itkVibrationCovarianceEstimator_h
 
+#include "SensorNoiseExport.h"
 #include "sensornoise/published/FlickerEstimate.h"
 #include "sensornoise/published/VibrationCovariance.h"
 #include "itkImage.h"
@@ -152,10 +153,9 @@ private:
   double m_FlickerSd{ -1.0 };
 };
 
-} // namespace itk
+// Instantiated once, in the library.
+extern template class SensorNoise_EXPORT VibrationCovarianceEstimator<Image<double, 2>>;
 
-#ifndef ITK_MANUAL_INSTANTIATION
-#  include "itkVibrationCovarianceEstimator.hxx"
-#endif
+} // namespace itk
 
 #endif

@@ -18,6 +18,7 @@
 #ifndef itkVibrationCovarianceEstimator_hxx
 #define itkVibrationCovarianceEstimator_hxx
 
+#include "itkSensorNoiseErrors.h"
 #include "sensornoise/published/VibrationCovariance.h"
 
 #include <ostream>
@@ -60,30 +61,14 @@ template <typename TFrame>
 void
 VibrationCovarianceEstimator<TFrame>::UpdateOutputInformation()
 {
-  try
-  {
-    Superclass::UpdateOutputInformation();
-  }
-  catch (...)
-  {
-    this->ResetPipeline();
-    throw;
-  }
+  ResetAfterError(this, [this] { Superclass::UpdateOutputInformation(); });
 }
 
 template <typename TFrame>
 void
 VibrationCovarianceEstimator<TFrame>::UpdateOutputData(DataObject * output)
 {
-  try
-  {
-    Superclass::UpdateOutputData(output);
-  }
-  catch (...)
-  {
-    this->ResetPipeline();
-    throw;
-  }
+  ResetAfterError(this, [this, output] { Superclass::UpdateOutputData(output); });
 }
 
 template <typename TFrame>

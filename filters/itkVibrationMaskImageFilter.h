@@ -18,6 +18,7 @@
 #ifndef itkVibrationMaskImageFilter_h
 #define itkVibrationMaskImageFilter_h
 
+#include "SensorNoiseExport.h"
 #include "itkImage.h"
 #include "itkImageToImageFilter.h"
 
@@ -103,10 +104,9 @@ private:
   double        m_Level{ 0.01 };
 };
 
-} // namespace itk
+// Instantiated once, in the library.
+extern template class SensorNoise_EXPORT VibrationMaskImageFilter<Image<double, 2>>;
 
-#ifndef ITK_MANUAL_INSTANTIATION
-#  include "itkVibrationMaskImageFilter.hxx"
-#endif
+} // namespace itk
 
 #endif

@@ -18,6 +18,7 @@
 #ifndef itkVibrationMaskImageFilter_hxx
 #define itkVibrationMaskImageFilter_hxx
 
+#include "itkSensorNoiseErrors.h"
 #include "sensornoise/published/VibrationMask.h"
 
 #include <algorithm>
@@ -119,30 +120,14 @@ template <typename TFrame>
 void
 VibrationMaskImageFilter<TFrame>::UpdateOutputInformation()
 {
-  try
-  {
-    Superclass::UpdateOutputInformation();
-  }
-  catch (...)
-  {
-    this->ResetPipeline();
-    throw;
-  }
+  ResetAfterError(this, [this] { Superclass::UpdateOutputInformation(); });
 }
 
 template <typename TFrame>
 void
 VibrationMaskImageFilter<TFrame>::UpdateOutputData(DataObject * output)
 {
-  try
-  {
-    Superclass::UpdateOutputData(output);
-  }
-  catch (...)
-  {
-    this->ResetPipeline();
-    throw;
-  }
+  ResetAfterError(this, [this, output] { Superclass::UpdateOutputData(output); });
 }
 
 template <typename TFrame>

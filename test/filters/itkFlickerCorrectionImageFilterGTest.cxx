@@ -319,7 +319,7 @@ TEST(FlickerCorrectionImageFilter, SecondUpdateDoesNoWork)
   EXPECT_EQ(reader->Reads(), reads);
 }
 
-TEST(FlickerCorrectionImageFilter, LinesThatTheBrightSetDoesNotReachAreNaN)
+TEST(FlickerCorrectionImageFilter, RowsThatTheBrightSetDoesNotReachAreNaN)
 {
   // Bright rows 0 to 19; with sigma_y = 4 the flicker is known up to row 23.
   const auto isBright = [](const auto & index) { return index[1] < 20; };
@@ -327,7 +327,7 @@ TEST(FlickerCorrectionImageFilter, LinesThatTheBrightSetDoesNotReachAreNaN)
   Chain      chain(stack.GetPointer());
   chain.filter->SetMask(ConstantImage<MaskType>({ { Width, Height } }, 1));
   chain.filter->SetRollingShutter(RollingShutter::Fixed);
-  chain.filter->SetRowSigma(4.0);
+  chain.filter->SetSigmaRows(4.0);
   chain.filter->Update();
   for (itk::ImageRegionIteratorWithIndex<DoubleStackType> it(chain.filter->GetOutput(),
                                                              stack->GetLargestPossibleRegion());
@@ -351,7 +351,7 @@ TEST(FlickerCorrectionImageFilter, ShutterMayTravelAlongX)
   for (const auto & filter : { rows.filter, columns.filter })
   {
     filter->SetRollingShutter(RollingShutter::Fixed);
-    filter->SetRowSigma(10.0);
+    filter->SetSigmaRows(10.0);
     filter->Update();
   }
   double worst = 0.0;
@@ -398,9 +398,9 @@ TEST(FlickerCorrectionImageFilter, WrongInputIsRefusedWithTheNumbers)
   EXPECT_SAYS(ErrorOf(filter), "the shutter axis is 2");
   filter->SetShutterAxis(1);
   filter->SetRollingShutter(RollingShutter::Fixed);
-  filter->SetRowSigma(0.0);
+  filter->SetSigmaRows(0.0);
   EXPECT_SAYS(ErrorOf(filter), "sigma_y of the rolling shutter is 0.0");
-  filter->SetRowSigma(50.0);
+  filter->SetSigmaRows(50.0);
   EXPECT_EQ(ErrorOf(filter), "no error");
   filter->SetMean(nullptr);
   EXPECT_SAYS(ErrorOf(filter), "Input Mean is required but not set");

@@ -101,7 +101,7 @@ struct Chain
     flicker->SetVariance(statistics->GetVariance());
     flicker->SetMask(mask->GetOutput());
     flicker->SetRollingShutter(mode);
-    flicker->SetRowSigma(2.0);
+    flicker->SetSigmaRows(2.0);
     corrected->SetInput(flicker->GetOutput());
     corrected->SetNumberOfStreamDivisions(5);
     regression->SetMean(statistics->GetMean());
@@ -238,7 +238,7 @@ TEST(SensorNoiseEstimator, EqualsTheChainMadeByHand)
   {
     const auto estimator = EstimatorOf<StackType>(stack, "published");
     estimator->SetRollingShutter(mode);
-    estimator->SetRowSigma(2.0);
+    estimator->SetSigmaRows(2.0);
     estimator->Update();
     Chain chain(stack, stack->GetLargestPossibleRegion().GetSize(2), mode);
     chain.regression->Update();
@@ -344,7 +344,7 @@ TEST(SensorNoiseEstimator, SecondUpdateDoesNoWorkAndEveryParameterDoes)
   EXPECT_TRUE(hasRun());
   estimator->SetRollingShutter(RollingShutter::Fixed);
   EXPECT_TRUE(hasRun());
-  estimator->SetRowSigma(20.0);
+  estimator->SetSigmaRows(20.0);
   EXPECT_TRUE(hasRun());
   estimator->SetShutterAxis(0);
   EXPECT_TRUE(hasRun());

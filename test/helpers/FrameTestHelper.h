@@ -90,7 +90,7 @@ struct SyntheticFrames
                                    changes.size());
     take = reference.usable;
     model.darkestDn = 300.0;
-    model.averageDn = 950.0;
+    model.centreDn = 950.0;
     model.brightestDn = 1700.0;
     model.interceptDn2 = 30.0;
     model.slopeDn = 0.5;
@@ -141,7 +141,7 @@ struct SyntheticFrames
   {
     Eigen::Matrix<double, FrameColumns, 1> columns;
     columns(0) = 1.0;
-    columns(1) = reference.mean[p] - model.averageDn;
+    columns(1) = reference.mean[p] - model.centreDn;
     for (std::size_t k = 0; k < NumberOfStencils; ++k)
     {
       columns(static_cast<Eigen::Index>(2 + k)) = this->Derivative(k, p);

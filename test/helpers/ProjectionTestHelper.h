@@ -20,6 +20,7 @@
 
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/pixels/PixelCoordinates.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
 #include "sensornoise/pixels/ProjectionSums.h"
 #include "sensornoise/scene/ProvisionalModel.h"
@@ -31,7 +32,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <random>
+#include <utility>
 #include <vector>
 
 /** \file
@@ -89,8 +92,10 @@ struct Input
   ReferenceFrame            frame;
   ProvisionalModel          model;
   MotionSeries              motion;
-  ProjectionSums            sums;
+  ProjectionSums            sums; // until they are projected
   std::vector<std::uint8_t> mask;
+
+  std::optional<PixelCoordinates> coordinates;
 
   explicit Input(const Eigen::MatrixXd & series)
     : sums(Pixels, Basis().Size())
@@ -117,10 +122,12 @@ struct Input
     model.darkestDn = 300.0;
     motion.inverseGram.resize(0, 0);
   }
+  /** Once: the sums are turned into coordinates. */
   ProjectedVariance
   Project(const ParallelFor & parallelFor = SerialFor)
   {
-    return { frame, Basis(), motion, sums, model, mask, parallelFor };
+    coordinates.emplace(std::move(sums), Basis(), frame.mean, parallelFor);
+    return { frame, Basis(), motion, *coordinates, model, mask, parallelFor };
   }
 };
 

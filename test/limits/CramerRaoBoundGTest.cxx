@@ -18,10 +18,11 @@
 #include "sensornoise/limits/CramerRaoBound.h"
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Parallel.h"
-#include "sensornoise/limits/CramerRaoInformation.h"
+#include "sensornoise/limits/CramerRaoInput.h"
 #include "sensornoise/limits/PrecisionLimit.h"
 #include "sensornoise/simulation/Scenes.h"
 #include "sensornoise/simulation/SimulationSettings.h"
+#include "sensornoise/simulation/SimulationTruth.h"
 
 #include <algorithm>
 #include <cmath>

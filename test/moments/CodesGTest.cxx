@@ -16,6 +16,8 @@
  *
  *=========================================================================*/
 #include "sensornoise/moments/Codes.h"
+#include "sensornoise/moments/CodeRange.h"
+#include "sensornoise/moments/CodeSettings.h"
 
 #include <cmath>
 #include <cstddef>

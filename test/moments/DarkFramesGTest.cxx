@@ -17,7 +17,7 @@
  *=========================================================================*/
 #include "sensornoise/moments/DarkFrames.h"
 #include "sensornoise/base/Parallel.h"
-#include "sensornoise/moments/Codes.h"
+#include "sensornoise/moments/CodeSettings.h"
 #include "sensornoise/moments/KnownOffset.h"
 #include "sensornoise/moments/TemporalMoments.h"
 #include "sensornoise/simulation/SimulationSettings.h"

@@ -15,9 +15,9 @@
  *  limitations under the License.
  *
  *=========================================================================*/
-#include "sensornoise/pixels/LocalFlicker.h"
-#include "sensornoise/base/Eigen.h"
 #include "sensornoise/pixels/LocalOffset.h"
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/pixels/OffsetDrift.h"
 #include "sensornoise/pixels/PixelLight.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
 #include "sensornoise/pixels/VarianceLine.h"
@@ -93,7 +93,7 @@ TEST(SensorNoiseLocalOffset, LampsMeetInTheOffset)
   const Scene scene(TwoLamps);
   const auto  found = FindLocalOffset(scene.Data());
   ASSERT_TRUE(found);
-  EXPECT_GT(found->patches, 0u);
+  EXPECT_GT(found->tiles, 0u);
   EXPECT_LT(found->standardError, 20.0);
   EXPECT_NEAR(found->offset + CentreDn, OffsetDn, 5.0 * found->standardError);
   EXPECT_LT(found->low, found->offset);

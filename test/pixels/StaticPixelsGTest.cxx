@@ -19,8 +19,10 @@
 #include "sensornoise/base/ChiSquare.h"
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/pixels/FarVariance.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
 #include "sensornoise/pixels/VarianceLine.h"
+#include "sensornoise/pixels/VarianceQuality.h"
 #include "helpers/ProjectionTestHelper.h"
 
 #include <algorithm>
@@ -82,7 +84,7 @@ Everywhere(std::size_t)
 
 /** 14 x 14 pixels in the middle. */
 bool
-IsInPatch(std::size_t p, std::size_t margin = 0)
+IsInArea(std::size_t p, std::size_t margin = 0)
 {
   const std::size_t x = p % Width;
   const std::size_t y = p / Width;
@@ -116,12 +118,12 @@ TEST(SensorNoiseStaticPixels, RoughPixelsOfTooLargeAVarianceAreLeftOut)
   EXPECT_GT(fit.ratio[20], 1.4);
 }
 
-TEST(SensorNoiseStaticPixels, PatchOfTooLargeAVarianceIsFound)
+TEST(SensorNoiseStaticPixels, AreaOfTooLargeAVarianceIsFound)
 {
-  const auto misfit = Noise([](std::size_t p) { return IsInPatch(p) ? 2.5 : 1.0; }).Misfit();
+  const auto misfit = Noise([](std::size_t p) { return IsInArea(p) ? 2.5 : 1.0; }).Misfit();
   for (std::size_t p = 0; p < Pixels; ++p)
   {
-    if (IsInPatch(p))
+    if (IsInArea(p))
     {
       EXPECT_EQ(misfit[p], 1) << p % Width << ' ' << p / Width;
     }
@@ -130,12 +132,12 @@ TEST(SensorNoiseStaticPixels, PatchOfTooLargeAVarianceIsFound)
   }
 }
 
-TEST(SensorNoiseStaticPixels, PatchOfMovingThingsIsFound)
+TEST(SensorNoiseStaticPixels, AreaOfMovingThingsIsFound)
 {
-  const auto misfit = Noise([](std::size_t p) { return IsInPatch(p) ? 100.0 : 1.0; }).Misfit();
+  const auto misfit = Noise([](std::size_t p) { return IsInArea(p) ? 100.0 : 1.0; }).Misfit();
   for (std::size_t p = 0; p < Pixels; ++p)
   {
-    EXPECT_FALSE(IsInPatch(p) && misfit[p] == 0) << p % Width << ' ' << p / Width;
+    EXPECT_FALSE(IsInArea(p) && misfit[p] == 0) << p % Width << ' ' << p / Width;
   }
 }
 
@@ -156,11 +158,11 @@ TEST(SensorNoiseStaticPixels, FarOffIsFourAndAHalfStandardDeviations)
     const auto below = [&](double z) {
       return ChiSquareQuantile(0.5 * std::erfc(z / std::sqrt(2.0)), freedom) / freedom;
     };
-    EXPECT_TRUE(detail::IsFarAbove(above(4.7), freedom) && detail::IsFarOff(above(4.7), freedom)) << freedom;
-    EXPECT_FALSE(detail::IsFarAbove(above(4.3), freedom) || detail::IsFarOff(above(4.3), freedom)) << freedom;
-    EXPECT_FALSE(detail::IsFarAbove(below(6.0), freedom)) << freedom;
-    EXPECT_FALSE(detail::IsFarOff(below(3.8), freedom)) << freedom;
-    EXPECT_TRUE(detail::IsFarOff(below(5.2), freedom)) << freedom;
+    EXPECT_TRUE(IsFarAbove(above(4.7), freedom) && IsFarOff(above(4.7), freedom)) << freedom;
+    EXPECT_FALSE(IsFarAbove(above(4.3), freedom) || IsFarOff(above(4.3), freedom)) << freedom;
+    EXPECT_FALSE(IsFarAbove(below(6.0), freedom)) << freedom;
+    EXPECT_FALSE(IsFarOff(below(3.8), freedom)) << freedom;
+    EXPECT_TRUE(IsFarOff(below(5.2), freedom)) << freedom;
   }
 }
 

@@ -63,11 +63,15 @@ struct Maps
       variance.push_back((Intercept + Gain * mean.back()) * (isNoisy ? chiSquare(random) / Freedom : 1.0));
     }
   }
+  VarianceData
+  Data() const
+  {
+    return { mean.data(), neighbourMean.data(), variance.data(), freedom.data(), mask.data(), Pixels };
+  }
   VarianceLine
   Fit(const ParallelFor & parallelFor = SerialFor) const
   {
-    return FitVarianceLine({ mean.data(), neighbourMean.data(), variance.data(), freedom.data(), mask.data(), Pixels },
-                           parallelFor);
+    return FitVarianceLine(this->Data(), parallelFor);
   }
 };
 
@@ -216,19 +220,39 @@ TEST(SensorNoiseVarianceFit, OutliersAndPixelsOutsideTheMaskHaveNoPart)
   EXPECT_EQ(masked.Fit().covariance, part.covariance);
 }
 
+TEST(SensorNoiseVarianceFit, TrimmedPixelsAreTold)
+{
+  Maps maps(true);
+  for (std::size_t p = 0; p < Pixels; p += 100)
+  {
+    maps.variance[p] *= p % 200 == 0 ? 1e4 : 1e-4;
+    maps.mask[p] = p % 300 == 0 ? 0 : 1;
+  }
+  VarianceFit fit(maps.Data(), test::Threads(3), std::nullopt);
+  fit.Iterate(8);
+  fit.FillErrors();
+  const std::vector<std::uint8_t> trimmed = fit.FindTrimmed();
+  ASSERT_EQ(trimmed.size(), Pixels);
+  for (std::size_t p = 0; p < Pixels; p += 100)
+  {
+    EXPECT_EQ(trimmed[p], maps.mask[p]) << p;
+  }
+  const auto used = static_cast<double>(std::count(maps.mask.begin(), maps.mask.end(), std::uint8_t{ 1 }));
+  const auto count = static_cast<double>(std::count(trimmed.begin(), trimmed.end(), std::uint8_t{ 1 }));
+  EXPECT_EQ(fit.GetLine().trimmedFraction, count / used);
+}
+
 TEST(SensorNoiseVarianceFit, PixelsWithNoiseOfTheirOwnWidenTheErrors)
 {
   // 4 % of the pixels have 60 % more variance, 2.3 standard deviations: too little to be told one by one.
   const auto errors = [](const Maps & maps) {
-    const VarianceData data{ maps.mean.data(),    maps.neighbourMean.data(), maps.variance.data(),
-                             maps.freedom.data(), maps.mask.data(),          Pixels };
-    VarianceFit        fit(data, SerialFor, std::nullopt);
+    VarianceFit fit(maps.Data(), SerialFor, std::nullopt);
     fit.Iterate(8);
     fit.FillErrors();
-    // At the centre, where the line is known best.
+    // At the pivot, where the line is known best.
     const VarianceLine &  line = fit.GetLine();
-    const Eigen::Vector2d at(line.centreDn, 1.0);
-    const double          error = line.At(line.centreDn) - (Intercept + Gain * line.centreDn);
+    const Eigen::Vector2d at(line.pivotDn, 1.0);
+    const double          error = line.At(line.pivotDn) - (Intercept + Gain * line.pivotDn);
     const double          sampling = at.dot(line.covariance * at);
     return std::array<double, 3>{ error, sampling, at.dot(fit.TailDisagreement() * at) };
   };

@@ -37,7 +37,7 @@ constexpr std::size_t Pixels = Width * Height;
 constexpr std::size_t Frames = 21;
 constexpr double      OffsetDn = 100.0;
 
-enum class Lines
+enum class FlickerOf
 {
   Whole,
   Rows,
@@ -45,14 +45,14 @@ enum class Lines
 };
 
 FrameGeometry
-GeometryOf(Lines lines)
+GeometryOf(FlickerOf part)
 {
-  return { Width, Height, lines == Lines::Columns ? 0U : 1U };
+  return { Width, Height, part == FlickerOf::Columns ? 0U : 1U };
 }
 
 /** A random flicker, whose series do not have mean 0: the class centres them. */
 FlickerEstimate
-RandomFlicker(Lines lines)
+RandomFlicker(FlickerOf part)
 {
   std::mt19937_64            random(21);
   std::normal_distribution<> normal(0.01, 0.05);
@@ -62,13 +62,13 @@ RandomFlicker(Lines lines)
   {
     flicker.gamma.push_back(normal(random));
   }
-  if (lines != Lines::Whole)
+  if (part != FlickerOf::Whole)
   {
-    flicker.lines = GeometryOf(lines).Rows();
-    flicker.lineKnown.assign(flicker.lines, 1);
-    for (std::size_t i = 0; i < Frames * flicker.lines; ++i)
+    flicker.rows = GeometryOf(part).Rows();
+    flicker.rowKnown.assign(flicker.rows, 1);
+    for (std::size_t i = 0; i < Frames * flicker.rows; ++i)
     {
-      flicker.gammaLines.push_back(normal(random));
+      flicker.gammaRows.push_back(normal(random));
     }
   }
   return flicker;
@@ -112,10 +112,10 @@ struct Series
 
 /** The variance of u^ = u - (1 + gamma_t)(ubar - mu), frame by frame as in (3.18). */
 void
-ExpectVarianceOfTheExplicitStack(Lines lines)
+ExpectVarianceOfTheExplicitStack(FlickerOf part)
 {
-  const FrameGeometry   geometry = GeometryOf(lines);
-  const FlickerEstimate flicker = RandomFlicker(lines);
+  const FrameGeometry   geometry = GeometryOf(part);
+  const FlickerEstimate flicker = RandomFlicker(part);
   const auto            stack = FramesWith(flicker, geometry);
   CorrectedVariance     corrected(flicker, geometry, Frames);
   for (std::size_t y = 0; y < Height; ++y)
@@ -141,25 +141,25 @@ ExpectVarianceOfTheExplicitStack(Lines lines)
 
 TEST(SensorNoiseCorrectedVariance, EqualsVarianceOfTheExplicitStackForWholeFrames)
 {
-  ExpectVarianceOfTheExplicitStack(Lines::Whole);
+  ExpectVarianceOfTheExplicitStack(FlickerOf::Whole);
 }
 
 TEST(SensorNoiseCorrectedVariance, EqualsVarianceOfTheExplicitStackByRow)
 {
-  ExpectVarianceOfTheExplicitStack(Lines::Rows);
+  ExpectVarianceOfTheExplicitStack(FlickerOf::Rows);
 }
 
 TEST(SensorNoiseCorrectedVariance, EqualsVarianceOfTheExplicitStackByColumn)
 {
-  ExpectVarianceOfTheExplicitStack(Lines::Columns);
+  ExpectVarianceOfTheExplicitStack(FlickerOf::Columns);
 }
 
 TEST(SensorNoiseCorrectedVariance, ChunksAndOrderOfRowsChangeNoBit)
 {
-  for (const Lines lines : { Lines::Whole, Lines::Rows, Lines::Columns })
+  for (const FlickerOf part : { FlickerOf::Whole, FlickerOf::Rows, FlickerOf::Columns })
   {
-    const FrameGeometry   geometry = GeometryOf(lines);
-    const FlickerEstimate flicker = RandomFlicker(lines);
+    const FrameGeometry   geometry = GeometryOf(part);
+    const FlickerEstimate flicker = RandomFlicker(part);
     const auto            stack = FramesWith(flicker, geometry);
     CorrectedVariance     whole(flicker, geometry, Frames);
     for (std::size_t y = 0; y < Height; ++y)
@@ -183,8 +183,8 @@ TEST(SensorNoiseCorrectedVariance, ChunksAndOrderOfRowsChangeNoBit)
 
 TEST(SensorNoiseCorrectedVariance, NoiseFreeFlickerLeavesNothing)
 {
-  const FlickerEstimate flicker = RandomFlicker(Lines::Rows);
-  const FrameGeometry   geometry = GeometryOf(Lines::Rows);
+  const FlickerEstimate flicker = RandomFlicker(FlickerOf::Rows);
+  const FrameGeometry   geometry = GeometryOf(FlickerOf::Rows);
   std::vector<double>   stack(Frames * Pixels);
   const std::size_t     p = 3 * Width + 4;
   double                meanGamma = 0.0;
@@ -206,18 +206,18 @@ TEST(SensorNoiseCorrectedVariance, NoiseFreeFlickerLeavesNothing)
   EXPECT_GT(static_cast<double>(raw.squares) / (Frames - 1), 1e3);
 }
 
-TEST(SensorNoiseCorrectedVariance, LinesThatAreNotKnownGiveNaN)
+TEST(SensorNoiseCorrectedVariance, RowsThatAreNotKnownGiveNaN)
 {
-  for (const Lines lines : { Lines::Rows, Lines::Columns })
+  for (const FlickerOf part : { FlickerOf::Rows, FlickerOf::Columns })
   {
-    FlickerEstimate flicker = RandomFlicker(lines);
-    flicker.lineKnown[2] = 0;
-    const FrameGeometry     geometry = GeometryOf(lines);
+    FlickerEstimate flicker = RandomFlicker(part);
+    flicker.rowKnown[2] = 0;
+    const FrameGeometry     geometry = GeometryOf(part);
     const CorrectedVariance corrected(flicker, geometry, Frames);
     for (std::size_t p = 0; p < Pixels; ++p)
     {
-      const std::size_t line = lines == Lines::Rows ? p / Width : p % Width;
-      EXPECT_EQ(std::isnan(corrected.GetVariance(p, 500.0, 1e5)), line == 2) << p;
+      const std::size_t row = part == FlickerOf::Rows ? p / Width : p % Width;
+      EXPECT_EQ(std::isnan(corrected.GetVariance(p, 500.0, 1e5)), row == 2) << p;
     }
   }
 }

@@ -129,7 +129,7 @@ NormalFlicker(std::size_t frames, double sd, std::uint64_t seed)
 std::vector<double>
 Normalised(std::vector<double> gamma)
 {
-  const double mean = 1.0 + detail::Mean(gamma);
+  const double mean = 1.0 + Mean(gamma);
   std::transform(gamma.begin(), gamma.end(), gamma.begin(), [mean](double g) { return (1.0 + g) / mean - 1.0; });
   return gamma;
 }
@@ -148,9 +148,9 @@ TEST(SensorNoiseFlicker, NoiseFreeStackGivesOffsetAndFlickerExactly)
     {
       EXPECT_NEAR(estimate.gamma[t], expected[t], 1e-9) << t;
     }
-    EXPECT_NEAR(estimate.flickerSd, std::sqrt(detail::SampleVariance(expected)), 1e-9);
+    EXPECT_NEAR(estimate.flickerSd, std::sqrt(SampleVariance(expected)), 1e-9);
     // (3.8) and (3.14): v^* - 1 = gamma flux / mean, v_* = mu (mean_dark / mean_bright - 1) gamma
-    const double brightness = 1.0 + detail::Mean(gamma);
+    const double brightness = 1.0 + Mean(gamma);
     const double bright = mu + 2000.0 * brightness;
     const double dark = mu + 300.0 * brightness;
     EXPECT_NEAR(estimate.slopeDn, mu * (dark / bright - 1.0) / (1.0 - mu / bright), 1e-8);

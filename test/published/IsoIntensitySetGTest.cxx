@@ -16,6 +16,7 @@
  *
  *=========================================================================*/
 #include "sensornoise/published/IsoIntensitySet.h"
+#include "sensornoise/base/NothingToMeasure.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +24,6 @@
 #include <cstdint>
 #include <gtest/gtest.h>
 #include <random>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -192,7 +192,7 @@ TEST(SensorNoiseIsoIntensitySet, TooFewPixelsAreRefusedWithTheirNumber)
     scene.Find(0.5);
     FAIL() << "nothing was thrown";
   }
-  catch (const std::runtime_error & error)
+  catch (const NothingToMeasure & error)
   {
     EXPECT_NE(std::string(error.what()).find("only 29 pixels"), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("at least 30"), std::string::npos) << error.what();
@@ -207,25 +207,25 @@ TEST(SensorNoiseIsoIntensitySet, SceneWithoutEvenAreasIsRefused)
     Scene(Ladder(101, 1.0), 1e-10).Find(0.01);
     FAIL() << "nothing was thrown";
   }
-  catch (const std::runtime_error & error)
+  catch (const NothingToMeasure & error)
   {
     EXPECT_NE(std::string(error.what()).find("found 1 pixels"), std::string::npos) << error.what();
   }
 }
 
-TEST(SensorNoiseIsoIntensitySet, LineSetHoldsThePixelsWithinSixSdEquallyWeighted)
+TEST(SensorNoiseIsoIntensitySet, RowSetHoldsThePixelsWithinSixSdEquallyWeighted)
 {
   const Scene                 scene(Ladder(2000, 0.01), 1.0); // sd of the mean 0.1 DN
   const IsoIntensitySetFinder finder(
     scene.mean.data(), scene.variance.data(), scene.mask.data(), scene.mean.size(), Frames);
   const IsoIntensitySet bright = finder.Find(0.9);
-  const IsoIntensitySet lineSet = finder.FindLineSet(bright);
+  const IsoIntensitySet rowSet = finder.FindRowSet(bright);
   // 6 sd are 0.6 DN: 60 pixels on either side of the level, but for those on the edge.
-  EXPECT_NEAR(static_cast<double>(lineSet.pixels.size()), 121.0, 2.0);
-  for (std::size_t i = 0; i < lineSet.pixels.size(); ++i)
+  EXPECT_NEAR(static_cast<double>(rowSet.pixels.size()), 121.0, 2.0);
+  for (std::size_t i = 0; i < rowSet.pixels.size(); ++i)
   {
-    EXPECT_LE(std::abs(scene.mean[lineSet.pixels[i]] - bright.levelDn), 0.6);
-    EXPECT_EQ(lineSet.weights[i], lineSet.weights[0]);
+    EXPECT_LE(std::abs(scene.mean[rowSet.pixels[i]] - bright.levelDn), 0.6);
+    EXPECT_EQ(rowSet.weights[i], rowSet.weights[0]);
   }
-  EXPECT_NEAR(SumOfWeights(lineSet), 1.0, 1e-12);
+  EXPECT_NEAR(SumOfWeights(rowSet), 1.0, 1e-12);
 }

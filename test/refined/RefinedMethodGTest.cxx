@@ -23,6 +23,7 @@
 #include "sensornoise/refined/RefinedSettings.h"
 #include "sensornoise/report/Report.h"
 #include "sensornoise/simulation/Scenes.h"
+#include "sensornoise/simulation/SimulationTruth.h"
 #include "sensornoise/simulation/SimulationSettings.h"
 #include "helpers/RefinedTestHelper.h"
 

@@ -16,14 +16,14 @@
  *
  *=========================================================================*/
 #include "sensornoise/report/ReportJson.h"
-#include "sensornoise/report/Quantities.h"
 #include "sensornoise/report/Report.h"
-#include "sensornoise/report/ReportTable.h"
+#include "sensornoise/report/Version.h"
 
 #include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
+#include <cstring>
 #include <gtest/gtest.h>
 #include <iterator>
 #include <limits>
@@ -266,6 +266,7 @@ TEST(SensorNoiseReportJson, EmptyReportHasNullsAndFailures)
 {
   const std::string json = ToJson(Report());
   EXPECT_TRUE(Begins(TextAfter(json, "schema"), "\"itk-sensornoise-report/1\""));
+  EXPECT_TRUE(Begins(TextAfter(json, "version"), std::string("\"") + GetModuleVersion() + "\","));
   for (const char * name : { "bit_depth",
                              "quantisation_step",
                              "clip_low",

@@ -16,7 +16,6 @@
  *
  *=========================================================================*/
 #include "sensornoise/report/ReportTable.h"
-#include "sensornoise/report/Quantities.h"
 #include "sensornoise/report/Report.h"
 
 #include <cstddef>

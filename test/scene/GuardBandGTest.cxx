@@ -17,7 +17,7 @@
  *=========================================================================*/
 #include "sensornoise/scene/GuardBand.h"
 #include "sensornoise/base/Parallel.h"
-#include "sensornoise/moments/Codes.h"
+#include "sensornoise/moments/CodeRange.h"
 #include "helpers/FrameTestHelper.h"
 
 #include <algorithm>
@@ -92,43 +92,4 @@ TEST(SensorNoiseGuardBand, BrighterFramesAndMotionWidenTheBand)
     ASSERT_LE(steady[p], flickering[p]);
     ASSERT_LE(flickering[p], moving[p]);
   }
-}
-
-TEST(SensorNoiseGuardBand, UnexplainedPixelsAreThoseFarAboveTheModel)
-{
-  Scene scene;
-  scene.frames.model.largestRatio = 3.0;
-  auto &     frame = scene.frames.reference;
-  const auto setRatio = [&](std::size_t p, double ratio) {
-    frame.squares[p] = 19.0 * ratio * scene.frames.model.RawVariance(frame.neighbourMean[p], 0.0, 0.0);
-  };
-  for (std::size_t p = 0; p < frame.squares.size(); ++p)
-  {
-    setRatio(p, 1.0);
-  }
-  EXPECT_EQ(Count(FindUnexplained(frame, scene.frames.model, SerialFor)), 0u);
-  const std::size_t lonely = 20 * Width + 20;
-  setRatio(lonely, 3.1);
-  setRatio(lonely + 10, 2.9);
-  const auto alone = FindUnexplained(frame, scene.frames.model, SerialFor);
-  EXPECT_EQ(Count(alone), 1u);
-  EXPECT_EQ(alone[lonely], 1);
-  // A patch that moves takes along the pixels in it whose variance is small by chance, and is told from single pixels.
-  for (std::size_t y = 30; y < 37; ++y)
-  {
-    for (std::size_t x = 30; x < 37; ++x)
-    {
-      setRatio(y * Width + x, (x + y) % 3 == 0 ? 1.0 : 10.0);
-    }
-  }
-  const auto moving = FindUnexplained(frame, scene.frames.model, SerialFor);
-  for (std::size_t y = 30; y < 37; ++y)
-  {
-    for (std::size_t x = 30; x < 37; ++x)
-    {
-      EXPECT_EQ(moving[y * Width + x], 2) << x << ' ' << y;
-    }
-  }
-  EXPECT_EQ(moving[33 * Width + 50], 0);
-  EXPECT_EQ(moving[lonely], 1);
 }

@@ -17,16 +17,23 @@
  *=========================================================================*/
 #include "sensornoise/series/FrameEquations.h"
 #include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/Stencils.h"
+#include "sensornoise/scene/ProvisionalModel.h"
+#include "sensornoise/scene/ReferenceFrame.h"
 #include "sensornoise/series/FrameProducts.h"
+#include "sensornoise/series/FrameRegressors.h"
 #include "sensornoise/series/FrameSums.h"
+#include "sensornoise/series/ShiftInstruments.h"
 #include "helpers/FrameTestHelper.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <gtest/gtest.h>
+#include <utility>
 #include <vector>
 
 using namespace sensornoise;
@@ -144,7 +151,7 @@ TEST(SensorNoiseFrameRegression, FindsWhatNoiseFreeFramesAreMadeOf)
     const Eigen::VectorXd fit =
       equations.gram.ldlt().solve(equations.right.row(static_cast<Eigen::Index>(t)).transpose());
     const FrameChange & change = changes[t];
-    EXPECT_NEAR(fit(0), change.level + change.slope * frames.model.averageDn, 1e-7) << t;
+    EXPECT_NEAR(fit(0), change.level + change.slope * frames.model.centreDn, 1e-7) << t;
     EXPECT_NEAR(fit(1), change.slope, 1e-10) << t;
     for (std::size_t k = 0; k < NumberOfStencils; ++k)
     {
@@ -243,4 +250,27 @@ TEST(SensorNoiseFrameRegression, MotionThatIsLostInTheNoiseOfTheMeanIsNotActive)
   EXPECT_FALSE(equations.Find(2 + StencilX));
   EXPECT_EQ(equations.Find(0), 0u);
   EXPECT_EQ(equations.Find(1), 1u);
+}
+
+TEST(SensorNoiseFrameRegression, OneIntensityLeavesTheLightAlone)
+{
+  // No derivative is active, and the mean is a multiple of 1: nothing is left that could be eliminated.
+  const std::size_t         pixels = Width * Height;
+  const std::vector<double> mean(pixels, 500.0);
+  const ReferenceFrame      frame = MakeReferenceFrame(
+    mean, std::vector<double>(pixels, 50.0), std::vector<std::uint8_t>(pixels, 1), { Width, Height, 1 }, 24);
+  ProvisionalModel model;
+  model.interceptDn2 = 30.0;
+  model.centreDn = 200.0;
+  ShiftInstruments instruments{ mean, mean, mean };
+  FrameSums        sums(FrameRegressors(frame, model, frame.usable, std::move(instruments)));
+  for (std::size_t t = 0; t < 24; ++t)
+  {
+    sums.AddFrames(mean.data(), t, 1, SerialFor);
+  }
+  const FrameEquations equations = MakeFrameEquations(sums, {}, LastClass);
+  EXPECT_EQ(equations.active, (std::vector<std::size_t>{ 0, 1 }));
+  // The frames' columns 1 and mean - centre are 1 and 300.
+  EXPECT_NEAR(equations.light.determinant(), 0.0, 1e-12 * equations.light.squaredNorm());
+  EXPECT_NEAR(equations.light(0, 1), 300.0 * equations.light(0, 0), 1e-9 * equations.light(0, 1));
 }

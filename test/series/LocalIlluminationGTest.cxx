@@ -69,7 +69,7 @@ Find(const SyntheticFrames & frames,
 {
   const FrameSums           sums = frames.Sums();
   const std::vector<double> gamma(lights.flicker.data(), lights.flicker.data() + Frames);
-  const double              offset = Offset - sums.GetRegressors().GetCentreDn();
+  const double              offset = Offset - sums.GetRegressors().GetModel().centreDn;
   const FrameEquations      equations = MakeFrameEquations(sums, {}, GradientClasses - 1);
   const MotionSeries        series = SolveMotion(equations, gamma, offset);
   return FindLocalIllumination(
@@ -166,8 +166,12 @@ TEST(SensorNoiseLocalIllumination, ShortBurstsAndFewCellsGiveNothing)
   const FrameSums          sums = burst.Sums();
   MotionSeries             still;
   still.coefficients.resize(5, 0);
-  const auto none = FindLocalIllumination(
-    sums, still, Eigen::MatrixXd(5, 0), std::vector<double>(5, 0.0), Offset - sums.GetRegressors().GetCentreDn(), Most);
+  const auto none = FindLocalIllumination(sums,
+                                          still,
+                                          Eigen::MatrixXd(5, 0),
+                                          std::vector<double>(5, 0.0),
+                                          Offset - sums.GetRegressors().GetModel().centreDn,
+                                          Most);
   EXPECT_EQ(none.series.cols(), 0);
   EXPECT_EQ(none.series.rows(), 5);
 }
@@ -193,7 +197,7 @@ TEST(SensorNoiseLocalIllumination, MedianNoiseEigenvalueAgreesWithASimulation)
         Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(gram, Eigen::EigenvaluesOnly).eigenvalues();
       mean += 0.5 * (values(shorter / 2 - 1) + values(shorter / 2)) / repeats;
     }
-    const double expected = detail::MedianNoiseEigenvalue(static_cast<double>(shorter) / longer);
+    const double expected = MedianNoiseEigenvalue(static_cast<double>(shorter) / longer);
     EXPECT_NEAR(mean / expected, 1.0, 0.03) << shorter; // 5 standard deviations of such a mean, and 1 / 200
   }
 }

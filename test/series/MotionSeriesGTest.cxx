@@ -71,7 +71,7 @@ struct Fit
     : frames(Width, Height, Changes(), noise)
     , sums(frames.Sums())
     , equations(MakeFrameEquations(sums, {}, GradientClasses - 1))
-    , offset(OffsetDn - sums.GetRegressors().GetCentreDn())
+    , offset(OffsetDn - sums.GetRegressors().GetModel().centreDn)
   {
     motion = SolveMotion(equations, Flicker(), offset);
   }

@@ -216,6 +216,6 @@ TEST(SensorNoiseOffsetLine, FramesWithMotionLieOnOneLine)
   const FrameSums       sums = frames.Sums();
   const auto            line = FitOffsetLine(sums, {});
   ASSERT_TRUE(line);
-  EXPECT_NEAR(line->offset + sums.GetRegressors().GetCentreDn(), 120.0, 1e-5);
+  EXPECT_NEAR(line->offset + sums.GetRegressors().GetModel().centreDn, 120.0, 1e-5);
   EXPECT_LT(line->lastClass, GradientClasses);
 }

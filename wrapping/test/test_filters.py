@@ -103,20 +103,20 @@ def test_flicker_correction_is_its_formula(stack, statistics, mask):
     gamma = np.array(found.GetGamma())
     assert gamma.shape == (len(stack),)
     assert len(found.GetBrightRatio()) == len(found.GetDarkResidual()) == len(stack)
-    assert len(found.GetGammaLines()) == 0
+    assert len(found.GetGammaRows()) == 0
     # (3.18); differences of numbers below 300.
     expected = stack - (1 + gamma[:, None, None]) * (statistics[0] - found.GetRawOffset())
     np.testing.assert_allclose(corrected, expected, atol=300 * ROUNDING)
 
 
-def test_gamma_by_line_of_a_rolling_shutter():
+def test_gamma_by_row_of_a_rolling_shutter():
     stack, _ = itk.simulate_sensor_noise(frames=30, size=(64, 80), reference="bars", rolling_shutter=40.0)
     mean, variance, valid = itk.temporal_statistics_image_filter(stack)
     inputs = {"mean": image(mean), "variance": image(variance), "mask": image(valid)}
-    found = itk.FlickerCorrectionImageFilter.New(image(stack), rolling_shutter="fixed", row_sigma=4, **inputs)
+    found = itk.FlickerCorrectionImageFilter.New(image(stack), rolling_shutter="fixed", sigma_rows=4, **inputs)
     found.Update()
-    assert len(found.GetGammaLines()) == 30 * 80
-    assert found.GetLineSigma() == 4
+    assert len(found.GetGammaRows()) == 30 * 80
+    assert found.GetFoundSigmaRows() == 4
 
 
 def test_chain_by_hand_gives_the_numbers_of_the_one_call_way(stack, statistics, mask):

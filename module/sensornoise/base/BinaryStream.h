@@ -19,9 +19,8 @@
 #define sensornoise_base_BinaryStream_h
 
 #include "sensornoise/base/MixBits.h"
+#include "SensorNoiseExport.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -65,11 +64,9 @@ WriteNumbers(std::ostream & out, const std::vector<TNumber> & numbers)
   WriteNumbers(out, numbers.data(), numbers.size());
 }
 
-inline void
-WriteCount(std::ostream & out, std::uint64_t count)
-{
-  WriteNumbers(out, &count, 1);
-}
+/** Writes one count. */
+SensorNoise_EXPORT void
+WriteCount(std::ostream & out, std::uint64_t count);
 
 /** Reads \a count numbers. Throws std::runtime_error if the stream ends before. */
 template <typename TNumber>
@@ -94,60 +91,22 @@ ReadNumbers(std::istream & in, std::vector<TNumber> & numbers)
   ReadNumbers(in, numbers.data(), numbers.size());
 }
 
-inline std::uint64_t
-ReadCount(std::istream & in)
-{
-  std::uint64_t count = 0;
-  ReadNumbers(in, &count, 1);
-  return count;
-}
+/** Reads one count. */
+SensorNoise_EXPORT std::uint64_t
+ReadCount(std::istream & in);
 
 /** Throws std::runtime_error unless the \a found number of \a what is the \a expected one. */
-inline void
-RequireCount(const char * what, std::uint64_t found, std::uint64_t expected)
-{
-  if (found != expected)
-  {
-    throw std::runtime_error("the sums of a stream do not fit: found " + std::to_string(found) + " " + what +
-                             ", expected " + std::to_string(expected));
-  }
-}
+SensorNoise_EXPORT void
+RequireCount(const char * what, std::uint64_t found, std::uint64_t expected);
 
 /** Writes the header of a class's sums; \a frames: how many were summed, 0 where the class does not count them. */
-inline void
-WriteSumsHeader(std::ostream & out, const std::string & name, std::uint64_t pixels, std::uint64_t frames)
-{
-  std::array<char, 32> word{};
-  std::copy_n(name.begin(), std::min(name.size(), word.size()), word.begin());
-  WriteNumbers(out, word.data(), word.size());
-  WriteNumbers(out, &SumsVersion, 1);
-  WriteCount(out, pixels);
-  WriteCount(out, frames);
-}
+SensorNoise_EXPORT void
+WriteSumsHeader(std::ostream & out, const std::string & name, std::uint64_t pixels, std::uint64_t frames);
 
 /** Reads a header and returns the number of frames. Throws std::runtime_error if it is that of another class, another
  * version or other frames' size. */
-inline std::uint64_t
-ReadSumsHeader(std::istream & in, const std::string & name, std::uint64_t pixels)
-{
-  std::array<char, 32> word{};
-  ReadNumbers(in, word.data(), word.size());
-  std::string found(word.data(), std::find(word.begin(), word.end(), '\0'));
-  if (found != name)
-  {
-    std::replace_if(found.begin(), found.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-    throw std::runtime_error("a stream holds other sums: found \"" + found + "\", expected \"" + name + "\"");
-  }
-  std::uint32_t version = 0;
-  ReadNumbers(in, &version, 1);
-  if (version != SumsVersion)
-  {
-    throw std::runtime_error("a stream holds another version of \"" + name + "\": found " + std::to_string(version) +
-                             ", expected " + std::to_string(SumsVersion));
-  }
-  RequireCount("pixels", ReadCount(in), pixels);
-  return ReadCount(in);
-}
+SensorNoise_EXPORT std::uint64_t
+ReadSumsHeader(std::istream & in, const std::string & name, std::uint64_t pixels);
 
 /** "uint16", "float" ...: part of the name of sums that depend on it. */
 template <typename TPixel>

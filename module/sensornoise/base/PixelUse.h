@@ -32,7 +32,7 @@ enum class PixelUse : std::uint8_t
   Vibration = 3,      ///< its gradient is more than noise explains
   Border = 4,         ///< it has no centred difference
   Constant = 5,       ///< it never varies
-  FlickerUnknown = 6, ///< the bright set does not reach its line
+  FlickerUnknown = 6, ///< the bright set does not reach its row
   Masked = 7,         ///< the user left it out
   NearClip = 8,       ///< it could have come to a clip level, or a neighbour is clipped or not finite
   NotStatic = 9,      ///< its variance does not fit, nor does that of its surroundings: something moved

@@ -18,10 +18,8 @@
 #ifndef sensornoise_base_PolynomialFit_h
 #define sensornoise_base_PolynomialFit_h
 
-#include "sensornoise/base/Eigen.h"
+#include "SensorNoiseExport.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -56,94 +54,14 @@ struct PolynomialFit
   bool        isDetermined{ false }; ///< false: too few pixels or one intensity only
 };
 
-namespace detail
-{
-/** Least squares of degree 1 or 2; \a weight(mean) weighs a pixel. The abscissa is centred and scaled, so that the
- * normal equations are well conditioned. Pixels are added in order: the same bits each time. */
-template <int VDegree, typename TWeight>
-PolynomialFit
-FitPolynomial(const RegressionData & data, TWeight weight)
-{
-  PolynomialFit fit;
-  double        lowest = 0.0;
-  double        highest = 0.0;
-  for (std::size_t p = 0; p < data.pixels; ++p)
-  {
-    if (data.Has(p))
-    {
-      lowest = fit.pixels == 0 ? data.mean[p] : std::min(lowest, data.mean[p]);
-      highest = fit.pixels == 0 ? data.mean[p] : std::max(highest, data.mean[p]);
-      ++fit.pixels;
-    }
-  }
-  if (fit.pixels <= VDegree || !(highest > lowest))
-  {
-    return fit;
-  }
-  const double centre = 0.5 * (lowest + highest);
-  const double scale = 0.5 * (highest - lowest);
-
-  std::array<double, 2 * VDegree + 1> moments{};  // sum w x^k
-  std::array<double, VDegree + 1>     products{}; // sum w x^k v
-  for (std::size_t p = 0; p < data.pixels; ++p)
-  {
-    if (data.Has(p))
-    {
-      const double x = (data.mean[p] - centre) / scale;
-      double       power = weight(data.mean[p]);
-      for (std::size_t k = 0; k < moments.size(); ++k, power *= x)
-      {
-        moments[k] += power;
-        if (k < products.size())
-        {
-          products[k] += power * data.variance[p];
-        }
-      }
-    }
-  }
-  using Matrix = Eigen::Matrix<double, VDegree + 1, VDegree + 1>;
-  using Vector = Eigen::Matrix<double, VDegree + 1, 1>;
-  Matrix gram;
-  Vector right;
-  for (int i = 0; i <= VDegree; ++i)
-  {
-    right(i) = products[static_cast<std::size_t>(i)];
-    for (int j = 0; j <= VDegree; ++j)
-    {
-      gram(i, j) = moments[static_cast<std::size_t>(i + j)];
-    }
-  }
-  const Eigen::LDLT<Matrix> solver(gram);
-  const Vector              c = solver.solve(right);
-  fit.isDetermined = c.allFinite();
-  fit.slope = c(1) / scale;
-  fit.intercept = c(0) - c(1) * centre / scale;
-  if constexpr (VDegree == 2)
-  {
-    const Matrix covariance = solver.solve(Matrix::Identity());
-    fit.curvature = c(2) / (scale * scale);
-    fit.slope -= 2.0 * fit.curvature * centre;
-    fit.intercept += fit.curvature * centre * centre;
-    fit.curvatureUnitSd = std::sqrt(std::max(0.0, covariance(2, 2))) / (scale * scale);
-  }
-  return fit;
-}
-} // namespace detail
-
 /** Ordinary regression of the variance on the mean: the slope is the gain g and the intercept sigma^2 - g mu, (3.24) of
  * Sur & Gredi\'ac 2015 (https://doi.org/10.1137/140977035). */
-inline PolynomialFit
-FitLine(const RegressionData & data)
-{
-  return detail::FitPolynomial<1>(data, [](double) { return 1.0; });
-}
+SensorNoise_EXPORT PolynomialFit
+FitLine(const RegressionData & data);
 
 /** Ordinary quadratic regression: (2.21), whose curvature is sigma_gamma^2 where the variance is not corrected. */
-inline PolynomialFit
-FitParabola(const RegressionData & data)
-{
-  return detail::FitPolynomial<2>(data, [](double) { return 1.0; });
-}
+SensorNoise_EXPORT PolynomialFit
+FitParabola(const RegressionData & data);
 
 /** How well a line describes the corrected variance. */
 struct FitQuality
@@ -154,46 +72,8 @@ struct FitQuality
 };
 
 /** Judges \a line. A sample variance of T frames has the variance 2 V^2 / (T-1), with V the line's value. */
-inline FitQuality
-JudgeLine(const RegressionData & data, const PolynomialFit & line, std::size_t frames)
-{
-  FitQuality quality;
-  if (!line.isDetermined)
-  {
-    return quality;
-  }
-  const double relativeVariance = 2.0 / static_cast<double>(frames - 1);
-  // Where the line passes zero it says nothing of the noise; 1 % of the line's mean height bounds the weights.
-  double height = 0.0;
-  for (std::size_t p = 0; p < data.pixels; ++p)
-  {
-    height += data.Has(p) ? line.intercept + line.slope * data.mean[p] : 0.0;
-  }
-  const double lowest = 0.01 * std::abs(height) / static_cast<double>(line.pixels);
-  const auto varianceOf = [&line, lowest](double mean) { return std::max(lowest, line.intercept + line.slope * mean); };
-  double     sum = 0.0;
-  for (std::size_t p = 0; p < data.pixels; ++p)
-  {
-    if (data.Has(p))
-    {
-      const double expected = varianceOf(data.mean[p]);
-      const double deviation = (data.variance[p] - (line.intercept + line.slope * data.mean[p])) / expected;
-      sum += deviation * deviation;
-    }
-  }
-  quality.reducedChi2 = sum / relativeVariance / static_cast<double>(line.pixels);
-  const PolynomialFit parabola = detail::FitPolynomial<2>(data, [&varianceOf](double mean) {
-    const double expected = varianceOf(mean);
-    return 1.0 / (expected * expected);
-  });
-  const double error = parabola.curvatureUnitSd * std::sqrt(relativeVariance * std::max(1.0, quality.reducedChi2));
-  if (parabola.isDetermined && error > 0.0)
-  {
-    quality.curvature = parabola.curvature;
-    quality.curvatureZ = parabola.curvature / error;
-  }
-  return quality;
-}
+SensorNoise_EXPORT FitQuality
+JudgeLine(const RegressionData & data, const PolynomialFit & line, std::size_t frames);
 
 } // namespace sensornoise
 

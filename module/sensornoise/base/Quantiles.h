@@ -18,93 +18,37 @@
 #ifndef sensornoise_base_Quantiles_h
 #define sensornoise_base_Quantiles_h
 
+#include "SensorNoiseExport.h"
+
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <stdexcept>
 #include <vector>
 
 namespace sensornoise
 {
 
 /** The quantile \a q (0 to 1) of \a values, linear between order statistics. Reorders \a values. */
-inline double
-Quantile(std::vector<double> & values, double q)
-{
-  if (values.empty())
-  {
-    throw std::invalid_argument("a quantile of no value was asked for");
-  }
-  const double position = q * static_cast<double>(values.size() - 1);
-  const auto   below = static_cast<std::size_t>(position);
-  const auto   nth = values.begin() + static_cast<std::ptrdiff_t>(below);
-  std::nth_element(values.begin(), nth, values.end());
-  if (below + 1 == values.size())
-  {
-    return *nth;
-  }
-  const double lower = *nth;
-  const double upper = *std::min_element(nth + 1, values.end());
-  return lower + (position - static_cast<double>(below)) * (upper - lower);
-}
-
-/** Pixels among which quantiles and rough fits are taken: all usable ones, or evenly spread ones of a large frame. */
-inline std::vector<std::size_t>
-SamplePixels(const std::vector<std::uint8_t> & mask, std::size_t most = 32768)
-{
-  const auto               count = static_cast<std::size_t>(std::count(mask.begin(), mask.end(), std::uint8_t{ 1 }));
-  const std::size_t        stride = std::max<std::size_t>(1, count / most);
-  std::vector<std::size_t> sample;
-  std::size_t              skip = 0;
-  for (std::size_t p = 0; p < mask.size(); ++p)
-  {
-    if (mask[p] != 0 && skip-- == 0)
-    {
-      sample.push_back(p);
-      skip = stride - 1;
-    }
-  }
-  return sample;
-}
+SensorNoise_EXPORT double
+Quantile(std::vector<double> & values, double q);
 
 /** Quantile() that leaves the order of the values alone. */
-inline double
-QuantileOf(std::vector<double> values, double q)
-{
-  return Quantile(values, q);
-}
+SensorNoise_EXPORT double
+QuantileOf(std::vector<double> values, double q);
+
+/** Pixels among which quantiles and rough fits are taken: all usable ones, or evenly spread ones of a large frame. */
+SensorNoise_EXPORT std::vector<std::size_t>
+SamplePixels(const std::vector<std::uint8_t> & mask, std::size_t most = 32768);
 
 /** Median of the values of each of \a bins; NaN where a bin is empty. */
-inline std::vector<double>
-MediansOfBins(const std::vector<double> & values, const std::vector<std::size_t> & binOf, std::size_t bins)
-{
-  std::vector<std::vector<double>> groups(bins);
-  for (std::size_t i = 0; i < values.size(); ++i)
-  {
-    groups[binOf[i]].push_back(values[i]);
-  }
-  std::vector<double> medians(bins);
-  for (std::size_t b = 0; b < bins; ++b)
-  {
-    medians[b] = groups[b].empty() ? std::nan("") : Quantile(groups[b], 0.5);
-  }
-  return medians;
-}
+SensorNoise_EXPORT std::vector<double>
+MediansOfBins(const std::vector<double> & values, const std::vector<std::size_t> & binOf, std::size_t bins);
 
 /** Edges between bins of equal count; a little below a value, so that rounding does not part equal values. */
-inline std::vector<double>
-EdgesOfEqualCount(std::vector<double> values, std::size_t bins)
-{
-  std::sort(values.begin(), values.end());
-  std::vector<double> edges;
-  for (std::size_t b = 1; b < bins && !values.empty(); ++b)
-  {
-    edges.push_back(values[b * values.size() / bins] - 1e-9 * (values.back() - values.front()));
-  }
-  return edges;
-}
+SensorNoise_EXPORT std::vector<double>
+EdgesOfEqualCount(std::vector<double> values, std::size_t bins);
 
+/** The bin between \a edges in which a value lies. */
 inline std::size_t
 BinOf(const std::vector<double> & edges, double value)
 {
@@ -112,14 +56,8 @@ BinOf(const std::vector<double> & edges, double value)
 }
 
 /** Bins of equal count: the bin of each value. */
-inline std::vector<std::size_t>
-BinsOfEqualCount(const std::vector<double> & values, std::size_t bins)
-{
-  const std::vector<double> edges = EdgesOfEqualCount(values, bins);
-  std::vector<std::size_t>  binOf(values.size());
-  std::transform(values.begin(), values.end(), binOf.begin(), [&edges](double value) { return BinOf(edges, value); });
-  return binOf;
-}
+SensorNoise_EXPORT std::vector<std::size_t>
+BinsOfEqualCount(const std::vector<double> & values, std::size_t bins);
 
 } // namespace sensornoise
 

@@ -18,8 +18,9 @@
 #ifndef sensornoise_base_RollingShutter_h
 #define sensornoise_base_RollingShutter_h
 
+#include "SensorNoiseExport.h"
+
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 
 namespace sensornoise
@@ -34,21 +35,12 @@ enum class RollingShutter : std::uint8_t
 };
 
 /** The mode of a name: "off", "auto" or "fixed". Throws std::invalid_argument for others. */
-inline RollingShutter
-RollingShutterOf(const std::string & name)
-{
-  if (name != "off" && name != "auto" && name != "fixed")
-  {
-    throw std::invalid_argument("the rolling shutter is \"" + name + "\"; expected off, auto or fixed");
-  }
-  return name == "off" ? RollingShutter::Off : name == "auto" ? RollingShutter::Auto : RollingShutter::Fixed;
-}
+SensorNoise_EXPORT RollingShutter
+RollingShutterOf(const std::string & name);
 
-inline const char *
-NameOf(RollingShutter mode)
-{
-  return mode == RollingShutter::Off ? "off" : mode == RollingShutter::Auto ? "auto" : "fixed";
-}
+/** The name of a mode. */
+SensorNoise_EXPORT const char *
+NameOf(RollingShutter mode);
 
 } // namespace sensornoise
 

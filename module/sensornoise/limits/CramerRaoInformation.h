@@ -18,54 +18,20 @@
 #ifndef sensornoise_limits_CramerRaoInformation_h
 #define sensornoise_limits_CramerRaoInformation_h
 
+#include "SensorNoiseExport.h"
 #include "sensornoise/base/Eigen.h"
-#include "sensornoise/simulation/SimulationSettings.h"
+#include "sensornoise/limits/CramerRaoInput.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
 
 namespace sensornoise
 {
 
-/** What the Cram\'er-Rao bound of a simulated stack depends on. */
-struct CramerRaoInput
-{
-  const double *          electrons;                 ///< p: the scene at rest, blurred by the optics [e-]
-  const std::uint8_t *    mask;                      ///< nonzero where the pixel is used; null: everywhere
-  std::size_t             width;                     ///< columns
-  std::size_t             height;                    ///< rows
-  const SimulationTruth * truth;                     ///< camera, flicker and shifts of the stack
-  double                  quantisationStepDn{ 1.0 }; ///< distance of the codes; 0: grey levels are not rounded [DN]
-
-  double
-  TotalReadVarianceDn2() const
-  {
-    const double readNoiseDn = truth->settings.camera.readNoiseDn;
-    return readNoiseDn * readNoiseDn + quantisationStepDn * quantisationStepDn / 12.0;
-  }
-  /** g times the mean of 1 + gamma: the mean flux of a pixel per electron of the scene [DN]. */
-  double
-  MeanFluxPerElectronDn() const
-  {
-    double sum = 0.0;
-    for (const double gamma : truth->series.gamma)
-    {
-      sum += 1.0 + gamma;
-    }
-    return truth->settings.camera.gainDnPerElectron * sum / static_cast<double>(truth->series.gamma.size());
-  }
-};
-
-namespace detail
-{
 /** Information of rows of a frame about the parameters that all pixels share, in the order g, c0, mu, gamma_1..T,
  * alpha_1..T, beta_1..T. A pixel's flux q_x is unknown too and is eliminated: the pixel adds the Schur complement
  * I - c_x c_x' / I_xx of its arrow matrix. c0 is the noise variance at the mean level, V = g (level - mean level) + c0:
  * less correlated with g than the intercept is, and free of mu. */
-class SharedInformation
+class SensorNoise_EXPORT CramerRaoInformation
 {
 public:
   static constexpr Eigen::Index Gain = 0;
@@ -74,151 +40,53 @@ public:
   static constexpr Eigen::Index FirstSeries = 3;
 
   /** \a meanFluxDn is the mean level less mu. */
-  SharedInformation(const CramerRaoInput & input, double meanFluxDn)
-    : m_Input(input)
-    , m_FluxPerElectronDn(input.MeanFluxPerElectronDn())
-    , m_MeanFluxDn(meanFluxDn)
-    , m_Frames(static_cast<Eigen::Index>(input.truth->settings.frames))
-    , m_Schur(Eigen::MatrixXd::Zero(FirstSeries + 3 * m_Frames, FirstSeries + 3 * m_Frames))
-    , m_Direct(Eigen::VectorXd::Zero(FirstSeries + 3 * m_Frames))
-  {}
+  CramerRaoInformation(const CramerRaoInput & input, double meanFluxDn);
 
+  /** Adds what row \a y says, in all frames. */
   void
-  AddRow(std::size_t y)
-  {
-    using SixColumns = Eigen::Array<double, Eigen::Dynamic, 6>;
-    const SimulationTruth & truth = *m_Input.truth;
-    const double            g = truth.settings.camera.gainDnPerElectron;
-    const auto              columns = static_cast<Eigen::Index>(m_Input.width);
-    Eigen::ArrayXd          isUsed = Eigen::ArrayXd::Ones(columns);
-    for (Eigen::Index x = 0; x < columns && m_Input.mask != nullptr; ++x)
-    {
-      isUsed(x) = m_Input.mask[y * m_Input.width + static_cast<std::size_t>(x)] != 0 ? 1.0 : 0.0;
-    }
-    Eigen::MatrixXd cross = Eigen::MatrixXd::Zero(columns, m_Schur.rows()); // c_x, a row a pixel
-    Eigen::ArrayXd  ofFlux = Eigen::ArrayXd::Zero(columns);                 // I_xx
-    for (Eigen::Index t = 0; t < m_Frames; ++t)
-    {
-      const auto       frame = static_cast<std::size_t>(t);
-      const double     f = 1.0 + truth.normalisedFlicker[frame];
-      constexpr double h = 1e-3; // [pixel]
-      const auto       q = [&](double dx, double dy) {
-        return this->ShiftedFlux(y, truth.series.alpha[frame] + dx, truth.series.beta[frame] + dy);
-      };
+  AddRow(std::size_t y);
 
-      // Derivatives of the mean mu + L and the variance V = g (L - mean L) + c0 with g, c0, mu, gamma, alpha and beta,
-      // where L = (1 + gamma) q(alpha, beta).
-      SixColumns ofMean = SixColumns::Zero(columns, 6);
-      ofMean.col(2) = 1.0;
-      ofMean.col(3) = q(0.0, 0.0);
-      ofMean.col(4) = f / (2.0 * h) * (q(h, 0.0) - q(-h, 0.0));
-      ofMean.col(5) = f / (2.0 * h) * (q(0.0, h) - q(0.0, -h));
-      SixColumns ofVariance = g * ofMean;
-      ofVariance.col(0) = f * ofMean.col(3) - m_MeanFluxDn;
-      ofVariance.col(1) = 1.0;
-
-      // What a datum tells of a and b: m_a m_b / V + V_a V_b / (2 V^2).
-      const Eigen::ArrayXd              meanWeight = isUsed / (g * f * ofMean.col(3) + m_Input.TotalReadVarianceDn2());
-      const Eigen::ArrayXd              varianceWeight = 0.5 * meanWeight.square();
-      const SixColumns                  mean = ofMean.colwise() * meanWeight;
-      const SixColumns                  variance = ofVariance.colwise() * varianceWeight;
-      const Eigen::Matrix<double, 6, 6> information =
-        ofMean.matrix().transpose() * mean.matrix() + ofVariance.matrix().transpose() * variance.matrix();
-      const std::array<Eigen::Index, 6> parameters{
-        Gain, CentralVariance, Offset, FirstSeries + t, FirstSeries + m_Frames + t, FirstSeries + 2 * m_Frames + t
-      };
-      for (std::size_t i = 0; i < 6; ++i)
-      {
-        const auto k = static_cast<Eigen::Index>(i);
-        cross.col(parameters[i]).array() += f * (mean.col(k) + g * variance.col(k));
-        m_Direct(parameters[i]) += information(k, k);
-        for (std::size_t j = 0; j <= i; ++j)
-        {
-          m_Schur(parameters[i], parameters[j]) += information(k, static_cast<Eigen::Index>(j));
-        }
-      }
-      ofFlux += f * f * (meanWeight + g * g * varianceWeight);
-    }
-    for (Eigen::Index x = 0; x < columns; ++x)
-    {
-      cross.row(x) *= ofFlux(x) > 0.0 ? 1.0 / std::sqrt(ofFlux(x)) : 0.0;
-    }
-    m_Schur.selfadjointView<Eigen::Lower>().rankUpdate(cross.transpose(), -1.0);
-  }
-
+  /** Adds what other rows say. */
   void
-  Add(const SharedInformation & other)
-  {
-    m_Schur += other.m_Schur;
-    m_Direct += other.m_Direct;
-  }
+  Add(const CramerRaoInformation & other);
 
   /** Standard deviations that the parameters would have if each were the only one not known; 1 where there is none. */
   Eigen::VectorXd
-  GetUnits() const
-  {
-    return (m_Direct.array() > 0.0).select(m_Direct.array().sqrt().inverse(), 1.0);
-  }
+  GetUnits() const;
 
   /** Covariance of the parameters' errors where sum gamma = sum alpha = sum beta = 0, which fixes the scale and the
    * position of the scene. A direction of which the rows say nothing has a variance of 1e20 units. */
   Eigen::MatrixXd
-  GetCovariance() const
-  {
-    Eigen::MatrixXd information = m_Schur.selfadjointView<Eigen::Lower>();
-    for (Eigen::Index first = FirstSeries; first < information.rows(); first += m_Frames)
-    {
-      const Eigen::RowVectorXd meanRow = information.middleRows(first, m_Frames).colwise().mean();
-      information.middleRows(first, m_Frames).rowwise() -= meanRow;
-      const Eigen::VectorXd meanColumn = information.middleCols(first, m_Frames).rowwise().mean();
-      information.middleCols(first, m_Frames).colwise() -= meanColumn;
-      // Whatever is said of the sum: the functions of interest are free of it.
-      information.block(first, first, m_Frames, m_Frames).array() +=
-        m_Direct.segment(first, m_Frames).mean() / static_cast<double>(m_Frames);
-    }
-    constexpr double                                     rounding = 1e-11;
-    const Eigen::VectorXd                                units = this->GetUnits();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(units.asDiagonal() * information * units.asDiagonal());
-    const Eigen::ArrayXd                                 eigenvalues = solver.eigenvalues().array();
-    const Eigen::VectorXd roots = (eigenvalues > rounding).select(eigenvalues.sqrt().inverse(), 1e10);
-    const Eigen::MatrixXd factor = units.asDiagonal() * solver.eigenvectors() * roots.asDiagonal();
-    return factor * factor.transpose();
-  }
+  GetCovariance() const;
 
 private:
+  /** Derivatives of a row's data with g, c0, mu and the frame's own gamma, alpha and beta: a row a pixel. */
+  using SixColumns = Eigen::Array<double, Eigen::Dynamic, 6>;
+  struct Derivatives
+  {
+    SixColumns ofMean;
+    SixColumns ofVariance;
+  };
+
+  /** 1 where a pixel of row \a y is used, 0 elsewhere. */
+  Eigen::ArrayXd
+  GetUse(std::size_t y) const;
+
+  Derivatives
+  GetDerivatives(std::size_t y, std::size_t frame) const;
+
   /** q(alpha, beta) of row \a y [DN], interpolated as StackSimulator does. */
   Eigen::ArrayXd
-  ShiftedFlux(std::size_t y, double alpha, double beta) const
-  {
-    const auto clamped = [](double position, std::size_t size) {
-      return static_cast<std::size_t>(std::clamp(position, 0.0, static_cast<double>(size) - 1.0));
-    };
-    const double   row = static_cast<double>(y) + std::floor(beta);
-    const double   down = beta - std::floor(beta);
-    const double   right = alpha - std::floor(alpha);
-    const double * above = m_Input.electrons + clamped(row, m_Input.height) * m_Input.width;
-    const double * below = m_Input.electrons + clamped(row + 1.0, m_Input.height) * m_Input.width;
-    Eigen::ArrayXd flux(static_cast<Eigen::Index>(m_Input.width));
-    for (std::size_t x = 0; x < m_Input.width; ++x)
-    {
-      const double      column = static_cast<double>(x) + std::floor(alpha);
-      const std::size_t a = clamped(column, m_Input.width);
-      const std::size_t b = clamped(column + 1.0, m_Input.width);
-      const double      first = above[a] + down * (below[a] - above[a]);
-      const double      second = above[b] + down * (below[b] - above[b]);
-      flux(static_cast<Eigen::Index>(x)) = m_FluxPerElectronDn * (first + right * (second - first));
-    }
-    return flux;
-  }
+  ShiftedFlux(std::size_t y, double alpha, double beta) const;
 
   CramerRaoInput  m_Input;
   double          m_FluxPerElectronDn;
   double          m_MeanFluxDn;
   Eigen::Index    m_Frames;
-  Eigen::MatrixXd m_Schur; // lower triangle
-  Eigen::VectorXd m_Direct;
+  Eigen::MatrixXd m_Schur;  // lower triangle
+  Eigen::VectorXd m_Direct; // diagonal, pixels' fluxes known
 };
-} // namespace detail
+
 } // namespace sensornoise
 
 #endif

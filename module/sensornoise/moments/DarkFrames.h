@@ -18,20 +18,13 @@
 #ifndef sensornoise_moments_DarkFrames_h
 #define sensornoise_moments_DarkFrames_h
 
-#include "sensornoise/base/ChiSquare.h"
 #include "sensornoise/base/Parallel.h"
-#include "sensornoise/base/Quantiles.h"
-#include "sensornoise/moments/Codes.h"
+#include "sensornoise/moments/CodeSettings.h"
 #include "sensornoise/moments/KnownOffset.h"
-#include "sensornoise/moments/StackMaps.h"
 #include "sensornoise/moments/TemporalMoments.h"
+#include "SensorNoiseExport.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <cstdint>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace sensornoise
@@ -45,23 +38,8 @@ struct MeanOfPixels
 };
 
 /** The mean of those values that are from \a low to \a high. */
-inline MeanOfPixels
-MeanWithin(const std::vector<double> & values, double low, double high)
-{
-  double n = 0.0;
-  double sum = 0.0;
-  double squares = 0.0;
-  for (const double value : values)
-  {
-    if (value >= low && value <= high)
-    {
-      n += 1.0;
-      sum += value - low;
-      squares += (value - low) * (value - low);
-    }
-  }
-  return { low + sum / n, std::sqrt(std::max(0.0, squares - sum * sum / n) / (n * (n - 1.0))) };
-}
+SensorNoise_EXPORT MeanOfPixels
+MeanWithin(const std::vector<double> & values, double low, double high);
 
 /** Offset and temporal variance from frames taken without light, at the exposure, gain and temperature of the others.
  *
@@ -78,72 +56,33 @@ KnownOffset
 MeasureDarkFrames(const TemporalMoments<TPixel> &   moments,
                   const CodeSettings &              codes = {},
                   const std::vector<std::uint8_t> & mask = {},
-                  const ParallelFor &               parallelFor = SerialFor)
-{
-  const std::size_t         pixels = moments.GetNumberOfPixels();
-  const auto                frames = static_cast<double>(moments.GetNumberOfFrames());
-  std::vector<double>       mean(pixels);
-  std::vector<double>       variance(pixels);
-  std::vector<std::uint8_t> valid(pixels);
-  const CodeRange           range =
-    MakeStackMaps<TPixel>(moments, codes, parallelFor, mean.data(), variance.data(), valid.data()).codes;
-  std::vector<double> levels;
-  std::vector<double> variances;
-  std::size_t         clipped = 0;
-  for (std::size_t p = 0; p < pixels; ++p)
-  {
-    const bool isMasked = !mask.empty() && mask[p] == 0;
-    if (!isMasked && valid[p] != 0)
-    {
-      levels.push_back(mean[p]);
-      variances.push_back(variance[p]);
-    }
-    clipped += !isMasked && valid[p] == 0 && moments.IsFinite(p) ? 1 : 0;
-  }
-  // Some dead pixels do no harm, nor does a sample in a thousand: cutting it off moves the mean by 0.003 sigma.
-  const double clippedFraction = static_cast<double>(clipped) / static_cast<double>(clipped + levels.size());
-  if (clippedFraction > std::max(0.01, 1.0 - std::pow(0.999, frames)))
-  {
-    throw std::invalid_argument(std::to_string(100.0 * clippedFraction) +
-                                " % of the pixels of the dark frames reach a clip level, " +
-                                (range.clipLowDn ? std::to_string(*range.clipLowDn) : "none") + " or " +
-                                (range.clipHighDn ? std::to_string(*range.clipHighDn) : "none") +
-                                " DN; expected at most 1 %: their black level is cut off, or they are not dark");
-  }
-  if (levels.size() < 30)
-  {
-    throw std::invalid_argument("only " + std::to_string(levels.size()) +
-                                " pixels of the dark frames are usable; expected at least 30");
-  }
+                  const ParallelFor &               parallelFor = SerialFor);
 
-  const double       step = range.quantisationStepDn;
-  const double       low = Quantile(levels, 0.16);
-  const double       high = Quantile(levels, 0.84);
-  const double       median = Quantile(levels, 0.5);
-  const double       reach = 3.0 * std::max(high - low, step);
-  const MeanOfPixels level = MeanWithin(levels, median - reach, median + reach);
-  double             spreadDn2 = 0.25 * (high - low) * (high - low);
-  KnownOffset        dark;
-  dark.valueDn = level.value;
-  dark.darkFrames = moments.GetNumberOfFrames();
-  if (dark.darkFrames > 1)
-  {
-    constexpr double   beyond = 1e-3;
-    const double       dof = frames - 1.0;
-    const double       limit = ChiSquareUpperQuantile(beyond, dof);
-    const double       unit = Quantile(variances, 0.9) / ChiSquareQuantile(0.9, dof);
-    const MeanOfPixels below = MeanWithin(variances, 0.0, unit * limit);
-    const double       share = ChiSquareCdf(limit, dof + 2.0) / (1.0 - beyond); // of the mean below the limit
-    dark.variance = DarkVariance{ below.value / share, below.standardError / share };
-    spreadDn2 += dark.variance->valueDn2;
-  }
-  // A mean of codes is off by up to step/pi exp(-2 pi^2 spread/step^2): nothing once the spread is half a step.
-  constexpr double pi = 3.14159265358979323846;
-  const double     hidden = std::max(0.0, spreadDn2 - step * step / 12.0);
-  const double     rounding = step > 0.0 ? step / pi * std::exp(-2.0 * pi * pi * hidden / (step * step)) : 0.0;
-  dark.standardErrorDn = std::hypot(level.standardError, rounding);
-  return dark;
-}
+extern template SensorNoise_EXPORT KnownOffset
+MeasureDarkFrames<unsigned char>(const TemporalMoments<unsigned char> &,
+                                 const CodeSettings &,
+                                 const std::vector<std::uint8_t> &,
+                                 const ParallelFor &);
+extern template SensorNoise_EXPORT KnownOffset
+MeasureDarkFrames<unsigned short>(const TemporalMoments<unsigned short> &,
+                                  const CodeSettings &,
+                                  const std::vector<std::uint8_t> &,
+                                  const ParallelFor &);
+extern template SensorNoise_EXPORT KnownOffset
+MeasureDarkFrames<short>(const TemporalMoments<short> &,
+                         const CodeSettings &,
+                         const std::vector<std::uint8_t> &,
+                         const ParallelFor &);
+extern template SensorNoise_EXPORT KnownOffset
+MeasureDarkFrames<float>(const TemporalMoments<float> &,
+                         const CodeSettings &,
+                         const std::vector<std::uint8_t> &,
+                         const ParallelFor &);
+extern template SensorNoise_EXPORT KnownOffset
+MeasureDarkFrames<double>(const TemporalMoments<double> &,
+                          const CodeSettings &,
+                          const std::vector<std::uint8_t> &,
+                          const ParallelFor &);
 
 } // namespace sensornoise
 

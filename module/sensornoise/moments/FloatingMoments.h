@@ -18,18 +18,14 @@
 #ifndef sensornoise_moments_FloatingMoments_h
 #define sensornoise_moments_FloatingMoments_h
 
-#include "sensornoise/base/BinaryStream.h"
+#include "SensorNoiseExport.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <istream>
 #include <limits>
 #include <ostream>
-#include <stdexcept>
-#include <string>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace sensornoise
@@ -55,38 +51,12 @@ class FloatingMoments
   static_assert(std::is_floating_point_v<TPixel>, "FloatingMoments holds float and double pixels");
 
 public:
-  explicit FloatingMoments(std::size_t pixels = 0)
-    : m_Mean(pixels, 0.0)
-    , m_Squares(pixels, 0.0)
-    , m_Minimum(pixels, std::numeric_limits<double>::infinity())
-    , m_Maximum(pixels, -std::numeric_limits<double>::infinity())
-  {}
+  explicit FloatingMoments(std::size_t pixels = 0);
 
   /** Adds \a frames frames for the pixels [begin, end). \a firstFrame points at pixel 0 of the first frame, and each
    * next frame begins \a stride pixels later. */
   void
-  AddFrames(const TPixel * firstFrame, std::size_t stride, std::size_t frames, std::size_t begin, std::size_t end)
-  {
-    constexpr std::size_t blockSize = 512; // the block's sums stay in the first-level cache
-    for (std::size_t block = begin; block < end; block += blockSize)
-    {
-      const std::size_t blockEnd = std::min(block + blockSize, end);
-      for (std::size_t t = 0; t < frames; ++t)
-      {
-        const TPixel * const frame = firstFrame + t * stride;
-        const double         share = 1.0 / static_cast<double>(m_Frames + t + 1);
-        for (std::size_t p = block; p < blockEnd; ++p)
-        {
-          const double value = frame[p];
-          const double deviation = value - m_Mean[p];
-          m_Mean[p] += deviation * share;
-          m_Squares[p] += deviation * (value - m_Mean[p]);
-          m_Minimum[p] = value < m_Minimum[p] ? value : m_Minimum[p];
-          m_Maximum[p] = value > m_Maximum[p] ? value : m_Maximum[p];
-        }
-      }
-    }
-  }
+  AddFrames(const TPixel * firstFrame, std::size_t stride, std::size_t frames, std::size_t begin, std::size_t end);
 
   /** Tells that \a frames frames have been added for every pixel. */
   void
@@ -97,56 +67,16 @@ public:
 
   /** Adds the sums of later frames of the same pixels. */
   void
-  Merge(const FloatingMoments & later)
-  {
-    if (later.GetNumberOfPixels() != this->GetNumberOfPixels())
-    {
-      throw std::invalid_argument("moments of frames of " + std::to_string(later.GetNumberOfPixels()) +
-                                  " pixels cannot be merged into those of frames of " +
-                                  std::to_string(this->GetNumberOfPixels()) + " pixels");
-    }
-    const std::size_t frames = m_Frames + later.m_Frames;
-    if (later.m_Frames == 0)
-    {
-      return;
-    }
-    const double share = static_cast<double>(later.m_Frames) / static_cast<double>(frames);
-    const double weight = static_cast<double>(m_Frames) * share;
-    for (std::size_t p = 0; p < m_Mean.size(); ++p)
-    {
-      const double deviation = later.m_Mean[p] - m_Mean[p];
-      m_Mean[p] += deviation * share;
-      m_Squares[p] += later.m_Squares[p] + deviation * deviation * weight;
-      m_Minimum[p] = std::min(m_Minimum[p], later.m_Minimum[p]);
-      m_Maximum[p] = std::max(m_Maximum[p], later.m_Maximum[p]);
-    }
-    m_Frames = frames;
-  }
+  Merge(const FloatingMoments & later);
 
   /** Writes the moments, see BinaryStream. */
   void
-  Save(std::ostream & out) const
-  {
-    WriteSumsHeader(out, StreamName(), m_Mean.size(), m_Frames);
-    WriteNumbers(out, m_Mean);
-    WriteNumbers(out, m_Squares);
-    WriteNumbers(out, m_Minimum);
-    WriteNumbers(out, m_Maximum);
-  }
+  Save(std::ostream & out) const;
 
   /** Replaces the moments by those of a stream. Throws std::runtime_error, and changes nothing, if it holds other sums,
    * or those of another type or number of pixels, or ends early. */
   void
-  Restore(std::istream & in)
-  {
-    FloatingMoments read(m_Mean.size());
-    read.m_Frames = ReadSumsHeader(in, StreamName(), m_Mean.size());
-    ReadNumbers(in, read.m_Mean);
-    ReadNumbers(in, read.m_Squares);
-    ReadNumbers(in, read.m_Minimum);
-    ReadNumbers(in, read.m_Maximum);
-    *this = std::move(read);
-  }
+  Restore(std::istream & in);
 
   std::size_t
   GetNumberOfPixels() const
@@ -200,18 +130,15 @@ public:
   }
 
 private:
-  static std::string
-  StreamName()
-  {
-    return "FloatingMoments " + PixelName<TPixel>();
-  }
-
   std::size_t         m_Frames{ 0 };
   std::vector<double> m_Mean;
   std::vector<double> m_Squares;
   std::vector<double> m_Minimum;
   std::vector<double> m_Maximum;
 };
+
+extern template class SensorNoise_EXPORT FloatingMoments<float>;
+extern template class SensorNoise_EXPORT FloatingMoments<double>;
 
 } // namespace sensornoise
 

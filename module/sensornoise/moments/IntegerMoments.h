@@ -18,18 +18,13 @@
 #ifndef sensornoise_moments_IntegerMoments_h
 #define sensornoise_moments_IntegerMoments_h
 
-#include "sensornoise/base/BinaryStream.h"
+#include "SensorNoiseExport.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <istream>
-#include <limits>
 #include <ostream>
-#include <stdexcept>
-#include <string>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace sensornoise
@@ -56,27 +51,12 @@ class IntegerMoments
   static_assert(std::is_integral_v<TPixel> && sizeof(TPixel) <= 2, "IntegerMoments holds 8- and 16-bit pixels");
 
 public:
-  explicit IntegerMoments(std::size_t pixels = 0)
-    : m_Sum(pixels, 0)
-    , m_SumOfSquares(pixels, 0)
-    , m_Minimum(pixels, std::numeric_limits<std::int16_t>::max())
-    , m_Maximum(pixels, std::numeric_limits<std::int16_t>::min())
-  {}
+  explicit IntegerMoments(std::size_t pixels = 0);
 
   /** Adds \a frames frames for the pixels [begin, end). \a firstFrame points at pixel 0 of the first frame, and each
    * next frame begins \a stride pixels later. */
   void
-  AddFrames(const TPixel * firstFrame, std::size_t stride, std::size_t frames, std::size_t begin, std::size_t end)
-  {
-    for (std::size_t block = begin; block < end; block += BlockSize)
-    {
-      const std::size_t size = std::min(BlockSize, end - block);
-      for (std::size_t t = 0; t < frames; t += FramesPerFlush)
-      {
-        this->AddBlock(firstFrame + t * stride + block, stride, std::min(FramesPerFlush, frames - t), block, size);
-      }
-    }
-  }
+  AddFrames(const TPixel * firstFrame, std::size_t stride, std::size_t frames, std::size_t begin, std::size_t end);
 
   /** Tells that \a frames frames have been added for every pixel. */
   void
@@ -87,48 +67,16 @@ public:
 
   /** Adds the sums of other frames of the same pixels: exact, in any order. */
   void
-  Merge(const IntegerMoments & other)
-  {
-    if (other.GetNumberOfPixels() != this->GetNumberOfPixels())
-    {
-      throw std::invalid_argument("moments of frames of " + std::to_string(other.GetNumberOfPixels()) +
-                                  " pixels cannot be merged into those of frames of " +
-                                  std::to_string(this->GetNumberOfPixels()) + " pixels");
-    }
-    for (std::size_t p = 0; p < m_Sum.size(); ++p)
-    {
-      m_Sum[p] += other.m_Sum[p];
-      m_SumOfSquares[p] += other.m_SumOfSquares[p];
-      m_Minimum[p] = std::min(m_Minimum[p], other.m_Minimum[p]);
-      m_Maximum[p] = std::max(m_Maximum[p], other.m_Maximum[p]);
-    }
-    m_Frames += other.m_Frames;
-  }
+  Merge(const IntegerMoments & other);
 
   /** Writes the sums, see BinaryStream. */
   void
-  Save(std::ostream & out) const
-  {
-    WriteSumsHeader(out, StreamName(), m_Sum.size(), m_Frames);
-    WriteNumbers(out, m_Sum);
-    WriteNumbers(out, m_SumOfSquares);
-    WriteNumbers(out, m_Minimum);
-    WriteNumbers(out, m_Maximum);
-  }
+  Save(std::ostream & out) const;
 
   /** Replaces the sums by those of a stream. Throws std::runtime_error, and changes nothing, if it holds other sums, or
    * those of another type or number of pixels, or ends early. */
   void
-  Restore(std::istream & in)
-  {
-    IntegerMoments read(m_Sum.size());
-    read.m_Frames = ReadSumsHeader(in, StreamName(), m_Sum.size());
-    ReadNumbers(in, read.m_Sum);
-    ReadNumbers(in, read.m_SumOfSquares);
-    ReadNumbers(in, read.m_Minimum);
-    ReadNumbers(in, read.m_Maximum);
-    *this = std::move(read);
-  }
+  Restore(std::istream & in);
 
   std::size_t
   GetNumberOfPixels() const
@@ -197,12 +145,6 @@ private:
   // As many frames as the block's 32-bit sums hold: |sum s| <= 2^15 2^15, and 2^14 pairs of squares' lower halves.
   static constexpr std::size_t FramesPerFlush = 32768;
 
-  static std::string
-  StreamName()
-  {
-    return "IntegerMoments " + PixelName<TPixel>();
-  }
-
   static std::int16_t
   Shifted(TPixel value)
   {
@@ -210,44 +152,7 @@ private:
   }
 
   void
-  AddBlock(const TPixel * first, std::size_t stride, std::size_t frames, std::size_t block, std::size_t size)
-  {
-    std::int32_t  sum[BlockSize] = {};
-    std::uint32_t low[BlockSize] = {};  // sum of the lower 16 bits of the squares of two frames
-    std::uint32_t high[BlockSize] = {}; // and of the upper 16 bits: 32-bit sums vectorise, 64-bit ones hardly do
-    std::int16_t  minimum[BlockSize];
-    std::int16_t  maximum[BlockSize];
-    std::copy_n(m_Minimum.begin() + block, size, minimum);
-    std::copy_n(m_Maximum.begin() + block, size, maximum);
-
-    for (std::size_t t = 0; t < frames; t += 2)
-    {
-      const TPixel * const f0 = first + t * stride;
-      const bool           paired = t + 1 < frames;
-      const TPixel * const f1 = paired ? f0 + stride : f0;
-      const std::int32_t   keep = paired ? -1 : 0; // an odd last frame is paired with zeros
-      for (std::size_t i = 0; i < size; ++i)
-      {
-        const std::int16_t  a = Shifted(f0[i]);
-        const std::int16_t  b = Shifted(f1[i]);
-        const auto          c = static_cast<std::int16_t>(b & keep);
-        const std::uint32_t squares =
-          static_cast<std::uint32_t>(std::int32_t{ a } * a) + static_cast<std::uint32_t>(std::int32_t{ c } * c);
-        sum[i] += std::int32_t{ a } + c;
-        low[i] += squares & 0xffffU;
-        high[i] += squares >> 16;
-        minimum[i] = std::min(minimum[i], std::min(a, b));
-        maximum[i] = std::max(maximum[i], std::max(a, b));
-      }
-    }
-    for (std::size_t i = 0; i < size; ++i)
-    {
-      m_Sum[block + i] += sum[i];
-      m_SumOfSquares[block + i] += low[i] + (std::uint64_t{ high[i] } << 16);
-      m_Minimum[block + i] = minimum[i];
-      m_Maximum[block + i] = maximum[i];
-    }
-  }
+  AddBlock(const TPixel * first, std::size_t stride, std::size_t frames, std::size_t block, std::size_t size);
 
   std::size_t                m_Frames{ 0 };
   std::vector<std::int64_t>  m_Sum;
@@ -255,6 +160,11 @@ private:
   std::vector<std::int16_t>  m_Minimum;
   std::vector<std::int16_t>  m_Maximum;
 };
+
+extern template class SensorNoise_EXPORT IntegerMoments<unsigned char>;
+extern template class SensorNoise_EXPORT IntegerMoments<signed char>;
+extern template class SensorNoise_EXPORT IntegerMoments<unsigned short>;
+extern template class SensorNoise_EXPORT IntegerMoments<short>;
 
 } // namespace sensornoise
 

@@ -18,15 +18,12 @@
 #ifndef sensornoise_moments_PassFrames_h
 #define sensornoise_moments_PassFrames_h
 
-#include "sensornoise/base/BinaryStream.h"
+#include "SensorNoiseExport.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <istream>
 #include <ostream>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace sensornoise
@@ -34,12 +31,10 @@ namespace sensornoise
 
 /** \class PassFrames
  * \brief Which frames of the current pass over a stack have been added, here or elsewhere. */
-class PassFrames
+class SensorNoise_EXPORT PassFrames
 {
 public:
-  explicit PassFrames(std::size_t frames)
-    : m_Has(frames, 0)
-  {}
+  explicit PassFrames(std::size_t frames);
 
   /** The current pass, from 0. */
   unsigned int
@@ -51,94 +46,30 @@ public:
   /** The next \a count frames are added: returns the first. Throws std::logic_error if there are not so many left, or
    * one has been added before. */
   std::size_t
-  Add(std::size_t count)
-  {
-    const std::size_t first = m_Next;
-    if (count > m_Has.size() - first)
-    {
-      throw std::logic_error("pass " + std::to_string(m_Pass + 1) + " was given " + std::to_string(first + count) +
-                             " frames; expected " + std::to_string(m_Has.size()));
-    }
-    const auto begin = m_Has.begin() + static_cast<std::ptrdiff_t>(first);
-    const auto end = begin + static_cast<std::ptrdiff_t>(count);
-    const auto twice = std::find(begin, end, std::uint8_t{ 1 });
-    if (twice != end)
-    {
-      throw std::logic_error("frame " + std::to_string(twice - m_Has.begin()) + " of pass " +
-                             std::to_string(m_Pass + 1) + " was given twice");
-    }
-    std::fill(begin, end, std::uint8_t{ 1 });
-    m_Next += count;
-    return first;
-  }
+  Add(std::size_t count);
 
   /** The next \a count frames are added elsewhere. */
   void
-  Skip(std::size_t count)
-  {
-    if (count > m_Has.size() - m_Next)
-    {
-      throw std::logic_error("pass " + std::to_string(m_Pass + 1) + " was told to skip " + std::to_string(count) +
-                             " frames; " + std::to_string(m_Has.size() - m_Next) + " are left");
-    }
-    m_Next += count;
-  }
+  Skip(std::size_t count);
 
   /** Throws std::runtime_error if \a other has frames that are here, too. */
   void
-  RequireApart(const PassFrames & other) const
-  {
-    for (std::size_t t = 0; t < m_Has.size(); ++t)
-    {
-      if (m_Has[t] != 0 && other.m_Has[t] != 0)
-      {
-        throw std::runtime_error("sums cannot be merged: both hold frame " + std::to_string(t));
-      }
-    }
-  }
+  RequireApart(const PassFrames & other) const;
 
   /** Takes over the frames of \a other. */
   void
-  Merge(const PassFrames & other)
-  {
-    this->RequireApart(other);
-    for (std::size_t t = 0; t < m_Has.size(); ++t)
-    {
-      m_Has[t] = m_Has[t] != 0 || other.m_Has[t] != 0 ? 1 : 0;
-    }
-  }
+  Merge(const PassFrames & other);
 
   /** Ends the pass. Throws std::logic_error if a frame is missing. */
   void
-  EndPass()
-  {
-    const auto count = static_cast<std::size_t>(std::count(m_Has.begin(), m_Has.end(), std::uint8_t{ 1 }));
-    if (count != m_Has.size())
-    {
-      throw std::logic_error("pass " + std::to_string(m_Pass + 1) + " held " + std::to_string(count) +
-                             " frames; expected " + std::to_string(m_Has.size()));
-    }
-    std::fill(m_Has.begin(), m_Has.end(), std::uint8_t{ 0 });
-    m_Next = 0;
-    ++m_Pass;
-  }
+  EndPass();
 
+  /** Writes the pass and its frames, see BinaryStream. */
   void
-  Save(std::ostream & out) const
-  {
-    WriteCount(out, m_Pass + 1);
-    WriteNumbers(out, m_Has);
-  }
+  Save(std::ostream & out) const;
   /** The frames of a stream, of the same pass. Throws std::runtime_error if it is another one. */
   PassFrames
-  ReadOther(std::istream & in) const
-  {
-    PassFrames other(m_Has.size());
-    other.m_Pass = m_Pass;
-    RequireCount("as the pass", ReadCount(in), m_Pass + 1);
-    ReadNumbers(in, other.m_Has);
-    return other;
-  }
+  ReadOther(std::istream & in) const;
 
 private:
   std::vector<std::uint8_t> m_Has;

@@ -19,17 +19,13 @@
 #define sensornoise_moments_StackMaps_h
 
 #include "sensornoise/base/Parallel.h"
-#include "sensornoise/base/Quantiles.h"
-#include "sensornoise/moments/Codes.h"
+#include "sensornoise/moments/CodeRange.h"
+#include "sensornoise/moments/CodeSettings.h"
 #include "sensornoise/moments/TemporalMoments.h"
+#include "SensorNoiseExport.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <type_traits>
-#include <vector>
 
 namespace sensornoise
 {
@@ -42,38 +38,6 @@ struct StackSummary
   std::size_t notFinite{ 0 }; ///< pixels that are NaN or infinite in a frame
 };
 
-namespace detail
-{
-/** See ExtremeDepths. */
-template <typename TMoments>
-ExtremeDepths
-FindExtremeDepths(const TMoments & moments, const double * mean, const double * variance)
-{
-  double lowest = moments.GetMinimum(0);
-  double highest = moments.GetMaximum(0);
-  for (std::size_t p = 1; p < moments.GetNumberOfPixels(); ++p)
-  {
-    lowest = std::min(lowest, moments.GetMinimum(p));
-    highest = std::max(highest, moments.GetMaximum(p));
-  }
-  std::vector<double> low;
-  std::vector<double> high;
-  for (std::size_t p = 0; p < moments.GetNumberOfPixels(); ++p)
-  {
-    const double sd = std::sqrt(variance[p]);
-    if (moments.GetMinimum(p) == lowest)
-    {
-      low.push_back(sd > 0.0 ? (mean[p] - lowest) / sd : 0.0);
-    }
-    if (moments.GetMaximum(p) == highest)
-    {
-      high.push_back(sd > 0.0 ? (highest - mean[p]) / sd : 0.0);
-    }
-  }
-  return { Quantile(low, 0.5), Quantile(high, 0.5) };
-}
-} // namespace detail
-
 /** Turns the moments of a stack into frame-sized maps: mean [DN], unbiased variance [DN^2] and the valid mask (1:
  * finite and never at a clip level). Codes and clip levels are given or found, see FindCodes(). NaN stands where a
  * pixel was not finite. Throws std::invalid_argument if the data pass the given bit depth. */
@@ -84,64 +48,43 @@ MakeStackMaps(const TemporalMoments<TPixel> & moments,
               const ParallelFor &             parallelFor,
               double *                        mean,
               double *                        variance,
-              std::uint8_t *                  valid)
-{
-  const std::size_t pixels = moments.GetNumberOfPixels();
-  const std::size_t block = 4096;
-  const std::size_t blocks = (pixels + block - 1) / block;
-  parallelFor(blocks, [&](std::size_t b) {
-    for (std::size_t p = b * block; p < std::min(pixels, (b + 1) * block); ++p)
-    {
-      mean[p] = moments.GetMean(p);
-      variance[p] = moments.GetVariance(p);
-    }
-  });
+              std::uint8_t *                  valid);
 
-  StackSummary summary;
-  if constexpr (std::is_integral_v<TPixel>)
-  {
-    CodeHistogram minima;
-    CodeHistogram maxima;
-    for (std::size_t p = 0; p < pixels; ++p)
-    {
-      minima.Add(moments.GetMinimum(p));
-      maxima.Add(moments.GetMaximum(p));
-    }
-    // Some thousand pixels, evenly spread, tell the typical noise.
-    std::vector<double> variances;
-    for (std::size_t p = 0; p < pixels; p += std::max<std::size_t>(1, pixels / 8192))
-    {
-      variances.push_back(variance[p]);
-    }
-    summary.codes =
-      FindCodes(minima, maxima, Quantile(variances, 0.5), settings, detail::FindExtremeDepths(moments, mean, variance));
-    // A signed 16-bit number ends at 32767, whatever 16 bits would hold.
-    const double largest = std::numeric_limits<TPixel>::max();
-    summary.codes.clipHighDn = std::min(summary.codes.clipHighDn.value_or(largest), largest);
-  }
-  else
-  {
-    summary.codes = GivenCodes(settings);
-  }
-
-  std::vector<StackSummary> counts(blocks);
-  parallelFor(blocks, [&](std::size_t b) {
-    for (std::size_t p = b * block; p < std::min(pixels, (b + 1) * block); ++p)
-    {
-      const bool finite = moments.IsFinite(p);
-      const bool clipped = finite && summary.codes.IsClipped(moments.GetMinimum(p), moments.GetMaximum(p));
-      valid[p] = finite && !clipped ? 1 : 0;
-      counts[b].clipped += clipped ? 1 : 0;
-      counts[b].notFinite += finite ? 0 : 1;
-    }
-  });
-  for (const StackSummary & count : counts)
-  {
-    summary.clipped += count.clipped;
-    summary.notFinite += count.notFinite;
-  }
-  return summary;
-}
+extern template SensorNoise_EXPORT StackSummary
+MakeStackMaps<unsigned char>(const TemporalMoments<unsigned char> &,
+                             const CodeSettings &,
+                             const ParallelFor &,
+                             double *,
+                             double *,
+                             std::uint8_t *);
+extern template SensorNoise_EXPORT StackSummary
+MakeStackMaps<unsigned short>(const TemporalMoments<unsigned short> &,
+                              const CodeSettings &,
+                              const ParallelFor &,
+                              double *,
+                              double *,
+                              std::uint8_t *);
+extern template SensorNoise_EXPORT StackSummary
+MakeStackMaps<short>(const TemporalMoments<short> &,
+                     const CodeSettings &,
+                     const ParallelFor &,
+                     double *,
+                     double *,
+                     std::uint8_t *);
+extern template SensorNoise_EXPORT StackSummary
+MakeStackMaps<float>(const TemporalMoments<float> &,
+                     const CodeSettings &,
+                     const ParallelFor &,
+                     double *,
+                     double *,
+                     std::uint8_t *);
+extern template SensorNoise_EXPORT StackSummary
+MakeStackMaps<double>(const TemporalMoments<double> &,
+                      const CodeSettings &,
+                      const ParallelFor &,
+                      double *,
+                      double *,
+                      std::uint8_t *);
 
 } // namespace sensornoise
 

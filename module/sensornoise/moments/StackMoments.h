@@ -18,22 +18,15 @@
 #ifndef sensornoise_moments_StackMoments_h
 #define sensornoise_moments_StackMoments_h
 
-#include "sensornoise/base/BinaryStream.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/moments/TemporalMoments.h"
+#include "SensorNoiseExport.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <functional>
 #include <istream>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <ostream>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace sensornoise
@@ -49,90 +42,24 @@ template <typename TPixel>
 class StackMoments
 {
 public:
-  StackMoments(std::size_t pixels, std::size_t frames)
-    : m_Pixels(pixels)
-    , m_FrameMeans(frames, 0.0)
-    , m_Own(pixels)
-  {}
+  StackMoments(std::size_t pixels, std::size_t frames);
 
   /** Adds frames first ... first + count - 1, stored one after the other. */
   void
-  AddFrames(const TPixel * frames, std::size_t first, std::size_t count, const ParallelFor & parallelFor)
-  {
-    m_First = std::min(m_First, first);
-    ForBlocks(m_Pixels, parallelFor, [&](std::size_t begin, std::size_t end) {
-      m_Own.AddFrames(frames, m_Pixels, count, begin, end);
-    });
-    m_Own.AdvanceFrames(count);
-    parallelFor(count, [&](std::size_t k) {
-      m_FrameMeans[first + k] = SumOfFrame(frames + k * m_Pixels, m_Pixels) / static_cast<double>(m_Pixels);
-    });
-  }
+  AddFrames(const TPixel * frames, std::size_t first, std::size_t count, const ParallelFor & parallelFor);
 
   /** Writes the moments and means, see BinaryStream. */
   void
-  Save(std::ostream & out) const
-  {
-    WriteNumbers(out, m_FrameMeans);
-    WriteCount(out, m_Others.size() + 1);
-    WriteCount(out, m_First);
-    m_Own.Save(out);
-    for (const auto & [first, moments] : m_Others)
-    {
-      WriteCount(out, first);
-      moments.Save(out);
-    }
-  }
+  Save(std::ostream & out) const;
 
   /** Adds the moments and means of other frames from a stream. Throws std::runtime_error, and changes nothing, if it
    * ends early or does not hold them. */
   void
-  Merge(std::istream & in)
-  {
-    std::vector<double> frameMeans(m_FrameMeans.size());
-    ReadNumbers(in, frameMeans);
-    std::map<std::size_t, TemporalMoments<TPixel>> parts;
-    for (std::uint64_t count = ReadCount(in); count > 0; --count)
-    {
-      const std::size_t first = ReadCount(in);
-      parts.try_emplace(first, m_Pixels).first->second.Restore(in);
-    }
-    for (auto & [first, moments] : parts)
-    {
-      if constexpr (std::is_integral_v<TPixel>)
-      {
-        m_Own.Merge(moments);
-        m_First = std::min(m_First, first);
-      }
-      else if (moments.GetNumberOfFrames() > 0)
-      {
-        m_Others.emplace(first, std::move(moments));
-      }
-    }
-    std::transform(
-      frameMeans.begin(), frameMeans.end(), m_FrameMeans.begin(), m_FrameMeans.begin(), std::plus<double>());
-  }
+  Merge(std::istream & in);
 
   /** The moments of all frames. What was added is given away. */
   TemporalMoments<TPixel>
-  Take()
-  {
-    if (m_Others.empty())
-    {
-      return std::exchange(m_Own, TemporalMoments<TPixel>(0));
-    }
-    if (m_Own.GetNumberOfFrames() > 0)
-    {
-      m_Others.emplace(m_First, std::exchange(m_Own, TemporalMoments<TPixel>(0)));
-    }
-    TemporalMoments<TPixel> whole(m_Pixels);
-    for (const auto & part : m_Others)
-    {
-      whole.Merge(part.second);
-    }
-    m_Others.clear();
-    return whole;
-  }
+  Take();
 
   const std::vector<double> &
   GetFrameMeans() const
@@ -141,23 +68,6 @@ public:
   }
 
 private:
-  /** Sum of the finite pixels. */
-  static double
-  SumOfFrame(const TPixel * frame, std::size_t pixels)
-  {
-    if constexpr (std::is_integral_v<TPixel>)
-    {
-      using Sum = std::conditional_t<std::is_signed_v<TPixel>, std::int64_t, std::uint64_t>;
-      return static_cast<double>(std::accumulate(frame, frame + pixels, Sum{ 0 }));
-    }
-    else
-    {
-      return std::accumulate(frame, frame + pixels, 0.0, [](double sum, TPixel value) {
-        return std::isfinite(value) ? sum + static_cast<double>(value) : sum;
-      });
-    }
-  }
-
   std::size_t             m_Pixels;
   std::vector<double>     m_FrameMeans; // 0 where a frame was not added
   TemporalMoments<TPixel> m_Own;
@@ -165,6 +75,12 @@ private:
 
   std::map<std::size_t, TemporalMoments<TPixel>> m_Others; // by their first frames
 };
+
+extern template class SensorNoise_EXPORT StackMoments<unsigned char>;
+extern template class SensorNoise_EXPORT StackMoments<unsigned short>;
+extern template class SensorNoise_EXPORT StackMoments<short>;
+extern template class SensorNoise_EXPORT StackMoments<float>;
+extern template class SensorNoise_EXPORT StackMoments<double>;
 
 } // namespace sensornoise
 

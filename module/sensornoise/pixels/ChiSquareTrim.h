@@ -18,10 +18,9 @@
 #ifndef sensornoise_pixels_ChiSquareTrim_h
 #define sensornoise_pixels_ChiSquareTrim_h
 
-#include "sensornoise/base/ChiSquare.h"
+#include "SensorNoiseExport.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -32,31 +31,20 @@ namespace sensornoise
  * \brief Two-sided trimming of sample variances at a tail probability of 1e-4 each, unless another is asked for, and
  * its bias: a trimmed mean of chi-square variables of k degrees of freedom is (F_{k+2}(b) - F_{k+2}(a)) / (F_k(b) -
  * F_k(a)) of the mean. */
-class ChiSquareTrim
+class SensorNoise_EXPORT ChiSquareTrim
 {
 public:
   static constexpr double Tail = 1e-4;
 
   /** For degrees of freedom from \a lowest to \a highest. */
-  ChiSquareTrim(double lowest, double highest, double tail = Tail)
-    : m_First(static_cast<std::size_t>(std::max(1.0, std::round(lowest))))
-  {
-    for (auto k = static_cast<double>(m_First); k <= std::max(1.0, std::round(highest)); k += 1.0)
-    {
-      const double low = ChiSquareQuantile(tail, k);
-      const double high = ChiSquareUpperQuantile(tail, k);
-      m_Limits.push_back({ low / k,
-                           high / k,
-                           (ChiSquareCdf(high, k + 2.0) - ChiSquareCdf(low, k + 2.0)) / (1.0 - 2.0 * tail),
-                           ChiSquareQuantile(0.5, k) / k });
-    }
-  }
+  ChiSquareTrim(double lowest, double highest, double tail = Tail);
+
   struct Limits
   {
-    double low;
-    double high;
-    double mean;
-    double median;
+    double low;    ///< a variance below it is trimmed, relative to the expected one
+    double high;   ///< one above it is trimmed
+    double mean;   ///< of those that are kept
+    double median; ///< of all
   };
   const Limits &
   Of(double freedom) const

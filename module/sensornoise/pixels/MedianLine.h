@@ -18,112 +18,20 @@
 #ifndef sensornoise_pixels_MedianLine_h
 #define sensornoise_pixels_MedianLine_h
 
-#include "sensornoise/base/Parallel.h"
-#include "sensornoise/base/Quantiles.h"
-#include "sensornoise/pixels/ChiSquareTrim.h"
+#include "SensorNoiseExport.h"
 #include "sensornoise/pixels/VarianceLine.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <limits>
 #include <optional>
-#include <vector>
 
 namespace sensornoise
 {
 
-namespace detail
-{
-struct FreedomRange
-{
-  double      lowest{ std::numeric_limits<double>::infinity() };
-  double      highest{ 0.0 };
-  std::size_t pixels{ 0 };
-};
+class ChiSquareTrim;
 
-/** The degrees of freedom of the mask's pixels. */
-inline FreedomRange
-RangeOfFreedom(const VarianceData & data, const ParallelFor & parallelFor)
-{
-  std::vector<FreedomRange> parts(data.pixels / PixelsPerBlock + 1);
-  ForBlocks(data.pixels, parallelFor, [&](std::size_t begin, std::size_t end) {
-    FreedomRange part;
-    for (std::size_t p = begin; p < end; ++p)
-    {
-      if (data.mask[p] != 0)
-      {
-        part.lowest = std::min(part.lowest, static_cast<double>(data.freedom[p]));
-        part.highest = std::max(part.highest, static_cast<double>(data.freedom[p]));
-        ++part.pixels;
-      }
-    }
-    parts[begin / PixelsPerBlock] = part;
-  });
-  FreedomRange range;
-  for (const FreedomRange & part : parts)
-  {
-    range.lowest = std::min(range.lowest, part.lowest);
-    range.highest = std::max(range.highest, part.highest);
-    range.pixels += part.pixels;
-  }
-  return range;
-}
-
-/** A first line, through the medians of 40 bins of the intensity. Null with one intensity. */
-inline std::optional<VarianceLine>
-FitMedians(const VarianceData & data, const FreedomRange & freedoms)
-{
-  const auto          sample = SamplePixels({ data.mask, data.mask + data.pixels });
-  VarianceLine        line;
-  std::vector<double> level;
-  for (const std::size_t p : sample)
-  {
-    level.push_back(data.neighbourMean[p]);
-    line.centreDn += data.mean[p] / static_cast<double>(sample.size());
-  }
-  const ChiSquareTrim   trim(freedoms.lowest, freedoms.highest);
-  constexpr std::size_t bins = 40;
-  const auto            binOf = BinsOfEqualCount(level, bins);
-  std::vector<double>   value;
-  std::vector<double>   centred;
-  std::vector<double>   count(bins, 0.0);
-  for (std::size_t i = 0; i < sample.size(); ++i)
-  {
-    value.push_back(data.variance[sample[i]] / trim.Of(data.freedom[sample[i]]).median);
-    centred.push_back(data.mean[sample[i]] - line.centreDn);
-    count[binOf[i]] += 1.0;
-  }
-  // Medians on both axes: where a bin holds parts of two patches, they are those of the larger part.
-  const auto medians = MediansOfBins(value, binOf, bins);
-  const auto levels = MediansOfBins(centred, binOf, bins);
-  double     s0 = 0.0, s1 = 0.0, s2 = 0.0, r0 = 0.0, r1 = 0.0;
-  double     lowest = std::numeric_limits<double>::infinity();
-  for (std::size_t b = 0; b < bins; ++b)
-  {
-    if (count[b] > 5.0 && medians[b] > 0.0)
-    {
-      const double w = count[b] / (medians[b] * medians[b]);
-      const double x = levels[b];
-      s0 += w;
-      s1 += w * x;
-      s2 += w * x * x;
-      r0 += w * medians[b];
-      r1 += w * x * medians[b];
-      lowest = std::min(lowest, medians[b]);
-    }
-  }
-  const double determinant = s0 * s2 - s1 * s1;
-  if (!(determinant > 1e-12 * s0 * s2) || !std::isfinite(lowest))
-  {
-    return std::nullopt;
-  }
-  line.lowestDn2 = std::max(1e-9, 0.2 * lowest);
-  line.gain = (s0 * r1 - s1 * r0) / determinant;
-  line.intercept = (s2 * r0 - s1 * r1) / determinant - line.gain * line.centreDn;
-  return line;
-}
-} // namespace detail
+/** A first line, through the medians of 40 bins of the intensity; \a trim knows the medians of all degrees of freedom.
+ * Null with one intensity. */
+SensorNoise_EXPORT std::optional<VarianceLine>
+FitMedians(const VarianceData & data, const ChiSquareTrim & trim);
 
 } // namespace sensornoise
 

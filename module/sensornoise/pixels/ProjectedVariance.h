@@ -18,29 +18,23 @@
 #ifndef sensornoise_pixels_ProjectedVariance_h
 #define sensornoise_pixels_ProjectedVariance_h
 
-#include "sensornoise/base/BoxSum.h"
-#include "sensornoise/base/Eigen.h"
+#include "SensorNoiseExport.h"
 #include "sensornoise/base/Parallel.h"
-#include "sensornoise/base/Quantiles.h"
-#include "sensornoise/base/Stencils.h"
-#include "sensornoise/pixels/ProjectionSums.h"
 #include "sensornoise/pixels/VarianceLine.h"
-#include "sensornoise/scene/ProvisionalModel.h"
-#include "sensornoise/scene/ReferenceFrame.h"
-#include "sensornoise/series/MotionSeries.h"
-#include "sensornoise/series/TemporalBasis.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 #include <vector>
 
 namespace sensornoise
 {
+
+class PixelCoordinates;
+class TemporalBasis;
+struct MotionSeries;
+struct ProvisionalModel;
+struct ReferenceFrame;
 
 /** \class ProjectedVariance
  * \brief Every pixel's variance after what is not sensor noise has been taken out of its time series.
@@ -64,64 +58,23 @@ namespace sensornoise
  *
  * Pixels are sorted into 24 classes by the energy of the derivatives in their neighbourhood over the noise, for the
  * test of fit (JudgeClasses). */
-class ProjectedVariance
+class SensorNoise_EXPORT ProjectedVariance
 {
 public:
   static constexpr std::size_t Classes = 24;
 
-  /** Turns \a sums into coordinates and keeps it. All references must outlive the object. */
+  /** All references must outlive the object. */
   ProjectedVariance(const ReferenceFrame &            frame,
                     const TemporalBasis &             basis,
                     const MotionSeries &              motion,
-                    ProjectionSums &                  sums,
+                    const PixelCoordinates &          coordinates,
                     const ProvisionalModel &          model,
                     const std::vector<std::uint8_t> & mask,
-                    const ParallelFor &               parallelFor)
-    : m_Frame(frame)
-    , m_Basis(basis)
-    , m_Sums(sums)
-    , m_Mask(mask)
-    , m_ParallelFor(parallelFor)
-    , m_Rss(frame.mean.size(), 0.0)
-    , m_Skew(frame.mean.size(), 0.0F)
-    , m_Variance(frame.mean.size(), 0.0)
-    , m_Freedom(frame.mean.size(), 0.0F)
-    , m_ClassOf(frame.mean.size(), 0)
-  {
-    const Eigen::MatrixXd & q = basis.GetBasis();
-    const Eigen::VectorXd   skew = q.transpose() * q.cwiseAbs2().rowwise().sum();
-    const auto              frames = static_cast<double>(frame.frames);
-    const double            freedom = frames - 1.0 - static_cast<double>(basis.Size());
-    ForBlocks(mask.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
-      constexpr std::size_t block = ProjectionSums::BlockPixels;
-      for (std::size_t p = begin; p < end; p += block)
-      {
-        this->Project(p, std::min(block, end - p), skew);
-      }
-      for (std::size_t p = begin; p < end; ++p)
-      {
-        if (mask[p] != 0)
-        {
-          const double noise = model.NoiseVariance(frame.neighbourMean[p]);
-          const double leverage = this->Leverage(motion, p, 1e-5 * noise) / noise;
-          m_Freedom[p] = static_cast<float>(freedom * (1.0 - std::min(0.5, leverage)));
-        }
-      }
-    });
-    this->Classify(model);
-  }
+                    const ParallelFor &               parallelFor);
 
   /** Computes the variance; \a gain serves the noise that changes with the light. */
   void
-  Compute(double gain)
-  {
-    ForBlocks(m_Mask.size(), m_ParallelFor, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t p = begin; p < end; ++p)
-      {
-        m_Variance[p] = m_Mask[p] != 0 ? (m_Rss[p] + gain * m_Skew[p]) / m_Freedom[p] : 0.0;
-      }
-    });
-  }
+  Compute(double gain);
 
   /** [DN^2]; 0 outside the mask. */
   const std::vector<double> &
@@ -155,114 +108,27 @@ public:
   {
     return m_Basis;
   }
-  /** The coordinates of the mask's pixels. */
-  const ProjectionSums &
+  const PixelCoordinates &
   GetCoordinates() const
   {
-    return m_Sums;
+    return m_Coordinates;
   }
   VarianceData
-  GetData(const std::vector<std::uint8_t> & mask) const
-  {
-    return { m_Frame.mean.data(), m_Frame.neighbourMean.data(), m_Variance.data(), m_Freedom.data(), mask.data(),
-             mask.size() };
-  }
+  GetData(const std::vector<std::uint8_t> & mask) const;
 
 private:
-  /** Coordinates, residual squares and skew term of \a pixels pixels of one block of the sums. */
+  /** Residual squares and skew term of all pixels. */
   void
-  Project(std::size_t first, std::size_t pixels, const Eigen::VectorXd & skew)
-  {
-    if (m_Basis.Size() > 0)
-    {
-      m_Basis.ToCoordinates(&m_Sums.At(first, 0), ProjectionSums::BlockPixels, m_Frame.mean.data() + first, pixels);
-    }
-    std::copy_n(m_Frame.squares.data() + first, pixels, m_Rss.data() + first);
-    for (std::size_t j = 0; j < m_Basis.Size(); ++j)
-    {
-      const double * coordinates = &m_Sums.At(first, j);
-      const double   factor = skew(static_cast<Eigen::Index>(j));
-      for (std::size_t i = 0; i < pixels; ++i)
-      {
-        m_Rss[first + i] -= coordinates[i] * coordinates[i];
-        m_Skew[first + i] += static_cast<float>(factor * coordinates[i]);
-      }
-    }
-  }
-
-  /** D' G^-1 D of pixel \a p; 0 where it is below \a negligible, by the bound K sum_k D_k^2 (G^-1)_kk for K series. */
-  double
-  Leverage(const MotionSeries & motion, std::size_t p, double negligible) const
-  {
-    const std::size_t                    size = motion.stencils.size();
-    const auto                           all = ApplyStencils(m_Frame.mean.data(), m_Frame.geometry.width, p);
-    std::array<double, NumberOfStencils> derivatives{};
-    double                               bound = 0.0;
-    for (std::size_t k = 0; k < size; ++k)
-    {
-      derivatives[k] = all[motion.stencils[k]];
-      bound += derivatives[k] * derivatives[k] * motion.inverseGram.data()[k * size + k];
-    }
-    if (static_cast<double>(size) * bound < negligible)
-    {
-      return 0.0;
-    }
-    double sum = 0.0;
-    for (std::size_t i = 0; i < size; ++i)
-    {
-      const double * inverse = motion.inverseGram.data() + i * size;
-      sum += derivatives[i] * std::inner_product(inverse, inverse + size, derivatives.begin(), 0.0);
-    }
-    return sum;
-  }
-
+  SumCoordinates();
+  /** The degrees of freedom of the mask's pixels. */
   void
-  Classify(const ProvisionalModel & model)
-  {
-    const std::size_t  width = m_Frame.geometry.width;
-    std::vector<float> energy(m_Mask.size(), 0.0F);
-    ForBlocks(m_Mask.size(), m_ParallelFor, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t p = begin; p < end; ++p)
-      {
-        if (m_Frame.usable[p] != 0)
-        {
-          energy[p] = static_cast<float>(StencilEnergy(ApplyStencils(m_Frame.mean.data(), width, p)));
-        }
-      }
-    });
-    const double        sd = std::sqrt(std::max(model.vibrationXPixels2, model.vibrationYPixels2));
-    const auto          radius = static_cast<std::size_t>(sd < 0.35 ? 2.0 : 2.0 + std::ceil(3.0 * std::min(sd, 4.0)));
-    std::vector<double> roughness = BoxSum(energy, width, m_Frame.geometry.height, radius, m_ParallelFor);
-    std::vector<double> sample;
-    ForBlocks(roughness.size(), m_ParallelFor, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t p = begin; p < end; ++p)
-      {
-        roughness[p] /= model.NoiseVariance(m_Frame.neighbourMean[p]);
-      }
-    });
-    for (const std::size_t p : SamplePixels(m_Mask))
-    {
-      sample.push_back(roughness[p]);
-    }
-    std::vector<double> edges;
-    for (std::size_t c = 1; c < Classes && !sample.empty(); ++c)
-    {
-      // 15 classes up to the quantile 0.9, then 8 to 0.995.
-      const double rank = c <= 15 ? 0.06 * static_cast<double>(c) : 0.92 + 0.075 * static_cast<double>(c - 16) / 7.0;
-      edges.push_back(Quantile(sample, rank));
-    }
-    ForBlocks(roughness.size(), m_ParallelFor, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t p = begin; p < end; ++p)
-      {
-        m_ClassOf[p] =
-          static_cast<std::uint8_t>(std::lower_bound(edges.begin(), edges.end(), roughness[p]) - edges.begin());
-      }
-    });
-  }
+  CountFreedom(const MotionSeries & motion, const ProvisionalModel & model);
+  void
+  Classify(const ProvisionalModel & model);
 
   const ReferenceFrame &            m_Frame;
   const TemporalBasis &             m_Basis;
-  ProjectionSums &                  m_Sums;
+  const PixelCoordinates &          m_Coordinates;
   const std::vector<std::uint8_t> & m_Mask;
   ParallelFor                       m_ParallelFor;
   std::vector<double>               m_Rss;

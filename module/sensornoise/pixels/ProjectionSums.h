@@ -18,22 +18,18 @@
 #ifndef sensornoise_pixels_ProjectionSums_h
 #define sensornoise_pixels_ProjectionSums_h
 
-#include "sensornoise/base/BinaryStream.h"
+#include "SensorNoiseExport.h"
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Parallel.h"
-#include "sensornoise/series/TemporalBasis.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <istream>
 #include <ostream>
-#include <stdexcept>
-#include <string>
-#include <type_traits>
-#include <utility>
 
 namespace sensornoise
 {
+
+class TemporalBasis;
 
 /** \class ProjectionSums
  * \brief The third pass: the sums over time of every pixel with each series of a TemporalBasis.
@@ -44,22 +40,13 @@ namespace sensornoise
  * time order.
  *
  * Memory: 8 bytes a pixel and series. */
-class ProjectionSums
+class SensorNoise_EXPORT ProjectionSums
 {
 public:
   /** Pixels whose sums with one series lie side by side; those of a block stay in the first-level cache. */
   static constexpr std::size_t BlockPixels = 256;
 
-  explicit ProjectionSums(std::size_t pixels = 0, std::size_t series = 0, const ParallelFor & parallelFor = SerialFor)
-    : m_Pixels(pixels)
-    , m_Series(series)
-    , m_Sums(static_cast<Eigen::Index>((pixels + BlockPixels - 1) / BlockPixels * BlockPixels * series))
-  {
-    // The memory's first use is slow: all threads share it.
-    ForBlocks(static_cast<std::size_t>(m_Sums.size()), parallelFor, [this](std::size_t begin, std::size_t end) {
-      std::fill(m_Sums.data() + begin, m_Sums.data() + end, 0.0);
-    });
-  }
+  explicit ProjectionSums(std::size_t pixels = 0, std::size_t series = 0, const ParallelFor & parallelFor = SerialFor);
 
   /** Adds frames firstFrame ... firstFrame + count - 1, stored one after the other, for the pixels [begin, end).
    * Different ranges may be added at the same time. */
@@ -70,75 +57,20 @@ public:
             std::size_t           firstFrame,
             std::size_t           count,
             std::size_t           begin,
-            std::size_t           end)
-  {
-    constexpr std::size_t together = std::is_integral_v<TPixel> ? 4 : 1;
-    for (std::size_t p = begin; p < end;)
-    {
-      const std::size_t size = std::min(end, (p / BlockPixels + 1) * BlockPixels) - p;
-      for (std::size_t t = 0; t < count; t += together)
-      {
-        double values[together][BlockPixels];
-        for (std::size_t k = 0; k < together; ++k)
-        {
-          std::copy_n(frames + std::min(t + k, count - 1) * m_Pixels + p, size, values[k]);
-        }
-        for (std::size_t j = 0; j < m_Series; ++j)
-        {
-          double weights[together];
-          for (std::size_t k = 0; k < together; ++k)
-          {
-            weights[k] = t + k < count ? basis.Rounded(firstFrame + t + k, j) : 0.0;
-          }
-          double * sum = &this->At(p, j);
-          for (std::size_t i = 0; i < size; ++i)
-          {
-            double added = 0.0;
-            for (std::size_t k = 0; k < together; ++k)
-            {
-              added += weights[k] * values[k][i];
-            }
-            sum[i] += added;
-          }
-        }
-      }
-      p += size;
-    }
-  }
+            std::size_t           end);
 
   /** Adds the sums of other frames of the same pixels. */
   void
-  Merge(const ProjectionSums & other)
-  {
-    if (other.m_Pixels != m_Pixels || other.m_Series != m_Series)
-    {
-      throw std::invalid_argument("projections of " + std::to_string(other.m_Pixels) + " pixels on " +
-                                  std::to_string(other.m_Series) + " series cannot be merged into those of " +
-                                  std::to_string(m_Pixels) + " pixels on " + std::to_string(m_Series));
-    }
-    m_Sums += other.m_Sums;
-  }
+  Merge(const ProjectionSums & other);
 
   /** Writes the sums, see BinaryStream. */
   void
-  Save(std::ostream & out) const
-  {
-    WriteSumsHeader(out, Name, m_Pixels, 0);
-    WriteCount(out, m_Series);
-    WriteNumbers(out, m_Sums.data(), static_cast<std::size_t>(m_Sums.size()));
-  }
+  Save(std::ostream & out) const;
 
   /** Replaces the sums by those of a stream. Throws std::runtime_error, and changes nothing, if it holds other sums, or
    * those of other numbers of pixels or series, or ends early. */
   void
-  Restore(std::istream & in)
-  {
-    ProjectionSums read(m_Pixels, m_Series);
-    ReadSumsHeader(in, Name, m_Pixels);
-    RequireCount("series", ReadCount(in), m_Series);
-    ReadNumbers(in, read.m_Sums.data(), static_cast<std::size_t>(read.m_Sums.size()));
-    *this = std::move(read);
-  }
+  Restore(std::istream & in);
 
   std::size_t
   GetNumberOfSeries() const
@@ -151,7 +83,7 @@ public:
   {
     return m_Sums.data()[this->IndexOf(p, j)];
   }
-  double
+  const double &
   At(std::size_t p, std::size_t j) const
   {
     return m_Sums.data()[this->IndexOf(p, j)];
@@ -164,12 +96,31 @@ private:
     return (p / BlockPixels * m_Series + j) * BlockPixels + p % BlockPixels;
   }
 
-  static constexpr const char * Name = "ProjectionSums";
-
   std::size_t    m_Pixels;
   std::size_t    m_Series;
   Eigen::ArrayXd m_Sums; // unlike std::vector, not filled by one thread
 };
+
+extern template SensorNoise_EXPORT void
+ProjectionSums::AddFrames(const TemporalBasis &,
+                          const unsigned char *,
+                          std::size_t,
+                          std::size_t,
+                          std::size_t,
+                          std::size_t);
+extern template SensorNoise_EXPORT void
+ProjectionSums::AddFrames(const TemporalBasis &,
+                          const unsigned short *,
+                          std::size_t,
+                          std::size_t,
+                          std::size_t,
+                          std::size_t);
+extern template SensorNoise_EXPORT void
+ProjectionSums::AddFrames(const TemporalBasis &, const short *, std::size_t, std::size_t, std::size_t, std::size_t);
+extern template SensorNoise_EXPORT void
+ProjectionSums::AddFrames(const TemporalBasis &, const float *, std::size_t, std::size_t, std::size_t, std::size_t);
+extern template SensorNoise_EXPORT void
+ProjectionSums::AddFrames(const TemporalBasis &, const double *, std::size_t, std::size_t, std::size_t, std::size_t);
 
 } // namespace sensornoise
 

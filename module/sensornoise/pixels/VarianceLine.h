@@ -46,10 +46,10 @@ struct VarianceLine
   double          lowestDn2{ 0.0 };                      ///< the line is cut there where it serves as a variance
   Eigen::Matrix2d covariance{ Eigen::Matrix2d::Zero() }; ///< of (gain, intercept), sandwich
   double          weightSum{ 0.0 };                      ///< of the weights
-  double          centreDn{ 0.0 };                       ///< weighted mean of the means
-  double          spreadDn2{ 0.0 };                      ///< weighted sum of their squared deviations
-  double          curvature{ 0.0 };                      ///< of the parabola in its place [1]
-  double          curvatureTilt{ 0.0 };                  ///< of the parabola's departure, see BendAt()
+  double          pivotDn{ 0.0 };       ///< weighted mean of the means: slope and value there are uncorrelated
+  double          spreadDn2{ 0.0 };     ///< weighted sum of their squared deviations
+  double          curvature{ 0.0 };     ///< of the parabola in its place [1]
+  double          curvatureTilt{ 0.0 }; ///< of the parabola's departure, see BendAt()
   double          curvatureLift{ 0.0 };
   double          curvatureSd{ 0.0 };     ///< standard error of the curvature
   double          trimmedFraction{ 0.0 }; ///< of the pixels
@@ -71,7 +71,7 @@ struct VarianceLine
   double
   BendAt(double meanDn) const
   {
-    const double x = meanDn - centreDn;
+    const double x = meanDn - pivotDn;
     return curvature * (x * x - curvatureTilt * x - curvatureLift);
   }
 };

@@ -18,12 +18,12 @@
 #ifndef sensornoise_published_CorrectedVariance_h
 #define sensornoise_published_CorrectedVariance_h
 
+#include "SensorNoiseExport.h"
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/published/FlickerEstimate.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace sensornoise
@@ -39,96 +39,47 @@ namespace sensornoise
  *
  * where M is that of u: (3.18) expanded. So one number a pixel, C, is gathered in one more pass over the stack, and the
  * corrected stack of (3.24) is never made. Frames are added one by one in time order, so that chunks and threads
- * change no bit. Pixels of lines whose flicker is not known get NaN.
+ * change no bit. Pixels of rows whose flicker is not known get NaN.
  *
- * Memory: 8 bytes a pixel and 8 bytes a frame and line.
+ * Memory: 8 bytes a pixel and 8 bytes a frame and row.
  */
-class CorrectedVariance
+class SensorNoise_EXPORT CorrectedVariance
 {
 public:
-  CorrectedVariance(const FlickerEstimate & flicker, const FrameGeometry & geometry, std::size_t frames)
-    : m_Geometry(geometry)
-    , m_Frames(frames)
-    , m_OffsetDn(flicker.offsetDn)
-    , m_Lines(flicker.gammaLines.empty() ? 1 : flicker.lines)
-    , m_Cross(geometry.Pixels(), 0.0)
-    , m_Series(frames * m_Lines)
-    , m_SeriesSquares(m_Lines, 0.0)
-    , m_Known(flicker.lineKnown)
-  {
-    for (std::size_t line = 0; line < m_Lines; ++line)
-    {
-      double mean = 0.0;
-      for (std::size_t t = 0; t < frames; ++t)
-      {
-        mean += flicker.Gamma(t, line);
-      }
-      mean /= static_cast<double>(frames);
-      for (std::size_t t = 0; t < frames; ++t)
-      {
-        const double centred = flicker.Gamma(t, line) - mean;
-        m_Series[t * m_Lines + line] = centred;
-        m_SeriesSquares[line] += centred * centred;
-      }
-    }
-  }
+  CorrectedVariance(const FlickerEstimate & flicker, const FrameGeometry & geometry, std::size_t frames);
 
-  /** Adds \a frames frames, of which the first is frame \a t, for the row \a y. \a firstFrame points at pixel 0 of
-   * the first frame, and each next frame begins \a stride pixels later. Rows may be added at the same time. */
+  /** Adds \a frames frames, of which the first is frame \a t, for the row \a y of the image. \a firstFrame points at
+   * pixel 0 of the first frame, and each next frame begins \a stride pixels later. Rows may be added at the same time.
+   */
   template <typename TPixel>
   void
-  AddRow(const TPixel * firstFrame, std::size_t stride, std::size_t frames, std::size_t t, std::size_t y)
-  {
-    const std::size_t width = m_Geometry.width;
-    double * const    cross = m_Cross.data() + y * width;
-    const bool        alongRow = m_Lines > 1 && m_Geometry.shutterAxis == 0;
-    for (std::size_t k = 0; k < frames; ++k)
-    {
-      const TPixel * const row = firstFrame + k * stride + y * width;
-      const double * const series = m_Series.data() + (t + k) * m_Lines;
-      if (alongRow)
-      {
-        for (std::size_t x = 0; x < width; ++x)
-        {
-          cross[x] += series[x] * static_cast<double>(row[x]);
-        }
-      }
-      else
-      {
-        const double factor = series[m_Lines > 1 ? y : 0];
-        for (std::size_t x = 0; x < width; ++x)
-        {
-          cross[x] += factor * static_cast<double>(row[x]);
-        }
-      }
-    }
-  }
+  AddRow(const TPixel * firstFrame, std::size_t stride, std::size_t frames, std::size_t t, std::size_t y);
 
   /** Unbiased variance of u^ at pixel \a p [DN^2], from its mean and the squared deviations of u; NaN: not known. */
   double
-  GetVariance(std::size_t p, double meanDn, double sumOfSquaredDeviationsDn2) const
-  {
-    const std::size_t line = m_Lines > 1 ? m_Geometry.RowOf(p) : 0;
-    if (!m_Known.empty() && m_Known[line] == 0)
-    {
-      return std::numeric_limits<double>::quiet_NaN();
-    }
-    const double fluxDn = meanDn - m_OffsetDn;
-    const double squares =
-      sumOfSquaredDeviationsDn2 - 2.0 * fluxDn * m_Cross[p] + fluxDn * fluxDn * m_SeriesSquares[line];
-    return squares / static_cast<double>(m_Frames - 1);
-  }
+  GetVariance(std::size_t p, double meanDn, double sumOfSquaredDeviationsDn2) const;
 
 private:
   FrameGeometry             m_Geometry;
   std::size_t               m_Frames;
   double                    m_OffsetDn;
-  std::size_t               m_Lines;
+  std::size_t               m_Rows; // as the shutter sees them; 1: one flicker serves the whole frame
   std::vector<double>       m_Cross;
   std::vector<double>       m_Series;
   std::vector<double>       m_SeriesSquares;
   std::vector<std::uint8_t> m_Known;
 };
+
+extern template SensorNoise_EXPORT void
+CorrectedVariance::AddRow<unsigned char>(const unsigned char *, std::size_t, std::size_t, std::size_t, std::size_t);
+extern template SensorNoise_EXPORT void
+CorrectedVariance::AddRow<unsigned short>(const unsigned short *, std::size_t, std::size_t, std::size_t, std::size_t);
+extern template SensorNoise_EXPORT void
+CorrectedVariance::AddRow<short>(const short *, std::size_t, std::size_t, std::size_t, std::size_t);
+extern template SensorNoise_EXPORT void
+CorrectedVariance::AddRow<float>(const float *, std::size_t, std::size_t, std::size_t, std::size_t);
+extern template SensorNoise_EXPORT void
+CorrectedVariance::AddRow<double>(const double *, std::size_t, std::size_t, std::size_t, std::size_t);
 
 } // namespace sensornoise
 

@@ -18,15 +18,11 @@
 #ifndef sensornoise_published_IsoIntensitySet_h
 #define sensornoise_published_IsoIntensitySet_h
 
+#include "SensorNoiseExport.h"
 #include "sensornoise/base/IntensityIndex.h"
-#include "sensornoise/base/Quantiles.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace sensornoise
@@ -47,7 +43,7 @@ namespace sensornoise
  * Remark 3 lets the quantile move where the set is too small. Here it moves inwards by 1 % up to four times, and
  * then the band widens by factors of 2, until the set holds MinimumPixels; wideningSteps counts both.
  */
-struct IsoIntensitySet
+struct SensorNoise_EXPORT IsoIntensitySet
 {
   static constexpr std::size_t MinimumPixels = 30;
 
@@ -62,135 +58,40 @@ struct IsoIntensitySet
 
   /** Number of equally weighted pixels that would average noise as well: 1 / sum w^2. */
   double
-  EffectivePixels() const
-  {
-    double squares = 0.0;
-    for (const double weight : weights)
-    {
-      squares += weight * weight;
-    }
-    return squares > 0.0 ? 1.0 / squares : 0.0;
-  }
+  EffectivePixels() const;
 };
 
 /** Finds the iso-intensity set at a quantile. */
-class IsoIntensitySetFinder
+class SensorNoise_EXPORT IsoIntensitySetFinder
 {
 public:
   /** Frame-sized maps of \a pixels pixels: mean [DN], temporal variance [DN^2], mask; they must outlive the finder.
-   * \a frames is T. Throws std::runtime_error if the mask keeps fewer than MinimumPixels. */
+   * \a frames is T. Throws NothingToMeasure if the mask keeps fewer than MinimumPixels. */
   IsoIntensitySetFinder(const double *       mean,
                         const double *       variance,
                         const std::uint8_t * mask,
                         std::size_t          pixels,
-                        std::size_t          frames)
-    : m_Mean(mean)
-    , m_Variance(variance)
-    , m_Mask(mask)
-    , m_Pixels(pixels)
-    , m_Frames(frames)
-    , m_Index(mean, mask, pixels)
-  {
-    if (m_Index.Count() < IsoIntensitySet::MinimumPixels)
-    {
-      throw std::runtime_error("only " + std::to_string(m_Index.Count()) +
-                               " pixels are neither clipped nor moved by vibrations; expected at least " +
-                               std::to_string(IsoIntensitySet::MinimumPixels));
-    }
-  }
+                        std::size_t          frames);
 
   /** The set at \a quantile (0 to 1); where it is too small the quantile moves towards 1/2 (Remark 3). Throws
-   * std::runtime_error if no width of the band gives enough pixels. */
+   * NothingToMeasure if no width of the band gives enough pixels. */
   IsoIntensitySet
-  Find(double quantile) const
-  {
-    constexpr unsigned int quantileSteps = 4;
-    constexpr unsigned int bandSteps = 12;
-    const double           inwards = quantile < 0.5 ? 0.01 : -0.01;
-    IsoIntensitySet        set;
-    double                 band = 1.0;
-    for (unsigned int step = 0; step <= quantileSteps + bandSteps; ++step)
-    {
-      if (step <= quantileSteps)
-      {
-        set.quantile = quantile + inwards * static_cast<double>(step);
-        this->SetLevel(set);
-      }
-      else
-      {
-        band *= 2.0;
-      }
-      set.wideningSteps = step;
-      set.bandSdDn = band * set.levelSdDn;
-      this->Fill(set);
-      if (set.pixels.size() >= IsoIntensitySet::MinimumPixels)
-      {
-        return set;
-      }
-    }
-    throw std::runtime_error("found " + std::to_string(set.pixels.size()) + " pixels of nearly the intensity " +
-                             std::to_string(set.levelDn) + " DN; expected at least " +
-                             std::to_string(IsoIntensitySet::MinimumPixels) + " (the scene has too few even areas)");
-  }
+  Find(double quantile) const;
 
   /** The pixels within 6 sigma_u of \a bright's level, equally weighted: the set from which gamma_t(y) is estimated
-   * line by line, (3.28).
+   * row by row, (3.28).
    *
-   * The paper takes S^* itself. But where the flicker differs from line to line, so does a line's mean over T frames,
-   * by about sigma_u; and u^* is the level of the brightest lines, so that S^* misses whole lines. As v = u / ubar is
+   * The paper takes S^* itself. But where the flicker differs from row to row, so does a row's mean over T frames,
+   * by about sigma_u; and u^* is the level of the brightest rows, so that S^* misses whole rows. As v = u / ubar is
    * relative to each pixel's own mean, the pixels need not be of one intensity. */
   IsoIntensitySet
-  FindLineSet(const IsoIntensitySet & bright) const
-  {
-    IsoIntensitySet set = bright;
-    set.bandSdDn = 2.0 * bright.bandSdDn;
-    this->Fill(set);
-    set.weights.assign(set.pixels.size(), 1.0 / static_cast<double>(set.pixels.size()));
-    return set;
-  }
+  FindRowSet(const IsoIntensitySet & bright) const;
 
 private:
   void
-  SetLevel(IsoIntensitySet & set) const
-  {
-    set.levelDn = m_Index.QuantileDn(set.quantile);
-    const double        reach = m_Index.ReachDn(set.levelDn, std::max<std::size_t>(25, m_Index.Count() / 2000));
-    std::vector<double> variances;
-    for (std::size_t p = 0; p < m_Pixels; ++p)
-    {
-      if (m_Mask[p] != 0 && std::abs(m_Mean[p] - set.levelDn) <= reach)
-      {
-        variances.push_back(m_Variance[p]);
-      }
-    }
-    set.temporalVarianceDn2 = Quantile(variances, 0.5);
-    set.levelSdDn = std::sqrt(set.temporalVarianceDn2 / static_cast<double>(m_Frames));
-  }
-
+  SetLevel(IsoIntensitySet & set) const;
   void
-  Fill(IsoIntensitySet & set) const
-  {
-    const double sdDn = set.bandSdDn;
-    set.pixels.clear();
-    set.weights.clear();
-    double total = 0.0;
-    for (std::size_t p = 0; p < m_Pixels; ++p)
-    {
-      const double distance = std::abs(m_Mean[p] - set.levelDn);
-      if (m_Mask[p] != 0 && distance <= 3.0 * sdDn)
-      {
-        const double deviation = distance / sdDn;
-        const double weight = std::exp(-0.5 * deviation * deviation);
-        set.pixels.push_back(static_cast<std::uint32_t>(p));
-        set.weights.push_back(weight);
-        total += weight;
-      }
-    }
-    for (double & weight : set.weights)
-    {
-      weight /= total;
-    }
-  }
+  Fill(IsoIntensitySet & set) const;
 
   const double *       m_Mean;
   const double *       m_Variance;

@@ -18,13 +18,11 @@
 #ifndef sensornoise_published_NoiseParameters_h
 #define sensornoise_published_NoiseParameters_h
 
+#include "SensorNoiseExport.h"
 #include "sensornoise/base/PolynomialFit.h"
-#include "sensornoise/report/Quantities.h"
 #include "sensornoise/report/Report.h"
 
-#include <cmath>
 #include <optional>
-#include <string>
 
 namespace sensornoise
 {
@@ -38,94 +36,18 @@ namespace sensornoise
  * contradicts the model: everything is failed, with the warning `variance-not-affine`.
  *
  * Nothing is removed for the codes: intercept and total intercept are the same, as in the paper. */
-inline void
+SensorNoise_EXPORT void
 FillNoiseParameters(Report &              report,
                     const PolynomialFit & line,
                     std::optional<double> offsetDn,
-                    std::optional<double> darkestDn)
-{
-  if (!line.isDetermined || !(line.slope > 0.0))
-  {
-    SetSensorParameters(report, EstimateStatus::Failed);
-    report.Warn("variance-not-affine",
-                line.isDetermined ? "the variance does not rise with the mean (slope " + std::to_string(line.slope) +
-                                      " DN/e-, expected above 0): the data are not raw, or hold too little noise"
-                                  : "the regression has " + std::to_string(line.pixels) +
-                                      " pixels of one intensity; expected pixels of different intensities");
-    return;
-  }
-  report.gain = Quantity::Identified(line.slope, "DN/e-");
-  report.intercept = Quantity::Identified(line.intercept, "DN^2");
-  report.totalIntercept = report.intercept;
-
-  const double lowestOffsetDn = -line.intercept / line.slope; // sigma^2 = 0 there
-  if (offsetDn)
-  {
-    report.offset = Quantity::Identified(*offsetDn, "DN");
-    const double squared = line.intercept + line.slope * *offsetDn;
-    if (squared > 0.0)
-    {
-      report.readNoise = Quantity::Identified(std::sqrt(squared), "DN");
-      report.readNoiseElectrons = Quantity::Identified(std::sqrt(squared) / line.slope, "e-");
-    }
-    else
-    {
-      report.readNoise = Quantity::Without(EstimateStatus::NotIdentifiable, "DN");
-      report.readNoiseElectrons = Quantity::Without(EstimateStatus::NotIdentifiable, "e-");
-      report.Warn("read-noise-not-identifiable",
-                  "gain, intercept and offset give a squared read noise of " + std::to_string(squared) +
-                    " DN^2, expected above 0: it is smaller than their errors");
-    }
-  }
-  else
-  {
-    report.offset = Quantity::Without(EstimateStatus::NotIdentifiable, "DN");
-    report.readNoise = Quantity::Without(EstimateStatus::NotIdentifiable, "DN");
-    report.readNoiseElectrons = Quantity::Without(EstimateStatus::NotIdentifiable, "e-");
-  }
-  if (darkestDn && *darkestDn > lowestOffsetDn)
-  {
-    const double highest = std::sqrt(line.intercept + line.slope * *darkestDn);
-    report.offset.bracket = Interval{ lowestOffsetDn, darkestDn };
-    report.readNoise.bracket = Interval{ 0.0, highest };
-    report.readNoiseElectrons.bracket = Interval{ 0.0, highest / line.slope };
-    if (offsetDn && *offsetDn > *darkestDn)
-    {
-      report.Warn("offset-above-darkest",
-                  "the offset " + std::to_string(*offsetDn) + " DN is above the darkest level, " +
-                    std::to_string(*darkestDn) + " DN, which is not possible: its error is larger than that; more " +
-                    "frames or more flicker would help");
-    }
-  }
-}
+                    std::optional<double> darkestDn);
 
 /** A line that the corrected variance leaves by more than this many times its sampling noise is no line. */
 inline constexpr double LargestReducedChi2 = 10.0;
 
 /** Files how well the line fits; a gross misfit fails every parameter, with the warning `variance-not-affine`. */
-inline void
-FillFit(Report & report, const FitQuality & quality)
-{
-  report.fit.reducedChi2 = quality.reducedChi2;
-  report.fit.curvature = quality.curvature;
-  report.fit.curvatureZ = quality.curvatureZ;
-  if (quality.reducedChi2 > LargestReducedChi2)
-  {
-    SetSensorParameters(report, EstimateStatus::Failed);
-    report.Warn(
-      "variance-not-affine",
-      "the corrected variance scatters about its line " + std::to_string(quality.reducedChi2) +
-        " times as much as sampling noise does (expected 1, at most 10): the scene moves, the flicker differs "
-        "within the frame, or the data are not raw");
-  }
-  else if (quality.reducedChi2 > 1.5)
-  {
-    report.Warn("poor-fit",
-                "the corrected variance scatters about its line " + std::to_string(quality.reducedChi2) +
-                  " times as much as sampling noise does (expected 1): vibrations, flicker that differs within the "
-                  "frame, or a scene that moves are left in it");
-  }
-}
+SensorNoise_EXPORT void
+FillFit(Report & report, const FitQuality & quality);
 
 } // namespace sensornoise
 

@@ -18,18 +18,15 @@
 #ifndef sensornoise_published_PublishedSettings_h
 #define sensornoise_published_PublishedSettings_h
 
+#include "SensorNoiseExport.h"
 #include "sensornoise/base/RollingShutter.h"
-#include "sensornoise/moments/Codes.h"
-#include "sensornoise/published/VibrationMask.h"
-
-#include <stdexcept>
-#include <string>
+#include "sensornoise/moments/CodeSettings.h"
 
 namespace sensornoise
 {
 
 /** Every parameter of the published method, with the paper's values (Sur & Gredi\'ac 2015). */
-struct PublishedSettings
+struct SensorNoise_EXPORT PublishedSettings
 {
   /** Level of the test that finds pixels moved by vibrations (section 3.1), a probability. Larger: fewer pixels kept.
    */
@@ -37,36 +34,18 @@ struct PublishedSettings
   /** Quantiles of the mean at which S^* and S_* lie (section 3.2), 0 to 1. */
   double brightQuantile{ 0.99 };
   double darkQuantile{ 0.01 };
-  /** Whether the flicker may differ from line to line (section 3.5). Auto finds out. */
+  /** Whether the flicker may differ from row to row (section 3.5). Auto finds out. */
   RollingShutter rollingShutter{ RollingShutter::Auto };
-  /** sigma_y of (3.28) for RollingShutter::Fixed [lines]. */
-  double sigmaLines{ 50.0 };
-  /** Axis along which the shutter travels: 1 = y, lines are rows; 0 = x. */
+  /** sigma_y of (3.28) for RollingShutter::Fixed [rows]. */
+  double sigmaRows{ 50.0 };
+  /** Axis along which the shutter travels: 1 = y; 0 = x, the rows are then columns of the frame. */
   unsigned int shutterAxis{ 1 };
   /** What is known of the codes; the rest is found. */
   CodeSettings codes;
 
   /** Throws std::invalid_argument if a parameter is out of its range. */
   void
-  Validate() const
-  {
-    ChiSquare2Quantile(level);
-    if (!(darkQuantile >= 0.0 && darkQuantile < brightQuantile && brightQuantile <= 1.0))
-    {
-      throw std::invalid_argument("the dark and bright quantiles are " + std::to_string(darkQuantile) + " and " +
-                                  std::to_string(brightQuantile) + "; expected 0 <= dark < bright <= 1");
-    }
-    if (rollingShutter == RollingShutter::Fixed && !(sigmaLines > 0.0))
-    {
-      throw std::invalid_argument("sigma_y of the rolling shutter is " + std::to_string(sigmaLines) +
-                                  " lines; expected a positive number");
-    }
-    if (shutterAxis > 1)
-    {
-      throw std::invalid_argument("the shutter axis is " + std::to_string(shutterAxis) + "; expected 0 (x) or 1 (y)");
-    }
-    ValidateCodeSettings(codes);
-  }
+  Validate() const;
 };
 
 } // namespace sensornoise

@@ -18,11 +18,8 @@
 #ifndef sensornoise_published_VibrationCovariance_h
 #define sensornoise_published_VibrationCovariance_h
 
-#include "sensornoise/base/Eigen.h"
-#include "sensornoise/published/VibrationMask.h"
+#include "SensorNoiseExport.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -47,75 +44,13 @@ struct VibrationCovariance
  * over all inner pixels that are \a valid (null: all) and finite, those moved by vibrations included. \a mean [DN] and
  * \a variance [DN^2] are frame-sized maps of the stack as it is, flicker included. \a flickerSd is sigma_gamma where it
  * is known from the flicker itself; below 0: the root of this regression's own coefficient (0 if that is negative). */
-inline VibrationCovariance
+SensorNoise_EXPORT VibrationCovariance
 FitVibrationCovariance(const double *       mean,
                        const double *       variance,
                        const std::uint8_t * valid,
                        std::size_t          width,
                        std::size_t          height,
-                       double               flickerSd)
-{
-  using Matrix = Eigen::Matrix<double, 6, 6>;
-  using Vector = Eigen::Matrix<double, 6, 1>;
-  VibrationCovariance result;
-  double              largestMean = 0.0;
-  double              largestGradient = 0.0;
-  const auto          visit = [&](const auto & function) {
-    for (std::size_t y = 1; y + 1 < height; ++y)
-    {
-      for (std::size_t x = 1; x + 1 < width; ++x)
-      {
-        const std::size_t p = y * width + x;
-        const Gradient    gradient = CentredGradient(mean, width, p);
-        const bool isFinite = std::isfinite(mean[p]) && std::isfinite(variance[p]) && std::isfinite(gradient.x) &&
-                              std::isfinite(gradient.y);
-        if (isFinite && (valid == nullptr || valid[p] != 0))
-        {
-          function(p, gradient);
-        }
-      }
-    }
-  };
-  visit([&](std::size_t p, const Gradient & gradient) {
-    ++result.pixels;
-    largestMean = std::max(largestMean, std::abs(mean[p]));
-    largestGradient = std::max({ largestGradient, std::abs(gradient.x), std::abs(gradient.y) });
-  });
-  if (result.pixels < 6 || !(largestMean > 0.0) || !(largestGradient > 0.0))
-  {
-    return result;
-  }
-
-  // Columns of order 1: the Gram matrix keeps its digits.
-  Matrix gram = Matrix::Zero();
-  Vector right = Vector::Zero();
-  visit([&](std::size_t p, const Gradient & gradient) {
-    const double u = mean[p] / largestMean;
-    const double gx = gradient.x / largestGradient;
-    const double gy = gradient.y / largestGradient;
-    Vector       row;
-    row << 1.0, u, u * u, gx * gx, gy * gy, gx * gy;
-    gram.selfadjointView<Eigen::Lower>().rankUpdate(row);
-    right += row * variance[p];
-  });
-  const Matrix full = gram.selfadjointView<Eigen::Lower>();
-  const Vector diagonal = full.diagonal().cwiseSqrt().cwiseMax(1e-300);
-  const Matrix scaled = diagonal.cwiseInverse().asDiagonal() * full * diagonal.cwiseInverse().asDiagonal();
-  const Eigen::ColPivHouseholderQR<Matrix> solver(scaled);
-  result.isDetermined = solver.rank() == 6;
-  if (!result.isDetermined)
-  {
-    return result;
-  }
-  const Vector c = solver.solve(right.cwiseQuotient(diagonal)).cwiseQuotient(diagonal);
-  result.flickerVariance = c(2) / (largestMean * largestMean);
-  const double flicker = flickerSd >= 0.0 ? flickerSd * flickerSd : std::max(0.0, result.flickerVariance);
-  const double unit = (1.0 + flicker) * largestGradient * largestGradient;
-  result.varianceXPixels2 = c(3) / unit;
-  result.varianceYPixels2 = c(4) / unit;
-  result.covariancePixels2 = 0.5 * c(5) / unit;
-  return result;
-}
+                       double               flickerSd);
 
 } // namespace sensornoise
 

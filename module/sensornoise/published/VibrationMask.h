@@ -18,11 +18,10 @@
 #ifndef sensornoise_published_VibrationMask_h
 #define sensornoise_published_VibrationMask_h
 
-#include <cmath>
+#include "SensorNoiseExport.h"
+
 #include <cstddef>
 #include <cstdint>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace sensornoise
@@ -42,21 +41,13 @@ CentredGradient(const double * map, std::size_t width, std::size_t p)
 }
 
 /** The quantile that a chi-square variable of 2 degrees of freedom exceeds with probability \a level: -2 ln(level).
- * 1 % gives 9.21, the paper's figure. */
-inline double
-ChiSquare2Quantile(double level)
-{
-  if (!(level > 0.0 && level < 1.0))
-  {
-    throw std::invalid_argument("the level of the vibration test is " + std::to_string(level) +
-                                "; expected a probability between 0 and 1");
-  }
-  return -2.0 * std::log(level);
-}
+ * 1 % gives 9.21, the paper's figure. Throws std::invalid_argument unless 0 < level < 1. */
+SensorNoise_EXPORT double
+ChiSquare2Quantile(double level);
 
 /** The test of section 3.1 for \a count neighbouring inner pixels of a row: sets \a kept to 1 where
  * 2 T |grad ubar|^2 < quantile var(u). \a stride is the distance to the next row of \a mean. \a valid may be null. */
-inline void
+SensorNoise_EXPORT void
 TestVibrationOfRow(const double *       mean,
                    std::ptrdiff_t       stride,
                    const double *       variance,
@@ -64,18 +55,7 @@ TestVibrationOfRow(const double *       mean,
                    std::size_t          count,
                    std::size_t          frames,
                    double               quantile,
-                   std::uint8_t *       kept)
-{
-  const double scale = 2.0 * static_cast<double>(frames);
-  for (std::size_t x = 0; x < count; ++x)
-  {
-    const double * const centre = mean + x;
-    const double         dx = 0.5 * (centre[1] - centre[-1]);
-    const double         dy = 0.5 * (centre[stride] - centre[-stride]);
-    const bool           still = scale * (dx * dx + dy * dy) < quantile * variance[x];
-    kept[x] = still && (valid == nullptr || valid[x] != 0) ? 1 : 0;
-  }
-}
+                   std::uint8_t *       kept);
 
 /** Marks the pixels whose gradient noise alone explains, so that vibrations leave their variance alone.
  *
@@ -85,31 +65,14 @@ TestVibrationOfRow(const double *       mean,
  * \a valid (null: all are), pixels that never vary, and pixels beside one that is not finite.
  *
  * The variance is the temporal one as it is, flicker included, as in the paper. */
-inline std::vector<std::uint8_t>
+SensorNoise_EXPORT std::vector<std::uint8_t>
 VibrationMask(const double *       mean,
               const double *       variance,
               const std::uint8_t * valid,
               std::size_t          width,
               std::size_t          height,
               std::size_t          frames,
-              double               level)
-{
-  const double              quantile = ChiSquare2Quantile(level);
-  std::vector<std::uint8_t> mask(width * height, 0);
-  for (std::size_t y = 1; y + 1 < height && width > 2; ++y)
-  {
-    const std::size_t p = y * width + 1;
-    TestVibrationOfRow(mean + p,
-                       static_cast<std::ptrdiff_t>(width),
-                       variance + p,
-                       valid == nullptr ? nullptr : valid + p,
-                       width - 2,
-                       frames,
-                       quantile,
-                       mask.data() + p);
-  }
-  return mask;
-}
+              double               level);
 
 } // namespace sensornoise
 

@@ -18,40 +18,28 @@
 #ifndef sensornoise_refined_RefinedMethod_h
 #define sensornoise_refined_RefinedMethod_h
 
-#include "sensornoise/base/BinaryStream.h"
+#include "SensorNoiseExport.h"
 #include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/NothingToMeasure.h"
 #include "sensornoise/base/Parallel.h"
-#include "sensornoise/base/PixelUse.h"
 #include "sensornoise/moments/PassFrames.h"
-#include "sensornoise/moments/StackMaps.h"
 #include "sensornoise/moments/StackMoments.h"
-#include "sensornoise/pixels/ProjectedVariance.h"
+#include "sensornoise/moments/StackRequirements.h"
 #include "sensornoise/pixels/ProjectionSums.h"
 #include "sensornoise/pixels/StaticVariance.h"
-#include "sensornoise/refined/RefinedFindings.h"
-#include "sensornoise/refined/RefinedReport.h"
+#include "sensornoise/refined/PolishedSeries.h"
 #include "sensornoise/refined/RefinedSettings.h"
 #include "sensornoise/report/Report.h"
-#include "sensornoise/scene/GuardBand.h"
-#include "sensornoise/scene/ProvisionalModel.h"
-#include "sensornoise/scene/ReferenceFrame.h"
-#include "sensornoise/scene/UsablePixels.h"
-#include "sensornoise/series/FrameProducts.h"
-#include "sensornoise/series/FrameRegressors.h"
+#include "sensornoise/scene/StillScene.h"
 #include "sensornoise/series/FrameSums.h"
 #include "sensornoise/series/SceneSeries.h"
-#include "sensornoise/series/ShiftInstruments.h"
-#include "sensornoise/series/TemporalBasis.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <istream>
-#include <limits>
 #include <memory>
+#include <optional>
 #include <ostream>
-#include <stdexcept>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace sensornoise
@@ -66,8 +54,8 @@ namespace sensornoise
  * regression on the mean gives gain and intercept. Usage as PublishedMethod.
  *
  * Same bits for any number of threads and any chunks. Memory: about 130 bytes a pixel and 8 more a series (4 to 20), 20
- * kB a frame. A stack that cannot be measured ends in a report whose quantities are `failed`, with a warning that says
- * why; wrong use throws std::invalid_argument.
+ * kB a frame. A stack that cannot be measured (NothingToMeasure) ends in a report whose quantities are `failed`, with a
+ * warning that says why; wrong use throws std::invalid_argument. May be moved, also between and within passes.
  *
  * Several processes, each with a part of the frames, get the whole's report if they share the sums of every pass: the
  * whole's bits with integer pixels; with floating point the same bits in all of them, equal to the whole's to rounding.
@@ -91,157 +79,35 @@ class RefinedMethod
 {
 public:
   static constexpr unsigned int NumberOfPasses = 3;
-  static constexpr std::size_t  MinimumFrames = 5;
 
   /** \a mask, if given, has a nonzero value at the pixels to be used; \a parallelFor spreads the work. */
   RefinedMethod(const RefinedSettings &           settings,
                 const FrameGeometry &             geometry,
                 std::size_t                       frames,
                 const std::vector<std::uint8_t> & mask = {},
-                ParallelFor                       parallelFor = SerialFor)
-    : m_Settings(settings)
-    , m_Geometry(geometry)
-    , m_Frames(frames)
-    , m_UserMask(mask)
-    , m_ParallelFor(std::move(parallelFor))
-    , m_InPass(frames)
-    , m_Moments(geometry.Pixels(), frames)
-  {
-    if (frames < MinimumFrames)
-    {
-      throw std::invalid_argument("the stack has " + std::to_string(frames) + " frames; expected at least " +
-                                  std::to_string(MinimumFrames));
-    }
-    if (geometry.width < 3 || geometry.height < 3)
-    {
-      throw std::invalid_argument("the frames have " + std::to_string(geometry.width) + " x " +
-                                  std::to_string(geometry.height) + " pixels; expected at least 3 x 3");
-    }
-    if (!mask.empty() && mask.size() != geometry.Pixels())
-    {
-      throw std::invalid_argument("the mask has " + std::to_string(mask.size()) + " pixels, but the frames have " +
-                                  std::to_string(geometry.Pixels()));
-    }
-    settings.Validate();
-  }
+                ParallelFor                       parallelFor = SerialFor);
 
   /** Adds the next \a frames frames of the current pass, stored one after the other. */
   void
-  AddFrames(const TPixel * chunk, std::size_t frames)
-  {
-    const std::size_t  pixels = m_Geometry.Pixels();
-    const std::size_t  first = m_InPass.Add(frames);
-    const unsigned int pass = m_InPass.GetPass();
-    if (pass == 0)
-    {
-      m_Moments.AddFrames(chunk, first, frames, m_ParallelFor);
-    }
-    else if (pass == 1 && m_FrameSums)
-    {
-      m_FrameSums->AddFrames(chunk, first, frames, m_ParallelFor);
-    }
-    else if (pass == 2 && m_FrameSums)
-    {
-      ForBlocks(pixels, m_ParallelFor, [&](std::size_t begin, std::size_t end) {
-        m_Projections.AddFrames(m_Basis, chunk, first, frames, begin, end);
-      });
-    }
-  }
+  AddFrames(const TPixel * chunk, std::size_t frames);
 
   /** The next \a frames frames of the current pass are added by other processes. */
   void
-  SkipFrames(std::size_t frames)
-  {
-    m_InPass.Skip(frames);
-  }
+  SkipFrames(std::size_t frames);
 
   /** Writes the sums over the frames of the current pass that have been added or merged so far, see BinaryStream: 20
    * (integers) or 32 bytes a pixel in pass 1, 16 kB a frame in pass 2, 8 bytes a pixel and series in pass 3. */
   void
-  SaveSums(std::ostream & out) const
-  {
-    WriteSumsHeader(out, StreamName(), m_Geometry.Pixels(), m_Frames);
-    m_InPass.Save(out);
-    WriteCount(out, this->FingerprintOfPass());
-    if (m_InPass.GetPass() == 0)
-    {
-      m_Moments.Save(out);
-    }
-    else if (m_FrameSums)
-    {
-      m_InPass.GetPass() == 1 ? m_FrameSums->Save(out) : m_Projections.Save(out);
-    }
-  }
+  SaveSums(std::ostream & out) const;
 
   /** Adds the sums that another object, with the same arguments, saved in the same pass. Throws std::runtime_error, and
    * changes nothing, if the stream is no such sums, or holds a frame that is here, too. */
   void
-  MergeSums(std::istream & in)
-  {
-    const std::size_t pixels = m_Geometry.Pixels();
-    RequireCount("frames", ReadSumsHeader(in, StreamName(), pixels), m_Frames);
-    const PassFrames frames = m_InPass.ReadOther(in);
-    m_InPass.RequireApart(frames);
-    if (ReadCount(in) != this->FingerprintOfPass())
-    {
-      throw std::runtime_error("sums cannot be merged: they are made with other settings, another mask or other sums "
-                               "of the passes before");
-    }
-    if (m_InPass.GetPass() == 0)
-    {
-      m_Moments.Merge(in);
-    }
-    else if (m_FrameSums && m_InPass.GetPass() == 1)
-    {
-      FrameProducts others = m_FrameSums->GetProducts();
-      others.Restore(in);
-      m_FrameSums->Merge(others);
-    }
-    else if (m_FrameSums)
-    {
-      ProjectionSums others(pixels, m_Basis.Size());
-      others.Restore(in);
-      m_Projections.Merge(others);
-    }
-    m_InPass.Merge(frames);
-  }
+  MergeSums(std::istream & in);
 
   /** Ends the current pass. */
   void
-  EndPass()
-  {
-    const unsigned int pass = m_InPass.GetPass();
-    m_InPass.EndPass();
-    try
-    {
-      if (pass == 0)
-      {
-        this->EndMoments();
-      }
-      else if (m_FrameSums)
-      {
-        pass == 1 ? this->EndFrameSums() : this->EndProjections();
-      }
-    }
-    catch (const std::runtime_error & error)
-    {
-      m_Found.Fail("nothing-to-measure", error.what());
-      m_FrameSums.reset();
-    }
-    if (pass + 1 == NumberOfPasses)
-    {
-      m_Report = MakeRefinedReport({ m_Settings,
-                                     m_Geometry,
-                                     m_Frames,
-                                     m_Summary,
-                                     m_Mean,
-                                     m_Variance,
-                                     m_CorrectedVariance,
-                                     m_Valid,
-                                     m_PixelUse,
-                                     m_Found });
-    }
-  }
+  EndPass();
 
   const Report &
   GetReport() const
@@ -251,12 +117,12 @@ public:
   const std::vector<double> &
   GetMean() const
   {
-    return m_Mean;
+    return m_Scene->mean;
   }
   const std::vector<double> &
   GetVariance() const
   {
-    return m_Variance;
+    return m_Scene->variance;
   }
   /** NaN where it was not computed; empty if the stack cannot be measured. */
   const std::vector<double> &
@@ -268,119 +134,47 @@ public:
   const std::vector<std::uint8_t> &
   GetPixelUse() const
   {
-    return m_PixelUse;
+    return m_Variance ? m_Variance->pixelUse : m_Scene->pixelUse;
   }
 
 private:
-  static std::string
-  StreamName()
-  {
-    return "RefinedMethod " + PixelName<TPixel>();
-  }
-
   /** Of all that the sums of the current pass depend on beside the frames. */
   std::uint64_t
-  FingerprintOfPass() const
-  {
-    Fingerprint       fingerprint;
-    const std::size_t sizes[2] = { m_Geometry.width, m_FrameSums ? 1U : 0U };
-    fingerprint.Add(sizes, 2);
-    fingerprint.Add(m_UserMask.data(), m_UserMask.size());
-    fingerprint.Add(m_Mean.data(), m_Mean.size());
-    fingerprint.Add(m_Variance.data(), m_Variance.size());
-    fingerprint.Add(m_PixelUse.data(), m_PixelUse.size());
-    for (std::size_t j = 0; j < m_Basis.Size(); ++j)
-    {
-      for (std::size_t t = 0; t < m_Frames; ++t)
-      {
-        const double rounded = m_Basis.Rounded(t, j);
-        fingerprint.Add(&rounded, 1);
-      }
-    }
-    return fingerprint.GetValue();
-  }
-
+  FingerprintOfPass() const;
   void
-  EndMoments()
-  {
-    const std::size_t pixels = m_Geometry.Pixels();
-    m_Mean.resize(pixels);
-    m_Variance.resize(pixels);
-    m_Valid.resize(pixels);
-    m_Summary = MakeStackMaps<TPixel>(
-      m_Moments.Take(), m_Settings.codes, m_ParallelFor, m_Mean.data(), m_Variance.data(), m_Valid.data());
-    m_Reference = MakeReferenceFrame(m_Mean, m_Variance, m_Valid, m_Geometry, m_Frames, m_ParallelFor);
-    m_PixelUse.resize(pixels);
-    for (std::size_t p = 0; p < pixels; ++p)
-    {
-      const bool isMasked = !m_UserMask.empty() && m_UserMask[p] == 0;
-      m_PixelUse[p] =
-        static_cast<std::uint8_t>(isMasked ? PixelUse::Masked : UseOf(m_Reference, m_Variance, m_Valid, p));
-      m_Valid[p] = isMasked ? 0 : m_Valid[p];
-      m_Reference.usable[p] = isMasked ? 0 : m_Reference.usable[p];
-    }
-    m_Found.model = FitProvisionalModel(m_Reference);
-    m_Found.centreDn = m_Found.model.averageDn;
-    LeaveOutCoarseAndGuarded(
-      m_Reference, m_PixelUse, m_Found, m_Summary.codes, m_Moments.GetFrameMeans(), m_ParallelFor);
-    if (!m_Found.failure.empty())
-    {
-      return;
-    }
-    std::vector<std::uint8_t> take = m_Reference.usable;
-    const auto                unexplained = FindUnexplained(m_Reference, m_Found.model, m_ParallelFor);
-    std::vector<std::uint8_t> whole = take;
-    for (std::size_t p = 0; p < pixels; ++p)
-    {
-      whole[p] = unexplained[p] == 2 ? 0 : whole[p];
-      take[p] = unexplained[p] != 0 ? 0 : take[p];
-    }
-    ShiftInstruments instruments = MakeShiftInstruments(m_Reference, m_Found.model, whole, m_ParallelFor);
-    FrameRegressors  regressors(m_Reference, m_Found.model, take, std::move(instruments), m_ParallelFor);
-    m_FrameSums = std::make_unique<FrameSums>(std::move(regressors), m_ParallelFor);
-  }
-
+  EndMoments();
   void
-  EndFrameSums()
-  {
-    m_Basis = FindSceneSeries(*m_FrameSums, m_Settings.rollingShutter, m_Found);
-    m_Projections = ProjectionSums(m_Mean.size(), m_Basis.Size(), m_ParallelFor);
-  }
-
+  EndFrameSums();
   void
-  EndProjections()
-  {
-    const std::vector<std::uint8_t> & all = m_Reference.usable;
-    ProjectedVariance projected(m_Reference, m_Basis, m_Found.motion, m_Projections, m_Found.model, all, m_ParallelFor);
-    const std::vector<std::uint8_t> mask = FitStaticVariance(projected, all, m_Found, m_PixelUse, m_ParallelFor);
-    PolishSceneSeries(*m_FrameSums, projected, mask, m_Found, m_ParallelFor);
-    m_CorrectedVariance = projected.TakeVariance();
-    for (std::size_t p = 0; p < all.size(); ++p)
-    {
-      m_CorrectedVariance[p] = all[p] != 0 ? m_CorrectedVariance[p] : std::numeric_limits<double>::quiet_NaN();
-    }
-  }
+  EndProjections();
+  void
+  MakeReport();
 
-  RefinedSettings            m_Settings;
-  FrameGeometry              m_Geometry;
-  std::size_t                m_Frames;
-  std::vector<std::uint8_t>  m_UserMask;
-  ParallelFor                m_ParallelFor;
-  PassFrames                 m_InPass;
-  StackMoments<TPixel>       m_Moments;
-  StackSummary               m_Summary;
-  std::vector<double>        m_Mean;
-  std::vector<double>        m_Variance;
-  std::vector<double>        m_CorrectedVariance;
-  std::vector<std::uint8_t>  m_Valid;
-  std::vector<std::uint8_t>  m_PixelUse;
-  ReferenceFrame             m_Reference;
-  std::unique_ptr<FrameSums> m_FrameSums;
-  TemporalBasis              m_Basis;
-  ProjectionSums             m_Projections;
-  RefinedFindings            m_Found;
-  Report                     m_Report;
+  RefinedSettings           m_Settings;
+  FrameGeometry             m_Geometry;
+  std::size_t               m_Frames;
+  std::vector<std::uint8_t> m_UserMask;
+  ParallelFor               m_ParallelFor;
+  PassFrames                m_InPass;
+
+  // The sums of the passes, and what each pass found. The scene stays where it is: FrameSums points to its frame.
+  StackMoments<TPixel>                  m_Moments;
+  std::unique_ptr<const StillScene>     m_Scene;
+  std::unique_ptr<FrameSums>            m_FrameSums; // null: the stack cannot be measured
+  std::optional<const SceneSeries>      m_Series;
+  ProjectionSums                        m_Projections;
+  std::optional<const StaticVariance>   m_Variance;
+  std::optional<const PolishedSeries>   m_Polished;
+  std::vector<double>                   m_CorrectedVariance;
+  std::optional<const NothingToMeasure> m_Obstacle;
+  Report                                m_Report;
 };
+
+extern template class SensorNoise_EXPORT RefinedMethod<unsigned char>;
+extern template class SensorNoise_EXPORT RefinedMethod<unsigned short>;
+extern template class SensorNoise_EXPORT RefinedMethod<short>;
+extern template class SensorNoise_EXPORT RefinedMethod<float>;
+extern template class SensorNoise_EXPORT RefinedMethod<double>;
 
 } // namespace sensornoise
 

@@ -18,20 +18,18 @@
 #ifndef sensornoise_refined_RefinedSettings_h
 #define sensornoise_refined_RefinedSettings_h
 
+#include "SensorNoiseExport.h"
 #include "sensornoise/base/RollingShutter.h"
 #include "sensornoise/moments/Codes.h"
 #include "sensornoise/moments/KnownOffset.h"
 
-#include <cmath>
 #include <optional>
-#include <stdexcept>
-#include <string>
 
 namespace sensornoise
 {
 
 /** Every parameter of the refined method. */
-struct RefinedSettings
+struct SensorNoise_EXPORT RefinedSettings
 {
   /** Off: the light changes everywhere alike. Otherwise light that changes in some places in another way than in
    * others (a rolling shutter, a second lamp, a patch that bleaches) is looked for, and needs no width. */
@@ -43,17 +41,7 @@ struct RefinedSettings
 
   /** Throws std::invalid_argument if a parameter is out of its range. */
   void
-  Validate() const
-  {
-    ValidateCodeSettings(codes);
-    if (offset &&
-        !(std::isfinite(offset->valueDn) && std::isfinite(offset->standardErrorDn) && offset->standardErrorDn >= 0.0))
-    {
-      throw std::invalid_argument("the offset is " + std::to_string(offset->valueDn) + " DN with a standard error of " +
-                                  std::to_string(offset->standardErrorDn) +
-                                  " DN; expected a finite number and a standard error of 0 or more");
-    }
-  }
+  Validate() const;
 };
 
 } // namespace sensornoise

@@ -18,12 +18,10 @@
 #ifndef sensornoise_report_JsonWriter_h
 #define sensornoise_report_JsonWriter_h
 
+#include "SensorNoiseExport.h"
 
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <variant>
@@ -36,7 +34,7 @@ namespace sensornoise
  * \brief Appends JSON to a string.
  * Numbers are the shortest that read back as the same double; NaN and infinity, which JSON
  * does not know, are null. */
-class JsonWriter
+class SensorNoise_EXPORT JsonWriter
 {
 public:
   explicit JsonWriter(std::string & text)
@@ -44,66 +42,19 @@ public:
   {}
 
   void
-  Write(double number)
-  {
-    if (!std::isfinite(number))
-    {
-      m_Text += "null";
-      return;
-    }
-    char       buffer[32];
-    const auto end = std::to_chars(buffer, buffer + sizeof(buffer), number).ptr;
-    m_Text.append(buffer, end);
-  }
+  Write(double number);
   void
-  Write(std::size_t number)
-  {
-    m_Text += std::to_string(number);
-  }
+  Write(std::size_t number);
   void
-  Write(int number)
-  {
-    m_Text += std::to_string(number);
-  }
+  Write(int number);
   void
-  Write(unsigned int number)
-  {
-    m_Text += std::to_string(number);
-  }
+  Write(unsigned int number);
   void
-  Write(bool truth)
-  {
-    m_Text += truth ? "true" : "false";
-  }
+  Write(bool truth);
   void
-  Write(const char * string)
-  {
-    this->Write(std::string(string));
-  }
+  Write(const char * string);
   void
-  Write(const std::string & string)
-  {
-    m_Text += '"';
-    for (const char c : string)
-    {
-      if (c == '"' || c == '\\')
-      {
-        m_Text += '\\';
-        m_Text += c;
-      }
-      else if (static_cast<unsigned char>(c) < 0x20)
-      {
-        char buffer[8];
-        std::snprintf(buffer, sizeof(buffer), "\\u%04x", static_cast<unsigned int>(c));
-        m_Text += buffer;
-      }
-      else
-      {
-        m_Text += c;
-      }
-    }
-    m_Text += '"';
-  }
+  Write(const std::string & string);
   template <typename T>
   void
   Write(const std::optional<T> & optional)
@@ -174,12 +125,7 @@ public:
 
 private:
   void
-  Name(const char * name)
-  {
-    m_Text += m_First ? "" : ", ";
-    this->Write(name);
-    m_Text += ": ";
-  }
+  Name(const char * name);
   template <typename TValues>
   void
   WriteList(const TValues & values)

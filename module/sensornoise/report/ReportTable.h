@@ -18,141 +18,21 @@
 #ifndef sensornoise_report_ReportTable_h
 #define sensornoise_report_ReportTable_h
 
+#include "SensorNoiseExport.h"
 #include "sensornoise/report/Report.h"
-#include "sensornoise/report/ReportJson.h"
 
-#include <algorithm>
-#include <cstdio>
-#include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace sensornoise
 {
-namespace reporttable
-{
-template <typename... TArguments>
-std::string
-Format(const char * format, TArguments... arguments)
-{
-  char buffer[256];
-  std::snprintf(buffer, sizeof(buffer), format, arguments...);
-  return buffer;
-}
-
-inline std::string
-Number(const std::optional<double> & number)
-{
-  return number ? Format("%.5g", *number) : "-";
-}
-
-/** The 95 % interval if there is one, else the bracket. */
-inline const std::optional<Interval> &
-RangeOf(const Quantity & quantity)
-{
-  return quantity.interval95 ? quantity.interval95 : quantity.bracket;
-}
-
-/** The value; of what is not distinguishable from zero, what it is below. */
-inline std::string
-Value(const Quantity & quantity)
-{
-  const std::optional<Interval> & range = RangeOf(quantity);
-  return quantity.status == EstimateStatus::UpperLimit && range && range->high ? "< " + Number(range->high)
-                                                                               : Number(quantity.value);
-}
-
-/** \a hasErrors: with a column for the standard error. */
-inline std::string
-Line(const char * name, const Quantity & quantity, bool hasErrors)
-{
-  const std::optional<Interval> & range = RangeOf(quantity);
-  std::string                     line = Format("%-24s %12s  ", name, Value(quantity).c_str());
-  if (hasErrors)
-  {
-    line += Format("%-12s  ", quantity.standardError ? Format("+- %.2g", *quantity.standardError).c_str() : "");
-  }
-  return line + Format("%-8s %-17s %s\n",
-                       quantity.unit.c_str(),
-                       NameOf(quantity.status),
-                       range ? ("[" + Number(range->low) + ", " + Number(range->high) + "]").c_str() : "");
-}
-
-inline std::string
-DescribeCodes(const Report & report)
-{
-  std::string text;
-  if (report.bitDepth)
-  {
-    text += Format(", %d bits (%s)", *report.bitDepth, report.bitDepthSource.c_str());
-  }
-  if (report.quantisationStepDn)
-  {
-    text += Format(", code step %g DN", *report.quantisationStepDn);
-  }
-  if (report.clipLowDn || report.clipHighDn)
-  {
-    text +=
-      ", levels " + Number(report.clipLowDn) + " to " + Number(report.clipHighDn) + " DN (" + report.clipSource + ")";
-  }
-  return text;
-}
-} // namespace reporttable
 
 /** The report as a table that a person can read: what was found, one line a quantity, no warnings. */
-inline std::string
-MakeTable(const Report & report)
-{
-  using reporttable::Format;
-  std::string table = Format("%zu frames of %zu x %zu pixels", report.frames, report.width, report.height);
-  table += reporttable::DescribeCodes(report) + "\n";
-  table += Format("%zu of %zu pixels used (%.1f %%), %zu clipped, %zu not finite\n",
-                  report.pixels.used,
-                  report.pixels.total,
-                  100.0 * static_cast<double>(report.pixels.used) / static_cast<double>(report.pixels.total),
-                  report.pixels.clipped,
-                  report.pixels.notFinite);
-  table += "method: " + report.method + "\n\n";
-  using Row = std::pair<const char *, const Quantity *>;
-  const std::vector<Row> rows{ { "gain g", &report.gain },
-                               { "offset mu", &report.offset },
-                               { "read noise sigma", &report.readNoise },
-                               { "read noise sigma / g", &report.readNoiseElectrons },
-                               { "intercept sigma^2 - g mu", &report.intercept },
-                               { "flicker sd", &report.flickerSd },
-                               { "vibration sd x", &report.vibrationSdX },
-                               { "vibration sd y", &report.vibrationSdY } };
-  const bool             hasErrors =
-    std::any_of(rows.begin(), rows.end(), [](const Row & row) { return row.second->standardError.has_value(); });
-  table += Format("%-24s %12s  ", "quantity", "value") + (hasErrors ? Format("%-12s  ", "error") : "");
-  table += Format("%-8s %-17s %s\n", "unit", "status", hasErrors ? "95 % interval or limits" : "limits");
-  for (const auto & [name, quantity] : rows)
-  {
-    table += reporttable::Line(name, *quantity, hasErrors);
-  }
-  if (report.fit.reducedChi2)
-  {
-    table += Format("\nfit: reduced chi2 %.4g (1: only sampling noise is left)", *report.fit.reducedChi2);
-    table += report.fit.offsetLinePhi
-               ? Format(", offset line %.4g (1: one flicker for all)\n", *report.fit.offsetLinePhi)
-               : "\n";
-  }
-  return table;
-}
+SensorNoise_EXPORT std::string
+MakeTable(const Report & report);
 
 /** The table and, a line each, what the user should know: for those who see nothing else. */
-inline std::string
-MakeText(const Report & report)
-{
-  std::string text = MakeTable(report);
-  for (const Warning & warning : report.warnings)
-  {
-    text += (&warning == &report.warnings.front() ? "\nwarning: " : "warning: ") + warning.message + " [" +
-            warning.code + "]\n";
-  }
-  return text;
-}
+SensorNoise_EXPORT std::string
+MakeText(const Report & report);
 
 } // namespace sensornoise
 

@@ -18,138 +18,43 @@
 #ifndef sensornoise_report_StackReport_h
 #define sensornoise_report_StackReport_h
 
+#include "SensorNoiseExport.h"
 #include "sensornoise/base/FrameGeometry.h"
-#include "sensornoise/base/IntensityIndex.h"
-#include "sensornoise/base/PixelUse.h"
 #include "sensornoise/base/PolynomialFit.h"
-#include "sensornoise/moments/Codes.h"
 #include "sensornoise/moments/StackMaps.h"
-#include "sensornoise/report/Quantities.h"
 #include "sensornoise/report/Report.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace sensornoise
 {
 
 /** Files what the report says of the stack itself, whatever the method. */
-inline void
+SensorNoise_EXPORT void
 DescribeStack(Report &                          report,
               const FrameGeometry &             geometry,
               std::size_t                       frames,
               const StackSummary &              summary,
               const std::vector<std::uint8_t> & valid,
-              const std::vector<std::uint8_t> & pixelUse)
-{
-  report.frames = frames;
-  report.width = geometry.width;
-  report.height = geometry.height;
-
-  const CodeRange & codes = summary.codes;
-  report.bitDepth = codes.bitDepth;
-  report.bitDepthSource = codes.bitDepthSource;
-  if (codes.quantisationStepDn > 0.0)
-  {
-    report.quantisationStepDn = codes.quantisationStepDn;
-  }
-  report.clipLowDn = codes.clipLowDn;
-  report.clipHighDn = codes.clipHighDn;
-  report.clipSource = codes.clipSource;
-
-  report.pixels.total = geometry.Pixels();
-  report.pixels.valid = static_cast<std::size_t>(std::count(valid.begin(), valid.end(), 1));
-  report.pixels.used =
-    static_cast<std::size_t>(std::count(pixelUse.begin(), pixelUse.end(), static_cast<std::uint8_t>(PixelUse::Used)));
-  report.pixels.clipped = summary.clipped;
-  report.pixels.notFinite = summary.notFinite;
-}
+              const std::vector<std::uint8_t> & pixelUse);
 
 /** What was found that the user should know of before trusting the numbers. */
-inline void
-WarnOfStack(Report & report, std::size_t frames, const StackSummary & summary)
-{
-  const CodeRange & codes = summary.codes;
-  if (frames < 20)
-  {
-    report.Warn("few-frames",
-                "the stack has " + std::to_string(frames) + " frames: indicative only; 20 or more are usable");
-  }
-  if (codes.clipSource.find("pile-up") != std::string::npos)
-  {
-    report.Warn("clip-level-found",
-                "the sensor attains only the levels " + Text(*codes.clipLowDn) + " to " + Text(*codes.clipHighDn) +
-                  " DN (" + codes.clipSource + "); pixels that reach an end are left out");
-  }
-  if (!codes.isRegular)
-  {
-    report.Warn("irregular-codes",
-                "the spacing of the grey levels varies about " + Text(codes.quantisationStepDn) +
-                  " DN: the data were rescaled and their quantisation noise is not known");
-  }
-  if (summary.notFinite > 0)
-  {
-    report.Warn("not-finite-pixels",
-                std::to_string(summary.notFinite) + " pixels are NaN or infinite in a frame and left out");
-  }
-}
+SensorNoise_EXPORT void
+WarnOfStack(Report & report, std::size_t frames, const StackSummary & summary);
 
 /** Files Figure 4: averages over 256 bins of equal count of the pixels used. */
-inline void
+SensorNoise_EXPORT void
 FillScatter(Report &                          report,
             const std::vector<double> &       mean,
             const std::vector<double> &       variance,
             const std::vector<double> &       correctedVariance,
-            const std::vector<std::uint8_t> & pixelUse)
-{
-  constexpr std::size_t     bins = 256;
-  const std::size_t         pixels = mean.size();
-  std::vector<std::uint8_t> used(pixels);
-  std::transform(pixelUse.begin(), pixelUse.end(), used.begin(), [](std::uint8_t use) {
-    return use == static_cast<std::uint8_t>(PixelUse::Used) ? 1 : 0;
-  });
-  const IntensityIndex index(mean.data(), used.data(), pixels);
-  Report::Scatter      sums{ std::vector<double>(bins, 0.0),
-                        std::vector<double>(bins, 0.0),
-                        std::vector<double>(bins, 0.0),
-                        std::vector<std::size_t>(bins, 0) };
-  for (std::size_t p = 0; p < pixels; ++p)
-  {
-    if (used[p] != 0)
-    {
-      const std::size_t bin = index.BinOf(mean[p], bins);
-      sums.mean[bin] += mean[p];
-      sums.variance[bin] += variance[p];
-      sums.correctedVariance[bin] += correctedVariance[p];
-      ++sums.count[bin];
-    }
-  }
-  report.scatter = Report::Scatter();
-  for (std::size_t bin = 0; bin < bins; ++bin)
-  {
-    if (sums.count[bin] > 0)
-    {
-      const auto n = static_cast<double>(sums.count[bin]);
-      report.scatter.mean.push_back(sums.mean[bin] / n);
-      report.scatter.variance.push_back(sums.variance[bin] / n);
-      report.scatter.correctedVariance.push_back(sums.correctedVariance[bin] / n);
-      report.scatter.count.push_back(sums.count[bin]);
-    }
-  }
-}
+            const std::vector<std::uint8_t> & pixelUse);
 
 /** Files the line and the parabola through the uncorrected variance, what tools that ignore flicker would say. */
-inline void
-FillBaselines(Report & report, const RegressionData & raw)
-{
-  const PolynomialFit affine = FitLine(raw);
-  const PolynomialFit parabola = FitParabola(raw);
-  report.affineBaseline = Report::Baseline{ 0.0, affine.slope, affine.intercept };
-  report.quadraticBaseline = Report::Baseline{ parabola.curvature, parabola.slope, parabola.intercept };
-}
+SensorNoise_EXPORT void
+FillBaselines(Report & report, const RegressionData & raw);
 
 } // namespace sensornoise
 

@@ -18,18 +18,15 @@
 #ifndef sensornoise_series_FrameProducts_h
 #define sensornoise_series_FrameProducts_h
 
-#include "sensornoise/base/BinaryStream.h"
+#include "SensorNoiseExport.h"
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Stencils.h"
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <istream>
 #include <ostream>
-#include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace sensornoise
@@ -46,19 +43,12 @@ inline constexpr std::size_t GradientClasses = 6;
  *
  * Those of a frame that was not added are 0. So sums of other frames are merged by addition, which keeps every bit: 0
  * is added to each number (which is never -0, for it was added to 0 itself). */
-class FrameProducts
+class SensorNoise_EXPORT FrameProducts
 {
 public:
   using ColumnVector = Eigen::Matrix<double, FrameColumns, 1>;
 
-  FrameProducts(std::size_t pixels, std::size_t frames, std::size_t cells)
-    : m_Pixels(pixels)
-    , m_Frames(frames)
-    , m_Cells(cells)
-    , m_ClassSums(frames * GradientClasses, ColumnVector::Zero())
-    , m_InstrumentSums(frames, { 0.0, 0.0 })
-    , m_CellSums(frames * cells, { 0.0, 0.0 })
-  {}
+  FrameProducts(std::size_t pixels, std::size_t frames, std::size_t cells);
 
   ColumnVector &
   OfClass(std::size_t t, std::size_t gradientClass)
@@ -93,78 +83,19 @@ public:
 
   /** Adds the products of other frames of the same stack. */
   void
-  Merge(const FrameProducts & other)
-  {
-    if (other.m_Pixels != m_Pixels || other.m_Frames != m_Frames || other.m_Cells != m_Cells)
-    {
-      throw std::invalid_argument("sums of " + other.Sizes() + " cannot be merged into those of " + this->Sizes());
-    }
-    for (std::size_t i = 0; i < m_ClassSums.size(); ++i)
-    {
-      m_ClassSums[i] += other.m_ClassSums[i];
-    }
-    for (std::size_t t = 0; t < m_InstrumentSums.size(); ++t)
-    {
-      m_InstrumentSums[t][0] += other.m_InstrumentSums[t][0];
-      m_InstrumentSums[t][1] += other.m_InstrumentSums[t][1];
-    }
-    for (std::size_t i = 0; i < m_CellSums.size(); ++i)
-    {
-      m_CellSums[i][0] += other.m_CellSums[i][0];
-      m_CellSums[i][1] += other.m_CellSums[i][1];
-    }
-  }
+  Merge(const FrameProducts & other);
 
   /** Writes the products, see BinaryStream. */
   void
-  Save(std::ostream & out) const
-  {
-    WriteSumsHeader(out, Name, m_Pixels, m_Frames);
-    WriteCount(out, m_Cells);
-    for (const ColumnVector & sums : m_ClassSums)
-    {
-      WriteNumbers(out, sums.data(), FrameColumns);
-    }
-    for (const auto * sums : { &m_InstrumentSums, &m_CellSums })
-    {
-      for (const std::array<double, 2> & pair : *sums)
-      {
-        WriteNumbers(out, pair.data(), pair.size());
-      }
-    }
-  }
+  Save(std::ostream & out) const;
   /** Replaces the products by those of a stream. Throws std::runtime_error, and changes nothing, if it holds other sums
    * or ends early. */
   void
-  Restore(std::istream & in)
-  {
-    FrameProducts       read(m_Pixels, m_Frames, m_Cells);
-    const std::uint64_t frames = ReadSumsHeader(in, Name, m_Pixels);
-    RequireCount("frames", frames, m_Frames);
-    RequireCount("cells", ReadCount(in), m_Cells);
-    for (ColumnVector & sums : read.m_ClassSums)
-    {
-      ReadNumbers(in, sums.data(), FrameColumns);
-    }
-    for (auto * sums : { &read.m_InstrumentSums, &read.m_CellSums })
-    {
-      for (std::array<double, 2> & pair : *sums)
-      {
-        ReadNumbers(in, pair.data(), pair.size());
-      }
-    }
-    *this = std::move(read);
-  }
+  Restore(std::istream & in);
 
 private:
-  static constexpr const char * Name = "FrameSums";
-
   std::string
-  Sizes() const
-  {
-    return std::to_string(m_Pixels) + " pixels, " + std::to_string(m_Frames) + " frames and " +
-           std::to_string(m_Cells) + " cells";
-  }
+  Sizes() const;
 
   std::size_t                        m_Pixels;
   std::size_t                        m_Frames;

@@ -18,8 +18,8 @@
 #ifndef sensornoise_series_FrameRegressors_h
 #define sensornoise_series_FrameRegressors_h
 
+#include "SensorNoiseExport.h"
 #include "sensornoise/base/Parallel.h"
-#include "sensornoise/base/Quantiles.h"
 #include "sensornoise/base/Stencils.h"
 #include "sensornoise/scene/ProvisionalModel.h"
 #include "sensornoise/scene/ReferenceFrame.h"
@@ -30,7 +30,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace sensornoise
@@ -39,10 +38,11 @@ namespace sensornoise
 /** \class FrameRegressors
  * \brief What the frames are multiplied with in the second pass: the columns of every pixel, times their weights.
  *
- * Column 0 is 1 and column 1 the mean minus a centre; then follow the derivatives of the mean, with the inverse of the
- * provisional noise as weight; two instruments for the shifts; and 1 and the mean again, with weights for the sums of
- * cells. Each pixel has a class, from flat to rough surroundings. Memory: 25 bytes a pixel. */
-class FrameRegressors
+ * Column 0 is 1 and column 1 the mean minus the model's centre, for conditioning; then follow the derivatives of the
+ * mean, with the inverse of the provisional noise as weight; two instruments for the shifts; and 1 and the mean again,
+ * with weights for the sums of cells. Each pixel has a class, from flat to rough surroundings. Memory: 25 bytes a
+ * pixel. */
+class SensorNoise_EXPORT FrameRegressors
 {
 public:
   static constexpr std::size_t  Instruments = 2;
@@ -51,22 +51,22 @@ public:
   static constexpr std::uint8_t Unused = 255;
 
   using Values = std::array<double, FrameColumns>;
-  using Row = std::array<double, 16>; // Columns, padded for the vector units
-  static_assert(Columns <= 16, "a row holds all columns");
+  using WeightedColumns = std::array<double, 16>; // Columns, padded for the vector units
+  static_assert(Columns <= 16, "the array holds all columns");
 
-  /** \a take has a nonzero value at the pixels that serve; they must be usable. The frame must outlive the object. */
+  /** \a take has a nonzero value at the pixels that serve; they must be usable. The object and its copies hold the
+   * address of \a frame, which must outlive them at its place. */
   FrameRegressors(const ReferenceFrame &            frame,
                   const ProvisionalModel &          model,
                   const std::vector<std::uint8_t> & take,
                   ShiftInstruments                  instruments,
-                  const ParallelFor &               parallelFor = SerialFor)
-    : m_Frame(&frame)
-    , m_Model(model)
-    , m_ClassOf(frame.mean.size(), Unused)
-    , m_Instruments(std::move(instruments))
-  {
-    this->ClassifyPixels(take, parallelFor);
-  }
+                  const ParallelFor &               parallelFor = SerialFor);
+  /** A temporary frame would be gone at once. */
+  FrameRegressors(const ReferenceFrame &&,
+                  const ProvisionalModel &,
+                  const std::vector<std::uint8_t> &,
+                  ShiftInstruments,
+                  const ParallelFor & = SerialFor) = delete;
 
   const ReferenceFrame &
   GetFrame() const
@@ -77,12 +77,6 @@ public:
   GetModel() const
   {
     return m_Model;
-  }
-  /** The level that is subtracted from the mean in column 1, for conditioning [DN]. */
-  double
-  GetCentreDn() const
-  {
-    return m_Model.averageDn;
   }
   /** Gradient class of pixel \a p; Unused if it does not serve. */
   std::uint8_t
@@ -110,60 +104,32 @@ public:
   Values
   ValuesOf(std::size_t p) const
   {
-    Values     values{ 1.0, m_Frame->mean[p] - this->GetCentreDn() };
+    Values     values{ 1.0, m_Frame->mean[p] - m_Model.centreDn };
     const auto derivatives = ApplyStencils(m_Frame->mean.data(), m_Frame->geometry.width, p);
     std::copy(derivatives.begin(), derivatives.end(), values.begin() + 2);
     return values;
   }
 
   /** All columns of pixel \a p, whose values are \a values, times their weights. */
-  Row
-  RowOf(std::size_t p, const Values & values) const
+  WeightedColumns
+  WeightedColumnsOf(std::size_t p, const Values & values) const
   {
-    const double noise = m_Model.NoiseVariance(m_Frame->neighbourMean[p]);
-    const double w = 1.0 / noise;
-    Row          row{};
-    std::transform(values.begin(), values.end(), row.begin(), [w](double value) { return w * value; });
-    row[FrameColumns] = this->InstrumentX(p);
-    row[FrameColumns + 1] = this->InstrumentY(p);
+    const double    noise = m_Model.NoiseVariance(m_Frame->neighbourMean[p]);
+    const double    w = 1.0 / noise;
+    WeightedColumns columns{};
+    std::transform(values.begin(), values.end(), columns.begin(), [w](double value) { return w * value; });
+    columns[FrameColumns] = this->InstrumentX(p);
+    columns[FrameColumns + 1] = this->InstrumentY(p);
     // Motion that the derivatives do not explain is noise to the light's local changes.
     const double motion = m_Model.MotionVariance(values[2 + StencilX], values[2 + StencilY]);
-    row[FrameColumns + Instruments] = 1.0 / (noise + 0.2 * motion);
-    row[FrameColumns + Instruments + 1] = row[FrameColumns + Instruments] * values[1];
-    return row;
+    columns[FrameColumns + Instruments] = 1.0 / (noise + 0.2 * motion);
+    columns[FrameColumns + Instruments + 1] = columns[FrameColumns + Instruments] * values[1];
+    return columns;
   }
 
 private:
   void
-  ClassifyPixels(const std::vector<std::uint8_t> & take, const ParallelFor & parallelFor)
-  {
-    const std::size_t width = m_Frame->geometry.width;
-    const double *    mean = m_Frame->mean.data();
-    const auto        roughness = [&](std::size_t p) {
-      const auto d = ApplyStencils(mean, width, p);
-      return StencilEnergy(d) / m_Model.NoiseVariance(m_Frame->neighbourMean[p]);
-    };
-    std::vector<double> values;
-    for (const std::size_t p : SamplePixels(take))
-    {
-      values.push_back(roughness(p));
-    }
-    std::array<double, GradientClasses - 1> edges{ 0.4, 0.6, 0.75, 0.87, 0.95 };
-    for (double & edge : edges)
-    {
-      edge = values.empty() ? 0.0 : Quantile(values, edge);
-    }
-    ForBlocks(take.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t p = begin; p < end; ++p)
-      {
-        if (take[p] != 0)
-        {
-          m_ClassOf[p] =
-            static_cast<std::uint8_t>(std::lower_bound(edges.begin(), edges.end(), roughness(p)) - edges.begin());
-        }
-      }
-    });
-  }
+  ClassifyPixels(const std::vector<std::uint8_t> & take, const ParallelFor & parallelFor);
 
   const ReferenceFrame *    m_Frame;
   ProvisionalModel          m_Model;

@@ -18,13 +18,11 @@
 #ifndef sensornoise_series_LocalIllumination_h
 #define sensornoise_series_LocalIllumination_h
 
+#include "SensorNoiseExport.h"
 #include "sensornoise/base/Eigen.h"
-#include "sensornoise/base/Quantiles.h"
 #include "sensornoise/series/FrameSums.h"
 #include "sensornoise/series/MotionSeries.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -34,58 +32,16 @@ namespace sensornoise
 /** Orthonormal columns that span those of \a columns and the constant, the constant left out; in order, so that a
  * column's direction is what it adds to those before. Columns that add less than 1e-6 of themselves are dropped, as
  * are those beyond \a most. */
-inline Eigen::MatrixXd
-Orthonormalise(const Eigen::MatrixXd & columns, Eigen::Index most)
-{
-  Eigen::MatrixXd basis(columns.rows(), columns.cols());
-  Eigen::Index    count = 0;
-  for (Eigen::Index j = 0; j < columns.cols() && count < most; ++j)
-  {
-    Eigen::VectorXd column = columns.col(j);
-    const double    before = column.norm();
-    for (int twice = 0; twice < 2; ++twice)
-    {
-      column.array() -= column.mean();
-      for (Eigen::Index i = 0; i < count; ++i)
-      {
-        column -= basis.col(i).dot(column) * basis.col(i);
-      }
-    }
-    const double after = column.norm();
-    if (after > 1e-6 * before && before > 0.0)
-    {
-      basis.col(count++) = column / after;
-    }
-  }
-  return basis.leftCols(count);
-}
+SensorNoise_EXPORT Eigen::MatrixXd
+Orthonormalise(const Eigen::MatrixXd & columns, Eigen::Index most);
 
-namespace detail
-{
 /** Median of the eigenvalues of Z'Z / long side, Z of white noise of variance 1, \a ratio = short / long side: by the
  * law of Marchenko and Pastur. */
-inline double
-MedianNoiseEigenvalue(double ratio)
-{
-  const double        low = std::pow(1.0 - std::sqrt(ratio), 2);
-  const double        high = std::pow(1.0 + std::sqrt(ratio), 2);
-  constexpr int       steps = 2000;
-  std::vector<double> cumulative(steps + 1, 0.0);
-  const auto at = [&](int i) { return low + (high - low) * 0.5 * (1.0 - std::cos(3.14159265358979 * i / steps)); };
-  for (int i = 0; i < steps; ++i)
-  {
-    const double middle = 0.5 * (at(i) + at(i + 1));
-    cumulative[static_cast<std::size_t>(i + 1)] =
-      cumulative[static_cast<std::size_t>(i)] +
-      std::sqrt(std::max(0.0, (high - middle) * (middle - low))) / middle * (at(i + 1) - at(i));
-  }
-  const auto half = std::lower_bound(cumulative.begin(), cumulative.end(), 0.5 * cumulative.back());
-  return at(static_cast<int>(half - cumulative.begin()));
-}
-} // namespace detail
+SensorNoise_EXPORT double
+MedianNoiseEigenvalue(double ratio);
 
 /** Light that changes in some places in another way than in others: a rolling shutter's bands, a second lamp, a
- * patch that bleaches, or an offset that drifts. */
+ * spot that bleaches, or an offset that drifts. */
 struct LocalIllumination
 {
   Eigen::MatrixXd series; ///< frames x factors
@@ -97,121 +53,16 @@ struct LocalIllumination
  *
  * Each cell of the frame gives its own gamma_t: what the global flicker and the motion leave of it is noise, or a few
  * common series. Singular values above the noise's edge, by the law of Marchenko and Pastur and 25 %, tell which. The
- * response of every pixel to the series is free later on, so that bands, lamps and patches of any shape are the same to
- * the method. What resembles motion does not count as light (\a motionBasis). Estimator.md, 3.4. */
-inline LocalIllumination
+ * response of every pixel to the series is free later on, so that bands, lamps and spots of any shape are the same to
+ * the method. What resembles motion (\a motionColumns) does not count as light. At most \a most series; \a offset is
+ * minus the centre of the regression. Estimator.md, 3.4. */
+SensorNoise_EXPORT LocalIllumination
 FindLocalIllumination(const FrameSums &           sums,
                       const MotionSeries &        motion,
                       const Eigen::MatrixXd &     motionColumns,
                       const std::vector<double> & gamma,
                       double                      offset,
-                      std::size_t                 most)
-{
-  const auto   frames = static_cast<Eigen::Index>(sums.GetFrame().frames);
-  const auto & cells = sums.GetCells();
-  double       pixels = 0.0;
-  for (const FrameSums::Cell & cell : cells)
-  {
-    pixels += static_cast<double>(cell.pixels) / static_cast<double>(cells.size());
-  }
-  std::vector<std::size_t> used;
-  std::vector<double>      precision;
-  for (std::size_t c = 0; c < cells.size(); ++c)
-  {
-    const double p = cells[c].sumI[1] - 2.0 * offset * cells[c].sum[1] + offset * offset * cells[c].sum[0];
-    if (static_cast<double>(cells[c].pixels) > std::max(20.0, 0.25 * pixels) && p > 0.0)
-    {
-      used.push_back(c);
-      precision.push_back(p);
-    }
-  }
-  LocalIllumination found;
-  found.series.resize(frames, 0);
-  const auto count = static_cast<Eigen::Index>(used.size());
-  if (count < 8 || most == 0)
-  {
-    return found;
-  }
-
-  Eigen::MatrixXd whole(frames, count);
-  for (Eigen::Index i = 0; i < count; ++i)
-  {
-    const std::size_t       c = used[static_cast<std::size_t>(i)];
-    const FrameSums::Cell & cell = cells[c];
-    const double            p = precision[static_cast<std::size_t>(i)];
-    for (Eigen::Index t = 0; t < frames; ++t)
-    {
-      const auto & sum = sums.GetCellSums(static_cast<std::size_t>(t), c);
-      double       response = sum[1] - offset * sum[0] - gamma[static_cast<std::size_t>(t)] * p;
-      for (std::size_t k = 0; k < motion.stencils.size(); ++k)
-      {
-        const std::size_t stencil = motion.stencils[k];
-        response -= motion.coefficients(t, static_cast<Eigen::Index>(k)) *
-                    (cell.sumI[2 + stencil] - offset * cell.sum[2 + stencil]);
-      }
-      whole(t, i) = response / std::sqrt(p);
-    }
-  }
-  Eigen::MatrixXd known(frames, 1 + motionColumns.cols());
-  known.col(0) = Eigen::Map<const Eigen::VectorXd>(gamma.data(), frames);
-  known.rightCols(motionColumns.cols()) = motionColumns;
-  const Eigen::MatrixXd basis = Orthonormalise(known, frames);
-  const Eigen::Index    freedom = frames - 1 - basis.cols();
-  if (freedom < 4)
-  {
-    return found;
-  }
-  Eigen::MatrixXd rest = whole.rowwise() - whole.colwise().mean();
-  rest -= basis * (basis.transpose() * rest);
-  // One noisy cell must not make a factor: each is scaled by its own typical size, if that is above the average.
-  std::vector<double> sizes(static_cast<std::size_t>(count));
-  for (Eigen::Index i = 0; i < count; ++i)
-  {
-    std::vector<double> squares(static_cast<std::size_t>(frames));
-    for (Eigen::Index t = 0; t < frames; ++t)
-    {
-      squares[static_cast<std::size_t>(t)] = rest(t, i) * rest(t, i);
-    }
-    sizes[static_cast<std::size_t>(i)] = std::sqrt(std::max(1e-30, Quantile(squares, 0.5) / 0.455));
-  }
-  const double typical = QuantileOf(sizes, 0.5);
-  for (Eigen::Index i = 0; i < count; ++i)
-  {
-    const double size = std::max(sizes[static_cast<std::size_t>(i)], typical);
-    rest.col(i) /= size;
-    whole.col(i) /= size;
-  }
-
-  const bool            isTall = frames > count;
-  const Eigen::MatrixXd gram =
-    isTall ? Eigen::MatrixXd(rest.transpose() * rest) : Eigen::MatrixXd(rest * rest.transpose());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
-  const auto                                           shorter = std::min(freedom, count);
-  const auto                                           longer = static_cast<double>(std::max(freedom, count));
-  std::vector<double>                                  values;
-  for (Eigen::Index i = 0; i < shorter; ++i)
-  {
-    values.push_back(eigen.eigenvalues()(gram.rows() - 1 - i));
-  }
-  const double ratio = static_cast<double>(shorter) / longer;
-  const double noise = QuantileOf(values, 0.5) / (detail::MedianNoiseEigenvalue(ratio) * longer);
-  const double edge = 1.25 * noise * std::pow(std::sqrt(static_cast<double>(shorter)) + std::sqrt(longer), 2);
-  found.excess = values.front() / edge;
-  Eigen::Index factors = 0;
-  while (factors < shorter && factors < static_cast<Eigen::Index>(most) &&
-         values[static_cast<std::size_t>(factors)] > edge)
-  {
-    ++factors;
-  }
-  found.series.resize(frames, factors);
-  for (Eigen::Index j = 0; j < factors; ++j)
-  {
-    const Eigen::VectorXd vector = eigen.eigenvectors().col(gram.rows() - 1 - j);
-    // The cells' pattern, and what all of the cells' series, motion's look-alike part too, show in that pattern.
-    found.series.col(j) = whole * (isTall ? vector : Eigen::VectorXd(rest.transpose() * vector));
-  }
-  return found;
-}
+                      std::size_t                 most);
 
 } // namespace sensornoise
 

@@ -18,33 +18,32 @@
 #ifndef sensornoise_series_RegressorBand_h
 #define sensornoise_series_RegressorBand_h
 
+#include "SensorNoiseExport.h"
 #include "sensornoise/base/Eigen.h"
-#include "sensornoise/series/FrameProducts.h"
 #include "sensornoise/series/FrameRegressors.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <vector>
 
 namespace sensornoise
 {
 
 /** \class RegressorBand
- * \brief The rows of FrameRegressors over a few lines of the image, ordered by cell and class, and their inner products
- * with series.
+ * \brief The weighted columns of FrameRegressors over a few rows of the image, ordered by cell and class, and their
+ * inner products with series.
  *
- * Whole lines are read from memory in one piece; the rows stay in the second-level cache while all frames pass, and the
- * sums of one cell and class in registers. */
-class RegressorBand
+ * Whole rows are read from memory in one piece; the columns stay in the second-level cache while all frames pass, and
+ * the sums of one group in registers. */
+class SensorNoise_EXPORT RegressorBand
 {
 public:
   static constexpr std::size_t Together = 4; // series whose sums stay in registers
 
   using Vector = Eigen::Matrix<double, Together, 1>; // the values of series at a pixel
-  using Sums = Eigen::Matrix<double, FrameRegressors::Row{}.size(), Together>;
+  using Sums = Eigen::Matrix<double, FrameRegressors::WeightedColumns{}.size(), Together>;
 
-  /** The pixels of one class in one cell of the band, which has \a cells cells side by side. */
+  /** The pixels of one class in one cell of the band. */
   struct Group
   {
     std::size_t cell;
@@ -53,46 +52,8 @@ public:
     std::size_t end;
   };
 
-  RegressorBand(const FrameRegressors & regressors, std::size_t firstLine, std::size_t lines, std::size_t cells)
-    : m_First(firstLine * regressors.GetFrame().geometry.width)
-    , m_Pixels(lines * regressors.GetFrame().geometry.width)
-  {
-    const std::size_t        width = regressors.GetFrame().geometry.width;
-    std::vector<std::size_t> begin(cells * GradientClasses + 1, 0);
-    const auto               forUsed = [&](auto function) {
-      for (std::size_t line = 0; line < lines; ++line)
-      {
-        for (std::size_t cell = 0; cell < cells; ++cell)
-        {
-          for (std::size_t x = width * cell / cells; x < width * (cell + 1) / cells; ++x)
-          {
-            const std::size_t  i = line * width + x;
-            const std::uint8_t gradientClass = regressors.ClassOf(m_First + i);
-            if (gradientClass != FrameRegressors::Unused)
-            {
-              function(i, cell * GradientClasses + gradientClass);
-            }
-          }
-        }
-      }
-    };
-    forUsed([&](std::size_t, std::size_t group) { ++begin[group + 1]; });
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    for (std::size_t group = 0; group + 1 < begin.size(); ++group)
-    {
-      if (begin[group + 1] > begin[group])
-      {
-        m_Groups.push_back({ group / GradientClasses, group % GradientClasses, begin[group], begin[group + 1] });
-      }
-    }
-    m_Order.resize(begin.back());
-    m_Rows.resize(begin.back());
-    forUsed([&](std::size_t i, std::size_t group) {
-      const std::size_t place = begin[group]++;
-      m_Order[place] = static_cast<std::uint32_t>(i);
-      m_Rows[place] = regressors.RowOf(m_First + i, regressors.ValuesOf(m_First + i));
-    });
-  }
+  /** The rows \a firstRow ... \a firstRow + \a rows - 1 of the image, cut into \a cells cells side by side. */
+  RegressorBand(const FrameRegressors & regressors, std::size_t firstRow, std::size_t rows, std::size_t cells);
 
   /** The band's pixels are First() ... First() + Pixels() - 1. */
   std::size_t
@@ -117,34 +78,17 @@ public:
     return m_Order;
   }
 
-  /** Fills \a sums with those over the pixels of every group of their rows times \a values, which are the values of
+  /** Fills \a sums with those over the pixels of every group of their columns times \a values, which are the values of
    * Together series at all pixels of the band. A series' bits do not depend on those beside it. */
   void
-  Multiply(const std::vector<Vector> & values, std::vector<Sums> & sums) const
-  {
-    constexpr Eigen::Index part = 4; // columns whose sums stay in registers
-    sums.resize(m_Groups.size());
-    for (std::size_t g = 0; g < m_Groups.size(); ++g)
-    {
-      for (Eigen::Index column = 0; column < Sums::RowsAtCompileTime; column += part)
-      {
-        Eigen::Matrix<double, part, Together> sum = Eigen::Matrix<double, part, Together>::Zero();
-        for (std::size_t i = m_Groups[g].begin; i < m_Groups[g].end; ++i)
-        {
-          const Eigen::Map<const Eigen::Matrix<double, part, 1>> columns(m_Rows[i].data() + column);
-          sum.noalias() += columns * values[m_Order[i]].transpose();
-        }
-        sums[g].middleRows<part>(column) = sum;
-      }
-    }
-  }
+  Multiply(const std::vector<Vector> & values, std::vector<Sums> & sums) const;
 
 private:
-  std::size_t                       m_First;
-  std::size_t                       m_Pixels;
-  std::vector<Group>                m_Groups;
-  std::vector<std::uint32_t>        m_Order;
-  std::vector<FrameRegressors::Row> m_Rows;
+  std::size_t                                   m_First;
+  std::size_t                                   m_Pixels;
+  std::vector<Group>                            m_Groups;
+  std::vector<std::uint32_t>                    m_Order;
+  std::vector<FrameRegressors::WeightedColumns> m_Columns;
 };
 
 } // namespace sensornoise

@@ -18,13 +18,12 @@
 #ifndef sensornoise_series_ShiftInstruments_h
 #define sensornoise_series_ShiftInstruments_h
 
-#include "sensornoise/base/BoxSum.h"
+#include "SensorNoiseExport.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/Stencils.h"
 #include "sensornoise/scene/ProvisionalModel.h"
 #include "sensornoise/scene/ReferenceFrame.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -37,68 +36,16 @@ namespace sensornoise
 inline constexpr std::size_t InstrumentRadius = 3;
 
 /** The derivative of the mean by stencil \a k, smoothed. */
-inline std::vector<double>
-SmoothedDerivative(const ReferenceFrame & frame, StencilIndex k, const ParallelFor & parallelFor)
-{
-  constexpr double    side = 2.0 * InstrumentRadius + 1.0;
-  const std::size_t   width = frame.geometry.width;
-  const std::size_t   height = frame.geometry.height;
-  std::vector<double> map(frame.mean.size(), 0.0);
-  parallelFor(height, [&](std::size_t y) {
-    for (std::size_t x = StencilMargin; x + StencilMargin < width; ++x)
-    {
-      if (y >= StencilMargin && y + StencilMargin < height)
-      {
-        const double derivative = ApplyStencil(MotionStencils()[k], frame.mean.data(), width, y * width + x);
-        map[y * width + x] = derivative / (side * side * side * side);
-      }
-    }
-  });
-  const std::vector<double> once = BoxSum(map, width, height, InstrumentRadius, parallelFor);
-  BoxSum(once, width, height, InstrumentRadius, parallelFor, map);
-  return map;
-}
+SensorNoise_EXPORT std::vector<double>
+SmoothedDerivative(const ReferenceFrame & frame, StencilIndex k, const ParallelFor & parallelFor);
 
 /** Weights of the instruments: the inverse noise, smoothed, and falling smoothly to 0 where pixels are missing from
  * \a mask. Rough weights, or an edge of which half is missing, would bring the short wavelengths back. */
-inline std::vector<double>
+SensorNoise_EXPORT std::vector<double>
 InstrumentWeight(const ReferenceFrame &            frame,
                  const ProvisionalModel &          model,
                  const std::vector<std::uint8_t> & mask,
-                 const ParallelFor &               parallelFor)
-{
-  constexpr std::size_t     reach = 4;
-  constexpr std::size_t     radius = 8;
-  const std::size_t         width = frame.geometry.width;
-  const std::size_t         height = frame.geometry.height;
-  std::vector<std::uint8_t> missing(mask.size(), 0);
-  std::vector<double>       noise(mask.size());
-  parallelFor(height, [&](std::size_t y) {
-    for (std::size_t x = 0; x < width; ++x)
-    {
-      const std::size_t p = y * width + x;
-      const bool        isInner =
-        x >= StencilMargin && x + StencilMargin < width && y >= StencilMargin && y + StencilMargin < height;
-      missing[p] = isInner && mask[p] == 0 ? 1 : 0;
-      noise[p] = model.NoiseVariance(frame.neighbourMean[p]);
-    }
-  });
-  std::vector<std::uint8_t> complete(mask.size());
-  std::vector<double>       smooth = BoxSum(missing, width, height, reach, parallelFor);
-  std::transform(
-    smooth.begin(), smooth.end(), complete.begin(), [](double near) { return static_cast<std::uint8_t>(near < 0.5); });
-  std::vector<double> weight = BoxSum(complete, width, height, reach, parallelFor);
-  BoxSum(noise, width, height, radius, parallelFor, smooth);
-  constexpr double side = 2.0 * radius + 1.0;
-  constexpr double area = (2.0 * reach + 1.0) * (2.0 * reach + 1.0);
-  ForBlocks(mask.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p)
-    {
-      weight[p] *= side * side / (area * smooth[p]);
-    }
-  });
-  return weight;
-}
+                 const ParallelFor &               parallelFor);
 
 /** Instruments for the shifts along x and y: derivatives of long wavelengths, and their weights (see SolveShifts). */
 struct ShiftInstruments
@@ -109,17 +56,11 @@ struct ShiftInstruments
 };
 
 /** Instruments over the pixels of \a mask. */
-inline ShiftInstruments
+SensorNoise_EXPORT ShiftInstruments
 MakeShiftInstruments(const ReferenceFrame &            frame,
                      const ProvisionalModel &          model,
                      const std::vector<std::uint8_t> & mask,
-                     const ParallelFor &               parallelFor)
-{
-  ShiftInstruments instruments{ SmoothedDerivative(frame, StencilX, parallelFor),
-                                SmoothedDerivative(frame, StencilY, parallelFor),
-                                InstrumentWeight(frame, model, mask, parallelFor) };
-  return instruments;
-}
+                     const ParallelFor &               parallelFor);
 
 } // namespace sensornoise
 

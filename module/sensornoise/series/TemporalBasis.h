@@ -18,14 +18,11 @@
 #ifndef sensornoise_series_TemporalBasis_h
 #define sensornoise_series_TemporalBasis_h
 
+#include "SensorNoiseExport.h"
 #include "sensornoise/base/Eigen.h"
-#include "sensornoise/series/LocalIllumination.h"
 #include "sensornoise/series/MotionSeries.h"
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace sensornoise
@@ -34,41 +31,8 @@ namespace sensornoise
 /** The time series of the motion: the coefficients of the derivatives, and their products up to the second order of
  * both axes, which is the basis of a shift whose kernel is separable, whatever the interpolation or the optics.
  * Estimator.md, 3.4. */
-inline Eigen::MatrixXd
-MotionColumns(const MotionSeries & motion, const std::vector<double> & gamma)
-{
-  const auto                                                   frames = static_cast<Eigen::Index>(gamma.size());
-  constexpr std::array<std::pair<std::size_t, std::size_t>, 4> products{
-    { { StencilX, StencilY }, { StencilX, StencilYY }, { StencilXX, StencilY }, { StencilXX, StencilYY } }
-  };
-  std::vector<Eigen::VectorXd> columns;
-  for (Eigen::Index k = 0; k < motion.coefficients.cols(); ++k)
-  {
-    columns.emplace_back(motion.coefficients.col(k));
-  }
-  const auto has = [&motion](std::size_t stencil) {
-    return std::find(motion.stencils.begin(), motion.stencils.end(), stencil) != motion.stencils.end();
-  };
-  for (const auto & [a, b] : products)
-  {
-    if (has(a) && has(b))
-    {
-      Eigen::VectorXd product(frames);
-      for (Eigen::Index t = 0; t < frames; ++t)
-      {
-        const auto i = static_cast<std::size_t>(t);
-        product(t) = motion.Get(i, a) * motion.Get(i, b) / (1.0 + gamma[i]);
-      }
-      columns.push_back(product);
-    }
-  }
-  Eigen::MatrixXd result(frames, static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t k = 0; k < columns.size(); ++k)
-  {
-    result.col(static_cast<Eigen::Index>(k)) = columns[k];
-  }
-  return result;
-}
+SensorNoise_EXPORT Eigen::MatrixXd
+MotionColumns(const MotionSeries & motion, const std::vector<double> & gamma);
 
 /** \class TemporalBasis
  * \brief The few series over time that are not sensor noise: flicker, local light and motion, orthonormal, and
@@ -76,7 +40,7 @@ MotionColumns(const MotionSeries & motion, const std::vector<double> & gamma)
  *
  * They are held as integers of 20 bits, so that their products with integer pixels are summed exactly; the basis is
  * what the rounded series span. The first NumberOfLightFactors() are light. */
-class TemporalBasis
+class SensorNoise_EXPORT TemporalBasis
 {
 public:
   static constexpr double Unit = 1048576.0; // 2^20
@@ -84,24 +48,7 @@ public:
   TemporalBasis() = default;
   /** At most 0.6 (T - 2) series: a short burst leaves out the last of the motion's. (With 0.4 (T - 1) vibrations of 0.3
    * pixels bias the gain of 20 frames of texture by 0.15 %.) */
-  TemporalBasis(const std::vector<double> & gamma, const Eigen::MatrixXd & local, const Eigen::MatrixXd & motion)
-  {
-    const auto      frames = static_cast<Eigen::Index>(gamma.size());
-    Eigen::MatrixXd light(frames, 1 + local.cols());
-    light.col(0) = Eigen::Map<const Eigen::VectorXd>(gamma.data(), frames);
-    light.rightCols(local.cols()) = local;
-    Eigen::MatrixXd all(frames, light.cols() + motion.cols());
-    all << light, motion;
-    const Eigen::MatrixXd basis = Orthonormalise(all, std::max<Eigen::Index>(light.cols(), 3 * (frames - 2) / 5));
-    m_LightFactors = static_cast<std::size_t>(std::min(basis.cols(), Orthonormalise(light, frames).cols()));
-    m_Rounded = (basis * Unit).array().round();
-    m_Series = m_Rounded / Unit;
-    const Eigen::MatrixXd             centred = m_Series.rowwise() - m_Series.colwise().mean();
-    const Eigen::LLT<Eigen::MatrixXd> factor(centred.transpose() * centred);
-    m_Inverse = factor.matrixL().solve(Eigen::MatrixXd::Identity(centred.cols(), centred.cols()));
-    m_Basis = centred * m_Inverse.transpose();
-    m_Means = m_Series.colwise().mean();
-  }
+  TemporalBasis(const std::vector<double> & gamma, const Eigen::MatrixXd & local, const Eigen::MatrixXd & motion);
 
   std::size_t
   Size() const
@@ -129,34 +76,7 @@ public:
    * series in the basis, for \a pixels pixels: sums[j stride + i] is that of pixel i with series j, means[i] the mean
    * of its values. */
   void
-  ToCoordinates(double * sums, std::size_t stride, const double * means, std::size_t pixels) const
-  {
-    const auto frames = static_cast<double>(m_Basis.rows());
-    for (std::size_t j = 0; j < this->Size(); ++j)
-    {
-      const double taken = m_Means(static_cast<Eigen::Index>(j)) * frames;
-      for (std::size_t i = 0; i < pixels; ++i)
-      {
-        sums[j * stride + i] = sums[j * stride + i] / Unit - taken * means[i];
-      }
-    }
-    for (std::size_t j = this->Size(); j-- > 0;)
-    {
-      const auto row = static_cast<Eigen::Index>(j);
-      for (std::size_t i = 0; i < pixels; ++i)
-      {
-        sums[j * stride + i] *= m_Inverse(row, row);
-      }
-      for (std::size_t k = 0; k < j; ++k)
-      {
-        const double factor = m_Inverse(row, static_cast<Eigen::Index>(k));
-        for (std::size_t i = 0; i < pixels; ++i)
-        {
-          sums[j * stride + i] += factor * sums[k * stride + i];
-        }
-      }
-    }
-  }
+  ToCoordinates(double * sums, std::size_t stride, const double * means, std::size_t pixels) const;
 
 private:
   std::size_t        m_LightFactors{ 0 };

@@ -18,11 +18,10 @@
 #ifndef sensornoise_simulation_Random_h
 #define sensornoise_simulation_Random_h
 
-#include "sensornoise/base/MixBits.h"
+#include "SensorNoiseExport.h"
 
 #include <cmath>
 #include <cstdint>
-#include <initializer_list>
 
 namespace sensornoise
 {
@@ -38,28 +37,14 @@ namespace sensornoise
  * Bits() and Uniform() are integer arithmetic: the same bits on every platform. Normal() and Poisson() go through
  * log, exp and sqrt, whose last digit belongs to the C library: of numbers rounded to whole grey levels, about one in
  * 1e12 can differ from platform to platform; on one platform none does. */
-class CounterSeededRandom
+class SensorNoise_EXPORT CounterSeededRandom
 {
 public:
   /** \param seed chosen by the user, any value
    * \param stream what the numbers are for: different streams of one seed are independent
    * \param a first counter, for example the frame
    * \param b second counter, for example the row */
-  explicit CounterSeededRandom(std::uint64_t seed, std::uint64_t stream = 0, std::uint64_t a = 0, std::uint64_t b = 0)
-  {
-    constexpr std::uint64_t golden = 0x9e3779b97f4a7c15ULL;
-    // Each step is one to one in the counter it takes in, so no two rows of one frame share a generator.
-    std::uint64_t hash = MixBits(seed + golden);
-    for (const std::uint64_t counter : { stream, a, b })
-    {
-      hash = MixBits((hash ^ counter) + golden);
-    }
-    for (std::uint64_t & word : m_State)
-    {
-      hash += golden;
-      word = MixBits(hash);
-    }
-  }
+  explicit CounterSeededRandom(std::uint64_t seed, std::uint64_t stream = 0, std::uint64_t a = 0, std::uint64_t b = 0);
 
   /** 64 random bits (xoshiro256++). */
   std::uint64_t
@@ -116,35 +101,13 @@ public:
    * vol. 2, 3.4.1). From 10 on: transformed rejection, algorithm PTRS (Hormann, Insurance: Mathematics and Economics
    * 12(1), 1993, DOI 10.1016/0167-6687(93)90997-4), about 1.15 tries a number whatever the mean. */
   std::int64_t
-  Poisson(double mean)
-  {
-    if (!(mean > 0.0))
-    {
-      return 0;
-    }
-    return mean < 10.0 ? PoissonByMultiplication(mean) : PoissonByTransformedRejection(mean);
-  }
+  Poisson(double mean);
 
   /** Natural logarithm of k! for a whole number k >= 0, to 1e-11 absolute or double precision, whichever is larger.
    * From 16 on Stirling's series, whose first term left out is 1/(1680 k^7) < 3e-12. std::lgamma is not used because it
    * may write a global variable, which threads would race for. */
   static double
-  LogFactorial(double k)
-  {
-    constexpr double factorials[] = { 1.0,         1.0,          2.0,           6.0,
-                                      24.0,        120.0,        720.0,         5040.0,
-                                      40320.0,     362880.0,     3628800.0,     39916800.0,
-                                      479001600.0, 6227020800.0, 87178291200.0, 1307674368000.0 };
-    if (k < 16.0)
-    {
-      return std::log(factorials[static_cast<int>(k)]);
-    }
-    constexpr double halfLogTwoPi = 0.91893853320467274178;
-    const double     inverse = 1.0 / k;
-    const double     inverseSquared = inverse * inverse;
-    return (k + 0.5) * std::log(k) - k + halfLogTwoPi +
-           inverse * (1.0 / 12.0 - inverseSquared * (1.0 / 360.0 - inverseSquared / 1260.0));
-  }
+  LogFactorial(double k);
 
 private:
   static std::uint64_t
@@ -154,45 +117,10 @@ private:
   }
 
   std::int64_t
-  PoissonByMultiplication(double mean)
-  {
-    const double limit = std::exp(-mean);
-    std::int64_t count = 0;
-    for (double product = Uniform(); product > limit; product *= Uniform())
-    {
-      ++count;
-    }
-    return count;
-  }
+  PoissonByMultiplication(double mean);
 
   std::int64_t
-  PoissonByTransformedRejection(double mean)
-  {
-    // Names and constants of PTRS: a and b shape the hat function, its immediate acceptance area has height vr.
-    const double b = 0.931 + 2.53 * std::sqrt(mean);
-    const double a = -0.059 + 0.02483 * b;
-    const double vr = 0.9277 - 3.6224 / (b - 2.0);
-    while (true)
-    {
-      const double u = Uniform() - 0.5;
-      const double v = Uniform();
-      const double us = 0.5 - std::abs(u);
-      const double k = std::floor((2.0 * a / us + b) * u + mean + 0.43);
-      if (us >= 0.07 && v <= vr)
-      {
-        return static_cast<std::int64_t>(k);
-      }
-      if (k < 0.0 || (us < 0.013 && v > us))
-      {
-        continue;
-      }
-      const double inverseAlpha = 1.1239 + 1.1328 / (b - 3.4);
-      if (std::log(v * inverseAlpha / (a / (us * us) + b)) <= k * std::log(mean) - mean - LogFactorial(k))
-      {
-        return static_cast<std::int64_t>(k);
-      }
-    }
-  }
+  PoissonByTransformedRejection(double mean);
 
   std::uint64_t m_State[4]{};
   double        m_SpareNormal{ 0.0 };

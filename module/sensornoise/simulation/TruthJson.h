@@ -18,59 +18,19 @@
 #ifndef sensornoise_simulation_TruthJson_h
 #define sensornoise_simulation_TruthJson_h
 
-#include "sensornoise/report/JsonWriter.h"
-#include "sensornoise/simulation/SimulationSettings.h"
+#include "SensorNoiseExport.h"
+#include "sensornoise/simulation/SimulationTruth.h"
 
-#include <array>
 #include <cstddef>
-#include <optional>
 #include <string>
-#include <vector>
 
 namespace sensornoise
 {
 
 /** The truth of a simulated stack as JSON, schema "itk-sensornoise-truth/1": every parameter by the names of the
  * report, and the random series. Numbers that do not exist (a standard deviation of one frame) are null. */
-inline std::string
-ToJson(const SimulationTruth & truth, std::size_t width, std::size_t height)
-{
-  const SimulationSettings & settings = truth.settings;
-  const CameraModel &        camera = settings.camera;
-  const SceneConditions &    conditions = settings.conditions;
-  const double intercept = camera.readNoiseDn * camera.readNoiseDn - camera.gainDnPerElectron * camera.offsetDn;
-  std::optional<std::vector<double>> phase;
-  if (settings.rollingShutterPeriodRows > 0.0)
-  {
-    phase = truth.series.phase;
-  }
-  std::string text;
-  JsonWriter  json(text);
-  json.Object([&] {
-    json.Member("schema", "itk-sensornoise-truth/1");
-    json.Member("frames", settings.frames).Member("width", width).Member("height", height);
-    json.Member("bit_depth", settings.bitDepth).Member("seed", static_cast<std::size_t>(settings.seed));
-    json.Member("electrons", camera.electrons).Member("gain", camera.gainDnPerElectron);
-    json.Member("offset", camera.offsetDn).Member("read_noise", camera.readNoiseDn);
-    json.Member("intercept", intercept);
-    json.Member("total_intercept", intercept + 1.0 / 12.0); // with the noise of rounding to whole codes
-    json.Member("clip_low", settings.clipLowDn).Member("clip_high", settings.clipHighDn);
-    json.Member("optical_blur", settings.opticalBlurPixels);
-    json.Member("rolling_shutter_period", settings.rollingShutterPeriodRows);
-    json.Member("prnu_sd", settings.prnuSd).Member("dsnu_sd", settings.dsnuSdDn);
-    json.Member("hot_pixel_fraction", settings.hotPixelFraction);
-    json.Member("flicker_sd", conditions.flickerSd);
-    json.Member("vibration_sd", std::array<double, 2>{ conditions.vibrationSdXPixels, conditions.vibrationSdYPixels });
-    json.Member("realised_flicker_sd", truth.realisedFlickerSd);
-    json.Member("realised_vibration_sd",
-                std::array<double, 2>{ truth.realisedVibrationSdXPixels, truth.realisedVibrationSdYPixels });
-    json.Member("flicker", truth.normalisedFlicker);
-    json.Member("gamma", truth.series.gamma).Member("alpha", truth.series.alpha).Member("beta", truth.series.beta);
-    json.Member("phase", phase);
-  });
-  text += '\n';
-  return text;
-}
+SensorNoise_EXPORT std::string
+ToJson(const SimulationTruth & truth, std::size_t width, std::size_t height);
 
 } // namespace sensornoise
 

@@ -237,7 +237,7 @@ def _set_parameters(
         estimator.SetRollingShutter(rolling_shutter)
     else:
         expected = "'auto', 'off' or a number of rows above 0"
-        estimator.SetRowSigma(_options.number("rolling_shutter", rolling_shutter, expected, above=0.0))
+        estimator.SetSigmaRows(_options.number("rolling_shutter", rolling_shutter, expected, above=0.0))
         estimator.SetRollingShutter("fixed")
     estimator.SetShutterAxis(1 if _options.one_of("shutter_axis", shutter_axis, ["y", "x"]) == "y" else 0)
     estimator.SetLevel(_options.number("level", level))

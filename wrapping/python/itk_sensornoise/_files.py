@@ -23,7 +23,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ._arrays import PIXEL_NAMES, PIXEL_TYPES
-from ._errors import cause_of
+from ._errors import itk_errors
 
 
 @dataclass(frozen=True)
@@ -51,14 +51,12 @@ def _open(name: str) -> Any:
         raise ValueError(f"{name}: does not exist; expected an image file")
     if os.path.getsize(name) == 0:
         raise ValueError(f"{name}: has 0 bytes; expected an image file")
-    try:
+    with itk_errors(f"{name}: its header cannot be read; "):
         io = itk.ImageIOFactory.CreateImageIO(name, itk.CommonEnums.IOFileMode_ReadMode)
         if io is None:
             raise ValueError(f"{name}: not an image of a format that ITK reads; expected TIFF, PNG, MetaImage or NRRD")
         io.SetFileName(name)
         io.ReadImageInformation()
-    except RuntimeError as error:
-        raise RuntimeError(f"{name}: its header cannot be read; {cause_of(error)}\n{error}") from error
     return io
 
 

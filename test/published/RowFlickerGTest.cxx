@@ -15,7 +15,7 @@
  *  limitations under the License.
  *
  *=========================================================================*/
-#include "sensornoise/published/LineFlicker.h"
+#include "sensornoise/published/RowFlicker.h"
 #include "sensornoise/published/FlickerSums.h"
 #include "sensornoise/published/IsoIntensitySet.h"
 
@@ -51,12 +51,12 @@ RowFlicker(std::size_t t, std::size_t y)
   return 0.05 * std::sin(0.25 * static_cast<double>(y) + 2.3 * static_cast<double>(t));
 }
 
-/** Frames of mean 1000 with a flicker and normal noise; the rows [firstRow, lastRow) are the line set. */
+/** Frames of mean 1000 with a flicker and normal noise; the rows [firstRow, lastRow) are the row set. */
 struct Stack
 {
   std::vector<double>              mean;
   std::vector<std::vector<double>> frames;
-  IsoIntensitySet                  lineSet;
+  IsoIntensitySet                  rowSet;
   IsoIntensitySet                  dark;
 
   Stack(const Flicker & flicker, double noise, std::size_t firstRow = 0, std::size_t lastRow = Height)
@@ -76,16 +76,16 @@ struct Stack
     double total = 0.0;
     for (std::size_t p = firstRow * Width; p < lastRow * Width; ++p)
     {
-      lineSet.pixels.push_back(static_cast<std::uint32_t>(p));
-      lineSet.weights.push_back(1.0 + 0.5 * std::sin(static_cast<double>(p)));
-      total += lineSet.weights.back();
+      rowSet.pixels.push_back(static_cast<std::uint32_t>(p));
+      rowSet.weights.push_back(1.0 + 0.5 * std::sin(static_cast<double>(p)));
+      total += rowSet.weights.back();
     }
-    std::for_each(lineSet.weights.begin(), lineSet.weights.end(), [total](double & weight) { weight /= total; });
+    std::for_each(rowSet.weights.begin(), rowSet.weights.end(), [total](double & weight) { weight /= total; });
   }
   FlickerSums
   Sums() const
   {
-    FlickerSums sums(lineSet, dark, mean.data(), { Width, Height, 1 }, Frames, lineSet);
+    FlickerSums sums(rowSet, dark, mean.data(), { Width, Height, 1 }, Frames, rowSet);
     for (std::size_t t = 0; t < Frames; ++t)
     {
       sums.AddFrame(frames[t].data(), t);
@@ -105,7 +105,7 @@ struct Stack
       }
       return out;
     };
-    IsoIntensitySet set = lineSet;
+    IsoIntensitySet set = rowSet;
     for (std::uint32_t & p : set.pixels)
     {
       p = static_cast<std::uint32_t>(place(p));
@@ -121,46 +121,46 @@ struct Stack
 };
 } // namespace
 
-TEST(SensorNoiseLineFlicker, LineWeightsSumToOne)
+TEST(SensorNoiseRowFlicker, RowWeightsSumToOne)
 {
   const FlickerSums sums = Stack(RowFlicker, 0.0).Sums();
   double            sum = 0.0;
   for (std::size_t y = 0; y < Height; ++y)
   {
-    sum += sums.GetLineWeight(y);
+    sum += sums.GetRowWeight(y);
   }
-  EXPECT_EQ(sums.GetNumberOfLines(), Height);
+  EXPECT_EQ(sums.GetNumberOfRows(), Height);
   EXPECT_NEAR(sum, 1.0, 1e-12);
 }
 
-TEST(SensorNoiseLineFlicker, GlobalFlickerIsNotModelledByLine)
+TEST(SensorNoiseRowFlicker, GlobalFlickerIsNotModelledByRow)
 {
-  // Cross-validation gains by 1 % of 2,400 line errors, their sum's sd, with about 1/3 of a sd's chance to begin with.
-  EXPECT_EQ(ChooseLineSigma(Stack(GlobalFlicker, 20.0).Sums()), 0.0);
-  EXPECT_EQ(ChooseLineSigma(Stack([](std::size_t, std::size_t) { return 0.0; }, 20.0).Sums()), 0.0);
+  // Cross-validation gains by 1 % of 2,400 row errors, their sum's sd, with about 1/3 of a sd's chance to begin with.
+  EXPECT_EQ(ChooseSigmaRows(Stack(GlobalFlicker, 20.0).Sums()), 0.0);
+  EXPECT_EQ(ChooseSigmaRows(Stack([](std::size_t, std::size_t) { return 0.0; }, 20.0).Sums()), 0.0);
 }
 
-TEST(SensorNoiseLineFlicker, RowFlickerIsModelledByLine)
+TEST(SensorNoiseRowFlicker, RowFlickerIsModelledByRow)
 {
   // Half a period is 12.6 rows: a wider kernel averages the pulse away, a narrower one leaves noise in.
-  const double sigma = ChooseLineSigma(Stack(RowFlicker, 20.0).Sums());
+  const double sigma = ChooseSigmaRows(Stack(RowFlicker, 20.0).Sums());
   EXPECT_GE(sigma, 1.0);
   EXPECT_LE(sigma, 6.0);
 }
 
-TEST(SensorNoiseLineFlicker, MoreNoiseAsksForAWiderKernel)
+TEST(SensorNoiseRowFlicker, MoreNoiseAsksForAWiderKernel)
 {
-  EXPECT_LT(ChooseLineSigma(Stack(RowFlicker, 5.0).Sums()), ChooseLineSigma(Stack(RowFlicker, 150.0).Sums()));
+  EXPECT_LT(ChooseSigmaRows(Stack(RowFlicker, 5.0).Sums()), ChooseSigmaRows(Stack(RowFlicker, 150.0).Sums()));
 }
 
-TEST(SensorNoiseLineFlicker, SmoothingAConstantLeavesIt)
+TEST(SensorNoiseRowFlicker, SmoothingAConstantLeavesIt)
 {
   const Stack       stack(GlobalFlicker, 0.0);
   const FlickerSums sums = stack.Sums();
   for (const double sigma : { 0.4, 1.0, 7.0, 1000.0 })
   {
-    const LineRatios ratios = SmoothLineRatios(sums, sigma);
-    EXPECT_EQ(ratios.sigmaLines, sigma);
+    const RowRatios ratios = SmoothRowRatios(sums, sigma);
+    EXPECT_EQ(ratios.sigmaRows, sigma);
     for (std::size_t i = 0; i < ratios.ratio.size(); ++i)
     {
       ASSERT_NEAR(ratios.ratio[i], 1.0 + GlobalFlicker(i / Height, 0), 1e-12) << sigma;
@@ -168,25 +168,25 @@ TEST(SensorNoiseLineFlicker, SmoothingAConstantLeavesIt)
   }
 }
 
-TEST(SensorNoiseLineFlicker, RatiosEqualBruteForce)
+TEST(SensorNoiseRowFlicker, RatiosEqualBruteForce)
 {
   // (3.28) pixel by pixel: weights times exp(-(y - y')^2 / (2 sigma_y^2)), cut at 4 sigma_y.
-  const Stack      stack(RowFlicker, 20.0, 5, 40);
-  const double     sigma = 2.5;
-  const LineRatios ratios = SmoothLineRatios(stack.Sums(), sigma);
+  const Stack     stack(RowFlicker, 20.0, 5, 40);
+  const double    sigma = 2.5;
+  const RowRatios ratios = SmoothRowRatios(stack.Sums(), sigma);
   for (const std::size_t t : { std::size_t{ 0 }, Frames - 1 })
   {
     for (std::size_t y = 5; y < 40; ++y)
     {
       double sum = 0.0;
       double weights = 0.0;
-      for (std::size_t i = 0; i < stack.lineSet.pixels.size(); ++i)
+      for (std::size_t i = 0; i < stack.rowSet.pixels.size(); ++i)
       {
-        const std::size_t p = stack.lineSet.pixels[i];
+        const std::size_t p = stack.rowSet.pixels[i];
         const double      distance = static_cast<double>(p / Width) - static_cast<double>(y);
         if (std::abs(distance) <= 4.0 * sigma)
         {
-          const double weight = stack.lineSet.weights[i] * std::exp(-0.5 * distance * distance / (sigma * sigma));
+          const double weight = stack.rowSet.weights[i] * std::exp(-0.5 * distance * distance / (sigma * sigma));
           sum += weight * stack.frames[t][p] / stack.mean[p];
           weights += weight;
         }
@@ -196,9 +196,9 @@ TEST(SensorNoiseLineFlicker, RatiosEqualBruteForce)
   }
 }
 
-TEST(SensorNoiseLineFlicker, LinesBeyondReachAreNotKnown)
+TEST(SensorNoiseRowFlicker, RowsBeyondReachAreNotKnown)
 {
-  const LineRatios ratios = SmoothLineRatios(Stack(RowFlicker, 20.0, 20, 30).Sums(), 3.7);
+  const RowRatios ratios = SmoothRowRatios(Stack(RowFlicker, 20.0, 20, 30).Sums(), 3.7);
   for (std::size_t y = 0; y < Height; ++y)
   {
     EXPECT_EQ(ratios.known[y], y >= 17 && y <= 32 ? 1 : 0) << y; // within 3.7 rows of 20 ... 29
@@ -209,14 +209,14 @@ TEST(SensorNoiseLineFlicker, LinesBeyondReachAreNotKnown)
   }
 }
 
-TEST(SensorNoiseLineFlicker, ColumnsOfTheTransposedSceneAreItsRows)
+TEST(SensorNoiseRowFlicker, ColumnsOfTheTransposedSceneAreItsRows)
 {
   const Stack       stack(RowFlicker, 20.0, 10, 50);
   const FlickerSums rows = stack.Sums();
   const FlickerSums columns = stack.TransposedSums();
-  EXPECT_EQ(ChooseLineSigma(rows), ChooseLineSigma(columns));
-  const LineRatios byRow = SmoothLineRatios(rows, 3.0);
-  const LineRatios byColumn = SmoothLineRatios(columns, 3.0);
+  EXPECT_EQ(ChooseSigmaRows(rows), ChooseSigmaRows(columns));
+  const RowRatios byRow = SmoothRowRatios(rows, 3.0);
+  const RowRatios byColumn = SmoothRowRatios(columns, 3.0);
   EXPECT_EQ(byRow.known, byColumn.known);
-  EXPECT_EQ(byRow.ratio, byColumn.ratio); // pixels of a line are met in the same order: same bits
+  EXPECT_EQ(byRow.ratio, byColumn.ratio); // pixels of a row are met in the same order: same bits
 }

@@ -1,0 +1,128 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/base/IntensityIndex.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+namespace sensornoise
+{
+
+IntensityIndex::IntensityIndex(const double * mean, const std::uint8_t * mask, std::size_t pixels)
+  : m_Mean(mean)
+  , m_Mask(mask)
+  , m_Pixels(pixels)
+  , m_Cumulative(Cells + 1, 0)
+{
+  m_Lowest = std::numeric_limits<double>::infinity();
+  double highest = -m_Lowest;
+  for (std::size_t p = 0; p < pixels; ++p)
+  {
+    if (mask[p] != 0)
+    {
+      m_Lowest = std::min(m_Lowest, mean[p]);
+      highest = std::max(highest, mean[p]);
+    }
+  }
+  m_CellsPerDn = highest > m_Lowest ? static_cast<double>(Cells) / (highest - m_Lowest) : 0.0;
+  for (std::size_t p = 0; p < pixels; ++p)
+  {
+    if (mask[p] != 0)
+    {
+      ++m_Cumulative[this->CellOf(mean[p]) + 1];
+    }
+  }
+  for (std::size_t cell = 0; cell < Cells; ++cell)
+  {
+    m_Cumulative[cell + 1] += m_Cumulative[cell];
+  }
+}
+
+double
+IntensityIndex::QuantileDn(double q) const
+{
+  if (this->Count() == 0)
+  {
+    throw std::invalid_argument("a quantile of no pixel was asked for");
+  }
+  const double        position = q * static_cast<double>(this->Count() - 1);
+  const auto          below = static_cast<std::size_t>(position);
+  const std::size_t   first = this->CellOfRank(below);
+  const std::size_t   last = this->CellOfRank(std::min(below + 1, this->Count() - 1));
+  std::vector<double> values;
+  for (std::size_t p = 0; p < m_Pixels; ++p)
+  {
+    if (m_Mask[p] != 0 && this->CellOf(m_Mean[p]) >= first && this->CellOf(m_Mean[p]) <= last)
+    {
+      values.push_back(m_Mean[p]);
+    }
+  }
+  std::sort(values.begin(), values.end());
+  const std::size_t rank = below - m_Cumulative[first];
+  const double      lower = values[rank];
+  const double      upper = values[std::min(rank + 1, values.size() - 1)];
+  return lower + (position - static_cast<double>(below)) * (upper - lower);
+}
+
+double
+IntensityIndex::ReachDn(double levelDn, std::size_t count) const
+{
+  count = std::min(count, this->Count());
+  const std::size_t centre = this->CellOf(levelDn);
+  std::size_t       margin = 1;
+  while (this->CountBetween(centre, margin) < count)
+  {
+    margin *= 2;
+  }
+  // A cell's pixels may all be at its far side; one more cell, as the edges of cells are rounded.
+  const double        limit = m_CellsPerDn > 0.0 ? static_cast<double>(margin + 2) / m_CellsPerDn : 1.0;
+  std::vector<double> distances;
+  for (std::size_t p = 0; p < m_Pixels; ++p)
+  {
+    const double distance = m_Mask[p] != 0 ? std::abs(m_Mean[p] - levelDn) : -1.0;
+    if (distance >= 0.0 && distance <= limit)
+    {
+      distances.push_back(distance);
+    }
+  }
+  const auto nth = distances.begin() + static_cast<std::ptrdiff_t>(count - 1);
+  std::nth_element(distances.begin(), nth, distances.end());
+  return *nth;
+}
+
+std::size_t
+IntensityIndex::CellOfRank(std::size_t rank) const
+{
+  const auto next = std::upper_bound(m_Cumulative.begin(), m_Cumulative.end(), rank);
+  return static_cast<std::size_t>(next - m_Cumulative.begin()) - 1;
+}
+
+std::size_t
+IntensityIndex::CountBetween(std::size_t centre, std::size_t margin) const
+{
+  const std::size_t first = centre > margin ? centre - margin : 0;
+  const std::size_t last = std::min(Cells, centre + margin + 1);
+  return m_Cumulative[last] - m_Cumulative[first];
+}
+
+} // namespace sensornoise

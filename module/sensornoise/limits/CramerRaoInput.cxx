@@ -1,0 +1,40 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/limits/CramerRaoInput.h"
+
+namespace sensornoise
+{
+double
+CramerRaoInput::TotalReadVarianceDn2() const
+{
+  const double readNoiseDn = truth->settings.camera.readNoiseDn;
+  return readNoiseDn * readNoiseDn + quantisationStepDn * quantisationStepDn / 12.0;
+}
+
+double
+CramerRaoInput::MeanFluxPerElectronDn() const
+{
+  double sum = 0.0;
+  for (const double gamma : truth->series.gamma)
+  {
+    sum += 1.0 + gamma;
+  }
+  return truth->settings.camera.gainDnPerElectron * sum / static_cast<double>(truth->series.gamma.size());
+}
+
+} // namespace sensornoise

@@ -1,0 +1,47 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_moments_CodeRange_h
+#define sensornoise_moments_CodeRange_h
+
+#include <optional>
+#include <string>
+
+namespace sensornoise
+{
+
+/** What is known about the codes of the data. */
+struct CodeRange
+{
+  std::optional<int>    bitDepth;                  ///< null for floating-point data
+  std::string           bitDepthSource{ "none" };  ///< "given", "data" or "none"
+  double                quantisationStepDn{ 0.0 }; ///< spacing of the codes [DN]; 0: the data have no codes
+  bool                  isRegular{ true };         ///< false: rescaled data, the spacing varies
+  std::optional<double> clipLowDn;                 ///< a pixel that attains it is clipped [DN]; null: none
+  std::optional<double> clipHighDn;                ///< a pixel that attains it is clipped [DN]; null: none
+  std::string           clipSource{ "none" }; ///< "given", "pile-up", "code range", "none", or "low: ..., high: ..."
+
+  bool
+  IsClipped(double minimumDn, double maximumDn) const
+  {
+    return (clipLowDn && minimumDn <= *clipLowDn) || (clipHighDn && maximumDn >= *clipHighDn);
+  }
+};
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,69 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/moments/CodeSettings.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace sensornoise
+{
+
+CodeSettings
+MakeCodeSettings(unsigned int bitDepth, double clipLowDn, double clipHighDn, double quantisationStepDn)
+{
+  CodeSettings settings;
+  if (bitDepth > 0)
+  {
+    settings.bitDepth = static_cast<int>(bitDepth);
+  }
+  if (!std::isnan(clipLowDn))
+  {
+    settings.clipLowDn = clipLowDn;
+  }
+  if (!std::isnan(clipHighDn))
+  {
+    settings.clipHighDn = clipHighDn;
+  }
+  if (quantisationStepDn > 0.0)
+  {
+    settings.quantisationStepDn = quantisationStepDn;
+  }
+  return settings;
+}
+
+void
+ValidateCodeSettings(const CodeSettings & codes)
+{
+  if (codes.bitDepth && (*codes.bitDepth < 1 || *codes.bitDepth > 16))
+  {
+    throw std::invalid_argument("the bit depth is " + std::to_string(*codes.bitDepth) + "; expected 1 to 16");
+  }
+  if (codes.clipLowDn && codes.clipHighDn && !(*codes.clipLowDn < *codes.clipHighDn))
+  {
+    throw std::invalid_argument("the clip levels are " + std::to_string(*codes.clipLowDn) + " and " +
+                                std::to_string(*codes.clipHighDn) + " DN; expected low < high");
+  }
+  if (codes.quantisationStepDn && !(*codes.quantisationStepDn > 0.0))
+  {
+    throw std::invalid_argument("the code step is " + std::to_string(*codes.quantisationStepDn) +
+                                " DN; expected a positive number");
+  }
+}
+
+} // namespace sensornoise

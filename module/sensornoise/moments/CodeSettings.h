@@ -1,0 +1,47 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_moments_CodeSettings_h
+#define sensornoise_moments_CodeSettings_h
+
+#include "SensorNoiseExport.h"
+
+#include <optional>
+
+namespace sensornoise
+{
+
+/** What the user says about the codes of the data; what is not said is found. */
+struct CodeSettings
+{
+  std::optional<int>    bitDepth;           ///< bits of the sensor's codes, 1 to 16
+  std::optional<double> clipLowDn;          ///< lowest level that the sensor attains [DN]
+  std::optional<double> clipHighDn;         ///< highest level that the sensor attains [DN]
+  std::optional<double> quantisationStepDn; ///< spacing of the codes [DN]
+};
+
+/** Settings from plain numbers: a bit depth or step of 0, and a clip level of NaN, is to be found. */
+SensorNoise_EXPORT CodeSettings
+MakeCodeSettings(unsigned int bitDepth, double clipLowDn, double clipHighDn, double quantisationStepDn);
+
+/** Throws std::invalid_argument if what the user says of the codes is out of range. */
+SensorNoise_EXPORT void
+ValidateCodeSettings(const CodeSettings & codes);
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,156 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/moments/StackMoments.h"
+
+#include "sensornoise/base/BinaryStream.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/moments/TemporalMoments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <istream>
+#include <map>
+#include <numeric>
+#include <ostream>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+
+/** Sum of the finite pixels. */
+template <typename TPixel>
+double
+SumOfFrame(const TPixel * frame, std::size_t pixels)
+{
+  if constexpr (std::is_integral_v<TPixel>)
+  {
+    using Sum = std::conditional_t<std::is_signed_v<TPixel>, std::int64_t, std::uint64_t>;
+    return static_cast<double>(std::accumulate(frame, frame + pixels, Sum{ 0 }));
+  }
+  else
+  {
+    return std::accumulate(frame, frame + pixels, 0.0, [](double sum, TPixel value) {
+      return std::isfinite(value) ? sum + static_cast<double>(value) : sum;
+    });
+  }
+}
+
+} // namespace
+
+template <typename TPixel>
+StackMoments<TPixel>::StackMoments(std::size_t pixels, std::size_t frames)
+  : m_Pixels(pixels)
+  , m_FrameMeans(frames, 0.0)
+  , m_Own(pixels)
+{}
+
+template <typename TPixel>
+void
+StackMoments<TPixel>::AddFrames(const TPixel *      frames,
+                                std::size_t         first,
+                                std::size_t         count,
+                                const ParallelFor & parallelFor)
+{
+  m_First = std::min(m_First, first);
+  ForBlocks(m_Pixels, parallelFor, [&](std::size_t begin, std::size_t end) {
+    m_Own.AddFrames(frames, m_Pixels, count, begin, end);
+  });
+  m_Own.AdvanceFrames(count);
+  parallelFor(count, [&](std::size_t k) {
+    m_FrameMeans[first + k] = SumOfFrame(frames + k * m_Pixels, m_Pixels) / static_cast<double>(m_Pixels);
+  });
+}
+
+template <typename TPixel>
+void
+StackMoments<TPixel>::Save(std::ostream & out) const
+{
+  WriteNumbers(out, m_FrameMeans);
+  WriteCount(out, m_Others.size() + 1);
+  WriteCount(out, m_First);
+  m_Own.Save(out);
+  for (const auto & [first, moments] : m_Others)
+  {
+    WriteCount(out, first);
+    moments.Save(out);
+  }
+}
+
+template <typename TPixel>
+void
+StackMoments<TPixel>::Merge(std::istream & in)
+{
+  std::vector<double> frameMeans(m_FrameMeans.size());
+  ReadNumbers(in, frameMeans);
+  std::map<std::size_t, TemporalMoments<TPixel>> parts;
+  for (std::uint64_t count = ReadCount(in); count > 0; --count)
+  {
+    const std::size_t first = ReadCount(in);
+    parts.try_emplace(first, m_Pixels).first->second.Restore(in);
+  }
+  for (auto & [first, moments] : parts)
+  {
+    if constexpr (std::is_integral_v<TPixel>)
+    {
+      m_Own.Merge(moments);
+      m_First = std::min(m_First, first);
+    }
+    else if (moments.GetNumberOfFrames() > 0)
+    {
+      m_Others.emplace(first, std::move(moments));
+    }
+  }
+  std::transform(frameMeans.begin(), frameMeans.end(), m_FrameMeans.begin(), m_FrameMeans.begin(), std::plus<double>());
+}
+
+template <typename TPixel>
+TemporalMoments<TPixel>
+StackMoments<TPixel>::Take()
+{
+  if (m_Others.empty())
+  {
+    return std::exchange(m_Own, TemporalMoments<TPixel>(0));
+  }
+  if (m_Own.GetNumberOfFrames() > 0)
+  {
+    m_Others.emplace(m_First, std::exchange(m_Own, TemporalMoments<TPixel>(0)));
+  }
+  TemporalMoments<TPixel> whole(m_Pixels);
+  for (const auto & part : m_Others)
+  {
+    whole.Merge(part.second);
+  }
+  m_Others.clear();
+  return whole;
+}
+
+template class StackMoments<unsigned char>;
+template class StackMoments<unsigned short>;
+template class StackMoments<short>;
+template class StackMoments<float>;
+template class StackMoments<double>;
+
+} // namespace sensornoise

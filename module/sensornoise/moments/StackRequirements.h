@@ -1,0 +1,40 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_moments_StackRequirements_h
+#define sensornoise_moments_StackRequirements_h
+
+#include "SensorNoiseExport.h"
+
+#include <cstddef>
+
+namespace sensornoise
+{
+
+struct FrameGeometry;
+
+/** Frames of the shortest stack that the methods measure. */
+inline constexpr std::size_t MinimumFrames = 5;
+
+/** Throws std::invalid_argument if a stack has fewer than MinimumFrames frames, frames of fewer than 3 x 3 pixels, or a
+ * mask of another size than a frame; \a maskPixels is 0 without a mask. */
+SensorNoise_EXPORT void
+RequireStack(const FrameGeometry & geometry, std::size_t frames, std::size_t maskPixels);
+
+} // namespace sensornoise
+
+#endif

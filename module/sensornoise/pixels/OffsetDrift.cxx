@@ -1,0 +1,100 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/pixels/OffsetDrift.h"
+
+#include "sensornoise/pixels/PixelCoordinates.h"
+#include "sensornoise/pixels/PixelLight.h"
+#include "sensornoise/pixels/ProjectedVariance.h"
+#include "sensornoise/pixels/VarianceLine.h"
+#include "sensornoise/scene/ReferenceFrame.h"
+#include "sensornoise/series/TemporalBasis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** Sums of the weight w times powers of I, the mean minus the centre, and times z, the response. */
+struct LineSums
+{
+  double w{ 0.0 };
+  double wI{ 0.0 };
+  double wII{ 0.0 };
+  double wZ{ 0.0 };
+  double wIZ{ 0.0 };
+};
+} // namespace
+
+bool
+IsOffsetDrift(const PixelLight & data)
+{
+  constexpr std::size_t  side = 32;
+  const ReferenceFrame & frame = data.projected.GetFrame();
+  const std::size_t      width = frame.geometry.width;
+  const std::size_t      light = data.projected.GetBasis().NumberOfLightFactors();
+  const Tiles            tiles{ side, side, (width + side - 1) / side };
+  const std::size_t      count = tiles.across * ((frame.geometry.height + side - 1) / side);
+  for (std::size_t j = 1; j < light; ++j)
+  {
+    std::vector<LineSums> parts(count);
+    LineSums              whole;
+    for (std::size_t p = 0; p < data.mask.size(); ++p)
+    {
+      if (data.mask[p] != 0)
+      {
+        const double w = 1.0 / data.line.At(frame.neighbourMean[p]);
+        const double centred = frame.mean[p] - data.centreDn;
+        const double z = data.projected.GetCoordinates().At(p, j);
+        for (LineSums * s : { &parts[tiles.Of(p, width)], &whole })
+        {
+          s->w += w;
+          s->wI += w * centred;
+          s->wII += w * centred * centred;
+          s->wZ += w * z;
+          s->wIZ += w * centred * z;
+        }
+      }
+    }
+    const double determinant = whole.w * whole.wII - whole.wI * whole.wI;
+    const double level = (whole.wII * whole.wZ - whole.wI * whole.wIZ) / determinant;
+    const double slope = (whole.w * whole.wIZ - whole.wI * whole.wZ) / determinant;
+    const double explained = level * whole.wZ + slope * whole.wIZ;
+    double       chi2 = 0.0;
+    double       used = 0.0;
+    for (const LineSums & s : parts)
+    {
+      if (s.w > 0.0)
+      {
+        chi2 += std::pow(s.wZ - level * s.w - slope * s.wI, 2) / s.w;
+        used += 1.0;
+      }
+    }
+    if (chi2 > 4.0 * std::max(1.0, used - 2.0) || explained < 10.0 * chi2)
+    {
+      return false;
+    }
+  }
+  return light > 1;
+}
+
+} // namespace sensornoise

@@ -1,0 +1,69 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_pixels_PixelCoordinates_h
+#define sensornoise_pixels_PixelCoordinates_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/pixels/ProjectionSums.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace sensornoise
+{
+
+class TemporalBasis;
+
+/** \class PixelCoordinates
+ * \brief The coordinates S_j of every pixel's time series in the TemporalBasis: how the pixel responds to each series
+ * [DN].
+ *
+ * They take the place of the sums over time, in the same memory. */
+class SensorNoise_EXPORT PixelCoordinates
+{
+public:
+  /** Pixels whose coordinates on one series lie side by side. */
+  static constexpr std::size_t BlockPixels = ProjectionSums::BlockPixels;
+
+  /** Takes \a sums over; \a mean is that of every pixel over time [DN]. */
+  explicit PixelCoordinates(ProjectionSums &&           sums,
+                            const TemporalBasis &       basis,
+                            const std::vector<double> & mean,
+                            const ParallelFor &         parallelFor);
+
+  /** The coordinate of pixel \a p on series \a j. */
+  double
+  At(std::size_t p, std::size_t j) const
+  {
+    return m_Coordinates.At(p, j);
+  }
+  /** The coordinates on series \a j of the pixels of a block, from its pixel \a first on. */
+  const double *
+  Of(std::size_t first, std::size_t j) const
+  {
+    return &m_Coordinates.At(first, j);
+  }
+
+private:
+  ProjectionSums m_Coordinates; // no longer the sums
+};
+
+} // namespace sensornoise
+
+#endif

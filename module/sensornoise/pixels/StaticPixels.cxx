@@ -1,0 +1,229 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/pixels/StaticPixels.h"
+
+#include "sensornoise/base/BoxSum.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/Quantiles.h"
+#include "sensornoise/pixels/FarVariance.h"
+#include "sensornoise/pixels/ProjectedVariance.h"
+#include "sensornoise/pixels/VarianceLine.h"
+#include "sensornoise/scene/ReferenceFrame.h"
+#include "sensornoise/series/TemporalBasis.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+constexpr std::size_t Classes = ProjectedVariance::Classes;
+constexpr std::size_t FlatClasses = Classes / 2;
+
+/** The sums over the pixels of a class. */
+enum ClassSum : std::size_t
+{
+  Pixels,
+  Kept,          // pixels that are no outliers
+  Weight,        // of those that are kept
+  WeightedRatio, // of the variance to the line's
+  ClassSums
+};
+using SumsOfClasses = std::array<double, ClassSums * Classes>;
+
+SumsOfClasses
+SumClasses(const ProjectedVariance &         projected,
+           const VarianceLine &              line,
+           const std::vector<std::uint8_t> & mask,
+           const ParallelFor &               parallelFor)
+{
+  const ReferenceFrame & frame = projected.GetFrame();
+  return SumOverBlocks<ClassSums * Classes>(mask.size(), parallelFor, [&](std::size_t p, auto & s) {
+    if (mask[p] != 0)
+    {
+      const double expected = line.At(frame.mean[p]);
+      const double ratio = projected.GetVariance()[p] / expected;
+      const double near = expected / line.At(frame.neighbourMean[p]);
+      double *     own = s.data() + ClassSums * projected.ClassOf(p);
+      own[Pixels] += 1.0;
+      const double freedom = line.EffectiveFreedom(projected.GetFreedom()[p], expected);
+      if (!IsFarOff(ratio, freedom))
+      {
+        own[Kept] += 1.0;
+        own[Weight] += near * near;
+        own[WeightedRatio] += near * near * ratio;
+      }
+    }
+  });
+}
+
+/** What the classes are judged by. */
+struct ClassTable
+{
+  std::array<double, Classes> kept{};     // pixels
+  std::array<double, Classes> outliers{}; // their share
+  std::array<double, Classes> excess{};   // mean of variance over line, relative to the flat classes', minus 1
+  std::array<double, Classes> error{};    // its standard error
+};
+
+/** Fills in \a ratio, too. */
+ClassTable
+MakeTable(const SumsOfClasses & sums, std::size_t frames, std::vector<double> & ratio)
+{
+  ClassTable table;
+  double     reference = 0.0;
+  double     count = 0.0;
+  for (std::size_t c = 0; c < Classes; ++c)
+  {
+    const double * own = sums.data() + ClassSums * c;
+    ratio.push_back(own[WeightedRatio] / std::max(1e-30, own[Weight]));
+    table.kept[c] = own[Kept];
+    table.outliers[c] = 1.0 - own[Kept] / std::max(1.0, own[Pixels]);
+    table.error[c] = std::sqrt(2.0 / static_cast<double>(frames - 1) / std::max(1.0, own[Kept]));
+    if (c < FlatClasses)
+    {
+      reference += own[Kept] * ratio[c];
+      count += own[Kept];
+    }
+  }
+  reference /= std::max(1.0, count);
+  std::transform(
+    ratio.begin(), ratio.end(), table.excess.begin(), [reference](double own) { return own / reference - 1.0; });
+  return table;
+}
+
+std::size_t
+FirstBadClass(const ClassTable & table)
+{
+  const double usual = QuantileOf({ table.outliers.begin(), table.outliers.begin() + FlatClasses }, 0.5);
+  const auto   isBad = [&](std::size_t c) {
+    return table.excess[c] > std::max(2.5 * table.error[c], 0.0015) || table.outliers[c] > usual + 0.01;
+  };
+  for (std::size_t c = 4; c < Classes; ++c)
+  {
+    if (isBad(c) && (c + 1 == Classes || isBad(c + 1)))
+    {
+      return c;
+    }
+  }
+  return Classes;
+}
+
+/** How single pixels fit the line. */
+struct PixelFits
+{
+  std::vector<float>        ratio;    // of the variance to the line's; 0 unless it fits
+  std::vector<std::uint8_t> fits;     // 1: of the mask, and not far above the line
+  std::vector<std::uint8_t> rejected; // 1: far above it
+};
+
+PixelFits
+JudgePixels(const ProjectedVariance &         projected,
+            const VarianceLine &              line,
+            const std::vector<std::uint8_t> & mask,
+            const ParallelFor &               parallelFor)
+{
+  const ReferenceFrame & frame = projected.GetFrame();
+  PixelFits              pixels{ std::vector<float>(mask.size(), 0.0F),
+                    std::vector<std::uint8_t>(mask.size(), 0),
+                    std::vector<std::uint8_t>(mask.size(), 0) };
+  ForBlocks(mask.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p)
+    {
+      if (mask[p] != 0)
+      {
+        const double expected = line.At(frame.mean[p]);
+        const double value = projected.GetVariance()[p] / expected;
+        const double own = line.EffectiveFreedom(projected.GetFreedom()[p], expected);
+        pixels.fits[p] = IsFarAbove(value, own) ? 0 : 1;
+        pixels.rejected[p] = 1 - pixels.fits[p];
+        pixels.ratio[p] = pixels.fits[p] != 0 ? static_cast<float>(value) : 0.0F;
+      }
+    }
+  });
+  return pixels;
+}
+} // namespace
+
+ClassFit
+JudgeClasses(const ProjectedVariance &         projected,
+             const VarianceLine &              line,
+             const std::vector<std::uint8_t> & mask,
+             const ParallelFor &               parallelFor)
+{
+  ClassFit         fit;
+  const ClassTable table =
+    MakeTable(SumClasses(projected, line, mask, parallelFor), projected.GetFrame().frames, fit.ratio);
+  fit.firstBad = FirstBadClass(table);
+  double chi2 = 0.0;
+  double used = 0.0;
+  for (std::size_t c = 0; c < fit.firstBad; ++c)
+  {
+    if (table.kept[c] > 0.0)
+    {
+      chi2 += std::pow(table.excess[c] / table.error[c], 2);
+      used += 1.0;
+    }
+  }
+  fit.reducedChi2 = used > 1.0 ? chi2 / (used - 1.0) : 1.0;
+  return fit;
+}
+
+std::vector<std::uint8_t>
+FindLocalMisfit(const ProjectedVariance &         projected,
+                const VarianceLine &              line,
+                const std::vector<std::uint8_t> & mask,
+                const ParallelFor &               parallelFor)
+{
+  constexpr std::size_t     radius = 7;
+  constexpr double          area = (2.0 * radius + 1.0) * (2.0 * radius + 1.0);
+  const ReferenceFrame &    frame = projected.GetFrame();
+  const std::size_t         width = frame.geometry.width;
+  const std::size_t         height = frame.geometry.height;
+  const PixelFits           pixels = JudgePixels(projected, line, mask, parallelFor);
+  const auto                freedom = static_cast<double>(frame.frames - 1 - projected.GetBasis().Size());
+  std::vector<double>       sum = BoxSum(pixels.rejected, width, height, radius, parallelFor);
+  std::vector<std::uint8_t> core(mask.size());
+  std::transform(sum.begin(), sum.end(), core.begin(), [area](double crowd) {
+    return static_cast<std::uint8_t>(crowd > 0.15 * area);
+  });
+  BoxSum(pixels.ratio, width, height, radius, parallelFor, sum);
+  std::vector<double> count = BoxSum(pixels.fits, width, height, radius, parallelFor);
+  ForBlocks(mask.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p)
+    {
+      const double excess = sum[p] / std::max(1.0, count[p]) - 1.0;
+      const double own = line.EffectiveFreedom(freedom, line.At(frame.neighbourMean[p]));
+      const double sd = std::sqrt(2.0 / (own * std::max(1.0, count[p])));
+      core[p] = core[p] != 0 || (excess > std::max(5.0 * sd, 0.04) && count[p] > 0.3 * area) ? 1 : 0;
+    }
+  });
+  BoxSum(core, width, height, (2 * radius + 1) / 3, parallelFor, count);
+  std::vector<std::uint8_t> misfit(mask.size());
+  std::transform(
+    count.begin(), count.end(), misfit.begin(), [](double cores) { return static_cast<std::uint8_t>(cores > 0.5); });
+  return misfit;
+}
+
+} // namespace sensornoise

@@ -1,0 +1,153 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/pixels/StaticVariance.h"
+
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/PixelUse.h"
+#include "sensornoise/pixels/ProjectedVariance.h"
+#include "sensornoise/pixels/StaticPixels.h"
+#include "sensornoise/pixels/VarianceFit.h"
+#include "sensornoise/pixels/VarianceLine.h"
+#include "sensornoise/pixels/VarianceQuality.h"
+#include "sensornoise/scene/ReferenceFrame.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** A line without errors, good enough to judge pixels by. */
+VarianceLine
+FollowLine(const VarianceData & data, const ParallelFor & parallelFor, const std::optional<VarianceLine> & start)
+{
+  VarianceFit fit(data, parallelFor, start);
+  fit.Iterate(3);
+  return fit.GetLine();
+}
+
+std::vector<std::uint8_t>
+MaskOfFlatClasses(const ProjectedVariance & projected, const std::vector<std::uint8_t> & usable)
+{
+  std::vector<std::uint8_t> mask(usable.size());
+  for (std::size_t p = 0; p < mask.size(); ++p)
+  {
+    mask[p] = usable[p] != 0 && projected.ClassOf(p) <= 0.6 * ProjectedVariance::Classes ? 1 : 0;
+  }
+  return mask;
+}
+
+/** Files classes, mask and use of the pixels as \a line tells; returns the number of pixels that do not fit. */
+std::size_t
+SelectPixels(const ProjectedVariance &         projected,
+             const VarianceLine &              line,
+             const std::vector<std::uint8_t> & usable,
+             StaticVariance &                  found,
+             const ParallelFor &               parallelFor)
+{
+  const std::vector<std::uint8_t> misfit = FindLocalMisfit(projected, line, usable, parallelFor);
+  for (std::size_t p = 0; p < misfit.size(); ++p)
+  {
+    found.mask[p] = usable[p] != 0 && misfit[p] == 0 ? 1 : 0;
+  }
+  found.classes = JudgeClasses(projected, line, found.mask, parallelFor);
+  for (std::size_t p = 0; p < misfit.size(); ++p)
+  {
+    if (usable[p] != 0)
+    {
+      const bool isRough = projected.ClassOf(p) >= found.classes.firstBad;
+      found.pixelUse[p] = static_cast<std::uint8_t>(misfit[p] != 0 ? PixelUse::NotStatic
+                                                    : isRough      ? PixelUse::Vibration
+                                                                   : PixelUse::Used);
+      found.mask[p] = isRough ? 0 : found.mask[p];
+    }
+  }
+  return static_cast<std::size_t>(std::count(misfit.begin(), misfit.end(), std::uint8_t{ 1 }));
+}
+
+/** The mean has noise of its own, and it is correlated with the variance as the noise is skewed. Both together bias
+ * the slope's equation by -g sigma^2 / T a unit of weight. Estimator.md, 3.6. */
+void
+CorrectForNoisyMeans(VarianceLine & line, double offsetDn, std::size_t frames)
+{
+  const double readVariance = std::max(0.0, line.intercept + line.gain * offsetDn);
+  const double bias = -line.gain * readVariance / static_cast<double>(frames) * line.weightSum / line.spreadDn2;
+  line.gain -= bias;
+  line.intercept += bias * line.pivotDn;
+}
+} // namespace
+
+StaticVariance
+FitStaticVariance(ProjectedVariance &               projected,
+                  const std::vector<std::uint8_t> & usable,
+                  std::vector<std::uint8_t>         pixelUse,
+                  double                            slopeDn,
+                  double                            offsetDn,
+                  const ParallelFor &               parallelFor)
+{
+  StaticVariance found;
+  found.pixelUse = std::move(pixelUse);
+  // The line of the flat classes tells which neighbourhoods fit, and among these, which classes do.
+  projected.Compute(slopeDn);
+  found.mask = MaskOfFlatClasses(projected, usable);
+  VarianceLine line = FollowLine(projected.GetData(found.mask), parallelFor, std::nullopt);
+  if (!line.isDetermined)
+  {
+    return found;
+  }
+  projected.Compute(line.gain);
+  for (int round = 0; round < 2; ++round)
+  {
+    const std::size_t misfits = SelectPixels(projected, line, usable, found, parallelFor);
+    line = FollowLine(projected.GetData(found.mask), parallelFor, line);
+    if (!line.isDetermined)
+    {
+      return found;
+    }
+    if (static_cast<double>(misfits) < 1e-3 * static_cast<double>(usable.size()))
+    {
+      break; // too few to have drawn the line
+    }
+  }
+  projected.Compute(line.gain);
+  VarianceFit fit(projected.GetData(found.mask), parallelFor, line);
+  fit.Iterate(8);
+  fit.FillErrors();
+  line = fit.GetLine();
+  if (!line.isDetermined)
+  {
+    return found;
+  }
+  found.tailDisagreement = fit.TailDisagreement();
+  found.trimmed = fit.FindTrimmed();
+  found.fromFlat = FitFlatHalf(projected, found.mask, line, parallelFor);
+  CorrectForNoisyMeans(line, offsetDn, projected.GetFrame().frames);
+  found.line = line;
+  found.intensityChi2 = IntensityChi2(projected.GetData(found.mask), line, parallelFor);
+  found.notStatic = static_cast<std::size_t>(
+    std::count(found.pixelUse.begin(), found.pixelUse.end(), static_cast<std::uint8_t>(PixelUse::NotStatic)));
+  return found;
+}
+
+} // namespace sensornoise

@@ -1,0 +1,290 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/pixels/VarianceFit.h"
+
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/pixels/ChiSquareTrim.h"
+#include "sensornoise/pixels/MedianLine.h"
+#include "sensornoise/pixels/VarianceLine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace sensornoise
+{
+
+VarianceFit::VarianceFit(const VarianceData &                data,
+                         const ParallelFor &                 parallelFor,
+                         const std::optional<VarianceLine> & start)
+  : m_Data(data)
+  , m_ParallelFor(parallelFor)
+  , m_Freedoms(RangeOfFreedom(data, parallelFor))
+{
+  if (m_Freedoms.pixels >= 10)
+  {
+    const std::optional<VarianceLine> first =
+      start ? start : FitMedians(data, ChiSquareTrim(m_Freedoms.lowest, m_Freedoms.highest));
+    if (first)
+    {
+      m_Line.gain = first->gain;
+      m_Line.intercept = first->intercept;
+      m_Line.lowestDn2 = first->lowestDn2;
+      m_Line.pivotDn = first->pivotDn;
+      m_Trim.emplace(this->MakeTrim(ChiSquareTrim::Tail));
+    }
+  }
+}
+
+VarianceFit::FreedomRange
+VarianceFit::RangeOfFreedom(const VarianceData & data, const ParallelFor & parallelFor)
+{
+  std::vector<FreedomRange> parts(data.pixels / PixelsPerBlock + 1);
+  ForBlocks(data.pixels, parallelFor, [&](std::size_t begin, std::size_t end) {
+    FreedomRange part;
+    for (std::size_t p = begin; p < end; ++p)
+    {
+      if (data.mask[p] != 0)
+      {
+        part.lowest = std::min(part.lowest, static_cast<double>(data.freedom[p]));
+        part.highest = std::max(part.highest, static_cast<double>(data.freedom[p]));
+        ++part.pixels;
+      }
+    }
+    parts[begin / PixelsPerBlock] = part;
+  });
+  FreedomRange range;
+  for (const FreedomRange & part : parts)
+  {
+    range.lowest = std::min(range.lowest, part.lowest);
+    range.highest = std::max(range.highest, part.highest);
+    range.pixels += part.pixels;
+  }
+  return range;
+}
+
+ChiSquareTrim
+VarianceFit::MakeTrim(double tail) const
+{
+  return { m_Line.EffectiveFreedom(m_Freedoms.lowest, m_Line.lowestDn2), m_Freedoms.highest, tail };
+}
+
+inline VarianceFit::Weighed
+VarianceFit::Weigh(std::size_t p, const ChiSquareTrim & trim) const
+{
+  const double own = m_Line.At(m_Data.mean[p]);
+  const auto & limits = trim.Of(m_Line.EffectiveFreedom(m_Data.freedom[p], own));
+  const double ratio = m_Data.variance[p] / own;
+  const double expected = m_Line.At(m_Data.neighbourMean[p]);
+  const bool   isKept = ratio > limits.low && ratio < limits.high;
+  return { isKept ? 0.5 * m_Data.freedom[p] / (expected * expected) : 0.0, m_Data.variance[p] / limits.mean };
+}
+
+void
+VarianceFit::Iterate(int iterations)
+{
+  // Sums of the weight times powers of x, the mean above the pivot, and times V, the variance.
+  enum : std::size_t
+  {
+    W,
+    WX,
+    WXX,
+    WV,
+    WXV,
+    Sums
+  };
+  const double pivot = m_Line.pivotDn;
+  for (int iteration = 0; m_Trim && iteration < iterations; ++iteration)
+  {
+    const auto   s = SumOverBlocks<Sums>(m_Data.pixels, m_ParallelFor, [&](std::size_t p, auto & sums) {
+      if (m_Data.mask[p] != 0)
+      {
+        const auto [w, value] = this->Weigh(p, *m_Trim);
+        const double x = m_Data.mean[p] - pivot;
+        sums[W] += w;
+        sums[WX] += w * x;
+        sums[WXX] += w * x * x;
+        sums[WV] += w * value;
+        sums[WXV] += w * x * value;
+      }
+    });
+    const double determinant = s[W] * s[WXX] - s[WX] * s[WX];
+    m_Line.isDetermined = determinant > 1e-12 * s[W] * s[WXX];
+    if (!m_Line.isDetermined)
+    {
+      return;
+    }
+    const double gain = (s[W] * s[WXV] - s[WX] * s[WV]) / determinant;
+    const double intercept = (s[WXX] * s[WV] - s[WX] * s[WXV]) / determinant - gain * pivot;
+    const double change = std::abs(gain - m_Line.gain) / (std::abs(gain) + 1e-300) +
+                          std::abs(intercept - m_Line.intercept) / (std::abs(intercept) + std::abs(gain * pivot));
+    m_Line.gain = gain;
+    m_Line.intercept = intercept;
+    m_Line.weightSum = s[W];
+    m_Line.pivotDn = pivot + s[WX] / s[W];
+    m_Line.spreadDn2 = determinant / s[W];
+    if (change < 1e-9)
+    {
+      return;
+    }
+  }
+}
+
+void
+VarianceFit::FillErrors()
+{
+  if (!m_Line.isDetermined)
+  {
+    return;
+  }
+  // Sums of the weight and the residual R squared, times powers of x, the mean above the pivot; and of the weight times
+  // powers of x and R.
+  enum : std::size_t
+  {
+    WWRR,
+    WWRRX,
+    WWRRXX,
+    WXXX,
+    WXXXX,
+    WXXR,
+    Trimmed,
+    Pixels,
+    W,
+    WXX,
+    Sums
+  };
+  const auto s = SumOverBlocks<Sums>(m_Data.pixels, m_ParallelFor, [&](std::size_t p, auto & sums) {
+    if (m_Data.mask[p] != 0)
+    {
+      const auto [w, value] = this->Weigh(p, *m_Trim);
+      const double x = m_Data.mean[p] - m_Line.pivotDn;
+      const double residual = value - m_Line.intercept - m_Line.gain * m_Data.mean[p];
+      const double square = w * w * residual * residual;
+      sums[WWRR] += square;
+      sums[WWRRX] += square * x;
+      sums[WWRRXX] += square * x * x;
+      sums[WXXX] += w * x * x * x;
+      sums[WXXXX] += w * x * x * x * x;
+      sums[WXXR] += w * x * x * residual;
+      sums[Trimmed] += w > 0.0 ? 0.0 : 1.0;
+      sums[Pixels] += 1.0;
+      sums[W] += w;
+      sums[WXX] += w * x * x;
+    }
+  });
+  // In coordinates (gain, value at pivotDn) the information is diagonal.
+  Eigen::Matrix2d inverse;
+  inverse << 1.0 / m_Line.spreadDn2, 0.0, 0.0, 1.0 / m_Line.weightSum;
+  Eigen::Matrix2d meat;
+  meat << s[WWRRXX], s[WWRRX], s[WWRRX], s[WWRR];
+  Eigen::Matrix2d toIntercept;
+  toIntercept << 1.0, 0.0, -m_Line.pivotDn, 1.0;
+  m_Line.covariance = toIntercept * inverse * meat * inverse * toIntercept.transpose();
+  // The parabola's third column, freed of the first two: q = x^2 - a x - b.
+  const double a = s[WXXX] / s[WXX];
+  const double b = s[WXX] / s[W];
+  const double quadratic = s[WXXXX] - a * s[WXXX] - b * s[WXX];
+  if (quadratic > 0.0)
+  {
+    m_Line.curvature = s[WXXR] / quadratic;
+    m_Line.curvatureSd = 1.0 / std::sqrt(quadratic);
+    m_Line.curvatureTilt = a;
+    m_Line.curvatureLift = b;
+  }
+  m_Line.trimmedFraction = s[Trimmed] / s[Pixels];
+  m_Line.isDetermined = std::isfinite(m_Line.gain) && m_Line.covariance.allFinite();
+}
+
+Eigen::Matrix2d
+VarianceFit::TailDisagreement() const
+{
+  if (!m_Line.isDetermined)
+  {
+    return Eigen::Matrix2d::Zero();
+  }
+  // Sums of the scores C, what the closer trim adds to a pixel's part in the equations, and of their squares, times
+  // powers of x, the mean above the pivot.
+  enum : std::size_t
+  {
+    C,
+    CX,
+    CC,
+    CCX,
+    CCXX,
+    Sums
+  };
+  constexpr double      tail = 0.02;
+  const ChiSquareTrim   close = this->MakeTrim(tail);
+  const auto            s = SumOverBlocks<Sums>(m_Data.pixels, m_ParallelFor, [&](std::size_t p, auto & sums) {
+    if (m_Data.mask[p] != 0)
+    {
+      const auto [w, value] = this->Weigh(p, *m_Trim);
+      const auto [closeW, closeValue] = this->Weigh(p, close);
+      const double own = m_Line.At(m_Data.mean[p]);
+      const double score = closeW / (1.0 - 2.0 * tail) * (closeValue - own) - w * (value - own);
+      const double x = m_Data.mean[p] - m_Line.pivotDn;
+      sums[C] += score;
+      sums[CX] += score * x;
+      sums[CC] += score * score;
+      sums[CCX] += score * score * x;
+      sums[CCXX] += score * score * x * x;
+    }
+  });
+  const Eigen::Vector2d scores(s[C], s[CX]);
+  Eigen::Matrix2d       squares;
+  squares << s[CC], s[CCX], s[CCX], s[CCXX];
+  const double          statistic = scores.dot(squares.ldlt().solve(scores));
+  const double          gain = s[CX] / m_Line.spreadDn2;
+  const Eigen::Vector2d shift(gain, s[C] / m_Line.weightSum - gain * m_Line.pivotDn);
+  return statistic > 2.0 ? Eigen::Matrix2d((1.0 - 2.0 / statistic) * shift * shift.transpose())
+                         : Eigen::Matrix2d::Zero();
+}
+
+std::vector<std::uint8_t>
+VarianceFit::FindTrimmed() const
+{
+  std::vector<std::uint8_t> trimmed(m_Data.pixels, 0);
+  if (m_Trim)
+  {
+    ForBlocks(m_Data.pixels, m_ParallelFor, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t p = begin; p < end; ++p)
+      {
+        trimmed[p] = m_Data.mask[p] != 0 && !(this->Weigh(p, *m_Trim).weight > 0.0) ? 1 : 0;
+      }
+    });
+  }
+  return trimmed;
+}
+
+VarianceLine
+FitVarianceLine(const VarianceData &                data,
+                const ParallelFor &                 parallelFor,
+                const std::optional<VarianceLine> & start,
+                int                                 iterations)
+{
+  VarianceFit fit(data, parallelFor, start);
+  fit.Iterate(iterations);
+  fit.FillErrors();
+  return fit.GetLine();
+}
+
+} // namespace sensornoise

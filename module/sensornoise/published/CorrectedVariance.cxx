@@ -1,0 +1,111 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/published/CorrectedVariance.h"
+
+#include <limits>
+
+namespace sensornoise
+{
+
+CorrectedVariance::CorrectedVariance(const FlickerEstimate & flicker,
+                                     const FrameGeometry &   geometry,
+                                     std::size_t             frames)
+  : m_Geometry(geometry)
+  , m_Frames(frames)
+  , m_OffsetDn(flicker.offsetDn)
+  , m_Rows(flicker.gammaRows.empty() ? 1 : flicker.rows)
+  , m_Cross(geometry.Pixels(), 0.0)
+  , m_Series(frames * m_Rows)
+  , m_SeriesSquares(m_Rows, 0.0)
+  , m_Known(flicker.rowKnown)
+{
+  for (std::size_t row = 0; row < m_Rows; ++row)
+  {
+    double mean = 0.0;
+    for (std::size_t t = 0; t < frames; ++t)
+    {
+      mean += flicker.Gamma(t, row);
+    }
+    mean /= static_cast<double>(frames);
+    for (std::size_t t = 0; t < frames; ++t)
+    {
+      const double centred = flicker.Gamma(t, row) - mean;
+      m_Series[t * m_Rows + row] = centred;
+      m_SeriesSquares[row] += centred * centred;
+    }
+  }
+}
+
+template <typename TPixel>
+void
+CorrectedVariance::AddRow(const TPixel * firstFrame,
+                          std::size_t    stride,
+                          std::size_t    frames,
+                          std::size_t    t,
+                          std::size_t    y)
+{
+  const std::size_t width = m_Geometry.width;
+  double * const    cross = m_Cross.data() + y * width;
+  const bool        alongRow = m_Rows > 1 && m_Geometry.shutterAxis == 0;
+  for (std::size_t k = 0; k < frames; ++k)
+  {
+    const TPixel * const row = firstFrame + k * stride + y * width;
+    const double * const series = m_Series.data() + (t + k) * m_Rows;
+    if (alongRow)
+    {
+      for (std::size_t x = 0; x < width; ++x)
+      {
+        cross[x] += series[x] * static_cast<double>(row[x]);
+      }
+    }
+    else
+    {
+      const double factor = series[m_Rows > 1 ? y : 0];
+      for (std::size_t x = 0; x < width; ++x)
+      {
+        cross[x] += factor * static_cast<double>(row[x]);
+      }
+    }
+  }
+}
+
+double
+CorrectedVariance::GetVariance(std::size_t p, double meanDn, double sumOfSquaredDeviationsDn2) const
+{
+  const std::size_t row = m_Rows > 1 ? m_Geometry.RowOf(p) : 0;
+  if (!m_Known.empty() && m_Known[row] == 0)
+  {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  const double fluxDn = meanDn - m_OffsetDn;
+  const double squares = sumOfSquaredDeviationsDn2 - 2.0 * fluxDn * m_Cross[p] + fluxDn * fluxDn * m_SeriesSquares[row];
+  return squares / static_cast<double>(m_Frames - 1);
+}
+
+template SensorNoise_EXPORT void
+CorrectedVariance::AddRow<unsigned char>(const unsigned char *, std::size_t, std::size_t, std::size_t, std::size_t);
+template SensorNoise_EXPORT void
+CorrectedVariance::AddRow<unsigned short>(const unsigned short *, std::size_t, std::size_t, std::size_t, std::size_t);
+template SensorNoise_EXPORT void
+CorrectedVariance::AddRow<short>(const short *, std::size_t, std::size_t, std::size_t, std::size_t);
+template SensorNoise_EXPORT void
+CorrectedVariance::AddRow<float>(const float *, std::size_t, std::size_t, std::size_t, std::size_t);
+template SensorNoise_EXPORT void
+CorrectedVariance::AddRow<double>(const double *, std::size_t, std::size_t, std::size_t, std::size_t);
+
+} // namespace sensornoise

@@ -1,0 +1,115 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/published/FlickerSums.h"
+
+#include <algorithm>
+
+namespace sensornoise
+{
+
+FlickerSums::WeightedPixels::WeightedPixels(const IsoIntensitySet & set, const double * mean)
+  : pixels(set.pixels)
+  , weights(set.weights)
+  , effectivePixels(set.EffectivePixels())
+{
+  for (const std::uint32_t p : pixels)
+  {
+    means.push_back(mean[p]);
+  }
+}
+
+template <typename TPixel, typename TValue>
+void
+FlickerSums::WeightedPixels::Average(const TPixel * frame, TValue value, double & average, double & spread) const
+{
+  average = 0.0;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+  {
+    const double v = value(static_cast<double>(frame[pixels[i]]), means[i]);
+    average += weights[i] * v;
+    squares += weights[i] * v * v;
+  }
+  spread = squares - average * average;
+}
+
+double
+FlickerSums::WeightedPixels::NoiseOfAverage(const std::vector<double> & spreads) const
+{
+  double sum = 0.0;
+  for (const double spread : spreads)
+  {
+    sum += spread;
+  }
+  return std::max(0.0, sum / static_cast<double>(spreads.size()) / (effectivePixels - 1.0));
+}
+
+FlickerSums::FlickerSums(const IsoIntensitySet & bright,
+                         const IsoIntensitySet & dark,
+                         const double *          mean,
+                         const FrameGeometry &   geometry,
+                         std::size_t             frames,
+                         const IsoIntensitySet & rowSet)
+  : m_Frames(frames)
+  , m_Rows(rowSet.pixels.empty() ? 0 : geometry.Rows())
+  , m_BrightRatios(frames, 0.0)
+  , m_DarkResiduals(frames, 0.0)
+  , m_BrightSpreads(frames, 0.0)
+  , m_DarkSpreads(frames, 0.0)
+  , m_RowSums(frames * m_Rows, 0.0)
+  , m_RowWeights(m_Rows, 0.0)
+  , m_Bright(bright, mean)
+  , m_Dark(dark, mean)
+  , m_RowSet(rowSet, mean)
+{
+  for (std::size_t i = 0; i < rowSet.pixels.size(); ++i)
+  {
+    m_RowOf.push_back(static_cast<std::uint32_t>(geometry.RowOf(rowSet.pixels[i])));
+    m_RowWeights[m_RowOf[i]] += rowSet.weights[i];
+  }
+}
+
+template <typename TPixel>
+void
+FlickerSums::AddFrame(const TPixel * frame, std::size_t t)
+{
+  const auto ratio = [](double u, double mean) { return u / mean; };
+  m_Bright.Average(frame, ratio, m_BrightRatios[t], m_BrightSpreads[t]);
+  const double brightness = m_BrightRatios[t];
+  const auto   residual = [brightness](double u, double mean) { return u - brightness * mean; };
+  m_Dark.Average(frame, residual, m_DarkResiduals[t], m_DarkSpreads[t]);
+
+  double * const rows = m_RowSums.data() + t * m_Rows;
+  for (std::size_t i = 0; i < m_RowSet.pixels.size(); ++i)
+  {
+    rows[m_RowOf[i]] += m_RowSet.weights[i] * ratio(static_cast<double>(frame[m_RowSet.pixels[i]]), m_RowSet.means[i]);
+  }
+}
+
+template SensorNoise_EXPORT void
+FlickerSums::AddFrame<unsigned char>(const unsigned char *, std::size_t);
+template SensorNoise_EXPORT void
+FlickerSums::AddFrame<unsigned short>(const unsigned short *, std::size_t);
+template SensorNoise_EXPORT void
+FlickerSums::AddFrame<short>(const short *, std::size_t);
+template SensorNoise_EXPORT void
+FlickerSums::AddFrame<float>(const float *, std::size_t);
+template SensorNoise_EXPORT void
+FlickerSums::AddFrame<double>(const double *, std::size_t);
+
+} // namespace sensornoise

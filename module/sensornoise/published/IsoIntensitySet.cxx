@@ -1,0 +1,145 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/published/IsoIntensitySet.h"
+
+#include "sensornoise/base/NothingToMeasure.h"
+#include "sensornoise/base/Quantiles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace sensornoise
+{
+
+double
+IsoIntensitySet::EffectivePixels() const
+{
+  double squares = 0.0;
+  for (const double weight : weights)
+  {
+    squares += weight * weight;
+  }
+  return squares > 0.0 ? 1.0 / squares : 0.0;
+}
+
+IsoIntensitySetFinder::IsoIntensitySetFinder(const double *       mean,
+                                             const double *       variance,
+                                             const std::uint8_t * mask,
+                                             std::size_t          pixels,
+                                             std::size_t          frames)
+  : m_Mean(mean)
+  , m_Variance(variance)
+  , m_Mask(mask)
+  , m_Pixels(pixels)
+  , m_Frames(frames)
+  , m_Index(mean, mask, pixels)
+{
+  if (m_Index.Count() < IsoIntensitySet::MinimumPixels)
+  {
+    throw NothingToMeasure("only " + std::to_string(m_Index.Count()) +
+                           " pixels are neither clipped nor moved by vibrations; expected at least " +
+                           std::to_string(IsoIntensitySet::MinimumPixels));
+  }
+}
+
+IsoIntensitySet
+IsoIntensitySetFinder::Find(double quantile) const
+{
+  constexpr unsigned int quantileSteps = 4;
+  constexpr unsigned int bandSteps = 12;
+  const double           inwards = quantile < 0.5 ? 0.01 : -0.01;
+  IsoIntensitySet        set;
+  double                 band = 1.0;
+  for (unsigned int step = 0; step <= quantileSteps + bandSteps; ++step)
+  {
+    if (step <= quantileSteps)
+    {
+      set.quantile = quantile + inwards * static_cast<double>(step);
+      this->SetLevel(set);
+    }
+    else
+    {
+      band *= 2.0;
+    }
+    set.wideningSteps = step;
+    set.bandSdDn = band * set.levelSdDn;
+    this->Fill(set);
+    if (set.pixels.size() >= IsoIntensitySet::MinimumPixels)
+    {
+      return set;
+    }
+  }
+  throw NothingToMeasure("found " + std::to_string(set.pixels.size()) + " pixels of nearly the intensity " +
+                         std::to_string(set.levelDn) + " DN; expected at least " +
+                         std::to_string(IsoIntensitySet::MinimumPixels) + " (the scene has too few even areas)");
+}
+
+IsoIntensitySet
+IsoIntensitySetFinder::FindRowSet(const IsoIntensitySet & bright) const
+{
+  IsoIntensitySet set = bright;
+  set.bandSdDn = 2.0 * bright.bandSdDn;
+  this->Fill(set);
+  set.weights.assign(set.pixels.size(), 1.0 / static_cast<double>(set.pixels.size()));
+  return set;
+}
+
+void
+IsoIntensitySetFinder::SetLevel(IsoIntensitySet & set) const
+{
+  set.levelDn = m_Index.QuantileDn(set.quantile);
+  const double        reach = m_Index.ReachDn(set.levelDn, std::max<std::size_t>(25, m_Index.Count() / 2000));
+  std::vector<double> variances;
+  for (std::size_t p = 0; p < m_Pixels; ++p)
+  {
+    if (m_Mask[p] != 0 && std::abs(m_Mean[p] - set.levelDn) <= reach)
+    {
+      variances.push_back(m_Variance[p]);
+    }
+  }
+  set.temporalVarianceDn2 = Quantile(variances, 0.5);
+  set.levelSdDn = std::sqrt(set.temporalVarianceDn2 / static_cast<double>(m_Frames));
+}
+
+void
+IsoIntensitySetFinder::Fill(IsoIntensitySet & set) const
+{
+  const double sdDn = set.bandSdDn;
+  set.pixels.clear();
+  set.weights.clear();
+  double total = 0.0;
+  for (std::size_t p = 0; p < m_Pixels; ++p)
+  {
+    const double distance = std::abs(m_Mean[p] - set.levelDn);
+    if (m_Mask[p] != 0 && distance <= 3.0 * sdDn)
+    {
+      const double deviation = distance / sdDn;
+      const double weight = std::exp(-0.5 * deviation * deviation);
+      set.pixels.push_back(static_cast<std::uint32_t>(p));
+      set.weights.push_back(weight);
+      total += weight;
+    }
+  }
+  for (double & weight : set.weights)
+  {
+    weight /= total;
+  }
+}
+
+} // namespace sensornoise

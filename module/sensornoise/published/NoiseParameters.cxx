@@ -1,0 +1,121 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/published/NoiseParameters.h"
+
+#include "sensornoise/report/Quantities.h"
+
+#include <cmath>
+#include <string>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** Offset and read noise without their brackets. */
+void
+FillOffset(Report & report, const PolynomialFit & line, std::optional<double> offsetDn)
+{
+  if (!offsetDn)
+  {
+    report.offset = Quantity::Without(EstimateStatus::NotIdentifiable, "DN");
+    report.readNoise = Quantity::Without(EstimateStatus::NotIdentifiable, "DN");
+    report.readNoiseElectrons = Quantity::Without(EstimateStatus::NotIdentifiable, "e-");
+    return;
+  }
+  report.offset = Quantity::Identified(*offsetDn, "DN");
+  const double squared = line.intercept + line.slope * *offsetDn;
+  if (squared > 0.0)
+  {
+    report.readNoise = Quantity::Identified(std::sqrt(squared), "DN");
+    report.readNoiseElectrons = Quantity::Identified(std::sqrt(squared) / line.slope, "e-");
+  }
+  else
+  {
+    report.readNoise = Quantity::Without(EstimateStatus::NotIdentifiable, "DN");
+    report.readNoiseElectrons = Quantity::Without(EstimateStatus::NotIdentifiable, "e-");
+    report.Warn("read-noise-not-identifiable",
+                "gain, intercept and offset give a squared read noise of " + std::to_string(squared) +
+                  " DN^2, expected above 0: it is smaller than their errors");
+  }
+}
+} // namespace
+
+void
+FillNoiseParameters(Report &              report,
+                    const PolynomialFit & line,
+                    std::optional<double> offsetDn,
+                    std::optional<double> darkestDn)
+{
+  if (!line.isDetermined || !(line.slope > 0.0))
+  {
+    SetSensorParameters(report, EstimateStatus::Failed);
+    report.Warn("variance-not-affine",
+                line.isDetermined ? "the variance does not rise with the mean (slope " + std::to_string(line.slope) +
+                                      " DN/e-, expected above 0): the data are not raw, or hold too little noise"
+                                  : "the regression has " + std::to_string(line.pixels) +
+                                      " pixels of one intensity; expected pixels of different intensities");
+    return;
+  }
+  report.gain = Quantity::Identified(line.slope, "DN/e-");
+  report.intercept = Quantity::Identified(line.intercept, "DN^2");
+  report.totalIntercept = report.intercept;
+
+  const double lowestOffsetDn = -line.intercept / line.slope; // sigma^2 = 0 there
+  FillOffset(report, line, offsetDn);
+  if (darkestDn && *darkestDn > lowestOffsetDn)
+  {
+    const double highest = std::sqrt(line.intercept + line.slope * *darkestDn);
+    report.offset.bracket = Interval{ lowestOffsetDn, darkestDn };
+    report.readNoise.bracket = Interval{ 0.0, highest };
+    report.readNoiseElectrons.bracket = Interval{ 0.0, highest / line.slope };
+    if (offsetDn && *offsetDn > *darkestDn)
+    {
+      report.Warn("offset-above-darkest",
+                  "the offset " + std::to_string(*offsetDn) + " DN is above the darkest level, " +
+                    std::to_string(*darkestDn) + " DN, which is not possible: its error is larger than that; more " +
+                    "frames or more flicker would help");
+    }
+  }
+}
+
+void
+FillFit(Report & report, const FitQuality & quality)
+{
+  report.fit.reducedChi2 = quality.reducedChi2;
+  report.fit.curvature = quality.curvature;
+  report.fit.curvatureZ = quality.curvatureZ;
+  if (quality.reducedChi2 > LargestReducedChi2)
+  {
+    SetSensorParameters(report, EstimateStatus::Failed);
+    report.Warn(
+      "variance-not-affine",
+      "the corrected variance scatters about its line " + std::to_string(quality.reducedChi2) +
+        " times as much as sampling noise does (expected 1, at most 10): the scene moves, the flicker differs "
+        "within the frame, or the data are not raw");
+  }
+  else if (quality.reducedChi2 > 1.5)
+  {
+    report.Warn("poor-fit",
+                "the corrected variance scatters about its line " + std::to_string(quality.reducedChi2) +
+                  " times as much as sampling noise does (expected 1): vibrations, flicker that differs within the "
+                  "frame, or a scene that moves are left in it");
+  }
+}
+
+} // namespace sensornoise

@@ -1,0 +1,147 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/published/PublishedMethod.h"
+
+#include "sensornoise/base/PixelUse.h"
+#include "sensornoise/moments/StackMaps.h"
+#include "sensornoise/moments/StackRequirements.h"
+
+#include <cmath>
+#include <utility>
+
+namespace sensornoise
+{
+
+template <typename TPixel>
+PublishedMethod<TPixel>::PublishedMethod(const PublishedSettings &         settings,
+                                         const FrameGeometry &             geometry,
+                                         std::size_t                       frames,
+                                         const std::vector<std::uint8_t> & mask,
+                                         ParallelFor                       parallelFor)
+  : m_Settings(settings)
+  , m_Geometry(geometry)
+  , m_Frames(frames)
+  , m_UserMask(mask)
+  , m_ParallelFor(std::move(parallelFor))
+  , m_InPass(frames)
+  , m_Moments(geometry.Pixels())
+{
+  RequireStack(geometry, frames, mask.size());
+  settings.Validate();
+}
+
+template <typename TPixel>
+void
+PublishedMethod<TPixel>::AddFrames(const TPixel * chunk, std::size_t frames)
+{
+  const std::size_t  pixels = m_Geometry.Pixels();
+  const std::size_t  width = m_Geometry.width;
+  const std::size_t  first = m_InPass.Add(frames);
+  const unsigned int pass = m_InPass.GetPass();
+  if (pass == 0)
+  {
+    m_ParallelFor(m_Geometry.height,
+                  [&](std::size_t y) { m_Moments.AddFrames(chunk, pixels, frames, y * width, (y + 1) * width); });
+    m_Moments.AdvanceFrames(frames);
+  }
+  else if (pass == 1 && m_Sums)
+  {
+    m_ParallelFor(frames, [&](std::size_t k) { m_Sums->AddFrame(chunk + k * pixels, first + k); });
+  }
+  else if (pass == 2 && m_Correction)
+  {
+    m_ParallelFor(m_Geometry.height, [&](std::size_t y) { m_Correction->AddRow(chunk, pixels, frames, first, y); });
+  }
+}
+
+template <typename TPixel>
+void
+PublishedMethod<TPixel>::EndPass()
+{
+  const unsigned int pass = m_InPass.GetPass();
+  m_InPass.EndPass();
+  if (pass == 0)
+  {
+    m_Scene = this->EndMoments();
+    if (!m_Scene.failure)
+    {
+      m_Sums.emplace(m_Scene.bright, m_Scene.dark, m_Scene.mean.data(), m_Geometry, m_Frames, m_Scene.rowSet);
+    }
+  }
+  else if (pass == 1 && m_Sums)
+  {
+    m_Flicker = EstimateFlicker(*m_Sums, m_Scene.bright, m_Scene.dark, m_Settings.rollingShutter, m_Settings.sigmaRows);
+    m_Sums.reset(); // their memory
+    m_Correction.emplace(m_Flicker, m_Geometry, m_Frames);
+  }
+  else if (pass + 1 == NumberOfPasses)
+  {
+    m_Corrected = this->EndCorrection();
+    m_Correction.reset(); // their memory
+    m_Report = MakePublishedReport({ m_Settings, m_Geometry, m_Frames, m_Scene, m_Flicker, m_Corrected });
+  }
+}
+
+template <typename TPixel>
+PublishedScene
+PublishedMethod<TPixel>::EndMoments()
+{
+  const std::size_t pixels = m_Geometry.Pixels();
+  PublishedScene    scene;
+  scene.mean.resize(pixels);
+  scene.variance.resize(pixels);
+  scene.valid.resize(pixels);
+  scene.summary = MakeStackMaps<TPixel>(
+    m_Moments, m_Settings.codes, m_ParallelFor, scene.mean.data(), scene.variance.data(), scene.valid.data());
+  m_Moments = TemporalMoments<TPixel>(0); // their memory
+  SortPixels(scene, m_Settings, m_Geometry, m_Frames, m_UserMask);
+  FindSets(scene, m_Settings, m_Frames);
+  return scene;
+}
+
+template <typename TPixel>
+CorrectedMaps
+PublishedMethod<TPixel>::EndCorrection() const
+{
+  CorrectedMaps maps{ {}, m_Scene.pixelUse };
+  if (!m_Correction)
+  {
+    return maps;
+  }
+  const double dof = static_cast<double>(m_Frames - 1);
+  maps.variance.resize(m_Geometry.Pixels());
+  m_ParallelFor(m_Geometry.height, [&](std::size_t y) {
+    for (std::size_t p = y * m_Geometry.width; p < (y + 1) * m_Geometry.width; ++p)
+    {
+      maps.variance[p] = m_Correction->GetVariance(p, m_Scene.mean[p], m_Scene.variance[p] * dof);
+      if (m_Scene.kept[p] != 0 && !std::isfinite(maps.variance[p]))
+      {
+        maps.pixelUse[p] = static_cast<std::uint8_t>(PixelUse::FlickerUnknown);
+      }
+    }
+  });
+  return maps;
+}
+
+template class PublishedMethod<unsigned char>;
+template class PublishedMethod<unsigned short>;
+template class PublishedMethod<short>;
+template class PublishedMethod<float>;
+template class PublishedMethod<double>;
+
+} // namespace sensornoise

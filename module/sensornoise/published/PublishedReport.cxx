@@ -1,0 +1,241 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/published/PublishedReport.h"
+
+#include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/IntensityIndex.h"
+#include "sensornoise/base/PolynomialFit.h"
+#include "sensornoise/base/RequiredFlickerZ.h"
+#include "sensornoise/base/RollingShutter.h"
+#include "sensornoise/base/Text.h"
+#include "sensornoise/published/FlickerEstimate.h"
+#include "sensornoise/published/IsoIntensitySet.h"
+#include "sensornoise/published/NoiseParameters.h"
+#include "sensornoise/published/PublishedScene.h"
+#include "sensornoise/published/PublishedSettings.h"
+#include "sensornoise/published/VibrationCovariance.h"
+#include "sensornoise/report/Quantities.h"
+#include "sensornoise/report/StackReport.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+
+namespace sensornoise
+{
+
+namespace
+{
+void
+DescribeSettings(Report & report, const PublishedFindings & found)
+{
+  const PublishedSettings & settings = found.settings;
+  report.method = "published";
+  report.settings = { { "level", settings.level },
+                      { "bright_quantile", settings.brightQuantile },
+                      { "dark_quantile", settings.darkQuantile },
+                      { "rolling_shutter", std::string(NameOf(settings.rollingShutter)) },
+                      { "sigma_rows", found.flicker.sigmaRows },
+                      { "shutter_axis", std::string(settings.shutterAxis == 0 ? "x" : "y") } };
+}
+
+void
+WarnOfWidening(Report & report, const char * name, const IsoIntensitySet & set)
+{
+  if (set.wideningSteps > 0)
+  {
+    report.Warn(std::string(name) + "-set-widened",
+                std::string("the ") + name + " set was too small and was taken at the quantile " + Text(set.quantile) +
+                  " with " + std::to_string(set.pixels.size()) + " pixels (" + std::to_string(set.wideningSteps) +
+                  " steps, Remark 3)");
+  }
+}
+
+void
+WarnOfFlicker(Report & report, const FlickerEstimate & flicker)
+{
+  if (flicker.sigmaRows > 0.0)
+  {
+    report.Warn("rolling-shutter",
+                "the flicker differs from line to line; it is estimated with sigma_y = " + Text(flicker.sigmaRows) +
+                  " lines");
+    const auto unknown = std::count(flicker.rowKnown.begin(), flicker.rowKnown.end(), 0);
+    if (unknown > 0)
+    {
+      report.Warn("lines-without-flicker",
+                  "the brightest pixels do not reach " + std::to_string(unknown) + " of " +
+                    std::to_string(flicker.rows) + " lines, whose flicker is not known: their pixels are left out");
+    }
+  }
+  if (flicker.offsetLinePhi > 3.0)
+  {
+    report.Warn("offset-line-misfit",
+                "dark pixels do not follow the bright ones' flicker (residual variance " + Text(flicker.offsetLinePhi) +
+                  " times that of noise, expected 1): the offset is not reliable");
+  }
+}
+
+void
+FillFlicker(Report & report, const FlickerEstimate & flicker, bool isIdentified)
+{
+  report.flicker = flicker.gamma;
+  for (std::size_t t = 0; t < flicker.gamma.size() && !flicker.gammaRows.empty(); ++t)
+  {
+    const auto first = flicker.gammaRows.begin() + static_cast<std::ptrdiff_t>(t * flicker.rows);
+    report.flickerRows.emplace_back(first, first + static_cast<std::ptrdiff_t>(flicker.rows));
+    for (std::size_t row = 0; row < flicker.rows; ++row)
+    {
+      if (!flicker.IsKnown(row))
+      {
+        report.flickerRows.back()[row] = std::numeric_limits<double>::quiet_NaN();
+      }
+    }
+  }
+  if (isIdentified)
+  {
+    report.flickerSd = Quantity::Identified(flicker.flickerSd, "1");
+    return;
+  }
+  report.flickerSd = Quantity::Without(EstimateStatus::UpperLimit, "1");
+  report.flickerSd.bracket = Interval{ 0.0, flicker.flickerSd };
+}
+
+void
+FillVibration(Report & report, const PublishedFindings & found)
+{
+  const VibrationCovariance vibration = FitVibrationCovariance(found.scene.mean.data(),
+                                                               found.scene.variance.data(),
+                                                               found.scene.valid.data(),
+                                                               found.geometry.width,
+                                                               found.geometry.height,
+                                                               found.flicker.flickerSd);
+  const auto                sd = [&vibration](double varianceOfAxis) {
+    return vibration.isDetermined && varianceOfAxis > 0.0 ? Quantity::Identified(std::sqrt(varianceOfAxis), "pixel")
+                                                                         : Quantity::Without(EstimateStatus::NotIdentifiable, "pixel");
+  };
+  report.vibrationSdX = sd(vibration.varianceXPixels2);
+  report.vibrationSdY = sd(vibration.varianceYPixels2);
+  report.vibrationCovariance = vibration.isDetermined ? Quantity::Identified(vibration.covariancePixels2, "pixel^2")
+                                                      : Quantity::Without(EstimateStatus::NotIdentifiable, "pixel^2");
+}
+
+double
+ContrastDn(const PublishedScene & scene)
+{
+  return scene.bright.levelDn - scene.dark.levelDn;
+}
+
+/** Whether the even areas span enough intensities for a line; else every parameter is not identifiable. */
+bool
+HasRange(Report & report, const PublishedScene & scene)
+{
+  const double spreadDn = scene.bright.levelSdDn + scene.dark.levelSdDn;
+  if (ContrastDn(scene) > 6.0 * spreadDn)
+  {
+    return true;
+  }
+  SetSensorParameters(report, EstimateStatus::NotIdentifiable);
+  report.Warn("intensity-range-too-small",
+              "the even areas span " + Text(ContrastDn(scene)) + " DN, expected more than " + Text(6.0 * spreadDn) +
+                " DN (6 standard deviations of their means): use a scene with dark " + "and bright areas");
+  return false;
+}
+
+/** The parameters of the sensor, from the line through the corrected variance. */
+void
+FillNoise(Report &                  report,
+          const PublishedFindings & found,
+          const RegressionData &    corrected,
+          const PolynomialFit &     line)
+{
+  const PublishedScene &  scene = found.scene;
+  const FlickerEstimate & flicker = found.flicker;
+  const bool              isIdentified = flicker.flickerZ > RequiredFlickerZ;
+  if (!isIdentified)
+  {
+    report.Warn("offset-not-identifiable",
+                "the flicker (sd " + Text(flicker.flickerSd) + ") exceeds the noise of its estimate by " +
+                  Text(flicker.flickerZ) + " standard deviations, expected more than 6: use a lamp that " +
+                  "flickers more, or more frames, or dark frames");
+  }
+  // The darkest mean bounds the offset (flux >= 0); being a mean of noise it may lie below it by some of its errors.
+  const IntensityIndex index(scene.mean.data(), scene.valid.data(), corrected.pixels);
+  const double         darkestDn = index.QuantileDn(0.001) + 3.0 * scene.dark.levelSdDn;
+  FillNoiseParameters(report, line, isIdentified ? std::optional<double>(flicker.offsetDn) : std::nullopt, darkestDn);
+}
+
+/** How well the line fits. */
+void
+FillQuality(Report &                  report,
+            const PublishedFindings & found,
+            const RegressionData &    corrected,
+            const PolynomialFit &     line)
+{
+  const PublishedScene & scene = found.scene;
+  const FitQuality       quality = JudgeLine(corrected, line, found.frames);
+  FillFit(report, quality);
+  report.fit.offsetLinePhi = found.flicker.offsetLinePhi;
+  const double contrastDn = ContrastDn(scene);
+  const double bendDn2 = quality.curvature * contrastDn * contrastDn / 8.0; // parabola from chord, half way
+  const double middleDn2 = line.intercept + line.slope * 0.5 * (scene.bright.levelDn + scene.dark.levelDn);
+  if (std::abs(quality.curvatureZ) > 5.0 && std::abs(bendDn2) > 0.03 * middleDn2)
+  {
+    report.Warn("corrected-variance-curved",
+                "the corrected variance bends by " + Text(100.0 * bendDn2 / middleDn2) +
+                  " % of itself (expected under 3 %): vibrations, several lamps, or data that are not linear");
+  }
+}
+} // namespace
+
+Report
+MakePublishedReport(const PublishedFindings & found)
+{
+  const PublishedScene & scene = found.scene;
+  const CorrectedMaps &  maps = found.corrected;
+  Report                 report;
+  DescribeSettings(report, found);
+  DescribeStack(report, found.geometry, found.frames, scene.summary, scene.valid, maps.pixelUse);
+  WarnOfStack(report, found.frames, scene.summary);
+  if (scene.failure)
+  {
+    report.Warn(scene.failure->GetCode(), scene.failure->what());
+    return report;
+  }
+  WarnOfWidening(report, "bright", scene.bright);
+  WarnOfWidening(report, "dark", scene.dark);
+  WarnOfFlicker(report, found.flicker);
+  FillFlicker(report, found.flicker, found.flicker.flickerZ > RequiredFlickerZ);
+  FillVibration(report, found);
+  if (!HasRange(report, scene))
+  {
+    return report;
+  }
+  const std::size_t    pixels = found.geometry.Pixels();
+  const RegressionData corrected{ scene.mean.data(), maps.variance.data(), scene.kept.data(), pixels };
+  const RegressionData raw{ scene.mean.data(), scene.variance.data(), scene.kept.data(), pixels };
+  const PolynomialFit  line = FitLine(corrected);
+  FillBaselines(report, raw);
+  FillNoise(report, found, corrected, line);
+  FillQuality(report, found, corrected, line);
+  FillScatter(report, scene.mean, scene.variance, maps.variance, maps.pixelUse);
+  return report;
+}
+
+} // namespace sensornoise

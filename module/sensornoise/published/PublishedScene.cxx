@@ -1,0 +1,104 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/published/PublishedScene.h"
+
+#include "sensornoise/base/PixelUse.h"
+#include "sensornoise/base/RollingShutter.h"
+#include "sensornoise/published/VibrationMask.h"
+
+#include <cmath>
+
+namespace sensornoise
+{
+
+namespace
+{
+PixelUse
+UseOf(const PublishedScene &            scene,
+      const FrameGeometry &             geometry,
+      const std::vector<std::uint8_t> & mask,
+      std::size_t                       p)
+{
+  const std::size_t x = p % geometry.width;
+  const std::size_t y = p / geometry.width;
+  if (!mask.empty() && mask[p] == 0)
+  {
+    return PixelUse::Masked;
+  }
+  if (scene.valid[p] == 0)
+  {
+    return std::isfinite(scene.variance[p]) ? PixelUse::Clipped : PixelUse::NotFinite;
+  }
+  if (x == 0 || y == 0 || x + 1 == geometry.width || y + 1 == geometry.height)
+  {
+    return PixelUse::Border;
+  }
+  if (scene.kept[p] != 0)
+  {
+    return PixelUse::Used;
+  }
+  return scene.variance[p] > 0.0 ? PixelUse::Vibration : PixelUse::Constant;
+}
+} // namespace
+
+void
+SortPixels(PublishedScene &                  scene,
+           const PublishedSettings &         settings,
+           const FrameGeometry &             geometry,
+           std::size_t                       frames,
+           const std::vector<std::uint8_t> & mask)
+{
+  for (std::size_t p = 0; p < mask.size(); ++p)
+  {
+    scene.valid[p] = mask[p] != 0 ? scene.valid[p] : 0;
+  }
+  scene.kept = VibrationMask(scene.mean.data(),
+                             scene.variance.data(),
+                             scene.valid.data(),
+                             geometry.width,
+                             geometry.height,
+                             frames,
+                             settings.level);
+  scene.pixelUse.resize(geometry.Pixels());
+  for (std::size_t p = 0; p < geometry.Pixels(); ++p)
+  {
+    scene.pixelUse[p] = static_cast<std::uint8_t>(UseOf(scene, geometry, mask, p));
+  }
+}
+
+void
+FindSets(PublishedScene & scene, const PublishedSettings & settings, std::size_t frames)
+{
+  try
+  {
+    const IsoIntensitySetFinder finder(
+      scene.mean.data(), scene.variance.data(), scene.kept.data(), scene.mean.size(), frames);
+    scene.bright = finder.Find(settings.brightQuantile);
+    scene.dark = finder.Find(settings.darkQuantile);
+    if (settings.rollingShutter != RollingShutter::Off)
+    {
+      scene.rowSet = finder.FindRowSet(scene.bright);
+    }
+  }
+  catch (const NothingToMeasure & reason)
+  {
+    scene.failure = reason;
+  }
+}
+
+} // namespace sensornoise

@@ -1,0 +1,67 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_published_PublishedScene_h
+#define sensornoise_published_PublishedScene_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/NothingToMeasure.h"
+#include "sensornoise/moments/StackMaps.h"
+#include "sensornoise/published/IsoIntensitySet.h"
+#include "sensornoise/published/PublishedSettings.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** What pass 1 of the published method finds: maps of a frame's size, and the sets from which pass 2 tells the flicker.
+ */
+struct PublishedScene
+{
+  StackSummary                    summary;
+  std::vector<double>             mean;     ///< [DN]
+  std::vector<double>             variance; ///< of the stack as it is, flicker included [DN^2]
+  std::vector<std::uint8_t>       valid;    ///< 1: finite, never clipped and not masked by the user
+  std::vector<std::uint8_t>       kept;     ///< the vibration mask
+  std::vector<std::uint8_t>       pixelUse; ///< values of PixelUse, as far as pass 1 tells
+  IsoIntensitySet                 bright;   ///< S^*
+  IsoIntensitySet                 dark;     ///< S_*
+  IsoIntensitySet                 rowSet;   ///< of gamma_t(y); empty with RollingShutter::Off
+  std::optional<NothingToMeasure> failure;  ///< why the stack cannot be measured; null: it can
+};
+
+/** Sets valid (of which the pixels that \a mask leaves out are taken), kept and pixelUse of a scene whose mean,
+ * variance and valid are those of the moments. An empty \a mask leaves out none. */
+SensorNoise_EXPORT void
+SortPixels(PublishedScene &                  scene,
+           const PublishedSettings &         settings,
+           const FrameGeometry &             geometry,
+           std::size_t                       frames,
+           const std::vector<std::uint8_t> & mask);
+
+/** Sets the iso-intensity sets of a scene whose pixels are sorted, or its failure. */
+SensorNoise_EXPORT void
+FindSets(PublishedScene & scene, const PublishedSettings & settings, std::size_t frames);
+
+} // namespace sensornoise
+
+#endif

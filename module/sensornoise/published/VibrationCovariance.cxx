@@ -1,0 +1,145 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/published/VibrationCovariance.h"
+
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/published/VibrationMask.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace sensornoise
+{
+
+namespace
+{
+using Matrix = Eigen::Matrix<double, 6, 6>;
+using Vector = Eigen::Matrix<double, 6, 1>;
+
+/** The frame-sized maps of the regression. */
+struct Maps
+{
+  const double *       mean;
+  const double *       variance;
+  const std::uint8_t * valid; ///< null: all are
+  std::size_t          width;
+  std::size_t          height;
+};
+
+/** Calls function(p, gradient) for each pixel that takes part, in order. */
+template <typename TFunction>
+void
+ForInnerPixels(const Maps & maps, TFunction function)
+{
+  for (std::size_t y = 1; y + 1 < maps.height; ++y)
+  {
+    for (std::size_t x = 1; x + 1 < maps.width; ++x)
+    {
+      const std::size_t p = y * maps.width + x;
+      const Gradient    gradient = CentredGradient(maps.mean, maps.width, p);
+      const bool        isFinite = std::isfinite(maps.mean[p]) && std::isfinite(maps.variance[p]) &&
+                            std::isfinite(gradient.x) && std::isfinite(gradient.y);
+      if (isFinite && (maps.valid == nullptr || maps.valid[p] != 0))
+      {
+        function(p, gradient);
+      }
+    }
+  }
+}
+
+/** Divisors that make the regression's columns of order 1: the Gram matrix keeps its digits. */
+struct Scales
+{
+  double      mean{ 0.0 };     ///< [DN]
+  double      gradient{ 0.0 }; ///< [DN/pixel]
+  std::size_t pixels{ 0 };
+};
+
+Scales
+FindScales(const Maps & maps)
+{
+  Scales scales;
+  ForInnerPixels(maps, [&](std::size_t p, const Gradient & gradient) {
+    ++scales.pixels;
+    scales.mean = std::max(scales.mean, std::abs(maps.mean[p]));
+    scales.gradient = std::max({ scales.gradient, std::abs(gradient.x), std::abs(gradient.y) });
+  });
+  return scales;
+}
+
+/** The coefficients of the scaled columns 1, u, u^2, gx^2, gy^2, gx gy; none if the scene does not tell them apart. */
+std::optional<Vector>
+FitCoefficients(const Maps & maps, const Scales & scales)
+{
+  Matrix gram = Matrix::Zero();
+  Vector right = Vector::Zero();
+  ForInnerPixels(maps, [&](std::size_t p, const Gradient & gradient) {
+    const double u = maps.mean[p] / scales.mean;
+    const double gx = gradient.x / scales.gradient;
+    const double gy = gradient.y / scales.gradient;
+    Vector       row;
+    row << 1.0, u, u * u, gx * gx, gy * gy, gx * gy;
+    gram.selfadjointView<Eigen::Lower>().rankUpdate(row);
+    right += row * maps.variance[p];
+  });
+  const Matrix full = gram.selfadjointView<Eigen::Lower>();
+  const Vector diagonal = full.diagonal().cwiseSqrt().cwiseMax(1e-300);
+  const Matrix scaled = diagonal.cwiseInverse().asDiagonal() * full * diagonal.cwiseInverse().asDiagonal();
+  const Eigen::ColPivHouseholderQR<Matrix> solver(scaled);
+  if (solver.rank() != 6)
+  {
+    return std::nullopt;
+  }
+  return Vector(solver.solve(right.cwiseQuotient(diagonal)).cwiseQuotient(diagonal));
+}
+} // namespace
+
+VibrationCovariance
+FitVibrationCovariance(const double *       mean,
+                       const double *       variance,
+                       const std::uint8_t * valid,
+                       std::size_t          width,
+                       std::size_t          height,
+                       double               flickerSd)
+{
+  const Maps          maps{ mean, variance, valid, width, height };
+  const Scales        scales = FindScales(maps);
+  VibrationCovariance result;
+  result.pixels = scales.pixels;
+  if (scales.pixels < 6 || !(scales.mean > 0.0) || !(scales.gradient > 0.0))
+  {
+    return result;
+  }
+  const std::optional<Vector> coefficients = FitCoefficients(maps, scales);
+  result.isDetermined = coefficients.has_value();
+  if (!result.isDetermined)
+  {
+    return result;
+  }
+  const Vector & c = *coefficients;
+  result.flickerVariance = c(2) / (scales.mean * scales.mean);
+  const double flicker = flickerSd >= 0.0 ? flickerSd * flickerSd : std::max(0.0, result.flickerVariance);
+  const double unit = (1.0 + flicker) * scales.gradient * scales.gradient;
+  result.varianceXPixels2 = c(3) / unit;
+  result.varianceYPixels2 = c(4) / unit;
+  result.covariancePixels2 = 0.5 * c(5) / unit;
+  return result;
+}
+
+} // namespace sensornoise

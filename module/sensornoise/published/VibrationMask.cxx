@@ -1,0 +1,85 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/published/VibrationMask.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace sensornoise
+{
+
+double
+ChiSquare2Quantile(double level)
+{
+  if (!(level > 0.0 && level < 1.0))
+  {
+    throw std::invalid_argument("the level of the vibration test is " + std::to_string(level) +
+                                "; expected a probability between 0 and 1");
+  }
+  return -2.0 * std::log(level);
+}
+
+void
+TestVibrationOfRow(const double *       mean,
+                   std::ptrdiff_t       stride,
+                   const double *       variance,
+                   const std::uint8_t * valid,
+                   std::size_t          count,
+                   std::size_t          frames,
+                   double               quantile,
+                   std::uint8_t *       kept)
+{
+  const double scale = 2.0 * static_cast<double>(frames);
+  for (std::size_t x = 0; x < count; ++x)
+  {
+    const double * const centre = mean + x;
+    const double         dx = 0.5 * (centre[1] - centre[-1]);
+    const double         dy = 0.5 * (centre[stride] - centre[-stride]);
+    const bool           still = scale * (dx * dx + dy * dy) < quantile * variance[x];
+    kept[x] = still && (valid == nullptr || valid[x] != 0) ? 1 : 0;
+  }
+}
+
+std::vector<std::uint8_t>
+VibrationMask(const double *       mean,
+              const double *       variance,
+              const std::uint8_t * valid,
+              std::size_t          width,
+              std::size_t          height,
+              std::size_t          frames,
+              double               level)
+{
+  const double              quantile = ChiSquare2Quantile(level);
+  std::vector<std::uint8_t> mask(width * height, 0);
+  for (std::size_t y = 1; y + 1 < height && width > 2; ++y)
+  {
+    const std::size_t p = y * width + 1;
+    TestVibrationOfRow(mean + p,
+                       static_cast<std::ptrdiff_t>(width),
+                       variance + p,
+                       valid == nullptr ? nullptr : valid + p,
+                       width - 2,
+                       frames,
+                       quantile,
+                       mask.data() + p);
+  }
+  return mask;
+}
+
+} // namespace sensornoise

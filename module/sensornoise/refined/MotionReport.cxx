@@ -1,0 +1,160 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/refined/MotionReport.h"
+
+#include "sensornoise/base/Stencils.h"
+#include "sensornoise/report/Quantities.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** One axis of the motion. */
+struct AxisMotion
+{
+  std::vector<double> series; ///< of every frame, mean 0 [pixel]; empty: its derivative is not active
+  Quantity            sd{ Quantity::Without(EstimateStatus::NotIdentifiable, "pixel") };
+};
+
+/** What coefficients of a derivative, (1 + gamma_t) times the shift, say of the shifts. */
+struct ShiftSpread
+{
+  std::vector<double> series;
+  double              square{ 0.0 }; ///< their variance over time, without that of their noise [pixel^2]
+};
+
+template <typename TCoefficients>
+ShiftSpread
+SpreadOf(const TCoefficients & coefficients, const std::vector<double> & gamma, double noiseSquare)
+{
+  const auto  frames = static_cast<double>(gamma.size());
+  ShiftSpread spread;
+  spread.series.assign(gamma.size(), 0.0);
+  double mean = 0.0;
+  for (std::size_t t = 0; t < gamma.size(); ++t)
+  {
+    spread.series[t] = coefficients(static_cast<Eigen::Index>(t)) / (1.0 + gamma[t]);
+    mean += spread.series[t] / frames;
+  }
+  double sum = 0.0;
+  for (double & value : spread.series)
+  {
+    value -= mean;
+    sum += value * value;
+  }
+  spread.square = sum / (frames - 1.0) - noiseSquare;
+  return spread;
+}
+
+/** The motion along \a axis, whose derivative is \a stencil: by least squares, or better by instruments where they see
+ * it. Half of what both differ by is a systematic error. */
+AxisMotion
+MotionAlong(Eigen::Index axis, std::size_t stencil, const PolishedSeries & polished, const std::vector<double> & gamma)
+{
+  AxisMotion   result;
+  const auto & stencils = polished.motion.stencils;
+  const auto   place = std::find(stencils.begin(), stencils.end(), stencil);
+  if (place == stencils.end())
+  {
+    return result;
+  }
+  const auto   frames = static_cast<double>(gamma.size());
+  const auto   k = static_cast<Eigen::Index>(place - stencils.begin());
+  const double leastVariance = polished.motion.covariance(k, k) * polished.motionPhi;
+  ShiftSpread  spread = SpreadOf(polished.motion.coefficients.col(k), gamma, leastVariance);
+  double       errorSquare = leastVariance;
+  double       systematic = 0.0;
+  if (polished.shifts)
+  {
+    const double leastSquares = std::sqrt(std::max(0.0, spread.square));
+    errorSquare = polished.shifts->covariance(axis, axis) * polished.motionPhi;
+    spread = SpreadOf(polished.shifts->coefficients.col(axis), gamma, errorSquare);
+    systematic = 0.5 * std::abs(std::sqrt(std::max(0.0, spread.square)) - leastSquares);
+  }
+  const double sd = std::sqrt(std::max(0.0, spread.square));
+  const double error = std::hypot(2.0 * sd * std::sqrt(errorSquare / (frames - 1.0)),
+                                  errorSquare * std::sqrt(2.0 / (frames - 1.0)),
+                                  2.0 * sd * systematic);
+  result.sd = RootOf(spread.square, error, "pixel");
+  result.series = std::move(spread.series);
+  return result;
+}
+} // namespace
+
+void
+FillFlicker(Report & report, const RefinedResults & found, double offset, double offsetErrorDn)
+{
+  OffsetLine line = found.polished.line;
+  line.UseOffset(offset);
+  report.flicker = line.gamma;
+  const auto   frames = static_cast<double>(line.gamma.size());
+  const double noise = line.Widening() / line.precision;
+  double       squares = 0.0;
+  for (const double gamma : line.gamma)
+  {
+    squares += gamma * gamma;
+  }
+  const double variance = squares / (frames - 1.0) - noise;
+  const double fromOffset = 2.0 * variance * line.sensitivity * offsetErrorDn;
+  const double ownError =
+    2.0 * std::sqrt(std::max(0.0, variance) * noise / (frames - 1.0)) + noise * std::sqrt(2.0 / (frames - 1.0));
+  report.flickerSd = RootOf(variance, std::hypot(ownError, fromOffset), "1");
+  if (found.HasLocalLight())
+  {
+    const LocalFlicker & local = found.polished.localFlicker;
+    const double         sd = local.Sd(offset);
+    const double         step = 1.0 + offsetErrorDn;
+    const double         slope = (local.Sd(offset + step) - local.Sd(offset - step)) / (2.0 * step);
+    report.flickerSd = WithError(sd, std::hypot(slope * offsetErrorDn, sd * std::sqrt(noise)), "1");
+  }
+}
+
+void
+FillMotion(Report & report, const RefinedResults & found)
+{
+  const PolishedSeries & polished = found.polished;
+  const auto             frames = static_cast<double>(report.flicker.size());
+  const AxisMotion       x = MotionAlong(0, StencilX, polished, report.flicker);
+  const AxisMotion       y = MotionAlong(1, StencilY, polished, report.flicker);
+  report.vibrationSdX = x.sd;
+  report.vibrationSdY = y.sd;
+  report.vibrationCovariance = Quantity::Without(EstimateStatus::NotIdentifiable, "pixel^2");
+  if (x.series.empty() || y.series.empty())
+  {
+    return;
+  }
+  double product = 0.0;
+  for (std::size_t t = 0; t < x.series.size(); ++t)
+  {
+    report.motion.push_back({ x.series[t], y.series[t] });
+    product += x.series[t] * y.series[t] / (frames - 1.0);
+  }
+  if (polished.shifts)
+  {
+    product -= polished.shifts->covariance(0, 1) * polished.motionPhi;
+  }
+  report.vibrationCovariance = Quantity::Identified(product, "pixel^2");
+}
+
+} // namespace sensornoise

@@ -1,0 +1,118 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/refined/PolishedSeries.h"
+
+#include "sensornoise/pixels/OffsetDrift.h"
+#include "sensornoise/pixels/PixelLight.h"
+#include "sensornoise/series/FrameEquations.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** What the noise does to the equations of the frames, and to the instruments. */
+struct SeriesNoise
+{
+  RegressorNoise  regressors;
+  InstrumentNoise instruments;
+};
+
+/** The noise by the line that was fitted, about the offset \a offsetDn. */
+SeriesNoise
+NoiseOfLine(const FrameRegressors & regressors,
+            const VarianceLine &    line,
+            double                  offsetDn,
+            const ParallelFor &     parallelFor)
+{
+  // The sums: of each class variance and shot noise, then those of the instruments.
+  constexpr std::size_t classes = GradientClasses;
+  constexpr std::size_t weighted = 2 * classes;
+  constexpr std::size_t squareX = weighted + 1;
+  constexpr std::size_t productXY = weighted + 2;
+  constexpr std::size_t squareY = weighted + 3;
+  const auto            varianceOf = [](std::size_t gradientClass) { return 2 * gradientClass; };
+  const auto            shotOf = [](std::size_t gradientClass) { return 2 * gradientClass + 1; };
+
+  const ReferenceFrame & frame = regressors.GetFrame();
+  const auto  sums = SumOverBlocks<squareY + 1>(frame.mean.size(), parallelFor, [&](std::size_t p, auto & s) {
+    const std::size_t c = regressors.ClassOf(p);
+    if (c != FrameRegressors::Unused)
+    {
+      const double level = frame.neighbourMean[p];
+      const double variance = line.At(level);
+      const double w = 1.0 / regressors.GetModel().NoiseVariance(level);
+      const double x = regressors.InstrumentX(p);
+      const double y = regressors.InstrumentY(p);
+      s[varianceOf(c)] += w * variance;
+      s[shotOf(c)] += w * line.gain * std::max(0.0, level - offsetDn);
+      s[weighted] += regressors.InstrumentWeight(p) * variance;
+      s[squareX] += variance * x * x;
+      s[productXY] += variance * x * y;
+      s[squareY] += variance * y * y;
+    }
+  });
+  SeriesNoise noise;
+  for (std::size_t c = 0; c < classes; ++c)
+  {
+    noise.regressors.variance[c] = sums[varianceOf(c)];
+    noise.regressors.shot[c] = sums[shotOf(c)];
+  }
+  noise.instruments.variance = sums[weighted];
+  noise.instruments.squares << sums[squareX], sums[productXY], sums[productXY], sums[squareY];
+  return noise;
+}
+} // namespace
+
+PolishedSeries
+PolishSceneSeries(const FrameSums &         sums,
+                  const SceneSeries &       series,
+                  const ProjectedVariance & projected,
+                  const StaticVariance &    variance,
+                  const ParallelFor &       parallelFor)
+{
+  const ProvisionalModel &    model = sums.GetRegressors().GetModel();
+  const std::vector<double> & gamma = series.line.gamma;
+  const SeriesNoise           noise =
+    NoiseOfLine(sums.GetRegressors(), variance.line, series.offset + model.centreDn, parallelFor);
+  PolishedSeries polished;
+  polished.line = FitOffsetLine(sums, noise.regressors, gamma).value_or(series.line);
+  const FrameEquations            equations = MakeFrameEquations(sums, noise.regressors, GradientClasses - 1, gamma);
+  const std::optional<OffsetLine> everywhere = FitOffsetLine(equations);
+  polished.motionPhi = everywhere ? everywhere->Widening() : 1.0;
+  polished.motion = SolveMotion(equations, polished.line.gamma, polished.line.offset);
+  polished.shifts = SolveShifts(sums, polished.motion, noise.instruments, polished.line.gamma, polished.line.offset);
+  if (series.local.series.cols() > 0)
+  {
+    const PixelLight light{ projected,      variance.line,   variance.mask,
+                            model.centreDn, model.darkestDn, model.brightestDn - model.darkestDn };
+    polished.isOffsetDrift = IsOffsetDrift(light);
+    if (!polished.isOffsetDrift)
+    {
+      polished.localOffset = FindLocalOffset(light, parallelFor);
+    }
+    polished.localFlicker = SumLocalFlicker(light);
+  }
+  return polished;
+}
+
+} // namespace sensornoise

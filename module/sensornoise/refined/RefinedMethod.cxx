@@ -1,0 +1,286 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/refined/RefinedMethod.h"
+
+#include "sensornoise/base/BinaryStream.h"
+#include "sensornoise/moments/StackMaps.h"
+#include "sensornoise/pixels/PixelCoordinates.h"
+#include "sensornoise/pixels/ProjectedVariance.h"
+#include "sensornoise/refined/RefinedReport.h"
+#include "sensornoise/series/FrameProducts.h"
+#include "sensornoise/scene/UnexplainedPixels.h"
+#include "sensornoise/series/FrameRegressors.h"
+#include "sensornoise/series/ShiftInstruments.h"
+
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace sensornoise
+{
+
+namespace
+{
+template <typename TPixel>
+std::string
+StreamName()
+{
+  return "RefinedMethod " + PixelName<TPixel>();
+}
+
+/** The regressors of the second pass, of all usable pixels but those that one pass cannot explain. */
+FrameRegressors
+RegressorsOf(const StillScene & scene, const ParallelFor & parallelFor)
+{
+  const std::vector<std::uint8_t> unexplained = FindUnexplained(scene.frame, scene.model, parallelFor);
+  std::vector<std::uint8_t>       take = scene.frame.usable;
+  std::vector<std::uint8_t>       whole = take; // holes of single pixels would roughen the instruments
+  for (std::size_t p = 0; p < take.size(); ++p)
+  {
+    whole[p] = unexplained[p] == 2 ? 0 : whole[p];
+    take[p] = unexplained[p] != 0 ? 0 : take[p];
+  }
+  ShiftInstruments instruments = MakeShiftInstruments(scene.frame, scene.model, whole, parallelFor);
+  return FrameRegressors(scene.frame, scene.model, take, std::move(instruments), parallelFor);
+}
+} // namespace
+
+template <typename TPixel>
+RefinedMethod<TPixel>::RefinedMethod(const RefinedSettings &           settings,
+                                     const FrameGeometry &             geometry,
+                                     std::size_t                       frames,
+                                     const std::vector<std::uint8_t> & mask,
+                                     ParallelFor                       parallelFor)
+  : m_Settings(settings)
+  , m_Geometry(geometry)
+  , m_Frames(frames)
+  , m_UserMask(mask)
+  , m_ParallelFor(std::move(parallelFor))
+  , m_InPass(frames)
+  , m_Moments(geometry.Pixels(), frames)
+  , m_Scene(std::make_unique<const StillScene>())
+{
+  RequireStack(geometry, frames, mask.size());
+  settings.Validate();
+}
+
+template <typename TPixel>
+void
+RefinedMethod<TPixel>::AddFrames(const TPixel * chunk, std::size_t frames)
+{
+  const std::size_t  first = m_InPass.Add(frames);
+  const unsigned int pass = m_InPass.GetPass();
+  if (pass == 0)
+  {
+    m_Moments.AddFrames(chunk, first, frames, m_ParallelFor);
+  }
+  else if (pass == 1 && m_FrameSums)
+  {
+    m_FrameSums->AddFrames(chunk, first, frames, m_ParallelFor);
+  }
+  else if (pass == 2 && m_FrameSums)
+  {
+    ForBlocks(m_Geometry.Pixels(), m_ParallelFor, [&](std::size_t begin, std::size_t end) {
+      m_Projections.AddFrames(m_Series->basis, chunk, first, frames, begin, end);
+    });
+  }
+}
+
+template <typename TPixel>
+void
+RefinedMethod<TPixel>::SkipFrames(std::size_t frames)
+{
+  m_InPass.Skip(frames);
+}
+
+template <typename TPixel>
+void
+RefinedMethod<TPixel>::SaveSums(std::ostream & out) const
+{
+  WriteSumsHeader(out, StreamName<TPixel>(), m_Geometry.Pixels(), m_Frames);
+  m_InPass.Save(out);
+  WriteCount(out, this->FingerprintOfPass());
+  if (m_InPass.GetPass() == 0)
+  {
+    m_Moments.Save(out);
+  }
+  else if (m_FrameSums)
+  {
+    m_InPass.GetPass() == 1 ? m_FrameSums->Save(out) : m_Projections.Save(out);
+  }
+}
+
+template <typename TPixel>
+void
+RefinedMethod<TPixel>::MergeSums(std::istream & in)
+{
+  const std::size_t pixels = m_Geometry.Pixels();
+  RequireCount("frames", ReadSumsHeader(in, StreamName<TPixel>(), pixels), m_Frames);
+  const PassFrames frames = m_InPass.ReadOther(in);
+  m_InPass.RequireApart(frames);
+  if (ReadCount(in) != this->FingerprintOfPass())
+  {
+    throw std::runtime_error("sums cannot be merged: they are made with other settings, another mask or other sums "
+                             "of the passes before");
+  }
+  if (m_InPass.GetPass() == 0)
+  {
+    m_Moments.Merge(in);
+  }
+  else if (m_FrameSums && m_InPass.GetPass() == 1)
+  {
+    FrameProducts others = m_FrameSums->GetProducts();
+    others.Restore(in);
+    m_FrameSums->Merge(others);
+  }
+  else if (m_FrameSums)
+  {
+    ProjectionSums others(pixels, m_Series->basis.Size());
+    others.Restore(in);
+    m_Projections.Merge(others);
+  }
+  m_InPass.Merge(frames);
+}
+
+template <typename TPixel>
+std::uint64_t
+RefinedMethod<TPixel>::FingerprintOfPass() const
+{
+  Fingerprint       fingerprint;
+  const std::size_t sizes[2] = { m_Geometry.width, m_FrameSums ? 1U : 0U };
+  fingerprint.Add(sizes, 2);
+  fingerprint.Add(m_UserMask.data(), m_UserMask.size());
+  fingerprint.Add(m_Scene->mean.data(), m_Scene->mean.size());
+  fingerprint.Add(m_Scene->variance.data(), m_Scene->variance.size());
+  fingerprint.Add(m_Scene->pixelUse.data(), m_Scene->pixelUse.size());
+  for (std::size_t j = 0; m_Series && j < m_Series->basis.Size(); ++j)
+  {
+    for (std::size_t t = 0; t < m_Frames; ++t)
+    {
+      const double rounded = m_Series->basis.Rounded(t, j);
+      fingerprint.Add(&rounded, 1);
+    }
+  }
+  return fingerprint.GetValue();
+}
+
+template <typename TPixel>
+void
+RefinedMethod<TPixel>::EndPass()
+{
+  const unsigned int pass = m_InPass.GetPass();
+  m_InPass.EndPass();
+  try
+  {
+    if (pass == 0)
+    {
+      this->EndMoments();
+    }
+    else if (m_FrameSums)
+    {
+      pass == 1 ? this->EndFrameSums() : this->EndProjections();
+    }
+  }
+  catch (const NothingToMeasure & obstacle)
+  {
+    m_Obstacle.emplace(obstacle);
+    m_FrameSums.reset();
+  }
+  if (pass + 1 == NumberOfPasses)
+  {
+    this->MakeReport();
+  }
+}
+
+template <typename TPixel>
+void
+RefinedMethod<TPixel>::EndMoments()
+{
+  const std::size_t         pixels = m_Geometry.Pixels();
+  std::vector<double>       mean(pixels);
+  std::vector<double>       variance(pixels);
+  std::vector<std::uint8_t> valid(pixels);
+  const StackSummary        summary = MakeStackMaps<TPixel>(
+    m_Moments.Take(), m_Settings.codes, m_ParallelFor, mean.data(), variance.data(), valid.data());
+  m_Scene = std::make_unique<const StillScene>(MakeStillScene(summary,
+                                                              std::move(mean),
+                                                              std::move(variance),
+                                                              std::move(valid),
+                                                              m_UserMask,
+                                                              m_Geometry,
+                                                              m_Frames,
+                                                              m_Moments.GetFrameMeans(),
+                                                              m_ParallelFor));
+  if (m_Scene->obstacle)
+  {
+    throw NothingToMeasure(*m_Scene->obstacle);
+  }
+  m_FrameSums = std::make_unique<FrameSums>(RegressorsOf(*m_Scene, m_ParallelFor), m_ParallelFor);
+}
+
+template <typename TPixel>
+void
+RefinedMethod<TPixel>::EndFrameSums()
+{
+  m_Series.emplace(FindSceneSeries(*m_FrameSums, m_Settings.rollingShutter));
+  m_Projections = ProjectionSums(m_Geometry.Pixels(), m_Series->basis.Size(), m_ParallelFor);
+}
+
+template <typename TPixel>
+void
+RefinedMethod<TPixel>::EndProjections()
+{
+  const ReferenceFrame & frame = m_Scene->frame;
+  const PixelCoordinates coordinates(std::move(m_Projections), m_Series->basis, frame.mean, m_ParallelFor);
+  ProjectedVariance      projected(
+    frame, m_Series->basis, m_Series->motion, coordinates, m_Scene->model, frame.usable, m_ParallelFor);
+  m_Variance.emplace(FitStaticVariance(projected,
+                                       frame.usable,
+                                       m_Scene->pixelUse,
+                                       m_Scene->model.slopeDn,
+                                       m_Series->offset + m_Scene->model.centreDn,
+                                       m_ParallelFor));
+  if (!m_Variance->line.isDetermined)
+  {
+    throw NothingToMeasure("too few pixels, or pixels of one intensity only, are left to fit the variance");
+  }
+  m_Polished.emplace(PolishSceneSeries(*m_FrameSums, *m_Series, projected, *m_Variance, m_ParallelFor));
+  m_CorrectedVariance = projected.TakeVariance();
+  for (std::size_t p = 0; p < m_CorrectedVariance.size(); ++p)
+  {
+    m_CorrectedVariance[p] = frame.usable[p] != 0 ? m_CorrectedVariance[p] : std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+template <typename TPixel>
+void
+RefinedMethod<TPixel>::MakeReport()
+{
+  m_Report = m_Obstacle
+               ? MakeRefusal(m_Settings, *m_Scene, this->GetPixelUse(), *m_Obstacle)
+               : MakeRefinedReport({ m_Settings, *m_Scene, *m_Series, *m_Variance, *m_Polished, m_CorrectedVariance });
+}
+
+template class RefinedMethod<unsigned char>;
+template class RefinedMethod<unsigned short>;
+template class RefinedMethod<short>;
+template class RefinedMethod<float>;
+template class RefinedMethod<double>;
+
+} // namespace sensornoise

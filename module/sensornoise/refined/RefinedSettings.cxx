@@ -1,0 +1,40 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/refined/RefinedSettings.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace sensornoise
+{
+
+void
+RefinedSettings::Validate() const
+{
+  ValidateCodeSettings(codes);
+  if (offset &&
+      !(std::isfinite(offset->valueDn) && std::isfinite(offset->standardErrorDn) && offset->standardErrorDn >= 0.0))
+  {
+    throw std::invalid_argument("the offset is " + std::to_string(offset->valueDn) + " DN with a standard error of " +
+                                std::to_string(offset->standardErrorDn) +
+                                " DN; expected a finite number and a standard error of 0 or more");
+  }
+}
+
+} // namespace sensornoise

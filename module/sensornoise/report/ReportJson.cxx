@@ -1,0 +1,174 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/report/ReportJson.h"
+
+#include "sensornoise/report/JsonWriter.h"
+#include "sensornoise/report/Version.h"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace sensornoise
+{
+const char *
+NameOf(EstimateStatus status)
+{
+  switch (status)
+  {
+    case EstimateStatus::Identified:
+      return "identified";
+    case EstimateStatus::NotIdentifiable:
+      return "not-identifiable";
+    case EstimateStatus::UpperLimit:
+      return "upper-limit";
+    case EstimateStatus::Failed:
+      break;
+  }
+  return "failed";
+}
+
+void
+WriteJson(JsonWriter & json, const Interval & interval)
+{
+  json.Write(std::array<std::optional<double>, 2>{ interval.low, interval.high });
+}
+
+void
+WriteJson(JsonWriter & json, const Warning & warning)
+{
+  json.Object([&] { json.Member("code", warning.code).Member("message", warning.message); });
+}
+
+void
+WriteJson(JsonWriter & json, const Quantity & quantity)
+{
+  json.Object([&] {
+    json.Member("value", quantity.value)
+      .Member("standard_error", quantity.standardError)
+      .Member("interval95", quantity.interval95)
+      .Member("status", NameOf(quantity.status))
+      .Member("unit", quantity.unit)
+      .Member("bracket", quantity.bracket);
+  });
+}
+
+namespace
+{
+void
+WriteBaseline(JsonWriter & json, const char * name, const std::optional<Report::Baseline> & fit, bool isCurved)
+{
+  if (!fit)
+  {
+    json.Member(name, std::optional<double>());
+    return;
+  }
+  json.ObjectMember(name, [&] {
+    if (isCurved)
+    {
+      json.Member("curvature", fit->curvature);
+    }
+    json.Member("gain", fit->gain).Member("intercept", fit->intercept);
+  });
+}
+
+/** The stack itself and its pixels. */
+void
+WriteStack(JsonWriter & json, const Report & report)
+{
+  json.Member("frames", report.frames).Member("width", report.width).Member("height", report.height);
+  json.Member("channel", report.channel);
+  json.Member("bit_depth", report.bitDepth).Member("bit_depth_source", report.bitDepthSource);
+  json.Member("quantisation_step", report.quantisationStepDn);
+  json.Member("clip_low", report.clipLowDn).Member("clip_high", report.clipHighDn);
+  json.Member("clip_source", report.clipSource);
+  json.ObjectMember("pixels", [&] {
+    json.Member("total", report.pixels.total).Member("valid", report.pixels.valid).Member("used", report.pixels.used);
+    json.Member("clipped", report.pixels.clipped).Member("not_finite", report.pixels.notFinite);
+  });
+}
+
+/** The sensor: gain, offset, read noise and what belongs to them. */
+void
+WriteSensor(JsonWriter & json, const Report & report)
+{
+  json.Member("gain", report.gain).Member("offset", report.offset).Member("read_noise", report.readNoise);
+  json.Member("read_noise_electrons", report.readNoiseElectrons);
+  json.Member("intercept", report.intercept).Member("total_intercept", report.totalIntercept);
+  json.ObjectMember("covariance", [&] {
+    json.Member("of", std::array<const char *, 3>{ "gain", "intercept", "offset" });
+    json.Member("matrix", report.covariance);
+  });
+}
+
+/** The light and the floor, as a spread and frame by frame. */
+void
+WriteConditions(JsonWriter & json, const Report & report)
+{
+  json.Member("flicker_sd", report.flickerSd);
+  json.ObjectMember("vibration", [&] {
+    json.Member("sd_x", report.vibrationSdX).Member("sd_y", report.vibrationSdY);
+    json.Member("covariance", report.vibrationCovariance);
+  });
+  json.Member("flicker", report.flicker);
+  json.Member("flicker_rows",
+              report.flickerRows.empty() ? std::optional<std::vector<std::vector<double>>>() : report.flickerRows);
+  json.Member("motion", report.motion.empty() ? std::optional<std::vector<std::array<double, 2>>>() : report.motion);
+}
+
+/** How well the model fits, and what simpler ones would say. */
+void
+WriteFit(JsonWriter & json, const Report & report)
+{
+  json.ObjectMember("fit", [&] {
+    json.Member("reduced_chi2", report.fit.reducedChi2).Member("curvature", report.fit.curvature);
+    json.Member("curvature_z", report.fit.curvatureZ).Member("offset_line_phi", report.fit.offsetLinePhi);
+  });
+  WriteBaseline(json, "affine_baseline", report.affineBaseline, false);
+  WriteBaseline(json, "quadratic_baseline", report.quadraticBaseline, true);
+}
+} // namespace
+
+std::string
+ToJson(const Report & report)
+{
+  std::string text;
+  JsonWriter  json(text);
+  json.Object([&] {
+    json.Member("schema", ReportSchema).Member("version", GetModuleVersion()).Member("method", report.method);
+    json.ObjectMember("settings", [&] {
+      for (const auto & setting : report.settings)
+      {
+        json.Member(setting.first.c_str(), setting.second);
+      }
+    });
+    WriteStack(json, report);
+    WriteSensor(json, report);
+    WriteConditions(json, report);
+    WriteFit(json, report);
+    json.Member("warnings", report.warnings);
+    json.ObjectMember("scatter", [&] {
+      json.Member("mean", report.scatter.mean).Member("variance", report.scatter.variance);
+      json.Member("corrected_variance", report.scatter.correctedVariance).Member("count", report.scatter.count);
+    });
+  });
+  text += '\n';
+  return text;
+}
+
+} // namespace sensornoise

@@ -1,0 +1,151 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/report/ReportTable.h"
+
+#include "sensornoise/report/ReportJson.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace sensornoise
+{
+namespace
+{
+template <typename... TArguments>
+std::string
+Format(const char * format, TArguments... arguments)
+{
+  char buffer[256];
+  std::snprintf(buffer, sizeof(buffer), format, arguments...);
+  return buffer;
+}
+
+std::string
+Number(const std::optional<double> & number)
+{
+  return number ? Format("%.5g", *number) : "-";
+}
+
+/** The 95 % interval if there is one, else the bracket. */
+const std::optional<Interval> &
+RangeOf(const Quantity & quantity)
+{
+  return quantity.interval95 ? quantity.interval95 : quantity.bracket;
+}
+
+/** The value; of what is not distinguishable from zero, what it is below. */
+std::string
+Value(const Quantity & quantity)
+{
+  const std::optional<Interval> & range = RangeOf(quantity);
+  return quantity.status == EstimateStatus::UpperLimit && range && range->high ? "< " + Number(range->high)
+                                                                               : Number(quantity.value);
+}
+
+/** \a hasErrors: with a column for the standard error. */
+std::string
+Line(const char * name, const Quantity & quantity, bool hasErrors)
+{
+  const std::optional<Interval> & range = RangeOf(quantity);
+  std::string                     line = Format("%-24s %12s  ", name, Value(quantity).c_str());
+  if (hasErrors)
+  {
+    line += Format("%-12s  ", quantity.standardError ? Format("+- %.2g", *quantity.standardError).c_str() : "");
+  }
+  return line + Format("%-8s %-17s %s\n",
+                       quantity.unit.c_str(),
+                       NameOf(quantity.status),
+                       range ? ("[" + Number(range->low) + ", " + Number(range->high) + "]").c_str() : "");
+}
+
+std::string
+DescribeCodes(const Report & report)
+{
+  std::string text;
+  if (report.bitDepth)
+  {
+    text += Format(", %d bits (%s)", *report.bitDepth, report.bitDepthSource.c_str());
+  }
+  if (report.quantisationStepDn)
+  {
+    text += Format(", code step %g DN", *report.quantisationStepDn);
+  }
+  if (report.clipLowDn || report.clipHighDn)
+  {
+    text +=
+      ", levels " + Number(report.clipLowDn) + " to " + Number(report.clipHighDn) + " DN (" + report.clipSource + ")";
+  }
+  return text;
+}
+} // namespace
+
+std::string
+MakeTable(const Report & report)
+{
+  std::string table = Format("%zu frames of %zu x %zu pixels", report.frames, report.width, report.height);
+  table += DescribeCodes(report) + "\n";
+  table += Format("%zu of %zu pixels used (%.1f %%), %zu clipped, %zu not finite\n",
+                  report.pixels.used,
+                  report.pixels.total,
+                  100.0 * static_cast<double>(report.pixels.used) / static_cast<double>(report.pixels.total),
+                  report.pixels.clipped,
+                  report.pixels.notFinite);
+  table += "method: " + report.method + "\n\n";
+  using Row = std::pair<const char *, const Quantity *>;
+  const std::vector<Row> rows{ { "gain g", &report.gain },
+                               { "offset mu", &report.offset },
+                               { "read noise sigma", &report.readNoise },
+                               { "read noise sigma / g", &report.readNoiseElectrons },
+                               { "intercept sigma^2 - g mu", &report.intercept },
+                               { "flicker sd", &report.flickerSd },
+                               { "vibration sd x", &report.vibrationSdX },
+                               { "vibration sd y", &report.vibrationSdY } };
+  const bool             hasErrors =
+    std::any_of(rows.begin(), rows.end(), [](const Row & row) { return row.second->standardError.has_value(); });
+  table += Format("%-24s %12s  ", "quantity", "value") + (hasErrors ? Format("%-12s  ", "error") : "");
+  table += Format("%-8s %-17s %s\n", "unit", "status", hasErrors ? "95 % interval or limits" : "limits");
+  for (const auto & [name, quantity] : rows)
+  {
+    table += Line(name, *quantity, hasErrors);
+  }
+  if (report.fit.reducedChi2)
+  {
+    table += Format("\nfit: reduced chi2 %.4g (1: only sampling noise is left)", *report.fit.reducedChi2);
+    table += report.fit.offsetLinePhi
+               ? Format(", offset line %.4g (1: one flicker for all)\n", *report.fit.offsetLinePhi)
+               : "\n";
+  }
+  return table;
+}
+
+std::string
+MakeText(const Report & report)
+{
+  std::string text = MakeTable(report);
+  for (const Warning & warning : report.warnings)
+  {
+    text += (&warning == &report.warnings.front() ? "\nwarning: " : "warning: ") + warning.message + " [" +
+            warning.code + "]\n";
+  }
+  return text;
+}
+
+} // namespace sensornoise

@@ -1,0 +1,141 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/report/StackReport.h"
+
+#include "sensornoise/base/IntensityIndex.h"
+#include "sensornoise/base/PixelUse.h"
+#include "sensornoise/base/Text.h"
+#include "sensornoise/moments/CodeRange.h"
+
+#include <algorithm>
+#include <string>
+
+namespace sensornoise
+{
+void
+DescribeStack(Report &                          report,
+              const FrameGeometry &             geometry,
+              std::size_t                       frames,
+              const StackSummary &              summary,
+              const std::vector<std::uint8_t> & valid,
+              const std::vector<std::uint8_t> & pixelUse)
+{
+  report.frames = frames;
+  report.width = geometry.width;
+  report.height = geometry.height;
+
+  const CodeRange & codes = summary.codes;
+  report.bitDepth = codes.bitDepth;
+  report.bitDepthSource = codes.bitDepthSource;
+  if (codes.quantisationStepDn > 0.0)
+  {
+    report.quantisationStepDn = codes.quantisationStepDn;
+  }
+  report.clipLowDn = codes.clipLowDn;
+  report.clipHighDn = codes.clipHighDn;
+  report.clipSource = codes.clipSource;
+
+  report.pixels.total = geometry.Pixels();
+  report.pixels.valid = static_cast<std::size_t>(std::count(valid.begin(), valid.end(), 1));
+  report.pixels.used =
+    static_cast<std::size_t>(std::count(pixelUse.begin(), pixelUse.end(), static_cast<std::uint8_t>(PixelUse::Used)));
+  report.pixels.clipped = summary.clipped;
+  report.pixels.notFinite = summary.notFinite;
+}
+
+void
+WarnOfStack(Report & report, std::size_t frames, const StackSummary & summary)
+{
+  const CodeRange & codes = summary.codes;
+  if (frames < 20)
+  {
+    report.Warn("few-frames",
+                "the stack has " + std::to_string(frames) + " frames: indicative only; 20 or more are usable");
+  }
+  if (codes.clipSource.find("pile-up") != std::string::npos)
+  {
+    report.Warn("clip-level-found",
+                "the sensor attains only the levels " + Text(*codes.clipLowDn) + " to " + Text(*codes.clipHighDn) +
+                  " DN (" + codes.clipSource + "); pixels that reach an end are left out");
+  }
+  if (!codes.isRegular)
+  {
+    report.Warn("irregular-codes",
+                "the spacing of the grey levels varies about " + Text(codes.quantisationStepDn) +
+                  " DN: the data were rescaled and their quantisation noise is not known");
+  }
+  if (summary.notFinite > 0)
+  {
+    report.Warn("not-finite-pixels",
+                std::to_string(summary.notFinite) + " pixels are NaN or infinite in a frame and left out");
+  }
+}
+
+void
+FillScatter(Report &                          report,
+            const std::vector<double> &       mean,
+            const std::vector<double> &       variance,
+            const std::vector<double> &       correctedVariance,
+            const std::vector<std::uint8_t> & pixelUse)
+{
+  constexpr std::size_t     bins = 256;
+  const std::size_t         pixels = mean.size();
+  std::vector<std::uint8_t> used(pixels);
+  std::transform(pixelUse.begin(), pixelUse.end(), used.begin(), [](std::uint8_t use) {
+    return use == static_cast<std::uint8_t>(PixelUse::Used) ? 1 : 0;
+  });
+  const IntensityIndex index(mean.data(), used.data(), pixels);
+  Report::Scatter      sums{ std::vector<double>(bins, 0.0),
+                        std::vector<double>(bins, 0.0),
+                        std::vector<double>(bins, 0.0),
+                        std::vector<std::size_t>(bins, 0) };
+  for (std::size_t p = 0; p < pixels; ++p)
+  {
+    if (used[p] != 0)
+    {
+      const std::size_t bin = index.BinOf(mean[p], bins);
+      sums.mean[bin] += mean[p];
+      sums.variance[bin] += variance[p];
+      sums.correctedVariance[bin] += correctedVariance[p];
+      ++sums.count[bin];
+    }
+  }
+  report.scatter = Report::Scatter();
+  for (std::size_t bin = 0; bin < bins; ++bin)
+  {
+    if (sums.count[bin] > 0)
+    {
+      const auto n = static_cast<double>(sums.count[bin]);
+      report.scatter.mean.push_back(sums.mean[bin] / n);
+      report.scatter.variance.push_back(sums.variance[bin] / n);
+      report.scatter.correctedVariance.push_back(sums.correctedVariance[bin] / n);
+      report.scatter.count.push_back(sums.count[bin]);
+    }
+  }
+}
+
+void
+FillBaselines(Report & report, const RegressionData & raw)
+{
+  const PolynomialFit affine = FitLine(raw);
+  const PolynomialFit parabola = FitParabola(raw);
+  report.affineBaseline = Report::Baseline{ 0.0, affine.slope, affine.intercept };
+  report.quadraticBaseline = Report::Baseline{ parabola.curvature, parabola.slope, parabola.intercept };
+}
+
+} // namespace sensornoise

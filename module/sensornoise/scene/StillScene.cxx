@@ -1,0 +1,70 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/scene/StillScene.h"
+
+#include "sensornoise/scene/UsablePixels.h"
+
+#include <utility>
+
+namespace sensornoise
+{
+
+StillScene
+MakeStillScene(const StackSummary &              summary,
+               std::vector<double>               mean,
+               std::vector<double>               variance,
+               std::vector<std::uint8_t>         valid,
+               const std::vector<std::uint8_t> & userMask,
+               const FrameGeometry &             geometry,
+               std::size_t                       frames,
+               const std::vector<double> &       frameMeans,
+               const ParallelFor &               parallelFor)
+{
+  StillScene scene;
+  scene.summary = summary;
+  scene.frame = MakeReferenceFrame(mean, variance, valid, geometry, frames, parallelFor);
+  scene.pixelUse = FindPixelUse(scene.frame, variance, valid, userMask);
+  // After the reference frame: a masked pixel is a good neighbour.
+  for (std::size_t p = 0; p < userMask.size(); ++p)
+  {
+    valid[p] = userMask[p] == 0 ? 0 : valid[p];
+    scene.frame.usable[p] = userMask[p] == 0 ? 0 : scene.frame.usable[p];
+  }
+  scene.mean = std::move(mean);
+  scene.variance = std::move(variance);
+  scene.valid = std::move(valid);
+  try
+  {
+    scene.model = FitProvisionalModel(scene.frame);
+    UsablePixels found = LeaveOutCoarseAndGuarded(
+      scene.frame, scene.model, summary.codes, frameMeans, std::move(scene.pixelUse), parallelFor);
+    scene.frame.usable = std::move(found.usable);
+    scene.pixelUse = std::move(found.pixelUse);
+    scene.usable = found.count;
+    scene.nearClip = found.nearClip;
+    scene.coarse = found.coarse;
+    RequireFineCodes(found, summary.codes.quantisationStepDn);
+  }
+  catch (const NothingToMeasure & obstacle)
+  {
+    scene.obstacle = obstacle;
+  }
+  return scene;
+}
+
+} // namespace sensornoise

@@ -1,0 +1,69 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_scene_StillScene_h
+#define sensornoise_scene_StillScene_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/base/NothingToMeasure.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/moments/StackMaps.h"
+#include "sensornoise/scene/ProvisionalModel.h"
+#include "sensornoise/scene/ReferenceFrame.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** The result of the first pass: the mean image, a rough model of its noise, and which pixels can serve. */
+struct StillScene
+{
+  StackSummary              summary;
+  std::vector<double>       mean;     ///< over time; NaN where a frame is not finite [DN]
+  std::vector<double>       variance; ///< over time, unbiased, flicker and motion included [DN^2]
+  std::vector<std::uint8_t> valid;    ///< 1: finite, never at a clip level, and not masked by the user
+  ReferenceFrame            frame;    ///< its `usable` pixels are those that serve
+  ProvisionalModel          model;
+  std::vector<std::uint8_t> pixelUse;      ///< values of PixelUse, as far as one pass can tell
+  double                    usable{ 0.0 }; ///< pixels that serve
+  std::size_t               nearClip{ 0 }; ///< pixels that clipping could touch
+  std::size_t               coarse{ 0 };   ///< pixels whose noise is below half a code step
+
+  /** Why the stack cannot be measured: then the model may be missing. Null: it can. */
+  std::optional<NothingToMeasure> obstacle;
+};
+
+/** Makes the scene of the maps of a stack of \a frames frames: \a mean, \a variance and \a valid as of MakeStackMaps().
+ * \a userMask, if not empty, has a nonzero value at the pixels to be used; \a frameMeans are the frames' means [DN]. */
+SensorNoise_EXPORT StillScene
+MakeStillScene(const StackSummary &              summary,
+               std::vector<double>               mean,
+               std::vector<double>               variance,
+               std::vector<std::uint8_t>         valid,
+               const std::vector<std::uint8_t> & userMask,
+               const FrameGeometry &             geometry,
+               std::size_t                       frames,
+               const std::vector<double> &       frameMeans,
+               const ParallelFor &               parallelFor = SerialFor);
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,138 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/scene/UsablePixels.h"
+
+#include "sensornoise/base/NothingToMeasure.h"
+#include "sensornoise/base/PixelUse.h"
+#include "sensornoise/base/Stencils.h"
+#include "sensornoise/base/Text.h"
+#include "sensornoise/scene/GuardBand.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** Of pixel \a p, which the user did not mask. */
+PixelUse
+UseOf(const ReferenceFrame &            frame,
+      const std::vector<double> &       variance,
+      const std::vector<std::uint8_t> & valid,
+      std::size_t                       p)
+{
+  if (frame.usable[p] != 0)
+  {
+    return PixelUse::Used;
+  }
+  if (valid[p] == 0)
+  {
+    return std::isfinite(variance[p]) ? PixelUse::Clipped : PixelUse::NotFinite;
+  }
+  if (!(variance[p] > 0.0))
+  {
+    return PixelUse::Constant;
+  }
+  const std::size_t x = p % frame.geometry.width;
+  const std::size_t y = p / frame.geometry.width;
+  const bool        isInner = x >= StencilMargin && x + StencilMargin < frame.geometry.width && y >= StencilMargin &&
+                       y + StencilMargin < frame.geometry.height;
+  return isInner ? PixelUse::NearClip : PixelUse::Border;
+}
+
+/** The least and the largest brightness of a frame relative to the average, from its mean or from the model of the
+ * variance. */
+std::pair<double, double>
+ExtremesOfLight(const ReferenceFrame & frame, const ProvisionalModel & model, const std::vector<double> & frameMeans)
+{
+  const double average = std::accumulate(frameMeans.begin(), frameMeans.end(), 0.0) / static_cast<double>(frame.frames);
+  const double flux = std::max(1e-3, model.centreDn - model.darkestDn);
+  const auto [lowest, highest] = std::minmax_element(frameMeans.begin(), frameMeans.end());
+  const double typical = 1.5 * std::sqrt(model.flickerVariance);
+  const double brightest = std::max((*highest - average) / flux, typical);
+  const double darkest = std::max(-1.0, std::min((*lowest - average) / flux, -typical));
+  return { darkest, brightest };
+}
+} // namespace
+
+std::vector<std::uint8_t>
+FindPixelUse(const ReferenceFrame &            frame,
+             const std::vector<double> &       variance,
+             const std::vector<std::uint8_t> & valid,
+             const std::vector<std::uint8_t> & userMask)
+{
+  std::vector<std::uint8_t> pixelUse(frame.mean.size());
+  for (std::size_t p = 0; p < pixelUse.size(); ++p)
+  {
+    const bool isMasked = !userMask.empty() && userMask[p] == 0;
+    pixelUse[p] = static_cast<std::uint8_t>(isMasked ? PixelUse::Masked : UseOf(frame, variance, valid, p));
+  }
+  return pixelUse;
+}
+
+UsablePixels
+LeaveOutCoarseAndGuarded(const ReferenceFrame &      frame,
+                         const ProvisionalModel &    model,
+                         const CodeRange &           codes,
+                         const std::vector<double> & frameMeans,
+                         std::vector<std::uint8_t>   pixelUse,
+                         const ParallelFor &         parallelFor)
+{
+  const double step = codes.quantisationStepDn;
+  const auto   usable = static_cast<double>(std::count(frame.usable.begin(), frame.usable.end(), std::uint8_t{ 1 }));
+  const auto [darkest, brightest] = ExtremesOfLight(frame, model, frameMeans);
+  const auto   guarded = FindGuardBand(frame, model, codes, brightest, darkest, parallelFor);
+  UsablePixels pixels;
+  pixels.usable = frame.usable;
+  pixels.pixelUse = std::move(pixelUse);
+  for (std::size_t p = 0; p < guarded.size(); ++p)
+  {
+    if (frame.usable[p] != 0)
+    {
+      const bool isCoarse = step > 0.0 && model.NoiseVariance(frame.neighbourMean[p]) < 0.25 * step * step;
+      if (isCoarse || guarded[p] != 0)
+      {
+        pixels.pixelUse[p] = static_cast<std::uint8_t>(isCoarse ? PixelUse::CoarseCodes : PixelUse::NearClip);
+        pixels.usable[p] = 0;
+        ++(isCoarse ? pixels.coarse : pixels.nearClip);
+      }
+    }
+  }
+  pixels.count = usable - static_cast<double>(pixels.coarse + pixels.nearClip);
+  return pixels;
+}
+
+void
+RequireFineCodes(const UsablePixels & pixels, double stepDn)
+{
+  const auto   coarse = static_cast<double>(pixels.coarse);
+  const double all = pixels.count + static_cast<double>(pixels.coarse + pixels.nearClip);
+  if (coarse > 0.02 * all)
+  {
+    throw NothingToMeasure("the noise of " + Text(100.0 * coarse / all) +
+                             " % of the pixels, the darkest, is below half a code step of " + Text(stepDn) +
+                             " DN, where the codes hide it: use more bits, or a higher analogue gain",
+                           "codes-too-coarse");
+  }
+}
+
+} // namespace sensornoise

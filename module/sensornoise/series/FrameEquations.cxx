@@ -1,0 +1,229 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/series/FrameEquations.h"
+
+#include "sensornoise/base/Stencils.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** What white noise of variance 1 in the mean adds to the Gram matrix. */
+FrameSums::ClassMatrix
+KernelGram()
+{
+  const auto &           stencils = MotionStencils();
+  FrameSums::ClassMatrix kernels = FrameSums::ClassMatrix::Zero();
+  kernels(1, 1) = 1.0;
+  for (std::size_t i = 0; i < NumberOfStencils; ++i)
+  {
+    const auto row = static_cast<Eigen::Index>(2 + i);
+    kernels(1, row) = kernels(row, 1) = stencils[i].CentreWeight();
+    for (std::size_t j = 0; j < NumberOfStencils; ++j)
+    {
+      kernels(row, static_cast<Eigen::Index>(2 + j)) = InnerProduct(stencils[i], stencils[j]);
+    }
+  }
+  return kernels;
+}
+
+Eigen::MatrixXd
+Select(const Eigen::MatrixXd & matrix, const std::vector<std::size_t> & rows, const std::vector<std::size_t> & columns)
+{
+  Eigen::MatrixXd part(rows.size(), columns.size());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    for (std::size_t j = 0; j < columns.size(); ++j)
+    {
+      part(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+        matrix(static_cast<Eigen::Index>(rows[i]), static_cast<Eigen::Index>(columns[j]));
+    }
+  }
+  return part;
+}
+
+/** The light, and the derivatives whose signal exceeds their noise. */
+std::vector<std::size_t>
+FindCandidates(const Eigen::MatrixXd & rawGram, const Eigen::MatrixXd & gram, int largestOrder)
+{
+  const auto &             stencils = MotionStencils();
+  std::vector<std::size_t> active{ 0, 1 };
+  for (std::size_t k = 2; k < FrameColumns; ++k)
+  {
+    const auto i = static_cast<Eigen::Index>(k);
+    if (stencils[k - 2].order <= largestOrder && gram(i, i) > 0.5 * rawGram(i, i))
+    {
+      active.push_back(k);
+    }
+  }
+  return active;
+}
+
+/** Smallest eigenvalue of the matrix whose rows and columns are scaled to a diagonal of 1. */
+double
+SmallestEigenvalue(const Eigen::MatrixXd & a)
+{
+  const Eigen::VectorXd unit = a.diagonal().array().abs().max(1e-300).rsqrt();
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(unit.asDiagonal() * a * unit.asDiagonal()).eigenvalues()(0);
+}
+
+/** Place among the active ones of the column of higher order whose series over the frames is the least significant, the
+ * third order first; 0 if all are significant. */
+std::size_t
+FindInsignificant(const Eigen::MatrixXd &          rawGram,
+                  const Eigen::MatrixXd &          a,
+                  const Eigen::MatrixXd &          right,
+                  const std::vector<std::size_t> & active)
+{
+  const auto &          stencils = MotionStencils();
+  const auto            freedom = static_cast<double>(right.rows() - 1);
+  const Eigen::MatrixXd inverse = a.inverse();
+  const Eigen::VectorXd variance = (inverse * Select(rawGram, active, active) * inverse).diagonal();
+  std::size_t           worst = 0;
+  double                worstScore = 0.0;
+  for (std::size_t k = 2; k < active.size(); ++k)
+  {
+    const int order = stencils[active[k] - 2].order;
+    if (order > 1)
+    {
+      double energy = 0.0;
+      for (Eigen::Index t = 0; t < right.rows(); ++t)
+      {
+        double coefficient = 0.0;
+        for (std::size_t j = 0; j < active.size(); ++j)
+        {
+          coefficient += inverse(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j)) * right(t, active[j]);
+        }
+        energy += coefficient * coefficient;
+      }
+      const double z = (energy / variance(static_cast<Eigen::Index>(k)) - freedom) / std::sqrt(2.0 * freedom);
+      const double score = z - (order == 3 ? 100.0 : 0.0);
+      if (z < 4.0 && (worst == 0 || score < worstScore))
+      {
+        worst = k;
+        worstScore = score;
+      }
+    }
+  }
+  return worst;
+}
+
+/** Columns that the data support: those of the first order whose signal exceeds their noise, and those of higher order
+ * whose series over the frames is also significant; eliminated one by one, the third order first. */
+std::vector<std::size_t>
+FindActiveColumns(const Eigen::MatrixXd & rawGram,
+                  const Eigen::MatrixXd & gram,
+                  const Eigen::MatrixXd & right,
+                  int                     largestOrder)
+{
+  std::vector<std::size_t> active = FindCandidates(rawGram, gram, largestOrder);
+  for (;;)
+  {
+    const Eigen::MatrixXd a = Select(gram, active, active);
+    std::size_t           worst = 0;
+    if (SmallestEigenvalue(a) > 1e-6)
+    {
+      worst = FindInsignificant(rawGram, a, right, active);
+    }
+    else if (active.size() > 2 && MotionStencils()[active.back() - 2].order > 1)
+    {
+      worst = active.size() - 1;
+    }
+    if (worst == 0)
+    {
+      return active;
+    }
+    active.erase(active.begin() + static_cast<std::ptrdiff_t>(worst));
+  }
+}
+
+/** Sets the equations of the light alone. */
+void
+PartialOutMotion(FrameEquations & equations)
+{
+  const auto motion = static_cast<Eigen::Index>(equations.active.size() - 2);
+  equations.light = equations.gram.topLeftCorner<2, 2>();
+  equations.response = equations.right.leftCols<2>();
+  if (motion > 0)
+  {
+    const Eigen::MatrixXd partial =
+      equations.gram.bottomRightCorner(motion, motion).ldlt().solve(equations.gram.bottomLeftCorner(motion, 2));
+    equations.light -= equations.gram.topRightCorner(2, motion) * partial;
+    equations.response -= equations.right.rightCols(motion) * partial;
+  }
+}
+} // namespace
+
+std::optional<std::size_t>
+FrameEquations::Find(std::size_t column) const
+{
+  const auto found = std::find(active.begin(), active.end(), column);
+  return found == active.end() ? std::nullopt : std::optional<std::size_t>(found - active.begin());
+}
+
+FrameEquations
+MakeFrameEquations(const FrameSums &           sums,
+                   const RegressorNoise &      noise,
+                   std::size_t                 lastClass,
+                   const std::vector<double> & gamma)
+{
+  const auto      frames = sums.GetFrame().frames;
+  const auto &    stencils = MotionStencils();
+  Eigen::MatrixXd rawGram = Eigen::MatrixXd::Zero(FrameColumns, FrameColumns);
+  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(frames), FrameColumns);
+  double          variance = 0.0;
+  double          shot = 0.0;
+  for (std::size_t c = 0; c <= lastClass; ++c)
+  {
+    rawGram += sums.GetClassGram(c);
+    variance += noise.variance[c] / static_cast<double>(frames);
+    shot += noise.shot[c] / static_cast<double>(frames);
+    for (std::size_t t = 0; t < frames; ++t)
+    {
+      right.row(static_cast<Eigen::Index>(t)) += sums.GetClassSums(t, c).transpose();
+    }
+  }
+  const Eigen::MatrixXd gram = rawGram - variance * KernelGram();
+  for (std::size_t t = 0; t < gamma.size(); ++t)
+  {
+    for (std::size_t k = 1; k < FrameColumns; ++k)
+    {
+      const double centre = k == 1 ? 1.0 : stencils[k - 2].CentreWeight();
+      right(static_cast<Eigen::Index>(t), static_cast<Eigen::Index>(k)) -= gamma[t] * centre * shot;
+    }
+  }
+
+  FrameEquations equations;
+  equations.active = FindActiveColumns(rawGram, gram, right, frames < 20 ? 2 : 3);
+  std::vector<std::size_t> rows(frames);
+  for (std::size_t t = 0; t < frames; ++t)
+  {
+    rows[t] = t;
+  }
+  equations.rawGram = Select(rawGram, equations.active, equations.active);
+  equations.gram = Select(gram, equations.active, equations.active);
+  equations.right = Select(right, rows, equations.active);
+  PartialOutMotion(equations);
+  return equations;
+}
+
+} // namespace sensornoise

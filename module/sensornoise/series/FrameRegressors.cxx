@@ -1,0 +1,71 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/series/FrameRegressors.h"
+
+#include "sensornoise/base/Quantiles.h"
+
+#include <utility>
+
+namespace sensornoise
+{
+
+FrameRegressors::FrameRegressors(const ReferenceFrame &            frame,
+                                 const ProvisionalModel &          model,
+                                 const std::vector<std::uint8_t> & take,
+                                 ShiftInstruments                  instruments,
+                                 const ParallelFor &               parallelFor)
+  : m_Frame(&frame)
+  , m_Model(model)
+  , m_ClassOf(frame.mean.size(), Unused)
+  , m_Instruments(std::move(instruments))
+{
+  this->ClassifyPixels(take, parallelFor);
+}
+
+void
+FrameRegressors::ClassifyPixels(const std::vector<std::uint8_t> & take, const ParallelFor & parallelFor)
+{
+  const std::size_t width = m_Frame->geometry.width;
+  const double *    mean = m_Frame->mean.data();
+  const auto        roughness = [&](std::size_t p) {
+    const auto d = ApplyStencils(mean, width, p);
+    return StencilEnergy(d) / m_Model.NoiseVariance(m_Frame->neighbourMean[p]);
+  };
+  std::vector<double> values;
+  for (const std::size_t p : SamplePixels(take))
+  {
+    values.push_back(roughness(p));
+  }
+  std::array<double, GradientClasses - 1> edges{ 0.4, 0.6, 0.75, 0.87, 0.95 };
+  for (double & edge : edges)
+  {
+    edge = values.empty() ? 0.0 : Quantile(values, edge);
+  }
+  ForBlocks(take.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p)
+    {
+      if (take[p] != 0)
+      {
+        m_ClassOf[p] =
+          static_cast<std::uint8_t>(std::lower_bound(edges.begin(), edges.end(), roughness(p)) - edges.begin());
+      }
+    }
+  });
+}
+
+} // namespace sensornoise

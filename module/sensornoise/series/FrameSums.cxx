@@ -1,0 +1,209 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/series/FrameSums.h"
+
+#include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/series/RegressorBand.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <utility>
+
+namespace sensornoise
+{
+
+namespace
+{
+using WeightedColumns = FrameRegressors::WeightedColumns;
+using ClassColumns = std::array<WeightedColumns, GradientClasses>;
+
+constexpr std::size_t BandPixels = 4096;    // the band's columns stay in the second-level cache
+constexpr std::size_t FramesOfABatch = 128; // bounds the memory of the parts
+
+/** Calls function(row of cells, band) for all bands, those of a row of cells in order. */
+template <typename TFunction>
+void
+ForBands(const FrameRegressors & regressors,
+         std::size_t             cellRows,
+         std::size_t             cellsPerRow,
+         const ParallelFor &     parallelFor,
+         TFunction               function)
+{
+  parallelFor(cellRows, [&](std::size_t cellRow) {
+    const FrameGeometry & geometry = regressors.GetFrame().geometry;
+    const std::size_t     end = geometry.height * (cellRow + 1) / cellRows;
+    const std::size_t     rows = std::max<std::size_t>(1, BandPixels / geometry.width);
+    for (std::size_t y = geometry.height * cellRow / cellRows; y < end; y += rows)
+    {
+      function(cellRow, RegressorBand(regressors, y, std::min(rows, end - y), cellsPerRow));
+    }
+  });
+}
+
+/** Adds the sums of \a count series over a band to theirs over the classes, and calls function(cell of the band,
+ * series, sum of w, sum of w I) for the cells, group by group. */
+template <typename TFunction>
+void
+AddToClasses(const RegressorBand &                    band,
+             const std::vector<RegressorBand::Sums> & sums,
+             std::size_t                              count,
+             ClassColumns *                           parts,
+             TFunction                                function)
+{
+  for (std::size_t g = 0; g < sums.size(); ++g)
+  {
+    const RegressorBand::Group & group = band.GetGroups()[g];
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      const double * const sum = sums[g].col(static_cast<Eigen::Index>(k)).data();
+      WeightedColumns &    columns = parts[k][group.gradientClass];
+      std::transform(columns.begin(), columns.end(), sum, columns.begin(), std::plus<double>());
+      function(
+        group.cell, k, sum[FrameColumns + FrameSums::Instruments], sum[FrameColumns + FrameSums::Instruments + 1]);
+    }
+  }
+}
+} // namespace
+
+FrameSums::FrameSums(FrameRegressors regressors, const ParallelFor & parallelFor)
+  : m_Regressors(std::move(regressors))
+  , m_CellRows(std::clamp<std::size_t>(this->GetFrame().geometry.height / 8, 1, 64))
+  , m_CellsPerRow(std::clamp<std::size_t>(this->GetFrame().geometry.width / 32, 1, 16))
+  , m_Products(this->GetFrame().mean.size(), this->GetFrame().frames, m_CellRows * m_CellsPerRow)
+  , m_ClassGram(GradientClasses, ClassMatrix::Zero())
+  , m_InstrumentGram(Eigen::Matrix<double, Instruments, FrameColumns>::Zero())
+  , m_Cells(m_CellRows * m_CellsPerRow)
+{
+  this->SumColumns(parallelFor);
+}
+
+template <typename TPixel>
+void
+FrameSums::AddFrames(const TPixel * frames, std::size_t first, std::size_t count, const ParallelFor & parallelFor)
+{
+  for (std::size_t begin = 0; begin < count; begin += FramesOfABatch)
+  {
+    const std::size_t size = std::min(FramesOfABatch, count - begin);
+    this->AddBatch(frames + begin * this->GetFrame().mean.size(), first + begin, size, parallelFor);
+  }
+}
+
+/** What needs no frame: the weighted columns times the columns' own values. */
+void
+FrameSums::SumColumns(const ParallelFor & parallelFor)
+{
+  std::vector<std::array<ClassColumns, FrameColumns>> parts(m_CellRows);
+  ForBands(m_Regressors, m_CellRows, m_CellsPerRow, parallelFor, [&](std::size_t cellRow, const RegressorBand & band) {
+    Cell * const cells = m_Cells.data() + cellRow * m_CellsPerRow;
+    for (const RegressorBand::Group & group : band.GetGroups())
+    {
+      cells[group.cell].pixels += group.end - group.begin;
+    }
+    std::vector<FrameRegressors::Values> columns(band.Pixels());
+    for (const std::uint32_t i : band.GetOrder())
+    {
+      columns[i] = m_Regressors.ValuesOf(band.First() + i);
+    }
+    std::vector<RegressorBand::Vector> values(band.Pixels(), RegressorBand::Vector::Zero());
+    std::vector<RegressorBand::Sums>   sums;
+    for (std::size_t first = 0; first < FrameColumns; first += RegressorBand::Together)
+    {
+      const std::size_t count = std::min(RegressorBand::Together, FrameColumns - first);
+      for (const std::uint32_t i : band.GetOrder())
+      {
+        std::copy_n(columns[i].data() + first, count, values[i].data());
+      }
+      band.Multiply(values, sums);
+      AddToClasses(
+        band, sums, count, &parts[cellRow][first], [&](std::size_t cell, std::size_t k, double w, double wI) {
+          cells[cell].sum[first + k] += w;
+          cells[cell].sumI[first + k] += wI;
+        });
+    }
+  });
+  for (const auto & part : parts)
+  {
+    for (std::size_t k = 0; k < FrameColumns; ++k)
+    {
+      const auto column = static_cast<Eigen::Index>(k);
+      for (std::size_t c = 0; c < GradientClasses; ++c)
+      {
+        m_ClassGram[c].col(column) += Eigen::Map<const ColumnVector>(part[k][c].data());
+        m_InstrumentGram.col(column) += Eigen::Map<const Eigen::Vector2d>(part[k][c].data() + FrameColumns);
+      }
+    }
+  }
+}
+
+template <typename TPixel>
+void
+FrameSums::AddBatch(const TPixel * frames, std::size_t first, std::size_t count, const ParallelFor & parallelFor)
+{
+  std::vector<std::vector<ClassColumns>> parts(m_CellRows, std::vector<ClassColumns>(count));
+  ForBands(m_Regressors, m_CellRows, m_CellsPerRow, parallelFor, [&](std::size_t cellRow, const RegressorBand & band) {
+    const double * const               mean = this->GetFrame().mean.data() + band.First();
+    std::vector<RegressorBand::Vector> deviations(band.Pixels());
+    std::vector<RegressorBand::Sums>   sums;
+    for (std::size_t t = 0; t < count; t += RegressorBand::Together)
+    {
+      const std::size_t together = std::min(RegressorBand::Together, count - t);
+      for (std::size_t k = 0; k < RegressorBand::Together; ++k)
+      {
+        const TPixel * const frame =
+          frames + (t + std::min(k, together - 1)) * this->GetFrame().mean.size() + band.First();
+        for (std::size_t i = 0; i < band.Pixels(); ++i)
+        {
+          deviations[i](static_cast<Eigen::Index>(k)) = static_cast<double>(frame[i]) - mean[i];
+        }
+      }
+      band.Multiply(deviations, sums);
+      AddToClasses(band, sums, together, &parts[cellRow][t], [&](std::size_t cell, std::size_t k, double w, double wI) {
+        std::array<double, 2> & ofCell = m_Products.OfCell(first + t + k, cellRow * m_CellsPerRow + cell);
+        ofCell[0] += w;
+        ofCell[1] += wI;
+      });
+    }
+  });
+  for (const std::vector<ClassColumns> & part : parts)
+  {
+    for (std::size_t t = 0; t < count; ++t)
+    {
+      for (std::size_t c = 0; c < GradientClasses; ++c)
+      {
+        const WeightedColumns & columns = part[t][c];
+        m_Products.OfClass(first + t, c) += Eigen::Map<const ColumnVector>(columns.data());
+        m_Products.OfInstruments(first + t)[0] += columns[FrameColumns];
+        m_Products.OfInstruments(first + t)[1] += columns[FrameColumns + 1];
+      }
+    }
+  }
+}
+
+template SensorNoise_EXPORT void
+FrameSums::AddFrames(const unsigned char *, std::size_t, std::size_t, const ParallelFor &);
+template SensorNoise_EXPORT void
+FrameSums::AddFrames(const unsigned short *, std::size_t, std::size_t, const ParallelFor &);
+template SensorNoise_EXPORT void
+FrameSums::AddFrames(const short *, std::size_t, std::size_t, const ParallelFor &);
+template SensorNoise_EXPORT void
+FrameSums::AddFrames(const float *, std::size_t, std::size_t, const ParallelFor &);
+template SensorNoise_EXPORT void
+FrameSums::AddFrames(const double *, std::size_t, std::size_t, const ParallelFor &);
+
+} // namespace sensornoise

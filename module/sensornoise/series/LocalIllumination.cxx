@@ -1,0 +1,240 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/series/LocalIllumination.h"
+
+#include "sensornoise/base/Quantiles.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** The cells that tell: which, and the inverse variance of one frame's light over each, v' G v with v = (-offset, 1).
+ */
+struct UsedCells
+{
+  std::vector<std::size_t> cells;
+  std::vector<double>      precision;
+
+  Eigen::Index
+  Count() const
+  {
+    return static_cast<Eigen::Index>(cells.size());
+  }
+};
+
+UsedCells
+FindUsedCells(const FrameSums & sums, double offset)
+{
+  const auto & cells = sums.GetCells();
+  double       pixels = 0.0;
+  for (const FrameSums::Cell & cell : cells)
+  {
+    pixels += static_cast<double>(cell.pixels) / static_cast<double>(cells.size());
+  }
+  UsedCells used;
+  for (std::size_t c = 0; c < cells.size(); ++c)
+  {
+    const double p = cells[c].sumI[1] - 2.0 * offset * cells[c].sum[1] + offset * offset * cells[c].sum[0];
+    if (static_cast<double>(cells[c].pixels) > std::max(20.0, 0.25 * pixels) && p > 0.0)
+    {
+      used.cells.push_back(c);
+      used.precision.push_back(p);
+    }
+  }
+  return used;
+}
+
+/** What global flicker and motion leave of the cells' light, frames x cells, in units of its noise. */
+Eigen::MatrixXd
+RestOfCells(const FrameSums &           sums,
+            const UsedCells &           used,
+            const MotionSeries &        motion,
+            const std::vector<double> & gamma,
+            double                      offset)
+{
+  const auto      frames = static_cast<Eigen::Index>(sums.GetFrame().frames);
+  Eigen::MatrixXd whole(frames, used.Count());
+  for (Eigen::Index i = 0; i < used.Count(); ++i)
+  {
+    const std::size_t       c = used.cells[static_cast<std::size_t>(i)];
+    const FrameSums::Cell & cell = sums.GetCells()[c];
+    const double            p = used.precision[static_cast<std::size_t>(i)];
+    for (Eigen::Index t = 0; t < frames; ++t)
+    {
+      const auto & sum = sums.GetCellSums(static_cast<std::size_t>(t), c);
+      double       response = sum[1] - offset * sum[0] - gamma[static_cast<std::size_t>(t)] * p;
+      for (std::size_t k = 0; k < motion.stencils.size(); ++k)
+      {
+        const std::size_t stencil = motion.stencils[k];
+        response -= motion.coefficients(t, static_cast<Eigen::Index>(k)) *
+                    (cell.sumI[2 + stencil] - offset * cell.sum[2 + stencil]);
+      }
+      whole(t, i) = response / std::sqrt(p);
+    }
+  }
+  return whole;
+}
+
+/** Scales each cell by its own typical size, if that is above the average: one noisy cell must not make a factor.
+ * \a rest is \a whole without the part that resembles flicker and motion. */
+void
+ScaleCells(Eigen::MatrixXd & rest, Eigen::MatrixXd & whole)
+{
+  const Eigen::Index  frames = rest.rows();
+  const Eigen::Index  count = rest.cols();
+  std::vector<double> sizes(static_cast<std::size_t>(count));
+  for (Eigen::Index i = 0; i < count; ++i)
+  {
+    std::vector<double> squares(static_cast<std::size_t>(frames));
+    for (Eigen::Index t = 0; t < frames; ++t)
+    {
+      squares[static_cast<std::size_t>(t)] = rest(t, i) * rest(t, i);
+    }
+    sizes[static_cast<std::size_t>(i)] = std::sqrt(std::max(1e-30, Quantile(squares, 0.5) / 0.455));
+  }
+  const double typical = QuantileOf(sizes, 0.5);
+  for (Eigen::Index i = 0; i < count; ++i)
+  {
+    const double size = std::max(sizes[static_cast<std::size_t>(i)], typical);
+    rest.col(i) /= size;
+    whole.col(i) /= size;
+  }
+}
+
+/** The factors of \a rest above the noise's edge, at most \a most; \a freedom is its number of free frames. */
+LocalIllumination
+FindFactors(const Eigen::MatrixXd & rest, const Eigen::MatrixXd & whole, Eigen::Index freedom, std::size_t most)
+{
+  const Eigen::Index    frames = rest.rows();
+  const Eigen::Index    count = rest.cols();
+  const bool            isTall = frames > count;
+  const Eigen::MatrixXd gram =
+    isTall ? Eigen::MatrixXd(rest.transpose() * rest) : Eigen::MatrixXd(rest * rest.transpose());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
+  const auto                                           shorter = std::min(freedom, count);
+  const auto                                           longer = static_cast<double>(std::max(freedom, count));
+  std::vector<double>                                  values;
+  for (Eigen::Index i = 0; i < shorter; ++i)
+  {
+    values.push_back(eigen.eigenvalues()(gram.rows() - 1 - i));
+  }
+  const double ratio = static_cast<double>(shorter) / longer;
+  const double noise = QuantileOf(values, 0.5) / (MedianNoiseEigenvalue(ratio) * longer);
+  const double edge = 1.25 * noise * std::pow(std::sqrt(static_cast<double>(shorter)) + std::sqrt(longer), 2);
+
+  LocalIllumination found;
+  found.excess = values.front() / edge;
+  Eigen::Index factors = 0;
+  while (factors < shorter && factors < static_cast<Eigen::Index>(most) &&
+         values[static_cast<std::size_t>(factors)] > edge)
+  {
+    ++factors;
+  }
+  found.series.resize(frames, factors);
+  for (Eigen::Index j = 0; j < factors; ++j)
+  {
+    const Eigen::VectorXd vector = eigen.eigenvectors().col(gram.rows() - 1 - j);
+    // The cells' pattern, and what all of the cells' series, motion's look-alike part too, show in that pattern.
+    found.series.col(j) = whole * (isTall ? vector : Eigen::VectorXd(rest.transpose() * vector));
+  }
+  return found;
+}
+} // namespace
+
+Eigen::MatrixXd
+Orthonormalise(const Eigen::MatrixXd & columns, Eigen::Index most)
+{
+  Eigen::MatrixXd basis(columns.rows(), columns.cols());
+  Eigen::Index    count = 0;
+  for (Eigen::Index j = 0; j < columns.cols() && count < most; ++j)
+  {
+    Eigen::VectorXd column = columns.col(j);
+    const double    before = column.norm();
+    for (int twice = 0; twice < 2; ++twice)
+    {
+      column.array() -= column.mean();
+      for (Eigen::Index i = 0; i < count; ++i)
+      {
+        column -= basis.col(i).dot(column) * basis.col(i);
+      }
+    }
+    const double after = column.norm();
+    if (after > 1e-6 * before && before > 0.0)
+    {
+      basis.col(count++) = column / after;
+    }
+  }
+  return basis.leftCols(count);
+}
+
+double
+MedianNoiseEigenvalue(double ratio)
+{
+  const double        low = std::pow(1.0 - std::sqrt(ratio), 2);
+  const double        high = std::pow(1.0 + std::sqrt(ratio), 2);
+  constexpr int       steps = 2000;
+  std::vector<double> cumulative(steps + 1, 0.0);
+  const auto at = [&](int i) { return low + (high - low) * 0.5 * (1.0 - std::cos(3.14159265358979 * i / steps)); };
+  for (int i = 0; i < steps; ++i)
+  {
+    const double middle = 0.5 * (at(i) + at(i + 1));
+    cumulative[static_cast<std::size_t>(i + 1)] =
+      cumulative[static_cast<std::size_t>(i)] +
+      std::sqrt(std::max(0.0, (high - middle) * (middle - low))) / middle * (at(i + 1) - at(i));
+  }
+  const auto half = std::lower_bound(cumulative.begin(), cumulative.end(), 0.5 * cumulative.back());
+  return at(static_cast<int>(half - cumulative.begin()));
+}
+
+LocalIllumination
+FindLocalIllumination(const FrameSums &           sums,
+                      const MotionSeries &        motion,
+                      const Eigen::MatrixXd &     motionColumns,
+                      const std::vector<double> & gamma,
+                      double                      offset,
+                      std::size_t                 most)
+{
+  const auto        frames = static_cast<Eigen::Index>(sums.GetFrame().frames);
+  LocalIllumination none;
+  none.series.resize(frames, 0);
+  const UsedCells used = FindUsedCells(sums, offset);
+  if (used.Count() < 8 || most == 0)
+  {
+    return none;
+  }
+  Eigen::MatrixXd whole = RestOfCells(sums, used, motion, gamma, offset);
+  Eigen::MatrixXd known(frames, 1 + motionColumns.cols());
+  known.col(0) = Eigen::Map<const Eigen::VectorXd>(gamma.data(), frames);
+  known.rightCols(motionColumns.cols()) = motionColumns;
+  const Eigen::MatrixXd basis = Orthonormalise(known, frames);
+  const Eigen::Index    freedom = frames - 1 - basis.cols();
+  if (freedom < 4)
+  {
+    return none;
+  }
+  Eigen::MatrixXd rest = whole.rowwise() - whole.colwise().mean();
+  rest -= basis * (basis.transpose() * rest);
+  ScaleCells(rest, whole);
+  return FindFactors(rest, whole, freedom, most);
+}
+
+} // namespace sensornoise

@@ -1,0 +1,135 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/series/OffsetLine.h"
+
+#include "sensornoise/base/ChiSquare.h"
+#include "sensornoise/series/FrameProducts.h"
+
+#include <cmath>
+#include <utility>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** The standard error of the offset, from the flicker's energy above its noise. */
+void
+SetStandardError(OffsetLine & line, double frames)
+{
+  const Eigen::Vector2d v(-line.offset, 1.0);
+  double                squares = 0.0;
+  for (const double gamma : line.gamma)
+  {
+    squares += gamma * gamma;
+  }
+  const double signal = squares - (frames - 1.0) / line.precision * line.Widening();
+  const double across = v.dot(line.light.col(0));
+  const double information = signal * (line.light(0, 0) - across * across / line.precision);
+  if (information > 0.0)
+  {
+    line.standardError = std::sqrt(line.Widening() / information);
+  }
+}
+
+/** The interval {m: J(m) >= max J - t^2 phi}; \a energy is sum r r', \a larger the maximum of J. */
+void
+SetInterval(OffsetLine & line, const Eigen::Matrix2d & energy, double larger, double frames)
+{
+  const double          student = StudentQuantile(0.975, std::max(1.0, frames - 2.0));
+  const Eigen::Matrix2d q = energy - (larger - student * student * line.Widening()) * line.light;
+  const double          discriminant = q(0, 1) * q(0, 1) - q(0, 0) * q(1, 1);
+  if (q(0, 0) < 0.0 && discriminant > 0.0)
+  {
+    const double root = std::sqrt(discriminant);
+    line.low = (q(0, 1) + root) / q(0, 0);
+    line.high = (q(0, 1) - root) / q(0, 0);
+  }
+}
+} // namespace
+
+void
+OffsetLine::UseOffset(double m)
+{
+  const Eigen::Vector2d v(-m, 1.0);
+  precision = v.dot(light * v);
+  sensitivity = v.dot(light.col(0)) / precision;
+  gamma.clear();
+  for (Eigen::Index t = 0; t < response.rows(); ++t)
+  {
+    gamma.push_back(response.row(t).dot(v) / precision);
+  }
+}
+
+std::optional<OffsetLine>
+FitOffsetLine(const FrameEquations & equations)
+{
+  const auto                        frames = static_cast<double>(equations.response.rows());
+  const Eigen::Matrix2d             energy = equations.response.transpose() * equations.response;
+  const Eigen::LLT<Eigen::Matrix2d> factor(equations.light);
+  if (factor.info() != Eigen::Success || !energy.allFinite())
+  {
+    return std::nullopt;
+  }
+  const Eigen::Matrix2d                                half = factor.matrixL().solve(energy);
+  const Eigen::Matrix2d                                whitened = factor.matrixL().solve(half.transpose());
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(0.5 * (whitened + whitened.transpose()));
+  const Eigen::Vector2d                                direction = factor.matrixU().solve(eigen.eigenvectors().col(1));
+
+  OffsetLine   line;
+  const double larger = eigen.eigenvalues()(1);
+  line.offset = -direction(0) / direction(1);
+  line.phi = std::max(0.0, eigen.eigenvalues()(0)) / std::max(1.0, frames - 2.0);
+  line.flickerZ = (larger - (frames - 1.0)) / std::sqrt(2.0 * (frames - 1.0));
+  if (!std::isfinite(line.offset))
+  {
+    return std::nullopt;
+  }
+  line.light = equations.light;
+  line.response = equations.response;
+  line.UseOffset(line.offset);
+  SetStandardError(line, frames);
+  SetInterval(line, energy, larger, frames);
+  return line;
+}
+
+std::optional<OffsetLine>
+FitOffsetLine(const FrameSums & sums, const RegressorNoise & noise, const std::vector<double> & gamma)
+{
+  std::optional<OffsetLine> best;
+  double                    smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t c = 0; c < GradientClasses; ++c)
+  {
+    const FrameEquations      equations = MakeFrameEquations(sums, noise, c, gamma);
+    std::optional<OffsetLine> line = FitOffsetLine(equations);
+    if (line)
+    {
+      const Eigen::Matrix2d & g = equations.light;
+      const double            error = std::sqrt(line->Widening() / (g(0, 0) - g(0, 1) * g(0, 1) / g(1, 1)));
+      if (error < smallest)
+      {
+        smallest = error;
+        line->lastClass = c;
+        best = std::move(line);
+      }
+    }
+  }
+  return best;
+}
+
+} // namespace sensornoise

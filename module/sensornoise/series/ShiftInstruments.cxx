@@ -1,0 +1,100 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/series/ShiftInstruments.h"
+
+#include "sensornoise/base/BoxSum.h"
+
+#include <algorithm>
+
+namespace sensornoise
+{
+
+std::vector<double>
+SmoothedDerivative(const ReferenceFrame & frame, StencilIndex k, const ParallelFor & parallelFor)
+{
+  constexpr double    side = 2.0 * InstrumentRadius + 1.0;
+  const std::size_t   width = frame.geometry.width;
+  const std::size_t   height = frame.geometry.height;
+  std::vector<double> map(frame.mean.size(), 0.0);
+  parallelFor(height, [&](std::size_t y) {
+    for (std::size_t x = StencilMargin; x + StencilMargin < width; ++x)
+    {
+      if (y >= StencilMargin && y + StencilMargin < height)
+      {
+        const double derivative = ApplyStencil(MotionStencils()[k], frame.mean.data(), width, y * width + x);
+        map[y * width + x] = derivative / (side * side * side * side);
+      }
+    }
+  });
+  const std::vector<double> once = BoxSum(map, width, height, InstrumentRadius, parallelFor);
+  BoxSum(once, width, height, InstrumentRadius, parallelFor, map);
+  return map;
+}
+
+std::vector<double>
+InstrumentWeight(const ReferenceFrame &            frame,
+                 const ProvisionalModel &          model,
+                 const std::vector<std::uint8_t> & mask,
+                 const ParallelFor &               parallelFor)
+{
+  constexpr std::size_t     reach = 4;
+  constexpr std::size_t     radius = 8;
+  const std::size_t         width = frame.geometry.width;
+  const std::size_t         height = frame.geometry.height;
+  std::vector<std::uint8_t> missing(mask.size(), 0);
+  std::vector<double>       noise(mask.size());
+  parallelFor(height, [&](std::size_t y) {
+    for (std::size_t x = 0; x < width; ++x)
+    {
+      const std::size_t p = y * width + x;
+      const bool        isInner =
+        x >= StencilMargin && x + StencilMargin < width && y >= StencilMargin && y + StencilMargin < height;
+      missing[p] = isInner && mask[p] == 0 ? 1 : 0;
+      noise[p] = model.NoiseVariance(frame.neighbourMean[p]);
+    }
+  });
+  std::vector<std::uint8_t> complete(mask.size());
+  std::vector<double>       smooth = BoxSum(missing, width, height, reach, parallelFor);
+  std::transform(
+    smooth.begin(), smooth.end(), complete.begin(), [](double near) { return static_cast<std::uint8_t>(near < 0.5); });
+  std::vector<double> weight = BoxSum(complete, width, height, reach, parallelFor);
+  BoxSum(noise, width, height, radius, parallelFor, smooth);
+  constexpr double side = 2.0 * radius + 1.0;
+  constexpr double area = (2.0 * reach + 1.0) * (2.0 * reach + 1.0);
+  ForBlocks(mask.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p)
+    {
+      weight[p] *= side * side / (area * smooth[p]);
+    }
+  });
+  return weight;
+}
+
+ShiftInstruments
+MakeShiftInstruments(const ReferenceFrame &            frame,
+                     const ProvisionalModel &          model,
+                     const std::vector<std::uint8_t> & mask,
+                     const ParallelFor &               parallelFor)
+{
+  ShiftInstruments instruments{ SmoothedDerivative(frame, StencilX, parallelFor),
+                                SmoothedDerivative(frame, StencilY, parallelFor),
+                                InstrumentWeight(frame, model, mask, parallelFor) };
+  return instruments;
+}
+
+} // namespace sensornoise

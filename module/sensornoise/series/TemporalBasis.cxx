@@ -1,0 +1,117 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/series/TemporalBasis.h"
+
+#include "sensornoise/base/Stencils.h"
+#include "sensornoise/series/LocalIllumination.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace sensornoise
+{
+
+Eigen::MatrixXd
+MotionColumns(const MotionSeries & motion, const std::vector<double> & gamma)
+{
+  const auto                                                   frames = static_cast<Eigen::Index>(gamma.size());
+  constexpr std::array<std::pair<std::size_t, std::size_t>, 4> products{
+    { { StencilX, StencilY }, { StencilX, StencilYY }, { StencilXX, StencilY }, { StencilXX, StencilYY } }
+  };
+  std::vector<Eigen::VectorXd> columns;
+  for (Eigen::Index k = 0; k < motion.coefficients.cols(); ++k)
+  {
+    columns.emplace_back(motion.coefficients.col(k));
+  }
+  const auto has = [&motion](std::size_t stencil) {
+    return std::find(motion.stencils.begin(), motion.stencils.end(), stencil) != motion.stencils.end();
+  };
+  for (const auto & [a, b] : products)
+  {
+    if (has(a) && has(b))
+    {
+      Eigen::VectorXd product(frames);
+      for (Eigen::Index t = 0; t < frames; ++t)
+      {
+        const auto i = static_cast<std::size_t>(t);
+        product(t) = motion.Get(i, a) * motion.Get(i, b) / (1.0 + gamma[i]);
+      }
+      columns.push_back(product);
+    }
+  }
+  Eigen::MatrixXd result(frames, static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k)
+  {
+    result.col(static_cast<Eigen::Index>(k)) = columns[k];
+  }
+  return result;
+}
+
+TemporalBasis::TemporalBasis(const std::vector<double> & gamma,
+                             const Eigen::MatrixXd &     local,
+                             const Eigen::MatrixXd &     motion)
+{
+  const auto      frames = static_cast<Eigen::Index>(gamma.size());
+  Eigen::MatrixXd light(frames, 1 + local.cols());
+  light.col(0) = Eigen::Map<const Eigen::VectorXd>(gamma.data(), frames);
+  light.rightCols(local.cols()) = local;
+  Eigen::MatrixXd all(frames, light.cols() + motion.cols());
+  all << light, motion;
+  const Eigen::MatrixXd basis = Orthonormalise(all, std::max<Eigen::Index>(light.cols(), 3 * (frames - 2) / 5));
+  m_LightFactors = static_cast<std::size_t>(std::min(basis.cols(), Orthonormalise(light, frames).cols()));
+  m_Rounded = (basis * Unit).array().round();
+  m_Series = m_Rounded / Unit;
+  const Eigen::MatrixXd             centred = m_Series.rowwise() - m_Series.colwise().mean();
+  const Eigen::LLT<Eigen::MatrixXd> factor(centred.transpose() * centred);
+  m_Inverse = factor.matrixL().solve(Eigen::MatrixXd::Identity(centred.cols(), centred.cols()));
+  m_Basis = centred * m_Inverse.transpose();
+  m_Means = m_Series.colwise().mean();
+}
+
+void
+TemporalBasis::ToCoordinates(double * sums, std::size_t stride, const double * means, std::size_t pixels) const
+{
+  const auto frames = static_cast<double>(m_Basis.rows());
+  for (std::size_t j = 0; j < this->Size(); ++j)
+  {
+    const double taken = m_Means(static_cast<Eigen::Index>(j)) * frames;
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      sums[j * stride + i] = sums[j * stride + i] / Unit - taken * means[i];
+    }
+  }
+  for (std::size_t j = this->Size(); j-- > 0;)
+  {
+    const auto row = static_cast<Eigen::Index>(j);
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      sums[j * stride + i] *= m_Inverse(row, row);
+    }
+    for (std::size_t k = 0; k < j; ++k)
+    {
+      const double factor = m_Inverse(row, static_cast<Eigen::Index>(k));
+      for (std::size_t i = 0; i < pixels; ++i)
+      {
+        sums[j * stride + i] += factor * sums[k * stride + i];
+      }
+    }
+  }
+}
+
+} // namespace sensornoise

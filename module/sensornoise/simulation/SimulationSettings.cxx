@@ -1,0 +1,107 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/simulation/SimulationSettings.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace sensornoise
+{
+CameraModel
+PaperCamera(char name)
+{
+  switch (name)
+  {
+    case 'A':
+      return { 600.0, 5.0, 200.0, 15.0 };
+    case 'B':
+      return { 3000.0, 1.0, 100.0, 8.0 };
+    case 'C':
+      return { 10000.0, 0.3, 40.0, 3.0 };
+    default:
+      throw std::invalid_argument(std::string("camera \"") + name + "\" is not known; expected A, B or C");
+  }
+}
+
+SceneConditions
+PaperConditions(int number)
+{
+  switch (number)
+  {
+    case 1:
+      return { 0.1, 0.3, 0.2 };
+    case 2:
+      return { 0.01, 0.1, 0.05 };
+    case 3:
+      return { 0.05, 0.01, 0.02 };
+    default:
+      throw std::invalid_argument("condition " + std::to_string(number) + " is not known; expected 1, 2 or 3");
+  }
+}
+
+void
+CheckSettings(const SimulationSettings & settings)
+{
+  const auto require = [](bool isGood, const char * name, double found, const char * expected) {
+    if (!isGood)
+    {
+      throw std::invalid_argument(std::string("the ") + name + " is " + std::to_string(found) + "; expected " +
+                                  expected);
+    }
+  };
+  const auto requireNotNegative = [&](double value, const char * name) {
+    require(std::isfinite(value) && value >= 0.0, name, value, "a finite number, 0 or more");
+  };
+  const CameraModel & camera = settings.camera;
+  require(camera.electrons > 0.0 && camera.electrons <= 1e9, "number of electrons", camera.electrons, "0 < A <= 1e9");
+  require(std::isfinite(camera.gainDnPerElectron) && camera.gainDnPerElectron > 0.0,
+          "gain",
+          camera.gainDnPerElectron,
+          "a finite number above 0");
+  require(std::isfinite(camera.offsetDn), "offset", camera.offsetDn, "a finite number");
+  requireNotNegative(camera.readNoiseDn, "read noise");
+  requireNotNegative(settings.conditions.flickerSd, "flicker standard deviation");
+  requireNotNegative(settings.conditions.vibrationSdXPixels, "horizontal vibration standard deviation");
+  requireNotNegative(settings.conditions.vibrationSdYPixels, "vertical vibration standard deviation");
+  require(settings.frames >= 1, "number of frames", static_cast<double>(settings.frames), "at least 1");
+  require(settings.bitDepth <= 32, "bit depth", settings.bitDepth, "0 (no clipping) to 32");
+  require(settings.opticalBlurPixels >= 0.0 && settings.opticalBlurPixels <= 1000.0,
+          "optical blur",
+          settings.opticalBlurPixels,
+          "0 to 1000 pixels");
+  requireNotNegative(settings.rollingShutterPeriodRows, "rolling-shutter period");
+  requireNotNegative(settings.prnuSd, "PRNU");
+  requireNotNegative(settings.dsnuSdDn, "DSNU");
+  requireNotNegative(settings.hotPixelNoiseFactor, "noise factor of hot pixels");
+  require(settings.hotPixelFraction >= 0.0 && settings.hotPixelFraction <= 1.0,
+          "fraction of hot pixels",
+          settings.hotPixelFraction,
+          "0 to 1");
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const double     low = settings.clipLowDn.value_or(-infinity);
+  const double     high = settings.clipHighDn.value_or(infinity);
+  if (!(low < high))
+  {
+    throw std::invalid_argument("the clip levels are " + std::to_string(low) + " and " + std::to_string(high) +
+                                "; expected the low one below the high one");
+  }
+}
+
+} // namespace sensornoise

@@ -1,0 +1,72 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_simulation_SimulationTruth_h
+#define sensornoise_simulation_SimulationTruth_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/simulation/SimulationSettings.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** The random numbers that are common to a frame, one each per frame. */
+struct SimulatedSeries
+{
+  /** Flicker gamma_t [1]; with a rolling shutter its mean over the rows. */
+  std::vector<double> gamma;
+  /** Horizontal shift [pixel]: the frame shows p(x + alpha, y + beta). */
+  std::vector<double> alpha;
+  /** Vertical shift [pixel]. */
+  std::vector<double> beta;
+  /** Phase of the lamp at row 0 [rad], for the rolling shutter. */
+  std::vector<double> phase;
+};
+
+/** What an estimator of a simulated stack should find. The scale and the position of the scene are free, so only
+ * (1 + gamma_t) / mean(1 + gamma) - 1 and the spread of the shifts can be found. */
+struct SimulationTruth
+{
+  SimulationSettings settings;
+  SimulatedSeries    series;
+  /** (1 + gamma_t) / mean(1 + gamma) - 1, one per frame [1]. */
+  std::vector<double> normalisedFlicker;
+  /** Standard deviation of the normalised flicker of this stack (divisor T - 1) [1]; with a rolling shutter the root
+   * mean square over the rows of that of each row. NaN for one frame, as are the two below. */
+  double realisedFlickerSd{ 0.0 };
+  /** Standard deviation of this stack's alpha (divisor T - 1) [pixel]. */
+  double realisedVibrationSdXPixels{ 0.0 };
+  /** Standard deviation of this stack's beta (divisor T - 1) [pixel]. */
+  double realisedVibrationSdYPixels{ 0.0 };
+};
+
+/** Flicker gamma_t(y) of row `y` of frame `frame` [1]. */
+SensorNoise_EXPORT double
+FlickerOfRow(const SimulationSettings & settings, const SimulatedSeries & series, std::size_t frame, std::size_t y);
+
+/** Draws the series of a stack of frames with `height` rows and works out what an estimator should find. The numbers of
+ * a frame depend on the seed and on the frame alone: a longer stack begins with the shorter one.
+ * \throws std::invalid_argument if a setting cannot be used. */
+SensorNoise_EXPORT SimulationTruth
+DrawTruth(const SimulationSettings & settings, std::size_t height);
+
+} // namespace sensornoise
+
+#endif // sensornoise_simulation_SimulationTruth_h

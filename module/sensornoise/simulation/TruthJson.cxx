@@ -1,0 +1,69 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/simulation/TruthJson.h"
+
+#include "sensornoise/report/JsonWriter.h"
+#include "sensornoise/simulation/SimulationSettings.h"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace sensornoise
+{
+std::string
+ToJson(const SimulationTruth & truth, std::size_t width, std::size_t height)
+{
+  const SimulationSettings & settings = truth.settings;
+  const CameraModel &        camera = settings.camera;
+  const SceneConditions &    conditions = settings.conditions;
+  const double intercept = camera.readNoiseDn * camera.readNoiseDn - camera.gainDnPerElectron * camera.offsetDn;
+  std::optional<std::vector<double>> phase;
+  if (settings.rollingShutterPeriodRows > 0.0)
+  {
+    phase = truth.series.phase;
+  }
+  std::string text;
+  JsonWriter  json(text);
+  json.Object([&] {
+    json.Member("schema", "itk-sensornoise-truth/1");
+    json.Member("frames", settings.frames).Member("width", width).Member("height", height);
+    json.Member("bit_depth", settings.bitDepth).Member("seed", static_cast<std::size_t>(settings.seed));
+    json.Member("electrons", camera.electrons).Member("gain", camera.gainDnPerElectron);
+    json.Member("offset", camera.offsetDn).Member("read_noise", camera.readNoiseDn);
+    json.Member("intercept", intercept);
+    json.Member("total_intercept", intercept + 1.0 / 12.0); // with the noise of rounding to whole codes
+    json.Member("clip_low", settings.clipLowDn).Member("clip_high", settings.clipHighDn);
+    json.Member("optical_blur", settings.opticalBlurPixels);
+    json.Member("rolling_shutter_period", settings.rollingShutterPeriodRows);
+    json.Member("prnu_sd", settings.prnuSd).Member("dsnu_sd", settings.dsnuSdDn);
+    json.Member("hot_pixel_fraction", settings.hotPixelFraction);
+    json.Member("flicker_sd", conditions.flickerSd);
+    json.Member("vibration_sd", std::array<double, 2>{ conditions.vibrationSdXPixels, conditions.vibrationSdYPixels });
+    json.Member("realised_flicker_sd", truth.realisedFlickerSd);
+    json.Member("realised_vibration_sd",
+                std::array<double, 2>{ truth.realisedVibrationSdXPixels, truth.realisedVibrationSdYPixels });
+    json.Member("flicker", truth.normalisedFlicker);
+    json.Member("gamma", truth.series.gamma).Member("alpha", truth.series.alpha).Member("beta", truth.series.beta);
+    json.Member("phase", phase);
+  });
+  text += '\n';
+  return text;
+}
+
+} // namespace sensornoise

@@ -1,0 +1,119 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_test_PublishedTestHelper_h
+#define sensornoise_test_PublishedTestHelper_h
+
+#include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/RollingShutter.h"
+#include "sensornoise/published/PublishedMethod.h"
+#include "sensornoise/published/PublishedSettings.h"
+#include "sensornoise/report/Report.h"
+#include "sensornoise/report/ReportJson.h"
+#include "sensornoise/simulation/SimulationSettings.h"
+#include "helpers/ReportTestHelper.h"
+#include "helpers/StackTestHelper.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <gtest/gtest.h>
+#include <string>
+#include <vector>
+
+/** \file
+ * The published method, run on stacks. */
+
+namespace sensornoise::test
+{
+
+using Codes = unsigned short;
+
+/** Patches of 16 grey levels seen by camera B of the paper, with flicker, without vibration and without blur, whose
+ * faint rims the vibration test keeps where their variance happens to be high. */
+inline SimulationSettings
+SettingsOf(double flickerSd, std::size_t frames)
+{
+  SimulationSettings settings;
+  settings.conditions = { flickerSd, 0.0, 0.0 };
+  settings.frames = frames;
+  settings.opticalBlurPixels = 0.0;
+  settings.seed = 5;
+  return settings;
+}
+
+/** A small stack of the calibration target. */
+inline Stack<Codes>
+Simulate(const SimulationSettings & settings, std::size_t width = 64, std::size_t height = 56)
+{
+  return Simulate<Codes>(settings, width, height);
+}
+
+/** A stack for the identities: 40 frames with flicker of 5 %. */
+inline const Stack<Codes> &
+FlickeringStack()
+{
+  static const Stack<Codes> stack = Simulate(SettingsOf(0.05, 40));
+  return stack;
+}
+
+inline PublishedSettings
+WithGlobalShutter()
+{
+  PublishedSettings settings;
+  settings.rollingShutter = RollingShutter::Off;
+  return settings;
+}
+
+template <typename TPixel>
+PublishedMethod<TPixel>
+Measure(const Stack<TPixel> &             stack,
+        const PublishedSettings &         settings = {},
+        std::size_t                       chunk = 1000,
+        const std::vector<std::uint8_t> & mask = {},
+        const ParallelFor &               parallelFor = SerialFor)
+{
+  const FrameGeometry     geometry{ stack.width, stack.height, settings.shutterAxis };
+  PublishedMethod<TPixel> method(settings, geometry, stack.frames, mask, parallelFor);
+  for (unsigned int pass = 0; pass < method.NumberOfPasses; ++pass)
+  {
+    for (std::size_t t = 0; t < stack.frames; t += chunk)
+    {
+      method.AddFrames(stack.pixels.data() + t * geometry.Pixels(), std::min(chunk, stack.frames - t));
+    }
+    method.EndPass();
+  }
+  return method;
+}
+
+inline void
+ExpectNothingMeasured(const Report & report, const std::string & code)
+{
+  for (const Quantity & quantity : { report.gain, report.offset, report.readNoise, report.intercept })
+  {
+    EXPECT_EQ(quantity.status, EstimateStatus::Failed);
+    EXPECT_FALSE(quantity.value);
+  }
+  EXPECT_FALSE(report.IsUsable());
+  EXPECT_TRUE(HasWarning(report, code)) << ToJson(report);
+  EXPECT_EQ(report.pixels.used, 0u);
+}
+
+} // namespace sensornoise::test
+
+#endif

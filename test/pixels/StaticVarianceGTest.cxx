@@ -1,0 +1,99 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/pixels/StaticVariance.h"
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/PixelUse.h"
+#include "sensornoise/pixels/ProjectedVariance.h"
+#include "helpers/ProjectionTestHelper.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <gtest/gtest.h>
+#include <vector>
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+using namespace sensornoise::test::projection;
+
+namespace
+{
+constexpr double Intercept = 100.0;
+constexpr double Gain = 0.3;
+constexpr double OffsetDn = 100.0;
+
+constexpr std::uint8_t Unknown = 99;
+
+/** Noise of a line in the mean; that of every 97th pixel is ten times as large. */
+Eigen::MatrixXd
+Series()
+{
+  const std::vector<double> mean = WavyScene(Width, Height);
+  Eigen::MatrixXd           series = NormalSeries() / 20.0;
+  for (std::size_t p = 0; p < Pixels; ++p)
+  {
+    series.col(static_cast<Eigen::Index>(p)) *= (p % 97 == 0 ? 10.0 : 1.0) * std::sqrt(Intercept + Gain * mean[p]);
+  }
+  return series;
+}
+
+StaticVariance
+Find(ProjectedVariance & projected, const std::vector<std::uint8_t> & usable)
+{
+  return FitStaticVariance(projected, usable, std::vector<std::uint8_t>(Pixels, Unknown), Gain, OffsetDn, SerialFor);
+}
+} // namespace
+
+TEST(SensorNoiseStaticVariance, LineIsFoundAndNoisyPixelsAreTrimmed)
+{
+  Input             input(Series());
+  ProjectedVariance projected = input.Project();
+  const auto        found = Find(projected, input.mask);
+  ASSERT_TRUE(found.line.isDetermined);
+  EXPECT_NEAR(found.line.gain, Gain, 4.0 * std::sqrt(found.line.covariance(0, 0)));
+  EXPECT_NEAR(found.line.intercept, Intercept, 4.0 * std::sqrt(found.line.covariance(1, 1)));
+  std::size_t used = 0;
+  std::size_t trimmed = 0;
+  for (std::size_t p = 0; p < Pixels; ++p)
+  {
+    ASSERT_LE(found.trimmed[p], found.mask[p]) << p;
+    ASSERT_EQ(found.mask[p] != 0, found.pixelUse[p] == static_cast<std::uint8_t>(PixelUse::Used)) << p;
+    ASSERT_EQ(input.mask[p] == 0, found.pixelUse[p] == Unknown) << p;
+    EXPECT_TRUE(p % 97 != 0 || found.trimmed[p] == found.mask[p]) << p;
+    used += found.mask[p];
+    trimmed += found.trimmed[p];
+  }
+  EXPECT_EQ(found.line.trimmedFraction, static_cast<double>(trimmed) / static_cast<double>(used));
+  EXPECT_LT(found.line.trimmedFraction, 0.02);
+}
+
+TEST(SensorNoiseStaticVariance, TooFewPixelsDetermineNoLine)
+{
+  Input                     input(Series());
+  ProjectedVariance         projected = input.Project();
+  std::vector<std::uint8_t> few(Pixels, 0);
+  for (std::size_t x = 30; x < 38; ++x)
+  {
+    few[30 * Width + x] = 1;
+  }
+  const auto found = Find(projected, few);
+  EXPECT_FALSE(found.line.isDetermined);
+  EXPECT_EQ(found.pixelUse, std::vector<std::uint8_t>(Pixels, Unknown)); // nothing was found out
+  EXPECT_TRUE(found.trimmed.empty());
+}

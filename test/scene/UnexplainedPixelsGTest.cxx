@@ -1,0 +1,80 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/scene/UnexplainedPixels.h"
+#include "sensornoise/base/Parallel.h"
+#include "helpers/FrameTestHelper.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <gtest/gtest.h>
+#include <vector>
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+
+namespace
+{
+constexpr std::size_t Width = 60;
+constexpr std::size_t Height = 50;
+
+std::size_t
+Count(const std::vector<std::uint8_t> & map)
+{
+  return static_cast<std::size_t>(std::count(map.begin(), map.end(), std::uint8_t{ 1 }));
+}
+} // namespace
+
+TEST(SensorNoiseUnexplainedPixels, AreThoseFarAboveTheModel)
+{
+  SyntheticFrames frames(Width, Height, std::vector<FrameChange>(20));
+  frames.model.largestRatio = 3.0;
+  auto &     frame = frames.reference;
+  const auto setRatio = [&](std::size_t p, double ratio) {
+    frame.squares[p] = 19.0 * ratio * frames.model.RawVariance(frame.neighbourMean[p], 0.0, 0.0);
+  };
+  for (std::size_t p = 0; p < frame.squares.size(); ++p)
+  {
+    setRatio(p, 1.0);
+  }
+  EXPECT_EQ(Count(FindUnexplained(frame, frames.model, SerialFor)), 0u);
+  const std::size_t lonely = 20 * Width + 20;
+  setRatio(lonely, 3.1);
+  setRatio(lonely + 10, 2.9);
+  const auto alone = FindUnexplained(frame, frames.model, SerialFor);
+  EXPECT_EQ(Count(alone), 1u);
+  EXPECT_EQ(alone[lonely], 1);
+  // A spot that moves takes along the pixels in it whose variance is small by chance, and is told from single pixels.
+  for (std::size_t y = 30; y < 37; ++y)
+  {
+    for (std::size_t x = 30; x < 37; ++x)
+    {
+      setRatio(y * Width + x, (x + y) % 3 == 0 ? 1.0 : 10.0);
+    }
+  }
+  const auto moving = FindUnexplained(frame, frames.model, SerialFor);
+  for (std::size_t y = 30; y < 37; ++y)
+  {
+    for (std::size_t x = 30; x < 37; ++x)
+    {
+      EXPECT_EQ(moving[y * Width + x], 2) << x << ' ' << y;
+    }
+  }
+  EXPECT_EQ(moving[33 * Width + 50], 0);
+  EXPECT_EQ(moving[lonely], 1);
+}
