@@ -15,6 +15,8 @@
  *  limitations under the License.
  *
  *=========================================================================*/
+#include "input/FileCompleteness.h"
+
 #include "input/FormatCompleteness.h"
 
 #include <cstdint>

@@ -20,16 +20,8 @@
 
 #include "itkImageIOBase.h"
 
-#include <stdexcept>
-
 namespace sensornoise::tools
 {
-
-/** Wrong, damaged or unsuitable input files. The message is one sentence that starts with the name of the file. */
-struct InputError : std::runtime_error
-{
-  using std::runtime_error::runtime_error;
-};
 
 /** Throws InputError unless the file that `io` has described (after ReadImageInformation()) holds all of its pixels.
  *

@@ -18,7 +18,7 @@
 #ifndef FormatCompleteness_h
 #define FormatCompleteness_h
 
-#include "input/FileCompleteness.h"
+#include "input/InputError.h"
 
 #include "itkMetaImageIO.h"
 

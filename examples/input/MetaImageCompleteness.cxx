@@ -86,6 +86,55 @@ RequireInflates(const std::string & file,
            " bytes and the end of the stream");
 }
 
+bool
+IsList(const std::string & dataFile)
+{
+  return dataFile.rfind("LIST", 0) == 0;
+}
+
+/** The bytes that a MetaImage with compressed pixels has for them. */
+std::uint64_t
+CompressedBytes(const std::string & file, const TextHeader & header, const std::string & dataFile, int headerSize)
+{
+  if (headerSize < 0 || IsList(dataFile))
+  {
+    Refuse(file, "compressed with a HeaderSize of -1 or in a list of data files; expected neither");
+  }
+  const std::uint64_t bytes = std::strtoull(header.Field("CompressedDataSize").c_str(), nullptr, 10);
+  if (bytes == 0)
+  {
+    Refuse(file, "compressed without a CompressedDataSize in the header; without it nobody can tell if it is whole");
+  }
+  return bytes;
+}
+
+/** Throws InputError unless there is a data file with its share of `expected` bytes for each frame. */
+void
+CheckList(const std::string &      file,
+          const TextHeader &       header,
+          const std::string &      dataFile,
+          const itk::MetaImageIO & io,
+          std::uint64_t            skipped,
+          std::uint64_t            expected)
+{
+  const std::uint64_t frames = io.GetNumberOfDimensions() == 3 ? io.GetDimensions(2) : 0;
+  const std::string   dimension = Trimmed(dataFile.substr(4));
+  if (frames == 0 || !(dimension.empty() || dimension == "2"))
+  {
+    Refuse(file, "ElementDataFile is " + dataFile + "; expected a list with one file for each frame of a 3-D image");
+  }
+  if (header.lines.size() < frames)
+  {
+    Refuse(file,
+           "truncated: " + std::to_string(header.lines.size()) + " whole lines in its list of data files, expected " +
+             std::to_string(frames));
+  }
+  for (std::uint64_t frame = 0; frame < frames; ++frame)
+  {
+    RequireBytes(file, fs::path(file).parent_path() / header.lines[frame], skipped, expected / frames);
+  }
+}
+
 } // namespace
 
 void
@@ -93,7 +142,6 @@ CheckMetaImage(const std::string & file, itk::MetaImageIO & io)
 {
   const TextHeader    header = ReadTextHeader(file, "=:", "ElementDataFile");
   const std::string   dataFile = header.Field("ElementDataFile");
-  const fs::path      folder = fs::path(file).parent_path();
   const std::uint64_t bytes = io.GetImageSizeInBytes();
   const int           headerSize = io.GetMetaImagePointer()->HeaderSize();
   const std::uint64_t skipped = headerSize > 0 ? static_cast<std::uint64_t>(headerSize) : 0;
@@ -106,49 +154,20 @@ CheckMetaImage(const std::string & file, itk::MetaImageIO & io)
   {
     Refuse(file, "ElementDataFile is the pattern " + dataFile + "; expected LOCAL, LIST or the name of one file");
   }
-  const bool    local = dataFile == "LOCAL" || dataFile == "Local" || dataFile == "local";
-  const bool    compressed = io.GetMetaImagePointer()->CompressedData();
-  std::uint64_t expected = bytes;
+  const bool          compressed = io.GetMetaImagePointer()->CompressedData();
+  const std::uint64_t expected = compressed ? CompressedBytes(file, header, dataFile, headerSize) : bytes;
+  if (IsList(dataFile))
+  {
+    CheckList(file, header, dataFile, io, skipped, expected);
+    return;
+  }
+  const bool          local = dataFile == "LOCAL" || dataFile == "Local" || dataFile == "local";
+  const fs::path      path = local ? fs::path(file) : fs::path(file).parent_path() / dataFile;
+  const std::uint64_t offset = local && skipped == 0 ? header.end : skipped;
+  RequireBytes(file, path, offset, expected);
   if (compressed)
   {
-    if (headerSize < 0 || dataFile.rfind("LIST", 0) == 0)
-    {
-      Refuse(file, "compressed with a HeaderSize of -1 or in a list of data files; expected neither");
-    }
-    expected = std::strtoull(header.Field("CompressedDataSize").c_str(), nullptr, 10);
-    if (expected == 0)
-    {
-      Refuse(file, "compressed without a CompressedDataSize in the header; without it nobody can tell if it is whole");
-    }
-  }
-  if (dataFile.rfind("LIST", 0) == 0)
-  {
-    const std::uint64_t frames = io.GetNumberOfDimensions() == 3 ? io.GetDimensions(2) : 0;
-    const std::string   dimension = Trimmed(dataFile.substr(4));
-    if (frames == 0 || !(dimension.empty() || dimension == "2"))
-    {
-      Refuse(file, "ElementDataFile is " + dataFile + "; expected a list with one file for each frame of a 3-D image");
-    }
-    if (header.lines.size() < frames)
-    {
-      Refuse(file,
-             "truncated: " + std::to_string(header.lines.size()) + " whole lines in its list of data files, expected " +
-               std::to_string(frames));
-    }
-    for (std::uint64_t frame = 0; frame < frames; ++frame)
-    {
-      RequireBytes(file, folder / header.lines[frame], skipped, expected / frames);
-    }
-  }
-  else
-  {
-    const fs::path      path = local ? fs::path(file) : folder / dataFile;
-    const std::uint64_t offset = local && skipped == 0 ? header.end : skipped;
-    RequireBytes(file, path, offset, expected);
-    if (compressed)
-    {
-      RequireInflates(file, path, offset, expected, bytes);
-    }
+    RequireInflates(file, path, offset, expected, bytes);
   }
 }
 

@@ -38,18 +38,14 @@ struct TiffCloser
   }
 };
 
-/** Throws unless ITK reads the page as it is: with the size of the first one, and without conversion. */
+/** Throws unless ITK reads the samples of the page without conversion. */
 void
-CheckTiffPage(TIFF * tiff, const std::string & page, const itk::ImageIOBase & io, std::uint64_t size)
+CheckTiffSamples(TIFF * tiff, const std::string & page, const itk::ImageIOBase & io)
 {
-  std::uint32_t width = 0;
-  std::uint32_t height = 0;
   std::uint16_t bits = 1;
   std::uint16_t samples = 1;
   std::uint16_t format = SAMPLEFORMAT_UINT;
   std::uint16_t photometric = PHOTOMETRIC_MINISBLACK;
-  TIFFGetField(tiff, TIFFTAG_IMAGEWIDTH, &width);
-  TIFFGetField(tiff, TIFFTAG_IMAGELENGTH, &height);
   TIFFGetFieldDefaulted(tiff, TIFFTAG_BITSPERSAMPLE, &bits);
   TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLESPERPIXEL, &samples);
   TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLEFORMAT, &format);
@@ -82,13 +78,12 @@ CheckTiffPage(TIFF * tiff, const std::string & page, const itk::ImageIOBase & io
              " samples, which ITK reads as " + itk::ImageIOBase::GetComponentTypeAsString(component) +
              "; expected 8-bit unsigned, 16-bit, or 32-bit floating-point samples, the same on all pages");
   }
-  if (width != io.GetDimensions(0) || height != io.GetDimensions(1))
-  {
-    Refuse(page,
-           std::to_string(width) + " x " + std::to_string(height) + " pixels, but the first page has " +
-             std::to_string(io.GetDimensions(0)) + " x " + std::to_string(io.GetDimensions(1)) +
-             "; all pages must have the same size");
-  }
+}
+
+/** Throws unless all bytes of the page lie within the file, of `size` bytes. */
+void
+CheckTiffStrips(TIFF * tiff, const std::string & page, std::uint64_t size)
+{
   for (std::uint32_t strip = 0; strip < TIFFNumberOfStrips(tiff); ++strip)
   {
     const std::uint64_t offset = TIFFGetStrileOffset(tiff, strip);
@@ -100,6 +95,25 @@ CheckTiffPage(TIFF * tiff, const std::string & page, const itk::ImageIOBase & io
                std::to_string(offset + count) + ", but the file has " + std::to_string(size));
     }
   }
+}
+
+/** Throws unless ITK reads the page as it is: with the size of the first one, and without conversion. */
+void
+CheckTiffPage(TIFF * tiff, const std::string & page, const itk::ImageIOBase & io, std::uint64_t size)
+{
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  TIFFGetField(tiff, TIFFTAG_IMAGEWIDTH, &width);
+  TIFFGetField(tiff, TIFFTAG_IMAGELENGTH, &height);
+  CheckTiffSamples(tiff, page, io);
+  if (width != io.GetDimensions(0) || height != io.GetDimensions(1))
+  {
+    Refuse(page,
+           std::to_string(width) + " x " + std::to_string(height) + " pixels, but the first page has " +
+             std::to_string(io.GetDimensions(0)) + " x " + std::to_string(io.GetDimensions(1)) +
+             "; all pages must have the same size");
+  }
+  CheckTiffStrips(tiff, page, size);
 }
 } // namespace
 

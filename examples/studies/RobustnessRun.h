@@ -21,9 +21,6 @@
 #include "sensornoise/report/Report.h"
 #include "studies/StressStacks.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -51,71 +48,22 @@ struct Run
   Report        report;
 };
 
-inline Deviation
-Compare(const Quantity & quantity, double truth, double unit)
-{
-  Deviation deviation;
-  if (quantity.value)
-  {
-    deviation.error = (*quantity.value - truth) / unit;
-    if (quantity.standardError)
-    {
-      deviation.z = (*quantity.value - truth) / *quantity.standardError;
-    }
-  }
-  return deviation;
-}
+/** How far an estimate is from the truth, in units of \a unit and of its standard error. */
+Deviation
+Compare(const Quantity & quantity, double truth, double unit);
 
-inline double
-UsedFraction(const Report & report)
-{
-  return static_cast<double>(report.pixels.used) / static_cast<double>(std::max<std::size_t>(1, report.pixels.total));
-}
+/** The share of the pixels that the estimate used. */
+double
+UsedFraction(const Report & report);
 
 /** Mean error and root mean square of z over the runs that have them. */
-inline Deviation
-Summarise(const std::vector<const Run *> & runs, Deviation Run::* member)
-{
-  double errors = 0.0;
-  double squares = 0.0;
-  int    errorCount = 0;
-  int    zCount = 0;
-  for (const Run * run : runs)
-  {
-    const Deviation & deviation = run->*member;
-    errors += deviation.error.value_or(0.0);
-    squares += std::pow(deviation.z.value_or(0.0), 2);
-    errorCount += deviation.error ? 1 : 0;
-    zCount += deviation.z ? 1 : 0;
-  }
-  Deviation summary;
-  summary.error = errorCount > 0 ? std::optional<double>(errors / errorCount) : std::nullopt;
-  summary.z = zCount > 0 ? std::optional<double>(std::sqrt(squares / zCount)) : std::nullopt;
-  return summary;
-}
+Deviation
+Summarise(const std::vector<const Run *> & runs, Deviation Run::* member);
 
 /** What is wrong with one run: empty if the gain is within 1 % and the intercept within 3 standard errors, or if it is
  * refused and should be. */
-inline std::string
-FindFault(const Run & run)
-{
-  if (run.stressCase.expectation == StressExpectation::Refused)
-  {
-    const auto & warnings = run.report.warnings;
-    const bool   isNamed = std::any_of(
-      warnings.begin(), warnings.end(), [](const Warning & warning) { return warning.code == "variance-not-affine"; });
-    return run.report.gain.status != EstimateStatus::Failed ? "not refused" : isNamed ? "" : "no variance-not-affine";
-  }
-  if (!run.gainPercent.error)
-  {
-    return "no gain";
-  }
-  if (!(std::abs(*run.gainPercent.error) <= 1.0))
-  {
-    return "gain";
-  }
-  return run.intercept.z.has_value() && !(std::abs(*run.intercept.z) <= 3.0) ? "intercept" : "";
-}
+std::string
+FindFault(const Run & run);
 
 } // namespace sensornoise::tools
 

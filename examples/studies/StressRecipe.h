@@ -19,6 +19,7 @@
 #define StressRecipe_h
 
 #include "sensornoise/simulation/SimulationSettings.h"
+#include "sensornoise/simulation/SimulationTruth.h"
 #include "studies/StressStacks.h"
 
 #include <cstddef>

@@ -16,6 +16,7 @@
  *
  *=========================================================================*/
 #include "sensornoise/simulation/Random.h"
+#include "sensornoise/simulation/SimulationTruth.h"
 #include "sensornoise/simulation/SimulationSettings.h"
 #include "studies/StressRecipe.h"
 

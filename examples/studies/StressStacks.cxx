@@ -15,12 +15,12 @@
  *  limitations under the License.
  *
  *=========================================================================*/
-#include "sensornoise/simulation/Scenes.h"
-#include "sensornoise/moments/Codes.h"
+#include "studies/StressStacks.h"
+
 #include "sensornoise/simulation/Random.h"
+#include "sensornoise/simulation/Scenes.h"
 #include "sensornoise/simulation/SimulationSettings.h"
 #include "sensornoise/simulation/Simulator.h"
-#include "studies/StressStacks.h"
 #include "studies/StressRecipe.h"
 
 #include <algorithm>
@@ -74,6 +74,50 @@ ComposeRow(const StackSimulator & simulator,
     out[x] = static_cast<std::uint16_t>(std::clamp(std::floor(value + 0.5), range.first, range.second));
   }
 }
+
+const StressRecipeEntry &
+FindEntry(const std::string & name)
+{
+  const auto & entries = GetEntries();
+  const auto   entry =
+    std::find_if(entries.begin(), entries.end(), [&](const auto & other) { return other.description.name == name; });
+  if (entry == entries.end())
+  {
+    throw std::invalid_argument("the case \"" + name + "\" is not known");
+  }
+  return *entry;
+}
+
+/** The codes of the file, frame after frame. */
+std::vector<std::uint16_t>
+RenderCodes(const StressRecipe & recipe)
+{
+  const std::size_t          size = recipe.size;
+  const std::size_t          frames = recipe.settings.frames;
+  const StackSimulator       simulator(recipe.scene, size, size, recipe.settings);
+  std::vector<std::uint16_t> codes(size * size * frames);
+  for (std::size_t row = 0; row < size * frames; ++row)
+  {
+    std::uint16_t * const out = codes.data() + row * size;
+    if (recipe.light || recipe.levelDn)
+    {
+      ComposeRow(simulator, recipe, row / size, row % size, out);
+    }
+    else
+    {
+      simulator.RenderRow(row / size, row % size, out);
+    }
+    if (recipe.recode)
+    {
+      std::transform(out, out + size, out, [&](double code) {
+        return static_cast<std::uint16_t>(std::lround(recipe.recode(code)));
+      });
+    }
+  }
+  std::uint16_t & middle = codes[(frames / 2 * size + size / 2) * size + size / 2];
+  middle = static_cast<std::uint16_t>(middle + recipe.strayCodes);
+  return codes;
+}
 } // namespace
 
 std::vector<StressCase>
@@ -90,13 +134,7 @@ GetStressCases()
 StressStack
 MakeStressStack(const std::string & name, const std::string & reference, std::size_t size, std::uint64_t seed)
 {
-  const auto & entries = GetEntries();
-  const auto   entry =
-    std::find_if(entries.begin(), entries.end(), [&](const auto & other) { return other.description.name == name; });
-  if (entry == entries.end())
-  {
-    throw std::invalid_argument("the case \"" + name + "\" is not known");
-  }
+  const StressRecipeEntry & entry = FindEntry(name);
   if (reference != "target" && reference != "texture")
   {
     throw std::invalid_argument("the reference is \"" + reference + "\"; expected target or texture");
@@ -105,11 +143,10 @@ MakeStressStack(const std::string & name, const std::string & reference, std::si
   recipe.size = size;
   recipe.settings.seed = seed;
   recipe.scene = reference == "target" ? MakeTargetScene(size, size) : MakeTextureScene(size, size);
-  entry->prepare(recipe);
+  entry.prepare(recipe);
 
-  const StackSimulator simulator(recipe.scene, size, size, recipe.settings);
-  const CameraModel &  camera = recipe.settings.camera;
-  StressStack          stack;
+  const CameraModel & camera = recipe.settings.camera;
+  StressStack         stack;
   stack.width = size;
   stack.height = size;
   stack.frames = recipe.settings.frames;
@@ -117,27 +154,7 @@ MakeStressStack(const std::string & name, const std::string & reference, std::si
   stack.gain = camera.gainDnPerElectron * recipe.scale;
   stack.offset = camera.offsetDn * recipe.scale;
   stack.readNoise = camera.readNoiseDn * recipe.scale;
-  stack.codes.resize(size * size * stack.frames);
-  for (std::size_t row = 0; row < size * stack.frames; ++row)
-  {
-    std::uint16_t * const out = stack.codes.data() + row * size;
-    if (recipe.light || recipe.levelDn)
-    {
-      ComposeRow(simulator, recipe, row / size, row % size, out);
-    }
-    else
-    {
-      simulator.RenderRow(row / size, row % size, out);
-    }
-    if (recipe.recode)
-    {
-      std::transform(out, out + size, out, [&](double code) {
-        return static_cast<std::uint16_t>(std::lround(recipe.recode(code)));
-      });
-    }
-  }
-  std::uint16_t & middle = stack.codes[(stack.frames / 2 * size + size / 2) * size + size / 2];
-  middle = static_cast<std::uint16_t>(middle + recipe.strayCodes);
+  stack.codes = RenderCodes(recipe);
   return stack;
 }
 

@@ -18,27 +18,22 @@
 // Measures how close the estimates come to the Cramer-Rao bound: simulates stacks of the cameras and conditions of
 // Table 1 of Sur & Gredi'ac 2015 and compares estimates and 95 % intervals with the truth. See --help.
 
-#include "sensornoise/report/ReportJson.h"
-#include "sensornoise/report/Report.h"
-#include "sensornoise/series/FrameEquations.h"
 #include "sensornoise/simulation/Scenes.h"
 #include "sensornoise/simulation/SimulationSettings.h"
+#include "studies/EfficiencyOptions.h"
 #include "studies/EfficiencyStack.h"
+#include "studies/EfficiencyStatistics.h"
 #include "studies/EfficiencyTable.h"
+#include "itkImage.h"
 #include "itkImageFileReader.h"
 
-#include <CLI/CLI.hpp>
-#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
-#include <fstream>
 #include <iostream>
 #include <mutex>
-#include <optional>
-#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -46,35 +41,12 @@
 namespace
 {
 using namespace sensornoise;
-using tools::EfficiencyParameters;
+using tools::EfficiencyOptions;
 using tools::EfficiencyRun;
-using tools::EfficiencySample;
 using tools::Scene;
 
-struct Options
-{
-  std::string              method{ "refined" };
-  std::string              reference{ "target" };
-  std::uint64_t            sceneSeed{ DefaultSceneSeed };
-  std::vector<std::string> experiments{ "A1", "A2", "A3", "B1", "B2", "B3", "C1", "C2", "C3" };
-  std::uint64_t            seeds{ 20 };
-  std::uint64_t            firstSeed{ 1 };
-  std::size_t              size{ 512 };
-  std::size_t              frames{ 100 };
-  std::optional<double>    flickerSd;
-  std::vector<double>      vibrationSd;
-  std::optional<double>    gain;
-  std::optional<double>    offset;
-  std::optional<double>    readNoise;
-  std::optional<double>    electrons;
-  double                   rollingShutterPeriod{ 0.0 };
-  bool                     isFullBound{ false };
-  unsigned int             threads{ std::max(1U, std::thread::hardware_concurrency()) };
-  std::string              csv;
-};
-
 Scene
-MakeScene(const Options & options)
+MakeScene(const EfficiencyOptions & options)
 {
   const std::size_t size = options.size;
   if (options.reference == "target")
@@ -96,7 +68,7 @@ MakeScene(const Options & options)
 }
 
 SimulationSettings
-MakeSettings(const Options & options, const std::string & experiment, std::uint64_t seed)
+MakeSettings(const EfficiencyOptions & options, const std::string & experiment, std::uint64_t seed)
 {
   SimulationSettings settings;
   CameraModel &      camera = settings.camera;
@@ -121,7 +93,7 @@ MakeSettings(const Options & options, const std::string & experiment, std::uint6
 
 /** The stacks of one experiment, one a thread; the first error ends them all. */
 std::vector<EfficiencyRun>
-MeasureAll(const Options & options, const Scene & scene, const std::string & experiment)
+MeasureAll(const EfficiencyOptions & options, const Scene & scene, const std::string & experiment)
 {
   std::vector<EfficiencyRun> runs(options.seeds);
   std::atomic<std::size_t>   next{ 0 };
@@ -159,41 +131,6 @@ MeasureAll(const Options & options, const Scene & scene, const std::string & exp
   return runs;
 }
 
-void
-WriteCsv(const std::string & name, const std::vector<EfficiencyRun> & runs)
-{
-  std::ofstream file(name);
-  file << "experiment,seed,parameter,truth,estimate,standard_error,low95,high95,status,limit,used_fraction,"
-          "unclipped_fraction\n";
-  file.precision(10);
-  const auto write = [&file](const std::optional<double> & number) {
-    if (number)
-    {
-      file << *number;
-    }
-    file << ',';
-  };
-  for (const EfficiencyRun & run : runs)
-  {
-    for (std::size_t row = 0; row < EfficiencyParameters.size(); ++row)
-    {
-      const EfficiencySample & sample = run.samples[row];
-      const Interval           interval = sample.estimate.interval95.value_or(Interval{});
-      file << run.experiment << ',' << run.seed << ',' << EfficiencyParameters[row] << ',' << sample.truth << ',';
-      write(sample.estimate.value);
-      write(sample.estimate.standardError);
-      write(interval.low);
-      write(interval.high);
-      file << NameOf(sample.estimate.status) << ',' << sample.limit << ',' << run.usedFraction << ','
-           << run.keptFraction << '\n';
-    }
-  }
-  if (!file.flush())
-  {
-    throw std::runtime_error("cannot write " + name);
-  }
-}
-
 /** The runs whose condition is one of \a conditions. */
 std::vector<const EfficiencyRun *>
 Select(const std::vector<EfficiencyRun> & all, const std::string & conditions = "123")
@@ -210,7 +147,7 @@ Select(const std::vector<EfficiencyRun> & all, const std::string & conditions = 
 }
 
 void
-MeasureEfficiency(const Options & options)
+MeasureEfficiency(const EfficiencyOptions & options)
 {
   const Scene scene = MakeScene(options);
   std::printf("%s method, reference %s, %zu x %zu x %zu, seeds %llu to %llu, limit: %s\n",
@@ -231,7 +168,7 @@ MeasureEfficiency(const Options & options)
     all.insert(all.end(), runs.begin(), runs.end());
     if (!options.csv.empty())
     {
-      WriteCsv(options.csv, all);
+      tools::WriteEfficiencyCsv(options.csv, all);
     }
   }
   if (options.experiments.size() > 1)
@@ -246,48 +183,13 @@ MeasureEfficiency(const Options & options)
 int
 main(int argc, char * argv[])
 {
-  Options  options;
-  CLI::App app(
-    "How close the estimates come to the theoretical limit, by simulation. One line an experiment and parameter:\n"
-    "bias; rms error; rms error over the limit, per stack (rms/lim; 1 is the best there is); mean error over the "
-    "limit;\n"
-    "how many 95 % intervals hold the truth; rms of error over standard error (z-rms, should be 1); how many of the N\n"
-    "stacks identify the parameter. Flicker and vibrations are compared with what the stack really had. Last, all\n"
-    "experiments together, then conditions 2 and 3, and condition 1: rms error in % of the truth.");
-  app.add_option("--method", options.method)->check(CLI::IsMember({ "refined", "published" }))->capture_default_str();
-  app.add_option("--reference", options.reference, "target, texture, bars or an image file")->capture_default_str();
-  app.add_option("--scene-seed", options.sceneSeed, "another target or texture")->capture_default_str();
-  app.add_option("--experiments", options.experiments, "camera and condition, for example A1,B3")
-    ->delimiter(',')
-    ->check(CLI::IsMember({ "A1", "A2", "A3", "B1", "B2", "B3", "C1", "C2", "C3" }));
-  app.add_option("--seeds", options.seeds, "stacks of each experiment")
-    ->check(CLI::Range(1, 10000))
-    ->capture_default_str();
-  app.add_option("--first-seed", options.firstSeed)->capture_default_str();
-  app.add_option("--size", options.size, "width and height of a scene [pixels]")
-    ->check(CLI::Range(32, 4096))
-    ->capture_default_str();
-  app.add_option("--frames", options.frames)->check(CLI::Range(5, 10000))->capture_default_str();
-  app.add_option("--flicker-sd", options.flickerSd, "instead of the condition's [1]");
-  app.add_option("--vibration-sd", options.vibrationSd, "X,Y instead of the condition's [pixels]")
-    ->delimiter(',')
-    ->expected(2);
-  app.add_option("--gain", options.gain, "instead of the camera's [DN/e-]");
-  app.add_option("--offset", options.offset, "instead of the camera's [DN]");
-  app.add_option("--read-noise", options.readNoise, "instead of the camera's [DN]");
-  app.add_option("--electrons", options.electrons, "brightest pixel, instead of the camera's [e-]");
-  auto * shutter = app.add_option("--rolling-shutter",
-                                  options.rollingShutterPeriod,
-                                  "bands of the flicker [rows]; 0: global. The limit is that of global flicker");
-  app
-    .add_flag(
-      "--full-bound", options.isFullBound, "the Cramer-Rao bound itself: 4 s a stack; else closed forms, 3 % off")
-    ->excludes(shutter);
-  app.add_option("--threads", options.threads, "stacks at the same time")->check(CLI::Range(1, 1024));
-  app.add_option("--csv", options.csv, "every single stack, one line a parameter");
-  CLI11_PARSE(app, argc, argv);
   try
   {
+    EfficiencyOptions options;
+    if (const auto finished = options.Parse(argc, argv))
+    {
+      return *finished;
+    }
     MeasureEfficiency(options);
   }
   catch (const std::exception & error)

@@ -18,10 +18,11 @@
 // Simulates bursts with what goes wrong in real life, estimates each and prints the errors, the errors in units of the
 // reported standard errors, and a verdict. See --help and --list.
 
-#include "sensornoise/published/PublishedMethod.h"
 #include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/published/PublishedMethod.h"
 #include "sensornoise/refined/RefinedMethod.h"
 #include "sensornoise/report/Report.h"
+#include "studies/RobustnessRun.h"
 #include "studies/RobustnessTable.h"
 #include "studies/StressStacks.h"
 

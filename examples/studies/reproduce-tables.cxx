@@ -18,143 +18,38 @@
 // Runs the simulations of Tables 2 and 3 and Figures 6 to 8 of Sur & Gredi'ac 2015 and prints the estimates' mean and
 // twice their standard deviation beside the truth and the paper's own figures. See --help.
 
-#include "sensornoise/published/PublishedMethod.h"
 #include "sensornoise/published/FlickerEstimate.h"
-#include "sensornoise/report/Report.h"
-#include "sensornoise/simulation/Scenes.h"
-#include "sensornoise/simulation/SimulationSettings.h"
-#include "sensornoise/simulation/Simulator.h"
 #include "studies/PaperTables.h"
+#include "studies/TableRun.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <array>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <exception>
 #include <fstream>
 #include <iostream>
-#include <optional>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace
 {
 using namespace sensornoise;
+using tools::TableOptions;
 using tools::TableParameters;
-
-/** One simulated stack and what was estimated from it. */
-struct Run
-{
-  std::string                          reference;
-  char                                 camera;
-  int                                  condition;
-  std::size_t                          frames;
-  std::uint64_t                        seed;
-  std::array<std::optional<double>, 7> estimates{};
-  std::array<double, 7>                truth{};
-};
-
-struct Options
-{
-  std::string              reference{ "target" };
-  unsigned int             seeds{ 20 };
-  std::size_t              size{ 512 };
-  std::size_t              frames{ 100 };
-  double                   rollingShutterPeriod{ 0.0 };
-  double                   flickerSd{ -1.0 };
-  std::vector<std::string> experiments{ "A1", "A2", "A3", "B1", "B2", "B3", "C1", "C2", "C3" };
-  std::vector<double>      clip;
-  unsigned int             threads{ std::max(1U, std::thread::hardware_concurrency()) };
-  bool                     figure6{ false };
-  std::string              csv;
-};
-
-void
-Execute(Run & run, const Options & options, const std::vector<double> & scene)
-{
-  SimulationSettings settings;
-  settings.camera = PaperCamera(run.camera);
-  settings.conditions = PaperConditions(run.condition);
-  if (options.flickerSd >= 0.0)
-  {
-    settings.conditions.flickerSd = options.flickerSd;
-  }
-  settings.rollingShutterPeriodRows = options.rollingShutterPeriod;
-  if (!options.clip.empty())
-  {
-    settings.clipLowDn = options.clip[0];
-    settings.clipHighDn = options.clip[1];
-  }
-  settings.frames = run.frames;
-  settings.seed = run.seed;
-  const StackSimulator       simulator(scene, options.size, options.size, settings);
-  const std::size_t          pixels = options.size * options.size;
-  std::vector<std::uint16_t> stack(pixels * run.frames);
-  for (std::size_t t = 0; t < run.frames; ++t)
-  {
-    for (std::size_t y = 0; y < options.size; ++y)
-    {
-      simulator.RenderRow(t, y, stack.data() + t * pixels + y * options.size);
-    }
-  }
-
-  PublishedMethod<std::uint16_t> method({}, { options.size, options.size, 1 }, run.frames);
-  for (unsigned int pass = 0; pass < method.NumberOfPasses; ++pass)
-  {
-    method.AddFrames(stack.data(), run.frames);
-    method.EndPass();
-  }
-  const Report & report = method.GetReport();
-  run.estimates = { report.gain.value,      report.offset.value,       report.readNoise.value,   report.intercept.value,
-                    report.flickerSd.value, report.vibrationSdX.value, report.vibrationSdY.value };
-  const CameraModel & camera = settings.camera;
-  run.truth = { camera.gainDnPerElectron,
-                camera.offsetDn,
-                camera.readNoiseDn,
-                camera.readNoiseDn * camera.readNoiseDn - camera.gainDnPerElectron * camera.offsetDn,
-                settings.conditions.flickerSd,
-                settings.conditions.vibrationSdXPixels,
-                settings.conditions.vibrationSdYPixels };
-}
-
-void
-ExecuteAll(std::vector<Run> & runs, const Options & options)
-{
-  const std::size_t         size = options.size;
-  const std::vector<double> scene = options.reference == "target" ? MakeTargetScene(size, size)
-                                    : options.reference == "bars" ? MakeBarsScene(size, size)
-                                                                  : MakeTextureScene(size, size);
-  std::atomic<std::size_t>  next{ 0 };
-  std::vector<std::thread>  workers;
-  for (unsigned int i = 0; i < options.threads; ++i)
-  {
-    workers.emplace_back([&] {
-      for (std::size_t k = next++; k < runs.size(); k = next++)
-      {
-        Execute(runs[k], options, scene);
-      }
-    });
-  }
-  for (std::thread & worker : workers)
-  {
-    worker.join();
-  }
-}
+using tools::TableRun;
 
 /** One line a parameter: truth, mean and 2 sd over the runs that identify it, and the paper's. */
 void
-PrintRows(const std::vector<Run> & runs, const std::string & label, int table)
+PrintRows(const std::vector<TableRun> & runs, const std::string & label, int table)
 {
   const auto figures = tools::PaperFigures(table, label.substr(0, 2));
   for (std::size_t k = 0; k < TableParameters.size(); ++k)
   {
     std::vector<double> values;
-    for (const Run & run : runs)
+    for (const TableRun & run : runs)
     {
       if (run.estimates[k])
       {
@@ -162,8 +57,8 @@ PrintRows(const std::vector<Run> & runs, const std::string & label, int table)
       }
     }
     const double truth = runs.front().truth[k];
-    const double mean = values.empty() ? NAN : detail::Mean(values);
-    const double sd = values.size() < 2 ? NAN : std::sqrt(detail::SampleVariance(values));
+    const double mean = values.empty() ? NAN : Mean(values);
+    const double sd = values.size() < 2 ? NAN : std::sqrt(SampleVariance(values));
     std::printf("%-8s %-15s %9.5g  %10.5g +- %-10.3g %8.2f %%  %3zu/%-3zu  %s\n",
                 k == 0 ? label.c_str() : "",
                 TableParameters[k],
@@ -179,12 +74,12 @@ PrintRows(const std::vector<Run> & runs, const std::string & label, int table)
 }
 
 void
-WriteCsv(const std::string & name, const std::vector<Run> & runs)
+WriteCsv(const std::string & name, const std::vector<TableRun> & runs)
 {
   std::ofstream file(name);
   file << "reference,camera,condition,frames,seed,parameter,truth,estimate\n";
   file.precision(10);
-  for (const Run & run : runs)
+  for (const TableRun & run : runs)
   {
     for (std::size_t k = 0; k < TableParameters.size(); ++k)
     {
@@ -204,7 +99,7 @@ WriteCsv(const std::string & name, const std::vector<Run> & runs)
 }
 
 void
-Reproduce(const Options & options)
+Reproduce(const TableOptions & options)
 {
   const int table = options.reference == "target" ? 2 : options.reference == "texture" ? 3 : 0;
   std::printf("reference %s, %zu x %zu, %u seeds; n/N: runs that identify the parameter; paper: Table %d\n",
@@ -226,17 +121,17 @@ Reproduce(const Options & options)
   const std::vector<std::string> experiments = options.figure6 ? std::vector<std::string>{ "A3" } : options.experiments;
   const std::vector<std::size_t> lengths = options.figure6 ? std::vector<std::size_t>{ 10, 20, 50, 100, 200, 500 }
                                                            : std::vector<std::size_t>{ options.frames };
-  std::vector<Run>               all;
+  std::vector<TableRun>          all;
   for (const std::string & experiment : experiments)
   {
     for (const std::size_t frames : lengths)
     {
-      std::vector<Run> runs;
+      std::vector<TableRun> runs;
       for (std::uint64_t seed = 1; seed <= options.seeds; ++seed)
       {
         runs.push_back({ options.reference, experiment[0], experiment[1] - '0', frames, seed });
       }
-      ExecuteAll(runs, options);
+      tools::ExecuteAll(runs, options);
       PrintRows(
         runs, options.figure6 ? experiment + " T=" + std::to_string(frames) : experiment, options.figure6 ? 0 : table);
       all.insert(all.end(), runs.begin(), runs.end());
@@ -252,11 +147,11 @@ Reproduce(const Options & options)
 int
 main(int argc, char * argv[])
 {
-  Options  options;
-  CLI::App app(
+  TableOptions options;
+  CLI::App     app(
     "Tables 2 and 3 and the data of Figures 6 to 8 of Sur & Grediac 2015, by simulation.\n"
-    "Table 2: --reference target. Table 3's pattern: --reference texture. Figures 7 and 8: --seeds 50 --csv\n"
-    "for each reference. Figure 6: --figure6 --seeds 50 --csv FILE.");
+        "Table 2: --reference target. Table 3's pattern: --reference texture. Figures 7 and 8: --seeds 50 --csv\n"
+        "for each reference. Figure 6: --figure6 --seeds 50 --csv FILE.");
   app.add_option("--reference", options.reference)
     ->check(CLI::IsMember({ "target", "texture", "bars" }))
     ->capture_default_str();

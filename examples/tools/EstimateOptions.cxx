@@ -15,14 +15,14 @@
  *  limitations under the License.
  *
  *=========================================================================*/
-#include "sensornoise/base/BinaryStream.h"
-#include "sensornoise/base/RollingShutter.h"
 #include "tools/EstimateOptions.h"
-#include "input/FrameInput.h"
+
+#include "sensornoise/base/RollingShutter.h"
+#include "sensornoise/report/Version.h"
+#include "input/InputError.h"
 
 #include <CLI/CLI.hpp>
 #include <cstddef>
-#include <iostream>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -57,123 +57,159 @@ ReadNumbers(const std::string & option, const std::string & text, char separator
   }
   return numbers;
 }
+
+/** Values that are read once all options are known. */
+struct Texts
+{
+  std::string bitDepth{ "auto" };
+  std::string clip;
+  std::string step;
+  std::string offset;
+  std::string rollingShutter{ "auto" };
+  std::string roi;
+  std::string frames;
+};
+
+void
+AddOptions(CLI::App & app, EstimateOptions & options, Texts & texts)
+{
+  app.add_option("FRAME", options.files, "frames in time order, or one stack")->required();
+  app.add_option("--method", options.method, "refined, or published: Figure 2 of Sur & Grediac 2015")
+    ->check(CLI::IsMember({ "refined", "published" }))
+    ->capture_default_str();
+  app.add_option("--bit-depth", texts.bitDepth, "bits of the sensor's codes, 1 to 16, or auto")->capture_default_str();
+  app.add_option("--clip", texts.clip, "LOW,HIGH: lowest and highest level that the sensor attains [DN]; else found");
+  app.add_option("--step", texts.step, "spacing of the codes [DN]; else found");
+  app
+    .add_option("--rolling-shutter",
+                texts.rollingShutter,
+                "auto, off, or (for published) the width sigma_y of a row's neighbourhood [rows]")
+    ->capture_default_str();
+  const auto offsetOption =
+    app.add_option("--offset", texts.offset, "VALUE[,ERROR]: offset and its standard error [DN], if known; else found");
+  app
+    .add_option("--dark",
+                options.dark,
+                "frames without light, or one stack, of the same size and type and at the same exposure, gain and "
+                "temperature: they tell offset and read noise. Write them behind FRAME...")
+    ->excludes(offsetOption);
+  app.add_option("--roi", texts.roi, "X,Y,W,H: only these pixels");
+  app.add_option("--mask", options.mask, "image file: only pixels that are not 0");
+  app.add_option("--frames", texts.frames, "A:B: only the frames A, A+1, ... B-1, counted from 0");
+  app.add_option("--threads", options.threads, "number of threads; else all")->check(CLI::Range(1, 1024));
+  app.add_option("--json", options.json, "file for the report, or - for standard output");
+  app.add_option("--maps", options.maps, "folder for mean, variance, corrected variance and pixel use (.mha)");
+  app.add_flag("--quiet", options.quiet, "no table and no progress");
+  app.set_version_flag("--version", std::string("estimate-sensor-noise ") + GetModuleVersion());
+}
+
+void
+ReadCodes(EstimateOptions & options, const Texts & texts)
+{
+  if (texts.bitDepth != "auto")
+  {
+    options.bitDepth = ReadNumbers<unsigned int>("--bit-depth", texts.bitDepth, ',', 1)[0];
+    if (options.bitDepth < 1 || options.bitDepth > 16)
+    {
+      throw CLI::ValidationError("--bit-depth", texts.bitDepth + " is not auto or a number from 1 to 16");
+    }
+  }
+  if (!texts.step.empty())
+  {
+    options.step = ReadNumbers<double>("--step", texts.step, ',', 1)[0];
+    if (!(options.step > 0.0))
+    {
+      throw CLI::ValidationError("--step", texts.step + " is not a positive number");
+    }
+  }
+  if (!texts.clip.empty())
+  {
+    const auto levels = ReadNumbers<double>("--clip", texts.clip, ',', 2);
+    options.clipLow = levels[0];
+    options.clipHigh = levels[1];
+  }
+}
+
+void
+ReadOffset(EstimateOptions & options, const Texts & texts)
+{
+  if (!texts.offset.empty())
+  {
+    const bool hasError = texts.offset.find(',') != std::string::npos;
+    const auto numbers = ReadNumbers<double>("--offset", texts.offset, ',', hasError ? 2 : 1);
+    options.offset = numbers[0];
+    options.offsetStandardError = hasError ? numbers[1] : 0.0;
+  }
+  if (options.method == "published" && (!texts.offset.empty() || !options.dark.empty()))
+  {
+    throw CLI::ValidationError(texts.offset.empty() ? "--dark" : "--offset",
+                               "the method published finds the offset from the flicker alone; leave it out, or set "
+                               "--method refined");
+  }
+}
+
+void
+ReadRollingShutter(EstimateOptions & options, const std::string & text)
+{
+  if (text == "off")
+  {
+    options.rollingShutter = RollingShutter::Off;
+  }
+  else if (text != "auto")
+  {
+    options.rollingShutter = RollingShutter::Fixed;
+    options.sigmaRows = ReadNumbers<double>("--rolling-shutter", text, ',', 1)[0];
+    if (!(options.sigmaRows > 0.0))
+    {
+      throw CLI::ValidationError("--rolling-shutter", text + " is not auto, off or a positive number of rows");
+    }
+  }
+}
+
+void
+ReadRegion(EstimateOptions & options, const Texts & texts)
+{
+  if (!texts.roi.empty())
+  {
+    const auto numbers = ReadNumbers<long>("--roi", texts.roi, ',', 4);
+    options.roi = { numbers[0], numbers[1], numbers[2], numbers[3] };
+    if (numbers[0] < 0 || numbers[1] < 0 || numbers[2] < 1 || numbers[3] < 1)
+    {
+      throw CLI::ValidationError("--roi", texts.roi + " has a negative corner or no pixels");
+    }
+  }
+  if (!texts.frames.empty())
+  {
+    const auto numbers = ReadNumbers<long>("--frames", texts.frames, ':', 2);
+    if (numbers[0] < 0 || numbers[1] <= numbers[0])
+    {
+      throw CLI::ValidationError("--frames", texts.frames + " holds no frame; expected A:B with 0 <= A < B");
+    }
+    options.frames = { numbers[0], numbers[1] };
+  }
+}
 } // namespace
 
 std::optional<int>
 EstimateOptions::Parse(int argc, char ** argv)
 {
-  std::string bitDepthText = "auto";
-  std::string clipText;
-  std::string rollingText = "auto";
-  std::string roiText;
-  std::string framesText;
-  std::string stepText;
-  std::string offsetText;
-
   CLI::App app("Measures gain, offset and read noise of a camera from a burst of raw frames of a static scene.\n"
                "FRAME...: 2-D image files in time order, or one 3-D stack file (.mha .mhd .nrrd .tif).\n"
                "Exit code: 0 done, 2 wrong use or unreadable input, 3 nothing could be estimated.");
-  app.add_option("FRAME", files, "frames in time order, or one stack")->required();
-  app.add_option("--method", method, "refined, or published: Figure 2 of Sur & Grediac 2015")
-    ->check(CLI::IsMember({ "refined", "published" }))
-    ->capture_default_str();
-  app.add_option("--bit-depth", bitDepthText, "bits of the sensor's codes, 1 to 16, or auto")->capture_default_str();
-  app.add_option("--clip", clipText, "LOW,HIGH: lowest and highest level that the sensor attains [DN]; else found");
-  app.add_option("--step", stepText, "spacing of the codes [DN]; else found");
-  app
-    .add_option("--rolling-shutter",
-                rollingText,
-                "auto, off, or (for published) the width sigma_y of a row's neighbourhood [rows]")
-    ->capture_default_str();
-  const auto offsetOption =
-    app.add_option("--offset", offsetText, "VALUE[,ERROR]: offset and its standard error [DN], if known; else found");
-  app
-    .add_option("--dark",
-                dark,
-                "frames without light, or one stack, of the same size and type and at the same exposure, gain and "
-                "temperature: they tell offset and read noise. Write them behind FRAME...")
-    ->excludes(offsetOption);
-  app.add_option("--roi", roiText, "X,Y,W,H: only these pixels");
-  app.add_option("--mask", mask, "image file: only pixels that are not 0");
-  app.add_option("--frames", framesText, "A:B: only the frames A, A+1, ... B-1, counted from 0");
-  app.add_option("--threads", threads, "number of threads; else all")->check(CLI::Range(1, 1024));
-  app.add_option("--json", json, "file for the report, or - for standard output");
-  app.add_option("--maps", maps, "folder for mean, variance, corrected variance and pixel use (.mha)");
-  app.add_flag("--quiet", quiet, "no table and no progress");
+  Texts    texts;
+  AddOptions(app, *this, texts);
   try
   {
     app.parse(argc, argv);
-    if (bitDepthText != "auto")
-    {
-      bitDepth = ReadNumbers<unsigned int>("--bit-depth", bitDepthText, ',', 1)[0];
-      if (bitDepth < 1 || bitDepth > 16)
-      {
-        throw CLI::ValidationError("--bit-depth", bitDepthText + " is not auto or a number from 1 to 16");
-      }
-    }
-    if (!stepText.empty())
-    {
-      step = ReadNumbers<double>("--step", stepText, ',', 1)[0];
-      if (!(step > 0.0))
-      {
-        throw CLI::ValidationError("--step", stepText + " is not a positive number");
-      }
-    }
-    if (!clipText.empty())
-    {
-      const auto levels = ReadNumbers<double>("--clip", clipText, ',', 2);
-      clipLow = levels[0];
-      clipHigh = levels[1];
-    }
-    if (!offsetText.empty())
-    {
-      const bool hasError = offsetText.find(',') != std::string::npos;
-      const auto numbers = ReadNumbers<double>("--offset", offsetText, ',', hasError ? 2 : 1);
-      offset = numbers[0];
-      offsetStandardError = hasError ? numbers[1] : 0.0;
-    }
-    if (method == "published" && (!offsetText.empty() || !dark.empty()))
-    {
-      throw CLI::ValidationError(offsetText.empty() ? "--dark" : "--offset",
-                                 "the method published finds the offset from the flicker alone; leave it out, or set "
-                                 "--method refined");
-    }
-    if (rollingText == "off")
-    {
-      rollingShutter = RollingShutter::Off;
-    }
-    else if (rollingText != "auto")
-    {
-      rollingShutter = RollingShutter::Fixed;
-      rowSigma = ReadNumbers<double>("--rolling-shutter", rollingText, ',', 1)[0];
-      if (!(rowSigma > 0.0))
-      {
-        throw CLI::ValidationError("--rolling-shutter", rollingText + " is not auto, off or a positive number of rows");
-      }
-    }
-    if (!roiText.empty())
-    {
-      const auto numbers = ReadNumbers<long>("--roi", roiText, ',', 4);
-      roi = { numbers[0], numbers[1], numbers[2], numbers[3] };
-      if (numbers[0] < 0 || numbers[1] < 0 || numbers[2] < 1 || numbers[3] < 1)
-      {
-        throw CLI::ValidationError("--roi", roiText + " has a negative corner or no pixels");
-      }
-    }
-    if (!framesText.empty())
-    {
-      const auto numbers = ReadNumbers<long>("--frames", framesText, ':', 2);
-      if (numbers[0] < 0 || numbers[1] <= numbers[0])
-      {
-        throw CLI::ValidationError("--frames", framesText + " holds no frame; expected A:B with 0 <= A < B");
-      }
-      frames = { numbers[0], numbers[1] };
-    }
   }
   catch (const CLI::Success & request)
   {
-    return app.exit(request); // --help
+    return app.exit(request); // --help or --version
   }
+  ReadCodes(*this, texts);
+  ReadOffset(*this, texts);
+  ReadRollingShutter(*this, texts.rollingShutter);
+  ReadRegion(*this, texts);
   return std::nullopt;
 }
 

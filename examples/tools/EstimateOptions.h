@@ -44,7 +44,7 @@ struct EstimateOptions
   double                                             offsetStandardError{ 0.0 };
   std::vector<std::string>                           dark;
   RollingShutter                                     rollingShutter{ RollingShutter::Auto };
-  double                                             rowSigma{ 50.0 };
+  double                                             sigmaRows{ 50.0 };
   std::optional<std::array<long, 4>>                 roi;    ///< x, y, width, height
   std::optional<std::pair<std::size_t, std::size_t>> frames; ///< first, one past the last
   std::string                                        mask;
@@ -53,7 +53,8 @@ struct EstimateOptions
   std::string                                        maps;
   bool                                               quiet{ false };
 
-  /** Reads the command line; the exit code if there is nothing left to do (--help). Throws std::exception on wrong use.
+  /** Reads the command line; the exit code if there is nothing left to do (--help, --version). Throws std::exception on
+   * wrong use.
    */
   std::optional<int>
   Parse(int argc, char ** argv);
@@ -76,7 +77,7 @@ struct EstimateOptions
     estimator.SetClipHigh(clipHigh);
     estimator.SetQuantisationStep(step);
     estimator.SetRollingShutter(rollingShutter);
-    estimator.SetRowSigma(rowSigma);
+    estimator.SetSigmaRows(sigmaRows);
     estimator.SetOffset(offset);
     estimator.SetOffsetStandardError(offsetStandardError);
   }

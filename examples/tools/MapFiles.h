@@ -20,10 +20,9 @@
 
 #include "tools/PendingFile.h"
 
-#include "itkImageFileWriter.h"
+#include "itkImage.h"
 
 #include <filesystem>
-#include <stdexcept>
 
 namespace sensornoise::tools
 {
@@ -32,44 +31,18 @@ namespace sensornoise::tools
 class MapFiles
 {
 public:
-  explicit MapFiles(const std::filesystem::path & folder)
-    : m_Mean(folder / "mean.mha")
-    , m_Variance(folder / "variance.mha")
-    , m_CorrectedVariance(folder / "corrected_variance.mha")
-    , m_PixelUse(folder / "pixel_use.mha")
-  {}
+  using MapType = itk::Image<double, 2>;
+  using PixelUseType = itk::Image<unsigned char, 2>;
 
-  template <typename TEstimator>
+  explicit MapFiles(const std::filesystem::path & folder);
+
   void
-  Write(TEstimator & estimator)
-  {
-    WriteMap(estimator.GetMean(), m_Mean);
-    WriteMap(estimator.GetVariance(), m_Variance);
-    WriteMap(estimator.GetCorrectedVariance(), m_CorrectedVariance);
-    WriteMap(estimator.GetPixelUse(), m_PixelUse);
-    for (PendingFile * file : { &m_Mean, &m_Variance, &m_CorrectedVariance, &m_PixelUse })
-    {
-      file->Commit();
-    }
-  }
+  Write(const MapType *      mean,
+        const MapType *      variance,
+        const MapType *      correctedVariance,
+        const PixelUseType * pixelUse);
 
 private:
-  template <typename TImage>
-  static void
-  WriteMap(TImage * image, const PendingFile & file)
-  {
-    auto writer = itk::ImageFileWriter<TImage>::New();
-    writer->SetInput(image);
-    writer->SetFileName(file.Temporary().string());
-    writer->Update();
-    // ITK's MetaImage writer does not look whether the disk was full.
-    const auto pixels = image->GetLargestPossibleRegion().GetNumberOfPixels();
-    if (std::filesystem::file_size(file.Temporary()) < pixels * sizeof(typename TImage::PixelType))
-    {
-      throw std::runtime_error("cannot write " + file.Target().string() + ": the disk may be full");
-    }
-  }
-
   PendingFile m_Mean;
   PendingFile m_Variance;
   PendingFile m_CorrectedVariance;

@@ -18,11 +18,9 @@
 #ifndef PendingFile_h
 #define PendingFile_h
 
+#include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <stdexcept>
 #include <string>
-#include <utility>
 
 namespace sensornoise::tools
 {
@@ -32,35 +30,11 @@ class PendingFile
 {
 public:
   /** Throws std::runtime_error at once if \a target cannot be written. */
-  explicit PendingFile(std::filesystem::path target)
-    : m_Target(std::move(target))
-  {
-    namespace fs = std::filesystem;
-    const fs::path folder = m_Target.has_parent_path() ? m_Target.parent_path() : fs::path(".");
-    if (!fs::is_directory(folder))
-    {
-      throw std::runtime_error("cannot write " + m_Target.string() + ": there is no folder " + folder.string());
-    }
-    if (fs::is_directory(m_Target))
-    {
-      throw std::runtime_error("cannot write " + m_Target.string() + ": it is a folder");
-    }
-    const std::string unique = std::to_string(std::random_device{}());
-    m_Temporary = folder / ("." + m_Target.stem().string() + "." + unique + m_Target.extension().string());
-    if (!std::ofstream(m_Temporary))
-    {
-      throw std::runtime_error("cannot write " + m_Target.string() + ": no file can be made in folder " +
-                               folder.string());
-    }
-  }
+  explicit PendingFile(std::filesystem::path target);
   PendingFile(const PendingFile &) = delete;
   PendingFile &
   operator=(const PendingFile &) = delete;
-  ~PendingFile()
-  {
-    std::error_code ignored;
-    std::filesystem::remove(m_Temporary, ignored);
-  }
+  ~PendingFile();
 
   const std::filesystem::path &
   Target() const
@@ -75,22 +49,16 @@ public:
 
   /** Writes \a text as the whole file; throws std::runtime_error if the disk does not take it. */
   void
-  Write(const std::string & text) const
-  {
-    std::ofstream file(m_Temporary, std::ios::binary);
-    if (!(file << text << std::flush))
-    {
-      throw std::runtime_error("cannot write " + m_Target.string() + ": " + std::to_string(text.size()) +
-                               " bytes were not taken");
-    }
-  }
+  Write(const std::string & text) const;
+
+  /** Throws std::runtime_error unless \a bytes, at least, have been written: some of ITK's writers do not look whether
+   * the disk was full. */
+  void
+  RequireBytes(std::uintmax_t bytes) const;
 
   /** Gives the file its name. */
   void
-  Commit()
-  {
-    std::filesystem::rename(m_Temporary, m_Target);
-  }
+  Commit();
 
 private:
   std::filesystem::path m_Target;

@@ -17,7 +17,10 @@
  *=========================================================================*/
 #include "tools/SimulateOptions.h"
 
+#include "sensornoise/report/Version.h"
+
 #include <CLI/CLI.hpp>
+#include <string>
 
 namespace sensornoise::tools
 {
@@ -55,13 +58,14 @@ SimulateOptions::Parse(int argc, char ** argv)
     ->expected(2)
     ->default_str("");
   app.add_option("--seed", seed, "Seed of the noise; the scene stays the same");
+  app.set_version_flag("--version", std::string("simulate-sensor-noise ") + GetModuleVersion());
   try
   {
     app.parse(argc, argv);
   }
   catch (const CLI::Success & request)
   {
-    app.exit(request); // --help
+    app.exit(request); // --help or --version
     return false;
   }
   return true;

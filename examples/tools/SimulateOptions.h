@@ -47,7 +47,8 @@ struct SimulateOptions
   unsigned int          bitDepth{ 12 };
   std::uint64_t         seed{ 1 };
 
-  /** Reads the command line; false if there is nothing left to do (--help). Throws std::exception on wrong use. */
+  /** Reads the command line; false if there is nothing left to do (--help, --version). Throws std::exception on wrong
+   * use. */
   bool
   Parse(int argc, char ** argv);
 };

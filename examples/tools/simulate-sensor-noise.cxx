@@ -19,6 +19,7 @@
 //   simulate-sensor-noise --output stack.mha --truth truth.json --reference target --camera B --condition 3
 
 #include "sensornoise/simulation/SimulationSettings.h"
+#include "input/ErrorText.h"
 #include "tools/PendingFile.h"
 #include "tools/SimulateOptions.h"
 #include "itkSensorNoiseSceneSource.h"
@@ -29,8 +30,8 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -45,6 +46,7 @@ namespace
 namespace fs = std::filesystem;
 using sensornoise::tools::PendingFile;
 using sensornoise::tools::SimulateOptions;
+using sensornoise::tools::TextOf;
 using ReferenceType = itk::Image<double, 2>;
 using StackType = itk::Image<unsigned short, 3>;
 using SourceType = itk::SensorNoiseStackSource<StackType>;
@@ -153,20 +155,16 @@ TruthAsJson(const SimulateOptions & options, const SourceType & source)
 }
 
 void
-WriteStack(SourceType & source, const fs::path & name, const std::string & target)
+WriteStack(SourceType & source, const PendingFile & file)
 {
   constexpr std::uint64_t chunkBytes = 64 * 1024 * 1024;
   const auto              pixels = source.GetOutput()->GetLargestPossibleRegion().GetNumberOfPixels();
   const auto              writer = itk::ImageFileWriter<StackType>::New();
   writer->SetInput(source.GetOutput());
-  writer->SetFileName(name.string());
+  writer->SetFileName(file.Temporary().string());
   writer->SetNumberOfStreamDivisions(static_cast<unsigned int>(1 + pixels * sizeof(StackType::PixelType) / chunkBytes));
   writer->Update();
-  // ITK's MetaImage writer does not look whether the disk was full; no format here compresses.
-  if (fs::file_size(name) < pixels * sizeof(StackType::PixelType))
-  {
-    throw std::runtime_error("cannot write " + target + ": the disk may be full");
-  }
+  file.RequireBytes(pixels * sizeof(StackType::PixelType)); // no format here compresses
 }
 
 void
@@ -195,25 +193,13 @@ Run(const SimulateOptions & options)
     truth.emplace(options.truth);
     truth->Write(TruthAsJson(options, *source).dump(1) + '\n');
   }
-  WriteStack(*source, stack.Temporary(), options.output);
+  WriteStack(*source, stack);
   stack.Commit();
   if (truth)
   {
     truth->Commit();
   }
 }
-
-/** The words of an ITK error, without the class and the address in front and on one line. */
-std::string
-Sentence(const itk::ExceptionObject & error)
-{
-  std::string       text = error.GetDescription();
-  const std::size_t prefix = text.find("): ");
-  text.erase(0, prefix == std::string::npos ? 0 : prefix + 3);
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
-
 } // namespace
 
 int
@@ -228,13 +214,9 @@ main(int argc, char * argv[])
     }
     return 0;
   }
-  catch (const itk::ExceptionObject & error)
-  {
-    std::cerr << "simulate-sensor-noise: " << Sentence(error) << '\n';
-  }
   catch (const std::exception & error)
   {
-    std::cerr << "simulate-sensor-noise: " << error.what() << '\n';
+    std::cerr << "simulate-sensor-noise: " << TextOf(error) << '\n';
   }
   return 2;
 }

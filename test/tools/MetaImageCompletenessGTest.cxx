@@ -16,6 +16,8 @@
  *
  *=========================================================================*/
 #include "input/FrameInput.h"
+#include "input/FrameReader.h"
+#include "input/InputError.h"
 #include "itkImageFileWriter.h"
 #include "itkImageRegionIteratorWithIndex.h"
 
@@ -24,6 +26,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
+#include <random>
 #include <string>
 #include <vector>
 

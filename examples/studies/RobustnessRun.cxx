@@ -1,0 +1,90 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "studies/RobustnessRun.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace sensornoise::tools
+{
+
+Deviation
+Compare(const Quantity & quantity, double truth, double unit)
+{
+  Deviation deviation;
+  if (quantity.value)
+  {
+    deviation.error = (*quantity.value - truth) / unit;
+    if (quantity.standardError)
+    {
+      deviation.z = (*quantity.value - truth) / *quantity.standardError;
+    }
+  }
+  return deviation;
+}
+
+double
+UsedFraction(const Report & report)
+{
+  return static_cast<double>(report.pixels.used) / static_cast<double>(std::max<std::size_t>(1, report.pixels.total));
+}
+
+Deviation
+Summarise(const std::vector<const Run *> & runs, Deviation Run::* member)
+{
+  double errors = 0.0;
+  double squares = 0.0;
+  int    errorCount = 0;
+  int    zCount = 0;
+  for (const Run * run : runs)
+  {
+    const Deviation & deviation = run->*member;
+    errors += deviation.error.value_or(0.0);
+    squares += std::pow(deviation.z.value_or(0.0), 2);
+    errorCount += deviation.error ? 1 : 0;
+    zCount += deviation.z ? 1 : 0;
+  }
+  Deviation summary;
+  summary.error = errorCount > 0 ? std::optional<double>(errors / errorCount) : std::nullopt;
+  summary.z = zCount > 0 ? std::optional<double>(std::sqrt(squares / zCount)) : std::nullopt;
+  return summary;
+}
+
+std::string
+FindFault(const Run & run)
+{
+  if (run.stressCase.expectation == StressExpectation::Refused)
+  {
+    const auto & warnings = run.report.warnings;
+    const bool   isNamed = std::any_of(
+      warnings.begin(), warnings.end(), [](const Warning & warning) { return warning.code == "variance-not-affine"; });
+    return run.report.gain.status != EstimateStatus::Failed ? "not refused" : isNamed ? "" : "no variance-not-affine";
+  }
+  if (!run.gainPercent.error)
+  {
+    return "no gain";
+  }
+  if (!(std::abs(*run.gainPercent.error) <= 1.0))
+  {
+    return "gain";
+  }
+  return run.intercept.z.has_value() && !(std::abs(*run.intercept.z) <= 3.0) ? "intercept" : "";
+}
+
+} // namespace sensornoise::tools

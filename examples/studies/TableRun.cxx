@@ -1,0 +1,105 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "studies/TableRun.h"
+
+#include "sensornoise/published/PublishedMethod.h"
+#include "sensornoise/report/Report.h"
+#include "sensornoise/simulation/Scenes.h"
+#include "sensornoise/simulation/SimulationSettings.h"
+#include "sensornoise/simulation/Simulator.h"
+
+#include <atomic>
+
+namespace sensornoise::tools
+{
+namespace
+{
+void
+Execute(TableRun & run, const TableOptions & options, const std::vector<double> & scene)
+{
+  SimulationSettings settings;
+  settings.camera = PaperCamera(run.camera);
+  settings.conditions = PaperConditions(run.condition);
+  if (options.flickerSd >= 0.0)
+  {
+    settings.conditions.flickerSd = options.flickerSd;
+  }
+  settings.rollingShutterPeriodRows = options.rollingShutterPeriod;
+  if (!options.clip.empty())
+  {
+    settings.clipLowDn = options.clip[0];
+    settings.clipHighDn = options.clip[1];
+  }
+  settings.frames = run.frames;
+  settings.seed = run.seed;
+  const StackSimulator       simulator(scene, options.size, options.size, settings);
+  const std::size_t          pixels = options.size * options.size;
+  std::vector<std::uint16_t> stack(pixels * run.frames);
+  for (std::size_t t = 0; t < run.frames; ++t)
+  {
+    for (std::size_t y = 0; y < options.size; ++y)
+    {
+      simulator.RenderRow(t, y, stack.data() + t * pixels + y * options.size);
+    }
+  }
+
+  PublishedMethod<std::uint16_t> method({}, { options.size, options.size, 1 }, run.frames);
+  for (unsigned int pass = 0; pass < method.NumberOfPasses; ++pass)
+  {
+    method.AddFrames(stack.data(), run.frames);
+    method.EndPass();
+  }
+  const Report & report = method.GetReport();
+  run.estimates = { report.gain.value,      report.offset.value,       report.readNoise.value,   report.intercept.value,
+                    report.flickerSd.value, report.vibrationSdX.value, report.vibrationSdY.value };
+  const CameraModel & camera = settings.camera;
+  run.truth = { camera.gainDnPerElectron,
+                camera.offsetDn,
+                camera.readNoiseDn,
+                camera.readNoiseDn * camera.readNoiseDn - camera.gainDnPerElectron * camera.offsetDn,
+                settings.conditions.flickerSd,
+                settings.conditions.vibrationSdXPixels,
+                settings.conditions.vibrationSdYPixels };
+}
+} // namespace
+
+void
+ExecuteAll(std::vector<TableRun> & runs, const TableOptions & options)
+{
+  const std::size_t         size = options.size;
+  const std::vector<double> scene = options.reference == "target" ? MakeTargetScene(size, size)
+                                    : options.reference == "bars" ? MakeBarsScene(size, size)
+                                                                  : MakeTextureScene(size, size);
+  std::atomic<std::size_t>  next{ 0 };
+  std::vector<std::thread>  workers;
+  for (unsigned int i = 0; i < options.threads; ++i)
+  {
+    workers.emplace_back([&] {
+      for (std::size_t k = next++; k < runs.size(); k = next++)
+      {
+        Execute(runs[k], options, scene);
+      }
+    });
+  }
+  for (std::thread & worker : workers)
+  {
+    worker.join();
+  }
+}
+
+} // namespace sensornoise::tools

@@ -1,0 +1,179 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "tools/StackEstimate.h"
+
+#include "input/FrameInput.h"
+#include "input/FrameReader.h"
+#include "input/InputError.h"
+#include "tools/CompanionFiles.h"
+#include "tools/EstimateOptions.h"
+#include "tools/MapFiles.h"
+#include "itkCommand.h"
+#include "itkExtractImageFilter.h"
+#include "itkSensorNoiseEstimator.h"
+
+#include <cstddef>
+#include <cstdio>
+#include <string>
+#include <unistd.h>
+
+namespace sensornoise::tools
+{
+namespace
+{
+using MaskType = itk::Image<unsigned char, 2>;
+
+void
+ShowProgressOn(itk::ProcessObject & filter)
+{
+  auto command = itk::CStyleCommand::New();
+  command->SetCallback([](itk::Object * object, const itk::EventObject &, void *) {
+    const float progress = static_cast<itk::ProcessObject *>(object)->GetProgress();
+    const int   done = static_cast<int>(40.0F * progress);
+    std::fprintf(stderr,
+                 "\r[%s%s] %3d %%%s",
+                 std::string(static_cast<std::size_t>(done), '#').c_str(),
+                 std::string(static_cast<std::size_t>(40 - done), '.').c_str(),
+                 static_cast<int>(100.0F * progress),
+                 progress < 1.0F ? "" : "\n");
+    std::fflush(stderr);
+  });
+  filter.AddObserver(itk::ProgressEvent(), command);
+}
+
+/** Cuts a region out of an image, chunk by chunk; the output lives as long as the filter. */
+template <typename TImage>
+typename itk::ExtractImageFilter<TImage, TImage>::Pointer
+Crop(TImage * image, const typename TImage::RegionType & region)
+{
+  auto extract = itk::ExtractImageFilter<TImage, TImage>::New();
+  extract->SetInput(image);
+  extract->SetExtractionRegion(region);
+  extract->SetDirectionCollapseToSubmatrix();
+  extract->UpdateOutputInformation();
+  return extract;
+}
+
+/** The part of the stack that --roi and --frames ask for. */
+itk::ImageRegion<3>
+SelectRegion(const EstimateOptions & options, const FrameInput & input, const itk::ImageRegion<3> & whole)
+{
+  itk::ImageRegion<3> region = whole;
+  if (options.roi)
+  {
+    for (unsigned int d = 0; d < 2; ++d)
+    {
+      region.SetIndex(d, (*options.roi)[d]);
+      region.SetSize(d, static_cast<itk::SizeValueType>((*options.roi)[d + 2]));
+    }
+  }
+  if (input.isStack && options.frames)
+  {
+    region.SetIndex(2, static_cast<itk::IndexValueType>(options.frames->first));
+    region.SetSize(2, options.frames->second - options.frames->first);
+  }
+  if (!whole.IsInside(region))
+  {
+    throw InputError("--roi and --frames ask for " + options.DescribeRegion() + ", but the stack has " +
+                     std::to_string(input.width) + " x " + std::to_string(input.height) + " pixels and " +
+                     std::to_string(input.frames) + " frames");
+  }
+  return region;
+}
+
+/** The mask of the pixels that lie in the region. */
+MaskType::Pointer
+SelectMask(const std::string & file, const FrameInput & input, const itk::ImageRegion<3> & region)
+{
+  const MaskType::Pointer mask = ReadMask(file, input);
+  MaskType::RegionType    frame = mask->GetLargestPossibleRegion();
+  for (unsigned int d = 0; d < 2; ++d)
+  {
+    frame.SetIndex(d, region.GetIndex(d));
+    frame.SetSize(d, region.GetSize(d));
+  }
+  const auto crop = Crop<MaskType>(mask, frame);
+  crop->Update();
+  return crop->GetOutput();
+}
+
+template <typename TPixel>
+Report
+Estimate(const EstimateOptions & options, const FrameInput & input, MapFiles * maps)
+{
+  using StackType = itk::Image<TPixel, 3>;
+  const auto reader = MakeReader<TPixel>(input);
+  reader->UpdateOutputInformation();
+  StackType * const         stack = reader->GetOutput();
+  const itk::ImageRegion<3> whole = stack->GetLargestPossibleRegion();
+  const itk::ImageRegion<3> region = SelectRegion(options, input, whole);
+  const auto                crop = Crop<StackType>(stack, region);
+
+  const auto estimator = itk::SensorNoiseEstimator<StackType>::New();
+  estimator->SetInput(region == whole ? stack : crop->GetOutput());
+  options.ApplyTo(*estimator);
+  if (!options.mask.empty())
+  {
+    estimator->SetMask(SelectMask(options.mask, input, region));
+  }
+  // an image does not keep alive the filter that makes it
+  typename itk::ImageSource<StackType>::Pointer                   darkReader;
+  typename itk::ExtractImageFilter<StackType, StackType>::Pointer darkCrop;
+  if (!options.dark.empty())
+  {
+    darkReader = MakeReader<TPixel>(OpenDark(options.dark, input));
+    darkReader->UpdateOutputInformation();
+    itk::ImageRegion<3> dark = region;
+    dark.SetIndex(2, 0);
+    dark.SetSize(2, darkReader->GetOutput()->GetLargestPossibleRegion().GetSize(2));
+    darkCrop = Crop<StackType>(darkReader->GetOutput(), dark);
+    estimator->SetDark(darkCrop->GetOutput());
+  }
+  if (!options.quiet && isatty(STDERR_FILENO) != 0)
+  {
+    ShowProgressOn(*estimator);
+  }
+  estimator->Update();
+  if (maps != nullptr)
+  {
+    maps->Write(
+      estimator->GetMean(), estimator->GetVariance(), estimator->GetCorrectedVariance(), estimator->GetPixelUse());
+  }
+  return estimator->GetReport();
+}
+} // namespace
+
+Report
+EstimateStack(const EstimateOptions & options, const FrameInput & input, MapFiles * maps)
+{
+  switch (input.component)
+  {
+    case itk::IOComponentEnum::UCHAR:
+      return Estimate<unsigned char>(options, input, maps);
+    case itk::IOComponentEnum::USHORT:
+      return Estimate<unsigned short>(options, input, maps);
+    case itk::IOComponentEnum::SHORT:
+      return Estimate<short>(options, input, maps);
+    case itk::IOComponentEnum::FLOAT:
+      return Estimate<float>(options, input, maps);
+    default:
+      return Estimate<double>(options, input, maps);
+  }
+}
+
+} // namespace sensornoise::tools

@@ -1,0 +1,167 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "helpers/FrameInputTestHelper.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace
+{
+namespace fs = std::filesystem;
+using namespace sensornoise::test;
+using sensornoise::tools::FrameInput;
+using sensornoise::tools::InputError;
+using sensornoise::tools::MakeReader;
+using sensornoise::tools::OpenFrames;
+
+/** Files that were cut off, or that have changed since they were opened. */
+class FrameTruncationTool : public FrameInputTest
+{};
+
+/** Cuts `cut` off at every length; whatever can still be read must be all that was written. */
+void
+AnyTruncationIsNoticed(const std::vector<std::string> & files, const std::string & cut)
+{
+  SCOPED_TRACE(cut);
+  ReadsWhatWasWritten<unsigned short>(files, files.size() == 1, OpenFrames(files).streams);
+  const std::size_t size = fs::file_size(cut);
+  const std::string name = (files.size() == 1 ? files.front() : cut) + ": ";
+  std::size_t       refused = 0;
+  for (std::size_t length = size - 1; length > 0; --length)
+  {
+    fs::resize_file(cut, length);
+    try
+    {
+      const FrameInput                                               input = OpenFrames(files);
+      const itk::ImageSource<itk::Image<unsigned short, 3>>::Pointer reader = MakeReader<unsigned short>(input);
+      reader->Update();
+      ASSERT_EQ(input.frames, frames) << length << " of " << size << " bytes";
+      ASSERT_EQ(WrongPixels<unsigned short>(reader->GetOutput()), 0u) << length << " of " << size << " bytes";
+    }
+    catch (const InputError & error)
+    {
+      ++refused;
+      ExpectParts(error.what(), { name });
+    }
+    catch (const itk::ExceptionObject & error)
+    {
+      ++refused;
+      ExpectParts(error.GetDescription(), { name });
+    }
+  }
+  EXPECT_GT(refused, size / 2);
+}
+
+TEST_F(FrameTruncationTool, AnyTruncationOfAStackIsNoticed)
+{
+  for (const bool compress : { false, true })
+  {
+    for (const std::string name : { "s.mha", "s.nrrd", "s.tif" })
+    {
+      const std::string file = WriteStack<unsigned short>(name, compress);
+      AnyTruncationIsNoticed({ file }, file);
+    }
+    AnyTruncationIsNoticed({ WriteStack<unsigned short>("s.mhd", compress) }, Path(compress ? "s.zraw" : "s.raw"));
+    AnyTruncationIsNoticed({ WriteStack<unsigned short>("s.nhdr", compress) }, Path(compress ? "s.raw.gz" : "s.raw"));
+  }
+}
+
+TEST_F(FrameTruncationTool, AnyTruncationOfAFrameOrAHeaderIsNoticed)
+{
+  for (const std::string extension : { ".tif", ".png", ".mha", ".nrrd" })
+  {
+    const std::vector<std::string> files = WriteList<unsigned short>(extension);
+    AnyTruncationIsNoticed(files, files[2]);
+  }
+  const std::string header = WriteStack<unsigned short>("s.mhd");
+  AnyTruncationIsNoticed({ header }, header);
+}
+
+TEST_F(FrameTruncationTool, ATruncatedStackIsRefusedBeforeItIsRead)
+{
+  for (const std::string name : { "s.mha", "s.nrrd" })
+  {
+    const std::string file = WriteStack<unsigned short>(name);
+    CutOff(file, 1);
+    OpeningIsRefusedWith({ file }, { name, "truncated: 279 bytes", "expected 280" });
+  }
+  for (const std::string name : { "s.mhd", "s.nhdr" })
+  {
+    const std::string file = WriteStack<unsigned short>(name);
+    CutOff(Path("s.raw"), 3);
+    OpeningIsRefusedWith({ file }, { name, "s.raw", "truncated: 277 bytes", "expected 280" });
+    fs::remove(Path("s.raw"));
+    OpeningIsRefusedWith({ file }, { name, "s.raw", name == "s.mhd" ? "does not exist" : "couldn't open" });
+  }
+  const std::string compressed = WriteStack<unsigned short>("c.mha", true);
+  CutOff(compressed, 1);
+  OpeningIsRefusedWith({ compressed }, { "c.mha", "truncated", "expected" });
+  const std::string tiff = WriteStack<unsigned short>("s.tif");
+  fs::resize_file(tiff, fs::file_size(tiff) * 3 / 5);
+  OpeningIsRefusedWith({ tiff },
+                       { "s.tif", "truncated: 2 of its pages can be read, but the file says that more follow" });
+}
+
+TEST_F(FrameTruncationTool, ATruncatedFileAmongGoodOnesIsRefused)
+{
+  for (const std::string extension : { ".tif", ".png", ".mha", ".nrrd" })
+  {
+    const std::vector<std::string> files = WriteList<unsigned short>(extension);
+    fs::resize_file(files[2], extension == ".tif" ? 70 : fs::file_size(files[2]) - 1);
+    OpeningIsRefusedWith(files, { "frame_2" + extension });
+  }
+  const std::string other = WriteFrame<unsigned short>("other.vtk", 0, { { 64, 48 } });
+  EXPECT_EQ(OpenFrames({ other }).width, 64u);
+  fs::resize_file(other, 5000);
+  OpeningIsRefusedWith({ other }, { "other.vtk", "5000 bytes, fewer than the 6144" });
+}
+
+TEST_F(FrameTruncationTool, AChangeAfterOpeningIsNoticed)
+{
+  for (const std::string extension : { ".tif", ".png", ".mha", ".nrrd" })
+  {
+    const std::vector<std::string> files = WriteList<unsigned short>(extension);
+    const FrameInput               input = OpenFrames(files);
+    const std::string              name = "frame_2" + extension;
+
+    WriteFrame<unsigned short>(name, 2, { { width - 1, height } });
+    ExpectParts(MessageOf([&] { Read<unsigned short>(input); }), { name, "now 6 x 5", "expected 7 x 5" });
+    WriteFrame<unsigned char>(name, 2);
+    ExpectParts(MessageOf([&] { Read<unsigned short>(input); }),
+                { name, "unsigned char", "expected", "unsigned short" });
+    WriteFrame<unsigned short>(name, 2);
+    CutOff(files[2], extension == ".tif" ? 200 : 1);
+    ExpectParts(MessageOf([&] { Read<unsigned short>(input); }), { name });
+    fs::remove(files[2]);
+    ExpectParts(MessageOf([&] { Read<unsigned short>(input); }), { name, "does not exist" });
+  }
+  for (const std::string name : { "s.mha", "s.nrrd", "s.tif" })
+  {
+    const std::string file = WriteStack<unsigned short>(name);
+    const FrameInput  input = OpenFrames({ file });
+    WriteStack<float>(name);
+    ExpectParts(MessageOf([&] { Read<unsigned short>(input); }), { name, "float", "expected", "unsigned short" });
+    WriteStack<unsigned short>(name);
+    fs::resize_file(file, fs::file_size(file) * 3 / 5);
+    ExpectParts(MessageOf([&] { Read<unsigned short>(input); }), { name, "truncated" });
+  }
+}
+
+} // namespace
