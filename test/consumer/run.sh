@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# Installs a build of the library, then configures, builds and runs the project of this folder against what was installed.
+#
+#   bash test/consumer/run.sh BUILD_DIR WORK_DIR [options for the consumer's cmake]
+#
+# BUILD_DIR is a complete build. WORK_DIR/prefix and WORK_DIR/build are made anew.
+set -euo pipefail
+here="$(cd "$(dirname "$0")" && pwd)"
+[ $# -ge 2 ] || { echo "usage: run.sh BUILD_DIR WORK_DIR [cmake options]" >&2; exit 2; }
+build="$1"
+work="$2"
+shift 2
+
+mkdir -p "$work"
+work="$(cd "$work" && pwd)"
+rm -rf "$work/prefix" "$work/build"
+cmake --install "$build" --prefix "$work/prefix" >"$work/install.log"
+# _ROOT is searched first: no other SensorNoise on the machine is taken for the installed one.
+cmake -S "$here" -B "$work/build" -DCMAKE_BUILD_TYPE=Release -DSensorNoise_ROOT="$work/prefix" "$@"
+cmake --build "$work/build"
+"$work/build/consumer"

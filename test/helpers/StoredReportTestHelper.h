@@ -1,0 +1,125 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_test_StoredReportTestHelper_h
+#define sensornoise_test_StoredReportTestHelper_h
+
+#include <cmath>
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <string>
+
+/** \file
+ * What of a report is stored, and how two of them are compared: see StoredReportsGTest.cxx. */
+
+namespace sensornoise::test
+{
+
+/** Every 16th element of an array; null stays null. */
+inline nlohmann::json
+Thinned(const nlohmann::json & values)
+{
+  nlohmann::json thinned = values.is_array() ? nlohmann::json::array() : values;
+  for (std::size_t i = 0; values.is_array() && i < values.size(); i += 16)
+  {
+    thinned.push_back(values[i]);
+  }
+  return thinned;
+}
+
+/** The part of a report that is stored. */
+inline nlohmann::json
+StoredPartOf(const std::string & text)
+{
+  nlohmann::json report = nlohmann::json::parse(text);
+  report.erase("version");
+  for (nlohmann::json & values : report["scatter"])
+  {
+    values = Thinned(values);
+  }
+  for (nlohmann::json & frame : report["flicker_rows"])
+  {
+    frame = Thinned(frame);
+  }
+  return report;
+}
+
+/** A message without its numbers. */
+inline std::string
+WordsOf(const std::string & message)
+{
+  static const std::regex number("[-+]?[0-9]+([.][0-9]+)?(e[-+]?[0-9]+)?");
+  return std::regex_replace(message, number, "#");
+}
+
+inline bool
+AreAlike(const std::string & path, const nlohmann::json & stored, const nlohmann::json & found)
+{
+  if (stored.is_number() && found.is_number())
+  {
+    const double expected = stored.get<double>();
+    return std::abs(found.get<double>() - expected) <= 1e-9 * std::abs(expected);
+  }
+  const std::string name = "/message";
+  const bool isMessage = path.size() > name.size() && path.compare(path.size() - name.size(), name.size(), name) == 0;
+  if (isMessage && stored.is_string() && found.is_string())
+  {
+    return WordsOf(stored.get<std::string>()) == WordsOf(found.get<std::string>());
+  }
+  return stored == found;
+}
+
+/** Where the reports differ, and how; nothing if they agree. */
+inline std::string
+DifferencesOf(const nlohmann::json & stored, const nlohmann::json & found, const std::string & path = "")
+{
+  if (stored.is_structured() && stored.type() == found.type() && stored.size() == found.size())
+  {
+    std::string differences;
+    auto        others = found.items(); // members in the order of their names, as those of stored
+    auto        other = others.begin();
+    for (const auto & item : stored.items())
+    {
+      const std::string below = path + '/' + item.key();
+      differences += item.key() == other.key() ? DifferencesOf(item.value(), other.value(), below) : below + ": gone\n";
+      ++other;
+    }
+    return differences;
+  }
+  return AreAlike(path, stored, found) ? "" : path + ": stored " + stored.dump() + ", found " + found.dump() + '\n';
+}
+
+/** The same value, but for a little: numbers by 1e-8 of themselves. */
+inline nlohmann::json
+Changed(const nlohmann::json & value)
+{
+  if (value.is_number())
+  {
+    const double number = value.get<double>();
+    return number == 0.0 ? 1e-12 : number * (1.0 + 1e-8);
+  }
+  if (value.is_boolean())
+  {
+    return !value.get<bool>();
+  }
+  return value.is_string() ? nlohmann::json(value.get<std::string>() + '~') : nlohmann::json(0.0);
+}
+
+} // namespace sensornoise::test
+
+#endif
