@@ -6,10 +6,13 @@
 #
 # The result is kept in SENSORNOISE_CACHE (default: ~/.cache/itk-sensornoise), keyed by ITK version, compiler, SWIG and
 # flags: about 10 minutes on 2 cores the first time, nothing later. An interrupted build is resumed, and of two at once
-# the second waits for the first. ITK's source comes from
+# the second waits for the first. ITK's source comes from the first of these that is to be had:
 #   1. ITK_SOURCE, a folder or an archive, if set; an archive is verified if ITK_SOURCE_SHA256 is set, too
-#   2. ../shared/itk beside this repository, if present
-#   3. ITK's release archive; ITK_SOURCE_SHA256 replaces the checksum that is known here
+#   2. ../shared/itk beside this repository
+#   3. the cache, where it stays once unpacked
+#   4. ITK's release archive, in the cache or from its page; ITK_SOURCE_SHA256 replaces the checksum that is known here
+#   5. the distribution's source package (Debian, Ubuntu), where that is the same version; apt verifies it
+# Exit codes: 0 done, 69 the source is not to be had (the last line says why), another one: anything else went wrong.
 set -euo pipefail
 here="$(cd "$(dirname "$0")/.." && pwd)"
 [ $# = 1 ] || { sed -n '2,/^set/s/^# \{0,1\}//p' "$0" >&2; exit 2; }
@@ -39,6 +42,14 @@ tree="$cache/itk-$version-$key"
 
 stop() { echo "build-itk.sh: $*" >&2; exit 2; }
 
+# Ends with sysexits.h's EX_UNAVAILABLE, which no program called here returns.
+unavailable() {
+  local why
+  why="$(printf '; %s' "${tried[@]}")"
+  echo "build-itk.sh: ITK $version's source is not to be had (${why#; }); ITK_SOURCE can name a folder or an archive" >&2
+  exit 69
+}
+
 # verify ARCHIVE SHA256
 verify() {
   local found
@@ -46,34 +57,86 @@ verify() {
   [ "$found" = "$2" ] || stop "$1 has the SHA-256 $found, expected $2"
 }
 
+# Where the source was looked for in vain, and why.
+tried=()
+
+# download_release ARCHIVE SHA256
+download_release() {
+  local page="https://github.com/InsightSoftwareConsortium/ITK/releases/download/v$version/$release" message status=0
+  message="$(curl -fSL --connect-timeout 20 --retry 3 -w '%{errormsg}' -o "$1.part" "$page")" || status=$?
+  if [ "$status" != 0 ]; then
+    tried+=("release page: ${message:-"curl ended with $status"}")
+    return 1
+  fi
+  verify "$1.part" "$2"
+  mv "$1.part" "$1"
+}
+
+# Sets archive. apt gets a state of its own and the system's repositories as repositories of source: that needs no
+# root and changes nothing in the system.
+download_package() {
+  local package="insighttoolkit${version%%.*}" apt list parts file found candidate upstream
+  if ! command -v apt-get >/dev/null; then
+    tried+=("no apt-get")
+    return 1
+  fi
+  apt="$(cd "$cache" && pwd)/apt"
+  rm -rf "$apt/sources" && mkdir -p "$apt/sources" "$apt/lists/partial" "$apt/archives/partial"
+  eval "$(apt-config shell list Dir::Etc::sourcelist/f parts Dir::Etc::sourceparts/d)"
+  for file in "$list" "$parts"/*.list "$parts"/*.sources; do
+    [ ! -e "$file" ] ||
+      sed -E 's/^[[:space:]]*deb(-src)?[[:space:]]/deb-src /; s/^Types:.*/Types: deb-src/' "$file" \
+        >"$apt/sources/${file##*/}"
+  done
+  local own=(-o Dir::Etc::SourceList=/dev/null -o Dir::Etc::SourceParts="$apt/sources" -o Dir::State::Lists="$apt/lists"
+    -o Dir::Cache="$apt" -o APT::Sandbox::User=root -o Acquire::Languages=none -o Acquire::http::Timeout=10)
+  # One repository of several without source is no failure.
+  apt-get "${own[@]}" -qq update >"$apt/log" 2>&1 || true
+  found="$(apt-cache "${own[@]}" showsrc "$package" 2>>"$apt/log" | sed -n 's/^Version: //p')" || true
+  for candidate in $found; do
+    # Without epoch and revision. One that was repacked (5.4.7+dfsg) lacks libraries that the build takes from it.
+    upstream="${candidate#*:}"
+    [ "${upstream%-*}" = "$version" ] || continue
+    if (cd "$apt" && apt-get "${own[@]}" -q source --download-only --tar-only "$package=$candidate" >&2); then
+      archive="$(find "$apt" -maxdepth 1 -name "${package}_$version.orig.tar.*" ! -name '*.asc')"
+      return
+    fi
+    tried+=("$package $candidate: apt-get could not download it")
+    return 1
+  done
+  found="${found//$'\n'/, }"
+  tried+=("the distribution's $package: ${found:-not found}")
+  return 1
+}
+
 # Sets source_folder; archives are unpacked under another name first, so that an interruption leaves no half of one.
 find_source() {
-  local archive="${ITK_SOURCE:-}" expected="${ITK_SOURCE_SHA256:-}" found
+  local archive="${ITK_SOURCE:-}" expected="${ITK_SOURCE_SHA256:-}" unpacked="$cache/source-$version" found
   if [ -n "$archive" ]; then
     [ -e "$archive" ] || stop "ITK_SOURCE is $archive, which does not exist"
   elif [ -e "$shared" ]; then
     archive="$shared"
     expected="$shared_sha256"
+  elif [ -d "$unpacked" ]; then
+    archive="$unpacked"
   else
     archive="$cache/$release"
     expected="${expected:-$release_sha256}"
-    if [ ! -e "$archive" ]; then
-      curl -fSL --retry 3 -o "$archive.part" \
-        "https://github.com/InsightSoftwareConsortium/ITK/releases/download/v$version/$release" ||
-        stop "ITK's source is not to be had; set ITK_SOURCE to its folder or archive"
-      verify "$archive.part" "$expected"
-      mv "$archive.part" "$archive"
+    if [ ! -e "$archive" ] && ! download_release "$archive" "$expected"; then
+      expected=
+      download_package || unavailable
     fi
   fi
   if [ -d "$archive" ]; then
     source_folder="$(cd "$archive" && pwd)"
   else
     [ -z "$expected" ] || verify "$archive" "$expected"
-    source_folder="$cache/source-$version"
+    source_folder="$unpacked"
     if [ ! -d "$source_folder" ]; then
       rm -rf "$source_folder.part" && mkdir "$source_folder.part"
       tar xf "$archive" -C "$source_folder.part" --strip-components=1
       mv "$source_folder.part" "$source_folder"
+      rm -f "$cache"/apt/*.orig.tar.*
     fi
   fi
   found="$(sed -nE 's/^set\(ITK_VERSION_(MAJOR|MINOR|PATCH) "([0-9]+)"\).*/\2/p' "$source_folder/CMake/itkVersion.cmake" |

@@ -4,7 +4,8 @@
 #   build-wheel.sh         PYTHON: the interpreter to build with, CPython >= 3.11 (default: python3)
 #
 # The wheel serves every CPython >= 3.11. ITK's part comes from build-itk.sh, which see for its source and its cache; the
-# module is built in build/wheel, 2 minutes on 2 cores the first time.
+# module is built in build/wheel, 2 minutes on 2 cores the first time. Exit codes: 0 done, 69 ITK's source is not to be had
+# (the last line on standard error says why), another one: anything else went wrong.
 set -euo pipefail
 here="$(cd "$(dirname "$0")/.." && pwd)"
 source "$here/examples/setup.sh"
