@@ -8,7 +8,7 @@ here="$(cd "$(dirname "$0")/.." && pwd)"
 source "$here/examples/setup.sh"
 
 sensornoise_install
-sensornoise_build "$here/build" -DBUILD_TESTING=OFF
+sensornoise_build "$here/build" -DBUILD_TESTING=OFF -DSensorNoise_BUILD_STUDIES=OFF
 
 if [ $# -gt 0 ]; then
   exec "$here/build/bin/estimate-sensor-noise" "$@"
