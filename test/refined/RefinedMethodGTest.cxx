@@ -15,13 +15,13 @@
  *  limitations under the License.
  *
  *=========================================================================*/
-#include "sensornoise/report/ReportJson.h"
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/PixelUse.h"
 #include "sensornoise/refined/RefinedMethod.h"
 #include "sensornoise/refined/RefinedSettings.h"
 #include "sensornoise/report/Report.h"
+#include "sensornoise/report/ReportJson.h"
 #include "sensornoise/simulation/Scenes.h"
 #include "sensornoise/simulation/SimulationTruth.h"
 #include "sensornoise/simulation/SimulationSettings.h"
@@ -31,9 +31,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <gtest/gtest.h>
+#include <functional>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 using namespace sensornoise;
@@ -205,6 +209,41 @@ TEST(SensorNoiseRefinedMethod, WrongUseIsRefused)
   EXPECT_THROW(Method(settings, geometry, 20), std::invalid_argument);
   settings.codes.bitDepth = 10;
   EXPECT_THROW(Measure(TexturedStack<Codes>(), settings), std::invalid_argument); // the data reach beyond 1,023
+}
+
+// The sums of the second pass point to the scene of the first, which must not move with the method.
+TEST(SensorNoiseRefinedMethod, MayBeMovedBetweenAndWithinPasses)
+{
+  const auto & stack = TexturedStack<Codes>();
+  using Method = RefinedMethod<Codes>;
+  auto method = std::make_unique<Method>(WithCodes(), GeometryOf(stack), stack.frames);
+  for (unsigned int pass = 0; pass < Method::NumberOfPasses; ++pass)
+  {
+    method = std::make_unique<Method>(std::move(*method));
+    method->AddFrames(stack.Frame(0), 7);
+    method = std::make_unique<Method>(std::move(*method));
+    method->AddFrames(stack.Frame(7), stack.frames - 7);
+    method->EndPass();
+  }
+  EXPECT_EQ(ToJson(method->GetReport()), ToJson(Measure(stack).GetReport()));
+}
+
+// Only NothingToMeasure becomes a report: a thread that cannot be started, say, is an error of the machine.
+TEST(SensorNoiseRefinedMethod, OtherErrorsPassThrough)
+{
+  const auto & stack = TexturedStack<Codes>();
+  bool         isBroken = false;
+  const auto   parallelFor = [&isBroken](std::size_t count, const std::function<void(std::size_t)> & function) {
+    if (isBroken)
+    {
+      throw std::system_error(std::make_error_code(std::errc::resource_unavailable_try_again));
+    }
+    SerialFor(count, function);
+  };
+  RefinedMethod<Codes> method(WithCodes(), GeometryOf(stack), stack.frames, {}, parallelFor);
+  method.AddFrames(stack.Frame(0), stack.frames);
+  isBroken = true;
+  EXPECT_THROW(method.EndPass(), std::system_error);
 }
 
 TEST(SensorNoiseRefinedMethod, PassOfWrongLengthIsRefused)

@@ -140,7 +140,11 @@ FitStaticVariance(ProjectedVariance &               projected,
     return found;
   }
   found.tailDisagreement = fit.TailDisagreement();
-  found.trimmed = fit.FindTrimmed();
+  const std::vector<std::uint8_t> trimmed = fit.FindTrimmed();
+  for (std::size_t p = 0; p < trimmed.size(); ++p)
+  {
+    found.pixelUse[p] = trimmed[p] != 0 ? static_cast<std::uint8_t>(PixelUse::Outlier) : found.pixelUse[p];
+  }
   found.fromFlat = FitFlatHalf(projected, found.mask, line, parallelFor);
   CorrectForNoisyMeans(line, offsetDn, projected.GetFrame().frames);
   found.line = line;

@@ -45,11 +45,9 @@ struct StaticVariance
   ClassFit        classes;
   /** Of the mean residuals of 64 intensity bins. */
   double intensityChi2{ 1.0 };
-  /** 1: a pixel that is used. */
+  /** 1: a pixel that fits a static scene; outliers among them, too, which a fit trims by itself. */
   std::vector<std::uint8_t> mask;
-  /** 1: a pixel of the mask that the final fit trims. */
-  std::vector<std::uint8_t> trimmed;
-  /** Values of PixelUse; a pixel that is trimmed counts as used. */
+  /** Values of PixelUse; the pixels of the mask that the final fit trims are PixelUse::Outlier. */
   std::vector<std::uint8_t> pixelUse;
   /** Pixels whose use is PixelUse::NotStatic. */
   std::size_t notStatic{ 0 };
