@@ -290,7 +290,6 @@ protected:
 
 private:
   // Defined in the .hxx: what reads the headers alone, as wrapping does, need not read the methods.
-  class DarkSink;
   struct Estimation;
 
   sensornoise::PublishedSettings

@@ -18,12 +18,11 @@
 #ifndef itkSensorNoiseEstimator_hxx
 #define itkSensorNoiseEstimator_hxx
 
+#include "itkSensorNoiseDarkSink.h"
 #include "itkSensorNoiseErrors.h"
 #include "sensornoise/base/FrameGeometry.h"
-#include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/RollingShutter.h"
 #include "sensornoise/moments/Codes.h"
-#include "sensornoise/moments/DarkFrames.h"
 #include "sensornoise/moments/KnownOffset.h"
 #include "sensornoise/moments/TemporalMoments.h"
 #include "sensornoise/published/PublishedMethod.h"
@@ -55,69 +54,6 @@ struct SensorNoiseEstimator<TStack>::Estimation
   static_assert(Refined::NumberOfPasses == Published::NumberOfPasses, "the methods read the stack equally often");
 
   std::variant<Refined, Published> method;
-};
-
-/** Reads the dark frames once, in chunks. */
-template <typename TStack>
-class SensorNoiseEstimator<TStack>::DarkSink : public SensorNoiseStackSink<TStack>
-{
-public:
-  ITK_DISALLOW_COPY_AND_MOVE(DarkSink);
-
-  using Self = DarkSink;
-  using Pointer = SmartPointer<Self>;
-
-  itkNewMacro(Self);
-
-  const char *
-  GetNameOfClass() const override
-  {
-    return "DarkSink";
-  }
-
-  /** Without outputs ProcessObject would do nothing. */
-  void
-  Update() override
-  {
-    this->UpdateOutputInformation();
-    this->UpdateOutputData(nullptr);
-  }
-
-  sensornoise::KnownOffset
-  Measure(const sensornoise::CodeSettings & codes, const std::vector<std::uint8_t> & mask)
-  {
-    return sensornoise::MeasureDarkFrames<PixelType>(m_Moments, codes, mask, this->GetParallelFor());
-  }
-
-protected:
-  DarkSink() = default;
-  ~DarkSink() override = default;
-
-  unsigned int
-  NumberOfPasses() const override
-  {
-    return 1;
-  }
-  void
-  StartPasses() override
-  {
-    m_Moments = sensornoise::TemporalMoments<PixelType>(this->GetFrameRegion().GetNumberOfPixels());
-  }
-  void
-  ProcessFrames(unsigned int, const PixelType * frames, SizeValueType, SizeValueType count) override
-  {
-    const SizeValueType pixels = this->GetFrameRegion().GetNumberOfPixels();
-    sensornoise::ForBlocks(pixels, this->GetParallelFor(), [&](std::size_t begin, std::size_t end) {
-      m_Moments.AddFrames(frames, pixels, count, begin, end);
-    });
-    m_Moments.AdvanceFrames(count);
-  }
-  void
-  EndPass(unsigned int) override
-  {}
-
-private:
-  sensornoise::TemporalMoments<PixelType> m_Moments;
 };
 
 template <typename TStack>
@@ -295,7 +231,7 @@ SensorNoiseEstimator<TStack>::MakeRefinedSettings(const std::vector<std::uint8_t
   else if (const TStack * dark = this->GetDark())
   {
     settings.Validate();
-    const auto sink = DarkSink::New();
+    const auto sink = SensorNoiseDarkSink<TStack>::New();
     sink->SetInput(dark);
     sink->SetNumberOfStreamDivisions(this->GetNumberOfStreamDivisions());
     sink->SetNumberOfWorkUnits(this->GetNumberOfWorkUnits());

@@ -72,7 +72,7 @@ Backwards(std::size_t count, const std::function<void(std::size_t)> & function)
 }
 } // namespace
 
-TEST(SensorNoiseBoxMean, EqualsBruteForce)
+TEST(SensorNoiseBoxSum, EqualsBruteForce)
 {
   for (const auto & [width, height] : { std::pair{ 17, 23 }, { 13, 150 }, { 1, 9 }, { 9, 1 }, { 4, 4 } })
   {
@@ -89,7 +89,7 @@ TEST(SensorNoiseBoxMean, EqualsBruteForce)
   }
 }
 
-TEST(SensorNoiseBoxMean, OrderOfThePiecesChangesNoBit)
+TEST(SensorNoiseBoxSum, OrderOfThePiecesChangesNoBit)
 {
   std::mt19937               random(4);
   std::normal_distribution<> normal;
@@ -101,7 +101,7 @@ TEST(SensorNoiseBoxMean, OrderOfThePiecesChangesNoBit)
   EXPECT_EQ(BoxSum(map, 30, 140, 3), BoxSum(map, 30, 140, 3, Backwards));
 }
 
-TEST(SensorNoiseBoxMean, WhatAReusedMapHeldDoesNotMatter)
+TEST(SensorNoiseBoxSum, WhatAReusedMapHeldDoesNotMatter)
 {
   const auto          map = RandomMap<std::uint8_t>(17 * 23, 255);
   std::vector<double> result(1000, 77.0);
@@ -109,7 +109,7 @@ TEST(SensorNoiseBoxMean, WhatAReusedMapHeldDoesNotMatter)
   EXPECT_EQ(result, BoxSum(map, 17, 23, 3));
 }
 
-TEST(SensorNoiseBoxMean, ConstantCountsThePixels)
+TEST(SensorNoiseBoxSum, ConstantCountsThePixels)
 {
   const auto count = BoxSum(std::vector<std::uint8_t>(20 * 10, 1), 20, 10, 2);
   EXPECT_EQ(count[5 * 20 + 10], 25.0);

@@ -48,7 +48,7 @@ Sums(std::size_t count, const ParallelFor & parallelFor)
 }
 } // namespace
 
-TEST(SensorNoiseBlockSums, BlocksCoverEachPixelOnce)
+TEST(SensorNoiseParallel, BlocksCoverEachPixelOnce)
 {
   for (const std::size_t count :
        { std::size_t{ 0 }, std::size_t{ 1 }, PixelsPerBlock, PixelsPerBlock + 1, 5 * PixelsPerBlock - 1 })
@@ -68,7 +68,7 @@ TEST(SensorNoiseBlockSums, BlocksCoverEachPixelOnce)
   }
 }
 
-TEST(SensorNoiseBlockSums, AnyNumberOfThreadsGivesTheSameBits)
+TEST(SensorNoiseParallel, AnyNumberOfThreadsGivesTheSameBits)
 {
   const std::size_t count = 7 * PixelsPerBlock + 123;
   const auto        expected = Sums(count, SerialFor);
@@ -78,7 +78,7 @@ TEST(SensorNoiseBlockSums, AnyNumberOfThreadsGivesTheSameBits)
   }
 }
 
-TEST(SensorNoiseBlockSums, SumsToRounding)
+TEST(SensorNoiseParallel, SumsToRounding)
 {
   const std::size_t count = 3 * PixelsPerBlock + 5;
   long double       exact = 0.0L;
@@ -90,7 +90,7 @@ TEST(SensorNoiseBlockSums, SumsToRounding)
   EXPECT_NEAR(Sums(count, SerialFor)[0], static_cast<double>(exact), 1.2e-16 * static_cast<double>(count * exact));
 }
 
-TEST(SensorNoiseBlockSums, NumberOfSumsMayBeKnownAtRunTimeOnly)
+TEST(SensorNoiseParallel, NumberOfSumsMayBeKnownAtRunTimeOnly)
 {
   const std::size_t count = 2 * PixelsPerBlock + 77;
   const auto        expected = Sums(count, SerialFor);

@@ -80,7 +80,7 @@ SdOfReducedChi2(std::size_t pixels)
 }
 } // namespace
 
-TEST(SensorNoiseRegression, LineIsRecoveredExactly)
+TEST(SensorNoisePolynomialFit, LineIsRecoveredExactly)
 {
   const PolynomialFit fit = FitLine(ExactScatter(1000, 100.0, 4000.0, -50.0, 1.25, 0.0).Data());
   EXPECT_TRUE(fit.isDetermined);
@@ -90,7 +90,7 @@ TEST(SensorNoiseRegression, LineIsRecoveredExactly)
   EXPECT_EQ(fit.curvature, 0.0);
 }
 
-TEST(SensorNoiseRegression, ParabolaIsRecoveredExactly)
+TEST(SensorNoisePolynomialFit, ParabolaIsRecoveredExactly)
 {
   const PolynomialFit fit = FitParabola(ExactScatter(1000, 100.0, 4000.0, -50.0, 1.25, 0.0025).Data());
   EXPECT_TRUE(fit.isDetermined);
@@ -99,7 +99,7 @@ TEST(SensorNoiseRegression, ParabolaIsRecoveredExactly)
   EXPECT_NEAR(fit.intercept, -50.0, 1e-10 * 45000.0); // of the largest variance
 }
 
-TEST(SensorNoiseRegression, LargeOffsetsOfTheMeanKeepTheDigits)
+TEST(SensorNoisePolynomialFit, LargeOffsetsOfTheMeanKeepTheDigits)
 {
   // Means from 1e7 to 1e7 + 100: the variances themselves are rounded to 1e7 * 1e-16 = 1e-9, the slope to that / 100.
   const PolynomialFit line = FitLine(ExactScatter(500, 1e7, 1e7 + 100.0, -1e7, 1.0, 0.0).Data());
@@ -115,7 +115,7 @@ TEST(SensorNoiseRegression, LargeOffsetsOfTheMeanKeepTheDigits)
   EXPECT_NEAR(parabola.slope + 2.0 * parabola.curvature * 1e6, 2.0, 1e-6);
 }
 
-TEST(SensorNoiseRegression, MaskedAndUnknownPixelsTakeNoPart)
+TEST(SensorNoisePolynomialFit, MaskedAndUnknownPixelsTakeNoPart)
 {
   Scatter scatter = ExactScatter(100, 100.0, 4000.0, 10.0, 2.0, 0.0);
   scatter.variance[0] = std::numeric_limits<double>::quiet_NaN();
@@ -132,7 +132,7 @@ TEST(SensorNoiseRegression, MaskedAndUnknownPixelsTakeNoPart)
   EXPECT_NEAR(quality.reducedChi2, 0.0, 1e-12);
 }
 
-TEST(SensorNoiseRegression, OneIntensityDoesNotDetermineALine)
+TEST(SensorNoisePolynomialFit, OneIntensityDoesNotDetermineALine)
 {
   Scatter scatter = ExactScatter(100, 500.0, 500.0, 10.0, 2.0, 0.0);
   EXPECT_FALSE(FitLine(scatter.Data()).isDetermined);
@@ -143,7 +143,7 @@ TEST(SensorNoiseRegression, OneIntensityDoesNotDetermineALine)
   EXPECT_EQ(JudgeLine(scatter.Data(), FitLine(scatter.Data()), Frames).curvatureZ, 0.0);
 }
 
-TEST(SensorNoiseRegression, TwoIntensitiesDetermineALineAndShowNoCurvature)
+TEST(SensorNoisePolynomialFit, TwoIntensitiesDetermineALineAndShowNoCurvature)
 {
   Scatter scatter = ExactScatter(100, 0.0, 100.0, 10.0, 2.0, 0.0);
   for (std::size_t p = 0; p < 100; ++p)
@@ -157,7 +157,7 @@ TEST(SensorNoiseRegression, TwoIntensitiesDetermineALineAndShowNoCurvature)
   EXPECT_LT(std::abs(JudgeLine(scatter.Data(), line, Frames).curvatureZ), 1.0);
 }
 
-TEST(SensorNoiseRegression, SamplingNoiseAloneHasReducedChi2OfOneAndNoCurvature)
+TEST(SensorNoisePolynomialFit, SamplingNoiseAloneHasReducedChi2OfOneAndNoCurvature)
 {
   const Scatter       scatter = WithSamplingNoise(ExactScatter(20000, 100.0, 4000.0, 64.0, 1.0, 0.0));
   const PolynomialFit line = FitLine(scatter.Data());
@@ -168,7 +168,7 @@ TEST(SensorNoiseRegression, SamplingNoiseAloneHasReducedChi2OfOneAndNoCurvature)
   EXPECT_NEAR(line.slope, 1.0, 5.0 * 0.0031);
 }
 
-TEST(SensorNoiseRegression, ExcessScatterRaisesReducedChi2)
+TEST(SensorNoisePolynomialFit, ExcessScatterRaisesReducedChi2)
 {
   Scatter scatter = WithSamplingNoise(ExactScatter(20000, 100.0, 4000.0, 64.0, 1.0, 0.0));
   for (std::size_t p = 0; p < scatter.variance.size(); ++p)
@@ -180,7 +180,7 @@ TEST(SensorNoiseRegression, ExcessScatterRaisesReducedChi2)
   EXPECT_NEAR(quality.reducedChi2, 1.16 + 0.16 * (Frames - 1.0) / 2.0, 5.0 * 5.08 * 2.0 * SdOfReducedChi2(20000));
 }
 
-TEST(SensorNoiseRegression, CurvatureIsFoundWithItsError)
+TEST(SensorNoisePolynomialFit, CurvatureIsFoundWithItsError)
 {
   constexpr double curvature = 1e-4; // 10 % of the variance at the bright end
   const Scatter    scatter = WithSamplingNoise(ExactScatter(20000, 100.0, 4000.0, 64.0, 1.0, curvature));
@@ -191,7 +191,7 @@ TEST(SensorNoiseRegression, CurvatureIsFoundWithItsError)
   EXPECT_LT(JudgeLine(down.Data(), FitLine(down.Data()), Frames).curvatureZ, -5.0);
 }
 
-TEST(SensorNoiseRegression, CurvatureErrorIsThatOfManyRepetitions)
+TEST(SensorNoisePolynomialFit, CurvatureErrorIsThatOfManyRepetitions)
 {
   // z of a straight line is standard normal: over 400 repetitions mean square 1 with sd sqrt(2 / 400).
   constexpr int                   repetitions = 400;

@@ -135,7 +135,7 @@ Normalised(std::vector<double> gamma)
 }
 } // namespace
 
-TEST(SensorNoiseFlicker, NoiseFreeStackGivesOffsetAndFlickerExactly)
+TEST(SensorNoiseFlickerEstimate, NoiseFreeStackGivesOffsetAndFlickerExactly)
 {
   for (const double mu : { 150.0, 0.0, -40.0 })
   {
@@ -159,7 +159,7 @@ TEST(SensorNoiseFlicker, NoiseFreeStackGivesOffsetAndFlickerExactly)
   }
 }
 
-TEST(SensorNoiseFlicker, PermutedFramesGiveTheSameScalars)
+TEST(SensorNoiseFlickerEstimate, PermutedFramesGiveTheSameScalars)
 {
   const auto            gamma = NormalFlicker(30, 0.05, 3);
   Stack                 stack(gamma, gamma, 100.0, 20.0);
@@ -174,7 +174,7 @@ TEST(SensorNoiseFlicker, PermutedFramesGiveTheSameScalars)
   EXPECT_NEAR(after.gamma[29], before.gamma[0], 1e-12);
 }
 
-TEST(SensorNoiseFlicker, ScalingScalesTheOffset)
+TEST(SensorNoiseFlickerEstimate, ScalingScalesTheOffset)
 {
   const auto            gamma = NormalFlicker(30, 0.05, 4);
   Stack                 stack(gamma, gamma, 100.0, 20.0);
@@ -188,7 +188,7 @@ TEST(SensorNoiseFlicker, ScalingScalesTheOffset)
   EXPECT_NEAR(after.offsetLinePhi, before.offsetLinePhi, 1e-7 * before.offsetLinePhi);
 }
 
-TEST(SensorNoiseFlicker, AddingAConstantShiftsTheOffset)
+TEST(SensorNoiseFlickerEstimate, AddingAConstantShiftsTheOffset)
 {
   const auto            gamma = NormalFlicker(30, 0.05, 4);
   Stack                 stack(gamma, gamma, 100.0, 20.0);
@@ -203,7 +203,7 @@ TEST(SensorNoiseFlicker, AddingAConstantShiftsTheOffset)
   EXPECT_NEAR(after.gamma[5], before.gamma[5], r2);
 }
 
-TEST(SensorNoiseFlicker, NoiseDoesNotMoveTheOffsetByMoreThanItsError)
+TEST(SensorNoiseFlickerEstimate, NoiseDoesNotMoveTheOffsetByMoreThanItsError)
 {
   const auto            gamma = NormalFlicker(200, 0.05, 5);
   const FlickerEstimate estimate = Stack(gamma, gamma, 100.0, 20.0).Estimate();
@@ -214,7 +214,7 @@ TEST(SensorNoiseFlicker, NoiseDoesNotMoveTheOffsetByMoreThanItsError)
   EXPECT_NEAR(estimate.offsetLinePhi, 1.0, 0.5);
 }
 
-TEST(SensorNoiseFlicker, NoiseWithoutFlickerIsNotTakenForFlicker)
+TEST(SensorNoiseFlickerEstimate, NoiseWithoutFlickerIsNotTakenForFlicker)
 {
   for (const std::size_t frames : { 10, 50, 200 })
   {
@@ -226,7 +226,7 @@ TEST(SensorNoiseFlicker, NoiseWithoutFlickerIsNotTakenForFlicker)
   }
 }
 
-TEST(SensorNoiseFlicker, SixStandardDeviationsOfTheNoiseAreTheThreshold)
+TEST(SensorNoiseFlickerEstimate, SixStandardDeviationsOfTheNoiseAreTheThreshold)
 {
   // Noise of v^*: sd = 20 / 2100 / sqrt(200) = 6.7e-4. Flicker of three times that: 9 / sqrt(2 / 199) = 90.
   const auto gamma = NormalFlicker(200, 0.002, 6);
@@ -235,14 +235,14 @@ TEST(SensorNoiseFlicker, SixStandardDeviationsOfTheNoiseAreTheThreshold)
   EXPECT_LT(Stack(faint, faint, 100.0, 20.0).Estimate().flickerZ, RequiredFlickerZ);
 }
 
-TEST(SensorNoiseFlicker, StrongFlickerWithLittleOrNoNoiseIsIdentified)
+TEST(SensorNoiseFlickerEstimate, StrongFlickerWithLittleOrNoNoiseIsIdentified)
 {
   const auto gamma = NormalFlicker(30, 0.2, 8);
   EXPECT_GT(Stack(gamma, gamma, 100.0, 0.0).Estimate().flickerZ, RequiredFlickerZ);
   EXPECT_GT(Stack(gamma, gamma, 100.0, 0.5).Estimate().flickerZ, RequiredFlickerZ);
 }
 
-TEST(SensorNoiseFlicker, DifferentLampsForBrightAndDarkMissTheLine)
+TEST(SensorNoiseFlickerEstimate, DifferentLampsForBrightAndDarkMissTheLine)
 {
   const FlickerEstimate estimate =
     Stack(NormalFlicker(100, 0.05, 9), NormalFlicker(100, 0.05, 10), 100.0, 20.0).Estimate();
@@ -250,7 +250,7 @@ TEST(SensorNoiseFlicker, DifferentLampsForBrightAndDarkMissTheLine)
   EXPECT_GT(estimate.offsetLinePhi, 30.0);
 }
 
-TEST(SensorNoiseFlicker, IdenticalFramesHaveNoFlicker)
+TEST(SensorNoiseFlickerEstimate, IdenticalFramesHaveNoFlicker)
 {
   const std::vector<double> none(10, 0.0);
   const FlickerEstimate     estimate = Stack(none, none, 100.0, 0.0).Estimate();
@@ -258,7 +258,7 @@ TEST(SensorNoiseFlicker, IdenticalFramesHaveNoFlicker)
   EXPECT_TRUE(std::isfinite(estimate.offsetDn));
 }
 
-TEST(SensorNoiseFlicker, ModesHaveNames)
+TEST(SensorNoiseFlickerEstimate, ModesHaveNames)
 {
   EXPECT_STREQ(NameOf(RollingShutter::Off), "off");
   EXPECT_STREQ(NameOf(RollingShutter::Auto), "auto");

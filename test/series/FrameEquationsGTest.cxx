@@ -122,7 +122,7 @@ CentreWeightOf(std::size_t column)
 }
 } // namespace
 
-TEST(SensorNoiseFrameRegression, EqualsDenseWeightedLeastSquares)
+TEST(SensorNoiseFrameEquations, EqualsDenseWeightedLeastSquares)
 {
   for (const std::size_t lastClass : { std::size_t{ 2 }, LastClass })
   {
@@ -140,7 +140,7 @@ TEST(SensorNoiseFrameRegression, EqualsDenseWeightedLeastSquares)
   }
 }
 
-TEST(SensorNoiseFrameRegression, FindsWhatNoiseFreeFramesAreMadeOf)
+TEST(SensorNoiseFrameEquations, FindsWhatNoiseFreeFramesAreMadeOf)
 {
   const auto            changes = FlickerAndMotion(24, 100.0, 0.3);
   const SyntheticFrames frames(Width, Height, changes);
@@ -160,7 +160,7 @@ TEST(SensorNoiseFrameRegression, FindsWhatNoiseFreeFramesAreMadeOf)
   }
 }
 
-TEST(SensorNoiseFrameRegression, MotionIsPartialledOutOfTheLight)
+TEST(SensorNoiseFrameEquations, MotionIsPartialledOutOfTheLight)
 {
   // The Schur complement is the inverse of the light's block of the inverse.
   const FrameEquations equations = MakeFrameEquations(NoisySums(), SomeNoise(), LastClass);
@@ -169,7 +169,7 @@ TEST(SensorNoiseFrameRegression, MotionIsPartialledOutOfTheLight)
   EXPECT_LT((equations.light - expected).norm(), 1e-9 * expected.norm());
 }
 
-TEST(SensorNoiseFrameRegression, NoiseOfTheRegressorsIsTakenOffTheGramMatrix)
+TEST(SensorNoiseFrameEquations, NoiseOfTheRegressorsIsTakenOffTheGramMatrix)
 {
   // White noise of variance V / T in the mean adds its stencils' inner products; the mean is a stencil of one pixel.
   const RegressorNoise       noise = SomeNoise();
@@ -195,7 +195,7 @@ TEST(SensorNoiseFrameRegression, NoiseOfTheRegressorsIsTakenOffTheGramMatrix)
   }
 }
 
-TEST(SensorNoiseFrameRegression, FlickeringNoiseIsTakenOffTheRightHandSide)
+TEST(SensorNoiseFrameEquations, FlickeringNoiseIsTakenOffTheRightHandSide)
 {
   const RegressorNoise noise = SomeNoise();
   std::vector<double>  gamma;
@@ -222,7 +222,7 @@ TEST(SensorNoiseFrameRegression, FlickeringNoiseIsTakenOffTheRightHandSide)
   }
 }
 
-TEST(SensorNoiseFrameRegression, MotionThatIsNotThereIsEliminated)
+TEST(SensorNoiseFrameEquations, MotionThatIsNotThereIsEliminated)
 {
   const auto activeOf = [](std::size_t frames, double motion) {
     const SyntheticFrames noisy(Width, Height, FlickerAndMotion(frames, 100.0, motion), 1.0);
@@ -241,7 +241,7 @@ TEST(SensorNoiseFrameRegression, MotionThatIsNotThereIsEliminated)
   EXPECT_EQ(largestOrder(activeOf(19, 0.3)), 2); // fewer than 20 frames
 }
 
-TEST(SensorNoiseFrameRegression, MotionThatIsLostInTheNoiseOfTheMeanIsNotActive)
+TEST(SensorNoiseFrameEquations, MotionThatIsLostInTheNoiseOfTheMeanIsNotActive)
 {
   RegressorNoise noise;
   // More than the whole of the x derivative's energy.
@@ -252,7 +252,7 @@ TEST(SensorNoiseFrameRegression, MotionThatIsLostInTheNoiseOfTheMeanIsNotActive)
   EXPECT_EQ(equations.Find(1), 1u);
 }
 
-TEST(SensorNoiseFrameRegression, OneIntensityLeavesTheLightAlone)
+TEST(SensorNoiseFrameEquations, OneIntensityLeavesTheLightAlone)
 {
   // No derivative is active, and the mean is a multiple of 1: nothing is left that could be eliminated.
   const std::size_t         pixels = Width * Height;

@@ -78,7 +78,7 @@ struct Fit
 };
 } // namespace
 
-TEST(SensorNoiseShiftSeries, MotionOfNoiseFreeFramesIsFound)
+TEST(SensorNoiseMotionSeries, MotionOfNoiseFreeFramesIsFound)
 {
   const Fit fit(0.0);
   ASSERT_EQ(fit.motion.stencils.size(), NumberOfStencils);
@@ -91,7 +91,7 @@ TEST(SensorNoiseShiftSeries, MotionOfNoiseFreeFramesIsFound)
   }
 }
 
-TEST(SensorNoiseShiftSeries, MotionIsTheDenseFitOnceTheLightIsTakenOff)
+TEST(SensorNoiseMotionSeries, MotionIsTheDenseFitOnceTheLightIsTakenOff)
 {
   const Fit         fit(1.0);
   const auto        size = static_cast<Eigen::Index>(fit.motion.stencils.size());
@@ -119,7 +119,7 @@ TEST(SensorNoiseShiftSeries, MotionIsTheDenseFitOnceTheLightIsTakenOff)
   EXPECT_LT((fit.motion.covariance - gram.inverse()).norm(), 1e-8 * gram.inverse().norm());
 }
 
-TEST(SensorNoiseShiftSeries, InactiveStencilsHaveTheCoefficientZero)
+TEST(SensorNoiseMotionSeries, InactiveStencilsHaveTheCoefficientZero)
 {
   MotionSeries series;
   series.stencils = { StencilY };
@@ -128,7 +128,7 @@ TEST(SensorNoiseShiftSeries, InactiveStencilsHaveTheCoefficientZero)
   EXPECT_EQ(series.Get(2, StencilX), 0.0);
 }
 
-TEST(SensorNoiseShiftSeries, InstrumentsFindTheShiftsOfNoiseFreeFrames)
+TEST(SensorNoiseMotionSeries, InstrumentsFindTheShiftsOfNoiseFreeFrames)
 {
   const Fit  fit(0.0);
   const auto shifts = SolveShifts(fit.sums, fit.motion, {}, Flicker(), fit.offset);
@@ -141,7 +141,7 @@ TEST(SensorNoiseShiftSeries, InstrumentsFindTheShiftsOfNoiseFreeFrames)
   }
 }
 
-TEST(SensorNoiseShiftSeries, NoiseThatInstrumentsShareWithTheRegressorsIsTakenOff)
+TEST(SensorNoiseMotionSeries, NoiseThatInstrumentsShareWithTheRegressorsIsTakenOff)
 {
   // White noise of variance V / T in the mean adds V / T times the product of a smoothed derivative's and the plain
   // derivative's weights to their Gram matrix; the weights of the smoothed one are its response to an impulse.
@@ -170,7 +170,7 @@ TEST(SensorNoiseShiftSeries, NoiseThatInstrumentsShareWithTheRegressorsIsTakenOf
   EXPECT_LT((shifts->coefficients * gradient.transpose() - expected).norm(), 1e-9 * expected.norm());
 }
 
-TEST(SensorNoiseShiftSeries, BothFirstDerivativesAreNeeded)
+TEST(SensorNoiseMotionSeries, BothFirstDerivativesAreNeeded)
 {
   Fit fit(0.0);
   fit.motion.stencils.erase(fit.motion.stencils.begin() + 1);
@@ -178,7 +178,7 @@ TEST(SensorNoiseShiftSeries, BothFirstDerivativesAreNeeded)
   EXPECT_FALSE(SolveShifts(fit.sums, fit.motion, {}, Flicker(), fit.offset));
 }
 
-TEST(SensorNoiseShiftSeries, SmoothedDerivativeOfARampIsItsSlope)
+TEST(SensorNoiseMotionSeries, SmoothedDerivativeOfARampIsItsSlope)
 {
   ReferenceFrame ramp;
   ramp.geometry = { 50, 40, 1 };
@@ -191,7 +191,7 @@ TEST(SensorNoiseShiftSeries, SmoothedDerivativeOfARampIsItsSlope)
   EXPECT_NEAR(SmoothedDerivative(ramp, StencilY, SerialFor)[middle], -2.0, 1e-12);
 }
 
-TEST(SensorNoiseShiftSeries, InstrumentWeightIsTheInverseNoiseAndFallsToZeroWherePixelsAreMissing)
+TEST(SensorNoiseMotionSeries, InstrumentWeightIsTheInverseNoiseAndFallsToZeroWherePixelsAreMissing)
 {
   SyntheticFrames frames(Width, Height, std::vector<FrameChange>(5));
   frames.model.slopeDn = 0.0; // one noise variance
