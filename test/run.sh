@@ -9,7 +9,7 @@ here="$(cd "$(dirname "$0")/.." && pwd)"
 source "$here/examples/setup.sh"
 
 sensornoise_install
-sensornoise_build "$here/build" -DBUILD_TESTING=ON
+sensornoise_build "$here/build" -DBUILD_TESTING=ON -DSensorNoise_BUILD_STUDIES=ON
 failed=()
 ctest --test-dir "$here/build" --output-on-failure -j "$(nproc)" "$@" || failed+=(C++)
 
