@@ -17,72 +17,26 @@
  *=========================================================================*/
 #include "itkTemporalStatisticsImageFilter.h"
 #include "helpers/PipelineTestHelper.h"
-#include "itkCastImageFilter.h"
-#include "itkImageFileReader.h"
-#include "itkImageSeriesReader.h"
+#include "helpers/TemporalStatisticsTestHelper.h"
+#include "itkImage.h"
 #include "itkMeanProjectionImageFilter.h"
-#include "itkPipelineMonitorImageFilter.h"
 #include "itkStandardDeviationProjectionImageFilter.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <gtest/gtest.h>
 #include <limits>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace
 {
 using namespace sensornoisetest;
-using StackType = itk::Image<unsigned short, 3>;
+using namespace sensornoisetest::statistics;
 using FloatStackType = itk::Image<float, 3>;
-constexpr unsigned int Width = 37;
-constexpr unsigned int Height = 33;
-constexpr unsigned int Frames = 11;
-
-template <typename TStack>
-auto
-StatisticsOf(const TStack * stack)
-{
-  auto filter = itk::TemporalStatisticsImageFilter<TStack>::New();
-  filter->SetInput(stack);
-  return filter;
-}
-
-template <typename TFilter>
-void
-ExpectTheSameStatistics(const TFilter & a, const TFilter & b, const std::string & what)
-{
-  EXPECT_TRUE(HaveTheSameBits(a->GetMean(), b->GetMean())) << what;
-  EXPECT_TRUE(HaveTheSameBits(a->GetVariance(), b->GetVariance())) << what;
-  EXPECT_TRUE(HaveTheSameBits(a->GetValidMask(), b->GetValidMask())) << what;
-}
-
-/** Every way to read \a image, in 1, 3 and T chunks, gives the same bits as the image itself. */
-template <typename TMakeReader>
-void
-ExpectTheSameForAnyChunks(const StackType * stack, bool streams, const TMakeReader & makeReader)
-{
-  const auto expected = StatisticsOf(stack);
-  expected->Update();
-  for (const unsigned int chunks : { 1u, 3u, Frames })
-  {
-    const auto reader = makeReader();
-    const auto monitor = itk::PipelineMonitorImageFilter<StackType>::New();
-    monitor->SetInput(reader->GetOutput());
-    const auto filter = StatisticsOf<StackType>(monitor->GetOutput());
-    filter->SetNumberOfStreamDivisions(chunks);
-    filter->Update();
-    ExpectTheSameStatistics(filter, expected, std::to_string(chunks) + " chunks");
-    EXPECT_TRUE(!streams || monitor->VerifyAllInputCanStream(static_cast<int>(chunks))) << chunks;
-  }
-}
 
 template <typename TPixel>
 class TemporalStatisticsImageFilterOf : public ::testing::Test
 {};
-using PixelTypes = ::testing::Types<unsigned char, unsigned short, short, float, double>;
 TYPED_TEST_SUITE(TemporalStatisticsImageFilterOf, PixelTypes, );
 } // namespace
 
@@ -124,25 +78,6 @@ TYPED_TEST(TemporalStatisticsImageFilterOf, AgreesWithTheProjectionFilters)
     // Sums of 11 numbers round to 11 x 2^-53 of the largest, 4095 (mean), and of its deviations (sd): below 1e-11.
     EXPECT_NEAR(filter->GetMean()->GetBufferPointer()[p], mean->GetOutput()->GetBufferPointer()[p], 1e-11);
     EXPECT_NEAR(std::sqrt(filter->GetVariance()->GetBufferPointer()[p]), sd->GetOutput()->GetBufferPointer()[p], 1e-11);
-  }
-}
-
-TYPED_TEST(TemporalStatisticsImageFilterOf, SameBitsForAnyChunksAndWorkUnits)
-{
-  using Stack = itk::Image<TypeParam, 3>;
-  const auto stack = TargetStack<Stack>(Width, Height, Frames);
-  const auto expected = StatisticsOf<Stack>(stack);
-  expected->Update();
-  for (const unsigned int chunks : { 1u, 3u, Frames, Frames + 9 })
-  {
-    for (const unsigned int units : { 1u, 7u })
-    {
-      const auto filter = StatisticsOf<Stack>(stack);
-      filter->SetNumberOfStreamDivisions(chunks);
-      filter->SetNumberOfWorkUnits(units);
-      filter->Update();
-      ExpectTheSameStatistics(filter, expected, std::to_string(chunks) + " x " + std::to_string(units));
-    }
   }
 }
 
@@ -253,181 +188,4 @@ TEST(TemporalStatisticsImageFilter, OutputsTakeTheGeometryOfTheFrames)
   const auto expected = StatisticsOf<StackType>(stack);
   expected->Update();
   ExpectTheSameStatistics(filter, expected, "at another start index");
-}
-
-TEST(TemporalStatisticsImageFilter, ReadsTheStackOnceInTheChunksAskedFor)
-{
-  for (const unsigned int chunks : { 1u, 3u, Frames, Frames + 9 })
-  {
-    const auto source = TargetSource<StackType>(Width, Height, Frames);
-    const auto monitor = itk::PipelineMonitorImageFilter<StackType>::New();
-    monitor->SetInput(source->GetOutput());
-    const auto filter = StatisticsOf<StackType>(monitor->GetOutput());
-    filter->SetNumberOfStreamDivisions(chunks);
-    filter->Update();
-    EXPECT_TRUE(monitor->VerifyAllInputCanStream(static_cast<int>(std::min(chunks, Frames)))) << chunks;
-  }
-}
-
-// 17 frames of 8 MiB in chunks of at most 64 MiB: 3 chunks; in memory already: 1.
-TEST(TemporalStatisticsImageFilter, ChoosesTheNumberOfChunks)
-{
-  using BytesType = itk::Image<unsigned char, 3>;
-  using DoubleStackType = itk::Image<double, 3>;
-  const auto cast = itk::CastImageFilter<BytesType, DoubleStackType>::New();
-  cast->SetInput(ConstantImage<BytesType>({ { 1024, 1024, 17 } }, 1));
-  const auto monitor = itk::PipelineMonitorImageFilter<DoubleStackType>::New();
-  monitor->SetInput(cast->GetOutput());
-  const auto filter = StatisticsOf<DoubleStackType>(monitor->GetOutput());
-  filter->Update();
-  EXPECT_TRUE(monitor->VerifyAllInputCanStream(3));
-
-  unsigned int chunks = 0;
-  const auto   inMemory = StatisticsOf<DoubleStackType>(ConstantImage<DoubleStackType>({ { 1024, 1024, 9 } }, 1.0));
-  inMemory->AddObserver(itk::ProgressEvent(), [&](const itk::EventObject &) { ++chunks; });
-  inMemory->Update();
-  EXPECT_EQ(chunks, 2u); // 0 % at the start, and one chunk
-}
-
-TEST(TemporalStatisticsImageFilter, SecondUpdateDoesNoWorkAndAParameterDoes)
-{
-  const auto reader = StackReader<StackType>::Of(TargetStack<StackType>(Width, Height, Frames));
-  const auto filter = StatisticsOf<StackType>(reader->GetOutput());
-  filter->SetNumberOfStreamDivisions(Frames);
-  filter->Update();
-  EXPECT_EQ(reader->Reads(), Frames);
-  filter->Update();
-  filter->UpdateLargestPossibleRegion();
-  filter->GetVariance()->Update();
-  filter->GetValidMask()->Update();
-  EXPECT_EQ(reader->Reads(), Frames);
-  const auto clipped = [&] {
-    filter->Update();
-    return filter->GetSummary().clipped;
-  };
-  EXPECT_EQ(clipped(), 0u);
-  filter->SetClipLow(500.0);
-  EXPECT_GT(clipped(), 0u);
-  EXPECT_EQ(reader->Reads(), 2 * Frames);
-  filter->SetClipLow(std::numeric_limits<double>::quiet_NaN());
-  EXPECT_EQ(clipped(), 0u);
-  filter->SetBitDepth(16);
-  filter->Update();
-  EXPECT_EQ(filter->GetSummary().codes.clipHighDn, 65535.0);
-  filter->SetBitDepth(0);
-  filter->Update();
-  EXPECT_EQ(filter->GetSummary().codes.clipHighDn, 4095.0);
-}
-
-TEST(TemporalStatisticsImageFilter, EveryStackFileGivesTheSameBits)
-{
-  const TemporaryFolder folder;
-  const auto            stack = TargetStack<StackType>(Width, Height, Frames);
-  for (const auto & [name, streams] : std::vector<std::pair<std::string, bool>>{
-         { "s.mha", true }, { "s.mhd", true }, { "s.nrrd", false }, { "s.tif", false } })
-  {
-    SCOPED_TRACE(name);
-    const std::string file = WrittenTo<StackType>(folder.File(name), stack);
-    ExpectTheSameForAnyChunks(stack, streams, [&] {
-      auto reader = itk::ImageFileReader<StackType>::New();
-      reader->SetFileName(file);
-      return reader;
-    });
-  }
-}
-
-namespace
-{
-std::vector<std::string>
-FramesWrittenTo(const TemporaryFolder & folder, const StackType * stack, const std::string & extension)
-{
-  using SliceType = itk::Image<unsigned short, 2>;
-  std::vector<std::string> names;
-  for (unsigned int t = 0; t < Frames; ++t)
-  {
-    const auto slice = ImageOf<SliceType>({ { Width, Height } }, [&](const auto & index) {
-      return stack->GetPixel({ { index[0], index[1], static_cast<itk::IndexValueType>(t) } });
-    });
-    names.push_back(WrittenTo<SliceType>(folder.File("f" + std::to_string(t) + extension), slice));
-  }
-  return names;
-}
-
-itk::ImageSeriesReader<StackType>::Pointer
-SeriesReaderOf(const std::vector<std::string> & names)
-{
-  auto reader = itk::ImageSeriesReader<StackType>::New();
-  reader->SetFileNames(names);
-  reader->MetaDataDictionaryArrayUpdateOff();
-  return reader;
-}
-} // namespace
-
-TEST(TemporalStatisticsImageFilter, EveryListOfFilesGivesTheSameBits)
-{
-  const auto stack = TargetStack<StackType>(Width, Height, Frames);
-  for (const char * extension : { ".tif", ".png" })
-  {
-    SCOPED_TRACE(extension);
-    const TemporaryFolder          folder;
-    const std::vector<std::string> names = FramesWrittenTo(folder, stack, extension);
-    ExpectTheSameForAnyChunks(stack, true, [&] { return SeriesReaderOf(names); });
-  }
-}
-
-TEST(TemporalStatisticsImageFilter, FailsUntilTheFilesAreMended)
-{
-  const TemporaryFolder folder;
-  const auto            stack = TargetStack<StackType>(Width, Height, Frames);
-  const auto            names = FramesWrittenTo(folder, stack, ".tif");
-  const auto            smaller = ConstantImage<itk::Image<unsigned short, 2>>({ { Width, Height - 1 } }, 7);
-  WrittenTo<itk::Image<unsigned short, 2>>(names[6], smaller);
-  const auto reader = SeriesReaderOf(names);
-  const auto filter = StatisticsOf<StackType>(reader->GetOutput());
-  filter->SetNumberOfStreamDivisions(Frames);
-  EXPECT_NE(ErrorOf(filter), "no error");
-  EXPECT_NE(ErrorOf(filter), "no error");
-  FramesWrittenTo(folder, stack, ".tif");
-  reader->Modified();
-  EXPECT_EQ(ErrorOf(filter), "no error");
-  const auto expected = StatisticsOf<StackType>(stack);
-  expected->Update();
-  ExpectTheSameStatistics(filter, expected, "mended");
-}
-
-TEST(TemporalStatisticsImageFilter, FailsUntilTheFileIsThere)
-{
-  const TemporaryFolder folder;
-  const auto            stack = TargetStack<StackType>(Width, Height, Frames);
-  auto                  reader = itk::ImageFileReader<StackType>::New();
-  reader->SetFileName(folder.File("later.mha"));
-  const auto filter = StatisticsOf<StackType>(reader->GetOutput());
-  EXPECT_SAYS(ErrorOf(filter), "later.mha");
-  EXPECT_SAYS(ErrorOf(filter), "later.mha");
-  WrittenTo<StackType>(folder.File("later.mha"), stack);
-  EXPECT_EQ(ErrorOf(filter), "no error");
-  const auto expected = StatisticsOf<StackType>(stack);
-  expected->Update();
-  ExpectTheSameStatistics(filter, expected, "there");
-}
-
-TEST(TemporalStatisticsImageFilter, AbortThrowsAndTheNextUpdateIsRight)
-{
-  const auto reader = StackReader<StackType>::Of(TargetStack<StackType>(Width, Height, Frames));
-  const auto filter = StatisticsOf<StackType>(reader->GetOutput());
-  filter->SetNumberOfStreamDivisions(Frames);
-  const auto observer = filter->AddObserver(itk::ProgressEvent(), [&](const itk::EventObject &) {
-    if (filter->GetProgress() > 0.5 && filter->GetProgress() < 0.9)
-    {
-      filter->AbortGenerateDataOn();
-    }
-  });
-  EXPECT_THROW(filter->Update(), itk::ProcessAborted);
-  EXPECT_LT(reader->Reads(), Frames);
-  EXPECT_THROW(filter->Update(), itk::ProcessAborted);
-  filter->RemoveObserver(observer);
-  EXPECT_EQ(ErrorOf(filter), "no error");
-  const auto expected = StatisticsOf<StackType>(TargetStack<StackType>(Width, Height, Frames));
-  expected->Update();
-  ExpectTheSameStatistics(filter, expected, "after an abort");
 }

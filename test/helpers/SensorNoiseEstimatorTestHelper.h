@@ -1,0 +1,86 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_test_SensorNoiseEstimatorTestHelper_h
+#define sensornoise_test_SensorNoiseEstimatorTestHelper_h
+
+#include "sensornoise/report/Report.h"
+#include "sensornoise/report/ReportJson.h"
+#include "itkImage.h"
+#include "itkSensorNoiseEstimator.h"
+#include "helpers/PipelineTestHelper.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <string>
+
+/** \file
+ * The estimator on simulated stacks, and its reports. */
+
+namespace sensornoisetest::estimator
+{
+using StackType = itk::Image<unsigned short, 3>;
+using PixelTypes = ::testing::Types<unsigned char, unsigned short, short, float, double>;
+inline constexpr unsigned int Width = 65;
+inline constexpr unsigned int Height = 63;
+inline constexpr unsigned int Frames = 25;
+
+template <typename TStack>
+auto
+EstimatorOf(const TStack * stack, const std::string & method = "refined")
+{
+  auto estimator = itk::SensorNoiseEstimator<TStack>::New();
+  estimator->SetInput(stack);
+  estimator->SetMethod(method);
+  return estimator;
+}
+
+inline StackType::Pointer
+SimulatedStack()
+{
+  static const StackType::Pointer stack = TargetStack<StackType>(Width, Height, Frames);
+  return stack;
+}
+
+template <typename TEstimator>
+std::string
+JsonOf(const TEstimator & estimator)
+{
+  EXPECT_EQ(ErrorOf(estimator), "no error");
+  return sensornoise::ToJson(estimator->GetReport());
+}
+
+template <typename TEstimator>
+void
+ExpectTheSameMaps(const TEstimator & a, const TEstimator & b)
+{
+  EXPECT_TRUE(HaveTheSameBits(a->GetMean(), b->GetMean()));
+  EXPECT_TRUE(HaveTheSameBits(a->GetVariance(), b->GetVariance()));
+  EXPECT_TRUE(HaveTheSameBits(a->GetCorrectedVariance(), b->GetCorrectedVariance()));
+  EXPECT_TRUE(HaveTheSameBits(a->GetPixelUse(), b->GetPixelUse()));
+}
+
+inline bool
+WarnsOf(const sensornoise::Report & report, const std::string & code)
+{
+  return std::any_of(
+    report.warnings.begin(), report.warnings.end(), [&code](const auto & warning) { return warning.code == code; });
+}
+
+} // namespace sensornoisetest::estimator
+
+#endif
