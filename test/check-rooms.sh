@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Checks that arrows between the module's rooms go one way, and prints them with the number of includes, and how many of
-# the module's headers the files pull in: the deepest and the median one.
+# Checks that a room of the module includes only rooms that stand above it in the table of module/README.md. Prints the
+# arrows between the rooms, with the number of includes, and how many of the module's headers the headers pull in.
 set -euo pipefail
 cd "$(dirname "$0")/../module/sensornoise"
 python3 - <<'PY'
@@ -14,18 +14,10 @@ rooms = {}
 for (a, b), count in sorted(arrows.items()):
     if a != b:
         rooms.setdefault(a, {})[b] = count
-for room in sorted({p.parts[0] for p in files}):
+order = re.findall(r"^\| `(\w+)` \|", pathlib.Path("../README.md").read_text(), re.M)
+for room in sorted({p.parts[0] for p in files}, key=order.index):
     used = ", ".join(f"{other} {count}" for other, count in rooms.get(room, {}).items())
     print(f"{room:11} -> {used or 'nothing'}")
-
-
-def circle(room, path):
-    if room in path:
-        return path[path.index(room):] + [room]
-    return next((found for other in rooms.get(room, {}) if (found := circle(other, path + [room]))), None)
-
-
-found = next((c for room in rooms if (c := circle(room, []))), None)
 
 
 def pulled(name, seen):
@@ -40,6 +32,7 @@ depths = {name: len(pulled(name, set()) - {name}) for name in includes if name.e
 deepest = max(depths, key=depths.get)
 print(f"{len(depths)} headers; a header pulls in {statistics.median(depths.values()):g} others (median), "
       f"at most {depths[deepest]} ({deepest})")
-if found:
-    sys.exit("arrows run back: " + " -> ".join(found))
+back = [f"{a} -> {b}" for a, others in rooms.items() for b in others if order.index(b) >= order.index(a)]
+if back:
+    sys.exit("arrows run back: " + ", ".join(back))
 PY

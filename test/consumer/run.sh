@@ -19,3 +19,4 @@ cmake --install "$build" --prefix "$work/prefix" >"$work/install.log"
 cmake -S "$here" -B "$work/build" -DCMAKE_BUILD_TYPE=Release -DSensorNoise_ROOT="$work/prefix" "$@"
 cmake --build "$work/build"
 "$work/build/consumer"
+[ ! -e "$work/prefix/bin/estimate-sensor-noise" ] || "$work/prefix/bin/estimate-sensor-noise" --version

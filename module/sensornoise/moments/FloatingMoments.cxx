@@ -37,7 +37,7 @@ namespace
 /** Name of the sums in a stream. */
 template <typename TPixel>
 std::string
-StreamName()
+FloatingStreamName()
 {
   return "FloatingMoments " + PixelName<TPixel>();
 }
@@ -113,7 +113,7 @@ template <typename TPixel>
 void
 FloatingMoments<TPixel>::Save(std::ostream & out) const
 {
-  WriteSumsHeader(out, StreamName<TPixel>(), m_Mean.size(), m_Frames);
+  WriteSumsHeader(out, FloatingStreamName<TPixel>(), m_Mean.size(), m_Frames);
   WriteNumbers(out, m_Mean);
   WriteNumbers(out, m_Squares);
   WriteNumbers(out, m_Minimum);
@@ -125,7 +125,7 @@ void
 FloatingMoments<TPixel>::Restore(std::istream & in)
 {
   FloatingMoments read(m_Mean.size());
-  read.m_Frames = ReadSumsHeader(in, StreamName<TPixel>(), m_Mean.size());
+  read.m_Frames = ReadSumsHeader(in, FloatingStreamName<TPixel>(), m_Mean.size());
   ReadNumbers(in, read.m_Mean);
   ReadNumbers(in, read.m_Squares);
   ReadNumbers(in, read.m_Minimum);

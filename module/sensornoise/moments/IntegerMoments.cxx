@@ -38,7 +38,7 @@ namespace
 /** Name of the sums in a stream. */
 template <typename TPixel>
 std::string
-StreamName()
+IntegerStreamName()
 {
   return "IntegerMoments " + PixelName<TPixel>();
 }
@@ -140,7 +140,7 @@ template <typename TPixel>
 void
 IntegerMoments<TPixel>::Save(std::ostream & out) const
 {
-  WriteSumsHeader(out, StreamName<TPixel>(), m_Sum.size(), m_Frames);
+  WriteSumsHeader(out, IntegerStreamName<TPixel>(), m_Sum.size(), m_Frames);
   WriteNumbers(out, m_Sum);
   WriteNumbers(out, m_SumOfSquares);
   WriteNumbers(out, m_Minimum);
@@ -152,7 +152,7 @@ void
 IntegerMoments<TPixel>::Restore(std::istream & in)
 {
   IntegerMoments read(m_Sum.size());
-  read.m_Frames = ReadSumsHeader(in, StreamName<TPixel>(), m_Sum.size());
+  read.m_Frames = ReadSumsHeader(in, IntegerStreamName<TPixel>(), m_Sum.size());
   ReadNumbers(in, read.m_Sum);
   ReadNumbers(in, read.m_SumOfSquares);
   ReadNumbers(in, read.m_Minimum);

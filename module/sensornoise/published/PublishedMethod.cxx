@@ -78,7 +78,7 @@ PublishedMethod<TPixel>::EndPass()
   if (pass == 0)
   {
     m_Scene = this->EndMoments();
-    if (!m_Scene.failure)
+    if (!m_Scene.obstacle)
     {
       m_Sums.emplace(m_Scene.bright, m_Scene.dark, m_Scene.mean.data(), m_Geometry, m_Frames, m_Scene.rowSet);
     }

@@ -213,9 +213,9 @@ MakePublishedReport(const PublishedFindings & found)
   DescribeSettings(report, found);
   DescribeStack(report, found.geometry, found.frames, scene.summary, scene.valid, maps.pixelUse);
   WarnOfStack(report, found.frames, scene.summary);
-  if (scene.failure)
+  if (scene.obstacle)
   {
-    report.Warn(scene.failure->GetCode(), scene.failure->what());
+    report.Warn(scene.obstacle->GetCode(), scene.obstacle->what());
     return report;
   }
   WarnOfWidening(report, "bright", scene.bright);

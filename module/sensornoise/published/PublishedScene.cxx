@@ -97,7 +97,7 @@ FindSets(PublishedScene & scene, const PublishedSettings & settings, std::size_t
   }
   catch (const NothingToMeasure & reason)
   {
-    scene.failure = reason;
+    scene.obstacle = reason;
   }
 }
 

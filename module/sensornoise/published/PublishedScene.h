@@ -46,7 +46,7 @@ struct PublishedScene
   IsoIntensitySet                 bright;   ///< S^*
   IsoIntensitySet                 dark;     ///< S_*
   IsoIntensitySet                 rowSet;   ///< of gamma_t(y); empty with RollingShutter::Off
-  std::optional<NothingToMeasure> failure;  ///< why the stack cannot be measured; null: it can
+  std::optional<NothingToMeasure> obstacle; ///< why the stack cannot be measured; null: it can
 };
 
 /** Sets valid (of which the pixels that \a mask leaves out are taken), kept and pixelUse of a scene whose mean,
@@ -58,7 +58,7 @@ SortPixels(PublishedScene &                  scene,
            std::size_t                       frames,
            const std::vector<std::uint8_t> & mask);
 
-/** Sets the iso-intensity sets of a scene whose pixels are sorted, or its failure. */
+/** Sets the iso-intensity sets of a scene whose pixels are sorted, or its obstacle. */
 SensorNoise_EXPORT void
 FindSets(PublishedScene & scene, const PublishedSettings & settings, std::size_t frames);
 

@@ -19,6 +19,7 @@
 
 #include "sensornoise/base/BinaryStream.h"
 #include "sensornoise/moments/StackMaps.h"
+#include "sensornoise/moments/StackRequirements.h"
 #include "sensornoise/pixels/PixelCoordinates.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
 #include "sensornoise/refined/RefinedReport.h"

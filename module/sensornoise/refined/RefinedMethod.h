@@ -24,7 +24,6 @@
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/moments/PassFrames.h"
 #include "sensornoise/moments/StackMoments.h"
-#include "sensornoise/moments/StackRequirements.h"
 #include "sensornoise/pixels/ProjectionSums.h"
 #include "sensornoise/pixels/StaticVariance.h"
 #include "sensornoise/refined/PolishedSeries.h"

@@ -20,7 +20,7 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/RollingShutter.h"
-#include "sensornoise/moments/Codes.h"
+#include "sensornoise/moments/CodeSettings.h"
 #include "sensornoise/moments/KnownOffset.h"
 
 #include <optional>
