@@ -41,6 +41,7 @@ struct FrameGeometry
   {
     return shutterAxis == 0 ? width : height;
   }
+  /** Row of pixel \a p as the shutter sees it. */
   std::size_t
   RowOf(std::size_t p) const
   {

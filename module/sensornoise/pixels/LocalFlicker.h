@@ -40,6 +40,7 @@ struct SensorNoise_EXPORT LocalFlicker
   Sd(double offset) const;
 };
 
+/** The sums over the pixels of the mask. */
 SensorNoise_EXPORT LocalFlicker
 SumLocalFlicker(const PixelLight & data);
 

@@ -108,6 +108,7 @@ public:
   {
     return m_Basis;
   }
+  /** The pixels' coordinates in the basis. */
   const PixelCoordinates &
   GetCoordinates() const
   {

@@ -31,7 +31,7 @@ namespace sensornoise
 
 struct VarianceLine;
 
-/** Which texture classes the model explains. */
+/** Which of the 24 classes of roughness the model explains. */
 struct ClassFit
 {
   std::size_t         firstBad{ ProjectedVariance::Classes }; ///< this class and all rougher ones are left out

@@ -63,6 +63,7 @@ struct FlickerEstimate
   }
 };
 
+/** The mean: of at least 1 value. */
 SensorNoise_EXPORT double
 Mean(const std::vector<double> & values);
 

@@ -27,7 +27,7 @@
 namespace sensornoise
 {
 
-/** v^*(y, t) for every frame and row, (3.28), where the bright set reaches. */
+/** v^*(y, t) for every frame and row, (3.28), where the row set reaches. */
 struct RowRatios
 {
   double                    sigmaRows{ 0.0 }; ///< sigma_y that was used [rows]
