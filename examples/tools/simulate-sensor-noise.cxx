@@ -22,6 +22,7 @@
 #include "input/ErrorText.h"
 #include "tools/PendingFile.h"
 #include "tools/SimulateOptions.h"
+#include "itkSensorNoiseChunks.h"
 #include "itkSensorNoiseSceneSource.h"
 #include "itkSensorNoiseStackSource.h"
 #include "itkImageFileReader.h"
@@ -157,12 +158,12 @@ TruthAsJson(const SimulateOptions & options, const SourceType & source)
 void
 WriteStack(SourceType & source, const PendingFile & file)
 {
-  constexpr std::uint64_t chunkBytes = 64 * 1024 * 1024;
-  const auto              pixels = source.GetOutput()->GetLargestPossibleRegion().GetNumberOfPixels();
-  const auto              writer = itk::ImageFileWriter<StackType>::New();
+  const auto pixels = source.GetOutput()->GetLargestPossibleRegion().GetNumberOfPixels();
+  const auto writer = itk::ImageFileWriter<StackType>::New();
   writer->SetInput(source.GetOutput());
   writer->SetFileName(file.Temporary().string());
-  writer->SetNumberOfStreamDivisions(static_cast<unsigned int>(1 + pixels * sizeof(StackType::PixelType) / chunkBytes));
+  writer->SetNumberOfStreamDivisions(
+    static_cast<unsigned int>(1 + pixels * sizeof(StackType::PixelType) / itk::SensorNoiseChunkBytes));
   writer->Update();
   file.RequireBytes(pixels * sizeof(StackType::PixelType)); // no format here compresses
 }
