@@ -18,10 +18,10 @@
 #ifndef itkTemporalStatisticsImageFilter_hxx
 #define itkTemporalStatisticsImageFilter_hxx
 
+#include "sensornoise/moments/CodeSettings.h"
 #include "sensornoise/moments/Codes.h"
 #include "sensornoise/moments/StackMaps.h"
 #include "sensornoise/moments/TemporalMoments.h"
-#include "sensornoise/published/PublishedSettings.h"
 
 #include <cstddef>
 #include <ostream>
@@ -90,9 +90,8 @@ TemporalStatisticsImageFilter<TStack>::StartPasses()
     itkExceptionMacro("the stack has " << this->GetNumberOfFrames()
                                        << " frame(s); a temporal variance needs at least 2");
   }
-  sensornoise::PublishedSettings settings;
-  settings.codes = sensornoise::MakeCodeSettings(m_BitDepth, m_ClipLow, m_ClipHigh, m_QuantisationStep);
-  settings.Validate();
+  sensornoise::ValidateCodeSettings(
+    sensornoise::MakeCodeSettings(m_BitDepth, m_ClipLow, m_ClipHigh, m_QuantisationStep));
   m_Moments = sensornoise::TemporalMoments<PixelType>(this->GetFrameRegion().GetNumberOfPixels());
 }
 

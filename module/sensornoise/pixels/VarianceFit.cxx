@@ -163,8 +163,8 @@ VarianceFit::FillErrors()
     WWRR,
     WWRRX,
     WWRRXX,
-    WXXX,
-    WXXXX,
+    WX3,
+    WX4,
     WXXR,
     Trimmed,
     Pixels,
@@ -182,8 +182,8 @@ VarianceFit::FillErrors()
       sums[WWRR] += square;
       sums[WWRRX] += square * x;
       sums[WWRRXX] += square * x * x;
-      sums[WXXX] += w * x * x * x;
-      sums[WXXXX] += w * x * x * x * x;
+      sums[WX3] += w * x * x * x;
+      sums[WX4] += w * x * x * x * x;
       sums[WXXR] += w * x * x * residual;
       sums[Trimmed] += w > 0.0 ? 0.0 : 1.0;
       sums[Pixels] += 1.0;
@@ -200,9 +200,9 @@ VarianceFit::FillErrors()
   toIntercept << 1.0, 0.0, -m_Line.pivotDn, 1.0;
   m_Line.covariance = toIntercept * inverse * meat * inverse * toIntercept.transpose();
   // The parabola's third column, freed of the first two: q = x^2 - a x - b.
-  const double a = s[WXXX] / s[WXX];
+  const double a = s[WX3] / s[WXX];
   const double b = s[WXX] / s[W];
-  const double quadratic = s[WXXXX] - a * s[WXXX] - b * s[WXX];
+  const double quadratic = s[WX4] - a * s[WX3] - b * s[WXX];
   if (quadratic > 0.0)
   {
     m_Line.curvature = s[WXXR] / quadratic;

@@ -19,7 +19,6 @@
 
 #include "sensornoise/base/ChiSquare.h"
 #include "sensornoise/base/Eigen.h"
-#include "sensornoise/base/PixelUse.h"
 #include "sensornoise/base/RollingShutter.h"
 #include "sensornoise/base/Text.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
@@ -147,11 +146,8 @@ void
 FillCurves(Report & report, const RefinedResults & found)
 {
   const std::vector<std::uint8_t> & pixelUse = found.variance.pixelUse;
-  std::vector<std::uint8_t>         used(pixelUse.size());
-  std::transform(pixelUse.begin(), pixelUse.end(), used.begin(), [](std::uint8_t use) {
-    return use == static_cast<std::uint8_t>(PixelUse::Used) ? 1 : 0;
-  });
-  const StillScene & scene = found.scene;
+  const std::vector<std::uint8_t>   used = MaskOfUsed(pixelUse);
+  const StillScene &                scene = found.scene;
   FillBaselines(report, { scene.mean.data(), scene.variance.data(), used.data(), used.size() });
   FillScatter(report, scene.mean, scene.variance, found.correctedVariance, pixelUse);
 }

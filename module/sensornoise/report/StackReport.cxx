@@ -86,6 +86,16 @@ WarnOfStack(Report & report, std::size_t frames, const StackSummary & summary)
   }
 }
 
+std::vector<std::uint8_t>
+MaskOfUsed(const std::vector<std::uint8_t> & pixelUse)
+{
+  std::vector<std::uint8_t> used(pixelUse.size());
+  std::transform(pixelUse.begin(), pixelUse.end(), used.begin(), [](std::uint8_t use) {
+    return use == static_cast<std::uint8_t>(PixelUse::Used) ? 1 : 0;
+  });
+  return used;
+}
+
 void
 FillScatter(Report &                          report,
             const std::vector<double> &       mean,
@@ -93,14 +103,11 @@ FillScatter(Report &                          report,
             const std::vector<double> &       correctedVariance,
             const std::vector<std::uint8_t> & pixelUse)
 {
-  constexpr std::size_t     bins = 256;
-  const std::size_t         pixels = mean.size();
-  std::vector<std::uint8_t> used(pixels);
-  std::transform(pixelUse.begin(), pixelUse.end(), used.begin(), [](std::uint8_t use) {
-    return use == static_cast<std::uint8_t>(PixelUse::Used) ? 1 : 0;
-  });
-  const IntensityIndex index(mean.data(), used.data(), pixels);
-  Report::Scatter      sums{ std::vector<double>(bins, 0.0),
+  constexpr std::size_t           bins = 256;
+  const std::size_t               pixels = mean.size();
+  const std::vector<std::uint8_t> used = MaskOfUsed(pixelUse);
+  const IntensityIndex            index(mean.data(), used.data(), pixels);
+  Report::Scatter                 sums{ std::vector<double>(bins, 0.0),
                         std::vector<double>(bins, 0.0),
                         std::vector<double>(bins, 0.0),
                         std::vector<std::size_t>(bins, 0) };

@@ -44,6 +44,10 @@ DescribeStack(Report &                          report,
 SensorNoise_EXPORT void
 WarnOfStack(Report & report, std::size_t frames, const StackSummary & summary);
 
+/** 1 where the value of \a pixelUse is PixelUse::Used. */
+SensorNoise_EXPORT std::vector<std::uint8_t>
+MaskOfUsed(const std::vector<std::uint8_t> & pixelUse);
+
 /** Files Figure 4: averages over 256 bins of equal count of the pixels used. */
 SensorNoise_EXPORT void
 FillScatter(Report &                          report,
