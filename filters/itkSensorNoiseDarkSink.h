@@ -21,12 +21,14 @@
 #include "itkSensorNoiseStackSink.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/moments/CodeSettings.h"
+#include "sensornoise/moments/DarkDrift.h"
 #include "sensornoise/moments/DarkFrames.h"
 #include "sensornoise/moments/KnownOffset.h"
 #include "sensornoise/moments/TemporalMoments.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace itk
@@ -63,11 +65,19 @@ public:
     this->UpdateOutputData(nullptr);
   }
 
-  /** Offset and temporal variance of the frames that were read, see sensornoise::MeasureDarkFrames(). */
-  sensornoise::KnownOffset
-  Measure(const sensornoise::CodeSettings & codes, const std::vector<std::uint8_t> & mask)
+  /** Nonzero at the pixels to be used; empty (default): all. To be set before Update(). */
+  void
+  SetUsedPixels(std::vector<std::uint8_t> used)
   {
-    return sensornoise::MeasureDarkFrames<PixelType>(m_Moments, codes, mask, this->GetParallelFor());
+    m_UsedPixels = std::move(used);
+    this->Modified();
+  }
+
+  /** Offset and read noise of the frames that were read, see sensornoise::MeasureDarkFrames(). */
+  sensornoise::KnownOffset
+  Measure(const sensornoise::CodeSettings & codes)
+  {
+    return sensornoise::MeasureDarkFrames<PixelType>(m_Moments, codes, m_UsedPixels, this->GetParallelFor(), m_Drift);
   }
 
 protected:
@@ -82,7 +92,9 @@ protected:
   void
   StartPasses() override
   {
-    m_Moments = sensornoise::TemporalMoments<PixelType>(this->GetFrameRegion().GetNumberOfPixels());
+    const SizeValueType pixels = this->GetFrameRegion().GetNumberOfPixels();
+    m_Moments = sensornoise::TemporalMoments<PixelType>(pixels);
+    m_Drift = sensornoise::DarkDrift(pixels, m_UsedPixels);
   }
   void
   ProcessFrames(unsigned int, const PixelType * frames, SizeValueType, SizeValueType count) override
@@ -92,13 +104,16 @@ protected:
       m_Moments.AddFrames(frames, pixels, count, begin, end);
     });
     m_Moments.AdvanceFrames(count);
+    m_Drift.AddFrames(frames, count, this->GetParallelFor());
   }
   void
   EndPass(unsigned int) override
   {}
 
 private:
+  std::vector<std::uint8_t>               m_UsedPixels;
   sensornoise::TemporalMoments<PixelType> m_Moments;
+  sensornoise::DarkDrift                  m_Drift;
 };
 
 } // namespace itk

@@ -63,7 +63,9 @@ public:
  * value 0 are left out; "Dark", optional, for the method Refined: a stack of frames of the same size taken without
  * light. Outputs: 0 the report (decorated sensornoise::Report: value, status and unit of each quantity); of a frame's
  * size 1 mean [DN], 2 variance [DN^2], 3 corrected variance [DN^2] (NaN: not known), 4 pixel use
- * (sensornoise::PixelUse: 0 used, else why not).
+ * (sensornoise::PixelUse: 0 used, else why not); with two dark frames or more, of every pixel by itself, 5 offset, 6
+ * and 7 the ends of its 95 % interval, 8 read noise, 9 and 10 the ends of its interval [DN] (NaN: not known, see
+ * sensornoise::PixelCalibration), which have no pixels otherwise.
  *
  * The method Refined, the default, regresses every frame on the mean image and its derivatives, which gives flicker,
  * offset and motion, takes these out of every pixel, and fits the variance that is left with the weights of its own
@@ -255,6 +257,43 @@ public:
   {
     return static_cast<MaskImageType *>(this->ProcessObject::GetOutput(4));
   }
+
+  /** Offset of every pixel by itself, from the dark frames, and the ends of its 95 % interval [DN]. An image without
+   * pixels where there are fewer than two dark frames. */
+  FrameImageType *
+  GetPixelOffset()
+  {
+    return static_cast<FrameImageType *>(this->ProcessObject::GetOutput(FirstPixelOutput));
+  }
+  FrameImageType *
+  GetPixelOffsetLow()
+  {
+    return static_cast<FrameImageType *>(this->ProcessObject::GetOutput(FirstPixelOutput + 1));
+  }
+  FrameImageType *
+  GetPixelOffsetHigh()
+  {
+    return static_cast<FrameImageType *>(this->ProcessObject::GetOutput(FirstPixelOutput + 2));
+  }
+
+  /** Read noise of every pixel by itself, without that of rounding to codes, and the ends of its 95 % interval [DN]; as
+   * the offset. */
+  FrameImageType *
+  GetPixelReadNoise()
+  {
+    return static_cast<FrameImageType *>(this->ProcessObject::GetOutput(FirstPixelOutput + 3));
+  }
+  FrameImageType *
+  GetPixelReadNoiseLow()
+  {
+    return static_cast<FrameImageType *>(this->ProcessObject::GetOutput(FirstPixelOutput + 4));
+  }
+  FrameImageType *
+  GetPixelReadNoiseHigh()
+  {
+    return static_cast<FrameImageType *>(this->ProcessObject::GetOutput(FirstPixelOutput + 5));
+  }
+
   DataObject *
   GetOutput(unsigned int index)
   {
@@ -289,6 +328,9 @@ protected:
   PrintSelf(std::ostream & os, Indent indent) const override;
 
 private:
+  // The six maps of the dark frames stand after the others.
+  static constexpr DataObjectPointerArraySizeType FirstPixelOutput = 5;
+
   // Defined in the .hxx: what reads the headers alone, as wrapping does, need not read the methods.
   struct Estimation;
 

@@ -23,7 +23,9 @@
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/RollingShutter.h"
 #include "sensornoise/moments/Codes.h"
+#include "sensornoise/moments/DarkMaps.h"
 #include "sensornoise/moments/KnownOffset.h"
+#include "sensornoise/moments/PixelCalibration.h"
 #include "sensornoise/moments/TemporalMoments.h"
 #include "sensornoise/published/PublishedMethod.h"
 #include "sensornoise/published/PublishedSettings.h"
@@ -53,7 +55,8 @@ struct SensorNoiseEstimator<TStack>::Estimation
   using Published = sensornoise::PublishedMethod<PixelType>;
   static_assert(Refined::NumberOfPasses == Published::NumberOfPasses, "the methods read the stack equally often");
 
-  std::variant<Refined, Published> method;
+  std::variant<Refined, Published>             method;
+  std::shared_ptr<const sensornoise::DarkMaps> dark{}; ///< null: no dark frames, or one alone
 };
 
 template <typename TStack>
@@ -61,8 +64,9 @@ SensorNoiseEstimator<TStack>::SensorNoiseEstimator()
 {
   this->AddOptionalInputName("Mask", 1);
   this->AddOptionalInputName("Dark", 2);
-  this->SetNumberOfRequiredOutputs(5);
-  for (DataObjectPointerArraySizeType i = 0; i < 5; ++i)
+  constexpr DataObjectPointerArraySizeType outputs = FirstPixelOutput + 6;
+  this->SetNumberOfRequiredOutputs(outputs);
+  for (DataObjectPointerArraySizeType i = 0; i < outputs; ++i)
   {
     this->ProcessObject::SetNthOutput(i, this->MakeOutput(i));
   }
@@ -190,16 +194,27 @@ SensorNoiseEstimator<TStack>::GenerateOutputInformation()
   this->CopyFrameInformation(this->GetVariance());
   this->CopyFrameInformation(this->GetCorrectedVariance());
   this->CopyFrameInformation(this->GetPixelUse());
+  const TStack * dark = this->GetDark();
+  const bool     isCalibrated = dark != nullptr && dark->GetLargestPossibleRegion().GetSize(2) > 1;
+  for (DataObjectPointerArraySizeType i = 0; i < 6; ++i)
+  {
+    auto * map = static_cast<FrameImageType *>(this->ProcessObject::GetOutput(FirstPixelOutput + i));
+    this->CopyFrameInformation(map);
+    if (!isCalibrated)
+    {
+      map->SetRegions(typename FrameImageType::RegionType{});
+    }
+  }
 }
 
 template <typename TStack>
 void
 SensorNoiseEstimator<TStack>::EnlargeOutputRequestedRegion(DataObject *)
 {
-  this->GetMean()->SetRequestedRegionToLargestPossibleRegion();
-  this->GetVariance()->SetRequestedRegionToLargestPossibleRegion();
-  this->GetCorrectedVariance()->SetRequestedRegionToLargestPossibleRegion();
-  this->GetPixelUse()->SetRequestedRegionToLargestPossibleRegion();
+  for (DataObjectPointerArraySizeType i = 1; i < this->GetNumberOfIndexedOutputs(); ++i)
+  {
+    this->ProcessObject::GetOutput(i)->SetRequestedRegionToLargestPossibleRegion();
+  }
 }
 
 template <typename TStack>
@@ -235,8 +250,9 @@ SensorNoiseEstimator<TStack>::MakeRefinedSettings(const std::vector<std::uint8_t
     sink->SetInput(dark);
     sink->SetNumberOfStreamDivisions(this->GetNumberOfStreamDivisions());
     sink->SetNumberOfWorkUnits(this->GetNumberOfWorkUnits());
+    sink->SetUsedPixels(mask);
     sink->Update();
-    settings.offset = sink->Measure(settings.codes, mask);
+    settings.offset = sink->Measure(settings.codes);
   }
   return settings;
 }
@@ -260,8 +276,10 @@ SensorNoiseEstimator<TStack>::StartPasses()
   using Published = typename Estimation::Published;
   if (m_Method == MethodEnum::Refined)
   {
-    m_Estimation = std::make_unique<Estimation>(
-      Estimation{ Refined(this->MakeRefinedSettings(userMask), geometry, frames, userMask, this->GetParallelFor()) });
+    const sensornoise::RefinedSettings settings = this->MakeRefinedSettings(userMask);
+    m_Estimation =
+      std::make_unique<Estimation>(Estimation{ Refined(settings, geometry, frames, userMask, this->GetParallelFor()),
+                                               settings.offset ? settings.offset->maps : nullptr });
   }
   else
   {
@@ -315,6 +333,16 @@ SensorNoiseEstimator<TStack>::FillOutputs()
       fill(this->GetPixelUse(), method.GetPixelUse(), static_cast<unsigned char>(0));
     },
     m_Estimation->method);
+  if (m_Estimation->dark)
+  {
+    const auto pixels = sensornoise::MakePixelCalibration(*m_Estimation->dark, this->GetParallelFor());
+    fill(this->GetPixelOffset(), pixels.offset.value, 0.0);
+    fill(this->GetPixelOffsetLow(), pixels.offset.low, 0.0);
+    fill(this->GetPixelOffsetHigh(), pixels.offset.high, 0.0);
+    fill(this->GetPixelReadNoise(), pixels.readNoise.value, 0.0);
+    fill(this->GetPixelReadNoiseLow(), pixels.readNoise.low, 0.0);
+    fill(this->GetPixelReadNoiseHigh(), pixels.readNoise.high, 0.0);
+  }
 }
 
 template <typename TStack>

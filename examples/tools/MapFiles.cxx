@@ -19,6 +19,10 @@
 
 #include "itkImageFileWriter.h"
 
+#include <array>
+#include <cstddef>
+#include <filesystem>
+
 namespace sensornoise::tools
 {
 namespace
@@ -40,7 +44,22 @@ MapFiles::MapFiles(const std::filesystem::path & folder)
   , m_Variance(folder / "variance.mha")
   , m_CorrectedVariance(folder / "corrected_variance.mha")
   , m_PixelUse(folder / "pixel_use.mha")
+  , m_Calibration{ PendingFile(folder / "pixel_offset.mha"),         PendingFile(folder / "pixel_offset_low.mha"),
+                   PendingFile(folder / "pixel_offset_high.mha"),    PendingFile(folder / "pixel_read_noise.mha"),
+                   PendingFile(folder / "pixel_read_noise_low.mha"), PendingFile(folder / "pixel_read_noise_high.mha") }
 {}
+
+void
+MapFiles::WriteCalibration(const IntervalMap & offset, const IntervalMap & readNoise)
+{
+  const std::array<const MapType *, 6> maps{ offset.value,    offset.low,    offset.high,
+                                             readNoise.value, readNoise.low, readNoise.high };
+  for (std::size_t i = 0; i < maps.size(); ++i)
+  {
+    WriteMap(maps[i], m_Calibration[i]);
+  }
+  m_HasCalibration = true;
+}
 
 void
 MapFiles::Write(const MapType *      mean,
@@ -55,6 +74,13 @@ MapFiles::Write(const MapType *      mean,
   for (PendingFile * file : { &m_Mean, &m_Variance, &m_CorrectedVariance, &m_PixelUse })
   {
     file->Commit();
+  }
+  if (m_HasCalibration)
+  {
+    for (PendingFile & file : m_Calibration)
+    {
+      file.Commit();
+    }
   }
 }
 

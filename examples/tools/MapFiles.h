@@ -22,6 +22,7 @@
 
 #include "itkImage.h"
 
+#include <array>
 #include <filesystem>
 
 namespace sensornoise::tools
@@ -34,6 +35,14 @@ public:
   using MapType = itk::Image<double, 2>;
   using PixelUseType = itk::Image<unsigned char, 2>;
 
+  /** What every pixel's own dark frames tell. */
+  struct IntervalMap
+  {
+    const MapType * value;
+    const MapType * low;
+    const MapType * high;
+  };
+
   explicit MapFiles(const std::filesystem::path & folder);
 
   void
@@ -42,11 +51,18 @@ public:
         const MapType *      correctedVariance,
         const PixelUseType * pixelUse);
 
+  /** The calibration of the pixels from dark frames [DN]. To be called before Write(), which gives the files their
+   * names. */
+  void
+  WriteCalibration(const IntervalMap & offset, const IntervalMap & readNoise);
+
 private:
-  PendingFile m_Mean;
-  PendingFile m_Variance;
-  PendingFile m_CorrectedVariance;
-  PendingFile m_PixelUse;
+  PendingFile                m_Mean;
+  PendingFile                m_Variance;
+  PendingFile                m_CorrectedVariance;
+  PendingFile                m_PixelUse;
+  std::array<PendingFile, 6> m_Calibration; // offset, its low and high end, read noise, its low and high end
+  bool                       m_HasCalibration{ false };
 };
 
 } // namespace sensornoise::tools

@@ -151,6 +151,12 @@ Estimate(const EstimateOptions & options, const FrameInput & input, MapFiles * m
   estimator->Update();
   if (maps != nullptr)
   {
+    if (estimator->GetPixelOffset()->GetLargestPossibleRegion().GetNumberOfPixels() > 0)
+    {
+      maps->WriteCalibration(
+        { estimator->GetPixelOffset(), estimator->GetPixelOffsetLow(), estimator->GetPixelOffsetHigh() },
+        { estimator->GetPixelReadNoise(), estimator->GetPixelReadNoiseLow(), estimator->GetPixelReadNoiseHigh() });
+    }
     maps->Write(
       estimator->GetMean(), estimator->GetVariance(), estimator->GetCorrectedVariance(), estimator->GetPixelUse());
   }

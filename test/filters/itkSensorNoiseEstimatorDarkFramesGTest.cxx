@@ -150,3 +150,95 @@ TEST(SensorNoiseEstimatorDarkFrames, DarkFramesThatCannotBeUsedAreRefused)
   estimator->SetDark(nullptr);
   EXPECT_EQ(JsonOf(estimator), json);
 }
+
+TEST(SensorNoiseEstimatorDarkFrames, PixelsHaveTheirOwnOffsetAndReadNoise)
+{
+  const auto dark = DarkStack<StackType>(12);
+  const auto estimator = EstimatorOf<StackType>(SimulatedStack());
+  estimator->SetDark(dark);
+  estimator->Update();
+  EXPECT_EQ(estimator->GetPixelOffset()->GetLargestPossibleRegion(), estimator->GetMean()->GetLargestPossibleRegion());
+  double offsets = 0.0;
+  double noises = 0.0;
+  for (int y = 0; y < Height; ++y)
+  {
+    for (int x = 0; x < Width; ++x)
+    {
+      double sum = 0.0;
+      for (int t = 0; t < 12; ++t)
+      {
+        sum += dark->GetPixel({ { x, y, t } });
+      }
+      ASSERT_NEAR(estimator->GetPixelOffset()->GetPixel({ { x, y } }), sum / 12.0, 1e-9);
+      offsets += estimator->GetPixelOffsetLow()->GetPixel({ { x, y } }) < 100.0 &&
+                     estimator->GetPixelOffsetHigh()->GetPixel({ { x, y } }) > 100.0
+                   ? 1.0
+                   : 0.0;
+      noises += estimator->GetPixelReadNoiseLow()->GetPixel({ { x, y } }) < 8.0 &&
+                    estimator->GetPixelReadNoiseHigh()->GetPixel({ { x, y } }) > 8.0
+                  ? 1.0
+                  : 0.0;
+      ASSERT_LT(estimator->GetPixelReadNoiseLow()->GetPixel({ { x, y } }),
+                estimator->GetPixelReadNoise()->GetPixel({ { x, y } }));
+    }
+  }
+  // 95 % of 4095, give or take 0.35 %
+  EXPECT_NEAR(offsets / (Width * Height), 0.95, 0.014);
+  EXPECT_NEAR(noises / (Width * Height), 0.95, 0.014);
+}
+
+TEST(SensorNoiseEstimatorDarkFrames, WithoutTwoDarkFramesThePixelsMapsAreEmpty)
+{
+  const auto estimator = EstimatorOf<StackType>(SimulatedStack());
+  estimator->SetDark(DarkStack<StackType>(3));
+  estimator->GetPixelOffset()->Update();
+  EXPECT_EQ(estimator->GetPixelOffset()->GetBufferedRegion().GetNumberOfPixels(), Width * Height);
+  estimator->SetDark(DarkStack<StackType>(1));
+  estimator->Update();
+  EXPECT_EQ(estimator->GetPixelOffset()->GetLargestPossibleRegion().GetNumberOfPixels(), 0u);
+  estimator->SetDark(nullptr);
+  estimator->Update();
+  EXPECT_EQ(estimator->GetPixelReadNoiseHigh()->GetLargestPossibleRegion().GetNumberOfPixels(), 0u);
+  EXPECT_EQ(estimator->GetMean()->GetBufferedRegion().GetNumberOfPixels(), Width * Height);
+  estimator->SetDark(DarkStack<StackType>(3));
+  estimator->GetPixelReadNoise()->Update();
+  EXPECT_EQ(estimator->GetPixelReadNoise()->GetBufferedRegion().GetNumberOfPixels(), Width * Height);
+}
+
+TEST(SensorNoiseEstimatorDarkFrames, PixelsThatAreMaskedHaveNone)
+{
+  const auto estimator = EstimatorOf<StackType>(SimulatedStack());
+  estimator->SetDark(DarkStack<StackType>(6));
+  estimator->SetMask(
+    ImageOf<MaskType>({ { Width, Height } }, [](const auto & index) { return index[0] < 48 ? 1 : 0; }));
+  estimator->Update();
+  EXPECT_TRUE(std::isfinite(estimator->GetPixelReadNoise()->GetPixel({ { 47, 5 } })));
+  EXPECT_TRUE(std::isnan(estimator->GetPixelReadNoise()->GetPixel({ { 48, 5 } })));
+}
+
+// A black level that drifts is in no pixel's noise, whatever the chunks.
+TEST(SensorNoiseEstimatorDarkFrames, DriftOfTheBlackLevelIsNoReadNoise)
+{
+  const auto still = DarkStack<StackType>(12);
+  const auto drifting = ImageOf<StackType>({ { Width, Height, 12 } }, [&](const auto & index) {
+    return static_cast<StackType::PixelType>(still->GetPixel(index) + 10 * (index[2] % 3));
+  });
+  const auto expected = EstimatorOf<StackType>(SimulatedStack());
+  expected->SetDark(still);
+  expected->Update();
+  for (const unsigned int chunks : { 1u, 4u })
+  {
+    const auto estimator = EstimatorOf<StackType>(SimulatedStack());
+    const auto reader = StackReader<StackType>::Of(drifting);
+    estimator->SetDark(reader->GetOutput());
+    estimator->SetNumberOfStreamDivisions(chunks);
+    estimator->Update();
+    for (int x = 0; x < Width; ++x)
+    {
+      ASSERT_NEAR(estimator->GetPixelReadNoise()->GetPixel({ { x, 7 } }),
+                  expected->GetPixelReadNoise()->GetPixel({ { x, 7 } }),
+                  1e-6);
+    }
+    EXPECT_GT(*estimator->GetReport().offset.standardError, 10.0 * 0.85 / std::sqrt(12.0) * 0.9);
+  }
+}

@@ -18,6 +18,7 @@
 #include "helpers/EstimateToolTestHelper.h"
 
 #include <cmath>
+#include <set>
 #include <string>
 
 namespace
@@ -93,6 +94,40 @@ TEST_F(EstimateDarkTool, DarkFramesAreCutAsTheOthersByRoi)
   Write("part.mha", Cut<unsigned short>(burst, { { 6, 4, 2 } }, { { 50, 56, 20 } }).GetPointer());
   Write("dpart.mha", Cut<unsigned short>(dark, { { 6, 4, 0 } }, { { 50, 56, 12 } }).GetPointer());
   EXPECT_EQ(JsonTextOf("s.mha --roi 6,4,50,56 --frames 2:22 --dark d.mha"), JsonTextOf("part.mha --dark dpart.mha"));
+}
+
+TEST_F(EstimateDarkTool, MapsTellThePixelsOwnOffsetAndReadNoise)
+{
+  const std::string stack = Write("s.mha", MakeBurst().GetPointer());
+  const auto        dark = MakeDark(12);
+  Write("d.mha", dark.GetPointer());
+  const std::set<std::string> maps{
+    "s.mha", "d.mha", "m/mean.mha", "m/variance.mha", "m/corrected_variance.mha", "m/pixel_use.mha"
+  };
+  ReportOf(stack + " --maps m");
+  EXPECT_EQ(FilesLeft(), maps);
+  ReportOf(stack + " --maps m --dark " + WriteList<unsigned short>(MakeDark(1), ".tif").front());
+  EXPECT_EQ(FilesLeft().count("m/pixel_offset.mha"), 0u) << "one frame tells no pixel's noise";
+  ReportOf(stack + " --maps m --dark d.mha");
+  for (const char * quantity : { "offset", "read_noise" })
+  {
+    const std::string name = std::string("m/pixel_") + quantity;
+    const auto        value = Read<itk::Image<double, 2>>(Path(name + ".mha"));
+    const auto        low = Read<itk::Image<double, 2>>(Path(name + "_low.mha"));
+    const auto        high = Read<itk::Image<double, 2>>(Path(name + "_high.mha"));
+    const double      truth = quantity == std::string("offset") ? 100.0 : 8.0;
+    double            inside = 0.0;
+    for (int i = 0; i < 64; ++i)
+    {
+      for (int j = 0; j < 64; ++j)
+      {
+        inside += low->GetPixel({ { i, j } }) < truth && truth < high->GetPixel({ { i, j } }) ? 1.0 / 4096.0 : 0.0;
+        ASSERT_LT(low->GetPixel({ { i, j } }), value->GetPixel({ { i, j } }));
+        ASSERT_GT(high->GetPixel({ { i, j } }), value->GetPixel({ { i, j } }));
+      }
+    }
+    EXPECT_NEAR(inside, 0.95, 0.014) << quantity; // give or take 0.34 %
+  }
 }
 
 TEST_F(EstimateDarkTool, AnOffsetThatIsGivenStands)

@@ -87,6 +87,33 @@ def test_dark_frames_are_the_tool_s(tool, burst, dark, stack_file, tmp_path, roi
     assert itk.estimate_sensor_noise(stack_file, dark=list(dark), roi=roi).to_json() == expected
 
 
+@pytest.mark.parametrize("has_dark", [False, True])
+def test_maps_are_the_tool_s(tool, burst, dark, stack_file, tmp_path, has_dark):
+    dark_file = tmp_path / "dark.mha"
+    itk.imwrite(itk.image_view_from_array(dark), str(dark_file))
+    flags = ["--dark", dark_file] if has_dark else []
+    tool("estimate-sensor-noise", stack_file, "--quiet", "--maps", tmp_path / "tool", *flags)
+    itk.estimate_sensor_noise(burst, dark=dark if has_dark else None, maps=tmp_path / "here")
+    names = sorted(path.name for path in (tmp_path / "tool").iterdir())
+    assert len(names) == (10 if has_dark else 4)
+    assert sorted(path.name for path in (tmp_path / "here").iterdir()) == names
+    for name in names:
+        expected, found = (itk.array_from_image(itk.imread(str(tmp_path / by / name))) for by in ("tool", "here"))
+        np.testing.assert_array_equal(found, expected)
+    if has_dark:
+        low, high = (itk.imread(str(tmp_path / "here" / f"pixel_offset_{end}.mha")) for end in ("low", "high"))
+        covered = (np.asarray(low) < 100) & (np.asarray(high) > 100)
+        assert covered.mean() == pytest.approx(0.95, abs=0.01)
+
+
+def test_maps_that_cannot_be_written_are_refused(burst, tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(ValueError, match="maps is .*that folder cannot be made"):
+        itk.estimate_sensor_noise(burst, maps=tmp_path / "file" / "maps")
+    with pytest.raises(ValueError, match="maps is 7; expected the name of a folder"):
+        itk.estimate_sensor_noise(burst, maps=7)
+
+
 def test_table_is_the_tool_s(tool, burst, stack_file):
     assert str(itk.estimate_sensor_noise(burst)) + "\n" == tool("estimate-sensor-noise", stack_file)
 

@@ -17,12 +17,16 @@
  *=========================================================================*/
 #include "sensornoise/moments/DarkFrames.h"
 
-#include "sensornoise/base/ChiSquare.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/Quantiles.h"
 #include "sensornoise/moments/CodeRange.h"
 #include "sensornoise/moments/CodeSettings.h"
+#include "sensornoise/moments/DarkDrift.h"
+#include "sensornoise/moments/DarkMaps.h"
+#include "sensornoise/moments/DefectivePixels.h"
 #include "sensornoise/moments/KnownOffset.h"
+#include "sensornoise/moments/NoiseMedian.h"
+#include "sensornoise/moments/RoundingError.h"
 #include "sensornoise/moments/StackMaps.h"
 #include "sensornoise/moments/TemporalMoments.h"
 
@@ -30,8 +34,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sensornoise
@@ -40,81 +47,123 @@ namespace sensornoise
 namespace
 {
 
-/** What is used of dark frames. */
-struct DarkPixels
+/** What is found of all pixels, whether they are used or not. */
+struct DarkSurvey
 {
-  std::vector<double> levels;        ///< means [DN]
-  std::vector<double> variances;     ///< [DN^2]
-  double              stepDn{ 0.0 }; ///< spacing of the codes
+  DarkMaps    maps;
+  CodeRange   codes;
+  std::size_t usable{ 0 };
+  std::size_t clipped{ 0 };
 };
 
-/** The pixels that are used. Throws std::invalid_argument if they do not tell the offset. */
+/** Offsets, variances without the drift, and the pixels that are finite, never clipped and not masked. */
 template <typename TPixel>
-DarkPixels
-UsablePixelsOf(const TemporalMoments<TPixel> &   moments,
-               const CodeSettings &              codes,
-               const std::vector<std::uint8_t> & mask,
-               const ParallelFor &               parallelFor)
+DarkSurvey
+SurveyPixels(const TemporalMoments<TPixel> &   moments,
+             const CodeSettings &              codes,
+             const std::vector<std::uint8_t> & mask,
+             const ParallelFor &               parallelFor,
+             const DarkDrift &                 drift)
 {
-  const std::size_t         pixels = moments.GetNumberOfPixels();
-  const auto                frames = static_cast<double>(moments.GetNumberOfFrames());
-  std::vector<double>       mean(pixels);
-  std::vector<double>       variance(pixels);
-  std::vector<std::uint8_t> valid(pixels);
-  const CodeRange           range =
-    MakeStackMaps<TPixel>(moments, codes, parallelFor, mean.data(), variance.data(), valid.data()).codes;
-  DarkPixels  used;
-  std::size_t clipped = 0;
+  constexpr double  nan = std::numeric_limits<double>::quiet_NaN();
+  const std::size_t pixels = moments.GetNumberOfPixels();
+  const auto        frames = moments.GetNumberOfFrames();
+  DarkSurvey        survey;
+  DarkMaps &        maps = survey.maps;
+  maps = { std::vector<double>(pixels), std::vector<double>(pixels), std::vector<std::uint8_t>(pixels), frames, 0.0 };
+  survey.codes = MakeStackMaps<TPixel>(
+                   moments, codes, parallelFor, maps.offsetDn.data(), maps.varianceDn2.data(), maps.usable.data())
+                   .codes;
+  maps.stepDn = survey.codes.quantisationStepDn;
   for (std::size_t p = 0; p < pixels; ++p)
   {
     const bool isMasked = !mask.empty() && mask[p] == 0;
-    if (!isMasked && valid[p] != 0)
-    {
-      used.levels.push_back(mean[p]);
-      used.variances.push_back(variance[p]);
-    }
-    clipped += !isMasked && valid[p] == 0 && moments.IsFinite(p) ? 1 : 0;
+    survey.clipped += !isMasked && maps.usable[p] == 0 && moments.IsFinite(p) ? 1 : 0;
+    maps.usable[p] = isMasked ? 0 : maps.usable[p];
+    survey.usable += maps.usable[p];
+    const double squares = moments.GetSumOfSquaredDeviations(p);
+    maps.varianceDn2[p] = maps.usable[p] != 0 && frames > 1
+                            ? drift.SquaresWithoutDrift(p, squares, maps.offsetDn[p]) / static_cast<double>(frames - 1)
+                            : nan;
+    maps.offsetDn[p] = maps.usable[p] != 0 ? maps.offsetDn[p] : nan;
   }
+  return survey;
+}
+
+/** Throws std::invalid_argument if the pixels do not tell the offset. */
+void
+RequireDarkLevel(const DarkSurvey & survey)
+{
   // Some dead pixels do no harm, nor does a sample in a thousand: cutting it off moves the mean by 0.003 sigma.
-  const double clippedFraction = static_cast<double>(clipped) / static_cast<double>(clipped + used.levels.size());
+  const auto   frames = static_cast<double>(survey.maps.frames);
+  const auto   clipped = static_cast<double>(survey.clipped);
+  const double clippedFraction = clipped / (clipped + static_cast<double>(survey.usable));
   if (clippedFraction > std::max(0.01, 1.0 - std::pow(0.999, frames)))
   {
+    const CodeRange & range = survey.codes;
     throw std::invalid_argument(std::to_string(100.0 * clippedFraction) +
                                 " % of the pixels of the dark frames reach a clip level, " +
                                 (range.clipLowDn ? std::to_string(*range.clipLowDn) : "none") + " or " +
                                 (range.clipHighDn ? std::to_string(*range.clipHighDn) : "none") +
                                 " DN; expected at most 1 %: their black level is cut off, or they are not dark");
   }
-  if (used.levels.size() < 30)
+  if (survey.usable < 30)
   {
-    throw std::invalid_argument("only " + std::to_string(used.levels.size()) +
+    throw std::invalid_argument("only " + std::to_string(survey.usable) +
                                 " pixels of the dark frames are usable; expected at least 30");
   }
-  used.stepDn = range.quantisationStepDn;
+}
+
+/** The values of the usable pixels. */
+std::vector<double>
+UsableValues(const std::vector<double> & values, const std::vector<std::uint8_t> & usable)
+{
+  std::vector<double> used;
+  for (std::size_t p = 0; p < values.size(); ++p)
+  {
+    if (usable[p] != 0)
+    {
+      used.push_back(values[p]);
+    }
+  }
   return used;
 }
 
-/** The mean variance, from those below a limit that one in a thousand would pass by chance. Reorders \a variances. */
-DarkVariance
-VarianceOf(std::vector<double> & variances, double frames)
+/** The chance that a pixel of this noise holds one code in all frames, at worst: its level lies on the code. */
+double
+ChanceOfOneCode(double noiseDn, double stepDn, double frames)
 {
-  constexpr double   beyond = 1e-3;
-  const double       dof = frames - 1.0;
-  const double       limit = ChiSquareUpperQuantile(beyond, dof);
-  const double       unit = Quantile(variances, 0.9) / ChiSquareQuantile(0.9, dof);
-  const MeanOfPixels below = MeanWithin(variances, 0.0, unit * limit);
-  const double       share = ChiSquareCdf(limit, dof + 2.0) / (1.0 - beyond); // of the mean below the limit
-  return { below.value / share, below.standardError / share };
+  return std::pow(std::erf(stepDn / (noiseDn * std::sqrt(8.0))), frames - 1.0);
 }
 
-/** What rounding to codes hides of a level whose noise and fixed pattern have the variance \a spreadDn2. A mean of
- * codes is off by up to step/pi exp(-2 pi^2 spread/step^2): nothing once the spread is half a step. */
-double
-RoundingErrorDn(double step, double spreadDn2)
+/** Takes the defective pixels out of the usable ones. Returns how many they are. */
+template <typename TPixel>
+std::size_t
+ExcludeDefective(DarkMaps & maps, const TemporalMoments<TPixel> & moments)
 {
-  constexpr double pi = 3.14159265358979323846;
-  const double     hidden = std::max(0.0, spreadDn2 - step * step / 12.0);
-  return step > 0.0 ? step / pi * std::exp(-2.0 * pi * pi * hidden / (step * step)) : 0.0;
+  const double freedom = static_cast<double>(maps.frames) - 1.0;
+  const double share = MedianShareOfVariance(freedom);
+  // Less than the noise of rounding is not known to be less.
+  const double medianDn2 =
+    std::max(QuantileOf(UsableValues(maps.varianceDn2, maps.usable), 0.5), share * maps.stepDn * maps.stepDn / 12.0);
+  if (!(medianDn2 > 0.0))
+  {
+    return 0; // nothing to compare with
+  }
+  const double limitDn2 = DefectiveVarianceDn2(medianDn2, freedom);
+  const double typicalDn = std::sqrt(medianDn2 / share);
+  const bool   mustChange = ChanceOfOneCode(typicalDn, maps.stepDn, static_cast<double>(maps.frames)) < 1e-6;
+  std::size_t  defective = 0;
+  for (std::size_t p = 0; p < maps.usable.size(); ++p)
+  {
+    const bool isStuck = mustChange && moments.GetMinimum(p) == moments.GetMaximum(p);
+    if (maps.usable[p] != 0 && (isStuck || maps.varianceDn2[p] > limitDn2))
+    {
+      maps.usable[p] = 0;
+      ++defective;
+    }
+  }
+  return defective;
 }
 
 } // namespace
@@ -142,24 +191,36 @@ KnownOffset
 MeasureDarkFrames(const TemporalMoments<TPixel> &   moments,
                   const CodeSettings &              codes,
                   const std::vector<std::uint8_t> & mask,
-                  const ParallelFor &               parallelFor)
+                  const ParallelFor &               parallelFor,
+                  const DarkDrift &                 drift)
 {
-  DarkPixels         pixels = UsablePixelsOf<TPixel>(moments, codes, mask, parallelFor);
-  const double       low = Quantile(pixels.levels, 0.16);
-  const double       high = Quantile(pixels.levels, 0.84);
-  const double       median = Quantile(pixels.levels, 0.5);
-  const double       reach = 3.0 * std::max(high - low, pixels.stepDn);
-  const MeanOfPixels level = MeanWithin(pixels.levels, median - reach, median + reach);
-  double             spreadDn2 = 0.25 * (high - low) * (high - low);
-  KnownOffset        dark;
+  DarkSurvey survey = SurveyPixels<TPixel>(moments, codes, mask, parallelFor, drift);
+  RequireDarkLevel(survey);
+  DarkMaps &          maps = survey.maps;
+  std::vector<double> levels = UsableValues(maps.offsetDn, maps.usable);
+  const double        low = Quantile(levels, 0.16);
+  const double        high = Quantile(levels, 0.84);
+  const double        median = Quantile(levels, 0.5);
+  const double        reach = 3.0 * std::max(high - low, maps.stepDn);
+  const MeanOfPixels  level = MeanWithin(levels, median - reach, median + reach);
+  double              spreadDn2 = 0.25 * (high - low) * (high - low);
+  KnownOffset         dark;
   dark.valueDn = level.value;
-  dark.darkFrames = moments.GetNumberOfFrames();
+  dark.darkFrames = maps.frames;
   if (dark.darkFrames > 1)
   {
-    dark.variance = VarianceOf(pixels.variances, static_cast<double>(dark.darkFrames));
-    spreadDn2 += dark.variance->valueDn2;
+    dark.numberDefective = ExcludeDefective<TPixel>(maps, moments);
+    const std::vector<double> variances = UsableValues(maps.varianceDn2, maps.usable);
+    const MeanOfPixels        mean = MeanWithin(variances, 0.0, std::numeric_limits<double>::max());
+    dark.variance = { mean.value, mean.standardError };
+    dark.readNoiseMedian = MedianReadNoiseOf(variances, static_cast<double>(maps.frames) - 1.0, maps.stepDn);
+    dark.driftVarianceDn2 = drift.GetVarianceDn2(mean.value);
+    spreadDn2 += mean.value;
+    dark.maps = std::make_shared<const DarkMaps>(std::move(maps));
   }
-  dark.standardErrorDn = std::hypot(level.standardError, RoundingErrorDn(pixels.stepDn, spreadDn2));
+  const double driftErrorDn = std::sqrt(dark.driftVarianceDn2 / static_cast<double>(dark.darkFrames));
+  dark.standardErrorDn =
+    std::hypot(level.standardError, driftErrorDn, RoundingErrorDn(survey.codes.quantisationStepDn, spreadDn2));
   return dark;
 }
 
@@ -167,26 +228,31 @@ template SensorNoise_EXPORT KnownOffset
 MeasureDarkFrames<unsigned char>(const TemporalMoments<unsigned char> &,
                                  const CodeSettings &,
                                  const std::vector<std::uint8_t> &,
-                                 const ParallelFor &);
+                                 const ParallelFor &,
+                                 const DarkDrift &);
 template SensorNoise_EXPORT KnownOffset
 MeasureDarkFrames<unsigned short>(const TemporalMoments<unsigned short> &,
                                   const CodeSettings &,
                                   const std::vector<std::uint8_t> &,
-                                  const ParallelFor &);
+                                  const ParallelFor &,
+                                  const DarkDrift &);
 template SensorNoise_EXPORT KnownOffset
 MeasureDarkFrames<short>(const TemporalMoments<short> &,
                          const CodeSettings &,
                          const std::vector<std::uint8_t> &,
-                         const ParallelFor &);
+                         const ParallelFor &,
+                         const DarkDrift &);
 template SensorNoise_EXPORT KnownOffset
 MeasureDarkFrames<float>(const TemporalMoments<float> &,
                          const CodeSettings &,
                          const std::vector<std::uint8_t> &,
-                         const ParallelFor &);
+                         const ParallelFor &,
+                         const DarkDrift &);
 template SensorNoise_EXPORT KnownOffset
 MeasureDarkFrames<double>(const TemporalMoments<double> &,
                           const CodeSettings &,
                           const std::vector<std::uint8_t> &,
-                          const ParallelFor &);
+                          const ParallelFor &,
+                          const DarkDrift &);
 
 } // namespace sensornoise

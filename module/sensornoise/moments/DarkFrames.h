@@ -20,6 +20,7 @@
 
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/moments/CodeSettings.h"
+#include "sensornoise/moments/DarkDrift.h"
 #include "sensornoise/moments/KnownOffset.h"
 #include "sensornoise/moments/TemporalMoments.h"
 #include "SensorNoiseExport.h"
@@ -41,48 +42,60 @@ struct MeanOfPixels
 SensorNoise_EXPORT MeanOfPixels
 MeanWithin(const std::vector<double> & values, double low, double high);
 
-/** Offset and temporal variance from frames taken without light, at the exposure, gain and temperature of the others.
+/** Offset and read noise from frames taken without light, at the exposure, gain and temperature of the others.
  *
  * The offset is the mean of the pixels' means that lie within 6 standard deviations (half the distance of the 16 % and
  * the 84 % quantile) of their median: hot and dead pixels do not carry it off. Its standard error holds temporal noise,
- * fixed pattern, and what rounding to codes hides of a level with hardly any noise. The variance, of two frames or
- * more, is the mean of the pixels' variances below a limit that one in a thousand would pass by chance, corrected for
- * that thousandth.
+ * fixed pattern, the drift of the level that all pixels share, and what rounding to codes hides of a level with hardly
+ * any noise.
  *
- * \a mask, if given, has a nonzero value at the pixels to be used. Throws std::invalid_argument if fewer than 30 pixels
- * are left, or if the frames are cut off at a clip level. */
+ * Two frames or more tell every pixel's variance over time, too. The mean is that of all pixels that are not defective,
+ * the noisy ones among them: their noise is in the bright frames as well. Defective is a pixel of more than
+ * DefectiveNoiseFactor times the typical noise, or one that never changed where a typical pixel would have, with a
+ * chance of 1e-6 of being wrong. Its standard error is the pixels' scatter. The median pixel's read noise, see
+ * MedianReadNoiseOf(), stands beside it.
+ *
+ * \a drift, of the same frames, is taken off all variances; without it a level that drifts adds to them. \a mask, if
+ * given, has a nonzero value at the pixels to be used. Throws std::invalid_argument if fewer than 30 pixels are left,
+ * or if the frames are cut off at a clip level. */
 template <typename TPixel>
 KnownOffset
 MeasureDarkFrames(const TemporalMoments<TPixel> &   moments,
                   const CodeSettings &              codes = {},
                   const std::vector<std::uint8_t> & mask = {},
-                  const ParallelFor &               parallelFor = SerialFor);
+                  const ParallelFor &               parallelFor = SerialFor,
+                  const DarkDrift &                 drift = {});
 
 extern template SensorNoise_EXPORT KnownOffset
 MeasureDarkFrames<unsigned char>(const TemporalMoments<unsigned char> &,
                                  const CodeSettings &,
                                  const std::vector<std::uint8_t> &,
-                                 const ParallelFor &);
+                                 const ParallelFor &,
+                                 const DarkDrift &);
 extern template SensorNoise_EXPORT KnownOffset
 MeasureDarkFrames<unsigned short>(const TemporalMoments<unsigned short> &,
                                   const CodeSettings &,
                                   const std::vector<std::uint8_t> &,
-                                  const ParallelFor &);
+                                  const ParallelFor &,
+                                  const DarkDrift &);
 extern template SensorNoise_EXPORT KnownOffset
 MeasureDarkFrames<short>(const TemporalMoments<short> &,
                          const CodeSettings &,
                          const std::vector<std::uint8_t> &,
-                         const ParallelFor &);
+                         const ParallelFor &,
+                         const DarkDrift &);
 extern template SensorNoise_EXPORT KnownOffset
 MeasureDarkFrames<float>(const TemporalMoments<float> &,
                          const CodeSettings &,
                          const std::vector<std::uint8_t> &,
-                         const ParallelFor &);
+                         const ParallelFor &,
+                         const DarkDrift &);
 extern template SensorNoise_EXPORT KnownOffset
 MeasureDarkFrames<double>(const TemporalMoments<double> &,
                           const CodeSettings &,
                           const std::vector<std::uint8_t> &,
-                          const ParallelFor &);
+                          const ParallelFor &,
+                          const DarkDrift &);
 
 } // namespace sensornoise
 

@@ -27,6 +27,7 @@ from ._arrays import as_mask
 from ._errors import itk_errors
 from ._files import read_frame, read_header
 from ._frames import Stack, crop, frame_image, is_name, open_frames
+from ._maps import maps_folder, write_maps
 from ._progress import shown_progress
 from ._report import Report
 
@@ -47,6 +48,7 @@ def estimate_sensor_noise(
     roi: tuple[int, int, int, int] | None = None,
     mask: Any = None,
     frame_range: tuple[int, int] | None = None,
+    maps: str | os.PathLike[str] | None = None,
     threads: int | None = None,
     progress: bool = False,
 ) -> Report:
@@ -91,6 +93,11 @@ def estimate_sensor_noise(
         Only pixels where this is not 0: an array (y, x) of a frame's size, or the name of an image file.
     frame_range
         (first, end): only the frames first, first + 1, ... end - 1, counted from 0.
+    maps
+        Folder for what is known of every pixel, an image (.mha) each: mean, variance, corrected_variance [DN, DN^2] and
+        pixel_use (0: used). With two dark frames or more also the camera calibration: pixel_offset and
+        pixel_read_noise [DN], and the ends of their 95 % intervals, _low and _high. itk.SensorNoiseEstimator has them
+        as images in memory. Default: none is written.
     threads
         Number of threads. Default: all. The result is the same bits for any number.
     progress
@@ -114,6 +121,7 @@ def estimate_sensor_noise(
     _options.one_of("method", method, ["refined", "published"])
     _check_what_is_known(method, offset, dark)
     span = None if frame_range is None else _frame_range(frame_range)
+    folder = None if maps is None else maps_folder(maps)
     stack = open_frames(frames, span)
     corner, size = _region(stack, roi, None if _is_cut(frames) else span)
     mask_array = None if mask is None else _mask_of(mask, stack.size[:2])
@@ -137,6 +145,8 @@ def estimate_sensor_noise(
         estimator.SetNumberOfWorkUnits(count)
     with shown_progress(estimator, progress), itk_errors():
         estimator.Update()
+    if folder is not None:
+        write_maps(estimator, folder)
     return Report.of(estimator)
 
 

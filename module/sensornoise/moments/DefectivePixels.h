@@ -1,0 +1,54 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_moments_DefectivePixels_h
+#define sensornoise_moments_DefectivePixels_h
+
+#include "sensornoise/base/ChiSquare.h"
+
+namespace sensornoise
+{
+
+/** A pixel is defective if its read noise is more than this many times that of a typical pixel [1]. */
+inline constexpr double DefectiveNoiseFactor = 6.0;
+
+/** What the median of the variances of pixels with the same noise is of their expectation [1].
+ * \param freedom degrees of freedom of a variance, above 0 */
+inline double
+MedianShareOfVariance(double freedom)
+{
+  return ChiSquareQuantile(0.5, freedom) / freedom;
+}
+
+/** The variance above which a pixel is defective [DN^2].
+ *
+ * That of DefectiveNoiseFactor times the typical noise, times 1 + 2/freedom. Of pixels whose noise is near the limit
+ * some stay below it by chance and some come to lie above; those that are lost are the ones of large variance. With
+ * this factor as much variance is gained as is lost, exactly so where the density of the true variances falls as their
+ * third power, and to some per cent of what lies near the limit for other tails.
+ * \param medianDn2 median of the pixels' variances [DN^2]
+ * \param freedom degrees of freedom of a variance, above 0 */
+inline double
+DefectiveVarianceDn2(double medianDn2, double freedom)
+{
+  const double typicalDn2 = medianDn2 / MedianShareOfVariance(freedom);
+  return DefectiveNoiseFactor * DefectiveNoiseFactor * typicalDn2 * (1.0 + 2.0 / freedom);
+}
+
+} // namespace sensornoise
+
+#endif

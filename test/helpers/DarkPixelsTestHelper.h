@@ -1,0 +1,134 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_test_DarkPixelsTestHelper_h
+#define sensornoise_test_DarkPixelsTestHelper_h
+
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/moments/CodeSettings.h"
+#include "sensornoise/moments/DarkDrift.h"
+#include "sensornoise/moments/DarkFrames.h"
+#include "sensornoise/moments/KnownOffset.h"
+#include "sensornoise/moments/TemporalMoments.h"
+#include "sensornoise/simulation/Random.h"
+#include "helpers/StackTestHelper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <type_traits>
+#include <vector>
+
+/** \file
+ * Dark frames of a sensor whose pixels differ. */
+
+namespace sensornoise::test
+{
+
+/** Of every pixel. */
+struct DarkSensor
+{
+  std::vector<double> offsetDn;
+  std::vector<double> readNoiseDn;
+};
+
+/** Pixels about 100.3 DN with offsets of the given scatter, and the noise that \a noiseOf draws [DN]. */
+inline DarkSensor
+MakeDarkSensor(std::size_t                                          pixels,
+               double                                               offsetSdDn,
+               const std::function<double(CounterSeededRandom &)> & noiseOf,
+               std::uint64_t                                        seed = 1)
+{
+  CounterSeededRandom random(seed, 1);
+  DarkSensor          sensor;
+  for (std::size_t p = 0; p < pixels; ++p)
+  {
+    sensor.offsetDn.push_back(100.3 + offsetSdDn * random.Normal());
+    sensor.readNoiseDn.push_back(noiseOf(random));
+  }
+  return sensor;
+}
+
+/** Log-normal noise of median 3 DN; of \a tail of the pixels the logarithm is higher by |N(0, 1)|. */
+inline std::function<double(CounterSeededRandom &)>
+LogNormalNoise(double spread, double tail = 0.0)
+{
+  return [=](CounterSeededRandom & random) {
+    const double core = spread * random.Normal();
+    const double excess = std::abs(random.Normal());
+    return 3.0 * std::exp(core + (random.Uniform() < tail ? excess : 0.0));
+  };
+}
+
+/** Frames in a row; integers are rounded. \a driftDn is added to all pixels of a frame. */
+template <typename TPixel>
+Stack<TPixel>
+DarkStackOf(const DarkSensor &          sensor,
+            std::size_t                 frames,
+            const std::vector<double> & driftDn = {},
+            std::uint64_t               seed = 1)
+{
+  const std::size_t pixels = sensor.offsetDn.size();
+  Stack<TPixel>     stack{ pixels, 1, frames, std::vector<TPixel>(pixels * frames) };
+  for (std::size_t t = 0; t < frames; ++t)
+  {
+    CounterSeededRandom random(seed, 2, t);
+    for (std::size_t p = 0; p < pixels; ++p)
+    {
+      const double value =
+        sensor.offsetDn[p] + sensor.readNoiseDn[p] * random.Normal() + (driftDn.empty() ? 0.0 : driftDn[t]);
+      stack.pixels[t * pixels + p] =
+        static_cast<TPixel>(std::is_integral_v<TPixel> ? std::clamp(std::round(value), 0.0, 4000.0) : value);
+    }
+  }
+  return stack;
+}
+
+/** What dark frames tell, their drift taken off, added \a chunk frames at a time. */
+template <typename TPixel>
+KnownOffset
+MeasureDarkStack(const Stack<TPixel> &             stack,
+                 const std::vector<std::uint8_t> & mask = {},
+                 const ParallelFor &               parallelFor = SerialFor,
+                 std::size_t                       chunk = 1000)
+{
+  const std::size_t       pixels = stack.width * stack.height;
+  TemporalMoments<TPixel> moments(pixels);
+  DarkDrift               drift(pixels, mask);
+  for (std::size_t first = 0; first < stack.frames; first += chunk)
+  {
+    const std::size_t count = std::min(chunk, stack.frames - first);
+    moments.AddFrames(stack.Frame(first), pixels, count, 0, pixels);
+    moments.AdvanceFrames(count);
+    drift.AddFrames(stack.Frame(first), count, parallelFor);
+  }
+  return MeasureDarkFrames<TPixel>(moments, {}, mask, parallelFor, drift);
+}
+
+/** The middle value. */
+inline double
+MedianOfPixels(std::vector<double> values)
+{
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+} // namespace sensornoise::test
+
+#endif

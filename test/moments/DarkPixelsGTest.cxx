@@ -1,0 +1,132 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/base/ChiSquare.h"
+#include "sensornoise/moments/DarkFrames.h"
+#include "sensornoise/moments/DefectivePixels.h"
+#include "sensornoise/moments/KnownOffset.h"
+#include "helpers/DarkPixelsTestHelper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <gtest/gtest.h>
+#include <numeric>
+#include <vector>
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+
+namespace
+{
+double
+MeanSquareOf(const std::vector<double> & values)
+{
+  return std::inner_product(values.begin(), values.end(), values.begin(), 0.0) / static_cast<double>(values.size());
+}
+} // namespace
+
+TEST(SensorNoiseDarkPixels, TheDefectiveVarianceIsSixTimesTheTypicalNoise)
+{
+  // The median of chi-square with 7 degrees of freedom is 6.3458, tabulated.
+  EXPECT_NEAR(MedianShareOfVariance(7.0), 6.3458 / 7.0, 1e-5);
+  EXPECT_NEAR(DefectiveVarianceDn2(4.0 * MedianShareOfVariance(7.0), 7.0), 36.0 * 4.0 * 9.0 / 7.0, 1e-9);
+}
+
+// Pixels of one sensor: the mean is that of its own pixels, whose noise is drawn once.
+TEST(SensorNoiseDarkPixels, TheVarianceHoldsTheTail)
+{
+  for (const double spread : { 0.3, 0.5 })
+  {
+    const DarkSensor sensor = MakeDarkSensor(20000, 4.0, LogNormalNoise(spread, 0.05));
+    for (const std::size_t frames : { 2u, 4u, 8u, 50u })
+    {
+      const KnownOffset dark = MeasureDarkStack(DarkStackOf<unsigned short>(sensor, frames));
+      // All that is left out is beyond 6 times the median.
+      std::vector<double> kept = sensor.readNoiseDn;
+      kept.erase(std::remove_if(kept.begin(), kept.end(), [](double noise) { return noise > 18.0; }), kept.end());
+      EXPECT_NEAR(dark.variance->valueDn2, MeanSquareOf(kept) + 1.0 / 12.0, 3.0 * dark.variance->standardErrorDn2)
+        << spread << ", " << frames;
+      const double rms = std::sqrt(dark.variance->valueDn2);
+      ASSERT_EQ(dark.readNoiseMedian.has_value(), frames > 5);
+      if (dark.readNoiseMedian)
+      {
+        const double median = MedianOfPixels(sensor.readNoiseDn);
+        EXPECT_NEAR(dark.readNoiseMedian->valueDn / median, 1.0, 0.03) << spread << ", " << frames;
+        EXPECT_LT(dark.readNoiseMedian->valueDn, rms);
+      }
+    }
+  }
+}
+
+// With z the error in standard errors, the mean of 40 z^2 has the standard deviation 0.22; a new sensor every time.
+TEST(SensorNoiseDarkPixels, ErrorsHoldTheDifferencesOfThePixels)
+{
+  double offset = 0.0;
+  double variance = 0.0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed)
+  {
+    const DarkSensor  sensor = MakeDarkSensor(4096, 4.0, LogNormalNoise(0.4), seed);
+    const KnownOffset dark = MeasureDarkStack(DarkStackOf<unsigned short>(sensor, 8, {}, seed));
+    const double      expected = 9.0 * std::exp(2.0 * 0.16) + 1.0 / 12.0;
+    offset += std::pow((dark.valueDn - 100.3) / dark.standardErrorDn, 2) / 40.0;
+    variance += std::pow((dark.variance->valueDn2 - expected) / dark.variance->standardErrorDn2, 2) / 40.0;
+  }
+  EXPECT_NEAR(offset, 1.0, 0.9);
+  EXPECT_NEAR(variance, 1.0, 0.9);
+}
+
+TEST(SensorNoiseDarkPixels, DefectivePixelsAreCountedAndLeftOut)
+{
+  DarkSensor sensor = MakeDarkSensor(20000, 4.0, [](CounterSeededRandom &) { return 3.0; });
+  for (std::size_t p = 0; p < 100; ++p)
+  {
+    sensor.readNoiseDn[200 * p] = 60.0; // 20 times the others' noise, and too high to be clipped
+    sensor.offsetDn[200 * p] = 500.0;
+    sensor.readNoiseDn[200 * p + 50] = 0.0; // stuck
+  }
+  const KnownOffset dark = MeasureDarkStack(DarkStackOf<unsigned short>(sensor, 20));
+  EXPECT_EQ(dark.numberDefective, 200u);
+  EXPECT_NEAR(dark.variance->valueDn2, 9.0 + 1.0 / 12.0, 4.0 * dark.variance->standardErrorDn2);
+  EXPECT_EQ(dark.maps->usable[0] + dark.maps->usable[50], 0);
+  EXPECT_EQ(dark.maps->usable[1], 1);
+  EXPECT_GT(dark.maps->varianceDn2[0], 900.0) << "what they are is told all the same";
+  EXPECT_EQ(dark.maps->frames, 20u);
+  EXPECT_EQ(dark.maps->stepDn, 1.0);
+
+  // Two frames tell no pixel that is stuck: every seventh pixel holds one code in both.
+  const KnownOffset two = MeasureDarkStack(DarkStackOf<unsigned short>(sensor, 2));
+  EXPECT_LE(two.numberDefective, 100u);
+}
+
+TEST(SensorNoiseDarkPixels, OneFrameHasNoMapsAndNoVariance)
+{
+  const DarkSensor  sensor = MakeDarkSensor(4096, 4.0, LogNormalNoise(0.3));
+  const KnownOffset dark = MeasureDarkStack(DarkStackOf<unsigned short>(sensor, 1));
+  EXPECT_FALSE(dark.maps || dark.variance || dark.readNoiseMedian);
+  EXPECT_EQ(dark.numberDefective, 0u);
+  EXPECT_NEAR(dark.valueDn, 100.3, 4.0 * dark.standardErrorDn);
+}
+
+TEST(SensorNoiseDarkPixels, NoiseBelowTheCodesIsNoReasonToCallPixelsDefective)
+{
+  const DarkSensor  sensor = MakeDarkSensor(4096, 0.3, [](CounterSeededRandom &) { return 0.1; });
+  const KnownOffset dark = MeasureDarkStack(DarkStackOf<unsigned short>(sensor, 20));
+  EXPECT_EQ(dark.numberDefective, 0u);
+  EXPECT_FALSE(dark.readNoiseMedian);
+}

@@ -1,0 +1,75 @@
+# ==========================================================================
+#
+#   Copyright the ITKSensorNoise contributors
+#
+#   Licensed under the Apache License, Version 2.0 (the "License");
+#   you may not use this file except in compliance with the License.
+#   You may obtain a copy of the License at
+#
+#          https://www.apache.org/licenses/LICENSE-2.0.txt
+#
+#   Unless required by applicable law or agreed to in writing, software
+#   distributed under the License is distributed on an "AS IS" BASIS,
+#   WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+#   See the License for the specific language governing permissions and
+#   limitations under the License.
+#
+# ==========================================================================*/
+"""The maps of an estimator as files of a folder, with the names of `estimate-sensor-noise --maps`."""
+
+import os
+from pathlib import Path
+from typing import Any
+
+from . import _options
+from ._errors import itk_errors
+
+
+def maps_folder(folder: Any) -> Path:
+    """The folder, which is made if there is none."""
+    if not isinstance(folder, (str, os.PathLike)) or not os.fspath(folder):
+        raise _options.refuse("maps", folder, "the name of a folder")
+    path = Path(os.fsdecode(folder))
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ValueError(f"maps is {folder!r}; that folder cannot be made: {error}") from error
+    return path
+
+
+def _images(estimator: Any) -> dict[str, Any]:
+    images = {
+        "mean": estimator.GetMean(),
+        "variance": estimator.GetVariance(),
+        "corrected_variance": estimator.GetCorrectedVariance(),
+        "pixel_use": estimator.GetPixelUse(),
+    }
+    if estimator.GetPixelOffset().GetLargestPossibleRegion().GetNumberOfPixels() > 0:
+        images |= {
+            "pixel_offset": estimator.GetPixelOffset(),
+            "pixel_offset_low": estimator.GetPixelOffsetLow(),
+            "pixel_offset_high": estimator.GetPixelOffsetHigh(),
+            "pixel_read_noise": estimator.GetPixelReadNoise(),
+            "pixel_read_noise_low": estimator.GetPixelReadNoiseLow(),
+            "pixel_read_noise_high": estimator.GetPixelReadNoiseHigh(),
+        }
+    return images
+
+
+def write_maps(estimator: Any, folder: Path) -> None:
+    """All of them appear, or none. Raises RuntimeError for what ITK threw."""
+    import itk
+
+    written: dict[Path, Path] = {}
+    try:
+        for name, image in _images(estimator).items():
+            target = folder / f"{name}.mha"
+            temporary = folder / f".{name}.{os.getpid()}.mha"
+            written[temporary] = target
+            with itk_errors(f"{target}: cannot be written; "):
+                itk.imwrite(image, str(temporary))
+        for temporary, target in written.items():
+            os.replace(temporary, target)
+    finally:
+        for temporary in written:
+            temporary.unlink(missing_ok=True)
