@@ -19,6 +19,7 @@
 #define itkSensorNoiseStackSource_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/simulation/SensorFlaws.h"
 #include "sensornoise/simulation/SimulationTruth.h"
 #include "sensornoise/simulation/SimulationSettings.h"
 #include "sensornoise/simulation/TruthJson.h"
@@ -31,6 +32,22 @@
 #include <memory>
 #include <ostream>
 #include <string>
+
+/** Set and get of one of the sensor's flaws, which the simulator keeps together. */
+#define itkSensorFlawMacro(name, type, member) \
+  virtual void Set##name(type value)           \
+  {                                            \
+    if (m_Flaws.member != value)               \
+    {                                          \
+      m_Flaws.member = value;                  \
+      this->Modified();                        \
+    }                                          \
+  }                                            \
+  virtual type Get##name() const               \
+  {                                            \
+    return static_cast<type>(m_Flaws.member);  \
+  }                                            \
+  ITK_MACROEND_NOOP_STATEMENT
 
 namespace itk
 {
@@ -46,10 +63,13 @@ namespace itk
  * Raw Images Affected by Vibrations and Illumination Flickering", SIAM J. Imaging Sci. 8(1), 2015,
  * https://doi.org/10.1137/140977035, simulated as in section 4.2. The defaults are its camera B in condition 3.
  *
+ * What real sensors and cameras do beside can be added (sensornoise::SensorFlaws): a bent response, patterns of gain,
+ * read noise that differs from pixel to pixel, noise of rows and columns, coupled charge, processing in the camera.
+ *
  * The source streams: it needs the whole reference, but generates no more rows than were asked for (a row is drawn
- * whole, whatever part of it is wanted). Rows are shared out among threads; each row of each frame has random numbers
- * of its own, so the same seed gives the same bits for any number of threads and any chunks. It holds a few frames of
- * doubles beside the requested region. */
+ * whole, whatever part of it is wanted; with flaws that mix rows, a frame). Rows are shared out among threads; each row
+ * of each frame has random numbers of its own, so the same seed gives the same bits for any number of threads and any
+ * chunks. It holds a few frames of doubles beside the requested region. */
 template <typename TOutputStack>
 class ITK_TEMPLATE_EXPORT SensorNoiseStackSource : public ImageSource<TOutputStack>
 {
@@ -173,6 +193,93 @@ public:
   itkSetMacro(HotPixelNoiseFactor, double);
   itkGetConstMacro(HotPixelNoiseFactor, double);
 
+  /** The shutter is closed: frames of the same sensor without light, with the same fixed patterns and other noise.
+   * Default off. */
+  itkSetMacro(Dark, bool);
+  itkGetConstMacro(Dark, bool);
+  itkBooleanMacro(Dark);
+
+  /** Relative standard deviation of the gain from pixel to pixel [1], 0 or more, below 0.2. Default 0. */
+  itkSensorFlawMacro(GainSd, double, pattern.gainSd);
+
+  /** The same from column to column. Default 0. */
+  itkSensorFlawMacro(ColumnGainSd, double, pattern.columnGainSd);
+
+  /** Relative standard deviation of the expected electrons from column to column [1], 0 or more, below 0.2. Default
+   * 0. */
+  itkSensorFlawMacro(ColumnEfficiencySd, double, pattern.columnEfficiencySd);
+
+  /** Standard deviation of the offset from column to column [DN], 0 or more. Default 0. */
+  itkSensorFlawMacro(ColumnOffsetSd, double, pattern.columnOffsetSdDn);
+
+  /** Brighter-fatter effect: shift of the border between two pixels for each electron of difference [1/e-], 0 or
+   * more, times Electrons at most 0.1. Default 0. */
+  itkSensorFlawMacro(BrighterFatterPerElectron, double, brighterFatter.perElectron);
+
+  /** Interpixel capacitance: fraction of its signal that a pixel gives to each of its four neighbours [1], 0 to 0.2.
+   * Default 0. */
+  itkSensorFlawMacro(CouplingFraction, double, coupling.fraction);
+
+  /** Standard deviation of the logarithm of the read noise from pixel to pixel [1], 0 to 3. Default 0. */
+  itkSensorFlawMacro(ReadNoiseSpread, double, readNoise.spread);
+
+  /** Fraction of the pixels in the tail of the read noise, 0 to 1. Default 0. */
+  itkSensorFlawMacro(ReadNoiseTailFraction, double, readNoise.tailFraction);
+
+  /** In the tail the logarithm is greater by |normal| times this [1], 0 to 3. Default 1. */
+  itkSensorFlawMacro(ReadNoiseTailSpread, double, readNoise.tailSpread);
+
+  /** Shape of the response: straight, quadratic, wave, shoulder, gamma or s-curve (sensornoise::ResponseShape). Default
+   * straight. */
+  void
+  SetResponseShape(const std::string & name);
+  std::string
+  GetResponseShape() const
+  {
+    return sensornoise::NameOf(m_Flaws.response.shape);
+  }
+
+  /** How far the response is bent [1]: departure of the local gain, or the exponent of gamma, or the weight of the
+   * s-curve. Default 0. */
+  itkSensorFlawMacro(ResponseSize, double, response.size);
+
+  /** Signal at the end of the response [e-]; 0, the default: Electrons. */
+  itkSensorFlawMacro(ResponseFullScale, double, response.fullScaleElectrons);
+
+  /** Standard deviation of a number that the pixels of a row share in a frame [DN], 0 or more. Default 0. */
+  itkSensorFlawMacro(RowNoiseSd, double, lineNoise.rowNoiseSdDn);
+
+  /** Standard deviation of a number that the pixels of a column share in a frame [DN], 0 or more. Default 0. */
+  itkSensorFlawMacro(ColumnNoiseSd, double, lineNoise.columnNoiseSdDn);
+
+  /** Amplitude of a sine along y with a phase of its own in each frame [DN], 0 or more. Default 0. */
+  itkSensorFlawMacro(BandingAmplitude, double, lineNoise.bandingAmplitudeDn);
+
+  /** Its period [row], above 0. Default 64. */
+  itkSensorFlawMacro(BandingPeriod, double, lineNoise.bandingPeriodRows);
+
+  /** Correction of defects in the camera: a pixel further from the median of its neighbours than so many of their
+   * standard deviations becomes that median; 0, the default: none. */
+  itkSensorFlawMacro(DefectThresholdSd, double, defectCorrection.thresholdSd);
+
+  /** Temporal filter in the camera: weight of the last frame [1], 0 to 0.99. Default 0. */
+  itkSensorFlawMacro(TemporalFilterWeight, double, temporalFilter.weight);
+
+  /** Smoothing in the camera: standard deviation of its Gaussian kernel [pixel], 0 to 100. Default 0. */
+  itkSensorFlawMacro(SmoothingSd, double, smoothing.sdPixels);
+
+  /** Resampling in the camera by linear interpolation: horizontal shift [pixel], -1000 to 1000. Default 0. */
+  itkSensorFlawMacro(ResamplingShiftX, double, resampling.shiftXPixels);
+
+  /** Vertical shift of the resampling [pixel], -1000 to 1000. Default 0. */
+  itkSensorFlawMacro(ResamplingShiftY, double, resampling.shiftYPixels);
+
+  /** Square-root companding: bits of the stored codes, 2 to 16; 0, the default: none. Needs a BitDepth above 0. */
+  itkSensorFlawMacro(CompandingBits, unsigned int, companding.bits);
+
+  /** How often each exposure is written, 1 or more. Default 1. */
+  itkSensorFlawMacro(RepeatCount, unsigned int, repetition.count);
+
   /** What an estimator of this stack should find. Up to date after UpdateOutputInformation() or Update(). */
   const sensornoise::SimulationTruth &
   GetTruth() const
@@ -212,6 +319,10 @@ protected:
   void
   GenerateInputRequestedRegion() override;
 
+  /** Draws rows in any order, or whole frames one after the other where flaws mix rows or frames. */
+  void
+  GenerateData() override;
+
   void
   BeforeThreadedGenerateData() override;
 
@@ -243,6 +354,9 @@ private:
   double        m_DsnuSd{ 0.0 };
   double        m_HotPixelFraction{ 0.0 };
   double        m_HotPixelNoiseFactor{ 10.0 };
+  bool          m_Dark{ false };
+
+  sensornoise::SensorFlaws m_Flaws;
 
   sensornoise::SimulationTruth                       m_Truth;
   std::unique_ptr<const sensornoise::StackSimulator> m_Simulator;
@@ -256,5 +370,7 @@ extern template class SensorNoise_EXPORT SensorNoiseStackSource<Image<float, 3>>
 extern template class SensorNoise_EXPORT SensorNoiseStackSource<Image<double, 3>>;
 
 } // namespace itk
+
+#undef itkSensorFlawMacro
 
 #endif // itkSensorNoiseStackSource_h

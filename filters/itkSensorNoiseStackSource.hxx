@@ -28,9 +28,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <ostream>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace itk
@@ -84,6 +86,19 @@ SensorNoiseStackSource<TOutputStack>::SetConditions(int number)
 }
 
 template <typename TOutputStack>
+void
+SensorNoiseStackSource<TOutputStack>::SetResponseShape(const std::string & name)
+{
+  const sensornoise::ResponseShape shape =
+    WithItkErrors<std::invalid_argument>(this, [&name] { return sensornoise::ResponseShapeOf(name); }, Impossible);
+  if (m_Flaws.response.shape != shape)
+  {
+    m_Flaws.response.shape = shape;
+    this->Modified();
+  }
+}
+
+template <typename TOutputStack>
 sensornoise::SimulationSettings
 SensorNoiseStackSource<TOutputStack>::MakeSettings() const
 {
@@ -107,6 +122,8 @@ SensorNoiseStackSource<TOutputStack>::MakeSettings() const
   settings.dsnuSdDn = m_DsnuSd;
   settings.hotPixelFraction = m_HotPixelFraction;
   settings.hotPixelNoiseFactor = m_HotPixelNoiseFactor;
+  settings.flaws = m_Flaws;
+  settings.isDark = m_Dark;
   return settings;
 }
 
@@ -122,7 +139,7 @@ SensorNoiseStackSource<TOutputStack>::GenerateOutputInformation()
     this,
     [&] {
       const sensornoise::SimulationSettings settings = this->MakeSettings();
-      sensornoise::SimulationTruth          truth = sensornoise::DrawTruth(settings, frame.GetSize(1));
+      sensornoise::SimulationTruth truth = sensornoise::DrawTruth(settings, frame.GetSize(0), frame.GetSize(1));
       sensornoise::StackSimulator::CodeRange<OutputPixelType>(settings);
       return truth;
     },
@@ -174,6 +191,41 @@ void
 SensorNoiseStackSource<TOutputStack>::UpdateOutputData(DataObject * output)
 {
   ResetAfterError(this, [this, output] { Superclass::UpdateOutputData(output); });
+}
+
+template <typename TOutputStack>
+void
+SensorNoiseStackSource<TOutputStack>::GenerateData()
+{
+  if (!sensornoise::NeedsWholeFrames(m_Flaws))
+  {
+    Superclass::GenerateData();
+    return;
+  }
+  this->AllocateOutputs();
+  this->BeforeThreadedGenerateData();
+  OutputStackType * stack = this->GetOutput();
+  const auto        largest = stack->GetLargestPossibleRegion();
+  const auto        region = stack->GetRequestedRegion();
+  const std::size_t width = m_Simulator->GetWidth();
+  const auto        firstColumn = static_cast<std::size_t>(region.GetIndex(0) - largest.GetIndex(0));
+  const auto        firstRow = static_cast<std::size_t>(region.GetIndex(1) - largest.GetIndex(1));
+  const auto        parallelFor = [this](std::size_t count, const std::function<void(std::size_t)> & function) {
+    this->GetMultiThreader()->SetNumberOfWorkUnits(this->GetNumberOfWorkUnits());
+    this->GetMultiThreader()->ParallelizeArray(0, count, [&function](SizeValueType i) { function(i); }, nullptr);
+  };
+  std::vector<OutputPixelType> frame(width * m_Simulator->GetHeight());
+  auto                         index = region.GetIndex();
+  for (SizeValueType t = 0; t < region.GetSize(2); ++t, ++index[2])
+  {
+    m_Simulator->RenderFrame(static_cast<std::size_t>(index[2]), frame.data(), parallelFor);
+    index[1] = region.GetIndex(1);
+    for (SizeValueType y = 0; y < region.GetSize(1); ++y, ++index[1])
+    {
+      const OutputPixelType * row = frame.data() + (firstRow + y) * width + firstColumn;
+      std::copy_n(row, region.GetSize(0), stack->GetBufferPointer() + stack->ComputeOffset(index));
+    }
+  }
 }
 
 template <typename TOutputStack>
@@ -249,6 +301,30 @@ SensorNoiseStackSource<TOutputStack>::PrintSelf(std::ostream & os, Indent indent
   os << indent << "DsnuSd: " << m_DsnuSd << std::endl;
   os << indent << "HotPixelFraction: " << m_HotPixelFraction << std::endl;
   os << indent << "HotPixelNoiseFactor: " << m_HotPixelNoiseFactor << std::endl;
+  os << indent << "Dark: " << m_Dark << std::endl;
+  os << indent << "GainSd: " << this->GetGainSd() << std::endl;
+  os << indent << "ColumnGainSd: " << this->GetColumnGainSd() << std::endl;
+  os << indent << "ColumnEfficiencySd: " << this->GetColumnEfficiencySd() << std::endl;
+  os << indent << "ColumnOffsetSd: " << this->GetColumnOffsetSd() << std::endl;
+  os << indent << "BrighterFatterPerElectron: " << this->GetBrighterFatterPerElectron() << std::endl;
+  os << indent << "CouplingFraction: " << this->GetCouplingFraction() << std::endl;
+  os << indent << "ReadNoiseSpread: " << this->GetReadNoiseSpread() << std::endl;
+  os << indent << "ReadNoiseTailFraction: " << this->GetReadNoiseTailFraction() << std::endl;
+  os << indent << "ReadNoiseTailSpread: " << this->GetReadNoiseTailSpread() << std::endl;
+  os << indent << "ResponseShape: " << this->GetResponseShape() << std::endl;
+  os << indent << "ResponseSize: " << this->GetResponseSize() << std::endl;
+  os << indent << "ResponseFullScale: " << this->GetResponseFullScale() << std::endl;
+  os << indent << "RowNoiseSd: " << this->GetRowNoiseSd() << std::endl;
+  os << indent << "ColumnNoiseSd: " << this->GetColumnNoiseSd() << std::endl;
+  os << indent << "BandingAmplitude: " << this->GetBandingAmplitude() << std::endl;
+  os << indent << "BandingPeriod: " << this->GetBandingPeriod() << std::endl;
+  os << indent << "DefectThresholdSd: " << this->GetDefectThresholdSd() << std::endl;
+  os << indent << "TemporalFilterWeight: " << this->GetTemporalFilterWeight() << std::endl;
+  os << indent << "SmoothingSd: " << this->GetSmoothingSd() << std::endl;
+  os << indent << "ResamplingShiftX: " << this->GetResamplingShiftX() << std::endl;
+  os << indent << "ResamplingShiftY: " << this->GetResamplingShiftY() << std::endl;
+  os << indent << "CompandingBits: " << this->GetCompandingBits() << std::endl;
+  os << indent << "RepeatCount: " << this->GetRepeatCount() << std::endl;
   os << indent << "Simulator: " << (m_Simulator ? "built" : "none") << std::endl;
 }
 

@@ -69,6 +69,10 @@ Summarise(const std::vector<const Run *> & runs, Deviation Run::* member)
 std::string
 FindFault(const Run & run)
 {
+  if (run.stressCase.expectation == StressExpectation::Processed)
+  {
+    return "";
+  }
   if (run.stressCase.expectation == StressExpectation::Refused)
   {
     const auto & warnings = run.report.warnings;

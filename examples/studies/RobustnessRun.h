@@ -61,7 +61,7 @@ Deviation
 Summarise(const std::vector<const Run *> & runs, Deviation Run::* member);
 
 /** What is wrong with one run: empty if the gain is within 1 % and the intercept within 3 standard errors, or if it is
- * refused and should be. */
+ * refused and should be, or if the case is `Processed`. */
 std::string
 FindFault(const Run & run);
 

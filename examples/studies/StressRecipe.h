@@ -67,6 +67,10 @@ AppendSceneRecipes(std::vector<StressRecipeEntry> & entries);
 void
 AppendSensorRecipes(std::vector<StressRecipeEntry> & entries);
 
+/** Charge that moves between pixels, and cameras that process their codes: the noise is not white any more. */
+void
+AppendProcessedRecipes(std::vector<StressRecipeEntry> & entries);
+
 } // namespace sensornoise::tools
 
 #endif

@@ -16,6 +16,7 @@
  *
  *=========================================================================*/
 #include "sensornoise/simulation/Random.h"
+#include "sensornoise/simulation/Scenes.h"
 #include "sensornoise/simulation/SimulationTruth.h"
 #include "sensornoise/simulation/SimulationSettings.h"
 #include "studies/StressRecipe.h"
@@ -132,6 +133,35 @@ PrepareMovingDisk(StressRecipe & recipe)
   };
 }
 
+/** A textured block of a third of the width crosses from left to right over the lower two thirds of the rows. */
+void
+PrepareCrossingBlock(StressRecipe & recipe)
+{
+  constexpr std::uint64_t blockSeed = 41;
+  const std::size_t       blockWidth = recipe.size / 3;
+  const std::size_t       top = recipe.size / 3;
+  const auto              block = ScaleToRange(
+    MakeTextureScene(blockWidth, recipe.size - top, blockSeed), 0.1, 0.9 * recipe.settings.camera.electrons);
+  const auto   width = static_cast<double>(blockWidth);
+  const double travel = static_cast<double>(recipe.size) + width;
+  const double last = static_cast<double>(recipe.settings.frames - 1);
+  recipe.light = [=](const SimulatedSeries & series, std::size_t t, std::size_t y, Row & electrons) {
+    const double left = travel * static_cast<double>(t) / last - width;
+    for (std::size_t x = 0; x < electrons.size() && y >= top; ++x)
+    {
+      const double at = static_cast<double>(x) - left; // column of the block
+      if (at >= 0.0 && at <= width - 1.0)
+      {
+        const double * row = block.data() + (y - top) * blockWidth;
+        const auto     first = static_cast<std::size_t>(at);
+        const auto     second = std::min(first + 1, blockWidth - 1);
+        const double   value = row[first] + (at - std::floor(at)) * (row[second] - row[first]);
+        electrons[x] = value * (1.0 + series.gamma[t]);
+      }
+    }
+  };
+}
+
 /** The middle quarter of the frame sways sideways by 2 pixels, once in 17.3 frames. */
 void
 PrepareWavingQuarter(StressRecipe & recipe)
@@ -196,6 +226,8 @@ AppendSceneRecipes(std::vector<StressRecipeEntry> & entries)
   entries.push_back({ { "bleach_mixed", "a smooth half of the light decays by 20 %, flicker 5 %" },
                       [](StressRecipe & recipe) { PrepareBleaching(recipe, true); } });
   entries.push_back({ { "moving_disk", "a disk of 5 % of the area crosses the scene" }, PrepareMovingDisk });
+  entries.push_back({ { "crossing_block", "a textured block, a third of the width, crosses two thirds of the rows" },
+                      PrepareCrossingBlock });
   entries.push_back({ { "waving_quarter", "a quarter of the frame sways by 2 pixels" }, PrepareWavingQuarter });
   entries.push_back({ { "bright_frame", "one frame is 20 % brighter" }, PrepareBrightFrame });
   entries.push_back({ { "no_flicker", "the light is perfectly steady" },

@@ -24,6 +24,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace sensornoise::tools
@@ -118,6 +119,56 @@ MakeScaledEntry(const char * name, const char * what, double scale, std::uint16_
             recipe.strayCodes = strayCodes;
           } };
 }
+/** The sensor's response is bent: its local gain departs by so many per cent. */
+void
+AppendBentEntries(std::vector<StressRecipeEntry> & entries)
+{
+  for (const ResponseShape shape : { ResponseShape::Quadratic, ResponseShape::Wave, ResponseShape::Shoulder })
+  {
+    for (const int percent : { 2, -2, 4, -4 })
+    {
+      const std::string size = (percent > 0 ? "+" : "") + std::to_string(percent);
+      entries.push_back({ { std::string(NameOf(shape)) + size, "the response is bent, local gain by so many %" },
+                          [=](StressRecipe & recipe) { recipe.settings.flaws.response = { shape, 0.01 * percent }; } });
+    }
+  }
+}
+
+/** A scientific CMOS camera: read noise of 1.4 e- (median) to 1.8 e- (rms), offsets and gains of the pixels differ. */
+StressRecipeEntry
+MakeScientificEntry(const char * name, const char * what, double electrons)
+{
+  return { { name, what }, [=](StressRecipe & recipe) {
+            recipe.settings.camera = { electrons, 2.2, 100.0, 3.1 };
+            recipe.settings.dsnuSdDn = 2.0;
+            recipe.settings.flaws.pattern.gainSd = 0.01;
+            recipe.settings.flaws.readNoise = { 0.25, 0.03, 1.0 };
+          } };
+}
+
+/** Pixels that differ, and noise that rows and columns share. */
+void
+AppendPatternEntries(std::vector<StressRecipeEntry> & entries)
+{
+  const auto append = [&entries](const char * name, const char * what, auto change) {
+    entries.push_back({ { name, what }, [=](StressRecipe & recipe) { change(recipe.settings.flaws); } });
+  };
+  append("gain_pattern", "gains of the pixels differ by 1 %", [](SensorFlaws & flaws) { flaws.pattern.gainSd = 0.01; });
+  append("column_gain_pattern", "gains of the columns differ by 1 %", [](SensorFlaws & flaws) {
+    flaws.pattern.columnGainSd = 0.01;
+  });
+  entries.push_back(MakeScientificEntry("scmos", "scientific CMOS: read noise with a tail, 500 e-", 500.0));
+  entries.push_back(MakeScientificEntry("scmos30", "the same with 30 e- at the brightest", 30.0));
+  append("row_noise", "each row of each frame is off by 2 DN rms", [](SensorFlaws & flaws) {
+    flaws.lineNoise.rowNoiseSdDn = 2.0;
+  });
+  append("column_noise", "each column of each frame is off by 2 DN rms", [](SensorFlaws & flaws) {
+    flaws.lineNoise.columnNoiseSdDn = 2.0;
+  });
+  append("banding", "a sine of 3 DN and 64 rows, phase anew in each frame", [](SensorFlaws & flaws) {
+    flaws.lineNoise.bandingAmplitudeDn = 3.0;
+  });
+}
 } // namespace
 
 void
@@ -150,6 +201,8 @@ AppendSensorRecipes(std::vector<StressRecipeEntry> & entries)
   entries.push_back(MakeGammaEntry("gamma22_12bit", 2.2, TopCode));
   entries.push_back(MakeGammaEntry("gamma13_8bit", 1.3, 255.0));
   entries.push_back(MakeGammaEntry("gamma22_8bit", 2.2, 255.0));
+  AppendBentEntries(entries);
+  AppendPatternEntries(entries);
 }
 
 } // namespace sensornoise::tools

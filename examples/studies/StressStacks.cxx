@@ -44,6 +44,7 @@ GetEntries()
     std::vector<StressRecipeEntry> all;
     AppendSceneRecipes(all);
     AppendSensorRecipes(all);
+    AppendProcessedRecipes(all);
     return all;
   }();
   return entries;
@@ -88,28 +89,56 @@ FindEntry(const std::string & name)
   return *entry;
 }
 
+/** Variance that the pixels of a row, a column or a band share [DN^2]. */
+double
+SharedVarianceDn2(const LineNoiseSettings & lineNoise)
+{
+  return std::pow(lineNoise.rowNoiseSdDn, 2) + std::pow(lineNoise.columnNoiseSdDn, 2) +
+         0.5 * std::pow(lineNoise.bandingAmplitudeDn, 2);
+}
+
+/** Truth of each pixel; empty where all are alike, or differ as hot pixels and offsets do: then the estimate is
+ * to be that of the camera. */
+std::vector<StressTruth>
+DescribePixels(const StackSimulator & simulator, const StressRecipe & recipe)
+{
+  const SensorFlaws & flaws = recipe.settings.flaws;
+  const bool          areAlike = flaws.pattern.gainSd == 0.0 && flaws.pattern.columnGainSd == 0.0 &&
+                        flaws.readNoise.spread == 0.0 && flaws.readNoise.tailFraction == 0.0 &&
+                        flaws.response.shape == ResponseShape::Straight;
+  std::vector<StressTruth> truths(areAlike ? 0 : recipe.size * recipe.size);
+  for (std::size_t pixel = 0; pixel < truths.size(); ++pixel)
+  {
+    const double gain = simulator.LocalGainAt(pixel);
+    const double offset = simulator.PixelOffsetDn(pixel);
+    const double variance = std::pow(simulator.PixelReadNoiseDn(pixel), 2);
+    const double scale = recipe.scale;
+    truths[pixel] = { scale * gain, scale * offset, scale * scale * (variance - gain * offset) };
+  }
+  return truths;
+}
+
 /** The codes of the file, frame after frame. */
 std::vector<std::uint16_t>
-RenderCodes(const StressRecipe & recipe)
+RenderCodes(const StackSimulator & simulator, const StressRecipe & recipe)
 {
   const std::size_t          size = recipe.size;
   const std::size_t          frames = recipe.settings.frames;
-  const StackSimulator       simulator(recipe.scene, size, size, recipe.settings);
   std::vector<std::uint16_t> codes(size * size * frames);
-  for (std::size_t row = 0; row < size * frames; ++row)
+  for (std::size_t t = 0; t < frames; ++t)
   {
-    std::uint16_t * const out = codes.data() + row * size;
+    std::uint16_t * const out = codes.data() + t * size * size;
     if (recipe.light || recipe.levelDn)
     {
-      ComposeRow(simulator, recipe, row / size, row % size, out);
+      SerialFor(size, [&](std::size_t y) { ComposeRow(simulator, recipe, t, y, out + y * size); });
     }
     else
     {
-      simulator.RenderRow(row / size, row % size, out);
+      simulator.RenderFrame(t, out);
     }
     if (recipe.recode)
     {
-      std::transform(out, out + size, out, [&](double code) {
+      std::transform(out, out + size * size, out, [&](double code) {
         return static_cast<std::uint16_t>(std::lround(recipe.recode(code)));
       });
     }
@@ -119,6 +148,32 @@ RenderCodes(const StressRecipe & recipe)
   return codes;
 }
 } // namespace
+
+double
+StressTruth::InterceptNear(double found, double sharedVariance) const
+{
+  return std::clamp(found, intercept, intercept + sharedVariance);
+}
+
+StressTruth
+StressStack::TruthOver(const std::vector<std::uint8_t> & isUsed) const
+{
+  StressTruth sum;
+  double      count = 0.0;
+  const bool  isAnyUsed = std::find(isUsed.begin(), isUsed.end(), 1) != isUsed.end();
+  for (std::size_t pixel = 0; pixel < ofPixel.size(); ++pixel)
+  {
+    if (!isAnyUsed || isUsed[pixel] != 0)
+    {
+      sum.gain += ofPixel[pixel].gain;
+      sum.offset += ofPixel[pixel].offset;
+      sum.intercept += ofPixel[pixel].intercept;
+      count += 1.0;
+    }
+  }
+  return ofPixel.empty() ? StressTruth{ gain, offset, readNoise * readNoise - gain * offset }
+                         : StressTruth{ sum.gain / count, sum.offset / count, sum.intercept / count };
+}
 
 std::vector<StressCase>
 GetStressCases()
@@ -145,8 +200,9 @@ MakeStressStack(const std::string & name, const std::string & reference, std::si
   recipe.scene = reference == "target" ? MakeTargetScene(size, size) : MakeTextureScene(size, size);
   entry.prepare(recipe);
 
-  const CameraModel & camera = recipe.settings.camera;
-  StressStack         stack;
+  const StackSimulator simulator(recipe.scene, size, size, recipe.settings);
+  const CameraModel &  camera = recipe.settings.camera;
+  StressStack          stack;
   stack.width = size;
   stack.height = size;
   stack.frames = recipe.settings.frames;
@@ -154,7 +210,9 @@ MakeStressStack(const std::string & name, const std::string & reference, std::si
   stack.gain = camera.gainDnPerElectron * recipe.scale;
   stack.offset = camera.offsetDn * recipe.scale;
   stack.readNoise = camera.readNoiseDn * recipe.scale;
-  stack.codes = RenderCodes(recipe);
+  stack.sharedVariance = SharedVarianceDn2(recipe.settings.flaws.lineNoise) * recipe.scale * recipe.scale;
+  stack.ofPixel = DescribePixels(simulator, recipe);
+  stack.codes = RenderCodes(simulator, recipe);
   return stack;
 }
 

@@ -34,7 +34,8 @@ namespace sensornoise::tools
 enum class StressExpectation
 {
   Measured, ///< gain and intercept as they are
-  Refused   ///< the codes are no affine function of the light: the gain is `failed`
+  Refused,  ///< the codes are no affine function of the light: the gain is `failed`
+  Processed ///< noise is shared between pixels or frames: reported, neither right nor wrong
 };
 
 /** One kind of trouble. */
@@ -45,6 +46,21 @@ struct StressCase
   StressExpectation expectation{ StressExpectation::Measured };
 };
 
+/** What is true of the pixels that an estimate used. */
+struct StressTruth
+{
+  double gain{ 0.0 };      ///< g, d(mean code)/d(electron) [DN/e-]
+  double offset{ 0.0 };    ///< mu [DN]
+  double intercept{ 0.0 }; ///< sigma^2 - g mu, sigma the pixels' own [DN^2]
+
+  /** The truth to compare with. A pixel's variance without light also holds what the pixels of a row, a column or a
+   * band share: an estimate may count all of it, or none, or a part as far as it is told from the rest.
+   * \param found the estimate [DN^2]
+   * \param sharedVariance of the stack [DN^2] */
+  double
+  InterceptNear(double found, double sharedVariance) const;
+};
+
 /** A burst, frame after frame, and what is true of its codes. */
 struct StressStack
 {
@@ -52,17 +68,18 @@ struct StressStack
   std::size_t                width{ 0 };
   std::size_t                height{ 0 };
   std::size_t                frames{ 0 };
-  bool                       isEightBit{ false }; ///< a camera would give it in bytes
-  double                     gain{ 0.0 };         ///< g [DN/e-]
-  double                     offset{ 0.0 };       ///< mu [DN]
-  double                     readNoise{ 0.0 };    ///< sigma [DN]
+  bool                       isEightBit{ false };   ///< a camera would give it in bytes
+  double                     gain{ 0.0 };           ///< g [DN/e-]
+  double                     offset{ 0.0 };         ///< mu [DN]
+  double                     readNoise{ 0.0 };      ///< sigma of the pixels alone [DN]
+  double                     sharedVariance{ 0.0 }; ///< of what the pixels of a row, a column or a band share [DN^2]
+  /** The truth of each pixel, where pixels differ by design or the response is bent; else empty. The intercept of a
+   * pixel is the variance of its own read noise minus its local gain times its offset. */
+  std::vector<StressTruth> ofPixel;
 
-  /** sigma^2 - g mu [DN^2]. */
-  double
-  Intercept() const
-  {
-    return readNoise * readNoise - gain * offset;
-  }
+  /** The mean over the pixels with a 1 in \a isUsed; over all if there is none. */
+  StressTruth
+  TruthOver(const std::vector<std::uint8_t> & isUsed) const;
 };
 
 /** All cases, in the order in which they are reported. */

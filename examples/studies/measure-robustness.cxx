@@ -19,6 +19,7 @@
 // reported standard errors, and a verdict. See --help and --list.
 
 #include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/PixelUse.h"
 #include "sensornoise/published/PublishedMethod.h"
 #include "sensornoise/refined/RefinedMethod.h"
 #include "sensornoise/report/Report.h"
@@ -59,8 +60,15 @@ struct Options
   bool                     list{ false };
 };
 
+/** A report, and the pixels that it is of. */
+struct Estimation
+{
+  Report                    report;
+  std::vector<std::uint8_t> isUsed;
+};
+
 template <typename TMethod, typename TPixel>
-Report
+Estimation
 EstimateBy(TMethod && method, const std::vector<TPixel> & codes, std::size_t frames)
 {
   for (unsigned int pass = 0; pass < method.NumberOfPasses; ++pass)
@@ -68,11 +76,16 @@ EstimateBy(TMethod && method, const std::vector<TPixel> & codes, std::size_t fra
     method.AddFrames(codes.data(), frames);
     method.EndPass();
   }
-  return method.GetReport();
+  Estimation estimation{ method.GetReport(), {} };
+  for (const std::uint8_t use : method.GetPixelUse())
+  {
+    estimation.isUsed.push_back(static_cast<PixelUse>(use) == PixelUse::Used ? 1 : 0);
+  }
+  return estimation;
 }
 
 template <typename TPixel>
-Report
+Estimation
 Estimate(const std::string & name, const StressStack & stack, const std::vector<TPixel> & codes)
 {
   const FrameGeometry geometry{ stack.width, stack.height, 1 };
@@ -84,12 +97,16 @@ void
 Execute(Run & run, const Options & options)
 {
   const StressStack stack = tools::MakeStressStack(run.stressCase.name, run.reference, options.size, run.seed);
-  run.report = stack.isEightBit
-                 ? Estimate(options.method, stack, std::vector<std::uint8_t>(stack.codes.begin(), stack.codes.end()))
-                 : Estimate(options.method, stack, stack.codes);
-  run.gainPercent = tools::Compare(run.report.gain, stack.gain, 0.01 * stack.gain);
-  run.intercept = tools::Compare(run.report.intercept, stack.Intercept(), 1.0);
-  run.offset = tools::Compare(run.report.offset, stack.offset, 1.0);
+  const Estimation  estimation =
+    stack.isEightBit
+       ? Estimate(options.method, stack, std::vector<std::uint8_t>(stack.codes.begin(), stack.codes.end()))
+       : Estimate(options.method, stack, stack.codes);
+  const tools::StressTruth truth = stack.TruthOver(estimation.isUsed);
+  run.report = estimation.report;
+  run.gainPercent = tools::Compare(run.report.gain, truth.gain, 0.01 * truth.gain);
+  run.intercept = tools::Compare(
+    run.report.intercept, truth.InterceptNear(run.report.intercept.value.value_or(0.0), stack.sharedVariance), 1.0);
+  run.offset = tools::Compare(run.report.offset, truth.offset, 1.0);
 }
 
 /** Simulates and estimates all runs, some at a time, and prints them in order. */

@@ -58,6 +58,7 @@ SimulateOptions::Parse(int argc, char ** argv)
     ->expected(2)
     ->default_str("");
   app.add_option("--seed", seed, "Seed of the noise; the scene stays the same");
+  flaws.AddTo(app);
   app.set_version_flag("--version", std::string("simulate-sensor-noise ") + GetModuleVersion());
   try
   {

@@ -18,6 +18,8 @@
 #ifndef SimulateOptions_h
 #define SimulateOptions_h
 
+#include "tools/SimulateFlawOptions.h"
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -46,6 +48,7 @@ struct SimulateOptions
   unsigned int          frames{ 100 };
   unsigned int          bitDepth{ 12 };
   std::uint64_t         seed{ 1 };
+  SimulateFlawOptions   flaws;
 
   /** Reads the command line; false if there is nothing left to do (--help, --version). Throws std::exception on wrong
    * use. */

@@ -137,6 +137,7 @@ MakeSource(const SimulateOptions & options)
     source->SetClipLow(options.clip[0]);
     source->SetClipHigh(options.clip[1]);
   }
+  options.flaws.ApplyTo(*source);
   source->SetReference(MakeReference(options));
   return source;
 }

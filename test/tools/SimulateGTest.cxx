@@ -170,6 +170,38 @@ TEST_F(SimulateTool, ExplicitValuesOverrideCameraAndCondition)
   EXPECT_EQ(*extremes.second, 800);
 }
 
+TEST_F(SimulateTool, FlawsReachTheTruth)
+{
+  ASSERT_EQ(Run("--output s.mha --truth t.json --size 64x48 --frames 4 --prnu 0.01 --dsnu 2 --hot-pixels 0.02,5 "
+                "--gain-pattern 0.011 --column-gain-pattern 0.012 --column-efficiency-pattern 0.013 "
+                "--column-offset-pattern 1.4 --brighter-fatter 1.5e-6 --coupling 0.016 --read-noise-spread 0.17 "
+                "--read-noise-tail 0.018,1.9 --response wave,-0.02 --row-noise 2.1 --column-noise 2.2 --banding 2.3,24 "
+                "--dark --defect-correction 2.5 --temporal-filter 0.26 --smoothing 0.27 --resampling 0.28,-0.29 "
+                "--companding 10 --repeat 2"),
+            0)
+    << m_Message;
+  const auto truth = ReadJson("t.json");
+  EXPECT_EQ(truth["prnu_sd"], 0.01);
+  EXPECT_EQ(truth["dsnu_sd"], 2.0);
+  EXPECT_EQ(truth["hot_pixel_fraction"], 0.02);
+  EXPECT_EQ(truth["hot_pixel_noise_factor"], 5.0);
+  EXPECT_EQ(truth["dark"], true);
+  EXPECT_GT(truth["realised_read_noise"], truth["realised_read_noise_median"]);
+  const auto expected = nlohmann::json::parse(
+    R"({"pattern": {"gain_sd": 0.011, "column_gain_sd": 0.012, "column_efficiency_sd": 0.013, "column_offset_sd": 1.4},
+        "brighter_fatter_per_electron": 1.5e-6, "coupling_fraction": 0.016,
+        "read_noise": {"spread": 0.17, "tail_fraction": 0.018, "tail_spread": 1.9},
+        "response": {"shape": "wave", "size": -0.02, "full_scale_electrons": 0},
+        "line_noise": {"row_noise_sd": 2.1, "column_noise_sd": 2.2, "banding_amplitude": 2.3, "banding_period": 24},
+        "defect_threshold_sd": 2.5, "temporal_filter_weight": 0.26, "smoothing_sd": 0.27,
+        "resampling_shift": [0.28, -0.29], "companding_bits": 10, "repeat_count": 2})");
+  EXPECT_EQ(truth["flaws"], expected);
+  const auto   stack = ReadStack("s.mha");
+  const auto * pixels = stack->GetBufferPointer();
+  EXPECT_TRUE(std::equal(pixels, pixels + 64 * 48, pixels + 64 * 48)); // each exposure twice
+  EXPECT_LT(*std::max_element(pixels, pixels + 64 * 48 * 4), 1000);    // dark
+}
+
 TEST_F(SimulateTool, SameSeedSameFileAndAnExistingFileIsReplaced)
 {
   ASSERT_EQ(Run("--output a.mha --size 32x32 --frames 3 --seed 5"), 0);
@@ -240,6 +272,10 @@ TEST_F(SimulateTool, WrongUseIsRefusedInOneSentenceAndLeavesNothing)
   ExpectRefusal("--output s.mha --bit-depth 17", "the pixel type holds at most 16 bits");
   ExpectRefusal("--output s.mha --vibration-sd 0.1", "--vibration-sd");
   ExpectRefusal("--output s.mha --clip 100,50", "expected the low one below the high one");
+  ExpectRefusal("--output s.mha --response wave", "--response");
+  ExpectRefusal("--output s.mha --response bump,0.1", "the response \"bump\" is not known");
+  ExpectRefusal("--output s.mha --temporal-filter 1", "expected 0 to 0.99");
+  ExpectRefusal("--output s.mha --banding 3", "--banding");
   std::ofstream(m_Folder / "out" / "not-an-image.txt") << "hello";
   ExpectRefusal("--output s.mha --reference not-an-image.txt", "not an image");
 }

@@ -108,7 +108,11 @@ ScaleToRange(std::vector<double> image, double low, double high)
 }
 
 std::vector<double>
-GaussianBlur(const std::vector<double> & image, std::size_t width, std::size_t height, double sdPixels)
+GaussianBlur(const std::vector<double> & image,
+             std::size_t                 width,
+             std::size_t                 height,
+             double                      sdPixels,
+             const ParallelFor &         parallelFor)
 {
   const auto          radius = static_cast<std::ptrdiff_t>(4.0 * sdPixels + 0.5);
   std::vector<double> kernel;
@@ -122,8 +126,7 @@ GaussianBlur(const std::vector<double> & image, std::size_t width, std::size_t h
   const auto blurAlong = [&](bool isVertical, const std::vector<double> & in) {
     std::vector<double> out(in.size());
     const auto          last = static_cast<std::ptrdiff_t>(isVertical ? height : width) - 1;
-    for (std::size_t y = 0; y < height; ++y)
-    {
+    parallelFor(height, [&](std::size_t y) {
       for (std::size_t x = 0; x < width; ++x)
       {
         const auto position = static_cast<std::ptrdiff_t>(isVertical ? y : x);
@@ -136,7 +139,7 @@ GaussianBlur(const std::vector<double> & image, std::size_t width, std::size_t h
         }
         out[y * width + x] = value / sum;
       }
-    }
+    });
     return out;
   };
   return blurAlong(false, blurAlong(true, image));

@@ -19,6 +19,7 @@
 #define sensornoise_simulation_Scenes_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/base/Parallel.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -41,7 +42,11 @@ ScaleToRange(std::vector<double> image, double low, double high);
 /** Gaussian blur: sampled kernel of standard deviation `sdPixels`, cut at 4 standard deviations and normalised, edge
  * pixels replicated (as SciPy's `gaussian_filter` with mode "nearest"). 0 leaves the image as it is. */
 SensorNoise_EXPORT std::vector<double>
-GaussianBlur(const std::vector<double> & image, std::size_t width, std::size_t height, double sdPixels);
+GaussianBlur(const std::vector<double> & image,
+             std::size_t                 width,
+             std::size_t                 height,
+             double                      sdPixels,
+             const ParallelFor &         parallelFor = SerialFor);
 
 /** Calibration target: 4 x 4 grey patches on a surround of 0.12, each patch with a margin of 7 % of its cell (at least
  * 2 pixels). The patches hold the 16 levels 0, 1/15, ..., 1 in an order drawn from the seed. Large flat areas: the

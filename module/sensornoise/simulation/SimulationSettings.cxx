@@ -17,6 +17,8 @@
  *=========================================================================*/
 #include "sensornoise/simulation/SimulationSettings.h"
 
+#include "sensornoise/simulation/SettingChecks.h"
+
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -59,41 +61,41 @@ PaperConditions(int number)
 void
 CheckSettings(const SimulationSettings & settings)
 {
-  const auto require = [](bool isGood, const char * name, double found, const char * expected) {
-    if (!isGood)
-    {
-      throw std::invalid_argument(std::string("the ") + name + " is " + std::to_string(found) + "; expected " +
-                                  expected);
-    }
-  };
-  const auto requireNotNegative = [&](double value, const char * name) {
-    require(std::isfinite(value) && value >= 0.0, name, value, "a finite number, 0 or more");
-  };
   const CameraModel & camera = settings.camera;
-  require(camera.electrons > 0.0 && camera.electrons <= 1e9, "number of electrons", camera.electrons, "0 < A <= 1e9");
-  require(std::isfinite(camera.gainDnPerElectron) && camera.gainDnPerElectron > 0.0,
-          "gain",
-          camera.gainDnPerElectron,
-          "a finite number above 0");
-  require(std::isfinite(camera.offsetDn), "offset", camera.offsetDn, "a finite number");
-  requireNotNegative(camera.readNoiseDn, "read noise");
-  requireNotNegative(settings.conditions.flickerSd, "flicker standard deviation");
-  requireNotNegative(settings.conditions.vibrationSdXPixels, "horizontal vibration standard deviation");
-  requireNotNegative(settings.conditions.vibrationSdYPixels, "vertical vibration standard deviation");
-  require(settings.frames >= 1, "number of frames", static_cast<double>(settings.frames), "at least 1");
-  require(settings.bitDepth <= 32, "bit depth", settings.bitDepth, "0 (no clipping) to 32");
-  require(settings.opticalBlurPixels >= 0.0 && settings.opticalBlurPixels <= 1000.0,
-          "optical blur",
-          settings.opticalBlurPixels,
-          "0 to 1000 pixels");
-  requireNotNegative(settings.rollingShutterPeriodRows, "rolling-shutter period");
-  requireNotNegative(settings.prnuSd, "PRNU");
-  requireNotNegative(settings.dsnuSdDn, "DSNU");
-  requireNotNegative(settings.hotPixelNoiseFactor, "noise factor of hot pixels");
-  require(settings.hotPixelFraction >= 0.0 && settings.hotPixelFraction <= 1.0,
-          "fraction of hot pixels",
-          settings.hotPixelFraction,
-          "0 to 1");
+  RequireSetting(
+    camera.electrons > 0.0 && camera.electrons <= 1e9, "number of electrons", camera.electrons, "0 < A <= 1e9");
+  RequireSetting(std::isfinite(camera.gainDnPerElectron) && camera.gainDnPerElectron > 0.0,
+                 "gain",
+                 camera.gainDnPerElectron,
+                 "a finite number above 0");
+  RequireSetting(std::isfinite(camera.offsetDn), "offset", camera.offsetDn, "a finite number");
+  RequireNotNegative(camera.readNoiseDn, "read noise");
+  RequireNotNegative(settings.conditions.flickerSd, "flicker standard deviation");
+  RequireNotNegative(settings.conditions.vibrationSdXPixels, "horizontal vibration standard deviation");
+  RequireNotNegative(settings.conditions.vibrationSdYPixels, "vertical vibration standard deviation");
+  RequireSetting(settings.frames >= 1, "number of frames", static_cast<double>(settings.frames), "at least 1");
+  RequireSetting(settings.bitDepth <= 32, "bit depth", settings.bitDepth, "0 (no clipping) to 32");
+  RequireSetting(settings.opticalBlurPixels >= 0.0 && settings.opticalBlurPixels <= 1000.0,
+                 "optical blur",
+                 settings.opticalBlurPixels,
+                 "0 to 1000 pixels");
+  RequireNotNegative(settings.rollingShutterPeriodRows, "rolling-shutter period");
+  RequireNotNegative(settings.prnuSd, "PRNU");
+  RequireNotNegative(settings.dsnuSdDn, "DSNU");
+  RequireNotNegative(settings.hotPixelNoiseFactor, "noise factor of hot pixels");
+  RequireFraction(settings.hotPixelFraction, "fraction of hot pixels");
+  CheckSettings(settings.flaws.pattern);
+  CheckSettings(settings.flaws.readNoise);
+  CheckSettings(settings.flaws.response);
+  CheckSettings(settings.flaws.lineNoise);
+  CheckSettings(settings.flaws.brighterFatter, camera.electrons);
+  CheckSettings(settings.flaws.coupling);
+  CheckSettings(settings.flaws.defectCorrection);
+  CheckSettings(settings.flaws.temporalFilter);
+  CheckSettings(settings.flaws.smoothing);
+  CheckSettings(settings.flaws.resampling);
+  CheckSettings(settings.flaws.companding, settings.bitDepth);
+  CheckSettings(settings.flaws.repetition);
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const double     low = settings.clipLowDn.value_or(-infinity);
   const double     high = settings.clipHighDn.value_or(infinity);

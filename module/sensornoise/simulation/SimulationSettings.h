@@ -19,6 +19,7 @@
 #define sensornoise_simulation_SimulationSettings_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/simulation/SensorFlaws.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -89,6 +90,12 @@ struct SimulationSettings
   double hotPixelFraction{ 0.0 };
   /** Read noise of those pixels in units of the others', 0 or more. */
   double hotPixelNoiseFactor{ 10.0 };
+  /** What else a real sensor does; all off. */
+  SensorFlaws flaws{};
+  /** The shutter is closed: no pixel expects an electron. Gains, offsets and read noise of the pixels depend on the
+   * seed alone, so the same settings with and without light are the same sensor; the noise of dark frames is
+   * independent of that of bright ones. */
+  bool isDark{ false };
 };
 
 /** \throws std::invalid_argument naming the first setting that cannot be used. */

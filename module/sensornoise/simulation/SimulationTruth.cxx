@@ -18,6 +18,8 @@
 #include "sensornoise/simulation/SimulationTruth.h"
 
 #include "sensornoise/simulation/Random.h"
+#include "sensornoise/simulation/RandomStreams.h"
+#include "sensornoise/simulation/ReadOut.h"
 
 #include <cmath>
 #include <cstdint>
@@ -32,11 +34,11 @@ constexpr double TwoPi = 6.283185307179586476925;
 SimulatedSeries
 DrawSeries(const SimulationSettings & settings)
 {
-  constexpr std::uint64_t seriesStream = 1;
-  SimulatedSeries         series;
+  SimulatedSeries series;
   for (std::size_t frame = 0; frame < settings.frames; ++frame)
   {
-    CounterSeededRandom random(settings.seed, seriesStream, frame);
+    CounterSeededRandom random(
+      settings.seed, StreamNumber(RandomStream::Series), settings.flaws.repetition.ExposureOf(frame));
     series.gamma.push_back(settings.conditions.flickerSd * random.Normal());
     series.alpha.push_back(settings.conditions.vibrationSdXPixels * random.Normal());
     series.beta.push_back(settings.conditions.vibrationSdYPixels * random.Normal());
@@ -113,6 +115,16 @@ DrawTruth(const SimulationSettings & settings, std::size_t height)
   truth.realisedFlickerSd = std::sqrt(flickerVariance);
   truth.realisedVibrationSdXPixels = std::sqrt(VarianceOf(frames, [&](std::size_t t) { return series.alpha[t]; }));
   truth.realisedVibrationSdYPixels = std::sqrt(VarianceOf(frames, [&](std::size_t t) { return series.beta[t]; }));
+  return truth;
+}
+
+SimulationTruth
+DrawTruth(const SimulationSettings & settings, std::size_t width, std::size_t height)
+{
+  SimulationTruth truth = DrawTruth(settings, height);
+  const auto      readNoise = ReadOut(settings, width, height).SummariseReadNoise();
+  truth.realisedReadNoiseRmsDn = readNoise.rmsDn;
+  truth.realisedReadNoiseMedianDn = readNoise.medianDn;
   return truth;
 }
 

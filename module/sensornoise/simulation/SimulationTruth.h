@@ -22,6 +22,7 @@
 #include "sensornoise/simulation/SimulationSettings.h"
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace sensornoise
@@ -55,6 +56,11 @@ struct SimulationTruth
   double realisedVibrationSdXPixels{ 0.0 };
   /** Standard deviation of this stack's beta (divisor T - 1) [pixel]. */
   double realisedVibrationSdYPixels{ 0.0 };
+  /** Root mean square over all pixels of the standard deviation of the code without light, hot pixels and the tail of
+   * the read noise included, rounding and line noise not [DN]. NaN where the truth was drawn without a width. */
+  double realisedReadNoiseRmsDn{ std::numeric_limits<double>::quiet_NaN() };
+  /** Median of the same [DN]. */
+  double realisedReadNoiseMedianDn{ std::numeric_limits<double>::quiet_NaN() };
 };
 
 /** Flicker gamma_t(y) of row `y` of frame `frame` [1]. */
@@ -66,6 +72,10 @@ FlickerOfRow(const SimulationSettings & settings, const SimulatedSeries & series
  * \throws std::invalid_argument if a setting cannot be used. */
 SensorNoise_EXPORT SimulationTruth
 DrawTruth(const SimulationSettings & settings, std::size_t height);
+
+/** The same, with what depends on the pixels: the realised read noise. */
+SensorNoise_EXPORT SimulationTruth
+DrawTruth(const SimulationSettings & settings, std::size_t width, std::size_t height);
 
 } // namespace sensornoise
 

@@ -18,55 +18,18 @@
 #include "sensornoise/simulation/Simulator.h"
 
 #include "sensornoise/simulation/Random.h"
-#include "sensornoise/simulation/Scenes.h"
+#include "sensornoise/simulation/RandomStreams.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
 
 namespace sensornoise
 {
-namespace
-{
-constexpr std::uint64_t PixelStream = 2;
-constexpr std::uint64_t FixedPatternStream = 3;
-
-/** Linear interpolation at position + shift along one axis, edge pixels replicated. */
-class Shift
-{
-public:
-  Shift(double shift, std::size_t size)
-    : m_Last(static_cast<double>(size) - 1.0)
-    , m_Whole(std::floor(shift))
-    , m_Fraction(shift - m_Whole)
-  {}
-  std::size_t
-  First(std::size_t position) const
-  {
-    return static_cast<std::size_t>(std::clamp(static_cast<double>(position) + m_Whole, 0.0, m_Last));
-  }
-  std::size_t
-  Second(std::size_t position) const
-  {
-    return static_cast<std::size_t>(std::clamp(static_cast<double>(position) + m_Whole + 1.0, 0.0, m_Last));
-  }
-  double
-  Blend(double first, double second) const
-  {
-    return first + m_Fraction * (second - first);
-  }
-
-private:
-  double m_Last;
-  double m_Whole;
-  double m_Fraction;
-};
-} // namespace
-
 StackSimulator::StackSimulator(const std::vector<double> & reference,
                                std::size_t                 width,
                                std::size_t                 height,
@@ -74,24 +37,19 @@ StackSimulator::StackSimulator(const std::vector<double> & reference,
   : m_Width(width)
   , m_Height(height)
   , m_Truth(DrawTruth(settings, height))
+  , m_Light(reference, width, height, settings)
+  , m_ReadOut(settings, width, height)
+  , m_TemporalFilter(std::make_shared<TemporalFilter>(settings.flaws.temporalFilter))
 {
-  if (width == 0 || height == 0 || reference.size() != width * height)
-  {
-    throw std::invalid_argument("the reference image has " + std::to_string(reference.size()) +
-                                " values; expected width x height = " + std::to_string(width) + " x " +
-                                std::to_string(height) + ", both at least 1");
-  }
-  if (!std::all_of(reference.begin(), reference.end(), [](double value) { return std::isfinite(value); }))
-  {
-    throw std::invalid_argument("the reference image holds a value that is not finite; expected finite values only");
-  }
-  m_Electrons =
-    ScaleToRange(GaussianBlur(reference, width, height, settings.opticalBlurPixels), 0.0, settings.camera.electrons);
-  DrawFixedPattern();
+  const std::vector<double> & gamma = m_Truth.series.gamma;
+  m_MeanBrightness = 1.0 + std::accumulate(gamma.begin(), gamma.end(), 0.0) / static_cast<double>(gamma.size());
+  const auto readNoise = m_ReadOut.SummariseReadNoise();
+  m_Truth.realisedReadNoiseRmsDn = readNoise.rmsDn;
+  m_Truth.realisedReadNoiseMedianDn = readNoise.medianDn;
 }
 
 void
-StackSimulator::ExpectedElectronsRow(std::size_t frame, std::size_t y, double * electrons) const
+StackSimulator::RequireRow(std::size_t frame, std::size_t y) const
 {
   if (frame >= m_Truth.settings.frames || y >= m_Height)
   {
@@ -99,37 +57,19 @@ StackSimulator::ExpectedElectronsRow(std::size_t frame, std::size_t y, double * 
                                 " was asked for; expected a row below " + std::to_string(m_Height) +
                                 " and a frame below " + std::to_string(m_Truth.settings.frames));
   }
-  const Shift    vertical(m_Truth.series.beta[frame], m_Height);
-  const Shift    horizontal(m_Truth.series.alpha[frame], m_Width);
-  const double * above = m_Electrons.data() + vertical.First(y) * m_Width;
-  const double * below = m_Electrons.data() + vertical.Second(y) * m_Width;
-  const double   brightness = 1.0 + FlickerOfRow(m_Truth.settings, m_Truth.series, frame, y);
-  for (std::size_t x = 0; x < m_Width; ++x)
-  {
-    const std::size_t left = horizontal.First(x);
-    const std::size_t right = horizontal.Second(x);
-    const double      rate =
-      vertical.Blend(horizontal.Blend(above[left], above[right]), horizontal.Blend(below[left], below[right]));
-    const double response = m_Response.empty() ? 1.0 : m_Response[y * m_Width + x];
-    electrons[x] = std::max(0.0, rate * brightness * response);
-  }
 }
 
 void
-StackSimulator::DrawFixedPattern()
+StackSimulator::ExpectedElectronsRow(std::size_t frame, std::size_t y, double * electrons) const
 {
-  const SimulationSettings & settings = m_Truth.settings;
-  const auto                 draw = [&](std::vector<double> & map, std::uint64_t kind, bool isNeeded, auto valueOf) {
-    CounterSeededRandom random(settings.seed, FixedPatternStream, kind);
-    map.resize(isNeeded ? m_Electrons.size() : 0);
-    std::generate(map.begin(), map.end(), [&] { return valueOf(random); });
-  };
-  draw(m_Response, 0, settings.prnuSd > 0.0, [&](auto & random) { return 1.0 + settings.prnuSd * random.Normal(); });
-  draw(m_DarkSignalDn, 1, settings.dsnuSdDn > 0.0, [&](auto & random) { return settings.dsnuSdDn * random.Normal(); });
-  draw(m_ReadNoiseDn, 2, settings.hotPixelFraction > 0.0, [&](auto & random) {
-    const bool isHot = random.Uniform() < settings.hotPixelFraction;
-    return settings.camera.readNoiseDn * (isHot ? settings.hotPixelNoiseFactor : 1.0);
-  });
+  RequireRow(frame, y);
+  m_Light.ExpectedElectronsRow(m_Truth, frame, y, electrons);
+}
+
+double
+StackSimulator::LocalGainAt(std::size_t pixel) const
+{
+  return m_ReadOut.LocalGainAt(pixel, m_Light.ElectronsAtRest(pixel, m_MeanBrightness));
 }
 
 template <typename TPixel>
@@ -160,31 +100,106 @@ StackSimulator::CodeRange(const SimulationSettings & settings)
   return { low, high };
 }
 
+void
+StackSimulator::ExposeRow(std::size_t frame, std::size_t y, double * electrons, double * normals) const
+{
+  const SimulationSettings & settings = m_Truth.settings;
+  const std::size_t          exposure = settings.flaws.repetition.ExposureOf(frame);
+  CounterSeededRandom        random(settings.seed, StreamNumber(RandomStream::Pixels, settings.isDark), exposure, y);
+  ExpectedElectronsRow(frame, y, electrons);
+  for (std::size_t x = 0; x < m_Width; ++x)
+  {
+    electrons[x] = static_cast<double>(random.Poisson(electrons[x]));
+    normals[x] = random.Normal();
+  }
+}
+
+void
+StackSimulator::ReadRow(std::size_t    frame,
+                        std::size_t    y,
+                        const double * electrons,
+                        const double * normals,
+                        double *       codesDn) const
+{
+  constexpr double           infinity = std::numeric_limits<double>::infinity();
+  const SimulationSettings & settings = m_Truth.settings;
+  const double               low = settings.clipLowDn.value_or(-infinity);
+  const double               high = settings.clipHighDn.value_or(infinity);
+  m_ReadOut.ReadRow(settings.flaws.repetition.ExposureOf(frame), y, electrons, normals, codesDn);
+  std::transform(codesDn, codesDn + m_Width, codesDn, [=](double code) { return std::clamp(code, low, high); });
+}
+
+DoubleFrame
+StackSimulator::ReadFrame(std::size_t frame, const ParallelFor & parallelFor) const
+{
+  DoubleFrame charge(m_Width, m_Height);
+  DoubleFrame codesDn(m_Width, m_Height);
+  parallelFor(m_Height, [&](std::size_t y) { ExposeRow(frame, y, charge.Row(y), codesDn.Row(y)); });
+  charge = MoveCharge(std::move(charge), m_Truth.settings.flaws, parallelFor);
+  parallelFor(m_Height, [&](std::size_t y) { ReadRow(frame, y, charge.Row(y), codesDn.Row(y), codesDn.Row(y)); });
+  return codesDn;
+}
+
+template <typename TPixel>
+void
+StackSimulator::WriteRow(double * codesDn, TPixel * out) const
+{
+  const SimulationSettings & settings = m_Truth.settings;
+  const auto                 range = CodeRange<TPixel>(settings);
+  if (settings.flaws.companding.IsOn())
+  {
+    Compand(codesDn, m_Width, settings.flaws.companding, settings.bitDepth);
+  }
+  for (std::size_t x = 0; x < m_Width; ++x)
+  {
+    if constexpr (std::is_integral_v<TPixel>)
+    {
+      out[x] = static_cast<TPixel>(std::clamp(std::floor(codesDn[x] + 0.5), range.first, range.second));
+    }
+    else
+    {
+      out[x] = static_cast<TPixel>(std::clamp(codesDn[x], range.first, range.second));
+    }
+  }
+}
+
 template <typename TPixel>
 void
 StackSimulator::RenderRow(std::size_t frame, std::size_t y, TPixel * out) const
 {
-  const auto          range = CodeRange<TPixel>(m_Truth.settings);
-  const CameraModel & camera = m_Truth.settings.camera;
-  CounterSeededRandom random(m_Truth.settings.seed, PixelStream, frame, y);
-  std::vector<double> electrons(m_Width);
-  ExpectedElectronsRow(frame, y, electrons.data());
-  for (std::size_t x = 0; x < m_Width; ++x)
+  if (NeedsWholeFrames())
   {
-    const std::size_t pixel = y * m_Width + x;
-    const double      readNoiseDn = m_ReadNoiseDn.empty() ? camera.readNoiseDn : m_ReadNoiseDn[pixel];
-    const double      offsetDn = camera.offsetDn + (m_DarkSignalDn.empty() ? 0.0 : m_DarkSignalDn[pixel]);
-    const double      signalDn = camera.gainDnPerElectron * static_cast<double>(random.Poisson(electrons[x]));
-    const double      valueDn = signalDn + offsetDn + readNoiseDn * random.Normal();
-    if constexpr (std::is_integral_v<TPixel>)
-    {
-      out[x] = static_cast<TPixel>(std::clamp(std::floor(valueDn + 0.5), range.first, range.second));
-    }
-    else
-    {
-      out[x] = static_cast<TPixel>(std::clamp(valueDn, range.first, range.second));
-    }
+    throw std::invalid_argument(
+      "one row of a frame was asked for, with flaws that mix the rows or the frames; expected "
+      "RenderFrame to be used");
   }
+  std::vector<double> electrons(m_Width);
+  std::vector<double> codesDn(m_Width);
+  ExposeRow(frame, y, electrons.data(), codesDn.data());
+  ReadRow(frame, y, electrons.data(), codesDn.data(), codesDn.data());
+  WriteRow(codesDn.data(), out);
+}
+
+template <typename TPixel>
+void
+StackSimulator::RenderFrame(std::size_t frame, TPixel * out, const ParallelFor & parallelFor) const
+{
+  if (!NeedsWholeFrames())
+  {
+    parallelFor(m_Height, [&](std::size_t y) { RenderRow(frame, y, out + y * m_Width); });
+    return;
+  }
+  RequireRow(frame, 0);
+  const SensorFlaws & flaws = m_Truth.settings.flaws;
+  const auto          codesOf = [&](std::size_t exposure) {
+    const std::size_t firstFrame = exposure * flaws.repetition.count;
+    return ProcessBeforeTemporalFilter(ReadFrame(firstFrame, parallelFor), flaws, parallelFor);
+  };
+  const std::size_t exposure = flaws.repetition.ExposureOf(frame);
+  DoubleFrame       codesDn =
+    flaws.temporalFilter.IsOn() ? m_TemporalFilter->OutputFrame(exposure, codesOf, parallelFor) : codesOf(exposure);
+  codesDn = ProcessAfterTemporalFilter(std::move(codesDn), flaws, parallelFor);
+  parallelFor(m_Height, [&](std::size_t y) { WriteRow(codesDn.Row(y), out + y * m_Width); });
 }
 
 template SensorNoise_EXPORT void
@@ -197,6 +212,16 @@ template SensorNoise_EXPORT void
 StackSimulator::RenderRow<float>(std::size_t, std::size_t, float *) const;
 template SensorNoise_EXPORT void
 StackSimulator::RenderRow<double>(std::size_t, std::size_t, double *) const;
+template SensorNoise_EXPORT void
+StackSimulator::RenderFrame<unsigned char>(std::size_t, unsigned char *, const ParallelFor &) const;
+template SensorNoise_EXPORT void
+StackSimulator::RenderFrame<unsigned short>(std::size_t, unsigned short *, const ParallelFor &) const;
+template SensorNoise_EXPORT void
+StackSimulator::RenderFrame<short>(std::size_t, short *, const ParallelFor &) const;
+template SensorNoise_EXPORT void
+StackSimulator::RenderFrame<float>(std::size_t, float *, const ParallelFor &) const;
+template SensorNoise_EXPORT void
+StackSimulator::RenderFrame<double>(std::size_t, double *, const ParallelFor &) const;
 
 template SensorNoise_EXPORT std::pair<double, double>
 StackSimulator::CodeRange<unsigned char>(const SimulationSettings &);

@@ -19,10 +19,17 @@
 #define sensornoise_simulation_Simulator_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/simulation/DoubleFrame.h"
+#include "sensornoise/simulation/FrameProcessing.h"
+#include "sensornoise/simulation/ReadOut.h"
+#include "sensornoise/simulation/SceneLight.h"
 #include "sensornoise/simulation/SimulationSettings.h"
 #include "sensornoise/simulation/SimulationTruth.h"
+#include "sensornoise/simulation/TemporalFilter.h"
 
 #include <cstddef>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -37,11 +44,13 @@ namespace sensornoise
  *
  * with p the reference image, blurred and then scaled to [0, electrons] (a constant image: `electrons` everywhere),
  * interpolated linearly with edge pixels replicated. A rate below 0 counts as 0. Flaws of a real sensor can be added:
- * rolling shutter, saturation and floor, PRNU, DSNU and hot pixels (SimulationSettings).
+ * rolling shutter, saturation and floor, PRNU, DSNU and hot pixels (SimulationSettings), and those of SensorFlaws.
  *
- * A row is a pure function of (settings, frame, row): rows may be drawn in any order and by any number of threads. The
- * simulator holds one frame of doubles (a second and third for PRNU and DSNU, a fourth for hot pixels), never the
- * stack.
+ * A row is a pure function of (settings, frame, row): rows may be drawn in any order and by any number of threads.
+ Where
+ * flaws mix the rows of a frame or the frames (NeedsWholeFrames()), the same holds for whole frames, RenderFrame(). The
+ * simulator holds one frame of doubles, and one more for each kind of fixed pattern (efficiency, gain, offset, read
+ * noise) and for the temporal filter, never the stack.
  *
    \code
    const StackSimulator simulator(MakeTargetScene(512, 512), 512, 512, SimulationSettings{});
@@ -79,20 +88,55 @@ public:
     return m_Truth;
   }
 
-  /** Expected electrons of row `y` of frame `frame`: (1 + gamma) p(x + alpha, y + beta), with PRNU, cut at 0.
-   * `electrons` has room for one row. */
+  /** Expected electrons of row `y` of frame `frame`: (1 + gamma) p(x + alpha, y + beta), with PRNU, cut at 0; 0 in dark
+   * frames. `electrons` has room for one row. */
   void
   ExpectedElectronsRow(std::size_t frame, std::size_t y, double * electrons) const;
+
+  /** d(mean code) / d(electron) of a pixel at its mean light [DN/e-]: gain, times the pixel's part of it, times the
+   * slope of the response where noise and flicker are centred. The gain that a pixel's variance shows, to first order.
+   */
+  double
+  LocalGainAt(std::size_t pixel) const;
+
+  /** Standard deviation of a pixel's code without light, before rounding [DN]. */
+  double
+  PixelReadNoiseDn(std::size_t pixel) const
+  {
+    return m_ReadOut.PixelReadNoiseDn(pixel);
+  }
+
+  /** Mean code of a pixel without light, before rounding and clipping [DN]. */
+  double
+  PixelOffsetDn(std::size_t pixel) const
+  {
+    return m_ReadOut.PixelOffsetDn(pixel);
+  }
 
   /** Draws row `y` of frame `frame` into `out`, which has room for one row [DN].
    *
    * Integer pixels are rounded to the nearest code and clipped to [max(0, clipLowDn), min(2^bitDepth - 1, clipHighDn)]
    * (bit depth 0: to the range of the type). Floating-point pixels are neither rounded nor clipped, unless a clip level
    * is set.
-   * \throws std::invalid_argument if the bit depth does not fit in the type. */
+   * \throws std::invalid_argument if the bit depth does not fit in the type, or if NeedsWholeFrames(). */
   template <typename TPixel>
   void
   RenderRow(std::size_t frame, std::size_t y, TPixel * out) const;
+
+  /** Whether flaws mix the rows of a frame, or frames: then frames are drawn by RenderFrame() alone. */
+  bool
+  NeedsWholeFrames() const
+  {
+    return sensornoise::NeedsWholeFrames(m_Truth.settings.flaws);
+  }
+
+  /** Draws frame `frame` into `out`, which has room for one frame, row after row [DN]; always possible, and the same as
+   * RenderRow() for each row where that is. Frames may be asked for in any order with the same result; with a temporal
+   * filter each costs least one after the other.
+   * \throws std::invalid_argument if the bit depth does not fit in the type. */
+  template <typename TPixel>
+  void
+  RenderFrame(std::size_t frame, TPixel * out, const ParallelFor & parallelFor = SerialFor) const;
 
   /** Lowest and highest value [DN] that a pixel of type TPixel takes under these settings.
    * \throws std::invalid_argument if the bit depth does not fit in the type, or no code is left. */
@@ -101,17 +145,33 @@ public:
   CodeRange(const SimulationSettings & settings);
 
 private:
-  /** What differs from pixel to pixel and stays the same from frame to frame; a map is empty where nothing differs. */
   void
-  DrawFixedPattern();
+  RequireRow(std::size_t frame, std::size_t y) const;
 
-  std::size_t         m_Width;
-  std::size_t         m_Height;
-  SimulationTruth     m_Truth;
-  std::vector<double> m_Electrons;
-  std::vector<double> m_Response;
-  std::vector<double> m_DarkSignalDn;
-  std::vector<double> m_ReadNoiseDn;
+  /** Collected electrons of row `y` of frame `frame`, and normal numbers for its read noise. */
+  void
+  ExposeRow(std::size_t frame, std::size_t y, double * electrons, double * normals) const;
+
+  /** Codes of a row as the sensor gives them, between its clip levels but not rounded [DN]. */
+  void
+  ReadRow(std::size_t frame, std::size_t y, const double * electrons, const double * normals, double * codesDn) const;
+
+  /** Codes of a frame as the sensor gives them. */
+  DoubleFrame
+  ReadFrame(std::size_t frame, const ParallelFor & parallelFor) const;
+
+  /** Companding, rounding and clipping of one row. */
+  template <typename TPixel>
+  void
+  WriteRow(double * codesDn, TPixel * out) const;
+
+  std::size_t                     m_Width;
+  std::size_t                     m_Height;
+  SimulationTruth                 m_Truth;
+  SceneLight                      m_Light;
+  ReadOut                         m_ReadOut;
+  double                          m_MeanBrightness; ///< mean of 1 + gamma over the frames
+  std::shared_ptr<TemporalFilter> m_TemporalFilter; ///< its memory; copies of a simulator may share it
 };
 
 extern template SensorNoise_EXPORT void
@@ -124,6 +184,16 @@ extern template SensorNoise_EXPORT void
 StackSimulator::RenderRow<float>(std::size_t, std::size_t, float *) const;
 extern template SensorNoise_EXPORT void
 StackSimulator::RenderRow<double>(std::size_t, std::size_t, double *) const;
+extern template SensorNoise_EXPORT void
+StackSimulator::RenderFrame<unsigned char>(std::size_t, unsigned char *, const ParallelFor &) const;
+extern template SensorNoise_EXPORT void
+StackSimulator::RenderFrame<unsigned short>(std::size_t, unsigned short *, const ParallelFor &) const;
+extern template SensorNoise_EXPORT void
+StackSimulator::RenderFrame<short>(std::size_t, short *, const ParallelFor &) const;
+extern template SensorNoise_EXPORT void
+StackSimulator::RenderFrame<float>(std::size_t, float *, const ParallelFor &) const;
+extern template SensorNoise_EXPORT void
+StackSimulator::RenderFrame<double>(std::size_t, double *, const ParallelFor &) const;
 extern template SensorNoise_EXPORT std::pair<double, double>
 StackSimulator::CodeRange<unsigned char>(const SimulationSettings &);
 extern template SensorNoise_EXPORT std::pair<double, double>

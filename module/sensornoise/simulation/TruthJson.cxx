@@ -18,6 +18,7 @@
 #include "sensornoise/simulation/TruthJson.h"
 
 #include "sensornoise/report/JsonWriter.h"
+#include "sensornoise/simulation/FlawsJson.h"
 #include "sensornoise/simulation/SimulationSettings.h"
 
 #include <array>
@@ -53,11 +54,15 @@ ToJson(const SimulationTruth & truth, std::size_t width, std::size_t height)
     json.Member("rolling_shutter_period", settings.rollingShutterPeriodRows);
     json.Member("prnu_sd", settings.prnuSd).Member("dsnu_sd", settings.dsnuSdDn);
     json.Member("hot_pixel_fraction", settings.hotPixelFraction);
+    json.Member("hot_pixel_noise_factor", settings.hotPixelNoiseFactor);
     json.Member("flicker_sd", conditions.flickerSd);
     json.Member("vibration_sd", std::array<double, 2>{ conditions.vibrationSdXPixels, conditions.vibrationSdYPixels });
     json.Member("realised_flicker_sd", truth.realisedFlickerSd);
     json.Member("realised_vibration_sd",
                 std::array<double, 2>{ truth.realisedVibrationSdXPixels, truth.realisedVibrationSdYPixels });
+    json.Member("realised_read_noise", truth.realisedReadNoiseRmsDn);
+    json.Member("realised_read_noise_median", truth.realisedReadNoiseMedianDn);
+    json.Member("dark", settings.isDark).Member("flaws", settings.flaws);
     json.Member("flicker", truth.normalisedFlicker);
     json.Member("gamma", truth.series.gamma).Member("alpha", truth.series.alpha).Member("beta", truth.series.beta);
     json.Member("phase", phase);

@@ -27,6 +27,31 @@ from ._arrays import PIXEL_NAMES, PIXEL_TYPES, as_frame, view
 from ._errors import itk_errors
 
 _CHUNK_BYTES = 64 * 2**20
+_SHAPES = ["straight", "quadratic", "wave", "shoulder", "gamma", "s-curve"]
+# Setter of each flaw that is one number.
+_NUMBERS = {
+    "prnu": "SetPrnuSd",
+    "dsnu": "SetDsnuSd",
+    "gain_pattern": "SetGainSd",
+    "column_gain_pattern": "SetColumnGainSd",
+    "column_efficiency_pattern": "SetColumnEfficiencySd",
+    "column_offset_pattern": "SetColumnOffsetSd",
+    "brighter_fatter": "SetBrighterFatterPerElectron",
+    "coupling": "SetCouplingFraction",
+    "read_noise_spread": "SetReadNoiseSpread",
+    "row_noise": "SetRowNoiseSd",
+    "column_noise": "SetColumnNoiseSd",
+    "defect_correction": "SetDefectThresholdSd",
+    "temporal_filter": "SetTemporalFilterWeight",
+    "smoothing": "SetSmoothingSd",
+}
+# What is expected of each flaw that is two numbers, and their setters.
+_PAIRS = {
+    "hot_pixels": ("(fraction, factor), two numbers", "SetHotPixelFraction", "SetHotPixelNoiseFactor"),
+    "read_noise_tail": ("(fraction, spread), two numbers", "SetReadNoiseTailFraction", "SetReadNoiseTailSpread"),
+    "banding": ("(amplitude, period), two numbers [DN], [row]", "SetBandingAmplitude", "SetBandingPeriod"),
+    "resampling": ("(x, y), two numbers [pixel]", "SetResamplingShiftX", "SetResamplingShiftY"),
+}
 
 
 def simulate_sensor_noise(
@@ -47,6 +72,28 @@ def simulate_sensor_noise(
     rolling_shutter: float = 0.0,
     bit_depth: int | None = None,
     clip: tuple[float, float] | None = None,
+    prnu: float = 0.0,
+    dsnu: float = 0.0,
+    hot_pixels: tuple[float, float] | None = None,
+    gain_pattern: float = 0.0,
+    column_gain_pattern: float = 0.0,
+    column_efficiency_pattern: float = 0.0,
+    column_offset_pattern: float = 0.0,
+    brighter_fatter: float = 0.0,
+    coupling: float = 0.0,
+    read_noise_spread: float = 0.0,
+    read_noise_tail: tuple[float, float] | None = None,
+    response: tuple[str, float] | None = None,
+    row_noise: float = 0.0,
+    column_noise: float = 0.0,
+    banding: tuple[float, float] | None = None,
+    dark: bool = False,
+    defect_correction: float = 0.0,
+    temporal_filter: float = 0.0,
+    smoothing: float = 0.0,
+    resampling: tuple[float, float] | None = None,
+    companding: int = 0,
+    repeat: int = 1,
 ) -> tuple[np.ndarray, dict[str, Any]]:
     """Simulates a burst of raw frames under flickering light and on a trembling floor, with known noise.
 
@@ -74,6 +121,43 @@ def simulate_sensor_noise(
         Bits of the converter, at most 16; 0: no clipping below the pixel type's range. Default 12, or 8 for uint8.
     clip
         Levels (low, high) between which the sensor itself is limited [DN]. Default: none.
+    prnu, dsnu
+        Standard deviations of the pixels' efficiency, relative [1], and of their offset [DN].
+    hot_pixels
+        (fraction, factor): so many pixels with so many times the read noise. Default: none.
+    gain_pattern, column_gain_pattern
+        Relative standard deviations of the gain, from pixel to pixel and from column to column [1], below 0.2.
+    column_efficiency_pattern, column_offset_pattern
+        Standard deviations of the columns' efficiency, relative [1], and of their offset [DN].
+    brighter_fatter
+        Shift of the border between two pixels for each electron of difference [1/e-], for example 1e-6.
+    coupling
+        Fraction of its charge that a pixel gives to each of its four neighbours [1], 0 to 0.2.
+    read_noise_spread
+        Standard deviation of the logarithm of the pixels' read noise [1]; `read_noise` is their median.
+    read_noise_tail
+        (fraction, spread): in so many pixels that logarithm is greater by |normal| times spread. Default: none.
+    response
+        (shape, size): ("quadratic", "wave" or "shoulder", departure of the local gain), ("gamma", exponent) or
+        ("s-curve", weight). Default: straight.
+    row_noise, column_noise
+        Standard deviations of what the pixels of a row or of a column share in a frame [DN].
+    banding
+        (amplitude, period) of a sine along y with a phase of its own in each frame [DN], [row]. Default: none.
+    dark
+        The shutter is closed: frames of the same sensor, with the same fixed patterns and other noise.
+    defect_correction
+        In the camera: a pixel so many standard deviations of its neighbours off becomes their median; 0: none.
+    temporal_filter
+        In the camera: weight of the last frame in each frame [1], 0 to 0.99.
+    smoothing
+        In the camera: standard deviation of a Gaussian filter [pixel].
+    resampling
+        In the camera: shift (x, y) by linear interpolation [pixel]. Default: none.
+    companding
+        In the camera: bits of square-root codes that are expanded again, 2 to 16; 0: none.
+    repeat
+        How often each exposure is written, 1 or more.
 
     Returns
     -------
@@ -86,6 +170,7 @@ def simulate_sensor_noise(
     ValueError
         Wrong use; says what was found and what was expected.
     """
+    parameters = dict(locals())
     import itk
 
     pixel = _pixel_type(dtype)
@@ -116,6 +201,12 @@ def simulate_sensor_noise(
         low, high = _options.numbers("clip", clip, 2, "(low, high), two levels [DN]")
         source.SetClipLow(low)
         source.SetClipHigh(high)
+    _set_flaws(source, {name: value for name, value in parameters.items() if name in _NUMBERS or name in _PAIRS})
+    if response is not None:
+        _set_response(source, response)
+    source.SetCompandingBits(_options.integer("companding", companding, 0, 16))
+    source.SetRepeatCount(_options.integer("repeat", repeat, 1, 2**31 - 1))
+    source.SetDark(bool(dark))
     # All that can go wrong here is a parameter out of range.
     with itk_errors(kind=ValueError):
         stack = _draw(source, np.dtype(pixel))
@@ -127,6 +218,24 @@ def simulate_sensor_noise(
     truth["condition"] = condition if is_paper_condition else None
     del kept
     return stack, truth
+
+
+def _set_flaws(source: Any, flaws: dict[str, Any]) -> None:
+    """Flaws that are one number or two; None leaves a pair as it is."""
+    for name, value in flaws.items():
+        if name in _NUMBERS:
+            getattr(source, _NUMBERS[name])(_options.number(name, value))
+        elif value is not None:
+            expected, *setters = _PAIRS[name]
+            for setter, number in zip(setters, _options.numbers(name, value, 2, expected)):
+                getattr(source, setter)(number)
+
+
+def _set_response(source: Any, response: Any) -> None:
+    expected = "(shape, size), a name and a number"
+    shape, size = _options.items("response", response, 2, expected)
+    source.SetResponseShape(_options.one_of("response[0]", shape, _SHAPES))
+    source.SetResponseSize(_options.number("response", size, expected))
 
 
 def _draw(source: Any, dtype: np.dtype) -> np.ndarray:

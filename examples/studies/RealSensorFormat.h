@@ -1,0 +1,42 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef RealSensorFormat_h
+#define RealSensorFormat_h
+
+#include "studies/RealSensorStatistics.h"
+
+#include <string>
+
+namespace sensornoise::tools
+{
+
+/** \a number as printf's \a format has it, or "-" if it is not finite. */
+std::string
+FormatNumber(double number, const char * format);
+
+/** "19/20", or "-" for none. */
+std::string
+FormatShare(const Share & share);
+
+/** The share in per cent, or "-" for none. */
+std::string
+FormatPercent(const Share & share);
+
+} // namespace sensornoise::tools
+
+#endif

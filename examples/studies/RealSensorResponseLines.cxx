@@ -1,0 +1,111 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "studies/RealSensorLines.h"
+
+#include "sensornoise/simulation/ResponseCurve.h"
+
+#include <array>
+#include <string>
+#include <utility>
+
+namespace sensornoise::tools
+{
+namespace
+{
+constexpr std::array<RealSensorScene, 2> ResponseScenes{ RealSensorScene::Target, RealSensorScene::Texture };
+
+const std::vector<ResponseSettings> &
+GetBends()
+{
+  static const std::vector<ResponseSettings> bends = [] {
+    std::vector<ResponseSettings> all;
+    for (const ResponseShape shape : { ResponseShape::Quadratic, ResponseShape::Wave, ResponseShape::Shoulder })
+    {
+      for (const double size : { -0.04, -0.02, 0.02, 0.04 })
+      {
+        all.push_back({ shape, size });
+      }
+    }
+    return all;
+  }();
+  return bends;
+}
+
+const std::vector<ResponseSettings> &
+GetToneCurves()
+{
+  static const std::vector<ResponseSettings> curves{ { ResponseShape::Gamma, 1.3 },
+                                                     { ResponseShape::Gamma, 2.2 },
+                                                     { ResponseShape::SCurve, 0.5 },
+                                                     { ResponseShape::SCurve, 1.0 } };
+  return curves;
+}
+
+RealSensorSetting
+MakeBentSetting(RealSensorScene scene, const ResponseSettings & response)
+{
+  auto setting = MakeRealSensorSetting(scene, std::string(NameOf(response.shape)) + ' ' + ShortText(response.size));
+  setting.settings.flaws.response = response;
+  return setting;
+}
+
+std::vector<RealSensorSetting>
+MakeFullRangeSettings(const std::vector<ResponseSettings> & responses)
+{
+  std::vector<RealSensorSetting> all;
+  for (const RealSensorScene scene : ResponseScenes)
+  {
+    for (const ResponseSettings & response : responses)
+    {
+      all.push_back(MakeBentSetting(scene, response));
+    }
+  }
+  return all;
+}
+
+/** The same responses, seen through a part of their range. */
+std::vector<RealSensorSetting>
+MakeNarrowSettings()
+{
+  std::vector<ResponseSettings> responses = GetBends();
+  responses.insert(responses.end(), GetToneCurves().begin(), GetToneCurves().end());
+  std::vector<RealSensorSetting> all;
+  for (const auto & [low, high] : { std::pair{ 0.2, 0.8 }, std::pair{ 0.05, 0.25 }, std::pair{ 0.4, 1.0 } })
+  {
+    for (RealSensorSetting setting : MakeFullRangeSettings(responses))
+    {
+      setting.name += ", " + ShortText(100.0 * low) + " to " + ShortText(100.0 * high) + " %";
+      setting.darkestLight = low;
+      setting.brightestLight = high;
+      all.push_back(std::move(setting));
+    }
+  }
+  return all;
+}
+} // namespace
+
+void
+AppendResponseLines(std::vector<RealSensorLine> & lines)
+{
+  lines.push_back(
+    { "bends", "local gain off by 2 and 4 %, full range", [] { return MakeFullRangeSettings(GetBends()); } });
+  lines.push_back({ "gamma", "tone curves, full range", [] { return MakeFullRangeSettings(GetToneCurves()); } });
+  lines.push_back({ "narrow", "the bends and tone curves, parts of the range", MakeNarrowSettings });
+}
+
+} // namespace sensornoise::tools

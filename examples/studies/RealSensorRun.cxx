@@ -1,0 +1,203 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "studies/RealSensorRun.h"
+
+#include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/PixelUse.h"
+#include "sensornoise/base/Quantiles.h"
+#include "sensornoise/moments/DarkFrames.h"
+#include "sensornoise/moments/KnownOffset.h"
+#include "sensornoise/moments/StackMoments.h"
+#include "sensornoise/refined/RefinedMethod.h"
+#include "sensornoise/refined/RefinedSettings.h"
+#include "sensornoise/simulation/SimulationTruth.h"
+#include "studies/RealSensorStack.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sensornoise::tools
+{
+namespace
+{
+using Codes = std::vector<std::uint16_t>;
+
+bool
+IsInside(const Interval & interval, double value)
+{
+  return value >= interval.low.value_or(value) && value <= interval.high.value_or(value);
+}
+
+KnownOffset
+MeasureDark(const RealSensorStack & dark, std::size_t frames)
+{
+  const Codes                 codes = dark.Render();
+  StackMoments<std::uint16_t> moments(dark.Pixels(), frames);
+  moments.AddFrames(codes.data(), 0, frames, SerialFor);
+  return MeasureDarkFrames<std::uint16_t>(moments.Take());
+}
+
+RefinedMethod<std::uint16_t>
+Estimate(const RefinedSettings & settings, const Codes & codes, std::size_t size, std::size_t frames)
+{
+  RefinedMethod<std::uint16_t> method(settings, FrameGeometry{ size, size, 1 }, frames);
+  for (unsigned int pass = 0; pass < method.NumberOfPasses; ++pass)
+  {
+    method.AddFrames(codes.data(), frames);
+    method.EndPass();
+  }
+  return method;
+}
+
+/** What the estimate should have found. */
+struct PixelTruth
+{
+  double gain;
+  double offsetDn;
+  double readNoiseRmsDn;
+  double readNoiseMedianDn;
+};
+
+/** \param use values of PixelUse; if no pixel is used, all count */
+PixelTruth
+TruthOfPixels(const RealSensorStack & stack, const std::vector<std::uint8_t> & use)
+{
+  const auto             used = static_cast<std::uint8_t>(PixelUse::Used);
+  const bool             isAnyUsed = std::find(use.begin(), use.end(), used) != use.end();
+  const StackSimulator & simulator = stack.GetSimulator();
+  std::vector<double>    readNoiseDn;
+  PixelTruth             sums{ 0.0, 0.0, 0.0, 0.0 };
+  double                 count = 0.0;
+  for (std::size_t p = 0; p < stack.Pixels(); ++p)
+  {
+    readNoiseDn.push_back(simulator.PixelReadNoiseDn(p));
+    sums.readNoiseRmsDn += readNoiseDn.back() * readNoiseDn.back();
+    if (!isAnyUsed || use[p] == used)
+    {
+      sums.gain += simulator.LocalGainAt(p);
+      sums.offsetDn += simulator.PixelOffsetDn(p);
+      count += 1.0;
+    }
+  }
+  return { sums.gain / count,
+           sums.offsetDn / count,
+           std::sqrt(sums.readNoiseRmsDn / static_cast<double>(stack.Pixels())),
+           Quantile(readNoiseDn, 0.5) };
+}
+
+RealSensorOutcome
+Compare(const Report & report, const PixelTruth & truth, double flickerSd)
+{
+  RealSensorOutcome outcome;
+  // The median of the read noise and the departure from a line belong here as soon as the report has them.
+  outcome.judged = { { { truth.gain, report.gain },
+                       { truth.offsetDn, report.offset },
+                       { flickerSd, report.flickerSd },
+                       { truth.readNoiseRmsDn, report.readNoise },
+                       { truth.readNoiseMedianDn, Quantity{} } } };
+  outcome.nonlinearity = std::nullopt;
+  for (const Warning & warning : report.warnings)
+  {
+    outcome.warnings.push_back(warning.code);
+  }
+  return outcome;
+}
+} // namespace
+
+const char *
+NameOf(JudgedQuantity quantity)
+{
+  static constexpr std::array<const char *, NumberOfJudged> names{
+    "gain", "offset", "flicker", "read noise", "median read noise"
+  };
+  return names[static_cast<std::size_t>(quantity)];
+}
+
+std::optional<bool>
+Judged::Holds() const
+{
+  return IsIdentified() ? std::optional<bool>(estimate.interval95 && IsInside(*estimate.interval95, truth))
+                        : std::nullopt;
+}
+
+std::optional<bool>
+Judged::LimitHolds() const
+{
+  if (estimate.status != EstimateStatus::UpperLimit)
+  {
+    return std::nullopt;
+  }
+  const auto & limit = estimate.bracket ? estimate.bracket : estimate.interval95;
+  return limit && limit->high && truth <= *limit->high;
+}
+
+std::optional<bool>
+Judged::BracketHolds() const
+{
+  return estimate.bracket ? std::optional<bool>(IsInside(*estimate.bracket, truth)) : std::nullopt;
+}
+
+std::optional<bool>
+Judged::IsInBracket() const
+{
+  return IsIdentified() && estimate.bracket ? std::optional<bool>(IsInside(*estimate.bracket, *estimate.value))
+                                            : std::nullopt;
+}
+
+std::optional<double>
+Judged::Z() const
+{
+  return IsIdentified() && estimate.standardError
+           ? std::optional<double>((*estimate.value - truth) / *estimate.standardError)
+           : std::nullopt;
+}
+
+bool
+Judged::IsWithin(double fraction) const
+{
+  return IsIdentified() &&
+         (std::abs(*estimate.value - truth) <= fraction * std::abs(truth) || std::abs(Z().value_or(INFINITY)) <= 3.0);
+}
+
+bool
+RealSensorOutcome::HasWarning(const std::string & code) const
+{
+  return std::find(warnings.begin(), warnings.end(), code) != warnings.end();
+}
+
+RealSensorOutcome
+MeasureRealSensor(const RealSensorSetting & setting, std::size_t size, std::uint64_t seed)
+{
+  const std::size_t     frames = setting.settings.frames;
+  const RealSensorStack stack(setting, size, seed);
+  RefinedSettings       settings;
+  if (setting.hasDarkFrames)
+  {
+    settings.offset = MeasureDark(RealSensorStack(setting, size, seed, true), frames);
+  }
+  const auto        method = Estimate(settings, stack.Render(), size, frames);
+  RealSensorOutcome outcome = Compare(
+    method.GetReport(), TruthOfPixels(stack, method.GetPixelUse()), stack.GetSimulator().GetTruth().realisedFlickerSd);
+  outcome.seed = seed;
+  // The coverage of the pixels' own intervals belongs here, from settings.offset's maps, the simulator's PixelOffsetDn
+  // and PixelReadNoiseDn.
+  return outcome;
+}
+
+} // namespace sensornoise::tools

@@ -1,0 +1,173 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "studies/RealSensorStack.h"
+
+#include "sensornoise/simulation/Random.h"
+#include "sensornoise/simulation/Scenes.h"
+#include "sensornoise/simulation/SimulationTruth.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sensornoise::tools
+{
+namespace
+{
+constexpr std::uint64_t CrossedPixelStream = 120;
+constexpr std::size_t   EdgeRows = 16;  ///< farther than blur and vibration reach
+constexpr std::size_t   FieldRows = 16; ///< of the black and the white field
+
+/** Of a block that crosses, in units of the frame's. */
+std::size_t
+BlockWidth(std::size_t size)
+{
+  return size / 3;
+}
+std::size_t
+BlockHeight(std::size_t size)
+{
+  return 2 * size / 3;
+}
+
+/** A flat field under a lens: a parabola of the distance from the middle, 1 there and 1 - shading in the corners. */
+std::vector<double>
+MakeShadedField(std::size_t size, double shading)
+{
+  const double        middle = 0.5 * static_cast<double>(size - 1);
+  std::vector<double> field;
+  for (std::size_t p = 0; p < size * size; ++p)
+  {
+    const double dx = (static_cast<double>(p % size) - middle) / middle;
+    const double dy = (static_cast<double>(p / size) - middle) / middle;
+    field.push_back(1.0 - shading * 0.5 * (dx * dx + dy * dy));
+  }
+  return field;
+}
+
+bool
+FillsRange(const RealSensorSetting & setting)
+{
+  return setting.scene != RealSensorScene::Flat && setting.darkestLight == 0.0 && setting.brightestLight == 1.0;
+}
+
+/** The scene in units of camera.electrons, with the rows below the frame if the scene does not fill the range. */
+std::vector<double>
+MakeReference(const RealSensorSetting & setting, std::size_t size)
+{
+  const double        darkest = setting.scene == RealSensorScene::Flat ? 0.0 : setting.darkestLight;
+  const double        range = setting.brightestLight - darkest;
+  std::vector<double> scene = setting.scene == RealSensorScene::Flat     ? MakeShadedField(size, setting.shading)
+                              : setting.scene == RealSensorScene::Target ? MakeTargetScene(size, size)
+                                                                         : MakeTextureScene(size, size);
+  std::transform(scene.begin(), scene.end(), scene.begin(), [&](double v) { return darkest + range * v; });
+  if (!FillsRange(setting))
+  {
+    const std::vector<double> edge(scene.end() - static_cast<std::ptrdiff_t>(size), scene.end());
+    for (std::size_t y = 0; y < EdgeRows; ++y)
+    {
+      scene.insert(scene.end(), edge.begin(), edge.end());
+    }
+    for (std::size_t p = 0; p < FieldRows * size; ++p)
+    {
+      scene.push_back(p % size < size / 2 ? 0.0 : 1.0);
+    }
+  }
+  return scene;
+}
+
+StackSimulator
+MakeSimulator(const RealSensorSetting & setting, std::size_t size, std::uint64_t seed, bool isDark)
+{
+  SimulationSettings settings = setting.settings;
+  settings.seed = seed;
+  settings.isDark = isDark;
+  return { MakeReference(setting, size), size, FillsRange(setting) ? size : size + EdgeRows + FieldRows, settings };
+}
+} // namespace
+
+RealSensorStack::RealSensorStack(const RealSensorSetting & setting, std::size_t size, std::uint64_t seed, bool isDark)
+  : m_Setting(setting)
+  , m_Size(size)
+  , m_Simulator(MakeSimulator(setting, size, seed, isDark))
+{
+  if (setting.isCrossed && !isDark)
+  {
+    // Another texture than the scene's.
+    m_Block = MakeTextureScene(BlockWidth(size), BlockHeight(size), DefaultSceneSeed + 1);
+  }
+}
+
+std::vector<std::uint16_t>
+RealSensorStack::Render() const
+{
+  const std::size_t          frames = m_Setting.settings.frames;
+  std::vector<std::uint16_t> codes(Pixels() * frames);
+  for (std::size_t row = 0; row < m_Size * frames; ++row)
+  {
+    std::uint16_t * const out = codes.data() + row * m_Size;
+    const std::size_t     t = row / m_Size;
+    const std::size_t     y = row % m_Size;
+    // The block passes below the upper third of the frame, which stays still.
+    if (m_Block.empty() || y < m_Size - BlockHeight(m_Size))
+    {
+      m_Simulator.RenderRow(t, y, out);
+    }
+    else
+    {
+      RenderCrossedRow(t, y, out);
+    }
+  }
+  return codes;
+}
+
+/** As StackSimulator::RenderRow of a sensor without flaws. The block enters on the left, hides what is behind it, and
+ * has left on the right at the end of the burst; it is lit as the scene is, with 20 to 80 % of the full light. */
+void
+RealSensorStack::RenderCrossedRow(std::size_t t, std::size_t y, std::uint16_t * out) const
+{
+  const SimulationTruth &    truth = m_Simulator.GetTruth();
+  const SimulationSettings & settings = truth.settings;
+  const CameraModel &        camera = settings.camera;
+  std::vector<double>        electrons(m_Size);
+  m_Simulator.ExpectedElectronsRow(t, y, electrons.data());
+
+  const std::size_t   width = BlockWidth(m_Size);
+  const double *      block = m_Block.data() + (y - (m_Size - BlockHeight(m_Size))) * width;
+  const double        way = static_cast<double>(m_Size + width);
+  const double        last = static_cast<double>(std::max<std::size_t>(2, settings.frames) - 1);
+  const double        left = way * static_cast<double>(t) / last - static_cast<double>(width);
+  const double        full = camera.electrons * (1.0 + FlickerOfRow(settings, truth.series, t, y));
+  CounterSeededRandom random(settings.seed, CrossedPixelStream, t, y);
+  const auto          range = StackSimulator::CodeRange<std::uint16_t>(settings);
+  for (std::size_t x = 0; x < m_Size; ++x)
+  {
+    const double inBlock = static_cast<double>(x) - left;
+    if (inBlock >= 0.0 && inBlock < static_cast<double>(width - 1))
+    {
+      const auto   first = static_cast<std::size_t>(inBlock);
+      const double share = inBlock - static_cast<double>(first);
+      const double grey = block[first] + share * (block[first + 1] - block[first]);
+      electrons[x] = std::max(0.0, full * (0.2 + 0.6 * grey));
+    }
+    const double signal = camera.gainDnPerElectron * static_cast<double>(random.Poisson(electrons[x]));
+    const double value = signal + camera.offsetDn + camera.readNoiseDn * random.Normal();
+    out[x] = static_cast<std::uint16_t>(std::clamp(std::floor(value + 0.5), range.first, range.second));
+  }
+}
+
+} // namespace sensornoise::tools

@@ -1,0 +1,73 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef RealSensorStack_h
+#define RealSensorStack_h
+
+#include "sensornoise/simulation/Simulator.h"
+#include "studies/RealSensorSetting.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace sensornoise::tools
+{
+
+/** \class RealSensorStack
+ * A simulated burst of one setting, square frames.
+ *
+ * The simulator stretches a scene to [0, electrons]. A scene that does not fill this range gets more rows below the
+ * frame: copies of its last row, which keep blur and vibration as they are at an edge, then a black and a white field.
+ * These rows are simulated, but are no part of the frames. */
+class RealSensorStack
+{
+public:
+  /** \param size width and height [pixels], at least 32
+   * \param isDark the same sensor with the shutter closed
+   * \throws std::invalid_argument if the setting cannot be used */
+  RealSensorStack(const RealSensorSetting & setting, std::size_t size, std::uint64_t seed, bool isDark = false);
+
+  /** All codes, frame after frame [DN]. */
+  std::vector<std::uint16_t>
+  Render() const;
+
+  /** Its first Pixels() pixels are those of the frame. */
+  const StackSimulator &
+  GetSimulator() const
+  {
+    return m_Simulator;
+  }
+  std::size_t
+  Pixels() const
+  {
+    return m_Size * m_Size;
+  }
+
+private:
+  void
+  RenderCrossedRow(std::size_t t, std::size_t y, std::uint16_t * out) const;
+
+  RealSensorSetting   m_Setting;
+  std::size_t         m_Size;
+  StackSimulator      m_Simulator;
+  std::vector<double> m_Block; ///< texture of what crosses, as wide and high as the block [1]; empty: nothing does
+};
+
+} // namespace sensornoise::tools
+
+#endif

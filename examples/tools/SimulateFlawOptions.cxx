@@ -1,0 +1,92 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "tools/SimulateFlawOptions.h"
+
+#include <CLI/CLI.hpp>
+
+namespace sensornoise::tools
+{
+namespace
+{
+constexpr const char * SensorGroup = "The sensor";
+constexpr const char * CameraGroup = "Processing in the camera";
+
+/** An option of two numbers, none by default. */
+void
+AddPair(CLI::App & app, const char * name, std::vector<double> & values, const char * help, const char * group)
+{
+  app.add_option(name, values, help)->delimiter(',')->expected(2)->default_str("")->group(group);
+}
+} // namespace
+
+void
+SimulateFlawOptions::AddTo(CLI::App & app)
+{
+  const auto add = [&app](const char * name, auto & value, const char * help, const char * group) {
+    app.add_option(name, value, help)->group(group);
+  };
+  add("--prnu", prnu, "Relative standard deviation of the pixels' efficiency", SensorGroup);
+  add("--dsnu", dsnu, "Standard deviation of the pixels' offset [DN]", SensorGroup);
+  AddPair(
+    app, "--hot-pixels", hotPixels, "FRACTION,FACTOR: so many pixels with so many times the read noise", SensorGroup);
+  add("--gain-pattern", gainPattern, "Relative standard deviation of the pixels' gain", SensorGroup);
+  add("--column-gain-pattern", columnGainPattern, "Relative standard deviation of the columns' gain", SensorGroup);
+  add("--column-efficiency-pattern",
+      columnEfficiencyPattern,
+      "Relative standard deviation of the columns' efficiency",
+      SensorGroup);
+  add("--column-offset-pattern", columnOffsetPattern, "Standard deviation of the columns' offset [DN]", SensorGroup);
+  add("--brighter-fatter",
+      brighterFatter,
+      "Shift of the border between two pixels for each electron of difference, for example 1e-6",
+      SensorGroup);
+  add("--coupling", coupling, "Fraction of its charge that a pixel gives to each of its four neighbours", SensorGroup);
+  add("--read-noise-spread",
+      readNoiseSpread,
+      "Standard deviation of the logarithm of the pixels' read noise; --read-noise is their median",
+      SensorGroup);
+  AddPair(app,
+          "--read-noise-tail",
+          readNoiseTail,
+          "FRACTION,SPREAD: in so many pixels the logarithm is greater by |normal| times SPREAD",
+          SensorGroup);
+  app
+    .add_option("--response",
+                response,
+                "SHAPE,SIZE: quadratic, wave or shoulder and the departure of the local gain, gamma and its exponent, "
+                "s-curve and its weight; straight,0")
+    ->delimiter(',')
+    ->group(SensorGroup);
+  add("--row-noise", rowNoise, "Standard deviation of what the pixels of a row share in a frame [DN]", SensorGroup);
+  add("--column-noise", columnNoise, "The same of a column [DN]", SensorGroup);
+  AddPair(app, "--banding", banding, "AMPLITUDE,PERIOD of a sine along y [DN], [rows]; phase anew", SensorGroup);
+  app.add_flag("--dark", isDark, "The shutter is closed: the same sensor and patterns, other noise")
+    ->group(SensorGroup);
+
+  add("--defect-correction",
+      defectCorrection,
+      "A pixel so many standard deviations of its neighbours off becomes their median; 0: none",
+      CameraGroup);
+  add("--temporal-filter", temporalFilter, "Weight of the last frame in each frame; 0: none", CameraGroup);
+  add("--smoothing", smoothing, "Standard deviation of a Gaussian filter [pixels]; 0: none", CameraGroup);
+  AddPair(app, "--resampling", resampling, "X,Y: shift by linear interpolation [pixels]", CameraGroup);
+  add("--companding", companding, "Bits of square-root codes that are expanded again; 0: none", CameraGroup);
+  add("--repeat", repeat, "How often each exposure is written", CameraGroup);
+}
+
+} // namespace sensornoise::tools

@@ -1,0 +1,117 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef SimulateFlawOptions_h
+#define SimulateFlawOptions_h
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CLI
+{
+class App;
+}
+
+namespace sensornoise::tools
+{
+
+/** The part of simulate-sensor-noise's command line that a real sensor and its camera need: SensorFlaws, and the fixed
+ * patterns. All off unless given. */
+struct SimulateFlawOptions
+{
+  double                         prnu{ 0.0 };
+  double                         dsnu{ 0.0 };
+  std::vector<double>            hotPixels;
+  double                         gainPattern{ 0.0 };
+  double                         columnGainPattern{ 0.0 };
+  double                         columnEfficiencyPattern{ 0.0 };
+  double                         columnOffsetPattern{ 0.0 };
+  double                         brighterFatter{ 0.0 };
+  double                         coupling{ 0.0 };
+  double                         readNoiseSpread{ 0.0 };
+  std::vector<double>            readNoiseTail;
+  std::pair<std::string, double> response{ "straight", 0.0 };
+  double                         rowNoise{ 0.0 };
+  double                         columnNoise{ 0.0 };
+  std::vector<double>            banding;
+  double                         defectCorrection{ 0.0 };
+  double                         temporalFilter{ 0.0 };
+  double                         smoothing{ 0.0 };
+  std::vector<double>            resampling;
+  unsigned int                   companding{ 0 };
+  unsigned int                   repeat{ 1 };
+  bool                           isDark{ false };
+
+  /** Adds the options, in groups of their own. */
+  void
+  AddTo(CLI::App & app);
+
+  /** Hands the options to an itk::SensorNoiseStackSource. */
+  template <typename TSource>
+  void
+  ApplyTo(TSource & source) const;
+};
+
+template <typename TSource>
+void
+SimulateFlawOptions::ApplyTo(TSource & source) const
+{
+  source.SetPrnuSd(prnu);
+  source.SetDsnuSd(dsnu);
+  if (!hotPixels.empty())
+  {
+    source.SetHotPixelFraction(hotPixels[0]);
+    source.SetHotPixelNoiseFactor(hotPixels[1]);
+  }
+  source.SetGainSd(gainPattern);
+  source.SetColumnGainSd(columnGainPattern);
+  source.SetColumnEfficiencySd(columnEfficiencyPattern);
+  source.SetColumnOffsetSd(columnOffsetPattern);
+  source.SetBrighterFatterPerElectron(brighterFatter);
+  source.SetCouplingFraction(coupling);
+  source.SetReadNoiseSpread(readNoiseSpread);
+  if (!readNoiseTail.empty())
+  {
+    source.SetReadNoiseTailFraction(readNoiseTail[0]);
+    source.SetReadNoiseTailSpread(readNoiseTail[1]);
+  }
+  source.SetResponseShape(response.first);
+  source.SetResponseSize(response.second);
+  source.SetRowNoiseSd(rowNoise);
+  source.SetColumnNoiseSd(columnNoise);
+  if (!banding.empty())
+  {
+    source.SetBandingAmplitude(banding[0]);
+    source.SetBandingPeriod(banding[1]);
+  }
+  source.SetDefectThresholdSd(defectCorrection);
+  source.SetTemporalFilterWeight(temporalFilter);
+  source.SetSmoothingSd(smoothing);
+  if (!resampling.empty())
+  {
+    source.SetResamplingShiftX(resampling[0]);
+    source.SetResamplingShiftY(resampling[1]);
+  }
+  source.SetCompandingBits(companding);
+  source.SetRepeatCount(repeat);
+  source.SetDark(isDark);
+}
+
+} // namespace sensornoise::tools
+
+#endif

@@ -1,0 +1,60 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/simulation/FlawsJson.h"
+
+#include <array>
+
+namespace sensornoise
+{
+
+void
+WriteJson(JsonWriter & json, const SensorFlaws & flaws)
+{
+  json.Object([&] {
+    json.ObjectMember("pattern", [&] {
+      json.Member("gain_sd", flaws.pattern.gainSd).Member("column_gain_sd", flaws.pattern.columnGainSd);
+      json.Member("column_efficiency_sd", flaws.pattern.columnEfficiencySd);
+      json.Member("column_offset_sd", flaws.pattern.columnOffsetSdDn);
+    });
+    json.Member("brighter_fatter_per_electron", flaws.brighterFatter.perElectron);
+    json.Member("coupling_fraction", flaws.coupling.fraction);
+    json.ObjectMember("read_noise", [&] {
+      json.Member("spread", flaws.readNoise.spread).Member("tail_fraction", flaws.readNoise.tailFraction);
+      json.Member("tail_spread", flaws.readNoise.tailSpread);
+    });
+    json.ObjectMember("response", [&] {
+      json.Member("shape", NameOf(flaws.response.shape)).Member("size", flaws.response.size);
+      json.Member("full_scale_electrons", flaws.response.fullScaleElectrons);
+    });
+    json.ObjectMember("line_noise", [&] {
+      json.Member("row_noise_sd", flaws.lineNoise.rowNoiseSdDn);
+      json.Member("column_noise_sd", flaws.lineNoise.columnNoiseSdDn);
+      json.Member("banding_amplitude", flaws.lineNoise.bandingAmplitudeDn);
+      json.Member("banding_period", flaws.lineNoise.bandingPeriodRows);
+    });
+    json.Member("defect_threshold_sd", flaws.defectCorrection.thresholdSd);
+    json.Member("temporal_filter_weight", flaws.temporalFilter.weight);
+    json.Member("smoothing_sd", flaws.smoothing.sdPixels);
+    json.Member("resampling_shift",
+                std::array<double, 2>{ flaws.resampling.shiftXPixels, flaws.resampling.shiftYPixels });
+    json.Member("companding_bits", flaws.companding.bits);
+    json.Member("repeat_count", flaws.repetition.count);
+  });
+}
+
+} // namespace sensornoise

@@ -1,0 +1,54 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_simulation_FrameProcessing_h
+#define sensornoise_simulation_FrameProcessing_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/simulation/DoubleFrame.h"
+#include "sensornoise/simulation/SensorFlaws.h"
+
+/** \file
+ * The order of the pieces that look at a whole frame. */
+
+namespace sensornoise
+{
+
+/** Whether a row depends on other rows of its frame, or on other frames. */
+inline bool
+NeedsWholeFrames(const SensorFlaws & flaws)
+{
+  return flaws.brighterFatter.IsOn() || flaws.coupling.IsOn() || flaws.defectCorrection.IsOn() ||
+         flaws.temporalFilter.IsOn() || flaws.smoothing.IsOn() || flaws.resampling.IsOn();
+}
+
+/** What happens to the charges [e-] between collection and read-out: brighter-fatter, then coupling. */
+SensorNoise_EXPORT DoubleFrame
+MoveCharge(DoubleFrame charge, const SensorFlaws & flaws, const ParallelFor & parallelFor);
+
+/** What the camera does to its codes [DN] before the temporal filter: the correction of defects. */
+SensorNoise_EXPORT DoubleFrame
+ProcessBeforeTemporalFilter(DoubleFrame codesDn, const SensorFlaws & flaws, const ParallelFor & parallelFor);
+
+/** What it does after it: smoothing, then resampling. */
+SensorNoise_EXPORT DoubleFrame
+ProcessAfterTemporalFilter(DoubleFrame codesDn, const SensorFlaws & flaws, const ParallelFor & parallelFor);
+
+} // namespace sensornoise
+
+#endif

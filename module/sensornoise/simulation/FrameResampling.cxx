@@ -1,0 +1,59 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/simulation/FrameResampling.h"
+
+#include "sensornoise/simulation/LinearShift.h"
+#include "sensornoise/simulation/SettingChecks.h"
+
+#include <cmath>
+#include <cstddef>
+
+namespace sensornoise
+{
+
+void
+CheckSettings(const ResamplingSettings & settings)
+{
+  const auto requireShift = [](double shift, const char * name) {
+    RequireSetting(std::abs(shift) <= 1000.0, name, shift, "-1000 to 1000 pixels");
+  };
+  requireShift(settings.shiftXPixels, "horizontal shift of the resampling");
+  requireShift(settings.shiftYPixels, "vertical shift of the resampling");
+}
+
+DoubleFrame
+ResampleFrame(const DoubleFrame & codesDn, const ResamplingSettings & settings, const ParallelFor & parallelFor)
+{
+  const LinearShift horizontal(settings.shiftXPixels, codesDn.width);
+  const LinearShift vertical(settings.shiftYPixels, codesDn.height);
+  DoubleFrame       out(codesDn.width, codesDn.height);
+  parallelFor(codesDn.height, [&](std::size_t y) {
+    const double * above = codesDn.Row(vertical.First(y));
+    const double * below = codesDn.Row(vertical.Second(y));
+    for (std::size_t x = 0; x < codesDn.width; ++x)
+    {
+      const std::size_t left = horizontal.First(x);
+      const std::size_t right = horizontal.Second(x);
+      out.Row(y)[x] =
+        vertical.Blend(horizontal.Blend(above[left], above[right]), horizontal.Blend(below[left], below[right]));
+    }
+  });
+  return out;
+}
+
+} // namespace sensornoise

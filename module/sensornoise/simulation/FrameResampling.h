@@ -1,0 +1,55 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_simulation_FrameResampling_h
+#define sensornoise_simulation_FrameResampling_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/simulation/DoubleFrame.h"
+
+namespace sensornoise
+{
+
+/** Resampling in the camera, as digital stabilisation or lens correction does: the frame at (x + shiftX, y + shiftY),
+ * interpolated linearly, edge pixels replicated. A fraction f of a pixel leaves (1 - f)^2 + f^2 of the variance along
+ * its axis. */
+struct ResamplingSettings
+{
+  /** [pixel], -1000 to 1000. */
+  double shiftXPixels{ 0.0 };
+  /** [pixel], -1000 to 1000. */
+  double shiftYPixels{ 0.0 };
+
+  bool
+  IsOn() const
+  {
+    return shiftXPixels != 0.0 || shiftYPixels != 0.0;
+  }
+};
+
+/** \throws std::invalid_argument naming the first setting that cannot be used. */
+SensorNoise_EXPORT void
+CheckSettings(const ResamplingSettings & settings);
+
+/** \a codesDn moved [DN]. */
+SensorNoise_EXPORT DoubleFrame
+ResampleFrame(const DoubleFrame & codesDn, const ResamplingSettings & settings, const ParallelFor & parallelFor);
+
+} // namespace sensornoise
+
+#endif

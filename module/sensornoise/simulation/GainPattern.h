@@ -1,0 +1,66 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_simulation_GainPattern_h
+#define sensornoise_simulation_GainPattern_h
+
+#include "SensorNoiseExport.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** What differs from pixel to pixel or from column to column and is no light: gains of the amplifiers in the pixels and
+ * at the ends of the columns, fill factors, offsets. Beside the simulator's prnuSd (efficiency of each pixel) and
+ * dsnuSdDn (offset of each pixel). EMVA Standard 1288, release 4.0, reports pixel, row and column parts alike. */
+struct PatternSettings
+{
+  /** Relative standard deviation of the gain [DN/e-] from pixel to pixel [1], 0 or more, below 0.2; about 0.01 in sCMOS
+   * sensors. It scales signal and read noise alike. */
+  double gainSd{ 0.0 };
+  /** The same from column to column. */
+  double columnGainSd{ 0.0 };
+  /** Relative standard deviation of the expected electrons from column to column [1], 0 or more, below 0.2. */
+  double columnEfficiencySd{ 0.0 };
+  /** Standard deviation of the offset from column to column [DN], 0 or more. */
+  double columnOffsetSdDn{ 0.0 };
+};
+
+/** \throws std::invalid_argument naming the first setting that cannot be used. */
+SensorNoise_EXPORT void
+CheckSettings(const PatternSettings & settings);
+
+/** Gain of every pixel in units of the camera's: 1 + gainSd normal, times 1 + columnGainSd normal of its column,
+ * divided by the map's mean, so that the mean of the map is 1. Empty if both are 0. */
+SensorNoise_EXPORT std::vector<double>
+DrawGainPattern(const PatternSettings & settings, std::uint64_t seed, std::size_t width, std::size_t height);
+
+/** Efficiency of every column in units of the mean one: 1 + columnEfficiencySd normal, divided by the mean over the
+ * columns. Empty if 0. */
+SensorNoise_EXPORT std::vector<double>
+DrawColumnEfficiency(const PatternSettings & settings, std::uint64_t seed, std::size_t width);
+
+/** Offset of every column about the camera's [DN]: normal, as drawn; its mean is 0 to within its error. Empty if 0. */
+SensorNoise_EXPORT std::vector<double>
+DrawColumnOffsetDn(const PatternSettings & settings, std::uint64_t seed, std::size_t width);
+
+} // namespace sensornoise
+
+#endif

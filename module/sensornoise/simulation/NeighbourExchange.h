@@ -1,0 +1,53 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_simulation_NeighbourExchange_h
+#define sensornoise_simulation_NeighbourExchange_h
+
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/simulation/DoubleFrame.h"
+
+#include <cstddef>
+
+namespace sensornoise
+{
+
+/** Every pixel takes inflow(own charge, neighbour's charge) from each of its four neighbours; a pixel at the edge has
+ * fewer. With inflow(a, b) = -inflow(b, a) the frame keeps its charge. */
+template <typename TInflow>
+DoubleFrame
+ExchangeWithNeighbours(const DoubleFrame & frame, const ParallelFor & parallelFor, TInflow inflow)
+{
+  DoubleFrame out(frame.width, frame.height);
+  parallelFor(frame.height, [&](std::size_t y) {
+    const double * row = frame.Row(y);
+    for (std::size_t x = 0; x < frame.width; ++x)
+    {
+      double sum = row[x];
+      sum += x > 0 ? inflow(row[x], row[x - 1]) : 0.0;
+      sum += x + 1 < frame.width ? inflow(row[x], row[x + 1]) : 0.0;
+      sum += y > 0 ? inflow(row[x], frame.Row(y - 1)[x]) : 0.0;
+      sum += y + 1 < frame.height ? inflow(row[x], frame.Row(y + 1)[x]) : 0.0;
+      out.Row(y)[x] = sum;
+    }
+  });
+  return out;
+}
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,62 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/simulation/ReadNoisePattern.h"
+
+#include "sensornoise/simulation/Random.h"
+#include "sensornoise/simulation/RandomStreams.h"
+#include "sensornoise/simulation/SettingChecks.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sensornoise
+{
+
+void
+CheckSettings(const ReadNoiseSettings & settings)
+{
+  RequireSetting(
+    settings.spread >= 0.0 && settings.spread <= 3.0, "spread of the read noise", settings.spread, "0 to 3");
+  RequireFraction(settings.tailFraction, "fraction of pixels in the read noise's tail");
+  RequireSetting(settings.tailSpread >= 0.0 && settings.tailSpread <= 3.0,
+                 "spread of the read noise's tail",
+                 settings.tailSpread,
+                 "0 to 3");
+}
+
+std::vector<double>
+DrawReadNoisePattern(const ReadNoiseSettings & settings, std::uint64_t seed, std::size_t pixels)
+{
+  if (settings.spread == 0.0 && (settings.tailFraction == 0.0 || settings.tailSpread == 0.0))
+  {
+    return {};
+  }
+  CounterSeededRandom random(
+    seed, StreamNumber(RandomStream::FixedPattern), static_cast<std::uint64_t>(FixedPatternKind::ReadNoise));
+  std::vector<double> factors(pixels);
+  std::generate(factors.begin(), factors.end(), [&] {
+    // Three numbers a pixel whatever the settings: with more spread the same pixels have the greater noise.
+    const double core = settings.spread * random.Normal();
+    const double tail = settings.tailSpread * std::abs(random.Normal());
+    const bool   isInTail = random.Uniform() < settings.tailFraction;
+    return std::exp(core + (isInTail ? tail : 0.0));
+  });
+  return factors;
+}
+
+} // namespace sensornoise

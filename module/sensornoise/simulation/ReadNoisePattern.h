@@ -1,0 +1,54 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_simulation_ReadNoisePattern_h
+#define sensornoise_simulation_ReadNoisePattern_h
+
+#include "SensorNoiseExport.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** Read noise from pixel to pixel, as in sCMOS sensors: sigma_p = median exp(spread n), n normal, so that the logarithm
+ * is normal; and a tail of pixels whose transistors trap charges (Huang et al. 2013, Nature Methods 10, 653,
+ * DOI 10.1038/nmeth.2488, measure it pixel by pixel). Typical are a median of 1.4 e- and an rms of 1.6 to 2 e-. The
+ * camera's read noise is the median of the pixels outside the tail. */
+struct ReadNoiseSettings
+{
+  /** Standard deviation of ln sigma_p [1], 0 to 3. sCMOS: about 0.2. */
+  double spread{ 0.0 };
+  /** Fraction of the pixels in the tail, 0 to 1. sCMOS: about 0.03. */
+  double tailFraction{ 0.0 };
+  /** In the tail ln sigma_p is greater by |m| tailSpread, m normal [1], 0 to 3. */
+  double tailSpread{ 1.0 };
+};
+
+/** \throws std::invalid_argument naming the first setting that cannot be used. */
+SensorNoise_EXPORT void
+CheckSettings(const ReadNoiseSettings & settings);
+
+/** Read noise of every pixel in units of the median of those that are not in the tail. Empty if all are alike. */
+SensorNoise_EXPORT std::vector<double>
+DrawReadNoisePattern(const ReadNoiseSettings & settings, std::uint64_t seed, std::size_t pixels);
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,58 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_simulation_SensorFlaws_h
+#define sensornoise_simulation_SensorFlaws_h
+
+#include "sensornoise/simulation/BrighterFatter.h"
+#include "sensornoise/simulation/ChargeCoupling.h"
+#include "sensornoise/simulation/Companding.h"
+#include "sensornoise/simulation/DefectCorrection.h"
+#include "sensornoise/simulation/FrameRepetition.h"
+#include "sensornoise/simulation/FrameResampling.h"
+#include "sensornoise/simulation/FrameSmoothing.h"
+#include "sensornoise/simulation/GainPattern.h"
+#include "sensornoise/simulation/LineNoise.h"
+#include "sensornoise/simulation/ReadNoisePattern.h"
+#include "sensornoise/simulation/ResponseCurve.h"
+#include "sensornoise/simulation/TemporalFilter.h"
+
+namespace sensornoise
+{
+
+/** What a real sensor does beside the model, and what its camera does to the codes, in the order in which it happens:
+ * charge, analogue signal, code, processing. Each piece has a file of its own; all are off by default, and any may be
+ * combined. The pieces of the processing work on real numbers; rounding and clipping to codes come last. */
+struct SensorFlaws
+{
+  PatternSettings          pattern{};
+  BrighterFatterSettings   brighterFatter{};
+  CouplingSettings         coupling{};
+  ReadNoiseSettings        readNoise{};
+  ResponseSettings         response{};
+  LineNoiseSettings        lineNoise{};
+  DefectCorrectionSettings defectCorrection{};
+  TemporalFilterSettings   temporalFilter{};
+  SmoothingSettings        smoothing{};
+  ResamplingSettings       resampling{};
+  CompandingSettings       companding{};
+  RepetitionSettings       repetition{};
+};
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,104 @@
+# ==========================================================================
+#
+#   Copyright the ITKSensorNoise contributors
+#
+#   Licensed under the Apache License, Version 2.0 (the "License");
+#   you may not use this file except in compliance with the License.
+#   You may obtain a copy of the License at
+#
+#          https://www.apache.org/licenses/LICENSE-2.0.txt
+#
+#   Unless required by applicable law or agreed to in writing, software
+#   distributed under the License is distributed on an "AS IS" BASIS,
+#   WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+#   See the License for the specific language governing permissions and
+#   limitations under the License.
+#
+# ==========================================================================*/
+"""Real sensors: every flaw by the same name as the command-line tool's, bit for bit."""
+
+import json
+
+import itk
+import numpy as np
+import pytest
+
+# Each parameter, and the tool's option.
+FLAWS = {
+    "prnu": (0.02, "0.02"),
+    "dsnu": (3, "3"),
+    "hot_pixels": ((0.05, 8), "0.05,8"),
+    "gain_pattern": (0.02, "0.02"),
+    "column_gain_pattern": (0.02, "0.02"),
+    "column_efficiency_pattern": (0.02, "0.02"),
+    "column_offset_pattern": (3, "3"),
+    "brighter_fatter": (1e-5, "1e-5"),
+    "coupling": (0.02, "0.02"),
+    "read_noise_spread": (0.3, "0.3"),
+    "read_noise_tail": ((0.1, 1.5), "0.1,1.5"),
+    "response": (("shoulder", -0.04), "shoulder,-0.04"),
+    "row_noise": (4, "4"),
+    "column_noise": (4, "4"),
+    "banding": ((5, 20), "5,20"),
+    "dark": (True, None),
+    "defect_correction": (2, "2"),
+    "temporal_filter": (0.5, "0.5"),
+    "smoothing": (0.6, "0.6"),
+    "resampling": ((0.5, -0.25), "0.5,-0.25"),
+    "companding": (8, "8"),
+    "repeat": (2, "2"),
+}
+SMALL = {"frames": 4, "size": (64, 48), "seed": 4}
+
+
+@pytest.fixture(scope="module")
+def plain():
+    return itk.simulate_sensor_noise(**SMALL)[0]
+
+
+@pytest.mark.parametrize("name", FLAWS)
+def test_flaw_is_the_tool_s(tool, plain, tmp_path, name):
+    value, text = FLAWS[name]
+    file, truth_file = tmp_path / "stack.mha", tmp_path / "truth.json"
+    flags = ["--frames", "4", "--size", "64x48", "--seed", "4", "--" + name.replace("_", "-")]
+    tool("simulate-sensor-noise", "--output", file, "--truth", truth_file, *flags, *([] if text is None else [text]))
+    stack, truth = itk.simulate_sensor_noise(**SMALL, **{name: value})
+    np.testing.assert_array_equal(stack, itk.array_from_image(itk.imread(str(file))))
+    assert truth == json.loads(truth_file.read_text())
+    assert not np.array_equal(stack, plain)
+
+
+def test_dark_frames_are_of_the_same_sensor():
+    sensor = {"size": (64, 48), "frames": 50, "dsnu": 40, "read_noise_spread": 0.3, "dtype": "float64"}
+    dark, _ = itk.simulate_sensor_noise(**sensor, dark=True)
+    unlit, _ = itk.simulate_sensor_noise(**sensor, electrons=1e-9)
+    # The offsets spread by 40 DN; the means of 50 frames by 8 / sqrt(50) = 1.1 DN.
+    assert np.corrcoef(dark.mean(0).ravel(), unlit.mean(0).ravel())[0, 1] > 0.99
+    noise = (dark - dark.mean(0)).ravel() @ (unlit - unlit.mean(0)).ravel()
+    assert abs(noise) < 5 * 8**2 * 1.3 * np.sqrt(dark.size)  # 1.3: E[sigma^4] / median^4, and some more
+
+
+def test_repeated_frames_are_equal():
+    stack, truth = itk.simulate_sensor_noise(**SMALL, repeat=2)
+    np.testing.assert_array_equal(stack[0], stack[1])
+    assert truth["flaws"]["repeat_count"] == 2
+    assert truth["gamma"][0] == truth["gamma"][1] != truth["gamma"][2]
+
+
+WRONG = {
+    "pair": ({"banding": 3}, "banding is 3; expected (amplitude, period), two numbers"),
+    "shape": ({"response": ("bent", 0.1)}, "expected 'straight' or 'quadratic' or 'wave'"),
+    "response": ({"response": "wave"}, "response is 'wave'; expected (shape, size), a name and a number"),
+    "not finite": ({"smoothing": float("nan")}, "smoothing is nan; expected a finite number"),
+    "range": ({"coupling": 0.5}, "the coupling of charge is 0.500000; expected 0 to 0.2"),
+    "bits": ({"companding": 1}, "the number of bits of the companding is 1.000000; expected 0 or 2 to 16"),
+    "repeat": ({"repeat": 0}, "repeat is 0; expected a whole number from 1"),
+}
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_wrong_use_says_what_was_expected(case):
+    parameters, message = WRONG[case]
+    with pytest.raises(ValueError) as error:
+        itk.simulate_sensor_noise(**SMALL, **parameters)
+    assert message in str(error.value)
