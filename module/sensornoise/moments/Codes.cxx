@@ -19,6 +19,7 @@
 
 #include "sensornoise/moments/CodeRange.h"
 #include "sensornoise/moments/CodeSettings.h"
+#include "sensornoise/moments/PileUp.h"
 
 #include <algorithm>
 #include <cmath>
@@ -93,20 +94,16 @@ FindQuantisationStep(const std::vector<std::int32_t> & codes, bool & regular)
 namespace
 {
 
-/** Whether the extreme code \a end is a pile-up: a level that the sensor cannot pass.
- *
- * Noise alone puts few pixels' extremes on the outermost code, fewer than on the codes inside of it. A clip level
- * gathers the extremes of all pixels that would have passed it: at least 8 pixels, and 3 times as many as any of the 16
- * codes inside. \a inwards is -step at the upper end and +step at the lower. */
+/** Whether the extreme code \a end is a pile-up; \a inwards is -step at the upper end and +step at the lower. */
 bool
-IsPileUp(const CodeHistogram & extremes, std::int32_t end, std::int32_t inwards)
+CodePilesUp(const CodeHistogram & extremes, std::int32_t end, std::int32_t inwards)
 {
   std::uint32_t inside = 0;
-  for (std::int32_t k = 1; k <= 16; ++k)
+  for (std::int32_t k = 1; k <= LevelsInsidePileUp; ++k)
   {
     inside = std::max(inside, extremes.Count(end + k * inwards));
   }
-  return extremes.Count(end) >= std::max<std::uint32_t>(8, 3 * inside + 1);
+  return IsPileUp(extremes.Count(end), inside);
 }
 
 /** The codes that are an extreme of a pixel, ascending. */
@@ -162,8 +159,7 @@ SetClipLevels(const Extremes & extremes, double step, double top, const CodeSett
 {
   const std::int32_t lowest = extremes.lowest;
   const std::int32_t highest = extremes.highest;
-  constexpr double   largestDepth = 2.5;
-  const bool         trusted = extremes.typicalVarianceDn2 >= 0.25 * step * step && lowest < highest;
+  const double       variance = extremes.typicalVarianceDn2;
   const auto         stride = static_cast<std::int32_t>(step);
   std::string        lowSource = "given";
   std::string        highSource = "given";
@@ -171,15 +167,15 @@ SetClipLevels(const Extremes & extremes, double step, double top, const CodeSett
   range.clipHighDn = settings.clipHighDn;
   if (!range.clipLowDn)
   {
-    const bool found =
-      trusted && lowest != 0 && extremes.depths.low < largestDepth && IsPileUp(extremes.minima, lowest, stride);
+    const bool found = lowest < highest && lowest != 0 && CanTellPileUp(variance, step, extremes.depths.low) &&
+                       CodePilesUp(extremes.minima, lowest, stride);
     range.clipLowDn = found ? lowest : (lowest < 0 ? -32768.0 : 0.0);
     lowSource = found ? "pile-up" : "code range";
   }
   if (!range.clipHighDn)
   {
-    const bool found =
-      trusted && highest < top && extremes.depths.high < largestDepth && IsPileUp(extremes.maxima, highest, -stride);
+    const bool found = lowest < highest && highest < top && CanTellPileUp(variance, step, extremes.depths.high) &&
+                       CodePilesUp(extremes.maxima, highest, -stride);
     range.clipHighDn = found ? highest : top;
     highSource = found ? "pile-up" : "code range";
   }

@@ -20,6 +20,7 @@
 
 #include "sensornoise/moments/CodeRange.h"
 #include "sensornoise/moments/CodeSettings.h"
+#include "sensornoise/moments/PileUp.h"
 #include "SensorNoiseExport.h"
 
 #include <cstddef>
@@ -62,21 +63,12 @@ private:
 SensorNoise_EXPORT double
 FindQuantisationStep(const std::vector<std::int32_t> & codes, bool & regular);
 
-/** How far the outermost codes lie from the mean of the pixels that attain them, in these pixels' temporal standard
- * deviations, as a median. What a clip level cuts off is near the mean or beyond it; where it is just rare noise, or
- * codes as coarse as the noise, that is some standard deviations away. */
-struct ExtremeDepths
-{
-  double low{ 0.0 };
-  double high{ 0.0 };
-};
-
 /** Finds bit depth, code step and clip levels of integer data from every pixel's extremes over time.
  *
  * Given values win. The bit depth is the smallest of 8, 10, 12, 14 and 16 that holds the codes. A clip level is a
  * pile-up of the extremes, else the end of the code range (design: a sensor that saturates at 3,400 of 4,095, or rests
- * on a floor above 0, is common). \a typicalVarianceDn2 is the median temporal variance: where the noise is below half
- * a step, every level piles up and only the code range is trusted. So it is where \a depths exceed 2.5.
+ * on a floor above 0, is common). \a typicalVarianceDn2 is the median temporal variance: where a pile-up says nothing,
+ * see CanTellPileUp(), only the code range is trusted.
  *
  * Throws std::invalid_argument if the data pass what was given. */
 SensorNoise_EXPORT CodeRange
@@ -86,7 +78,7 @@ FindCodes(const CodeHistogram & minima,
           const CodeSettings &  settings,
           const ExtremeDepths & depths = {});
 
-/** Floating-point data have no codes: only what is given. */
+/** What is given, and nothing else: floating-point data have no codes. */
 SensorNoise_EXPORT CodeRange
 GivenCodes(const CodeSettings & settings);
 

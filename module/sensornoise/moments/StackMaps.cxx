@@ -22,14 +22,18 @@
 #include "sensornoise/moments/CodeRange.h"
 #include "sensornoise/moments/CodeSettings.h"
 #include "sensornoise/moments/Codes.h"
+#include "sensornoise/moments/FloatingLevels.h"
+#include "sensornoise/moments/FloatingMoments.h"
+#include "sensornoise/moments/IntegerMoments.h"
+#include "sensornoise/moments/OutermostLevels.h"
+#include "sensornoise/moments/PileUp.h"
+#include "sensornoise/moments/StackEnds.h"
 #include "sensornoise/moments/TemporalMoments.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <type_traits>
 #include <vector>
 
 namespace sensornoise
@@ -38,63 +42,101 @@ namespace sensornoise
 namespace
 {
 
-/** See ExtremeDepths. */
+/** The median temporal variance [DN^2]: some thousand pixels, evenly spread, tell the typical noise. */
 template <typename TMoments>
-ExtremeDepths
-FindExtremeDepths(const TMoments & moments, const double * mean, const double * variance)
+double
+TypicalVariance(const TMoments & moments, const double * variance)
 {
-  double lowest = moments.GetMinimum(0);
-  double highest = moments.GetMaximum(0);
-  for (std::size_t p = 1; p < moments.GetNumberOfPixels(); ++p)
+  const std::size_t   pixels = moments.GetNumberOfPixels();
+  std::vector<double> variances;
+  for (std::size_t p = 0; p < pixels; p += std::max<std::size_t>(1, pixels / 8192))
   {
-    lowest = std::min(lowest, moments.GetMinimum(p));
-    highest = std::max(highest, moments.GetMaximum(p));
-  }
-  std::vector<double> low;
-  std::vector<double> high;
-  for (std::size_t p = 0; p < moments.GetNumberOfPixels(); ++p)
-  {
-    const double sd = std::sqrt(variance[p]);
-    if (moments.GetMinimum(p) == lowest)
+    if (moments.IsFinite(p))
     {
-      low.push_back(sd > 0.0 ? (mean[p] - lowest) / sd : 0.0);
-    }
-    if (moments.GetMaximum(p) == highest)
-    {
-      high.push_back(sd > 0.0 ? (highest - mean[p]) / sd : 0.0);
+      variances.push_back(variance[p]);
     }
   }
-  return { Quantile(low, 0.5), Quantile(high, 0.5) };
+  return variances.empty() ? 0.0 : Quantile(variances, 0.5);
 }
 
 /** The codes of an integer stack, from every pixel's extremes. */
 template <typename TPixel>
 CodeRange
-FindCodesOfStack(const TemporalMoments<TPixel> & moments,
-                 const CodeSettings &            settings,
-                 const double *                  mean,
-                 const double *                  variance)
+FindCodesOfStack(const IntegerMoments<TPixel> & moments,
+                 const StackEnds &              ends,
+                 const CodeSettings &           settings,
+                 const ParallelFor &,
+                 const double * mean,
+                 const double * variance)
 {
-  const std::size_t pixels = moments.GetNumberOfPixels();
-  CodeHistogram     minima;
-  CodeHistogram     maxima;
-  for (std::size_t p = 0; p < pixels; ++p)
+  CodeHistogram minima;
+  CodeHistogram maxima;
+  for (std::size_t p = 0; p < moments.GetNumberOfPixels(); ++p)
   {
     minima.Add(moments.GetMinimum(p));
     maxima.Add(moments.GetMaximum(p));
   }
-  // Some thousand pixels, evenly spread, tell the typical noise.
-  std::vector<double> variances;
-  for (std::size_t p = 0; p < pixels; p += std::max<std::size_t>(1, pixels / 8192))
-  {
-    variances.push_back(variance[p]);
-  }
-  CodeRange codes =
-    FindCodes(minima, maxima, Quantile(variances, 0.5), settings, FindExtremeDepths(moments, mean, variance));
+  const ExtremeDepths depths{ MedianDepth(moments, OutermostLevels::End::Low, ends.low, mean, variance),
+                              MedianDepth(moments, OutermostLevels::End::High, ends.high, mean, variance) };
+  CodeRange           codes = FindCodes(minima, maxima, TypicalVariance(moments, variance), settings, depths);
   // A signed 16-bit number ends at 32767, whatever 16 bits would hold.
   const double largest = std::numeric_limits<TPixel>::max();
   codes.clipHighDn = std::min(codes.clipHighDn.value_or(largest), largest);
   return codes;
+}
+
+/** The clip levels of a floating-point stack, from every finite pixel's extremes. */
+template <typename TPixel>
+CodeRange
+FindCodesOfStack(const FloatingMoments<TPixel> & moments,
+                 const StackEnds &               ends,
+                 const CodeSettings &            settings,
+                 const ParallelFor &             parallelFor,
+                 const double *                  mean,
+                 const double *                  variance)
+{
+  // An end with fewer pixels, as nearly always without a clip level, needs no second look.
+  OutermostLevels minima(OutermostLevels::End::Low);
+  OutermostLevels maxima(OutermostLevels::End::High);
+  ExtremeDepths   depths;
+  parallelFor(2, [&](std::size_t isHigh) {
+    const auto       end = isHigh == 1 ? OutermostLevels::End::High : OutermostLevels::End::Low;
+    const StackEnd & level = isHigh == 1 ? ends.high : ends.low;
+    if (level.pixels >= FewestPixelsOfPileUp)
+    {
+      (isHigh == 1 ? maxima : minima) = LevelsAt(end, moments);
+      (isHigh == 1 ? depths.high : depths.low) = MedianDepth(moments, end, level, mean, variance);
+    }
+  });
+  return FindLevels(minima, maxima, TypicalVariance(moments, variance), settings, depths);
+}
+
+/** Fills the maps, and finds the ends of the stack on the way. */
+template <typename TPixel>
+StackEnds
+FillMeanAndVariance(const TemporalMoments<TPixel> & moments,
+                    const ParallelFor &             parallelFor,
+                    double *                        mean,
+                    double *                        variance)
+{
+  const std::size_t      pixels = moments.GetNumberOfPixels();
+  std::vector<StackEnds> blocks((pixels + PixelsPerBlock - 1) / PixelsPerBlock);
+  ForBlocks(pixels, parallelFor, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p)
+    {
+      mean[p] = moments.GetMean(p);
+      variance[p] = moments.GetVariance(p);
+    }
+    StackEnds block;
+    block.AddPixels(moments, begin, end);
+    blocks[begin / PixelsPerBlock] = block;
+  });
+  StackEnds ends;
+  for (const StackEnds & block : blocks)
+  {
+    ends.Add(block);
+  }
+  return ends;
 }
 
 } // namespace
@@ -109,35 +151,21 @@ MakeStackMaps(const TemporalMoments<TPixel> & moments,
               std::uint8_t *                  valid)
 {
   const std::size_t pixels = moments.GetNumberOfPixels();
-  const std::size_t block = 4096;
-  const std::size_t blocks = (pixels + block - 1) / block;
-  parallelFor(blocks, [&](std::size_t b) {
-    for (std::size_t p = b * block; p < std::min(pixels, (b + 1) * block); ++p)
-    {
-      mean[p] = moments.GetMean(p);
-      variance[p] = moments.GetVariance(p);
-    }
-  });
+  const StackEnds   ends = FillMeanAndVariance<TPixel>(moments, parallelFor, mean, variance);
 
   StackSummary summary;
-  if constexpr (std::is_integral_v<TPixel>)
-  {
-    summary.codes = FindCodesOfStack<TPixel>(moments, settings, mean, variance);
-  }
-  else
-  {
-    summary.codes = GivenCodes(settings);
-  }
+  summary.codes = FindCodesOfStack(moments, ends, settings, parallelFor, mean, variance);
 
-  std::vector<StackSummary> counts(blocks);
-  parallelFor(blocks, [&](std::size_t b) {
-    for (std::size_t p = b * block; p < std::min(pixels, (b + 1) * block); ++p)
+  std::vector<StackSummary> counts((pixels + PixelsPerBlock - 1) / PixelsPerBlock);
+  ForBlocks(pixels, parallelFor, [&](std::size_t begin, std::size_t end) {
+    StackSummary & count = counts[begin / PixelsPerBlock];
+    for (std::size_t p = begin; p < end; ++p)
     {
       const bool finite = moments.IsFinite(p);
       const bool clipped = finite && summary.codes.IsClipped(moments.GetMinimum(p), moments.GetMaximum(p));
       valid[p] = finite && !clipped ? 1 : 0;
-      counts[b].clipped += clipped ? 1 : 0;
-      counts[b].notFinite += finite ? 0 : 1;
+      count.clipped += clipped ? 1 : 0;
+      count.notFinite += finite ? 0 : 1;
     }
   });
   for (const StackSummary & count : counts)

@@ -27,6 +27,21 @@
 
 namespace sensornoise
 {
+namespace
+{
+/** Between which levels the data lie; of floating-point data one end may be open. */
+std::string
+TextOfLevels(const CodeRange & codes)
+{
+  if (!codes.clipLowDn)
+  {
+    return "up to " + Text(*codes.clipHighDn);
+  }
+  return codes.clipHighDn ? Text(*codes.clipLowDn) + " to " + Text(*codes.clipHighDn)
+                          : "from " + Text(*codes.clipLowDn);
+}
+} // namespace
+
 void
 DescribeStack(Report &                          report,
               const FrameGeometry &             geometry,
@@ -70,8 +85,8 @@ WarnOfStack(Report & report, std::size_t frames, const StackSummary & summary)
   if (codes.clipSource.find("pile-up") != std::string::npos)
   {
     report.Warn("clip-level-found",
-                "the sensor attains only the levels " + Text(*codes.clipLowDn) + " to " + Text(*codes.clipHighDn) +
-                  " DN (" + codes.clipSource + "); pixels that reach an end are left out");
+                "the sensor attains only the levels " + TextOfLevels(codes) + " DN (" + codes.clipSource +
+                  "); pixels that reach an end are left out");
   }
   if (!codes.isRegular)
   {

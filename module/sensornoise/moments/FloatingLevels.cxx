@@ -1,0 +1,74 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/moments/FloatingLevels.h"
+
+#include "sensornoise/moments/Codes.h"
+
+#include <optional>
+#include <string>
+
+namespace sensornoise
+{
+
+namespace
+{
+
+/** Whether the outermost of \a levels is a pile-up; \a stepDn is their spacing, if it is known. */
+bool
+PilesUp(const OutermostLevels & levels, std::optional<double> stepDn, double typicalVarianceDn2, double depth)
+{
+  const double step = stepDn.value_or(levels.Step());
+  return CanTellPileUp(typicalVarianceDn2, step, depth) && IsPileUp(levels.Pixels(), levels.MostInside(step));
+}
+
+/** "given", "pile-up" or "none". */
+std::string
+SourceOf(bool isGiven, bool isPileUp)
+{
+  return isGiven ? "given" : (isPileUp ? "pile-up" : "none");
+}
+
+} // namespace
+
+CodeRange
+FindLevels(const OutermostLevels & minima,
+           const OutermostLevels & maxima,
+           double                  typicalVarianceDn2,
+           const CodeSettings &    settings,
+           const ExtremeDepths &   depths)
+{
+  CodeRange range = GivenCodes(settings);
+  if (minima.Pixels() > 0 && maxima.Pixels() > 0 && minima.Level() == maxima.Level())
+  {
+    return range;
+  }
+  const auto & step = settings.quantisationStepDn;
+  const bool   low = !settings.clipLowDn && PilesUp(minima, step, typicalVarianceDn2, depths.low);
+  const bool   high = !settings.clipHighDn && PilesUp(maxima, step, typicalVarianceDn2, depths.high);
+  if (low || high)
+  {
+    range.clipLowDn = low ? minima.Level() : settings.clipLowDn;
+    range.clipHighDn = high ? maxima.Level() : settings.clipHighDn;
+    const std::string lowSource = SourceOf(settings.clipLowDn.has_value(), low);
+    const std::string highSource = SourceOf(settings.clipHighDn.has_value(), high);
+    range.clipSource = lowSource == highSource ? lowSource : "low: " + lowSource + ", high: " + highSource;
+  }
+  return range;
+}
+
+} // namespace sensornoise

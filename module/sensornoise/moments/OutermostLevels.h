@@ -1,0 +1,98 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_moments_OutermostLevels_h
+#define sensornoise_moments_OutermostLevels_h
+
+#include "SensorNoiseExport.h"
+
+#include <cstddef>
+#include <functional>
+#include <map>
+
+namespace sensornoise
+{
+
+/** \class OutermostLevels
+ * \brief How many pixels have which value as their extreme over time: the 64 lowest or highest values of a
+ * floating-point stack.
+ *
+ * Values are the same level if they are equal exactly. The counts are exact in whatever order the pixels are added: a
+ * level that left the table has 64 others beyond it and cannot come back. */
+class SensorNoise_EXPORT OutermostLevels
+{
+public:
+  enum class End
+  {
+    Low,
+    High
+  };
+
+  explicit OutermostLevels(End end)
+    : m_Sign(end == End::High ? 1.0 : -1.0)
+  {}
+
+  /** Adds a pixel whose extreme is \a value, a finite number. */
+  void
+  Add(double value)
+  {
+    const double outwards = m_Sign * value;
+    if (!m_Counts.empty() && outwards == m_Counts.begin()->first)
+    {
+      ++m_Counts.begin()->second; // where a level clips, this is every second pixel
+    }
+    else if (m_Counts.size() < MostLevels || outwards >= m_Innermost)
+    {
+      this->Insert(outwards);
+    }
+  }
+
+  /** The outermost level [DN], and how many pixels have it. Some pixel has been added. */
+  double
+  Level() const
+  {
+    return m_Sign * m_Counts.begin()->first + 0.0; // never -0
+  }
+  std::size_t
+  Pixels() const
+  {
+    return m_Counts.empty() ? 0 : m_Counts.begin()->second;
+  }
+
+  /** The spacing of the levels [DN]: that which 1 in 10 of the distances between neighbours does not pass. Codes that
+   * no pixel has make most distances longer, and stray values make a few shorter. 0: fewer than two levels. */
+  double
+  Step() const;
+
+  /** The most pixels of one level among those at most 16 steps inside of the outermost one. */
+  std::size_t
+  MostInside(double stepDn) const;
+
+private:
+  static constexpr std::size_t MostLevels = 64;
+
+  void
+  Insert(double outwards);
+
+  double                                              m_Sign;
+  double                                              m_Innermost{ 0.0 }; // of the table
+  std::map<double, std::size_t, std::greater<double>> m_Counts;           // outermost first
+};
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,65 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_moments_PileUp_h
+#define sensornoise_moments_PileUp_h
+
+#include <algorithm>
+#include <cstddef>
+
+namespace sensornoise
+{
+
+/** \file
+ * What a pile-up is: the mark that a level leaves which the sensor cannot pass. Noise alone puts few pixels' extremes
+ * on the outermost level, fewer than on the levels inside of it. A clip level gathers the extremes of all pixels that
+ * would have passed it. */
+
+/** How many levels inside of the outermost one it is compared with. */
+inline constexpr int LevelsInsidePileUp = 16;
+
+/** Fewer pixels on one level are no pile-up. */
+inline constexpr std::size_t FewestPixelsOfPileUp = 8;
+
+/** Whether \a atEnd pixels whose extreme is the outermost level are a pile-up, if each of the levels inside is the
+ * extreme of at most \a mostInside pixels: at least 8, and more than 3 times as many. */
+inline bool
+IsPileUp(std::size_t atEnd, std::size_t mostInside)
+{
+  return atEnd >= std::max(FewestPixelsOfPileUp, 3 * mostInside + 1);
+}
+
+/** How far the outermost levels lie from the mean of the pixels that attain them, in these pixels' temporal standard
+ * deviations, as a median. What a clip level cuts off is near the mean or beyond it; where it is just rare noise, or
+ * codes as coarse as the noise, that is some standard deviations away. */
+struct ExtremeDepths
+{
+  double low{ 0.0 };
+  double high{ 0.0 };
+};
+
+/** Whether a pile-up says anything: where the noise, of the median variance \a typicalVarianceDn2, is below half a step
+ * of the levels, every level piles up. So it is where \a depth, see ExtremeDepths, is 2.5 or more. */
+inline bool
+CanTellPileUp(double typicalVarianceDn2, double stepDn, double depth)
+{
+  return typicalVarianceDn2 >= 0.25 * stepDn * stepDn && depth < 2.5;
+}
+
+} // namespace sensornoise
+
+#endif

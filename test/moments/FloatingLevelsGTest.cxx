@@ -1,0 +1,159 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/moments/FloatingLevels.h"
+#include "sensornoise/moments/CodeRange.h"
+#include "sensornoise/moments/CodeSettings.h"
+#include "sensornoise/moments/Codes.h"
+#include "sensornoise/moments/OutermostLevels.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <optional>
+
+using namespace sensornoise;
+
+namespace
+{
+constexpr double NoisyDn2 = 400.0;
+
+/** The extremes over time of a stack's pixels, as codes and as codes times \a scale. */
+struct Extremes
+{
+  double          scale{ 1.0 };
+  CodeHistogram   minimalCodes{};
+  CodeHistogram   maximalCodes{};
+  OutermostLevels minima{ OutermostLevels::End::Low };
+  OutermostLevels maxima{ OutermostLevels::End::High };
+
+  void
+  AddPixels(int count, int minimum, int maximum)
+  {
+    for (int i = 0; i < count; ++i)
+    {
+      minimalCodes.Add(minimum);
+      maximalCodes.Add(maximum);
+      minima.Add(scale * minimum);
+      maxima.Add(scale * maximum);
+    }
+  }
+  /** Two pixels at every code. */
+  void
+  AddRamp(int lowest, int highest, int step = 1)
+  {
+    for (int code = lowest; code + 40 * step <= highest; code += step)
+    {
+      this->AddPixels(2, code, code + 40 * step);
+    }
+  }
+  CodeRange
+  Find(const CodeSettings & settings = {}, double varianceDn2 = NoisyDn2, const ExtremeDepths & depths = {}) const
+  {
+    return FindLevels(minima, maxima, scale * scale * varianceDn2, settings, depths);
+  }
+  /** The levels are found where the codes' are, and only there. */
+  void
+  ExpectThoseOfTheCodes(double varianceDn2 = NoisyDn2) const
+  {
+    const CodeRange codes = FindCodes(minimalCodes, maximalCodes, varianceDn2, MakeCodeSettings(16, NAN, NAN, 0.0));
+    const CodeRange levels = this->Find({}, varianceDn2);
+    const bool      isLow = codes.clipSource == "pile-up" || codes.clipSource == "low: pile-up, high: code range";
+    const bool      isHigh = codes.clipSource == "pile-up" || codes.clipSource == "low: code range, high: pile-up";
+    EXPECT_EQ(levels.clipLowDn, isLow ? std::optional<double>(scale * *codes.clipLowDn) : std::nullopt);
+    EXPECT_EQ(levels.clipHighDn, isHigh ? std::optional<double>(scale * *codes.clipHighDn) : std::nullopt);
+  }
+};
+} // namespace
+
+TEST(SensorNoiseFloatingLevels, PileUpsAreFoundAndTheOtherEndStaysOpen)
+{
+  Extremes extremes;
+  extremes.AddRamp(100, 3400);
+  EXPECT_EQ(extremes.Find().clipSource, "none");
+  EXPECT_FALSE(extremes.Find().clipLowDn || extremes.Find().clipHighDn);
+  extremes.AddPixels(200, 3350, 3400);
+  CodeRange range = extremes.Find();
+  EXPECT_EQ(range.clipHighDn, 3400.0);
+  EXPECT_FALSE(range.clipLowDn);
+  EXPECT_EQ(range.clipSource, "low: none, high: pile-up");
+  EXPECT_TRUE(range.IsClipped(-1e300, 3400.0));
+  EXPECT_FALSE(range.IsClipped(-1e300, std::nextafter(3400.0, 0.0)));
+  extremes.AddPixels(200, 100, 150);
+  range = extremes.Find();
+  EXPECT_EQ(range.clipLowDn, 100.0);
+  EXPECT_EQ(range.clipSource, "pile-up");
+  EXPECT_FALSE(range.bitDepth);
+  EXPECT_EQ(range.quantisationStepDn, 0.0); // levels are no codes
+}
+
+TEST(SensorNoiseFloatingLevels, AreFoundWhereTheCodesAre)
+{
+  for (const double scale : { 1.0, 1.0 / 65535.0, 7.3e4 })
+  {
+    for (const int step : { 1, 16 })
+    {
+      for (const int pixels : { 0, 5, 6, 50, 52, 53, 200 })
+      {
+        Extremes extremes;
+        extremes.scale = scale;
+        extremes.AddRamp(100 * step, 3400 * step, step);
+        extremes.AddPixels(pixels, 3350 * step, 3400 * step);
+        extremes.ExpectThoseOfTheCodes();
+        extremes.AddPixels(pixels / 2, 100 * step, 150 * step);
+        extremes.ExpectThoseOfTheCodes();
+        extremes.AddPixels(16, 3345 * step, 3390 * step); // 18 on one level inside: 55 are needed at the end
+        extremes.ExpectThoseOfTheCodes();
+        extremes.AddPixels(5000, 1000 * step, 3300 * step); // out of reach
+        extremes.ExpectThoseOfTheCodes();
+      }
+    }
+  }
+}
+
+TEST(SensorNoiseFloatingLevels, CoarseCodesAndRareNoiseArePassedOver)
+{
+  Extremes extremes;
+  extremes.AddRamp(100, 3400);
+  extremes.AddPixels(200, 3400, 3400);
+  EXPECT_FALSE(extremes.Find({}, 0.24).clipHighDn);
+  EXPECT_EQ(extremes.Find({}, 0.25).clipHighDn, 3400.0); // (1/2)^2: the first that is trusted
+  EXPECT_FALSE(extremes.Find({}, NoisyDn2, { 0.0, 2.5 }).clipHighDn);
+  EXPECT_EQ(extremes.Find({}, NoisyDn2, { 2.5, 2.4 }).clipHighDn, 3400.0);
+  Extremes constant;
+  constant.AddPixels(1000, 700, 700);
+  EXPECT_EQ(constant.Find({}, 0.0).clipSource, "none");
+  EXPECT_EQ(Extremes().Find().clipSource, "none"); // no finite pixel
+}
+
+TEST(SensorNoiseFloatingLevels, GivenValuesWin)
+{
+  Extremes extremes;
+  extremes.AddRamp(100, 3400);
+  extremes.AddPixels(200, 3350, 3400);
+  extremes.AddPixels(200, 100, 150);
+  CodeRange range = extremes.Find(MakeCodeSettings(14, 50.0, 3300.0, 2.0));
+  EXPECT_EQ(range.bitDepth, 14);
+  EXPECT_EQ(range.clipLowDn, 50.0);
+  EXPECT_EQ(range.clipHighDn, 3300.0);
+  EXPECT_EQ(range.quantisationStepDn, 2.0);
+  EXPECT_EQ(range.clipSource, "given");
+  range = extremes.Find(MakeCodeSettings(0, NAN, 3300.0, 0.0));
+  EXPECT_EQ(range.clipLowDn, 100.0);
+  EXPECT_EQ(range.clipHighDn, 3300.0);
+  EXPECT_EQ(range.clipSource, "low: pile-up, high: given");
+  EXPECT_FALSE(extremes.Find(MakeCodeSettings(0, NAN, NAN, 41.0)).clipHighDn); // noise of 20 DN: below half of it
+}

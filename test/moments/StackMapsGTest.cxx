@@ -1,0 +1,221 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/moments/StackMaps.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/moments/CodeSettings.h"
+#include "sensornoise/moments/StackMoments.h"
+#include "helpers/StackTestHelper.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <gtest/gtest.h>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <vector>
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+
+namespace
+{
+constexpr std::size_t Width = 130; // 12,480 pixels: two blocks
+constexpr std::size_t Height = 96;
+constexpr std::size_t Frames = 16;
+
+struct Maps
+{
+  StackSummary              summary;
+  std::vector<std::uint8_t> valid;
+};
+
+template <typename TPixel>
+Maps
+MapsOf(const TemporalMoments<TPixel> & moments, const ParallelFor & parallelFor = SerialFor)
+{
+  const std::size_t   pixels = moments.GetNumberOfPixels();
+  std::vector<double> mean(pixels);
+  std::vector<double> variance(pixels);
+  Maps                maps;
+  maps.valid.resize(pixels);
+  maps.summary = MakeStackMaps<TPixel>(moments, {}, parallelFor, mean.data(), variance.data(), maps.valid.data());
+  return maps;
+}
+
+template <typename TPixel>
+Maps
+MapsOf(const Stack<TPixel> & stack, std::size_t chunk = Frames, const ParallelFor & parallelFor = SerialFor)
+{
+  StackMoments<TPixel> sums(stack.width * stack.height, stack.frames);
+  for (std::size_t t = 0; t < stack.frames; t += chunk)
+  {
+    sums.AddFrames(stack.Frame(t), t, std::min(chunk, stack.frames - t), parallelFor);
+  }
+  return MapsOf<TPixel>(sums.Take(), parallelFor);
+}
+
+/** Codes of a sensor that attains the levels \a low to \a high only. */
+Stack<std::uint16_t>
+CodesBetween(std::optional<double> low, std::optional<double> high, std::size_t width = Width)
+{
+  SimulationSettings settings = FlickeringSettings(Frames);
+  settings.clipLowDn = low;
+  settings.clipHighDn = high;
+  return Simulate<std::uint16_t>(settings, width, Height);
+}
+
+void
+ExpectTheSame(const Maps & maps, const Maps & expected)
+{
+  EXPECT_EQ(maps.summary.codes.clipLowDn, expected.summary.codes.clipLowDn);
+  EXPECT_EQ(maps.summary.codes.clipHighDn, expected.summary.codes.clipHighDn);
+  EXPECT_EQ(maps.summary.codes.clipSource, expected.summary.codes.clipSource);
+  EXPECT_EQ(maps.summary.clipped, expected.summary.clipped);
+  EXPECT_EQ(maps.summary.notFinite, expected.summary.notFinite);
+  EXPECT_EQ(maps.valid, expected.valid);
+}
+
+template <typename TPixel>
+class SensorNoiseStackMapsOfFloating : public ::testing::Test
+{};
+using FloatingTypes = ::testing::Types<float, double>;
+TYPED_TEST_SUITE(SensorNoiseStackMapsOfFloating, FloatingTypes, );
+} // namespace
+
+TYPED_TEST(SensorNoiseStackMapsOfFloating, CopiesOfCodesThatSaturateLeaveOutTheSamePixels)
+{
+  for (const double scale : { 1.0, 0.25, 1.0 / 65535.0 })
+  {
+    for (const std::size_t width : { 48, 130, 400 })
+    {
+      const auto codes = CodesBetween({}, 2500.0, width);
+      const Maps expected = MapsOf(codes);
+      const Maps maps = MapsOf(codes.Map<TypeParam>([&](std::uint16_t u) { return scale * u; }));
+      ASSERT_EQ(expected.summary.codes.clipSource, "low: code range, high: pile-up");
+      EXPECT_EQ(maps.summary.codes.clipSource, "low: none, high: pile-up");
+      EXPECT_EQ(maps.summary.codes.clipHighDn, static_cast<double>(static_cast<TypeParam>(scale * 2500.0)));
+      EXPECT_FALSE(maps.summary.codes.clipLowDn);
+      EXPECT_GT(maps.summary.clipped, 0u);
+      EXPECT_EQ(maps.summary.clipped, expected.summary.clipped);
+      EXPECT_EQ(maps.valid, expected.valid);
+    }
+  }
+}
+
+TYPED_TEST(SensorNoiseStackMapsOfFloating, FloorIsFoundBelowAboveAndAtZero)
+{
+  const auto codes = CodesBetween(500.0, {});
+  const Maps expected = MapsOf(codes);
+  ASSERT_EQ(expected.summary.codes.clipSource, "low: pile-up, high: code range");
+  for (const double floorDn : { 500.0, 0.0, -300.0 })
+  {
+    const Maps maps = MapsOf(codes.Map<TypeParam>([&](std::uint16_t u) { return u - 500.0 + floorDn; }));
+    EXPECT_EQ(maps.summary.codes.clipLowDn, floorDn);
+    EXPECT_FALSE(maps.summary.codes.clipHighDn);
+    EXPECT_EQ(maps.summary.codes.clipSource, "low: pile-up, high: none");
+    EXPECT_EQ(maps.valid, expected.valid);
+  }
+}
+
+TYPED_TEST(SensorNoiseStackMapsOfFloating, LevelsBetweenCodesSaturateToo)
+{
+  const auto stack = Simulate<TypeParam>(FlickeringSettings(Frames), Width, Height);
+  EXPECT_EQ(MapsOf(stack).summary.codes.clipSource, "none");
+  const auto saturated = stack.Map([](TypeParam u) { return std::clamp<TypeParam>(u, 500, 2500); });
+  const Maps maps = MapsOf(saturated);
+  EXPECT_EQ(maps.summary.codes.clipLowDn, 500.0);
+  EXPECT_EQ(maps.summary.codes.clipHighDn, 2500.0);
+  EXPECT_EQ(maps.summary.codes.clipSource, "pile-up");
+  for (std::size_t p = 0; p < Width * Height; ++p)
+  {
+    bool isWithin = true;
+    for (std::size_t t = 0; t < Frames; ++t)
+    {
+      const TypeParam value = stack.Frame(t)[p];
+      isWithin = isWithin && value > 500 && value < 2500;
+    }
+    ASSERT_EQ(maps.valid[p], isWithin ? 1 : 0) << p;
+  }
+}
+
+TYPED_TEST(SensorNoiseStackMapsOfFloating, WithoutSaturationNothingIsLeftOut)
+{
+  for (const std::size_t width : { 48, 130, 400 })
+  {
+    const auto codes = CodesBetween({}, {}, width);
+    for (const double stepDn : { 1.0, 16.0, 60.0, 250.0 }) // the noise is from 3 to 40 DN
+    {
+      const Maps maps =
+        MapsOf(codes.Map<TypeParam>([&](std::uint16_t u) { return stepDn * static_cast<int>(u / stepDn + 0.5); }));
+      EXPECT_EQ(maps.summary.codes.clipSource, "none") << width << ", " << stepDn;
+      EXPECT_EQ(maps.summary.clipped, 0u);
+      EXPECT_EQ(std::count(maps.valid.begin(), maps.valid.end(), 1), static_cast<std::ptrdiff_t>(maps.valid.size()));
+    }
+  }
+}
+
+TYPED_TEST(SensorNoiseStackMapsOfFloating, PixelsThatAreNotFiniteHideNoClipLevel)
+{
+  auto       stack = CodesBetween({}, 2500.0).Map<TypeParam>([](std::uint16_t u) { return u; });
+  const Maps expected = MapsOf(stack);
+  for (const TypeParam value : { std::numeric_limits<TypeParam>::quiet_NaN(),
+                                 std::numeric_limits<TypeParam>::infinity(),
+                                 -std::numeric_limits<TypeParam>::infinity() })
+  {
+    for (std::size_t k = 0; k < 20; ++k)
+    {
+      stack.pixels[(k % Frames) * Width * Height + 7 * k] = value;
+      stack.pixels[((k + 1) % Frames) * Width * Height + 7 * k] = 9999; // beyond the clip level
+    }
+    const Maps maps = MapsOf(stack);
+    EXPECT_EQ(maps.summary.codes.clipHighDn, 2500.0);
+    EXPECT_EQ(maps.summary.codes.clipSource, expected.summary.codes.clipSource);
+    EXPECT_EQ(maps.summary.notFinite, 20u);
+    for (std::size_t p = 0; p < Width * Height; ++p)
+    {
+      ASSERT_EQ(maps.valid[p], p % 7 == 0 && p < 140 ? 0 : expected.valid[p]) << p;
+    }
+  }
+  std::fill(stack.pixels.begin(), stack.pixels.end(), std::numeric_limits<TypeParam>::quiet_NaN());
+  const Maps maps = MapsOf(stack);
+  EXPECT_EQ(maps.summary.codes.clipSource, "none");
+  EXPECT_EQ(maps.summary.notFinite, Width * Height);
+}
+
+TYPED_TEST(SensorNoiseStackMapsOfFloating, AreTheSameForAnyChunksThreadsAndProcesses)
+{
+  const auto stack = CodesBetween(500.0, 2500.0).Map<TypeParam>([](std::uint16_t u) { return u / 3.0; });
+  const Maps expected = MapsOf(stack);
+  ASSERT_EQ(expected.summary.codes.clipSource, "pile-up");
+  for (const std::size_t chunk : { 1, 5 })
+  {
+    ExpectTheSame(MapsOf(stack, chunk, Threads(3)), expected);
+  }
+  StackMoments<TypeParam> whole(Width * Height, Frames);
+  for (const std::size_t first : { 11, 0, 6 }) // each part in a process of its own, which come in any order
+  {
+    const std::size_t       end = first == 0 ? 6 : (first == 6 ? 11 : Frames);
+    StackMoments<TypeParam> part(Width * Height, Frames);
+    part.AddFrames(stack.Frame(first), first, end - first, Threads(2));
+    std::stringstream stream;
+    part.Save(stream);
+    whole.Merge(stream);
+  }
+  ExpectTheSame(MapsOf<TypeParam>(whole.Take()), expected);
+}
