@@ -17,12 +17,33 @@
  *=========================================================================*/
 #include "sensornoise/scene/StillScene.h"
 
+#include "sensornoise/base/PixelUse.h"
+#include "sensornoise/scene/CrossedRegion.h"
 #include "sensornoise/scene/UsablePixels.h"
 
 #include <utility>
 
 namespace sensornoise
 {
+
+namespace
+{
+/** Leaves out what something crosses; false: nothing does. */
+bool
+LeaveOutCrossed(StillScene & scene)
+{
+  const std::vector<std::uint8_t> crossed = FindCrossedRegion(scene.frame, scene.model);
+  for (std::size_t p = 0; p < crossed.size(); ++p)
+  {
+    if (crossed[p] != 0 && scene.frame.usable[p] != 0)
+    {
+      scene.frame.usable[p] = 0;
+      scene.pixelUse[p] = static_cast<std::uint8_t>(PixelUse::NotStatic);
+    }
+  }
+  return !crossed.empty();
+}
+} // namespace
 
 StillScene
 MakeStillScene(const StackSummary &              summary,
@@ -51,6 +72,10 @@ MakeStillScene(const StackSummary &              summary,
   try
   {
     scene.model = FitProvisionalModel(scene.frame);
+    if (LeaveOutCrossed(scene))
+    {
+      scene.model = FitProvisionalModel(scene.frame);
+    }
     UsablePixels found = LeaveOutCoarseAndGuarded(
       scene.frame, scene.model, summary.codes, frameMeans, std::move(scene.pixelUse), parallelFor);
     scene.frame.usable = std::move(found.usable);

@@ -1,0 +1,90 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_scene_VarianceSample_h
+#define sensornoise_scene_VarianceSample_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/scene/ReferenceFrame.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace sensornoise
+{
+
+struct ProvisionalModel;
+
+/** The pixels to which a ProvisionalModel is fitted: their raw variance, and the terms that it is made of. */
+struct VarianceSample
+{
+  static constexpr int Terms = 6; ///< intercept, x, x^2, gx^2, gy^2, gx gy
+
+  using Coefficients = Eigen::Matrix<double, Terms, 1>;
+
+  Eigen::Matrix<double, Eigen::Dynamic, Terms> design;
+  std::vector<double>                          level;        ///< neighbours' mean [DN]
+  std::vector<double>                          raw;          ///< variance [DN^2]
+  std::vector<double>                          energy;       ///< square of the gradient [DN^2]
+  double                                       scale{ 1.0 }; ///< of x in the design [DN]
+
+  std::size_t
+  Size() const
+  {
+    return raw.size();
+  }
+  auto
+  TermsOf(std::size_t i) const
+  {
+    return design.row(static_cast<Eigen::Index>(i));
+  }
+};
+
+/** The sample of \a pixels; \a model tells the darkest and the brightest level. */
+SensorNoise_EXPORT VarianceSample
+SampleVariance(const ReferenceFrame & frame, const std::vector<std::size_t> & pixels, const ProvisionalModel & model);
+
+/** What a fit predicts of every pixel, and which pixels it keeps. */
+struct VariancePrediction
+{
+  std::vector<double>       variance;      ///< [DN^2]
+  std::vector<std::uint8_t> keep;          ///< 1: the pixel is not far above
+  double                    lowest{ 0.0 }; ///< median of a bin [DN^2]
+};
+
+/** Starts a fit from the medians over 32 bins of intensity of the smoother half of the pixels, where motion adds
+ * little.
+ */
+SensorNoise_EXPORT VariancePrediction
+StartFromMedians(const VarianceSample & sample);
+
+/** Weighted least squares over the pixels that are kept. */
+SensorNoise_EXPORT VarianceSample::Coefficients
+SolveKept(const VarianceSample & sample, const VariancePrediction & prediction);
+
+/** Sets what \a theta predicts; keeps the pixels up to \a largestRatio times that. */
+SensorNoise_EXPORT void
+Predict(const VarianceSample &               sample,
+        const VarianceSample::Coefficients & theta,
+        double                               largestRatio,
+        VariancePrediction &                 prediction);
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,131 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/base/PixelUse.h"
+#include "sensornoise/refined/RefinedMethod.h"
+#include "sensornoise/simulation/Random.h"
+#include "sensornoise/simulation/Scenes.h"
+#include "sensornoise/simulation/SimulationSettings.h"
+#include "sensornoise/simulation/Simulator.h"
+#include "helpers/RefinedTestHelper.h"
+#include "helpers/StackTestHelper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <gtest/gtest.h>
+#include <vector>
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+
+namespace
+{
+constexpr std::size_t Size = 192;
+constexpr std::size_t Frames = 50;
+
+/** A textured block, a third of the frame wide, that walks through the lower two thirds of the rows. */
+Stack<unsigned short>
+CrossedStack(const std::vector<double> & scene, int conditions, bool isVertical)
+{
+  SimulationSettings settings;
+  settings.conditions = PaperConditions(conditions);
+  settings.frames = Frames;
+  settings.seed = 3;
+  const StackSimulator  simulator(scene, Size, Size, settings);
+  Stack<unsigned short> stack{ Size, Size, Frames, std::vector<unsigned short>(Size * Size * Frames) };
+  constexpr double      length = Size / 3.0;
+  std::vector<double>   electrons(Size);
+  for (std::size_t row = 0; row < Frames * Size; ++row)
+  {
+    const std::size_t   t = row / Size;
+    const std::size_t   y = row % Size;
+    const double        front = (Size + length) * static_cast<double>(t) / (Frames - 1.0);
+    const double        light = settings.camera.electrons * (1.0 + simulator.GetTruth().series.gamma[t]);
+    CounterSeededRandom random(settings.seed, 100, t, y);
+    simulator.ExpectedElectronsRow(t, y, electrons.data());
+    for (std::size_t x = 0; x < Size; ++x)
+    {
+      const auto   along = static_cast<double>(isVertical ? y : x);
+      const auto   across = static_cast<double>(isVertical ? x : y);
+      const double depth = front - along;
+      if (across >= length && depth > 0.0 && depth < length)
+      {
+        electrons[x] = light * (0.4 + 0.2 * std::sin(depth / 4.0) * std::sin(across / 7.0));
+      }
+      const double value = static_cast<double>(random.Poisson(electrons[x])) + settings.camera.offsetDn +
+                           settings.camera.readNoiseDn * random.Normal();
+      stack.pixels[row * Size + x] = static_cast<unsigned short>(std::clamp(std::floor(value + 0.5), 0.0, 4095.0));
+    }
+  }
+  return stack;
+}
+
+void
+ExpectTruth(const Stack<unsigned short> & stack, bool isVertical)
+{
+  const auto     method = Measure(stack);
+  const Report & report = method.GetReport();
+  const double   gain = ValueOf(report.gain);
+  EXPECT_LE(std::abs(gain - 1.0), std::max(0.01, 3.0 * *report.gain.standardError));
+  EXPECT_LT(*report.gain.standardError, 0.007); // a third of the frame gives 0.4 %
+  const auto & use = method.GetPixelUse();
+  std::size_t  moved = 0;
+  std::size_t  used = 0;
+  for (std::size_t p = 0; p < use.size(); ++p)
+  {
+    const std::size_t across = isVertical ? p % Size : p / Size;
+    if (use[p] == static_cast<std::uint8_t>(PixelUse::Used))
+    {
+      moved += across >= Size / 3 ? 1 : 0;
+      ++used;
+    }
+  }
+  EXPECT_LT(static_cast<double>(moved), 0.03 * static_cast<double>(used));
+  EXPECT_GT(static_cast<double>(used), 0.2 * static_cast<double>(use.size()));
+}
+} // namespace
+
+TEST(SensorNoiseCrossingThing, GainComesFromTheRowsThatItNeverReaches)
+{
+  for (const int conditions : { 1, 2, 3 })
+  {
+    SCOPED_TRACE(conditions);
+    ExpectTruth(CrossedStack(MakeTextureScene(Size, Size), conditions, false), false);
+    ExpectTruth(CrossedStack(MakeTargetScene(Size, Size), conditions, false), false);
+  }
+}
+
+TEST(SensorNoiseCrossingThing, GainComesFromTheColumnsThatItNeverReaches)
+{
+  for (const int conditions : { 1, 3 })
+  {
+    SCOPED_TRACE(conditions);
+    ExpectTruth(CrossedStack(MakeTextureScene(Size, Size), conditions, true), true);
+    ExpectTruth(CrossedStack(MakeTargetScene(Size, Size), conditions, true), true);
+  }
+}
+
+TEST(SensorNoiseCrossingThing, ResultDoesNotDependOnThreadsAndChunks)
+{
+  const auto stack = CrossedStack(MakeTextureScene(Size, Size), 1, false);
+  const auto whole = Measure(stack);
+  const auto parts = Measure(stack, WithCodes(), 7, Threads(3));
+  EXPECT_EQ(*whole.GetReport().gain.value, *parts.GetReport().gain.value);
+  EXPECT_TRUE(HaveSameBits(whole.GetPixelUse(), parts.GetPixelUse()));
+}
