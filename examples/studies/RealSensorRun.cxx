@@ -23,6 +23,7 @@
 #include "sensornoise/base/Quantiles.h"
 #include "sensornoise/moments/DarkFrames.h"
 #include "sensornoise/moments/KnownOffset.h"
+#include "sensornoise/moments/PixelCalibration.h"
 #include "sensornoise/moments/StackMoments.h"
 #include "sensornoise/refined/RefinedMethod.h"
 #include "sensornoise/refined/RefinedSettings.h"
@@ -74,9 +75,10 @@ struct PixelTruth
   double readNoiseMedianDn;
 };
 
-/** \param use values of PixelUse; if no pixel is used, all count */
+/** \param use values of PixelUse; if no pixel is used, all count. The read noise is that of all pixels that are not
+ * reported as defective: by \a dark frames, or without them by the frames. */
 PixelTruth
-TruthOfPixels(const RealSensorStack & stack, const std::vector<std::uint8_t> & use)
+TruthOfPixels(const RealSensorStack & stack, const std::vector<std::uint8_t> & use, const DarkMaps * dark)
 {
   const auto             used = static_cast<std::uint8_t>(PixelUse::Used);
   const bool             isAnyUsed = std::find(use.begin(), use.end(), used) != use.end();
@@ -84,10 +86,13 @@ TruthOfPixels(const RealSensorStack & stack, const std::vector<std::uint8_t> & u
   std::vector<double>    readNoiseDn;
   PixelTruth             sums{ 0.0, 0.0, 0.0, 0.0 };
   double                 count = 0.0;
+  double                 good = 0.0;
   for (std::size_t p = 0; p < stack.Pixels(); ++p)
   {
     readNoiseDn.push_back(simulator.PixelReadNoiseDn(p));
-    sums.readNoiseRmsDn += readNoiseDn.back() * readNoiseDn.back();
+    const bool isDefective = dark ? dark->usable[p] == 0 : use[p] == static_cast<std::uint8_t>(PixelUse::Outlier);
+    sums.readNoiseRmsDn += isDefective ? 0.0 : readNoiseDn.back() * readNoiseDn.back();
+    good += isDefective ? 0.0 : 1.0;
     if (!isAnyUsed || use[p] == used)
     {
       sums.gain += simulator.LocalGainAt(p);
@@ -95,23 +100,40 @@ TruthOfPixels(const RealSensorStack & stack, const std::vector<std::uint8_t> & u
       count += 1.0;
     }
   }
-  return { sums.gain / count,
-           sums.offsetDn / count,
-           std::sqrt(sums.readNoiseRmsDn / static_cast<double>(stack.Pixels())),
-           Quantile(readNoiseDn, 0.5) };
+  return {
+    sums.gain / count, sums.offsetDn / count, std::sqrt(sums.readNoiseRmsDn / good), Quantile(readNoiseDn, 0.5)
+  };
+}
+
+/** The share of the pixels whose interval holds the truth. */
+template <typename TTruth>
+double
+CoverageOf(const IntervalMapDn & map, TTruth truthOf)
+{
+  double count = 0.0;
+  double held = 0.0;
+  for (std::size_t p = 0; p < map.value.size(); ++p)
+  {
+    if (std::isfinite(map.value[p]))
+    {
+      const double truth = truthOf(p);
+      count += 1.0;
+      held += truth >= map.low[p] && truth <= map.high[p] ? 1.0 : 0.0;
+    }
+  }
+  return held / std::max(1.0, count);
 }
 
 RealSensorOutcome
 Compare(const Report & report, const PixelTruth & truth, double flickerSd)
 {
   RealSensorOutcome outcome;
-  // The median of the read noise and the departure from a line belong here as soon as the report has them.
   outcome.judged = { { { truth.gain, report.gain },
                        { truth.offsetDn, report.offset },
                        { flickerSd, report.flickerSd },
                        { truth.readNoiseRmsDn, report.readNoise },
-                       { truth.readNoiseMedianDn, Quantity{} } } };
-  outcome.nonlinearity = std::nullopt;
+                       { truth.readNoiseMedianDn, report.readNoiseMedian } } };
+  outcome.nonlinearity = report.fit.nonlinearity;
   for (const Warning & warning : report.warnings)
   {
     outcome.warnings.push_back(warning.code);
@@ -192,11 +214,19 @@ MeasureRealSensor(const RealSensorSetting & setting, std::size_t size, std::uint
     settings.offset = MeasureDark(RealSensorStack(setting, size, seed, true), frames);
   }
   const auto        method = Estimate(settings, stack.Render(), size, frames);
-  RealSensorOutcome outcome = Compare(
-    method.GetReport(), TruthOfPixels(stack, method.GetPixelUse()), stack.GetSimulator().GetTruth().realisedFlickerSd);
+  const DarkMaps *  dark = settings.offset ? settings.offset->maps.get() : nullptr;
+  RealSensorOutcome outcome = Compare(method.GetReport(),
+                                      TruthOfPixels(stack, method.GetPixelUse(), dark),
+                                      stack.GetSimulator().GetTruth().realisedFlickerSd);
   outcome.seed = seed;
-  // The coverage of the pixels' own intervals belongs here, from settings.offset's maps, the simulator's PixelOffsetDn
-  // and PixelReadNoiseDn.
+  if (settings.offset && settings.offset->maps)
+  {
+    const PixelCalibration own = MakePixelCalibration(*settings.offset->maps);
+    const StackSimulator & simulator = stack.GetSimulator();
+    outcome.offsetMapCoverage = CoverageOf(own.offset, [&](std::size_t p) { return simulator.PixelOffsetDn(p); });
+    outcome.readNoiseMapCoverage =
+      CoverageOf(own.readNoise, [&](std::size_t p) { return simulator.PixelReadNoiseDn(p); });
+  }
   return outcome;
 }
 

@@ -22,7 +22,7 @@
 #include "sensornoise/base/Quantiles.h"
 #include "sensornoise/pixels/FarVariance.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
-#include "sensornoise/pixels/VarianceLine.h"
+#include "sensornoise/pixels/JudgingLine.h"
 #include "sensornoise/scene/ReferenceFrame.h"
 #include "sensornoise/series/TemporalBasis.h"
 
@@ -48,13 +48,14 @@ enum ClassSum : std::size_t
   Kept,          // pixels that are no outliers
   Weight,        // of those that are kept
   WeightedRatio, // of the variance to the line's
+  SquaredErrors, // of the weighted ratios, by sampling and by the pixels' own noise
   ClassSums
 };
 using SumsOfClasses = std::array<double, ClassSums * Classes>;
 
 SumsOfClasses
 SumClasses(const ProjectedVariance &         projected,
-           const VarianceLine &              line,
+           const JudgingLine &               line,
            const std::vector<std::uint8_t> & mask,
            const ParallelFor &               parallelFor)
 {
@@ -62,7 +63,7 @@ SumClasses(const ProjectedVariance &         projected,
   return SumOverBlocks<ClassSums * Classes>(mask.size(), parallelFor, [&](std::size_t p, auto & s) {
     if (mask[p] != 0)
     {
-      const double expected = line.At(frame.mean[p]);
+      const double expected = line.At(line.LevelOf(frame, p));
       const double ratio = projected.GetVariance()[p] / expected;
       const double near = expected / line.At(frame.neighbourMean[p]);
       double *     own = s.data() + ClassSums * projected.ClassOf(p);
@@ -73,6 +74,8 @@ SumClasses(const ProjectedVariance &         projected,
         own[Kept] += 1.0;
         own[Weight] += near * near;
         own[WeightedRatio] += near * near * ratio;
+        own[SquaredErrors] +=
+          2.0 / static_cast<double>(frame.frames - 1) + line.line.noiseSpreadDn4 / (expected * expected);
       }
     }
   });
@@ -89,7 +92,7 @@ struct ClassTable
 
 /** Fills in \a ratio, too. */
 ClassTable
-MakeTable(const SumsOfClasses & sums, std::size_t frames, std::vector<double> & ratio)
+MakeTable(const SumsOfClasses & sums, std::vector<double> & ratio)
 {
   ClassTable table;
   double     reference = 0.0;
@@ -100,7 +103,7 @@ MakeTable(const SumsOfClasses & sums, std::size_t frames, std::vector<double> & 
     ratio.push_back(own[WeightedRatio] / std::max(1e-30, own[Weight]));
     table.kept[c] = own[Kept];
     table.outliers[c] = 1.0 - own[Kept] / std::max(1.0, own[Pixels]);
-    table.error[c] = std::sqrt(2.0 / static_cast<double>(frames - 1) / std::max(1.0, own[Kept]));
+    table.error[c] = std::sqrt(own[SquaredErrors]) / std::max(1.0, own[Kept]);
     if (c < FlatClasses)
     {
       reference += own[Kept] * ratio[c];
@@ -140,7 +143,7 @@ struct PixelFits
 
 PixelFits
 JudgePixels(const ProjectedVariance &         projected,
-            const VarianceLine &              line,
+            const JudgingLine &               line,
             const std::vector<std::uint8_t> & mask,
             const ParallelFor &               parallelFor)
 {
@@ -153,7 +156,7 @@ JudgePixels(const ProjectedVariance &         projected,
     {
       if (mask[p] != 0)
       {
-        const double expected = line.At(frame.mean[p]);
+        const double expected = line.At(line.LevelOf(frame, p));
         const double value = projected.GetVariance()[p] / expected;
         const double own = line.EffectiveFreedom(projected.GetFreedom()[p], expected);
         pixels.fits[p] = IsFarAbove(value, own) ? 0 : 1;
@@ -168,13 +171,12 @@ JudgePixels(const ProjectedVariance &         projected,
 
 ClassFit
 JudgeClasses(const ProjectedVariance &         projected,
-             const VarianceLine &              line,
+             const JudgingLine &               line,
              const std::vector<std::uint8_t> & mask,
              const ParallelFor &               parallelFor)
 {
   ClassFit         fit;
-  const ClassTable table =
-    MakeTable(SumClasses(projected, line, mask, parallelFor), projected.GetFrame().frames, fit.ratio);
+  const ClassTable table = MakeTable(SumClasses(projected, line, mask, parallelFor), fit.ratio);
   fit.firstBad = FirstBadClass(table);
   double chi2 = 0.0;
   double used = 0.0;
@@ -192,7 +194,7 @@ JudgeClasses(const ProjectedVariance &         projected,
 
 std::vector<std::uint8_t>
 FindLocalMisfit(const ProjectedVariance &         projected,
-                const VarianceLine &              line,
+                const JudgingLine &               line,
                 const std::vector<std::uint8_t> & mask,
                 const ParallelFor &               parallelFor)
 {

@@ -29,7 +29,7 @@
 namespace sensornoise
 {
 
-struct VarianceLine;
+struct JudgingLine;
 
 /** Which of the 24 classes of roughness the model explains. */
 struct ClassFit
@@ -44,7 +44,7 @@ struct ClassFit
  * ones, are left out. Estimator.md, 3.5. */
 SensorNoise_EXPORT ClassFit
 JudgeClasses(const ProjectedVariance &         projected,
-             const VarianceLine &              line,
+             const JudgingLine &               line,
              const std::vector<std::uint8_t> & mask,
              const ParallelFor &               parallelFor);
 
@@ -53,7 +53,7 @@ JudgeClasses(const ProjectedVariance &         projected,
  * trimmed. Estimator.md, 3.5. */
 SensorNoise_EXPORT std::vector<std::uint8_t>
 FindLocalMisfit(const ProjectedVariance &         projected,
-                const VarianceLine &              line,
+                const JudgingLine &               line,
                 const std::vector<std::uint8_t> & mask,
                 const ParallelFor &               parallelFor);
 

@@ -19,9 +19,10 @@
 #define sensornoise_pixels_StaticVariance_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/pixels/LevelPattern.h"
 #include "sensornoise/pixels/StaticPixels.h"
+#include "sensornoise/pixels/VarianceCurve.h"
 #include "sensornoise/pixels/VarianceLine.h"
 
 #include <cstddef>
@@ -38,13 +39,15 @@ struct StaticVariance
 {
   /** Corrected for the noise of the means. Not determined: too few pixels are left, or pixels of one intensity only. */
   VarianceLine line;
+  /** How much of the levels may be the pixels' own. */
+  LevelPattern pattern;
+  /** The line by light alone; not determined where no pattern is large enough to matter. */
+  VarianceLine fromLight;
   /** Of the smoother half of the pixels, not corrected. */
   VarianceLine fromFlat;
-  /** See VarianceFit. */
-  Eigen::Matrix2d tailDisagreement{ Eigen::Matrix2d::Zero() };
-  ClassFit        classes;
-  /** Of the mean residuals of 64 intensity bins. */
-  double intensityChi2{ 1.0 };
+  ClassFit     classes;
+  /** About the line, or that of light alone. */
+  VarianceCurve curve;
   /** 1: a pixel that fits a static scene; outliers among them, too, which a fit trims by itself. */
   std::vector<std::uint8_t> mask;
   /** Values of PixelUse; the pixels of the mask that the final fit trims are PixelUse::Outlier. */
@@ -57,14 +60,16 @@ struct StaticVariance
  * Neighbourhoods are judged before classes: a thing that moves across the frame lies in all of them.
  *
  * \a pixelUse is what is known of the pixels before; that of the \a usable ones is found out here. \a slopeDn is about
- * the gain, \a offsetDn the offset, or the darkest level where it is not known. If too few pixels are left, the line is
- * not determined, and what would have followed is missing. */
+ * the gain, \a offsetDn the offset, or the darkest level where it is not known; \a blackDn is the offset, or a level
+ * that it is not below. If too few pixels are left, the line is not determined, and what would have followed is
+ * missing. */
 SensorNoise_EXPORT StaticVariance
 FitStaticVariance(ProjectedVariance &               projected,
                   const std::vector<std::uint8_t> & usable,
                   std::vector<std::uint8_t>         pixelUse,
                   double                            slopeDn,
                   double                            offsetDn,
+                  double                            blackDn,
                   const ParallelFor &               parallelFor);
 
 } // namespace sensornoise

@@ -22,6 +22,7 @@
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/pixels/ChiSquareTrim.h"
+#include "sensornoise/pixels/VarianceCurve.h"
 #include "sensornoise/pixels/VarianceLine.h"
 
 #include <cstddef>
@@ -33,16 +34,34 @@
 namespace sensornoise
 {
 
+/** Which pixels a fit takes for outliers and trims. */
+enum class TrimRule : std::uint8_t
+{
+  /** Those beyond the tails of chi-square at their own level: a line that strangers cannot draw, to judge pixels by. In
+   * the dark it takes the noisier pixels of a sensor for strangers, in the light it cannot see them. */
+  Level,
+  /** Those that are farther from the line than one distance, at whatever level: what is kept is the same everywhere,
+   * the pixels' own read noise included, and the line is that of the mean. */
+  Distance
+};
+
 /** \class VarianceFit
  * \brief The regression of the variance on the mean, by re-weighted least squares.
  *
- * The weights freedom / (2 V^2) take V at the neighbours' mean, which is independent of the pixel's own noise; outliers
- * on either side are trimmed with the exact correction of the mean. Estimator.md, 3.6. */
+ * The weights 1 / (2 V^2 / freedom + S) take V at the neighbours' mean, which is independent of the pixel's own noise;
+ * S is the variance of the pixels' own noise, found with TrimRule::Distance. Outliers on either side are trimmed, with
+ * the exact correction of the mean where chi-square's tails are cut. Estimator.md, 3.6. */
 class SensorNoise_EXPORT VarianceFit
 {
 public:
-  /** Starts from \a start, or from the medians of bins of the intensity. The data must outlive the object. */
-  VarianceFit(const VarianceData & data, const ParallelFor & parallelFor, const std::optional<VarianceLine> & start);
+  /** Starts from \a start, or from the medians of bins of the intensity. The data must outlive the object. The line's
+   * value at \a blackDn, if it is above 0 there, is the typical read noise, by which TrimRule::Distance tells defects.
+   */
+  VarianceFit(const VarianceData &                data,
+              const ParallelFor &                 parallelFor,
+              const std::optional<VarianceLine> & start,
+              TrimRule                            rule = TrimRule::Level,
+              double                              blackDn = 0.0);
 
   /** Fits the line, without its errors. Not determined with fewer than 10 pixels or one intensity. */
   void
@@ -52,16 +71,32 @@ public:
   void
   FillErrors();
 
-  /** How much gain and intercept would move if 2 % of the pixels were trimmed on either side, as a covariance: 0 unless
-   * that is more than chance. Pixels with a noise of their own, such as telegraph noise, too weak to be told one by
-   * one, raise the variance; fewer of them are left by the closer trim (Hausman 1978). With the shift d and the test's
-   * statistic S of two degrees of freedom, d d' (1 - 2 / S). */
-  Eigen::Matrix2d
-  TailDisagreement() const;
+  /** How far above the line a pixel may be, TrimRule::Distance [DN^2]. */
+  double
+  GetReachDn2() const
+  {
+    return m_ReachDn2;
+  }
 
   /** 1 at the pixels of the mask that the line trims: they have no weight in it. */
   std::vector<std::uint8_t>
   FindTrimmed() const;
+
+  /** The excess of the variance over \a line, along the intensity, of the pixels that the fit keeps. */
+  VarianceCurve
+  CurveAbout(const VarianceLine & line) const;
+
+  /** What a pixel of the mask counts for. */
+  struct Weighed
+  {
+    double weight; ///< [1/DN^4]; 0: trimmed
+    double value;  ///< the variance, freed of the trimming's bias [DN^2]
+  };
+  Weighed
+  Weigh(std::size_t p) const
+  {
+    return this->Weigh(p, *m_Trim);
+  }
 
   const VarianceLine &
   GetLine() const
@@ -77,11 +112,6 @@ private:
     double      highest{ 0.0 };
     std::size_t pixels{ 0 };
   };
-  struct Weighed
-  {
-    double weight; // 0: trimmed
-    double value;  // the variance, freed of the trimming's bias
-  };
 
   static FreedomRange
   RangeOfFreedom(const VarianceData & data, const ParallelFor & parallelFor);
@@ -90,11 +120,22 @@ private:
   Weighed
   Weigh(std::size_t p, const ChiSquareTrim & trim) const;
 
+  /** Finds how far from the line pixels may be, TrimRule::Distance. */
+  void
+  SetReach();
+  /** Finds the pixels' own noise, about the line as it is. */
+  void
+  SetNoiseSpread();
+
   VarianceData                 m_Data;
   ParallelFor                  m_ParallelFor;
   FreedomRange                 m_Freedoms;
   VarianceLine                 m_Line;
   std::optional<ChiSquareTrim> m_Trim;
+  TrimRule                     m_Rule;
+  double                       m_BlackDn;
+  double                       m_ReachDn2{ 0.0 };
+  double                       m_ReachBelowDn2{ 0.0 };
 };
 
 /** The line that fits the data, with its errors. */
@@ -102,7 +143,8 @@ SensorNoise_EXPORT VarianceLine
 FitVarianceLine(const VarianceData &                data,
                 const ParallelFor &                 parallelFor,
                 const std::optional<VarianceLine> & start = std::nullopt,
-                int                                 iterations = 8);
+                int                                 iterations = 8,
+                TrimRule                            rule = TrimRule::Level);
 
 } // namespace sensornoise
 

@@ -41,6 +41,9 @@ struct VarianceData
 /** variance = intercept + gain mean, and how sure. */
 struct VarianceLine
 {
+  /** Of the smallest median of a bin: lowestDn2 [1]. */
+  static constexpr double LowestShare = 0.2;
+
   double          gain{ 0.0 };
   double          intercept{ 0.0 };
   double          lowestDn2{ 0.0 };                      ///< the line is cut there where it serves as a variance
@@ -53,6 +56,7 @@ struct VarianceLine
   double          curvatureLift{ 0.0 };
   double          curvatureSd{ 0.0 };     ///< standard error of the curvature
   double          trimmedFraction{ 0.0 }; ///< of the pixels
+  double          noiseSpreadDn4{ 0.0 };  ///< variance from pixel to pixel of their own noise's variance
   bool            isDetermined{ false };
 
   double
@@ -60,12 +64,20 @@ struct VarianceLine
   {
     return std::max(lowestDn2, intercept + gain * meanDn);
   }
-  /** The degrees of freedom of the normal sample variance that scatters as much as this one. Shot noise has the fourth
-   * cumulant g^3 q, at most g^2 V, so that Var(s^2) / V^2 = 2 / freedom + g^2 / (V T) where few electrons make a DN. */
+  /** The degrees of freedom of the normal sample variance that scatters as much as that of one pixel. Shot noise has
+   * the fourth cumulant g^3 q, at most g^2 V, so that Var(s^2) / V^2 = 2 / freedom + g^2 / (V T) where few electrons
+   * make a DN. */
+  double
+  SamplingFreedom(double freedom, double varianceDn2) const
+  {
+    return freedom / (1.0 + 0.5 * gain * gain / varianceDn2);
+  }
+  /** The same from pixel to pixel, whose own noise differs. */
   double
   EffectiveFreedom(double freedom, double varianceDn2) const
   {
-    return freedom / (1.0 + 0.5 * gain * gain / varianceDn2);
+    return freedom /
+           (1.0 + 0.5 * gain * gain / varianceDn2 + 0.5 * freedom * noiseSpreadDn4 / (varianceDn2 * varianceDn2));
   }
   /** How far the parabola in the line's place departs from it [DN^2]. */
   double

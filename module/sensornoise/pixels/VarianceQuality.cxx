@@ -32,47 +32,6 @@
 namespace sensornoise
 {
 
-double
-IntensityChi2(const VarianceData & data, const VarianceLine & line, const ParallelFor & parallelFor)
-{
-  // Sums over the pixels of a bin.
-  enum : std::size_t
-  {
-    Weight,
-    WeightedExcess, // of the variance over the line's
-    BinSums
-  };
-  constexpr std::size_t bins = 64;
-  std::vector<double>   level;
-  for (const std::size_t p : SamplePixels({ data.mask, data.mask + data.pixels }))
-  {
-    level.push_back(data.neighbourMean[p]);
-  }
-  const std::vector<double> edges = EdgesOfEqualCount(level, bins);
-  const auto sums = SumOverBlocks<BinSums * bins>(data.pixels, parallelFor, [&](std::size_t p, auto & s) {
-    const double expected = data.mask[p] != 0 ? line.At(data.mean[p]) : 1.0;
-    const double ratio = data.variance[p] / expected;
-    if (data.mask[p] != 0 && !IsFarOff(ratio, data.freedom[p]))
-    {
-      double * own = s.data() + BinSums * BinOf(edges, data.neighbourMean[p]);
-      own[Weight] += 0.5 * data.freedom[p];
-      own[WeightedExcess] += 0.5 * data.freedom[p] * (ratio - 1.0);
-    }
-  });
-  double     chi2 = 0.0;
-  double     used = 0.0;
-  for (std::size_t b = 0; b < bins; ++b)
-  {
-    const double * own = sums.data() + BinSums * b;
-    if (own[Weight] > 0.0)
-    {
-      chi2 += own[WeightedExcess] * own[WeightedExcess] / own[Weight];
-      used += 1.0;
-    }
-  }
-  return used > 2.0 ? chi2 / (used - 2.0) : 1.0;
-}
-
 VarianceLine
 FitFlatHalf(const ProjectedVariance &         projected,
             const std::vector<std::uint8_t> & mask,
@@ -95,7 +54,7 @@ FitFlatHalf(const ProjectedVariance &         projected,
   {
     flat[p] = projected.ClassOf(p) <= last ? mask[p] : 0;
   }
-  return FitVarianceLine(projected.GetData(flat), parallelFor, line, 3);
+  return FitVarianceLine(projected.GetData(flat), parallelFor, line, 3, TrimRule::Distance);
 }
 
 } // namespace sensornoise

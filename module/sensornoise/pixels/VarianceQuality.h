@@ -33,11 +33,6 @@ namespace sensornoise
 
 class ProjectedVariance;
 
-/** Reduced chi-square of the mean residuals of 64 bins of the intensity: 1 if the variance is a line but for its
- * sampling noise. */
-SensorNoise_EXPORT double
-IntensityChi2(const VarianceData & data, const VarianceLine & line, const ParallelFor & parallelFor);
-
 /** The line through the smoother half of the pixels, where motion could do least. */
 SensorNoise_EXPORT VarianceLine
 FitFlatHalf(const ProjectedVariance &         projected,

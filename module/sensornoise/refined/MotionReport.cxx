@@ -18,6 +18,7 @@
 #include "sensornoise/refined/MotionReport.h"
 
 #include "sensornoise/base/Stencils.h"
+#include "sensornoise/base/Text.h"
 #include "sensornoise/report/Quantities.h"
 
 #include <algorithm>
@@ -31,6 +32,9 @@ namespace sensornoise
 
 namespace
 {
+/** Error of the light above the offset, relative to it, at which a flicker is no number [1]. Set by hand. */
+constexpr double LargestScaleError = 0.25;
+
 /** One axis of the motion. */
 struct AxisMotion
 {
@@ -104,7 +108,7 @@ MotionAlong(Eigen::Index axis, std::size_t stencil, const PolishedSeries & polis
 } // namespace
 
 void
-FillFlicker(Report & report, const RefinedResults & found, double offset, double offsetErrorDn)
+FillFlicker(Report & report, const RefinedResults & found, double offset, double offsetErrorDn, double scaleError)
 {
   OffsetLine line = found.polished.line;
   line.UseOffset(offset);
@@ -117,17 +121,26 @@ FillFlicker(Report & report, const RefinedResults & found, double offset, double
     squares += gamma * gamma;
   }
   const double variance = squares / (frames - 1.0) - noise;
-  const double fromOffset = 2.0 * variance * line.sensitivity * offsetErrorDn;
+  const double fromOffset = 2.0 * variance * std::hypot(line.sensitivity * offsetErrorDn, scaleError);
   const double ownError =
     2.0 * std::sqrt(std::max(0.0, variance) * noise / (frames - 1.0)) + noise * std::sqrt(2.0 / (frames - 1.0));
   report.flickerSd = RootOf(variance, std::hypot(ownError, fromOffset), "1");
+  const double ofScale = std::abs(line.sensitivity) * offsetErrorDn;
+  if (ofScale > LargestScaleError)
+  {
+    report.flickerSd = Quantity::Without(EstimateStatus::NotIdentifiable, "1");
+    report.Warn("flicker-not-identifiable",
+                "the light is known to " + Text(100.0 * ofScale) + " % only, and so is the flicker (expected " +
+                  Text(100.0 * LargestScaleError) +
+                  " % at most): a known offset would tell, or a scene with dark and bright areas");
+  }
   if (found.HasLocalLight())
   {
     const LocalFlicker & local = found.polished.localFlicker;
     const double         sd = local.Sd(offset);
     const double         step = 1.0 + offsetErrorDn;
     const double         slope = (local.Sd(offset + step) - local.Sd(offset - step)) / (2.0 * step);
-    report.flickerSd = WithError(sd, std::hypot(slope * offsetErrorDn, sd * std::sqrt(noise)), "1");
+    report.flickerSd = WithError(sd, std::hypot(slope * offsetErrorDn, sd * std::sqrt(noise), sd * scaleError), "1");
   }
 }
 

@@ -26,9 +26,10 @@ namespace sensornoise
 {
 
 /** Files the flicker of every frame and its standard deviation, about the offset \a offset: known, identified, or else
- * the middle of where it can be, minus the centre [DN]; \a offsetErrorDn: how far it may be off. */
+ * the middle of where it can be, minus the centre [DN]; \a offsetErrorDn: how far it may be off; \a scaleError: error
+ * of a flicker, relative to it, where the response bends [1]. */
 SensorNoise_EXPORT void
-FillFlicker(Report & report, const RefinedResults & found, double offset, double offsetErrorDn);
+FillFlicker(Report & report, const RefinedResults & found, double offset, double offsetErrorDn, double scaleError);
 
 /** Files every frame's motion and the vibration's standard deviations and covariance; needs the flicker. */
 SensorNoise_EXPORT void

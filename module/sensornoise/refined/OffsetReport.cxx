@@ -17,9 +17,11 @@
  *=========================================================================*/
 #include "sensornoise/refined/OffsetReport.h"
 
+#include "sensornoise/base/ChiSquare.h"
 #include "sensornoise/base/RequiredFlickerZ.h"
 #include "sensornoise/base/Text.h"
 #include "sensornoise/moments/KnownOffset.h"
+#include "sensornoise/refined/GainEstimate.h"
 #include "sensornoise/report/Quantities.h"
 
 #include <algorithm>
@@ -33,60 +35,52 @@ namespace sensornoise
 
 namespace
 {
-/** What is known when offset and read noise are filed. */
-struct OffsetLimits
-{
-  double lowestDn;        ///< where sigma = 0
-  double darkestDn;       ///< darkest level of the scene
-  double largestNoiseDn2; ///< sigma^2 if the offset were the darkest level
-};
+/** How far chance carries the darkest 0.2 % of the pixels below their level, in standard deviations [1]. */
+constexpr double ChanceOfDarkest = 3.0;
+/** Error that offsets which differ may cause, in standard errors, that is left out [1]. Set by hand: it adds 3 %. */
+constexpr double NegligiblePattern = 0.25;
 
-OffsetLimits
-LimitsOf(const RefinedResults & found, double quantisationDn2)
-{
-  const VarianceLine & v = found.variance.line;
-  const double         lowestDn = -v.intercept / v.gain;
-  const double         darkestDn = std::max(lowestDn, found.scene.model.darkestDn);
-  return { lowestDn, darkestDn, std::max(0.0, v.intercept + v.gain * darkestDn - quantisationDn2) };
-}
-
-/** The read noise as dark frames tell it; \a lineDn2 is the variance at the offset of the line through the others. */
+/** Warns if the dark frames are noisier or quieter than the line is at the offset, unless a bent response explains it.
+ */
 void
-FillDarkReadNoise(Report &             report,
-                  const DarkVariance & dark,
-                  double               quantisationDn2,
-                  double               lineDn2,
-                  double               lineErrorDn2)
+CompareDarkVariance(Report &             report,
+                    const GainEstimate & gain,
+                    double               varianceDn2,
+                    double               errorDn2,
+                    double               quantisationDn2)
 {
-  const double gain = *report.gain.value;
-  const double square = dark.valueDn2 - quantisationDn2;
-  const double error = dark.standardErrorDn2;
-  const double halfStepDn2 = 3.0 * quantisationDn2; // below it the codes hide the noise
-  if (square < halfStepDn2)
-  {
-    report.readNoise = UpperLimit(std::sqrt(halfStepDn2), "DN");
-    report.readNoiseElectrons = UpperLimit(std::sqrt(halfStepDn2) / gain, "e-");
-    return;
-  }
-  const double gainError = 2.0 * square / gain * *report.gain.standardError;
-  report.readNoise = RootOf(square, error, "DN");
-  report.readNoiseElectrons = RootOf(square / (gain * gain), std::hypot(error, gainError) / (gain * gain), "e-");
-  if (std::abs(square - lineDn2) > 4.0 * std::hypot(error, lineErrorDn2))
+  if (!gain.IsBent() && gain.atOffset &&
+      std::abs(varianceDn2 - gain.atOffset->valueDn2) > 4.0 * std::hypot(errorDn2, gain.atOffset->standardErrorDn2))
   {
     report.Warn("dark-frames-differ",
-                "at the offset the noise is " + Text(lineDn2) + " +- " + Text(lineErrorDn2) +
-                  " DN^2, but the dark frames have " + Text(square) + " +- " + Text(error) +
+                "at the offset the noise is " + Text(gain.atOffset->valueDn2 - quantisationDn2) + " +- " +
+                  Text(gain.atOffset->standardErrorDn2) + " DN^2, but the dark frames have " +
+                  Text(varianceDn2 - quantisationDn2) + " +- " + Text(errorDn2) +
                   " DN^2: another exposure, gain or temperature");
   }
 }
 
+/** The read noise in electrons, of that in DN and the gain. */
+void
+FillElectrons(Report & report, double squareDn2, double errorDn2, double gain, double gainError, double student)
+{
+  if (report.readNoise.status == EstimateStatus::UpperLimit)
+  {
+    report.readNoiseElectrons = UpperLimit(*report.readNoise.bracket->high / gain, "e-");
+    return;
+  }
+  const double fromGain = 2.0 * squareDn2 / gain * gainError;
+  report.readNoiseElectrons =
+    RootOf(squareDn2 / (gain * gain), std::hypot(errorDn2, fromGain) / (gain * gain), "e-", student);
+}
+
 /** Warns if the known offset disagrees with the flicker's, or with the data. */
 void
-CompareKnownOffset(Report &                report,
-                   const RefinedResults &  found,
-                   const OffsetEstimate &  flicker,
-                   const OffsetLimits &    limits,
-                   const Eigen::Matrix2d & covariance)
+CompareKnownOffset(Report &               report,
+                   const RefinedResults & found,
+                   const GainEstimate &   gain,
+                   const OffsetEstimate & flicker,
+                   const OffsetLimits &   limits)
 {
   const double offsetDn = found.settings.offset->valueDn;
   const double offsetErrorDn = found.settings.offset->standardErrorDn;
@@ -100,13 +94,15 @@ CompareKnownOffset(Report &                report,
                   (difference > 0.0 ? "light that does not flicker, or dark current, makes the difference"
                                     : "that is too high for these frames"));
   }
-  const double slackDn = 3.0 * offsetErrorDn + 4.0 * std::sqrt(covariance(1, 1)) / found.variance.line.gain;
+  const double slackDn = 3.0 * offsetErrorDn + 2.0 * std::sqrt(gain.covariance(1, 1)) / gain.line.gain;
   const double rangeDn = found.scene.model.brightestDn - found.scene.model.darkestDn;
-  if (offsetDn < limits.lowestDn - slackDn || offsetDn > limits.darkestDn + slackDn + 0.01 * rangeDn)
+  const bool   isTooLow = limits.lowestDn && offsetDn < *limits.lowestDn - slackDn;
+  if (isTooLow || offsetDn > limits.highestDn + slackDn + 0.01 * rangeDn)
   {
     report.Warn("offset-out-of-range",
-                "the given offset, " + Text(offsetDn) + " DN, is not between " + Text(limits.lowestDn) + " and " +
-                  Text(limits.darkestDn) + " DN, where sigma^2 >= 0 and the darkest pixels put it");
+                "the given offset, " + Text(offsetDn) + " DN, is not between " +
+                  (limits.lowestDn ? Text(*limits.lowestDn) : std::string("-infinity")) + " and " +
+                  Text(limits.highestDn) + " DN, where sigma^2 >= 0 and the darkest pixels put it");
   }
 }
 
@@ -114,39 +110,49 @@ CompareKnownOffset(Report &                report,
 void
 FillBrackets(Report & report, const OffsetLimits & limits, double gain)
 {
-  const auto bracket = report.offset.bracket;
+  const double largest = std::sqrt(limits.largestNoiseDn2);
   report.offset = Quantity::Without(EstimateStatus::NotIdentifiable, "DN");
-  report.offset.bracket = bracket;
+  report.offset.bracket = Interval{ limits.lowestDn, limits.highestDn };
   report.readNoise = Quantity::Without(EstimateStatus::NotIdentifiable, "DN");
-  report.readNoise.bracket = Interval{ 0.0, std::sqrt(limits.largestNoiseDn2) };
+  report.readNoise.bracket = Interval{ 0.0, largest };
   report.readNoiseElectrons = Quantity::Without(EstimateStatus::NotIdentifiable, "e-");
-  report.readNoiseElectrons.bracket = Interval{ 0.0, std::sqrt(limits.largestNoiseDn2) / gain };
+  report.readNoiseElectrons.bracket = Interval{ 0.0, largest / gain };
 }
 
 /** Files the read noise at the offset, which is identified. */
 void
-FillReadNoise(Report &                report,
-              const RefinedResults &  found,
-              double                  offsetDn,
-              double                  offsetErrorDn,
-              const Eigen::Matrix2d & covariance,
-              double                  quantisationDn2,
-              double                  student)
+FillReadNoise(Report &               report,
+              const RefinedResults & found,
+              const GainEstimate &   gain,
+              double                 offsetDn,
+              double                 offsetErrorDn,
+              double                 quantisationDn2,
+              double                 student)
 {
-  const VarianceLine & v = found.variance.line;
-  const double         square = v.intercept + v.gain * offsetDn - quantisationDn2;
-  const double         error = std::sqrt(covariance(1, 1) + offsetDn * offsetDn * covariance(0, 0) +
-                                 2.0 * offsetDn * covariance(0, 1) + v.gain * v.gain * offsetErrorDn * offsetErrorDn);
-  report.readNoise = RootOf(square, error, "DN", student);
-  report.readNoiseElectrons = RootOf(square / (v.gain * v.gain), error / (v.gain * v.gain), "e-", student);
-  if (square + 4.0 * error < 0.0)
+  const VarianceLine &    v = gain.line;
+  const Eigen::Vector2d   design(offsetDn, 1.0);
+  const Eigen::Matrix2d & covariance = gain.covariance;
+  const double            square = v.intercept + v.gain * offsetDn - quantisationDn2;
+  const double            ofModel = 0.5 * (gain.below + gain.above) * (v.pivotDn - offsetDn);
+  const double            error =
+    std::sqrt(design.dot(covariance * design) + ofModel * ofModel + v.gain * v.gain * offsetErrorDn * offsetErrorDn);
+  if (found.settings.offset && found.settings.offset->variance)
+  {
+    const DarkVariance & dark = *found.settings.offset->variance;
+    CompareDarkVariance(report, gain, dark.valueDn2, dark.standardErrorDn2, quantisationDn2);
+    FillFromDarkFrames(report, found.settings, quantisationDn2);
+    FillElectrons(
+      report, dark.valueDn2 - quantisationDn2, dark.standardErrorDn2, v.gain, gain.StandardError(), student);
+  }
+  else if (square + 4.0 * error < 0.0)
   {
     report.readNoise = Quantity::Without(EstimateStatus::Failed, "DN");
     report.readNoiseElectrons = Quantity::Without(EstimateStatus::Failed, "e-");
   }
-  if (found.settings.offset && found.settings.offset->variance)
+  else
   {
-    FillDarkReadNoise(report, *found.settings.offset->variance, quantisationDn2, square, error);
+    report.readNoise = RootOf(square, error, "DN", student);
+    report.readNoiseElectrons = RootOf(square / (v.gain * v.gain), error / (v.gain * v.gain), "e-", student);
   }
   if (report.readNoise.status == EstimateStatus::UpperLimit)
   {
@@ -157,8 +163,76 @@ FillReadNoise(Report &                report,
 }
 } // namespace
 
+OffsetLimits
+LimitsOf(const RefinedResults & found, const GainEstimate & gain, double quantisationDn2)
+{
+  const VarianceLine &     v = gain.line;
+  const ProvisionalModel & model = found.scene.model;
+  const auto               frames = static_cast<double>(found.scene.frame.frames);
+  const double             student = StudentQuantile(0.975, frames - 2.0);
+  const double             slopeError = std::sqrt(gain.covariance(0, 0));
+  const double             atPivot = v.intercept + v.gain * v.pivotDn;
+  const double             slope = v.gain - gain.below - student * slopeError;
+  OffsetLimits             limits;
+  // The darkest pixels are dark by chance and by their own offsets, too.
+  const double spreadDn2 = std::max(0.0, v.At(model.darkestDn)) / frames + found.variance.pattern.OffsetVarianceDn2();
+  limits.rootDn = v.gain > 0.0 ? std::min(-v.intercept / v.gain, model.darkestDn) : model.darkestDn;
+  if (slope > 0.0)
+  {
+    const Eigen::Vector2d pivot(v.pivotDn, 1.0);
+    const double          pivotError = std::sqrt(std::max(0.0, pivot.dot(gain.covariance * pivot)));
+    limits.lowestDn = std::min(v.pivotDn - (atPivot + student * pivotError) / slope, model.darkestDn);
+  }
+  limits.highestDn = model.darkestDn + ChanceOfDarkest * std::sqrt(spreadDn2);
+  const Eigen::Vector2d design(limits.highestDn, 1.0);
+  const double          error = std::sqrt(std::max(0.0, design.dot(gain.covariance * design)));
+  limits.largestNoiseDn2 = std::max(0.0, v.intercept + v.gain * limits.highestDn + student * error - quantisationDn2);
+  return limits;
+}
+
+UsedOffset
+OffsetInUse(const RefinedResults & found, const OffsetEstimate & flicker, const OffsetLimits & limits)
+{
+  if (const auto & known = found.settings.offset)
+  {
+    return { known->valueDn, known->standardErrorDn };
+  }
+  if (flicker.obstacle.empty())
+  {
+    return { flicker.valueDn, flicker.standardErrorDn };
+  }
+  // An offset that is not told lies between the level of sigma = 0 and the darkest, about evenly.
+  const double lowestDn = limits.lowestDn.value_or(std::min(found.blackDn, limits.highestDn));
+  return { 0.5 * (lowestDn + limits.highestDn), (limits.highestDn - lowestDn) / std::sqrt(12.0) };
+}
+
+void
+FillFromDarkFrames(Report & report, const RefinedSettings & settings, double quantisationDn2)
+{
+  if (!settings.offset)
+  {
+    return;
+  }
+  const KnownOffset & known = *settings.offset;
+  report.offset = WithError(known.valueDn, known.standardErrorDn, "DN");
+  if (!known.variance)
+  {
+    return;
+  }
+  const double student = StudentQuantile(0.975, std::max(1.0, static_cast<double>(known.darkFrames) - 1.0));
+  const double square = known.variance->valueDn2 - quantisationDn2;
+  const double halfStepDn2 = 3.0 * quantisationDn2; // below it the codes hide the noise
+  report.readNoise = square < halfStepDn2 ? UpperLimit(std::sqrt(halfStepDn2), "DN")
+                                          : RootOf(square, known.variance->standardErrorDn2, "DN", student);
+  if (known.readNoiseMedian)
+  {
+    report.readNoiseMedian =
+      WithError(known.readNoiseMedian->valueDn, known.readNoiseMedian->standardErrorDn, "DN", student);
+  }
+}
+
 OffsetEstimate
-EstimateOffset(const RefinedResults & found)
+EstimateOffset(const RefinedResults & found, const GainEstimate & gain, const OffsetLimits & limits)
 {
   const ProvisionalModel &           model = found.scene.model;
   const OffsetLine &                 line = found.polished.line;
@@ -181,11 +255,24 @@ EstimateOffset(const RefinedResults & found)
   }
   estimate.interval = Interval{ low + model.centreDn, high + model.centreDn };
 
-  const VarianceLine & v = found.variance.line;
-  const double         slackDn = 3.0 * estimate.standardErrorDn +
-                         4.0 * std::sqrt(v.At(model.darkestDn) / static_cast<double>(found.scene.frame.frames));
-  const double slackBelowDn = slackDn + 4.0 * std::sqrt(v.covariance(1, 1)) / v.gain;
-  if (!(line.flickerZ > RequiredFlickerZ) && !isLocal)
+  // Offsets that differ from pixel to pixel take levels for light: the zero moves away from them.
+  // So does a response that bends.
+  const double lightDn = std::abs(model.centreDn - estimate.valueDn);
+  const double fromPatternDn = lightDn * std::hypot(found.variance.pattern.offsetShare, gain.RelativeModelError());
+  if (fromPatternDn > NegligiblePattern * estimate.standardErrorDn)
+  {
+    estimate.standardErrorDn = std::hypot(estimate.standardErrorDn, fromPatternDn);
+    low -= 1.96 * fromPatternDn;
+    high += 1.96 * fromPatternDn;
+    estimate.interval = Interval{ low + model.centreDn, high + model.centreDn };
+  }
+  const double slackDn = 3.0 * estimate.standardErrorDn;
+  const double slackBelowDn = slackDn + 2.0 * std::sqrt(gain.covariance(1, 1)) / std::max(1e-9, gain.line.gain);
+  if (!(line.contrast > OffsetLine::LeastContrast))
+  {
+    estimate.obstacle = "the scene has one intensity";
+  }
+  else if (!(line.flickerZ > RequiredFlickerZ) && !isLocal)
   {
     estimate.obstacle =
       "the flicker exceeds its own noise by " + Text(line.flickerZ) + " standard deviations (expected more than 6)";
@@ -199,7 +286,8 @@ EstimateOffset(const RefinedResults & found)
     estimate.obstacle = "its interval, " + Text(low + model.centreDn) + " to " + Text(high + model.centreDn) +
                         " DN, is wider than a quarter of the range of the scene, " + Text(rangeDn) + " DN";
   }
-  else if (estimate.valueDn < -v.intercept / v.gain - slackBelowDn || estimate.valueDn > model.darkestDn + slackDn)
+  else if ((limits.lowestDn && estimate.valueDn < *limits.lowestDn - slackBelowDn) ||
+           estimate.valueDn > limits.highestDn + slackDn)
   {
     estimate.obstacle = "the flicker's zero, " + Text(estimate.valueDn) +
                         " DN, contradicts sigma^2 >= 0 or the darkest level: parts of the light flicker differently";
@@ -213,46 +301,43 @@ EstimateOffset(const RefinedResults & found)
 }
 
 void
-FillOffsetAndReadNoise(Report &                report,
-                       const RefinedResults &  found,
-                       const OffsetEstimate &  flicker,
-                       const Eigen::Matrix2d & covariance,
-                       double                  quantisationDn2,
-                       double                  student)
+FillOffsetAndReadNoise(Report &               report,
+                       const RefinedResults & found,
+                       const GainEstimate &   gain,
+                       const OffsetLimits &   limits,
+                       const OffsetEstimate & flicker,
+                       double                 quantisationDn2,
+                       double                 student)
 {
-  const OffsetLimits limits = LimitsOf(found, quantisationDn2);
   report.fit.offsetLinePhi = flicker.phi;
-  std::optional<double> offsetDn;
-  double                offsetErrorDn = 0.0;
+  if (!found.settings.offset && !flicker.obstacle.empty())
+  {
+    report.Warn("offset-not-identifiable",
+                flicker.obstacle + ": more flicker or more frames would help, or dark frames, or a known offset");
+    FillBrackets(report, limits, gain.line.gain);
+    return;
+  }
+  double offsetDn = flicker.valueDn;
+  double offsetErrorDn = flicker.standardErrorDn;
   if (found.settings.offset)
   {
     offsetDn = found.settings.offset->valueDn;
     offsetErrorDn = found.settings.offset->standardErrorDn;
-    report.offset = WithError(*offsetDn, offsetErrorDn, "DN");
-    CompareKnownOffset(report, found, flicker, limits, covariance);
+    CompareKnownOffset(report, found, gain, flicker, limits);
   }
-  else if (flicker.obstacle.empty())
+  report.offset = WithError(offsetDn, offsetErrorDn, "DN");
+  if (!found.settings.offset)
   {
-    offsetDn = flicker.valueDn;
-    offsetErrorDn = flicker.standardErrorDn;
-    report.offset = WithError(*offsetDn, offsetErrorDn, "DN");
     report.offset.interval95 = flicker.interval;
   }
-  else
+  FillReadNoise(report, found, gain, offsetDn, offsetErrorDn, quantisationDn2, student);
+  // What is identified is within its own limits.
+  report.offset.bracket = Interval{ limits.lowestDn, std::max(limits.highestDn, offsetDn + offsetErrorDn) };
+  if (limits.lowestDn)
   {
-    report.Warn("offset-not-identifiable",
-                flicker.obstacle + ": more flicker or more frames would help, or dark frames, or a known offset");
+    report.offset.bracket->low = std::min(*limits.lowestDn, offsetDn - offsetErrorDn);
   }
-  if (limits.darkestDn > limits.lowestDn)
-  {
-    report.offset.bracket = Interval{ limits.lowestDn, limits.darkestDn };
-  }
-  if (!offsetDn)
-  {
-    FillBrackets(report, limits, found.variance.line.gain);
-    return;
-  }
-  FillReadNoise(report, found, *offsetDn, offsetErrorDn, covariance, quantisationDn2, student);
+  const Eigen::Matrix2d & covariance = gain.covariance;
   report.covariance = std::array<std::array<double, 3>, 3>{ { { covariance(0, 0), covariance(0, 1), 0.0 },
                                                               { covariance(0, 1), covariance(1, 1), 0.0 },
                                                               { 0.0, 0.0, offsetErrorDn * offsetErrorDn } } };

@@ -19,14 +19,16 @@
 #define sensornoise_refined_OffsetReport_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/base/Eigen.h"
 #include "sensornoise/refined/RefinedResults.h"
 #include "sensornoise/report/Report.h"
 
+#include <optional>
 #include <string>
 
 namespace sensornoise
 {
+
+struct GainEstimate;
 
 /** The offset as the flicker tells it. */
 struct OffsetEstimate
@@ -38,21 +40,49 @@ struct OffsetEstimate
   std::string obstacle;   ///< why it cannot be told; empty: it can
 };
 
-/** The offset by the flicker of all frames, or, where the light is local, by the pixels' responses to it. It is told
- * only if its interval is narrow, it lies between the level of sigma = 0 and the darkest one, and the flicker agrees
- * with itself. */
-SensorNoise_EXPORT OffsetEstimate
-EstimateOffset(const RefinedResults & found);
+/** What physics leaves to the offset: sigma^2 >= 0 below, no light less than none above. Each end allows for its
+ * errors. */
+struct OffsetLimits
+{
+  std::optional<double> lowestDn;               ///< null: not bounded
+  double                highestDn{ 0.0 };       ///< the darkest level
+  double                rootDn{ 0.0 };          ///< where the line says sigma = 0, without errors
+  double                largestNoiseDn2{ 0.0 }; ///< sigma^2 if the offset were highestDn
+};
 
-/** Files offset and read noise, whose gain and intercept have the covariance \a covariance; the offset is \a flicker's
- * unless one is known. \a quantisationDn2 is the codes' noise, \a student the quantile of the 95 % intervals. */
+SensorNoise_EXPORT OffsetLimits
+LimitsOf(const RefinedResults & found, const GainEstimate & gain, double quantisationDn2);
+
+/** The offset by the flicker of all frames, or, where the light is local, by the pixels' responses to it. It is told
+ * only if its interval is narrow, it lies within its limits, and the flicker agrees with itself. */
+SensorNoise_EXPORT OffsetEstimate
+EstimateOffset(const RefinedResults & found, const GainEstimate & gain, const OffsetLimits & limits);
+
+/** The offset that the flicker is taken about. */
+struct UsedOffset
+{
+  double valueDn;
+  double errorDn;
+};
+
+SensorNoise_EXPORT UsedOffset
+OffsetInUse(const RefinedResults & found, const OffsetEstimate & flicker, const OffsetLimits & limits);
+
+/** Files offset and read noise as dark frames, or the user, tell them, whatever the frames tell. \a quantisationDn2 is
+ * the codes' noise. */
 SensorNoise_EXPORT void
-FillOffsetAndReadNoise(Report &                report,
-                       const RefinedResults &  found,
-                       const OffsetEstimate &  flicker,
-                       const Eigen::Matrix2d & covariance,
-                       double                  quantisationDn2,
-                       double                  student);
+FillFromDarkFrames(Report & report, const RefinedSettings & settings, double quantisationDn2);
+
+/** Files offset and read noise; the offset is \a flicker's unless one is known. \a student is the quantile of the 95 %
+ * intervals. */
+SensorNoise_EXPORT void
+FillOffsetAndReadNoise(Report &               report,
+                       const RefinedResults & found,
+                       const GainEstimate &   gain,
+                       const OffsetLimits &   limits,
+                       const OffsetEstimate & flicker,
+                       double                 quantisationDn2,
+                       double                 student);
 
 } // namespace sensornoise
 

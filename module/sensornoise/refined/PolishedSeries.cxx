@@ -96,6 +96,10 @@ PolishSceneSeries(const FrameSums &         sums,
     NoiseOfLine(sums.GetRegressors(), variance.line, series.offset + model.centreDn, parallelFor);
   PolishedSeries polished;
   polished.line = FitOffsetLine(sums, noise.regressors, gamma).value_or(series.line);
+  if (!polished.line.TellsOffset())
+  {
+    polished.line.UseOffset(series.offset);
+  }
   const FrameEquations            equations = MakeFrameEquations(sums, noise.regressors, GradientClasses - 1, gamma);
   const std::optional<OffsetLine> everywhere = FitOffsetLine(equations);
   polished.motionPhi = everywhere ? everywhere->Widening() : 1.0;

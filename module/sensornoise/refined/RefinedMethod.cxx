@@ -18,6 +18,7 @@
 #include "sensornoise/refined/RefinedMethod.h"
 
 #include "sensornoise/base/BinaryStream.h"
+#include "sensornoise/base/PixelUse.h"
 #include "sensornoise/moments/StackMaps.h"
 #include "sensornoise/moments/StackRequirements.h"
 #include "sensornoise/pixels/PixelCoordinates.h"
@@ -28,7 +29,9 @@
 #include "sensornoise/series/FrameRegressors.h"
 #include "sensornoise/series/ShiftInstruments.h"
 
+#include <algorithm>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -59,6 +62,49 @@ RegressorsOf(const StillScene & scene, const ParallelFor & parallelFor)
   }
   ShiftInstruments instruments = MakeShiftInstruments(scene.frame, scene.model, whole, parallelFor);
   return FrameRegressors(scene.frame, scene.model, take, std::move(instruments), parallelFor);
+}
+
+/** The level without light, or one that it is hardly below: what is known, what the flicker tells, or the lowest code.
+ * It serves to tell light from offset roughly, where the frames do not. [DN] */
+double
+BlackLevel(const RefinedSettings & settings, const StillScene & scene, const std::optional<const SceneSeries> & series)
+{
+  if (settings.offset)
+  {
+    return settings.offset->valueDn;
+  }
+  if (series && series->isOffsetTold)
+  {
+    return std::min(series->offset + scene.model.centreDn, scene.model.darkestDn);
+  }
+  return std::min(scene.summary.codes.clipLowDn.value_or(0.0), scene.model.darkestDn);
+}
+
+/** The pixels that are usable, at levels that the user wants, and not found defective in dark frames: what is left out
+ * in the dark is left out in the light. */
+std::vector<std::uint8_t>
+PixelsOfVariance(const StillScene & scene, const RefinedSettings & settings, std::vector<std::uint8_t> & pixelUse)
+{
+  std::vector<std::uint8_t> chosen = scene.frame.usable;
+  const DarkMaps *          dark = settings.offset ? settings.offset->maps.get() : nullptr;
+  const auto                leaveOut = [&](std::size_t p, PixelUse use) {
+    chosen[p] = 0;
+    pixelUse[p] = static_cast<std::uint8_t>(use);
+  };
+  for (std::size_t p = 0; p < chosen.size(); ++p)
+  {
+    const double level = scene.frame.neighbourMean[p];
+    const auto & range = settings.levelRangeDn;
+    if (chosen[p] != 0 && range && !(level >= range->lowDn && level <= range->highDn))
+    {
+      leaveOut(p, PixelUse::OutsideRange);
+    }
+    else if (chosen[p] != 0 && dark && dark->usable.size() == chosen.size() && dark->usable[p] == 0)
+    {
+      leaveOut(p, PixelUse::Outlier);
+    }
+  }
+  return chosen;
 }
 } // namespace
 
@@ -239,7 +285,12 @@ template <typename TPixel>
 void
 RefinedMethod<TPixel>::EndFrameSums()
 {
-  m_Series.emplace(FindSceneSeries(*m_FrameSums, m_Settings.rollingShutter));
+  std::optional<double> knownOffsetDn;
+  if (m_Settings.offset)
+  {
+    knownOffsetDn = m_Settings.offset->valueDn;
+  }
+  m_Series.emplace(FindSceneSeries(*m_FrameSums, m_Settings.rollingShutter, knownOffsetDn));
   m_Projections = ProjectionSums(m_Geometry.Pixels(), m_Series->basis.Size(), m_ParallelFor);
 }
 
@@ -251,15 +302,19 @@ RefinedMethod<TPixel>::EndProjections()
   const PixelCoordinates coordinates(std::move(m_Projections), m_Series->basis, frame.mean, m_ParallelFor);
   ProjectedVariance      projected(
     frame, m_Series->basis, m_Series->motion, coordinates, m_Scene->model, frame.usable, m_ParallelFor);
+  std::vector<std::uint8_t>       pixelUse = m_Scene->pixelUse;
+  const std::vector<std::uint8_t> chosen = PixelsOfVariance(*m_Scene, m_Settings, pixelUse);
   m_Variance.emplace(FitStaticVariance(projected,
-                                       frame.usable,
-                                       m_Scene->pixelUse,
+                                       chosen,
+                                       std::move(pixelUse),
                                        m_Scene->model.slopeDn,
                                        m_Series->offset + m_Scene->model.centreDn,
+                                       BlackLevel(m_Settings, *m_Scene, m_Series),
                                        m_ParallelFor));
   if (!m_Variance->line.isDetermined)
   {
-    throw NothingToMeasure("too few pixels, or pixels of one intensity only, are left to fit the variance");
+    throw NothingToMeasure("too few pixels, or pixels of one intensity only, are left to fit the variance",
+                           "intensity-range-too-small");
   }
   m_Polished.emplace(PolishSceneSeries(*m_FrameSums, *m_Series, projected, *m_Variance, m_ParallelFor));
   m_CorrectedVariance = projected.TakeVariance();
@@ -273,9 +328,14 @@ template <typename TPixel>
 void
 RefinedMethod<TPixel>::MakeReport()
 {
-  m_Report = m_Obstacle
-               ? MakeRefusal(m_Settings, *m_Scene, this->GetPixelUse(), *m_Obstacle)
-               : MakeRefinedReport({ m_Settings, *m_Scene, *m_Series, *m_Variance, *m_Polished, m_CorrectedVariance });
+  m_Report = m_Obstacle ? MakeRefusal(m_Settings, *m_Scene, this->GetPixelUse(), *m_Obstacle)
+                        : MakeRefinedReport({ m_Settings,
+                                              *m_Scene,
+                                              *m_Series,
+                                              *m_Variance,
+                                              *m_Polished,
+                                              m_CorrectedVariance,
+                                              BlackLevel(m_Settings, *m_Scene, m_Series) });
 }
 
 template class RefinedMethod<unsigned char>;

@@ -21,8 +21,8 @@
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/RollingShutter.h"
 #include "sensornoise/base/Text.h"
-#include "sensornoise/pixels/ProjectedVariance.h"
 #include "sensornoise/pixels/VarianceLine.h"
+#include "sensornoise/refined/GainEstimate.h"
 #include "sensornoise/refined/MotionReport.h"
 #include "sensornoise/refined/OffsetReport.h"
 #include "sensornoise/report/Quantities.h"
@@ -39,38 +39,13 @@ namespace sensornoise
 
 namespace
 {
-/** What is known of the bias of vibrations above 0.4 pixels, beyond which the expansion in derivatives fails: about
- * 0.15 % of the gain at 0.5 pixels, growing with the square (measured by measure-robustness); nothing below. */
-Eigen::Matrix2d
-StrongVibration(const VarianceLine & line, const ProvisionalModel & model)
-{
-  const double    square = std::max(model.vibrationXPixels2, model.vibrationYPixels2);
-  const double    error = square > 0.16 ? 0.0015 * line.gain * square / 0.25 : 0.0;
-  Eigen::Matrix2d added;
-  added << 1.0, -line.pivotDn, -line.pivotDn, line.pivotDn * line.pivotDn;
-  return error * error * added;
-}
-
-/** What the smoother half of the pixels says against all of them, as a covariance: 0 unless gain or value at the centre
- * differ by more than 2 standard deviations of the difference, which is that of a part against the whole (Hausman
- * 1978). Motion that is left in the rough half shows here. */
-Eigen::Matrix2d
-Disagreement(const VarianceLine & all, const VarianceLine & flat)
-{
-  Eigen::Matrix2d added = Eigen::Matrix2d::Zero();
-  if (flat.isDetermined)
-  {
-    const Eigen::Vector2d difference(flat.gain - all.gain, flat.intercept - all.intercept);
-    const Eigen::Matrix2d expected = flat.covariance - all.covariance;
-    for (int k = 0; k < 2; ++k)
-    {
-      const double square = difference(k) * difference(k);
-      added(k, k) = square > 4.0 * expected(k, k) ? std::max(0.0, square - expected(k, k)) : 0.0;
-    }
-    added(0, 1) = added(1, 0) = std::copysign(std::sqrt(added(0, 0) * added(1, 1)), difference(0) * difference(1));
-  }
-  return added;
-}
+/** Departure of the variance from its line above which the data are not those of a sensor [1]: local gains that differ
+ * by 4 % make 0.03 to 0.1 of it, a gamma of 1.3 from 0.13 on. */
+constexpr double LargestNonlinearity = 0.12;
+/** Departure that is worth a warning [1]. Set by hand: a hundredth moves the gain by about half of it. */
+constexpr double WorthTelling = 0.01;
+/** Part of the usable pixels that a measurement needs [1]. Set by hand. */
+constexpr double LeastUsedShare = 0.1;
 
 void
 WarnOfScene(Report & report, const RefinedResults & found)
@@ -97,13 +72,6 @@ WarnOfScene(Report & report, const RefinedResults & found)
                 percent(found.variance.notStatic) +
                   " of the pixels lie where something moves or changes, and are left out");
   }
-  const double vibration = std::max(found.scene.model.vibrationXPixels2, found.scene.model.vibrationYPixels2);
-  if (vibration > 0.4 * 0.4)
-  {
-    report.Warn("strong-vibration",
-                "the scene moves by " + Text(std::sqrt(vibration)) +
-                  " pixels rms: register the frames to whole pixels first; rough areas are left out");
-  }
   if (static_cast<double>(found.scene.nearClip + found.scene.summary.clipped) > 0.01 * total)
   {
     report.Warn("near-clip-level",
@@ -115,6 +83,25 @@ WarnOfScene(Report & report, const RefinedResults & found)
     report.Warn("noisy-pixels",
                 Text(100.0 * found.variance.line.trimmedFraction) +
                   " % of the pixels are noisier or quieter than the sensor's noise explains, and are left out");
+  }
+}
+
+/** Where the table's own limits do not exclude it. */
+void
+WarnOfMotion(Report & report, const RefinedResults & found)
+{
+  constexpr double strongPixels = 0.4;
+  const auto       alongAxis = [](const Quantity & sd, double provisional) {
+    return sd.interval95 && sd.interval95->high ? std::min(*sd.interval95->high, std::sqrt(provisional))
+                                                      : std::sqrt(provisional);
+  };
+  const double vibration = std::max(alongAxis(report.vibrationSdX, found.scene.model.vibrationXPixels2),
+                                    alongAxis(report.vibrationSdY, found.scene.model.vibrationYPixels2));
+  if (vibration > strongPixels)
+  {
+    report.Warn("strong-vibration",
+                "the scene moves by " + Text(vibration) +
+                  " pixels rms: register the frames to whole pixels first; rough areas are left out");
   }
 }
 
@@ -141,6 +128,14 @@ DescribeInput(const RefinedSettings & settings, const StillScene & scene, const 
   return report;
 }
 
+/** The noise of rounding to codes [DN^2]. */
+double
+QuantisationVariance(const StillScene & scene)
+{
+  const double step = scene.summary.codes.quantisationStepDn;
+  return step * step / 12.0;
+}
+
 /** Files baselines and scatter, over the pixels used. */
 void
 FillCurves(Report & report, const RefinedResults & found)
@@ -152,79 +147,107 @@ FillCurves(Report & report, const RefinedResults & found)
   FillScatter(report, scene.mean, scene.variance, found.correctedVariance, pixelUse);
 }
 
-/** The offset that the flicker is taken about. */
-struct UsedOffset
-{
-  double valueDn;
-  double errorDn;
-};
-
-UsedOffset
-OffsetInUse(const RefinedResults & found, const OffsetEstimate & flicker)
-{
-  if (const auto & known = found.settings.offset)
-  {
-    return { known->valueDn, known->standardErrorDn };
-  }
-  if (flicker.obstacle.empty())
-  {
-    return { flicker.valueDn, flicker.standardErrorDn };
-  }
-  // An offset that is not told lies between the level of sigma = 0 and the darkest, about evenly.
-  const double darkestDn = found.scene.model.darkestDn;
-  const double lowestDn = std::min(darkestDn, -found.variance.line.intercept / found.variance.line.gain);
-  return { 0.5 * (lowestDn + darkestDn), (darkestDn - lowestDn) / std::sqrt(12.0) };
-}
-
-/** How far the parabola in the line's place departs from it over the scene's levels, relative to the line. */
-double
-LargestBend(const VarianceLine & line, const ProvisionalModel & model)
-{
-  double bend = 0.0;
-  for (int i = 0; i <= 8; ++i)
-  {
-    const double level = model.darkestDn + (model.brightestDn - model.darkestDn) * i / 8.0;
-    bend = std::max(bend, std::abs(line.BendAt(level)) / line.At(level));
-  }
-  return bend;
-}
-
-/** Files the fit. Returns false, with every parameter failed, if the variance is no rising line. */
-bool
-FillFit(Report & report, const RefinedResults & found)
+/** Files the fit. */
+void
+FillFit(Report & report, const RefinedResults & found, const GainEstimate & gain)
 {
   const VarianceLine & v = found.variance.line;
-  report.fit.reducedChi2 = found.variance.intensityChi2;
+  report.fit.reducedChi2 = gain.reducedChi2;
   report.fit.curvature = v.curvature;
   report.fit.curvatureZ = v.curvatureSd > 0.0 ? v.curvature / v.curvatureSd : 0.0;
-  const double bend = LargestBend(v, found.scene.model);
-  if (!(v.gain > 0.0) || (std::abs(*report.fit.curvatureZ) > 5.0 && bend > 0.03))
-  {
-    SetSensorParameters(report, EstimateStatus::Failed);
-    report.Warn("variance-not-affine",
-                v.gain > 0.0
-                  ? "the variance bends against the mean by " + Text(100.0 * bend) +
-                      " % of itself (expected less than 3 %): the data are not raw (gamma, compression), or not linear"
-                  : "the variance does not rise with the mean (slope " + Text(v.gain) +
-                      " DN/e-, expected above 0): the data are not raw, or hold too little noise");
-    return false;
-  }
-  return true;
+  report.fit.nonlinearity = gain.nonlinearity;
+  report.fit.line = Report::Baseline{ 0.0, v.gain, v.intercept };
 }
 
-/** Covariance of gain and intercept: the fit's, widened by all that contradicts it. */
-Eigen::Matrix2d
-CovarianceOf(const RefinedResults & found)
+/** Why the variance is not that of a sensor; empty: it may be. */
+std::string
+FindContradiction(const RefinedResults & found, const GainEstimate & gain)
 {
-  // Chi-squares count where they are above what chance makes them, by 2 of their standard deviations.
-  const auto beyondChance = [](double chi2, double freedom) {
-    return chi2 > 1.0 + 2.0 * std::sqrt(2.0 / freedom) ? chi2 : 1.0;
-  };
-  const StaticVariance & variance = found.variance;
-  const double           dispersion = std::max(beyondChance(variance.intensityChi2, 62.0),
-                                     beyondChance(variance.classes.reducedChi2, ProjectedVariance::Classes - 1.0));
-  return variance.line.covariance * dispersion + Disagreement(variance.line, variance.fromFlat) +
-         variance.tailDisagreement + StrongVibration(variance.line, found.scene.model);
+  const std::string advice = ": the data are not raw (gamma, compression), or not linear";
+  const bool        hasCodes = found.scene.summary.codes.clipHighDn.has_value();
+  if (gain.nonlinearity > LargestNonlinearity)
+  {
+    return "the variance departs from its line by " + Text(100.0 * gain.nonlinearity) +
+           " % of itself (expected less than " + Text(100.0 * LargestNonlinearity) + " %)" + advice +
+           (hasCodes ? "" : ", or they saturate: then give the levels that the sensor attains (clip)");
+  }
+  if (gain.IsBent() && gain.above + gain.below > 2.0 * LargestGainError * gain.line.gain)
+  {
+    return "the variance bends against the mean, and the gain depends on what is taken for read noise, between " +
+           Text(gain.line.gain - gain.below) + " and " + Text(gain.line.gain + gain.above) + " DN/e-" + advice;
+  }
+  if (!(gain.line.gain > 0.0))
+  {
+    return "the variance does not rise with the mean (slope " + Text(gain.line.gain) + " +- " +
+           Text(gain.StandardError()) + " DN/e-, expected above 0): the data are not raw, or hold too little noise";
+  }
+  return {};
+}
+
+/** The gain that cannot be told: every parameter of the sensor goes with it. */
+void
+FillTooLittle(Report & report, const RefinedResults & found, const GainEstimate & gain)
+{
+  SetSensorParameters(report, EstimateStatus::NotIdentifiable);
+  const double error = gain.StandardError();
+  if (static_cast<double>(report.pixels.used) < LeastUsedShare * found.scene.usable)
+  {
+    report.Warn("too-little-to-measure",
+                Text(100.0 * static_cast<double>(report.pixels.used) / std::max(1.0, found.scene.usable)) +
+                  " % of the pixels that are not clipped fit a static scene (expected at least " +
+                  Text(100.0 * LeastUsedShare) + " %) and give a gain of " + Text(gain.line.gain) + " +- " +
+                  Text(error) + " DN/e-: the scene is not static, or too dark; choose a static part of it");
+    return;
+  }
+  const LevelPattern & pattern = found.variance.pattern;
+  const double         levels = std::sqrt(std::max(0.0, pattern.lightDn2));
+  report.Warn("intensity-range-too-small",
+              "the scene has one intensity: its levels differ by " + Text(levels) + " DN rms, " +
+                Text(100.0 * levels / std::max(1e-9, gain.line.pivotDn - found.blackDn)) +
+                " % of the light, of which the pixels' own pattern may be " +
+                Text(100.0 * std::min(1.0, pattern.LargestShare())) + " %, and tell the gain to +- " + Text(error) +
+                " DN/e- only (about " + Text(gain.scale) +
+                " expected): a scene with dark and bright areas would help, or dark frames");
+}
+
+/** Gain and intercept with their intervals, which hold the gains of all parts of the levels. */
+void
+FillGain(Report & report, const GainEstimate & gain, double quantisationDn2, double student)
+{
+  const double error = std::sqrt(gain.covariance(0, 0));
+  report.gain = WithError(gain.line.gain, gain.StandardError(), "DN/e-", student);
+  report.gain.interval95 =
+    Interval{ gain.line.gain - gain.below - student * error, gain.line.gain + gain.above + student * error };
+  // The value at the pivot is sure: the intercept moves against the gain.
+  const double interceptError =
+    std::hypot(std::sqrt(gain.covariance(1, 1)), 0.5 * (gain.below + gain.above) * gain.line.pivotDn);
+  report.totalIntercept = WithError(gain.line.intercept, interceptError, "DN^2", student);
+  report.intercept = WithError(gain.line.intercept - quantisationDn2, interceptError, "DN^2", student);
+  if (gain.nonlinearity > WorthTelling && gain.IsBent())
+  {
+    report.Warn("response-not-straight",
+                "the variance departs from its line by up to " + Text(100.0 * gain.nonlinearity) +
+                  " % of itself: the sensor's response bends, and gain is between " +
+                  Text(gain.line.gain - gain.below) + " and " + Text(gain.line.gain + gain.above) +
+                  " DN/e- for parts of the levels; its interval holds them");
+  }
+}
+
+/** Whether the levels reach down far enough to tell a bent response from a straight one. */
+void
+WarnOfNarrowRange(Report & report, const RefinedResults & found, const OffsetLimits & limits)
+{
+  const VarianceCurve & curve = found.variance.curve;
+  const double          blackDn = report.offset.value.value_or(limits.rootDn);
+  const bool            isDarkGiven = found.settings.offset && found.settings.offset->variance;
+  const double          share = curve.DarkestShare(blackDn);
+  if (!isDarkGiven && share > VarianceCurve::DarkEnough)
+  {
+    report.Warn("response-unchecked",
+                "the darkest levels have " + Text(100.0 * share) + " % of the brightest's light (expected at most " +
+                  Text(100.0 * VarianceCurve::DarkEnough) +
+                  " %): a bent response could not be seen there; dark frames would tell");
+  }
 }
 } // namespace
 
@@ -236,44 +259,47 @@ MakeRefusal(const RefinedSettings &           settings,
 {
   Report report = DescribeInput(settings, scene, pixelUse);
   report.Warn(obstacle.GetCode(), obstacle.what());
+  FillFromDarkFrames(report, settings, QuantisationVariance(scene));
   return report;
 }
 
 Report
 MakeRefinedReport(const RefinedResults & found)
 {
-  const VarianceLine & v = found.variance.line;
-  Report               report = DescribeInput(found.settings, found.scene, found.variance.pixelUse);
+  Report report = DescribeInput(found.settings, found.scene, found.variance.pixelUse);
   FillCurves(report, found);
   WarnOfScene(report, found);
 
-  const OffsetEstimate flicker = EstimateOffset(found);
-  const UsedOffset     offset = OffsetInUse(found, flicker);
-  FillFlicker(report, found, offset.valueDn - found.scene.model.centreDn, offset.errorDn);
+  const double         quantisationDn2 = QuantisationVariance(found.scene);
+  const GainEstimate   gain = EstimateGain(found);
+  const OffsetLimits   limits = LimitsOf(found, gain, quantisationDn2);
+  const OffsetEstimate flicker = EstimateOffset(found, gain, limits);
+  const UsedOffset     offset = OffsetInUse(found, flicker, limits);
+  FillFlicker(report, found, offset.valueDn - found.scene.model.centreDn, offset.errorDn, gain.RelativeModelError());
   FillMotion(report, found);
-  if (!FillFit(report, found))
+  WarnOfMotion(report, found);
+  FillFit(report, found, gain);
+  const std::string contradiction = FindContradiction(found, gain);
+  const double      samplingError = std::sqrt(gain.covariance(0, 0));
+  if (samplingError > LargestGainError * gain.scale ||
+      static_cast<double>(report.pixels.used) < LeastUsedShare * found.scene.usable)
   {
-    return report;
+    FillTooLittle(report, found, gain);
+    FillFromDarkFrames(report, found.settings, quantisationDn2);
   }
-  const Eigen::Matrix2d covariance = CovarianceOf(found);
-  if (std::sqrt(covariance(0, 0)) > 0.25 * v.gain || static_cast<double>(report.pixels.used) < 0.1 * found.scene.usable)
+  else if (!contradiction.empty())
   {
-    SetSensorParameters(report, EstimateStatus::NotIdentifiable);
-    report.Warn(
-      "too-little-to-measure",
-      Text(100.0 * static_cast<double>(report.pixels.used) / std::max(1.0, found.scene.usable)) +
-        " % of the pixels that are not clipped fit a static scene (expected at least 10 %) and give a gain of " +
-        Text(v.gain) + " +- " + Text(std::sqrt(covariance(0, 0))) +
-        " DN/e-: the scene is not static, or too dark; choose a static part of it");
-    return report;
+    SetSensorParameters(report, EstimateStatus::Failed);
+    report.Warn("variance-not-affine", contradiction);
+    FillFromDarkFrames(report, found.settings, quantisationDn2);
   }
-  const double step = found.scene.summary.codes.quantisationStepDn;
-  const double quantisationDn2 = step * step / 12.0;
-  const double student = StudentQuantile(0.975, static_cast<double>(found.scene.frame.frames) - 2.0);
-  report.gain = WithError(v.gain, std::sqrt(covariance(0, 0)), "DN/e-", student);
-  report.totalIntercept = WithError(v.intercept, std::sqrt(covariance(1, 1)), "DN^2", student);
-  report.intercept = WithError(v.intercept - quantisationDn2, std::sqrt(covariance(1, 1)), "DN^2", student);
-  FillOffsetAndReadNoise(report, found, flicker, covariance, quantisationDn2, student);
+  else
+  {
+    const double student = StudentQuantile(0.975, static_cast<double>(found.scene.frame.frames) - 2.0);
+    FillGain(report, gain, quantisationDn2, student);
+    FillOffsetAndReadNoise(report, found, gain, limits, flicker, quantisationDn2, student);
+    WarnOfNarrowRange(report, found, limits);
+  }
   return report;
 }
 

@@ -36,6 +36,7 @@ struct RefinedResults
   const StaticVariance &      variance;          ///< of the third
   const PolishedSeries &      polished;          ///< of the second's sums, with the third's noise
   const std::vector<double> & correctedVariance; ///< NaN where it was not computed [DN^2]
+  double                      blackDn;           ///< see BlackLevel()
 
   /** Whether the light changes in some places in another way than in others. */
   bool

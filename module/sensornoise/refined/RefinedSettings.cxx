@@ -28,6 +28,11 @@ void
 RefinedSettings::Validate() const
 {
   ValidateCodeSettings(codes);
+  if (levelRangeDn && !(levelRangeDn->lowDn < levelRangeDn->highDn))
+  {
+    throw std::invalid_argument("the range of levels is from " + std::to_string(levelRangeDn->lowDn) + " to " +
+                                std::to_string(levelRangeDn->highDn) + " DN; expected the lower level first");
+  }
   if (offset &&
       !(std::isfinite(offset->valueDn) && std::isfinite(offset->standardErrorDn) && offset->standardErrorDn >= 0.0))
   {

@@ -28,6 +28,13 @@
 namespace sensornoise
 {
 
+/** Levels from low to high. */
+struct LevelRange
+{
+  double lowDn;
+  double highDn;
+};
+
 /** Every parameter of the refined method. */
 struct SensorNoise_EXPORT RefinedSettings
 {
@@ -36,6 +43,9 @@ struct SensorNoise_EXPORT RefinedSettings
   RollingShutter rollingShutter{ RollingShutter::Auto };
   /** The offset, if it is known: offset and read noise then need no flicker. */
   std::optional<KnownOffset> offset;
+  /** Levels between which the variance is fitted, of a pixel's neighbours [DN]; null: all. For sensors whose response
+   * is straight in a part of its range (EMVA 1288 takes 5 to 95 % of saturation). */
+  std::optional<LevelRange> levelRangeDn;
   /** What is known of the codes; the rest is found. */
   CodeSettings codes;
 

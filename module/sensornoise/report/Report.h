@@ -118,6 +118,8 @@ struct Report
   Quantity gain{ Quantity::Without(EstimateStatus::Failed, "DN/e-") };
   Quantity offset{ Quantity::Without(EstimateStatus::Failed, "DN") };
   Quantity readNoise{ Quantity::Without(EstimateStatus::Failed, "DN") };
+  /** Of the median pixel, where pixels differ: only dark frames tell it. */
+  Quantity readNoiseMedian{ Quantity::Without(EstimateStatus::NotIdentifiable, "DN") };
   Quantity readNoiseElectrons{ Quantity::Without(EstimateStatus::Failed, "e-") };
   Quantity intercept{ Quantity::Without(EstimateStatus::Failed, "DN^2") };      ///< sigma^2 - g mu
   Quantity totalIntercept{ Quantity::Without(EstimateStatus::Failed, "DN^2") }; ///< with the codes' noise
@@ -132,19 +134,21 @@ struct Report
   std::vector<std::vector<double>>   flickerRows; ///< gamma_t(y): frame by frame; empty: null in JSON
   std::vector<std::array<double, 2>> motion;      ///< (alpha_t, beta_t) [pixel]; empty: the method has none
 
-  struct Fit
-  {
-    std::optional<double> reducedChi2;
-    std::optional<double> curvature;
-    std::optional<double> curvatureZ;
-    std::optional<double> offsetLinePhi;
-  } fit;
   struct Baseline
   {
     double curvature{ 0.0 };
     double gain{ 0.0 };
     double intercept{ 0.0 };
   };
+  struct Fit
+  {
+    std::optional<double>   reducedChi2;
+    std::optional<double>   curvature;
+    std::optional<double>   curvatureZ;
+    std::optional<double>   nonlinearity; ///< D, departure of the corrected variance from its line [1]
+    std::optional<double>   offsetLinePhi;
+    std::optional<Baseline> line; ///< through the corrected variance: indicative where the gain is not identified
+  } fit;
   std::optional<Baseline> affineBaseline;    ///< the line through the uncorrected variance: ignores flicker
   std::optional<Baseline> quadraticBaseline; ///< the parabola through the uncorrected variance, (2.21)
 

@@ -108,6 +108,7 @@ void
 WriteSensor(JsonWriter & json, const Report & report)
 {
   json.Member("gain", report.gain).Member("offset", report.offset).Member("read_noise", report.readNoise);
+  json.Member("read_noise_median", report.readNoiseMedian);
   json.Member("read_noise_electrons", report.readNoiseElectrons);
   json.Member("intercept", report.intercept).Member("total_intercept", report.totalIntercept);
   json.ObjectMember("covariance", [&] {
@@ -137,7 +138,9 @@ WriteFit(JsonWriter & json, const Report & report)
 {
   json.ObjectMember("fit", [&] {
     json.Member("reduced_chi2", report.fit.reducedChi2).Member("curvature", report.fit.curvature);
-    json.Member("curvature_z", report.fit.curvatureZ).Member("offset_line_phi", report.fit.offsetLinePhi);
+    json.Member("curvature_z", report.fit.curvatureZ).Member("nonlinearity", report.fit.nonlinearity);
+    json.Member("offset_line_phi", report.fit.offsetLinePhi);
+    WriteBaseline(json, "line", report.fit.line, false);
   });
   WriteBaseline(json, "affine_baseline", report.affineBaseline, false);
   WriteBaseline(json, "quadratic_baseline", report.quadraticBaseline, true);

@@ -110,15 +110,19 @@ MakeTable(const Report & report)
                   report.pixels.notFinite);
   table += "method: " + report.method + "\n\n";
   using Row = std::pair<const char *, const Quantity *>;
-  const std::vector<Row> rows{ { "gain g", &report.gain },
-                               { "offset mu", &report.offset },
-                               { "read noise sigma", &report.readNoise },
-                               { "read noise sigma / g", &report.readNoiseElectrons },
-                               { "intercept sigma^2 - g mu", &report.intercept },
-                               { "flicker sd", &report.flickerSd },
-                               { "vibration sd x", &report.vibrationSdX },
-                               { "vibration sd y", &report.vibrationSdY } };
-  const bool             hasErrors =
+  std::vector<Row> rows{ { "gain g", &report.gain },
+                         { "offset mu", &report.offset },
+                         { "read noise sigma", &report.readNoise },
+                         { "read noise sigma / g", &report.readNoiseElectrons },
+                         { "intercept sigma^2 - g mu", &report.intercept },
+                         { "flicker sd", &report.flickerSd },
+                         { "vibration sd x", &report.vibrationSdX },
+                         { "vibration sd y", &report.vibrationSdY } };
+  if (report.readNoiseMedian.value)
+  {
+    rows.insert(rows.begin() + 3, { "read noise, median pixel", &report.readNoiseMedian });
+  }
+  const bool hasErrors =
     std::any_of(rows.begin(), rows.end(), [](const Row & row) { return row.second->standardError.has_value(); });
   table += Format("%-24s %12s  ", "quantity", "value") + (hasErrors ? Format("%-12s  ", "error") : "");
   table += Format("%-8s %-17s %s\n", "unit", "status", hasErrors ? "95 % interval or limits" : "limits");
@@ -126,12 +130,23 @@ MakeTable(const Report & report)
   {
     table += Line(name, *quantity, hasErrors);
   }
+  if (report.fit.line && !report.gain.value)
+  {
+    table += Format("\nindicative: variance = %.5g mean %+.5g (the line through all levels; no measurement)\n",
+                    report.fit.line->gain,
+                    report.fit.line->intercept);
+  }
   if (report.fit.reducedChi2)
   {
     table += Format("\nfit: reduced chi2 %.4g (1: only sampling noise is left)", *report.fit.reducedChi2);
     table += report.fit.offsetLinePhi
                ? Format(", offset line %.4g (1: one flicker for all)\n", *report.fit.offsetLinePhi)
                : "\n";
+  }
+  if (report.fit.nonlinearity)
+  {
+    table += Format("response: the variance departs from its line by up to %.2g %% of itself\n",
+                    100.0 * *report.fit.nonlinearity);
   }
   return table;
 }

@@ -18,8 +18,10 @@
 #include "sensornoise/series/OffsetLine.h"
 
 #include "sensornoise/base/ChiSquare.h"
+#include "sensornoise/scene/ProvisionalModel.h"
 #include "sensornoise/series/FrameProducts.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -108,6 +110,26 @@ FitOffsetLine(const FrameEquations & equations)
   return line;
 }
 
+namespace
+{
+/** The flicker of a scene of one level, whose offset it cannot tell; null without any light that changes. */
+std::optional<OffsetLine>
+LineOfOneLevel(const FrameEquations & equations, double offset)
+{
+  if (!(equations.light(0, 0) > 0.0) || !(offset != 0.0))
+  {
+    return std::nullopt;
+  }
+  OffsetLine line;
+  line.light << equations.light(0, 0), 0.0, 0.0, 0.0;
+  line.response = equations.response;
+  line.offset = offset;
+  line.lastClass = GradientClasses - 1;
+  line.UseOffset(offset);
+  return line;
+}
+} // namespace
+
 std::optional<OffsetLine>
 FitOffsetLine(const FrameSums & sums, const RegressorNoise & noise, const std::vector<double> & gamma)
 {
@@ -125,9 +147,16 @@ FitOffsetLine(const FrameSums & sums, const RegressorNoise & noise, const std::v
       {
         smallest = error;
         line->lastClass = c;
+        line->contrast = std::clamp(equations.gram(1, 1) / equations.rawGram(1, 1), 0.0, 1.0);
         best = std::move(line);
       }
     }
+  }
+  if (!best)
+  {
+    const ProvisionalModel & model = sums.GetRegressors().GetModel();
+    best =
+      LineOfOneLevel(MakeFrameEquations(sums, noise, GradientClasses - 1, gamma), model.darkestDn - model.centreDn);
   }
   return best;
 }

@@ -20,10 +20,12 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/RequiredFlickerZ.h"
 #include "sensornoise/series/FrameEquations.h"
 #include "sensornoise/series/FrameSums.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -35,19 +37,31 @@ namespace sensornoise
 /** Offset and flicker, from the line on which the frames' changes of light lie. */
 struct SensorNoise_EXPORT OffsetLine
 {
-  double              offset{ 0.0 }; ///< mu minus the centre of the regression [DN]
-  double              standardError{ std::numeric_limits<double>::infinity() };
-  double              low{ -std::numeric_limits<double>::infinity() }; ///< 95 % interval, may be unbounded
-  double              high{ std::numeric_limits<double>::infinity() };
-  double              phi{ 1.0 };         ///< dispersion about the line; 1: nothing but noise
-  double              flickerZ{ 0.0 };    ///< how far the flicker exceeds its noise, in standard deviations
-  double              precision{ 0.0 };   ///< inverse variance of one gamma_t
+  double offset{ 0.0 }; ///< mu minus the centre of the regression [DN]
+  double standardError{ std::numeric_limits<double>::infinity() };
+  double low{ -std::numeric_limits<double>::infinity() }; ///< 95 % interval, may be unbounded
+  double high{ std::numeric_limits<double>::infinity() };
+  double phi{ 1.0 };       ///< dispersion about the line; 1: nothing but noise
+  double flickerZ{ 0.0 };  ///< how far the flicker exceeds its noise, in standard deviations
+  double precision{ 0.0 }; ///< inverse variance of one gamma_t
+  /** Of what the levels differ by, the share that is not the noise of their means [1]; 0: the scene has one level. */
+  double              contrast{ 0.0 };
   double              sensitivity{ 0.0 }; ///< relative change of gamma_t with the offset [1/DN]
   std::vector<double> gamma;              ///< of every frame [1]
   std::size_t         lastClass{ 0 };     ///< roughest gradient class that was admitted
 
   Eigen::Matrix2d  light;    ///< of the equations that were used
   Eigen::MatrixX2d response; ///< frames x 2
+
+  /** Whether the flicker tells the offset: it is seen, and so are levels that differ. */
+  bool
+  TellsOffset() const
+  {
+    return flickerZ > RequiredFlickerZ && contrast > LeastContrast && std::isfinite(low);
+  }
+  /** Contrast below which noise is taken for levels, and looks like flicker [1]. Set by hand: natural scenes have 0.99;
+   * at 0.5 flats with an offset pattern pass, 0.95 asks 100 frames of a flat field with a shading of 3 %. */
+  static constexpr double LeastContrast = 0.9;
 
   double
   Widening() const

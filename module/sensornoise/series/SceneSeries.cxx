@@ -19,7 +19,6 @@
 
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/NothingToMeasure.h"
-#include "sensornoise/base/RequiredFlickerZ.h"
 #include "sensornoise/scene/ProvisionalModel.h"
 #include "sensornoise/series/FrameProducts.h"
 
@@ -46,7 +45,7 @@ NoiseOfModel(const FrameRegressors & regressors)
 }
 
 SceneSeries
-FindSceneSeries(const FrameSums & sums, RollingShutter rollingShutter)
+FindSceneSeries(const FrameSums & sums, RollingShutter rollingShutter, const std::optional<double> & knownOffsetDn)
 {
   const RegressorNoise            noise = NoiseOfModel(sums.GetRegressors());
   const std::optional<OffsetLine> line = FitOffsetLine(sums, noise);
@@ -58,14 +57,18 @@ FindSceneSeries(const FrameSums & sums, RollingShutter rollingShutter)
   found.line = *line;
   const ProvisionalModel & model = sums.GetRegressors().GetModel();
   const FrameEquations     equations = MakeFrameEquations(sums, noise, GradientClasses - 1);
-  const bool               isKnown = line->flickerZ > RequiredFlickerZ && std::isfinite(line->low);
-  found.offset = isKnown ? line->offset : model.darkestDn - model.centreDn;
-  found.motion = SolveMotion(equations, line->gamma, found.offset);
-  const Eigen::MatrixXd motionColumns = MotionColumns(found.motion, line->gamma);
+  found.isOffsetTold = line->TellsOffset();
+  found.offset = found.isOffsetTold ? line->offset : knownOffsetDn.value_or(model.darkestDn) - model.centreDn;
+  if (!found.isOffsetTold)
+  {
+    found.line.UseOffset(found.offset);
+  }
+  found.motion = SolveMotion(equations, found.line.gamma, found.offset);
+  const Eigen::MatrixXd motionColumns = MotionColumns(found.motion, found.line.gamma);
   const std::size_t     most =
     rollingShutter == RollingShutter::Off ? 0 : std::min<std::size_t>(12, (sums.GetFrame().frames - 1) / 6);
-  found.local = FindLocalIllumination(sums, found.motion, motionColumns, line->gamma, found.offset, most);
-  found.basis = TemporalBasis(line->gamma, found.local.series, motionColumns);
+  found.local = FindLocalIllumination(sums, found.motion, motionColumns, found.line.gamma, found.offset, most);
+  found.basis = TemporalBasis(found.line.gamma, found.local.series, motionColumns);
   return found;
 }
 

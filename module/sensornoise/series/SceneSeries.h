@@ -28,6 +28,8 @@
 #include "sensornoise/series/OffsetLine.h"
 #include "sensornoise/series/TemporalBasis.h"
 
+#include <optional>
+
 namespace sensornoise
 {
 
@@ -37,8 +39,9 @@ struct SceneSeries
   OffsetLine        line; ///< offset and flicker
   MotionSeries      motion;
   LocalIllumination local;
-  double        offset{ 0.0 }; ///< minus the centre: of the line, or the darkest level where the flicker does not tell
-  TemporalBasis basis;         ///< of the third pass
+  double            offset{ 0.0 }; ///< minus the centre: of the line, or what is known, or the darkest level [DN]
+  bool              isOffsetTold{ false }; ///< whether the offset is the line's: the flicker tells it
+  TemporalBasis     basis;                 ///< of the third pass
 };
 
 /** The noise by the provisional model itself, by which w V = 1. */
@@ -46,9 +49,12 @@ SensorNoise_EXPORT RegressorNoise
 NoiseOfModel(const FrameRegressors & regressors);
 
 /** Finds flicker, local light and motion in the sums of the second pass. The noise is the provisional model's. Throws
- * NothingToMeasure if the pixels have one intensity. */
+ * NothingToMeasure if the pixels have one intensity. \a knownOffsetDn serves where the flicker does not tell the
+ * offset. */
 SensorNoise_EXPORT SceneSeries
-FindSceneSeries(const FrameSums & sums, RollingShutter rollingShutter);
+FindSceneSeries(const FrameSums &             sums,
+                RollingShutter                rollingShutter,
+                const std::optional<double> & knownOffsetDn = std::nullopt);
 
 } // namespace sensornoise
 

@@ -1,0 +1,208 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/pixels/JudgingLine.h"
+
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/Quantiles.h"
+#include "sensornoise/moments/DefectivePixels.h"
+#include "sensornoise/pixels/LevelPattern.h"
+#include "sensornoise/pixels/ProjectedVariance.h"
+#include "sensornoise/pixels/VarianceLine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+constexpr std::size_t JudgingSquareSide = 16;   // pixels; enough for a mean to 2 %, few enough to be of one level
+constexpr double      LeastSquarePixels = 64.0; // of a square that counts
+constexpr std::size_t MostLevels = 16;
+constexpr std::size_t SquaresPerLevel = 8; // at least
+/** Departure from the line, beyond 2 of its standard errors, that counts [1]. Set by hand: neighbourhoods are blamed
+ * from 4 % on; half of it is within the noise of frames of 128 x 128 pixels. */
+constexpr double LeastDeparture = 0.01;
+
+/** Variance of what the pixels' own offsets do to the line, relative to its square at the darkest level, up to which
+ * pixels are judged at their own level [1]. Set by hand: at the limit a ratio of variances is off by 2 %. */
+constexpr double LargestOwnOffset = 0.02;
+
+/** What the pixels of a square tell about the line. */
+struct JudgingSquare
+{
+  double level{ 0.0 };  // mean [DN]
+  double excess{ 0.0 }; // mean of the variance relative to the line, minus 1
+  double spread{ 0.0 }; // variance of the pixels' own noise [DN^4]
+  double pixels{ 0.0 };
+  double roughness{ 0.0 }; // mean class
+};
+
+JudgingSquare
+SumJudgingSquare(const VarianceLine &      line,
+                 const VarianceData &      data,
+                 const ProjectedVariance & projected,
+                 std::size_t               left,
+                 std::size_t               top)
+{
+  const FrameGeometry & geometry = projected.GetFrame().geometry;
+  const double  reachDn2 = DefectiveNoiseFactor * DefectiveNoiseFactor * line.lowestDn2 / VarianceLine::LowestShare;
+  JudgingSquare square;
+  double        total = 0.0;
+  double        squares = 0.0;
+  double        chance = 0.0;
+  for (std::size_t y = top; y < std::min(top + JudgingSquareSide, geometry.height); ++y)
+  {
+    for (std::size_t x = left; x < std::min(left + JudgingSquareSide, geometry.width); ++x)
+    {
+      const std::size_t p = y * geometry.width + x;
+      const double      expected = data.mask[p] != 0 ? line.At(data.mean[p]) : 0.0;
+      const double      excess = data.variance[p] - expected;
+      if (data.mask[p] != 0 && excess < reachDn2 + expected)
+      {
+        square.pixels += 1.0;
+        square.level += data.mean[p];
+        square.roughness += projected.ClassOf(p);
+        square.excess += excess;
+        total += expected;
+        squares += excess * excess;
+        chance += 2.0 * expected * expected / line.SamplingFreedom(data.freedom[p], expected);
+      }
+    }
+  }
+  if (square.pixels > 0.0)
+  {
+    square.level /= square.pixels;
+    square.roughness /= square.pixels;
+    square.spread = (squares - chance - square.excess * square.excess / square.pixels) / square.pixels;
+    square.excess /= total;
+  }
+  return square;
+}
+
+/** Sorted by their levels. */
+std::vector<JudgingSquare>
+MakeJudgingSquares(const VarianceLine &      line,
+                   const VarianceData &      data,
+                   const ProjectedVariance & projected,
+                   const ParallelFor &       parallelFor)
+{
+  const FrameGeometry &      geometry = projected.GetFrame().geometry;
+  const std::size_t          across = (geometry.width + JudgingSquareSide - 1) / JudgingSquareSide;
+  const std::size_t          down = (geometry.height + JudgingSquareSide - 1) / JudgingSquareSide;
+  std::vector<JudgingSquare> squares(across * down);
+  parallelFor(down, [&](std::size_t row) {
+    for (std::size_t column = 0; column < across; ++column)
+    {
+      squares[row * across + column] =
+        SumJudgingSquare(line, data, projected, column * JudgingSquareSide, row * JudgingSquareSide);
+    }
+  });
+  const auto isTooSmall = [](const JudgingSquare & square) { return square.pixels < LeastSquarePixels; };
+  squares.erase(std::remove_if(squares.begin(), squares.end(), isTooSmall), squares.end());
+  std::stable_sort(squares.begin(), squares.end(), [](const auto & a, const auto & b) { return a.level < b.level; });
+  return squares;
+}
+
+double
+MedianOf(const std::vector<JudgingSquare> & squares,
+         std::size_t                        first,
+         std::size_t                        last,
+         double JudgingSquare::* member)
+{
+  std::vector<double> values;
+  for (std::size_t i = first; i < last; ++i)
+  {
+    values.push_back(squares[i].*member);
+  }
+  return Quantile(values, 0.5);
+}
+} // namespace
+
+double
+JudgingLine::RatioAt(double meanDn) const
+{
+  const auto above = std::upper_bound(levels.begin(), levels.end(), meanDn);
+  if (above == levels.begin() || above == levels.end())
+  {
+    return above == levels.begin() ? ratios.front() : ratios.back();
+  }
+  const auto   i = static_cast<std::size_t>(above - levels.begin());
+  const double share = (meanDn - levels[i - 1]) / (levels[i] - levels[i - 1]);
+  return ratios[i - 1] + share * (ratios[i] - ratios[i - 1]);
+}
+
+JudgingLine
+MakeJudgingLine(const VarianceLine &              line,
+                const ProjectedVariance &         projected,
+                const std::vector<std::uint8_t> & mask,
+                double                            blackDn,
+                const ParallelFor &               parallelFor)
+{
+  JudgingLine                judging{ line, {}, {} };
+  const VarianceData         data = projected.GetData(mask);
+  std::vector<JudgingSquare> squares = MakeJudgingSquares(line, data, projected, parallelFor);
+  if (!squares.empty())
+  {
+    const double patternDn2 =
+      MeasureLevelPattern(projected.GetFrame(), data, line, blackDn, parallelFor).OffsetVarianceDn2();
+    const double darkest = line.At(squares.front().level);
+    judging.byNeighbours = line.gain * line.gain * patternDn2 > LargestOwnOffset * darkest * darkest;
+  }
+  const std::size_t bins = std::min(MostLevels, squares.size() / SquaresPerLevel);
+  bool              departs = false;
+  for (std::size_t b = 0; b < bins; ++b)
+  {
+    const std::size_t first = b * squares.size() / bins;
+    const std::size_t end = (b + 1) * squares.size() / bins;
+    const auto        at = [&](std::size_t i) { return squares.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::stable_sort(at(first), at(end), [](const auto & a, const auto & c) { return a.roughness < c.roughness; });
+    const std::size_t   last = first + (end - first + 1) / 2;
+    const double        excess = MedianOf(squares, first, last, &JudgingSquare::excess);
+    std::vector<double> distance;
+    for (std::size_t i = first; i < last; ++i)
+    {
+      distance.push_back(std::abs(squares[i].excess - excess));
+    }
+    // 1.5 median distances are a standard deviation; a median's standard error is 1.25 of a mean's.
+    const double error = 1.25 * 1.5 * Quantile(distance, 0.5) / std::sqrt(static_cast<double>(last - first));
+    departs = departs || std::abs(excess) > LeastDeparture + 2.0 * error;
+    const double level = MedianOf(squares, first, last, &JudgingSquare::level);
+    if (judging.levels.empty() || level > judging.levels.back())
+    {
+      judging.levels.push_back(level);
+      judging.ratios.push_back(std::max(0.1, 1.0 + excess));
+    }
+  }
+  if (departs)
+  {
+    const std::size_t dark = std::max(SquaresPerLevel, squares.size() / 5);
+    judging.line.noiseSpreadDn4 = std::max(0.0, MedianOf(squares, 0, dark, &JudgingSquare::spread));
+  }
+  else
+  {
+    judging.levels.clear();
+    judging.ratios.clear();
+  }
+  return judging;
+}
+
+} // namespace sensornoise

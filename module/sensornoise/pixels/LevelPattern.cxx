@@ -1,0 +1,203 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/pixels/LevelPattern.h"
+
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/pixels/VarianceLine.h"
+#include "sensornoise/scene/ReferenceFrame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+constexpr std::size_t PatternSquareSide = 16; // pixels
+constexpr double      LeastHalfPixels = 32.0; // of either half of a square that counts
+/** Share of the squares that count as the flattest [1], and their least number. Set by hand: with half and twice the
+ * share the shares of natural scenes change by a third. */
+constexpr double      FlattestShare = 0.05;
+constexpr std::size_t FewestSquares = 4;
+/** Standard deviations of patterns of real sensors, at most: of gain or efficiency [1], and of offset, in units of the
+ * noise in the dark [1]. What is larger, in a scene that is rough everywhere, is light. Set by hand, three times and
+ * twice what data sheets and measured sensors have. */
+constexpr double LargestGainPattern = 0.03;
+constexpr double LargestOffsetPattern = 5.0;
+/** Variance of a pixel minus its diagonal mean, in units of a pixel's. */
+constexpr double DifferenceVariance = 1.125;
+
+/** What the pixels of every second row of a square differ by from their surroundings. */
+struct HalfSquare
+{
+  double pixels{ 0.0 };
+  double level{ 0.0 };   // [DN]
+  double squares{ 0.0 }; // of the differences [DN^2]
+  double noise{ 0.0 };   // what the noise of the means makes of them [DN^2]
+
+  double
+  Pattern() const
+  {
+    return (squares - noise) / (DifferenceVariance * pixels);
+  }
+  /** Standard error of Pattern(). */
+  double
+  Error() const
+  {
+    return std::sqrt(2.0 / pixels) * squares / (DifferenceVariance * pixels);
+  }
+};
+
+struct Square
+{
+  HalfSquare
+    half[2]; // one to choose squares by, one to measure: what is chosen for being small is small by chance, too
+
+  /** How rough it may be, by the half to choose by [DN^2]. */
+  double
+  Roughness() const
+  {
+    return half[0].Pattern() + 2.0 * half[0].Error();
+  }
+  /** The same relative to the square of the light [1]. */
+  double
+  RelativeRoughness(double blackDn) const
+  {
+    const double light = half[0].level - blackDn;
+    return this->Roughness() / std::max(1e-12, light * light);
+  }
+};
+
+void
+SumPatternSquare(const ReferenceFrame & frame,
+                 const VarianceData &   data,
+                 std::size_t            left,
+                 std::size_t            top,
+                 Square &               square)
+{
+  const auto frames = static_cast<double>(frame.frames);
+  for (std::size_t y = top; y < std::min(top + PatternSquareSide, frame.geometry.height); ++y)
+  {
+    HalfSquare & half = square.half[y % 2];
+    for (std::size_t x = left; x < std::min(left + PatternSquareSide, frame.geometry.width); ++x)
+    {
+      const std::size_t p = y * frame.geometry.width + x;
+      if (data.mask[p] != 0)
+      {
+        const double difference = frame.mean[p] - DiagonalMean(frame.mean.data(), frame.geometry.width, p);
+        half.pixels += 1.0;
+        half.level += frame.mean[p];
+        half.squares += difference * difference;
+        half.noise += DifferenceVariance * data.variance[p] / frames;
+      }
+    }
+  }
+  for (HalfSquare & half : square.half)
+  {
+    half.level /= std::max(1.0, half.pixels);
+  }
+}
+
+std::vector<Square>
+MakeSquares(const ReferenceFrame & frame, const VarianceData & data, const ParallelFor & parallelFor)
+{
+  const std::size_t   across = (frame.geometry.width + PatternSquareSide - 1) / PatternSquareSide;
+  const std::size_t   down = (frame.geometry.height + PatternSquareSide - 1) / PatternSquareSide;
+  std::vector<Square> squares(across * down);
+  parallelFor(down, [&](std::size_t row) {
+    for (std::size_t column = 0; column < across; ++column)
+    {
+      SumPatternSquare(
+        frame, data, column * PatternSquareSide, row * PatternSquareSide, squares[row * across + column]);
+    }
+  });
+  squares.erase(std::remove_if(squares.begin(),
+                               squares.end(),
+                               [](const Square & square) {
+                                 return square.half[0].pixels < LeastHalfPixels ||
+                                        square.half[1].pixels < LeastHalfPixels;
+                               }),
+                squares.end());
+  return squares;
+}
+
+/** Weighted mean of \a value over the first squares, and its standard error added. */
+template <typename TValue, typename TError>
+double
+UpperMean(const std::vector<Square> & squares, std::size_t count, TValue value, TError error)
+{
+  double weight = 0.0;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double w = 1.0 / std::max(1e-300, error(squares[i]) * error(squares[i]));
+    weight += w;
+    sum += w * value(squares[i]);
+  }
+  return std::max(0.0, sum / weight) + 1.0 / std::sqrt(weight);
+}
+} // namespace
+
+LevelPattern
+MeasureLevelPattern(const ReferenceFrame & frame,
+                    const VarianceData &   data,
+                    const VarianceLine &   line,
+                    double                 blackDn,
+                    const ParallelFor &    parallelFor)
+{
+  const double        noiseDn2 = line.At(line.pivotDn) / static_cast<double>(frame.frames);
+  const double        fluxDn = line.pivotDn - blackDn;
+  LevelPattern        pattern;
+  std::vector<Square> squares = MakeSquares(frame, data, parallelFor);
+  pattern.lightDn2 = std::max(0.0, line.spreadDn2 / line.weightSum - noiseDn2);
+  if (squares.empty() || !(pattern.lightDn2 > 0.0))
+  {
+    pattern.gainShare = pattern.offsetShare = std::numeric_limits<double>::infinity();
+    return pattern;
+  }
+  const auto count =
+    std::min(squares.size(),
+             std::max(FewestSquares, static_cast<std::size_t>(FlattestShare * static_cast<double>(squares.size()))));
+  const auto sortBy = [&](auto value) {
+    std::sort(squares.begin(), squares.end(), [&](const Square & a, const Square & b) { return value(a) < value(b); });
+  };
+  const auto fluxOf = [&](const Square & square) { return std::max(1e-6, square.half[1].level - blackDn); };
+  sortBy([&](const Square & square) { return square.RelativeRoughness(blackDn); });
+  const double gainSquare = UpperMean(
+    squares,
+    count,
+    [&](const Square & square) { return square.half[1].Pattern() / (fluxOf(square) * fluxOf(square)); },
+    [&](const Square & square) { return square.half[1].Error() / (fluxOf(square) * fluxOf(square)); });
+  sortBy([](const Square & square) { return square.Roughness(); });
+  const double offsetSquareDn2 = UpperMean(
+    squares,
+    count,
+    [](const Square & square) { return square.half[1].Pattern(); },
+    [](const Square & square) { return square.half[1].Error(); });
+  const double largestOffsetDn2 = LargestOffsetPattern * LargestOffsetPattern * line.At(squares.front().half[1].level);
+  pattern.gainShare = std::min(gainSquare, LargestGainPattern * LargestGainPattern) *
+                      (fluxDn * fluxDn + pattern.lightDn2) / pattern.lightDn2;
+  pattern.offsetShare = std::min(offsetSquareDn2, largestOffsetDn2) / pattern.lightDn2;
+  return pattern;
+}
+
+} // namespace sensornoise

@@ -1,0 +1,100 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/pixels/LightLine.h"
+
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/pixels/LevelPattern.h"
+#include "sensornoise/pixels/VarianceFit.h"
+#include "sensornoise/scene/ReferenceFrame.h"
+
+#include <cmath>
+#include <cstddef>
+
+namespace sensornoise
+{
+
+VarianceLine
+FitLightLine(const VarianceFit &    fit,
+             const VarianceData &   data,
+             const ReferenceFrame & frame,
+             const ParallelFor &    parallelFor)
+{
+  // Sums of the weight times x and v, mean and variance above the line at its pivot, and z, the neighbours' mean.
+  enum : std::size_t
+  {
+    W,
+    WX,
+    WZ,
+    WV,
+    WZX,
+    WZV,
+    Sums
+  };
+  VarianceLine light = fit.GetLine();
+  const double pivot = light.pivotDn;
+  const auto   diagonalOf = [&](std::size_t p) {
+    return DiagonalMean(frame.mean.data(), frame.geometry.width, p) - pivot;
+  };
+  const auto   s = SumOverBlocks<Sums>(data.pixels, parallelFor, [&](std::size_t p, auto & sums) {
+    if (data.mask[p] != 0)
+    {
+      const auto [w, value] = fit.Weigh(p);
+      const double x = data.mean[p] - pivot;
+      const double z = diagonalOf(p);
+      sums[W] += w;
+      sums[WX] += w * x;
+      sums[WZ] += w * z;
+      sums[WV] += w * value;
+      sums[WZX] += w * z * x;
+      sums[WZV] += w * z * value;
+    }
+  });
+  const double zMean = s[WZ] / s[W];
+  const double common = s[WZX] - zMean * s[WX];
+  light.isDetermined = common > 0.0;
+  if (!light.isDetermined)
+  {
+    return light;
+  }
+  light.gain = (s[WZV] - zMean * s[WV]) / common;
+  light.pivotDn = pivot + s[WX] / s[W];
+  light.intercept = s[WV] / s[W] - light.gain * light.pivotDn;
+  // Of the squared scores, for the sandwich.
+  const auto      squares = SumOverBlocks<3>(data.pixels, parallelFor, [&](std::size_t p, auto & sums) {
+    if (data.mask[p] != 0)
+    {
+      const auto [w, value] = fit.Weigh(p);
+      const double score = w * (value - light.intercept - light.gain * data.mean[p]);
+      const double z = diagonalOf(p) - zMean;
+      sums[0] += score * score * z * z;
+      sums[1] += score * score * z;
+      sums[2] += score * score;
+    }
+  });
+  Eigen::Matrix2d atPivot;
+  atPivot << squares[0] / (common * common), squares[1] / (common * s[W]), squares[1] / (common * s[W]),
+    squares[2] / (s[W] * s[W]);
+  Eigen::Matrix2d toIntercept;
+  toIntercept << 1.0, 0.0, -light.pivotDn, 1.0;
+  light.covariance = toIntercept * atPivot * toIntercept.transpose();
+  light.isDetermined = std::isfinite(light.gain) && light.covariance.allFinite();
+  return light;
+}
+
+} // namespace sensornoise

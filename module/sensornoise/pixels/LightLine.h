@@ -1,0 +1,49 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_pixels_LightLine_h
+#define sensornoise_pixels_LightLine_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/pixels/VarianceLine.h"
+
+namespace sensornoise
+{
+
+class VarianceFit;
+struct ReferenceFrame;
+struct VarianceData;
+
+/** The line by what the levels of a pixel have in common with those of its diagonal neighbours, which is light: with z
+ * their mean as an instrument for the pixel's own mean x,
+ *
+ *     gain = sum w (z - <z>) V / sum w (z - <z>) x.
+ *
+ * Gains, efficiencies and offsets that differ from pixel to pixel, row to row or column to column, and the noise of the
+ * means, have no part in it (see LevelPattern); detail as fine as a pixel has none either, which costs precision.
+ * Weights, and what is trimmed, are those of \a fit. The pivot is the weighted mean of x, the covariance the sandwich.
+ * Not determined with one intensity. */
+SensorNoise_EXPORT VarianceLine
+FitLightLine(const VarianceFit &    fit,
+             const VarianceData &   data,
+             const ReferenceFrame & frame,
+             const ParallelFor &    parallelFor);
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,160 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/pixels/MeanGain.h"
+
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/pixels/VarianceCurve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** The levels of the curve's bins, from the darkest at 0 to the brightest at 1, and the variance along them. */
+struct ScaledCurve
+{
+  std::vector<double> level;
+  std::vector<double> pixels;
+  double              lineAtDarkest; // [DN^2]
+  double              lineRise;      // from the darkest to the brightest [DN^2]
+  double              rangeDn;
+  double              darkestLightDn; // of the darkest level above the offset; 0: little
+};
+
+double
+PolynomialAt(const Eigen::VectorXd & coefficients, double x)
+{
+  double value = 0.0;
+  for (Eigen::Index k = coefficients.size(); k-- > 0;)
+  {
+    value = value * x + coefficients(k);
+  }
+  return value;
+}
+
+/** The mean local gain of the line and the polynomial \a excess above it; null if it has none. */
+std::optional<double>
+MeanLocalGain(const ScaledCurve & curve, const Eigen::VectorXd & excess)
+{
+  const auto   at = [&](double x) { return curve.lineAtDarkest + curve.lineRise * x + PolynomialAt(excess, x); };
+  const double slope = (curve.lineRise + excess(1)) / curve.rangeDn;
+  const double darkest = at(0.0);
+  if (!(slope > 0.0) || !(darkest > 0.0))
+  {
+    return std::nullopt;
+  }
+  double z = std::sqrt(darkest) / slope;
+  if (curve.darkestLightDn > 0.0)
+  {
+    const double power = std::min(1.9, slope * curve.darkestLightDn / darkest);
+    z = curve.darkestLightDn / ((2.0 - power) * std::sqrt(darkest));
+  }
+  double sum = 0.0;
+  double count = 0.0;
+  double x = 0.0;
+  for (std::size_t b = 0; b < curve.level.size(); ++b)
+  {
+    // V is taken for a line over each step: that is exact where it is one, however steep the root is near the dark.
+    constexpr int steps = 8;
+    const double  step = (curve.level[b] - x) / steps;
+    for (int i = 0; i < steps && step > 0.0; ++i)
+    {
+      const double first = at(x);
+      const double last = at(x + step);
+      if (!(first > 0.0 && last > 0.0))
+      {
+        return std::nullopt;
+      }
+      z += curve.rangeDn * step / (std::sqrt(first) + std::sqrt(last));
+      x += step;
+    }
+    sum += curve.pixels[b] * std::sqrt(at(curve.level[b])) / z;
+    count += curve.pixels[b];
+  }
+  return sum / count;
+}
+} // namespace
+
+std::optional<MeanGain>
+FindMeanGain(const VarianceCurve & curve, int degree, const std::optional<double> & offsetDn)
+{
+  const auto terms = static_cast<Eigen::Index>(degree + 1);
+  if (curve.bins.size() < static_cast<std::size_t>(degree) + 2)
+  {
+    return std::nullopt;
+  }
+  // The bins are sorted by the levels of the neighbours.
+  const auto            levelOf = [](const CurveBin & bin) { return bin.x / bin.weight; };
+  std::vector<CurveBin> bins = curve.bins;
+  std::sort(bins.begin(), bins.end(), [&](const CurveBin & a, const CurveBin & b) { return levelOf(a) < levelOf(b); });
+  const double darkest = levelOf(bins.front());
+  ScaledCurve  scaled;
+  scaled.rangeDn = levelOf(bins.back()) - darkest;
+  scaled.darkestLightDn = offsetDn ? std::max(0.0, curve.line.pivotDn + darkest - *offsetDn) : 0.0;
+  scaled.lineAtDarkest = curve.line.intercept + curve.line.gain * (curve.line.pivotDn + darkest);
+  scaled.lineRise = curve.line.gain * scaled.rangeDn;
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(terms, terms);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(terms);
+  double          information = 0.0;
+  for (const CurveBin & bin : bins)
+  {
+    const double    x = (levelOf(bin) - darkest) / scaled.rangeDn;
+    Eigen::VectorXd powers(terms);
+    for (Eigen::Index k = 0; k < terms; ++k)
+    {
+      powers(k) = std::pow(x, static_cast<double>(k));
+    }
+    gram += bin.weight * powers * powers.transpose();
+    right += bin.excess * powers;
+    scaled.level.push_back(x);
+    scaled.pixels.push_back(bin.pixels);
+    information += bin.weight * std::pow(bin.x / bin.weight, 2);
+  }
+  const Eigen::LDLT<Eigen::MatrixXd> factor(gram);
+  if (factor.info() != Eigen::Success || !(scaled.rangeDn > 0.0) ||
+      !(factor.vectorD().minCoeff() > 1e-10 * factor.vectorD().maxCoeff()))
+  {
+    return std::nullopt;
+  }
+  const Eigen::VectorXd       excess = factor.solve(right);
+  const Eigen::MatrixXd       covariance = factor.solve(Eigen::MatrixXd::Identity(terms, terms));
+  const std::optional<double> value = MeanLocalGain(scaled, excess);
+  if (!value)
+  {
+    return std::nullopt;
+  }
+  // How the gain changes with the coefficients, by differences of one standard error.
+  Eigen::VectorXd derivative(terms);
+  for (Eigen::Index k = 0; k < terms; ++k)
+  {
+    const double    step = std::sqrt(covariance(k, k));
+    Eigen::VectorXd moved = excess;
+    moved(k) += 0.1 * step;
+    derivative(k) = (MeanLocalGain(scaled, moved).value_or(*value) - *value) / (0.1 * step);
+  }
+  const double ofLine = 1.0 / information;
+  return MeanGain{ *value, std::max(0.0, derivative.dot(covariance * derivative) - ofLine) };
+}
+
+} // namespace sensornoise

@@ -1,0 +1,162 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/refined/DarkPoint.h"
+
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/PixelUse.h"
+#include "sensornoise/moments/DarkMaps.h"
+#include "sensornoise/moments/KnownOffset.h"
+#include "sensornoise/pixels/VarianceCurve.h"
+#include "sensornoise/refined/GainEstimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** Standard deviations by which chance may part the dark frames from the line [1]. */
+constexpr double LargestContradiction = 2.0;
+/** Part of the levels above the offset below which they say nothing of the gain [1]. */
+constexpr double LeastLight = 0.1;
+
+/** The point of the dark frames. */
+struct DarkPoint
+{
+  double offsetDn;
+  double offsetErrorDn;
+  double varianceDn2;
+  double varianceErrorDn2;
+};
+
+/** Over the pixels that were used, if the dark frames tell them one by one: bright and dark are then the same pixels.
+ */
+DarkPoint
+PointOf(const RefinedResults & found)
+{
+  const KnownOffset & dark = *found.settings.offset;
+  DarkPoint point{ dark.valueDn, dark.standardErrorDn, dark.variance->valueDn2, dark.variance->standardErrorDn2 };
+  if (dark.maps && dark.maps->usable.size() == found.variance.pixelUse.size())
+  {
+    double pixels = 0.0;
+    double offset = 0.0;
+    double variance = 0.0;
+    for (std::size_t p = 0; p < dark.maps->usable.size(); ++p)
+    {
+      if (dark.maps->usable[p] != 0 && found.variance.pixelUse[p] == static_cast<std::uint8_t>(PixelUse::Used))
+      {
+        pixels += 1.0;
+        offset += dark.maps->offsetDn[p];
+        variance += dark.maps->varianceDn2[p];
+      }
+    }
+    if (pixels > 0.0)
+    {
+      const double fewer = std::sqrt(static_cast<double>(dark.maps->usable.size()) / pixels);
+      point = {
+        offset / pixels, dark.standardErrorDn * fewer, variance / pixels, dark.variance->standardErrorDn2 * fewer
+      };
+    }
+  }
+  return point;
+}
+
+/** Moves the line towards the point, by the errors of both; returns by how many standard deviations they differed. */
+double
+MoveToPoint(GainEstimate & estimate, const DarkPoint & dark)
+{
+  VarianceLine &        line = estimate.line;
+  const Eigen::Vector2d design(dark.offsetDn, 1.0);
+  const double          difference = dark.varianceDn2 - line.intercept - line.gain * dark.offsetDn;
+  const double          error = std::hypot(dark.varianceErrorDn2, estimate.scale * dark.offsetErrorDn);
+  const double          own = design.dot(estimate.covariance * design);
+  const double          expected = own + error * error;
+  estimate.atOffset = DarkVariance{ line.intercept + line.gain * dark.offsetDn, std::sqrt(std::max(0.0, own)) };
+  const Eigen::Vector2d step = estimate.covariance * design / expected;
+  line.gain += step(0) * difference;
+  line.intercept += step(1) * difference;
+  estimate.covariance -= step * (estimate.covariance * design).transpose();
+  return std::abs(difference) / std::sqrt(expected);
+}
+
+/** The gains of the levels, (V - sigma^2) / (mean - mu). */
+struct LevelGains
+{
+  double mean{ 0.0 };
+  double variance{ 0.0 }; ///< of the mean, by chance
+  double scatter{ 0.0 };  ///< standard deviation from level to level, without chance
+};
+
+LevelGains
+GainsOfLevels(const VarianceCurve & curve, const DarkPoint & dark)
+{
+  const double brightestDn = curve.bins.empty() ? 0.0 : curve.LevelOf(curve.bins.back());
+  double       weight = 0.0, sum = 0.0, squares = 0.0, chance = 0.0, levels = 0.0;
+  for (const CurveBin & bin : curve.bins)
+  {
+    const double level = curve.LevelOf(bin);
+    const double light = level - dark.offsetDn;
+    if (light > LeastLight * (brightestDn - dark.offsetDn))
+    {
+      const double own = curve.line.intercept + curve.line.gain * level + bin.excess / bin.weight;
+      const double gain = (own - dark.varianceDn2) / light;
+      const double w = bin.weight * light * light;
+      weight += w;
+      sum += w * gain;
+      squares += w * gain * gain;
+      chance += 1.0;
+      levels += 1.0;
+    }
+  }
+  LevelGains gains;
+  if (weight > 0.0)
+  {
+    gains.mean = sum / weight;
+    gains.variance = 1.0 / weight;
+    gains.scatter = std::sqrt(std::max(0.0, (squares - sum * gains.mean - (levels - 1.0)) / weight));
+  }
+  return gains;
+}
+} // namespace
+
+void
+UseDarkPoint(GainEstimate & estimate, const RefinedResults & found)
+{
+  const DarkPoint    dark = PointOf(found);
+  const bool         isBent = estimate.IsBent();
+  const double       contradiction = MoveToPoint(estimate, dark);
+  const LevelGains   gains = GainsOfLevels(found.variance.curve, dark);
+  const VarianceLine line = estimate.line;
+  if ((isBent || contradiction > LargestContradiction) && gains.mean > 0.0)
+  {
+    const double light = std::max(1e-9, line.pivotDn - dark.offsetDn);
+    const double error = std::hypot(dark.varianceErrorDn2 / light, gains.mean * dark.offsetErrorDn / light);
+    const double square = gains.variance + error * error;
+    estimate.line.gain = gains.mean;
+    estimate.line.intercept = dark.varianceDn2 - gains.mean * dark.offsetDn;
+    estimate.covariance << square, -square * dark.offsetDn, -square * dark.offsetDn,
+      square * dark.offsetDn * dark.offsetDn + dark.varianceErrorDn2 * dark.varianceErrorDn2;
+    estimate.below = estimate.above = gains.scatter;
+  }
+}
+
+} // namespace sensornoise

@@ -1,0 +1,79 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_refined_GainEstimate_h
+#define sensornoise_refined_GainEstimate_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/moments/KnownOffset.h"
+#include "sensornoise/pixels/VarianceLine.h"
+#include "sensornoise/refined/RefinedResults.h"
+
+#include <optional>
+
+namespace sensornoise
+{
+
+/** Standard error of a gain that is worth a number, relative to its order of magnitude [1]. Set by hand. The order of
+ * magnitude is not the gain that came out: nothing is told because it came out large. */
+inline constexpr double LargestGainError = 0.25;
+
+/** Gain and intercept of the sensor, with all that is known of their errors. */
+struct GainEstimate
+{
+  /** The line that stands for the sensor. */
+  VarianceLine line;
+  /** Of gain and intercept: the fit's, widened by all that contradicts it. */
+  Eigen::Matrix2d covariance{ Eigen::Matrix2d::Zero() };
+  /** How far below and above the gain parts of the levels put it: the error of taking the response for straight, beyond
+   * what chance makes of it [DN/e-]. */
+  double below{ 0.0 };
+  double above{ 0.0 };
+  /** D, the size of the variance's departure from a line, see VarianceCurve [1]. */
+  double nonlinearity{ 0.0 };
+  /** Reduced chi-square of the variance about its line, along the intensity. */
+  double reducedChi2{ 1.0 };
+  /** About the gain, whatever the slope: the variance over the light, both at the pivot [DN/e-]. */
+  double scale{ 0.0 };
+
+  /** The line's value at the offset of dark frames, before these were used; null: there are none. */
+  std::optional<DarkVariance> atOffset;
+
+  /** Whether parts of the levels differ visibly. */
+  bool
+  IsBent() const
+  {
+    return below > 0.0 || above > 0.0;
+  }
+  /** Of a gain, where the response bends [1]. */
+  double
+  RelativeModelError() const;
+  /** With the model's error. */
+  double
+  StandardError() const;
+};
+
+/** Puts the results together: the line of all pixels, or of what is light alone where the pixels' own patterns matter
+ * more than precision; the point (offset, variance) of dark frames; and, where the response bends, the gains of the
+ * parts of the levels. */
+SensorNoise_EXPORT GainEstimate
+EstimateGain(const RefinedResults & found);
+
+} // namespace sensornoise
+
+#endif
