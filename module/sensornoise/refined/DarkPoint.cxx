@@ -110,7 +110,7 @@ LevelGains
 GainsOfLevels(const VarianceCurve & curve, const DarkPoint & dark)
 {
   const double brightestDn = curve.bins.empty() ? 0.0 : curve.LevelOf(curve.bins.back());
-  double       weight = 0.0, sum = 0.0, squares = 0.0, chance = 0.0, levels = 0.0;
+  double       weight = 0.0, sum = 0.0, squares = 0.0, levels = 0.0;
   for (const CurveBin & bin : curve.bins)
   {
     const double level = curve.LevelOf(bin);
@@ -123,7 +123,6 @@ GainsOfLevels(const VarianceCurve & curve, const DarkPoint & dark)
       weight += w;
       sum += w * gain;
       squares += w * gain * gain;
-      chance += 1.0;
       levels += 1.0;
     }
   }
@@ -132,7 +131,11 @@ GainsOfLevels(const VarianceCurve & curve, const DarkPoint & dark)
   {
     gains.mean = sum / weight;
     gains.variance = 1.0 / weight;
-    gains.scatter = std::sqrt(std::max(0.0, (squares - sum * gains.mean - (levels - 1.0)) / weight));
+    // Beyond chance by two standard deviations of chi-square.
+    const double freedom = std::max(1.0, levels - 1.0);
+    const double chi2 = squares - sum * gains.mean;
+    const double more = chi2 - freedom - LargestContradiction * std::sqrt(2.0 * freedom);
+    gains.scatter = std::sqrt(std::max(0.0, more / weight));
   }
   return gains;
 }

@@ -82,6 +82,12 @@ BeyondChance(double chi2, double freedom)
   return chi2 > 1.0 + HausmanZ * std::sqrt(2.0 / freedom) ? chi2 : 1.0;
 }
 
+double
+DispersionOfClasses(const StaticVariance & variance)
+{
+  return BeyondChance(variance.classes.reducedChi2, ProjectedVariance::Classes - 1.0);
+}
+
 /** Chooses between the line of all pixels, with the error that patterns can cause, and that of light alone: by the
  * errors, never by the values. */
 void
@@ -107,19 +113,24 @@ ChooseLine(GainEstimate & estimate, const StaticVariance & variance, const Provi
   estimate.covariance += SlopeCovariance(ErrorOfVibration(all, model), all.pivotDn);
 }
 
+/** The size of a difference without what chance makes of it, \a z of its standard deviations. */
+double
+SizeBeyondChance(double difference, double variance, double z)
+{
+  return std::sqrt(std::max(0.0, difference * difference - z * z * variance));
+}
+
 /** Standard deviations by which chance may part the slope of a half of the levels from that of all [1]. */
 constexpr double HalvesZ = 3.0;
 
 /** The gains of the halves of the levels that differ from the whole's by more than chance. */
 void
-FindSpreadOfSlopes(GainEstimate & estimate, const VarianceCurve & curve)
+FindSpreadOfSlopes(GainEstimate & estimate, const VarianceCurve & curve, double dispersion)
 {
   for (const SlopeExcess & half : curve.SlopesOfHalves())
   {
-    const double square = half.value * half.value - HalvesZ * HalvesZ * half.variance;
-    const double size = std::sqrt(std::max(0.0, square));
-    double &     side = half.value < 0.0 ? estimate.below : estimate.above;
-    side = std::max(side, size);
+    double & side = half.value < 0.0 ? estimate.below : estimate.above;
+    side = std::max(side, SizeBeyondChance(half.value, dispersion * half.variance, HalvesZ));
   }
 }
 
@@ -136,45 +147,55 @@ constexpr double LargestReadShare = 0.1;
  * flat fields have 0.9 and more, scenes less than 0.3. */
 constexpr double LargestDarkestShare = 0.5;
 
+/** Standard deviations by which the mean gain must differ from the slope to replace it [1]: below, it widens the error.
+ */
+constexpr double MeanGainZ = 3.0;
+
 /** Where the response bends visibly, the mean of the local gain replaces the slope, which is not the gain there. */
 void
-UseMeanGain(GainEstimate & estimate, const VarianceCurve & curve, double blackDn)
+UseMeanGain(GainEstimate & estimate, const VarianceCurve & curve, double blackDn, double dispersion)
 {
   const std::optional<MeanGain> parabola = FindMeanGain(curve, 2);
-  const std::optional<MeanGain> cubic = FindMeanGain(curve, 3);
-  const double                  bend = parabola ? parabola->value - curve.line.gain : 0.0;
-  const bool                    isBent = parabola && bend * bend > HausmanZ * HausmanZ * parabola->variance;
-  if (parabola && (isBent || estimate.IsBent()))
+  if (!parabola)
   {
-    const MeanGain & best = cubic ? *cubic : *parabola;
-    const double     ofShape = ErrorOfNonlinearity * estimate.nonlinearity * best.value;
-    const double     atPivot = estimate.line.intercept + estimate.line.gain * estimate.line.pivotDn;
-    estimate.below = estimate.above = std::max(ofShape, 0.5 * std::abs(best.value - curve.line.gain));
-    const double read = curve.line.intercept + curve.line.gain * blackDn;
-    const auto   shotNoise = FindMeanGain(curve, 2, blackDn);
-    if (shotNoise && read > LargestReadShare * curve.line.At(curve.LevelOf(curve.bins.back())))
-    {
-      estimate.above = std::max(estimate.above, shotNoise->value - best.value);
-      estimate.below = std::max(estimate.below, best.value - shotNoise->value);
-    }
-    estimate.line.gain = best.value;
-    estimate.line.intercept = atPivot - best.value * estimate.line.pivotDn;
-    estimate.covariance += SlopeCovariance(std::sqrt(best.variance), estimate.line.pivotDn);
+    return;
   }
+  const double bend = parabola->value - curve.line.gain;
+  const double chance = dispersion * parabola->variance;
+  if (!estimate.IsBent() && !(bend * bend > MeanGainZ * MeanGainZ * chance))
+  {
+    (bend < 0.0 ? estimate.below : estimate.above) = SizeBeyondChance(bend, chance, HausmanZ);
+    return;
+  }
+  const MeanGain best = FindMeanGain(curve, 3).value_or(*parabola);
+  const double   ofShape = ErrorOfNonlinearity * estimate.nonlinearity * best.value;
+  const double   atPivot = estimate.line.intercept + estimate.line.gain * estimate.line.pivotDn;
+  estimate.below = estimate.above = std::max(ofShape, 0.5 * std::abs(best.value - curve.line.gain));
+  const double read = curve.line.intercept + curve.line.gain * blackDn;
+  const auto   shotNoise = FindMeanGain(curve, 2, blackDn);
+  if (shotNoise && read > LargestReadShare * curve.line.At(curve.LevelOf(curve.bins.back())))
+  {
+    estimate.above = std::max(estimate.above, shotNoise->value - best.value);
+    estimate.below = std::max(estimate.below, best.value - shotNoise->value);
+  }
+  estimate.line.gain = best.value;
+  estimate.line.intercept = atPivot - best.value * estimate.line.pivotDn;
+  estimate.covariance += SlopeCovariance(std::sqrt(dispersion * best.variance), estimate.line.pivotDn);
 }
 
 void
-FindModelError(GainEstimate & estimate, const VarianceCurve & curve, double blackDn)
+FindModelError(GainEstimate & estimate, const VarianceCurve & curve, double blackDn, double dispersion)
 {
-  if (std::sqrt(estimate.covariance(0, 0)) > LargestGainError * estimate.scale)
+  const bool isWide = curve.DarkestShare(blackDn) < LargestDarkestShare;
+  if (!isWide && std::sqrt(estimate.covariance(0, 0)) > LargestGainError * estimate.scale)
   {
     return; // a line that is not known has no departures
   }
-  estimate.nonlinearity = curve.Nonlinearity(1.0);
-  FindSpreadOfSlopes(estimate, curve);
-  if (curve.DarkestShare(blackDn) < LargestDarkestShare)
+  estimate.nonlinearity = curve.Nonlinearity(dispersion);
+  FindSpreadOfSlopes(estimate, curve, dispersion);
+  if (isWide)
   {
-    UseMeanGain(estimate, curve, blackDn);
+    UseMeanGain(estimate, curve, blackDn, dispersion);
   }
   if (!estimate.IsBent())
   {
@@ -204,7 +225,7 @@ EstimateGain(const RefinedResults & found)
   estimate.reducedChi2 = variance.curve.ReducedChi2();
   ChooseLine(estimate, variance, found.scene.model);
   estimate.scale = estimate.line.At(estimate.line.pivotDn) / std::max(1e-9, estimate.line.pivotDn - found.blackDn);
-  FindModelError(estimate, variance.curve, found.blackDn);
+  FindModelError(estimate, variance.curve, found.blackDn, DispersionOfClasses(variance));
   if (found.settings.offset && found.settings.offset->variance)
   {
     UseDarkPoint(estimate, found);

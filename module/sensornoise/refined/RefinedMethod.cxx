@@ -290,7 +290,8 @@ RefinedMethod<TPixel>::EndFrameSums()
   {
     knownOffsetDn = m_Settings.offset->valueDn;
   }
-  m_Series.emplace(FindSceneSeries(*m_FrameSums, m_Settings.rollingShutter, knownOffsetDn));
+  m_Series.emplace(FindSceneSeries(
+    *m_FrameSums, m_Settings.rollingShutter, knownOffsetDn, BlackLevel(m_Settings, *m_Scene, std::nullopt)));
   m_Projections = ProjectionSums(m_Geometry.Pixels(), m_Series->basis.Size(), m_ParallelFor);
 }
 

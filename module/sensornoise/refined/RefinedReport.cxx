@@ -281,8 +281,9 @@ MakeRefinedReport(const RefinedResults & found)
   FillFit(report, found, gain);
   const std::string contradiction = FindContradiction(found, gain);
   const double      samplingError = std::sqrt(gain.covariance(0, 0));
-  if (samplingError > LargestGainError * gain.scale ||
-      static_cast<double>(report.pixels.used) < LeastUsedShare * found.scene.usable)
+  const bool        isTooLittle = samplingError > LargestGainError * gain.scale ||
+                           static_cast<double>(report.pixels.used) < LeastUsedShare * found.scene.usable;
+  if (isTooLittle && !(gain.nonlinearity > LargestNonlinearity))
   {
     FillTooLittle(report, found, gain);
     FillFromDarkFrames(report, found.settings, quantisationDn2);

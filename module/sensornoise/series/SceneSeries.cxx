@@ -45,7 +45,10 @@ NoiseOfModel(const FrameRegressors & regressors)
 }
 
 SceneSeries
-FindSceneSeries(const FrameSums & sums, RollingShutter rollingShutter, const std::optional<double> & knownOffsetDn)
+FindSceneSeries(const FrameSums &             sums,
+                RollingShutter                rollingShutter,
+                const std::optional<double> & knownOffsetDn,
+                double                        blackDn)
 {
   const RegressorNoise            noise = NoiseOfModel(sums.GetRegressors());
   const std::optional<OffsetLine> line = FitOffsetLine(sums, noise);
@@ -58,7 +61,9 @@ FindSceneSeries(const FrameSums & sums, RollingShutter rollingShutter, const std
   const ProvisionalModel & model = sums.GetRegressors().GetModel();
   const FrameEquations     equations = MakeFrameEquations(sums, noise, GradientClasses - 1);
   found.isOffsetTold = line->TellsOffset();
-  found.offset = found.isOffsetTold ? line->offset : knownOffsetDn.value_or(model.darkestDn) - model.centreDn;
+  const bool   hasLevels = line->contrast > OffsetLine::LeastContrast;
+  const double fallbackDn = hasLevels ? model.darkestDn : std::min(blackDn, model.darkestDn);
+  found.offset = found.isOffsetTold ? line->offset : knownOffsetDn.value_or(fallbackDn) - model.centreDn;
   if (!found.isOffsetTold)
   {
     found.line.UseOffset(found.offset);

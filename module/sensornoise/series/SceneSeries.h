@@ -50,11 +50,13 @@ NoiseOfModel(const FrameRegressors & regressors);
 
 /** Finds flicker, local light and motion in the sums of the second pass. The noise is the provisional model's. Throws
  * NothingToMeasure if the pixels have one intensity. \a knownOffsetDn serves where the flicker does not tell the
- * offset. */
+ * offset; without it the darkest level, or, if the scene has one level only, \a blackDn, which the offset is hardly
+ * below. */
 SensorNoise_EXPORT SceneSeries
 FindSceneSeries(const FrameSums &             sums,
                 RollingShutter                rollingShutter,
-                const std::optional<double> & knownOffsetDn = std::nullopt);
+                const std::optional<double> & knownOffsetDn = std::nullopt,
+                double                        blackDn = 0.0);
 
 } // namespace sensornoise
 
