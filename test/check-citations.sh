@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# Checks that comments which cite the derivation, as "Estimator.md, 3.5", name a section that module/estimator.md has,
+# and that the files which it names exist. Prints how often each section is cited.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+python3 - <<'PY'
+import collections, pathlib, re, sys
+
+text = pathlib.Path("module/estimator.md").read_text(encoding="utf-8")
+sections = dict(re.findall(r"^#+ (\d+(?:\.\d+)*) (.*)$", text, re.M))
+number = r"\d+(?:\.\d+)*"
+cited = re.compile(rf"[Ee]stimator\.md(?:,? (?P<sections>{number}(?:(?:, | and | to ){number})*))?")
+citations = collections.Counter()
+wrong = []
+for folder in ("module", "filters", "examples", "wrapping", "test"):
+    for path in sorted(p for p in pathlib.Path(folder).rglob("*") if p.suffix in (".h", ".hxx", ".cxx", ".py", ".wrap")):
+        # A citation may be parted at the end of a line of a comment.
+        source = re.sub(r"\s*\n[ \t]*(?://+|\*(?!/)|#)?[ \t]*", " ", path.read_text(encoding="utf-8"))
+        for match in cited.finditer(source):
+            found = re.findall(number, match["sections"] or "")
+            citations.update(found)
+            wrong += [f"{path} cites section {s}, which module/estimator.md has not" for s in found if s not in sections]
+            if not found:
+                wrong.append(f"{path} cites estimator.md without a section; expected one, as \"Estimator.md, 3.5\"")
+for name in sorted(set(re.findall(r"`(\w+/\w+\.(?:h|cxx))`", text))):
+    if not pathlib.Path("module/sensornoise", name).is_file():
+        wrong.append(f"module/estimator.md names {name}, which module/sensornoise has not")
+if not citations:
+    wrong.append("no comment cites estimator.md; expected some")
+for section, title in sections.items():
+    print(f"{section:5} {citations[section]:3}  {title}")
+if wrong:
+    sys.exit("\n".join(wrong))
+PY
