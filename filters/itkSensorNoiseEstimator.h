@@ -25,6 +25,7 @@
 #include "sensornoise/refined/RefinedSettings.h"
 #include "sensornoise/report/Report.h"
 #include "sensornoise/report/ReportTable.h"
+#include "itkNumericTraits.h"
 #include "itkSensorNoiseStackSink.h"
 #include "itkSensorNoiseResult.h"
 
@@ -208,6 +209,14 @@ public:
   itkSetMacro(ClipHigh, double);
   itkGetConstMacro(ClipHigh, double);
 
+  /** Levels between which the variance is fitted [DN] (Refined only), for sensors whose response is straight in a part
+   * of its range. The level of a pixel is the mean of its neighbours; those outside have the pixel use OutsideRange.
+   * Defaults NumericTraits<double>::NonpositiveMin() and max(): all levels. */
+  itkSetMacro(LevelRangeLow, double);
+  itkGetConstMacro(LevelRangeLow, double);
+  itkSetMacro(LevelRangeHigh, double);
+  itkGetConstMacro(LevelRangeHigh, double);
+
   /** Spacing of the codes [DN]; 0 (default): found. */
   itkSetMacro(QuantisationStep, double);
   itkGetConstMacro(QuantisationStep, double);
@@ -334,6 +343,8 @@ private:
   // Defined in the .hxx: what reads the headers alone, as wrapping does, need not read the methods.
   struct Estimation;
 
+  bool
+  HasLevelRange() const;
   sensornoise::PublishedSettings
   MakePublishedSettings() const;
   sensornoise::RefinedSettings
@@ -353,6 +364,8 @@ private:
   unsigned int       m_BitDepth{ 0 };
   double             m_ClipLow{ std::numeric_limits<double>::quiet_NaN() };
   double             m_ClipHigh{ std::numeric_limits<double>::quiet_NaN() };
+  double             m_LevelRangeLow{ NumericTraits<double>::NonpositiveMin() };
+  double             m_LevelRangeHigh{ NumericTraits<double>::max() };
   double             m_QuantisationStep{ 0.0 };
 
   std::unique_ptr<Estimation> m_Estimation;

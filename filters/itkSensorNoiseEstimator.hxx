@@ -155,6 +155,12 @@ SensorNoiseEstimator<TStack>::VerifyInputInformation() const
       "" << (hasOffset ? "the offset" : "dark frames") << " cannot be used by the method published, "
          << "which finds the offset from the flicker alone: leave it out, or set the method to refined");
   }
+  if (m_Method == MethodEnum::Published && this->HasLevelRange())
+  {
+    itkExceptionMacro("the range of levels " << m_LevelRangeLow << " to " << m_LevelRangeHigh
+                                             << " DN cannot be used by the method published, which fits all levels: "
+                                             << "leave it out, or set the method to refined");
+  }
   if (dark == nullptr)
   {
     return;
@@ -218,6 +224,13 @@ SensorNoiseEstimator<TStack>::EnlargeOutputRequestedRegion(DataObject *)
 }
 
 template <typename TStack>
+bool
+SensorNoiseEstimator<TStack>::HasLevelRange() const
+{
+  return m_LevelRangeLow != NumericTraits<double>::NonpositiveMin() || m_LevelRangeHigh != NumericTraits<double>::max();
+}
+
+template <typename TStack>
 sensornoise::PublishedSettings
 SensorNoiseEstimator<TStack>::MakePublishedSettings() const
 {
@@ -239,6 +252,10 @@ SensorNoiseEstimator<TStack>::MakeRefinedSettings(const std::vector<std::uint8_t
   sensornoise::RefinedSettings settings;
   settings.rollingShutter = m_RollingShutter;
   settings.codes = sensornoise::MakeCodeSettings(m_BitDepth, m_ClipLow, m_ClipHigh, m_QuantisationStep);
+  if (this->HasLevelRange())
+  {
+    settings.levelRangeDn = sensornoise::LevelRange{ m_LevelRangeLow, m_LevelRangeHigh };
+  }
   if (!std::isnan(m_Offset))
   {
     settings.offset = sensornoise::KnownOffset{ m_Offset, m_OffsetStandardError };
@@ -362,6 +379,8 @@ SensorNoiseEstimator<TStack>::PrintSelf(std::ostream & os, Indent indent) const
   os << indent << "BitDepth: " << m_BitDepth << std::endl;
   os << indent << "ClipLow: " << m_ClipLow << std::endl;
   os << indent << "ClipHigh: " << m_ClipHigh << std::endl;
+  os << indent << "LevelRangeLow: " << m_LevelRangeLow << std::endl;
+  os << indent << "LevelRangeHigh: " << m_LevelRangeHigh << std::endl;
   os << indent << "QuantisationStep: " << m_QuantisationStep << std::endl;
 }
 

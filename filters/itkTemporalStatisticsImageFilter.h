@@ -38,7 +38,8 @@ namespace itk
  *
  * A pixel is clipped as soon as one frame holds a clip level. Clip levels are the lowest and highest levels that the
  * sensor attains: given, or found from pile-ups of the pixels' extremes, else the ends of the code range. See
- * GetSummary() for what was found. Floating-point stacks have no codes: no clip level unless given.
+ * GetSummary() for what was found. Floating-point stacks have no codes and no code range: their clip levels are given,
+ * found from pile-ups, or none.
  *
  * Reads the stack once, in chunks (see SensorNoiseStackSink); threaded over rows. Integer pixels are summed exactly,
  * floating-point ones by Welford's recurrence in time order: the same bits for any number of threads and chunks.

@@ -81,7 +81,7 @@ def main() -> int:
         arguments.json.write_text(report.to_json(), encoding="utf-8")
     if arguments.plot and report["scatter"]["mean"]:
         report.plot().savefig(arguments.plot)
-    return 3 if report["gain"]["status"] == "failed" else 0
+    return 0 if "identified" in (report["gain"]["status"], report["intercept"]["status"]) else 3
 
 
 if __name__ == "__main__":

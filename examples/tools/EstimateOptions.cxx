@@ -64,6 +64,7 @@ struct Texts
   std::string bitDepth{ "auto" };
   std::string clip;
   std::string step;
+  std::string levelRange;
   std::string offset;
   std::string rollingShutter{ "auto" };
   std::string roi;
@@ -80,6 +81,10 @@ AddOptions(CLI::App & app, EstimateOptions & options, Texts & texts)
   app.add_option("--bit-depth", texts.bitDepth, "bits of the sensor's codes, 1 to 16, or auto")->capture_default_str();
   app.add_option("--clip", texts.clip, "LOW,HIGH: lowest and highest level that the sensor attains [DN]; else found");
   app.add_option("--step", texts.step, "spacing of the codes [DN]; else found");
+  app.add_option("--level-range",
+                 texts.levelRange,
+                 "LOW,HIGH: levels between which the variance is fitted [DN], where the response is straight in a part "
+                 "of its range; else all");
   app
     .add_option("--rolling-shutter",
                 texts.rollingShutter,
@@ -98,7 +103,11 @@ AddOptions(CLI::App & app, EstimateOptions & options, Texts & texts)
   app.add_option("--frames", texts.frames, "A:B: only the frames A, A+1, ... B-1, counted from 0");
   app.add_option("--threads", options.threads, "number of threads; else all")->check(CLI::Range(1, 1024));
   app.add_option("--json", options.json, "file for the report, or - for standard output");
-  app.add_option("--maps", options.maps, "folder for mean, variance, corrected variance and pixel use (.mha)");
+  app.add_option(
+    "--maps",
+    options.maps,
+    "folder for mean, variance, corrected variance and pixel use (.mha); from two --dark frames on also the "
+    "pixels' offset and read noise, with the ends of their 95 % intervals");
   app.add_flag("--quiet", options.quiet, "no table and no progress");
   app.set_version_flag("--version", std::string("estimate-sensor-noise ") + GetModuleVersion());
 }
@@ -128,6 +137,27 @@ ReadCodes(EstimateOptions & options, const Texts & texts)
     options.clipLow = levels[0];
     options.clipHigh = levels[1];
   }
+}
+
+void
+ReadLevelRange(EstimateOptions & options, const std::string & text)
+{
+  if (text.empty())
+  {
+    return;
+  }
+  const auto levels = ReadNumbers<double>("--level-range", text, ',', 2);
+  if (!(levels[0] < levels[1]))
+  {
+    throw CLI::ValidationError("--level-range", text + " holds no level; expected LOW,HIGH with LOW < HIGH");
+  }
+  if (options.method == "published")
+  {
+    throw CLI::ValidationError("--level-range",
+                               text + " was given and the method published fits all levels; leave it out, or set "
+                                      "--method refined");
+  }
+  options.levelRange = { levels[0], levels[1] };
 }
 
 void
@@ -207,6 +237,7 @@ EstimateOptions::Parse(int argc, char ** argv)
     return app.exit(request); // --help or --version
   }
   ReadCodes(*this, texts);
+  ReadLevelRange(*this, texts.levelRange);
   ReadOffset(*this, texts);
   ReadRollingShutter(*this, texts.rollingShutter);
   ReadRegion(*this, texts);

@@ -40,6 +40,7 @@ struct EstimateOptions
   double                                             clipLow{ std::numeric_limits<double>::quiet_NaN() };
   double                                             clipHigh{ std::numeric_limits<double>::quiet_NaN() };
   double                                             step{ 0.0 }; ///< 0: found
+  std::optional<std::pair<double, double>>           levelRange;  ///< low, high [DN]; none: all levels
   double                                             offset{ std::numeric_limits<double>::quiet_NaN() };
   double                                             offsetStandardError{ 0.0 };
   std::vector<std::string>                           dark;
@@ -76,6 +77,11 @@ struct EstimateOptions
     estimator.SetClipLow(clipLow);
     estimator.SetClipHigh(clipHigh);
     estimator.SetQuantisationStep(step);
+    if (levelRange)
+    {
+      estimator.SetLevelRangeLow(levelRange->first);
+      estimator.SetLevelRangeHigh(levelRange->second);
+    }
     estimator.SetRollingShutter(rollingShutter);
     estimator.SetSigmaRows(sigmaRows);
     estimator.SetOffset(offset);

@@ -61,7 +61,7 @@ def test_temporal_statistics_are_those_of_numpy(stack, statistics):
     numbers = stack.astype(np.float64)
     np.testing.assert_allclose(mean, numbers.mean(axis=0), rtol=ROUNDING, atol=MIDDLE)
     np.testing.assert_allclose(variance, numbers.var(axis=0, ddof=1), rtol=ROUNDING)
-    # Of integers, the ends of the code range clip; of floating-point numbers nothing does.
+    # Of integers, the ends of the code range clip; floating-point numbers have none, and these have no pile-up.
     is_clipped = ((stack == 0) | (stack == 255)).any(axis=0) & (stack.dtype.kind != "f")
     np.testing.assert_array_equal(valid[~is_clipped], 1)
 

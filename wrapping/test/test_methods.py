@@ -46,8 +46,9 @@ def test_refined_is_the_default_and_has_errors(burst):
 def test_dark_frames_tell_offset_and_read_noise(burst, dark):
     report = itk.estimate_sensor_noise(burst, dark=dark)
     assert is_near(report["offset"], 100) and is_near(report["read_noise"], 8)
-    # sigma / sqrt(N T) and sigma / sqrt(2 N (T - 1))
-    assert report["offset"]["standard_error"] == pytest.approx(8 / np.sqrt(dark.size), rel=0.1)
+    # sigma / sqrt(N T), and what chance makes of a drift of the level: its variance, sigma^2 / N of noise taken off, has
+    # the relative error sqrt(2 / (T - 1)) = 0.43, three of which are 1.3; then sigma / sqrt(2 N (T - 1)).
+    assert 0.95 < report["offset"]["standard_error"] / (8 / np.sqrt(dark.size)) < np.sqrt(1 + 1.3)
     assert report["read_noise"]["standard_error"] == pytest.approx(8 / np.sqrt(2 * 128 * 96 * 11), rel=0.1)
     assert report["settings"]["dark_frames"] == 12
     assert report["warnings"] == []
@@ -80,10 +81,25 @@ def test_dark_frames_of_another_camera_are_noticed(burst):
     assert [warning["code"] for warning in report["warnings"]] == ["dark-frames-differ"]
 
 
+def test_a_level_range_leaves_out_the_other_levels(burst):
+    report = itk.estimate_sensor_noise(burst, level_range=(500, 2500))
+    assert (report["settings"]["level_range_low"], report["settings"]["level_range_high"]) == (500, 2500)
+    whole = itk.estimate_sensor_noise(burst)
+    assert "level_range_low" not in whole["settings"]
+    assert 0 < report["pixels"]["used"] < whole["pixels"]["used"]
+    assert is_near(report["gain"], 1)
+
+
 WRONG = {
     "both": ({"offset": 3, "dark": True}, "offset and dark were given; expected one of them"),
     "published offset": ({"offset": 3, "method": "published"}, "offset was given and the method is 'published'"),
     "published dark": ({"dark": True, "method": "published"}, "dark was given and the method is 'published'"),
+    "published levels": (
+        {"level_range": (500, 2500), "method": "published"},
+        "level_range was given and the method is 'published'",
+    ),
+    "one level": ({"level_range": 500}, "level_range is 500; expected (low, high), two levels with low < high [DN]"),
+    "levels turned round": ({"level_range": (9, 3)}, "level_range is (9, 3); expected (low, high)"),
     "text": ({"offset": "much"}, "offset is 'much'; expected a finite number or (number, standard error) [DN]"),
     "no number": ({"offset": float("nan")}, "offset is nan; expected a finite number"),
     "no frames": ({"dark": []}, "dark is an empty list; expected at least 1 frame"),

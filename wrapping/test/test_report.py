@@ -87,8 +87,31 @@ def test_plot_draws_the_scatter_and_the_line(report):
     np.testing.assert_array_equal(corrected.get_ydata(), report["scatter"]["corrected_variance"])
     ends = np.array(line.get_xdata())
     np.testing.assert_allclose(line.get_ydata(), report["gain"]["value"] * ends + report["total_intercept"]["value"])
+    assert line.get_linestyle() == "-" and figure.axes[0].get_legend().get_title().get_text() == ""
     assert report.plot(figure.axes[0]) is figure
     matplotlib.pyplot.close(figure)
+
+
+def test_plot_dashes_the_line_where_the_gain_is_not_identified():
+    """A gamma curve is refused; what the line through all levels would be is drawn as such."""
+    pytest.importorskip("matplotlib").use("svg")
+    from matplotlib.figure import Figure
+
+    stack, _ = itk.simulate_sensor_noise(frames=40, size=(128, 96), offset=300, seed=5)
+    codes = np.clip(4095 * (np.clip(stack - 300.0, 0, None) / 3795) ** 0.45, 20, None)
+    report = itk.estimate_sensor_noise(np.rint(codes).astype(np.uint16))
+    assert "variance-not-affine" in [warning["code"] for warning in report["warnings"]]
+    assert report["gain"]["value"] is None
+    axes = Figure().subplots()
+    report.plot(axes)
+    line = axes.get_lines()[2]
+    assert line.get_linestyle() == "--" and line.get_label().startswith("indicative: ")
+    fit = report["fit"]
+    expected = fit["line"]["gain"] * np.array(line.get_xdata()) + fit["line"]["intercept"]
+    np.testing.assert_allclose(line.get_ydata(), expected)
+    title = axes.get_legend().get_title().get_text()
+    assert title == f"the response bends: variance off its line by up to {100 * fit['nonlinearity']:.2g} %"
+    assert f"indicative: variance = {fit['line']['gain']:.5g} mean" in str(report)
 
 
 def test_notebook_shows_table_warnings_and_curve(report):

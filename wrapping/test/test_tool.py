@@ -52,6 +52,7 @@ OPTIONS = {
         {"bit_depth": 14, "clip": (90, 3000), "step": 1},
         ["--bit-depth", "14", "--clip", "90,3000", "--step", "1"],
     ),
+    "level range": ({"level_range": (500, 2500.5)}, ["--level-range", "500,2500.5"]),
     "one thread": ({"threads": 1}, ["--threads", "1"]),
 }
 

@@ -112,6 +112,11 @@ DescribeInput(const RefinedSettings & settings, const StillScene & scene, const 
   Report report;
   report.method = "refined";
   report.settings = { { "rolling_shutter", std::string(NameOf(settings.rollingShutter)) } };
+  if (settings.levelRangeDn)
+  {
+    report.settings.emplace_back("level_range_low", settings.levelRangeDn->lowDn);
+    report.settings.emplace_back("level_range_high", settings.levelRangeDn->highDn);
+  }
   if (settings.offset)
   {
     report.settings.emplace_back("offset", settings.offset->valueDn);

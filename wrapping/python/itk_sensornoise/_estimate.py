@@ -41,6 +41,7 @@ def estimate_sensor_noise(
     bit_depth: int | None = None,
     clip: tuple[float, float] | None = None,
     step: float | None = None,
+    level_range: tuple[float, float] | None = None,
     rolling_shutter: Literal["auto", "off"] | float = "auto",
     shutter_axis: Literal["y", "x"] = "y",
     level: float = 0.01,
@@ -77,6 +78,9 @@ def estimate_sensor_noise(
         Lowest and highest level that the sensor attains [DN]. Default: found.
     step
         Spacing of the codes [DN]. Default: found.
+    level_range
+        (low, high): levels between which the variance is fitted [DN], for sensors whose response is straight in a part
+        of its range. The level of a pixel is the mean of its neighbours. Default: all. "refined" only.
     rolling_shutter
         Whether the flicker may differ from line to line: "auto" (found out), "off", or the width sigma_y of a line's
         neighbourhood [lines]. "refined" looks for any light that changes in some places in another way than in others,
@@ -95,9 +99,9 @@ def estimate_sensor_noise(
         (first, end): only the frames first, first + 1, ... end - 1, counted from 0.
     maps
         Folder for what is known of every pixel, an image (.mha) each: mean, variance, corrected_variance [DN, DN^2] and
-        pixel_use (0: used). With two dark frames or more also the camera calibration: pixel_offset and
-        pixel_read_noise [DN], and the ends of their 95 % intervals, _low and _high. itk.SensorNoiseEstimator has them
-        as images in memory. Default: none is written.
+        pixel_use (0: used; the other values are README.md's). With two dark frames or more also the camera calibration:
+        pixel_offset and pixel_read_noise [DN], and the ends of their 95 % intervals, _low and _high.
+        itk.SensorNoiseEstimator has them as images in memory. Default: none is written.
     threads
         Number of threads. Default: all. The result is the same bits for any number.
     progress
@@ -120,6 +124,7 @@ def estimate_sensor_noise(
 
     _options.one_of("method", method, ["refined", "published"])
     _check_what_is_known(method, offset, dark)
+    levels = None if level_range is None else _level_range(level_range, method)
     span = None if frame_range is None else _frame_range(frame_range)
     folder = None if maps is None else maps_folder(maps)
     stack = open_frames(frames, span)
@@ -134,6 +139,9 @@ def estimate_sensor_noise(
         _set_offset(estimator, offset)
     if dark_stack is not None:
         estimator.SetDark(dark_stack.image)
+    if levels is not None:
+        estimator.SetLevelRangeLow(levels[0])
+        estimator.SetLevelRangeHigh(levels[1])
     _set_parameters(estimator, bit_depth, clip, step, rolling_shutter, shutter_axis, level, quantiles)
     if mask_array is not None:
         rows, columns = slice(corner[1], corner[1] + size[1]), slice(corner[0], corner[0] + size[0])
@@ -169,6 +177,19 @@ def _set_offset(estimator: Any, offset: Any) -> None:
     value, error = _options.numbers("offset", offset, 2, expected)
     estimator.SetOffset(value)
     estimator.SetOffsetStandardError(error)
+
+
+def _level_range(level_range: Any, method: str) -> tuple[float, float]:
+    expected = "(low, high), two levels with low < high [DN]"
+    low, high = _options.numbers("level_range", level_range, 2, expected)
+    if not low < high:
+        raise _options.refuse("level_range", level_range, expected)
+    if method == "published":
+        raise ValueError(
+            "level_range was given and the method is 'published', which fits all levels; "
+            "expected no level_range, or 'refined'"
+        )
+    return low, high
 
 
 def _dark_of(dark: Any, stack: Stack, corner: tuple[int, ...], size: tuple[int, ...]) -> Stack:

@@ -19,7 +19,7 @@
 
 import base64
 import io
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -37,7 +37,9 @@ def new_axes() -> "Axes":
 def draw(report: Mapping[str, Any], axes: "Axes") -> "Figure":
     """Variance and corrected variance against mean, each point an average over pixels, and the line through the latter.
 
-    The line has the total intercept: codes add their noise to the points, too.
+    The line has the total intercept: codes add their noise to the points, too. Where the gain is not identified, the
+    line through all levels is dashed: indicative, no measurement. Where the response bends, the legend says how far the
+    variance departs from its line.
 
     Raises ValueError if no pixel was used.
     """
@@ -51,14 +53,30 @@ def draw(report: Mapping[str, Any], axes: "Axes") -> "Figure":
     ):
         axes.plot(mean, [float("nan") if value is None else value for value in values], style, label=label)
     gain, intercept = report["gain"]["value"], report["total_intercept"]["value"]
+    indicative = report["fit"].get("line")
     if gain is not None and intercept is not None:
-        ends = [min(mean), max(mean)]
-        label = f"{gain:.4g} mean {'+' if intercept >= 0 else '-'} {abs(intercept):.4g}"
-        axes.plot(ends, [gain * end + intercept for end in ends], "k-", linewidth=1, label=label)
+        _draw_line(axes, mean, gain, intercept, "k-", "")
+    elif indicative is not None:
+        _draw_line(axes, mean, indicative["gain"], indicative["intercept"], "k--", "indicative: ")
     axes.set_xlabel("mean [DN]")
     axes.set_ylabel("temporal variance [DN$^2$]")
-    axes.legend()
+    axes.legend(title=_bend(report))
     return axes.figure
+
+
+def _draw_line(axes: "Axes", mean: Sequence[float], gain: float, intercept: float, style: str, what: str) -> None:
+    ends = [min(mean), max(mean)]
+    label = f"{what}{gain:.4g} mean {'+' if intercept >= 0 else '-'} {abs(intercept):.4g}"
+    axes.plot(ends, [gain * end + intercept for end in ends], style, linewidth=1, label=label)
+
+
+def _bend(report: Mapping[str, Any]) -> str | None:
+    """How far the variance departs from its line, where a warning tells of it."""
+    bend = report["fit"].get("nonlinearity")
+    codes = {warning["code"] for warning in report["warnings"]}
+    if not bend or codes.isdisjoint({"response-not-straight", "variance-not-affine"}):
+        return None
+    return f"the response bends: variance off its line by up to {100 * bend:.2g} %"
 
 
 def as_svg(report: Mapping[str, Any]) -> str:
