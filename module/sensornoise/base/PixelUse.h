@@ -36,7 +36,7 @@ enum class PixelUse : std::uint8_t
   Masked = 7,         ///< the user left it out
   NearClip = 8,       ///< it could have come to a clip level, or a neighbour is clipped or not finite
   NotStatic = 9,      ///< its variance does not fit, nor does that of its surroundings: something moved
-  Outlier = 10,       ///< its variance is beyond the tails of the noise's distribution
+  Outlier = 10,       ///< its variance is too far from the line, or dark frames show it defective
   CoarseCodes = 11,   ///< its noise is below half a code step
   OutsideRange = 12   ///< its level is not one that the user wants
 };

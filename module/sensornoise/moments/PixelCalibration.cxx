@@ -58,7 +58,7 @@ IntervalFactorsOf(const DarkMaps & dark)
            dark.stepDn };
 }
 
-/** Standard deviation of noise with this variance, rounding included. */
+/** Standard deviation of noise whose variance together with that of rounding is \a varianceDn2. */
 double
 NoiseWithoutRounding(double varianceDn2, double stepDn)
 {

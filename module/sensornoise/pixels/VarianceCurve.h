@@ -91,11 +91,11 @@ private:
   /** Of the bins from \a first up to \a last. */
   CurveBin
   SumOf(std::size_t first, std::size_t last) const;
-  /** Weighted sum of the squared deviations of their levels from \a x, and the slope of their excess. */
+  /** Of the bins' levels about their mean. */
   struct Slope
   {
-    double information;
-    double excess;
+    double information; ///< weighted sum of the squared deviations
+    double excess;      ///< slope of the excess [DN/e-]
   };
   Slope
   SlopeOf(std::size_t first, std::size_t last) const;

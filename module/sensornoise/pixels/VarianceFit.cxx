@@ -69,7 +69,7 @@ VarianceFit::VarianceFit(const VarianceData &                data,
       m_Line.lowestDn2 = first->lowestDn2;
       m_Line.pivotDn = first->pivotDn;
       m_Line.noiseSpreadDn4 = first->noiseSpreadDn4;
-      m_Trim.emplace(this->MakeTrim(ChiSquareTrim::Tail));
+      m_Trim.emplace(this->MakeTrim());
       if (m_Rule == TrimRule::Distance)
       {
         this->SetReach();
@@ -107,9 +107,9 @@ VarianceFit::RangeOfFreedom(const VarianceData & data, const ParallelFor & paral
 }
 
 ChiSquareTrim
-VarianceFit::MakeTrim(double tail) const
+VarianceFit::MakeTrim() const
 {
-  return { m_Line.EffectiveFreedom(m_Freedoms.lowest, m_Line.lowestDn2), m_Freedoms.highest, tail };
+  return { m_Line.EffectiveFreedom(m_Freedoms.lowest, m_Line.lowestDn2), m_Freedoms.highest };
 }
 
 VarianceFit::Weighed

@@ -71,13 +71,6 @@ public:
   void
   FillErrors();
 
-  /** How far above the line a pixel may be, TrimRule::Distance [DN^2]. */
-  double
-  GetReachDn2() const
-  {
-    return m_ReachDn2;
-  }
-
   /** 1 at the pixels of the mask that the line trims: they have no weight in it. */
   std::vector<std::uint8_t>
   FindTrimmed() const;
@@ -116,7 +109,7 @@ private:
   static FreedomRange
   RangeOfFreedom(const VarianceData & data, const ParallelFor & parallelFor);
   ChiSquareTrim
-  MakeTrim(double tail) const;
+  MakeTrim() const;
   Weighed
   Weigh(std::size_t p, const ChiSquareTrim & trim) const;
 

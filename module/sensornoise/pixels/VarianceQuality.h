@@ -26,7 +26,7 @@
 #include <vector>
 
 /** \file
- * Whether the line is all there is to the variance: along the intensity, and in the smoother half of the scene. */
+ * Whether the line is all there is to the variance, in the smoother half of the scene, too. */
 
 namespace sensornoise
 {

@@ -18,7 +18,6 @@
 #include "sensornoise/refined/OffsetReport.h"
 
 #include "sensornoise/base/ChiSquare.h"
-#include "sensornoise/base/Quantiles.h"
 #include "sensornoise/base/RequiredFlickerZ.h"
 #include "sensornoise/base/Text.h"
 #include "sensornoise/moments/KnownOffset.h"
@@ -30,15 +29,12 @@
 #include <cmath>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace sensornoise
 {
 
 namespace
 {
-/** How far chance carries the darkest 0.2 % of the pixels below their level, in standard deviations [1]. */
-constexpr double ChanceOfDarkest = 3.0;
 /** Error that offsets which differ may cause, in standard errors, that is left out [1]. Set by hand: it adds 3 %. */
 constexpr double NegligiblePattern = 0.25;
 
@@ -164,48 +160,6 @@ FillReadNoise(Report &               report,
   }
 }
 } // namespace
-
-namespace
-{
-/** The quantile 0.002 of the neighbours' means of the usable pixels [DN]. */
-double
-DarkestNeighbourhood(const ReferenceFrame & frame)
-{
-  std::vector<double> levels;
-  for (const std::size_t p : SamplePixels(frame.usable))
-  {
-    levels.push_back(frame.neighbourMean[p]);
-  }
-  return Quantile(levels, 0.002);
-}
-} // namespace
-
-OffsetLimits
-LimitsOf(const RefinedResults & found, const GainEstimate & gain, double quantisationDn2)
-{
-  const VarianceLine & v = gain.line;
-  const auto           frames = static_cast<double>(found.scene.frame.frames);
-  const double         student = StudentQuantile(0.975, frames - 2.0);
-  const double         slopeError = std::sqrt(gain.covariance(0, 0));
-  const double         atPivot = v.intercept + v.gain * v.pivotDn;
-  const double         slope = v.gain - gain.below - student * slopeError;
-  OffsetLimits         limits;
-  // The darkest pixels are dark by chance and by their own offsets, too: less so the means of eight.
-  const double darkestDn = DarkestNeighbourhood(found.scene.frame);
-  const double spreadDn2 = (v.At(darkestDn) / frames + found.variance.pattern.OffsetVarianceDn2()) / 8.0;
-  limits.rootDn = v.gain > 0.0 ? std::min(-v.intercept / v.gain, darkestDn) : darkestDn;
-  if (slope > 0.0)
-  {
-    const Eigen::Vector2d pivot(v.pivotDn, 1.0);
-    const double          pivotError = std::sqrt(std::max(0.0, pivot.dot(gain.covariance * pivot)));
-    limits.lowestDn = std::min(v.pivotDn - (atPivot + student * pivotError) / slope, darkestDn);
-  }
-  limits.highestDn = darkestDn + ChanceOfDarkest * std::sqrt(spreadDn2);
-  const Eigen::Vector2d design(limits.highestDn, 1.0);
-  const double          error = std::sqrt(std::max(0.0, design.dot(gain.covariance * design)));
-  limits.largestNoiseDn2 = std::max(0.0, v.intercept + v.gain * limits.highestDn + student * error - quantisationDn2);
-  return limits;
-}
 
 UsedOffset
 OffsetInUse(const RefinedResults & found, const OffsetEstimate & flicker, const OffsetLimits & limits)

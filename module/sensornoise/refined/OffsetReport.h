@@ -19,6 +19,7 @@
 #define sensornoise_refined_OffsetReport_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/refined/OffsetLimits.h"
 #include "sensornoise/refined/RefinedResults.h"
 #include "sensornoise/report/Report.h"
 
@@ -40,19 +41,6 @@ struct OffsetEstimate
   std::string obstacle;   ///< why it cannot be told; empty: it can
 };
 
-/** What physics leaves to the offset: sigma^2 >= 0 below, no light less than none above. Each end allows for its
- * errors. */
-struct OffsetLimits
-{
-  std::optional<double> lowestDn;               ///< null: not bounded
-  double                highestDn{ 0.0 };       ///< the darkest level
-  double                rootDn{ 0.0 };          ///< where the line says sigma = 0, without errors
-  double                largestNoiseDn2{ 0.0 }; ///< sigma^2 if the offset were highestDn
-};
-
-SensorNoise_EXPORT OffsetLimits
-LimitsOf(const RefinedResults & found, const GainEstimate & gain, double quantisationDn2);
-
 /** The offset by the flicker of all frames, or, where the light is local, by the pixels' responses to it. It is told
  * only if its interval is narrow, it lies within its limits, and the flicker agrees with itself. */
 SensorNoise_EXPORT OffsetEstimate
@@ -65,6 +53,7 @@ struct UsedOffset
   double errorDn;
 };
 
+/** What is known, what the flicker tells, or the middle of the limits. */
 SensorNoise_EXPORT UsedOffset
 OffsetInUse(const RefinedResults & found, const OffsetEstimate & flicker, const OffsetLimits & limits);
 

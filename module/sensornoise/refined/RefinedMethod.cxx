@@ -18,11 +18,11 @@
 #include "sensornoise/refined/RefinedMethod.h"
 
 #include "sensornoise/base/BinaryStream.h"
-#include "sensornoise/base/PixelUse.h"
 #include "sensornoise/moments/StackMaps.h"
 #include "sensornoise/moments/StackRequirements.h"
 #include "sensornoise/pixels/PixelCoordinates.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
+#include "sensornoise/refined/PixelsOfVariance.h"
 #include "sensornoise/refined/RefinedReport.h"
 #include "sensornoise/series/FrameProducts.h"
 #include "sensornoise/scene/UnexplainedPixels.h"
@@ -62,49 +62,6 @@ RegressorsOf(const StillScene & scene, const ParallelFor & parallelFor)
   }
   ShiftInstruments instruments = MakeShiftInstruments(scene.frame, scene.model, whole, parallelFor);
   return FrameRegressors(scene.frame, scene.model, take, std::move(instruments), parallelFor);
-}
-
-/** The level without light, or one that it is hardly below: what is known, what the flicker tells, or the lowest code.
- * It serves to tell light from offset roughly, where the frames do not. [DN] */
-double
-BlackLevel(const RefinedSettings & settings, const StillScene & scene, const std::optional<const SceneSeries> & series)
-{
-  if (settings.offset)
-  {
-    return settings.offset->valueDn;
-  }
-  if (series && series->isOffsetTold)
-  {
-    return std::min(series->offset + scene.model.centreDn, scene.model.darkestDn);
-  }
-  return std::min(scene.summary.codes.clipLowDn.value_or(0.0), scene.model.darkestDn);
-}
-
-/** The pixels that are usable, at levels that the user wants, and not found defective in dark frames: what is left out
- * in the dark is left out in the light. */
-std::vector<std::uint8_t>
-PixelsOfVariance(const StillScene & scene, const RefinedSettings & settings, std::vector<std::uint8_t> & pixelUse)
-{
-  std::vector<std::uint8_t> chosen = scene.frame.usable;
-  const DarkMaps *          dark = settings.offset ? settings.offset->maps.get() : nullptr;
-  const auto                leaveOut = [&](std::size_t p, PixelUse use) {
-    chosen[p] = 0;
-    pixelUse[p] = static_cast<std::uint8_t>(use);
-  };
-  for (std::size_t p = 0; p < chosen.size(); ++p)
-  {
-    const double level = scene.frame.neighbourMean[p];
-    const auto & range = settings.levelRangeDn;
-    if (chosen[p] != 0 && range && !(level >= range->lowDn && level <= range->highDn))
-    {
-      leaveOut(p, PixelUse::OutsideRange);
-    }
-    else if (chosen[p] != 0 && dark && dark->usable.size() == chosen.size() && dark->usable[p] == 0)
-    {
-      leaveOut(p, PixelUse::Outlier);
-    }
-  }
-  return chosen;
 }
 } // namespace
 

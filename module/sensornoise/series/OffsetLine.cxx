@@ -112,7 +112,8 @@ FitOffsetLine(const FrameEquations & equations)
 
 namespace
 {
-/** The flicker of a scene of one level, whose offset it cannot tell; null without any light that changes. */
+/** The flicker of a scene of one level, whose offset it cannot tell; null if the levels are one and the same, or their
+ * gram has no part left for light. */
 std::optional<OffsetLine>
 LineOfOneLevel(const FrameEquations & equations, double offset)
 {

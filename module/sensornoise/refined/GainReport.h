@@ -1,0 +1,47 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_refined_GainReport_h
+#define sensornoise_refined_GainReport_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/refined/OffsetLimits.h"
+#include "sensornoise/refined/RefinedResults.h"
+#include "sensornoise/report/Report.h"
+
+namespace sensornoise
+{
+
+struct GainEstimate;
+
+/** Files the fit, and gain and intercept if they can be told. Returns false if they cannot: then every parameter of the
+ * sensor is without a value, with a warning that says why. \a quantisationDn2 is the codes' noise, \a student the
+ * quantile of the 95 % intervals. */
+SensorNoise_EXPORT bool
+FillGain(Report &               report,
+         const RefinedResults & found,
+         const GainEstimate &   gain,
+         double                 quantisationDn2,
+         double                 student);
+
+/** Warns if the levels do not reach down far enough to tell a bent response from a straight one. */
+SensorNoise_EXPORT void
+WarnOfNarrowRange(Report & report, const RefinedResults & found, const OffsetLimits & limits);
+
+} // namespace sensornoise
+
+#endif

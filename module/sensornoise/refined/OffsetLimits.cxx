@@ -1,0 +1,78 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/refined/OffsetLimits.h"
+
+#include "sensornoise/base/ChiSquare.h"
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/Quantiles.h"
+#include "sensornoise/refined/GainEstimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** How far chance carries the darkest 0.2 % of the pixels below their level, in standard deviations [1]. */
+constexpr double ChanceOfDarkest = 3.0;
+
+/** The quantile 0.002 of the neighbours' means of the usable pixels [DN]. */
+double
+DarkestNeighbourhood(const ReferenceFrame & frame)
+{
+  std::vector<double> levels;
+  for (const std::size_t p : SamplePixels(frame.usable))
+  {
+    levels.push_back(frame.neighbourMean[p]);
+  }
+  return Quantile(levels, 0.002);
+}
+} // namespace
+
+OffsetLimits
+LimitsOf(const RefinedResults & found, const GainEstimate & gain, double quantisationDn2)
+{
+  const VarianceLine & v = gain.line;
+  const auto           frames = static_cast<double>(found.scene.frame.frames);
+  const double         student = StudentQuantile(0.975, frames - 2.0);
+  const double         slopeError = std::sqrt(gain.covariance(0, 0));
+  const double         atPivot = v.intercept + v.gain * v.pivotDn;
+  const double         slope = v.gain - gain.below - student * slopeError;
+  OffsetLimits         limits;
+  // The darkest pixels are dark by chance and by their own offsets, too: less so the means of eight.
+  const double darkestDn = DarkestNeighbourhood(found.scene.frame);
+  const double spreadDn2 = (v.At(darkestDn) / frames + found.variance.pattern.OffsetVarianceDn2()) / 8.0;
+  limits.rootDn = v.gain > 0.0 ? std::min(-v.intercept / v.gain, darkestDn) : darkestDn;
+  if (slope > 0.0)
+  {
+    const Eigen::Vector2d pivot(v.pivotDn, 1.0);
+    const double          pivotError = std::sqrt(std::max(0.0, pivot.dot(gain.covariance * pivot)));
+    limits.lowestDn = std::min(v.pivotDn - (atPivot + student * pivotError) / slope, darkestDn);
+  }
+  limits.highestDn = darkestDn + ChanceOfDarkest * std::sqrt(spreadDn2);
+  const Eigen::Vector2d design(limits.highestDn, 1.0);
+  const double          error = std::sqrt(std::max(0.0, design.dot(gain.covariance * design)));
+  limits.largestNoiseDn2 = std::max(0.0, v.intercept + v.gain * limits.highestDn + student * error - quantisationDn2);
+  return limits;
+}
+
+} // namespace sensornoise

@@ -1,0 +1,69 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/refined/PixelsOfVariance.h"
+
+#include "sensornoise/base/PixelUse.h"
+#include "sensornoise/moments/DarkMaps.h"
+#include "sensornoise/moments/KnownOffset.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace sensornoise
+{
+
+double
+BlackLevel(const RefinedSettings & settings, const StillScene & scene, const std::optional<const SceneSeries> & series)
+{
+  if (settings.offset)
+  {
+    return settings.offset->valueDn;
+  }
+  if (series && series->isOffsetTold)
+  {
+    return std::min(series->offset + scene.model.centreDn, scene.model.darkestDn);
+  }
+  return std::min(scene.summary.codes.clipLowDn.value_or(0.0), scene.model.darkestDn);
+}
+
+std::vector<std::uint8_t>
+PixelsOfVariance(const StillScene & scene, const RefinedSettings & settings, std::vector<std::uint8_t> & pixelUse)
+{
+  std::vector<std::uint8_t> chosen = scene.frame.usable;
+  const DarkMaps *          dark = settings.offset ? settings.offset->maps.get() : nullptr;
+  const auto                leaveOut = [&](std::size_t p, PixelUse use) {
+    chosen[p] = 0;
+    pixelUse[p] = static_cast<std::uint8_t>(use);
+  };
+  for (std::size_t p = 0; p < chosen.size(); ++p)
+  {
+    const double level = scene.frame.neighbourMean[p];
+    const auto & range = settings.levelRangeDn;
+    if (chosen[p] != 0 && range && !(level >= range->lowDn && level <= range->highDn))
+    {
+      leaveOut(p, PixelUse::OutsideRange);
+    }
+    else if (chosen[p] != 0 && dark && dark->usable.size() == chosen.size() && dark->usable[p] == 0)
+    {
+      leaveOut(p, PixelUse::Outlier);
+    }
+  }
+  return chosen;
+}
+
+} // namespace sensornoise

@@ -1,0 +1,45 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_refined_PixelsOfVariance_h
+#define sensornoise_refined_PixelsOfVariance_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/refined/RefinedSettings.h"
+#include "sensornoise/scene/StillScene.h"
+#include "sensornoise/series/SceneSeries.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** The level without light, or one that it is hardly below: what is known, what the flicker tells, or the lowest code.
+ * It serves to tell light from offset roughly, where the frames do not. [DN] */
+SensorNoise_EXPORT double
+BlackLevel(const RefinedSettings & settings, const StillScene & scene, const std::optional<const SceneSeries> & series);
+
+/** The pixels that are usable, at levels that the user wants, and not found defective in dark frames: what is left out
+ * in the dark is left out in the light. */
+SensorNoise_EXPORT std::vector<std::uint8_t>
+PixelsOfVariance(const StillScene & scene, const RefinedSettings & settings, std::vector<std::uint8_t> & pixelUse);
+
+} // namespace sensornoise
+
+#endif
