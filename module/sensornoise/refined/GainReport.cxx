@@ -85,7 +85,7 @@ BoundGain(Report & report, const RefinedResults & found, const GainEstimate & ga
 {
   const auto & known = found.settings.offset;
   const double light = known ? gain.line.pivotDn - known->valueDn : 0.0;
-  if (known && light > 0.0)
+  if (known && !known->variance && light > 0.0)
   {
     const Eigen::Vector2d pivot(gain.line.pivotDn, 1.0);
     const double          atPivot = gain.line.intercept + gain.line.gain * gain.line.pivotDn;
@@ -169,6 +169,7 @@ FillGain(Report &               report,
     return false;
   }
   FillGainAndIntercept(report, gain, quantisationDn2, student);
+  BoundGain(report, found, gain);
   return true;
 }
 

@@ -145,8 +145,10 @@ MakeTable(const Report & report)
   }
   if (report.fit.nonlinearity)
   {
-    table += Format("response: the variance departs from its line by up to %.2g %% of itself\n",
-                    100.0 * *report.fit.nonlinearity);
+    table += *report.fit.nonlinearity > 0.0
+               ? Format("response: the variance departs from its line by up to %.2g %% of itself\n",
+                        100.0 * *report.fit.nonlinearity)
+               : "response: the variance departs from its line by no more than noise\n";
   }
   return table;
 }
