@@ -23,6 +23,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -51,6 +52,54 @@ PolynomialAt(const Eigen::VectorXd & coefficients, double x)
     value = value * x + coefficients(k);
   }
   return value;
+}
+
+/** The inverse of a matrix of normal equations; null if they do not determine its terms. In plain loops, because
+ * Eigen's decompositions and products of matrices as small as these end in other bits from version to version. */
+std::optional<Eigen::MatrixXd>
+InverseOf(Eigen::MatrixXd matrix)
+{
+  const Eigen::Index terms = matrix.rows();
+  double             smallest = std::numeric_limits<double>::infinity();
+  double             largest = 0.0;
+  for (Eigen::Index k = 0; k < terms; ++k)
+  {
+    const double pivot = matrix(k, k);
+    smallest = std::min(smallest, pivot);
+    largest = std::max(largest, pivot);
+    if (!(smallest > 1e-10 * largest))
+    {
+      return std::nullopt;
+    }
+    for (Eigen::Index j = 0; j < terms; ++j)
+    {
+      matrix(k, j) = (j == k ? 1.0 : matrix(k, j)) / pivot;
+    }
+    for (Eigen::Index i = 0; i < terms; ++i)
+    {
+      const double factor = i == k ? 0.0 : matrix(i, k);
+      for (Eigen::Index j = 0; j < terms && i != k; ++j)
+      {
+        matrix(i, j) = (j == k ? 0.0 : matrix(i, j)) - factor * matrix(k, j);
+      }
+    }
+  }
+  return matrix;
+}
+
+/** Matrix times vector, in plain loops as above. */
+Eigen::VectorXd
+ProductOf(const Eigen::MatrixXd & matrix, const Eigen::VectorXd & vector)
+{
+  Eigen::VectorXd product = Eigen::VectorXd::Zero(matrix.rows());
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+  {
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j)
+    {
+      product(i) += matrix(i, j) * vector(j);
+    }
+  }
+  return product;
 }
 
 /** The mean local gain of the line and the polynomial \a excess above it; null if it has none. */
@@ -131,14 +180,12 @@ FindMeanGain(const VarianceCurve & curve, int degree, const std::optional<double
     scaled.pixels.push_back(bin.pixels);
     information += bin.weight * std::pow(bin.x / bin.weight, 2);
   }
-  const Eigen::LDLT<Eigen::MatrixXd> factor(gram);
-  if (factor.info() != Eigen::Success || !(scaled.rangeDn > 0.0) ||
-      !(factor.vectorD().minCoeff() > 1e-10 * factor.vectorD().maxCoeff()))
+  const std::optional<Eigen::MatrixXd> covariance = InverseOf(gram);
+  if (!covariance || !(scaled.rangeDn > 0.0))
   {
     return std::nullopt;
   }
-  const Eigen::VectorXd       excess = factor.solve(right);
-  const Eigen::MatrixXd       covariance = factor.solve(Eigen::MatrixXd::Identity(terms, terms));
+  const Eigen::VectorXd       excess = ProductOf(*covariance, right);
   const std::optional<double> value = MeanLocalGain(scaled, excess);
   if (!value)
   {
@@ -148,13 +195,18 @@ FindMeanGain(const VarianceCurve & curve, int degree, const std::optional<double
   Eigen::VectorXd derivative(terms);
   for (Eigen::Index k = 0; k < terms; ++k)
   {
-    const double    step = std::sqrt(covariance(k, k));
+    const double    step = std::sqrt((*covariance)(k, k));
     Eigen::VectorXd moved = excess;
     moved(k) += 0.1 * step;
     derivative(k) = (MeanLocalGain(scaled, moved).value_or(*value) - *value) / (0.1 * step);
   }
-  const double ofLine = 1.0 / information;
-  return MeanGain{ *value, std::max(0.0, derivative.dot(covariance * derivative) - ofLine) };
+  const Eigen::VectorXd moment = ProductOf(*covariance, derivative);
+  double                variance = -1.0 / information; // of the line's gain
+  for (Eigen::Index k = 0; k < terms; ++k)
+  {
+    variance += derivative(k) * moment(k);
+  }
+  return MeanGain{ *value, std::max(0.0, variance) };
 }
 
 } // namespace sensornoise
