@@ -39,8 +39,8 @@ constexpr double      LeastHalfPixels = 32.0; // of either half of a square that
 constexpr double      FlattestShare = 0.05;
 constexpr std::size_t FewestSquares = 4;
 /** Standard deviations of patterns of real sensors, at most: of gain or efficiency [1], and of offset, in units of the
- * noise at the level of the flattest squares [1]. What is larger, in a scene that is rough everywhere, is light. Set by hand, three times and
- * twice what data sheets and measured sensors have. */
+ * noise at the level of the flattest squares [1]. What is larger, in a scene that is rough everywhere, is light. Set by
+ * hand, three times and twice what data sheets and measured sensors have. */
 constexpr double LargestGainPattern = 0.03;
 constexpr double LargestOffsetPattern = 5.0;
 /** Variance of a pixel minus its diagonal mean, in units of a pixel's. */

@@ -27,8 +27,8 @@ namespace sensornoise
 
 namespace
 {
-/** Standard deviations by which chance may carry an excess [1]. */
-constexpr double CurveChanceZ = 2.0;
+/** Standard deviations by which chance may carry an excess, the largest of sixteen [1]. */
+constexpr double CurveChanceZ = 3.0;
 } // namespace
 
 CurveBin &

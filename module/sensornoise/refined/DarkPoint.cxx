@@ -36,6 +36,9 @@ namespace
 {
 /** Standard deviations by which chance may part the dark frames from the line [1]. */
 constexpr double LargestContradiction = 2.0;
+/** The same from which on dark frames are of another sensor, exposure or temperature, where the response is straight
+ * [1]. */
+constexpr double AnotherSensor = 4.0;
 /** Part of the levels above the offset below which they say nothing of the gain [1]. */
 constexpr double LeastLight = 0.1;
 
@@ -146,7 +149,17 @@ UseDarkPoint(GainEstimate & estimate, const RefinedResults & found)
 {
   const DarkPoint    dark = PointOf(found);
   const bool         isBent = estimate.IsBent();
+  const GainEstimate before = estimate;
   const double       contradiction = MoveToPoint(estimate, dark);
+  if (!isBent && contradiction > AnotherSensor &&
+      found.variance.curve.DarkestShare(dark.offsetDn) < VarianceCurve::DarkEnough)
+  {
+    // A straight line that comes close to the dark knows the variance there: these are not its dark frames.
+    const auto atOffset = estimate.atOffset;
+    estimate = before;
+    estimate.atOffset = atOffset;
+    return;
+  }
   const LevelGains   gains = GainsOfLevels(found.variance.curve, dark);
   const VarianceLine line = estimate.line;
   if ((isBent || contradiction > LargestContradiction) && gains.mean > 0.0)

@@ -147,8 +147,8 @@ constexpr double LargestReadShare = 0.1;
  * flat fields have 0.9 and more, scenes less than 0.3. */
 constexpr double LargestDarkestShare = 0.5;
 
-/** Standard deviations by which the mean gain must differ from the slope to replace it [1]: below, it widens the error.
- */
+/** Standard deviations by which the mean gain must differ from the slope to replace it [1]: below, it widens the error,
+ * as it does below LeastNonlinearity. */
 constexpr double MeanGainZ = 3.0;
 
 /** Where the response bends visibly, the mean of the local gain replaces the slope, which is not the gain there. */
@@ -162,9 +162,11 @@ UseMeanGain(GainEstimate & estimate, const VarianceCurve & curve, double blackDn
   }
   const double bend = parabola->value - curve.line.gain;
   const double chance = dispersion * parabola->variance;
-  if (!estimate.IsBent() && !(bend * bend > MeanGainZ * MeanGainZ * chance))
+  const bool   isSure = estimate.IsBent() || bend * bend > MeanGainZ * MeanGainZ * chance;
+  if (!isSure || !(estimate.nonlinearity > LeastNonlinearity))
   {
-    (bend < 0.0 ? estimate.below : estimate.above) = SizeBeyondChance(bend, chance, HausmanZ);
+    double & side = bend < 0.0 ? estimate.below : estimate.above;
+    side = std::max(side, SizeBeyondChance(bend, chance, HausmanZ));
     return;
   }
   const MeanGain best = FindMeanGain(curve, 3).value_or(*parabola);
@@ -186,14 +188,14 @@ UseMeanGain(GainEstimate & estimate, const VarianceCurve & curve, double blackDn
 void
 FindModelError(GainEstimate & estimate, const VarianceCurve & curve, double blackDn, double dispersion)
 {
-  const bool isWide = curve.DarkestShare(blackDn) < LargestDarkestShare;
-  if (!isWide && std::sqrt(estimate.covariance(0, 0)) > LargestGainError * estimate.scale)
+  estimate.isWide = curve.DarkestShare(blackDn) < LargestDarkestShare;
+  if (!estimate.isWide && std::sqrt(estimate.covariance(0, 0)) > LargestGainError * estimate.scale)
   {
     return; // a line that is not known has no departures
   }
   estimate.nonlinearity = curve.Nonlinearity(dispersion);
   FindSpreadOfSlopes(estimate, curve, dispersion);
-  if (isWide)
+  if (estimate.isWide)
   {
     UseMeanGain(estimate, curve, blackDn, dispersion);
   }

@@ -33,6 +33,10 @@ namespace sensornoise
  * magnitude is not the gain that came out: nothing is told because it came out large. */
 inline constexpr double LargestGainError = 0.25;
 
+/** Departure of the variance from its line that is worth a word [1]. Set by hand: a hundredth moves the gain by about
+ * half of it. */
+inline constexpr double LeastNonlinearity = 0.01;
+
 /** Gain and intercept of the sensor, with all that is known of their errors. */
 struct GainEstimate
 {
@@ -46,6 +50,8 @@ struct GainEstimate
   double above{ 0.0 };
   /** D, the size of the variance's departure from a line, see VarianceCurve [1]. */
   double nonlinearity{ 0.0 };
+  /** Whether the darkest levels have so much less light than the brightest that a bend could be told from noise. */
+  bool isWide{ true };
   /** Reduced chi-square of the variance about its line, along the intensity. */
   double reducedChi2{ 1.0 };
   /** About the gain, whatever the slope: the variance over the light, both at the pivot [DN/e-]. */

@@ -37,8 +37,6 @@ namespace
 /** Departure of the variance from its line above which the data are not those of a sensor [1]: local gains that differ
  * by 4 % make 0.03 to 0.1 of it, a gamma of 1.3 from 0.13 on. */
 constexpr double LargestNonlinearity = 0.12;
-/** Departure that is worth a warning [1]. Set by hand: a hundredth moves the gain by about half of it. */
-constexpr double WorthTelling = 0.01;
 /** Part of the usable pixels that a measurement needs [1]. Set by hand. */
 constexpr double LeastUsedShare = 0.1;
 
@@ -66,7 +64,7 @@ FindContradiction(const RefinedResults & found, const GainEstimate & gain)
            " % of itself (expected less than " + Text(100.0 * LargestNonlinearity) + " %)" + advice +
            (hasCodes ? "" : ", or they saturate: then give the levels that the sensor attains (clip)");
   }
-  if (gain.IsBent() && gain.above + gain.below > 2.0 * LargestGainError * gain.line.gain)
+  if (gain.isWide && gain.IsBent() && gain.above + gain.below > 2.0 * LargestGainError * gain.line.gain)
   {
     return "the variance bends against the mean, and the gain depends on what is taken for read noise, between " +
            Text(gain.line.gain - gain.below) + " and " + Text(gain.line.gain + gain.above) + " DN/e-" + advice;
@@ -135,7 +133,7 @@ FillGainAndIntercept(Report & report, const GainEstimate & gain, double quantisa
     std::hypot(std::sqrt(gain.covariance(1, 1)), 0.5 * (gain.below + gain.above) * gain.line.pivotDn);
   report.totalIntercept = WithError(gain.line.intercept, interceptError, "DN^2", student);
   report.intercept = WithError(gain.line.intercept - quantisationDn2, interceptError, "DN^2", student);
-  if (gain.nonlinearity > WorthTelling && gain.IsBent())
+  if (gain.nonlinearity > LeastNonlinearity && gain.IsBent())
   {
     report.Warn("response-not-straight",
                 "the variance departs from its line by up to " + Text(100.0 * gain.nonlinearity) +
@@ -155,7 +153,9 @@ FillGain(Report &               report,
 {
   FillFit(report, found, gain);
   const std::string contradiction = FindContradiction(found, gain);
-  const bool        isTooLittle = std::sqrt(gain.covariance(0, 0)) > LargestGainError * gain.scale ||
+  // Parts of levels that are all alike differ by patterns, not by a bend.
+  const double error = gain.isWide ? std::sqrt(gain.covariance(0, 0)) : gain.StandardError();
+  const bool   isTooLittle = error > LargestGainError * gain.scale ||
                            static_cast<double>(report.pixels.used) < LeastUsedShare * found.scene.usable;
   if (isTooLittle && !(gain.nonlinearity > LargestNonlinearity))
   {

@@ -126,7 +126,8 @@ FillFlicker(Report & report, const RefinedResults & found, double offset, double
     2.0 * std::sqrt(std::max(0.0, variance) * noise / (frames - 1.0)) + noise * std::sqrt(2.0 / (frames - 1.0));
   report.flickerSd = RootOf(variance, std::hypot(ownError, fromOffset), "1");
   const double ofScale = std::abs(line.sensitivity) * offsetErrorDn;
-  if (ofScale > LargestScaleError)
+  const auto & limit = report.flickerSd.interval95;
+  if (ofScale > LargestScaleError || !(limit && limit->high.value_or(2.0) < 1.0))
   {
     report.flickerSd = Quantity::Without(EstimateStatus::NotIdentifiable, "1");
     report.Warn("flicker-not-identifiable",
