@@ -52,7 +52,7 @@ FitLightLine(const VarianceFit &    fit,
     return DiagonalMean(frame.mean.data(), frame.geometry.width, p) - pivot;
   };
   const auto   s = SumOverBlocks<Sums>(data.pixels, parallelFor, [&](std::size_t p, auto & sums) {
-    if (data.mask[p] != 0)
+    if (data.mask[p] != 0 && HasDiagonals(frame.usable.data(), frame.geometry.width, p))
     {
       const auto [w, value] = fit.Weigh(p);
       const double x = data.mean[p] - pivot;
@@ -77,7 +77,7 @@ FitLightLine(const VarianceFit &    fit,
   light.intercept = s[WV] / s[W] - light.gain * light.pivotDn;
   // Of the squared scores, for the sandwich.
   const auto      squares = SumOverBlocks<3>(data.pixels, parallelFor, [&](std::size_t p, auto & sums) {
-    if (data.mask[p] != 0)
+    if (data.mask[p] != 0 && HasDiagonals(frame.usable.data(), frame.geometry.width, p))
     {
       const auto [w, value] = fit.Weigh(p);
       const double score = w * (value - light.intercept - light.gain * data.mean[p]);
