@@ -24,6 +24,7 @@
 #include "sensornoise/refined/RefinedMethod.h"
 #include "sensornoise/refined/RefinedSettings.h"
 #include "sensornoise/report/Report.h"
+#include "helpers/ReportTestHelper.h"
 #include "helpers/StackTestHelper.h"
 
 #include <algorithm>
@@ -70,13 +71,6 @@ Measure(const Stack<TPixel> &   stack,
     method.EndPass();
   }
   return method;
-}
-
-inline double
-ValueOf(const Quantity & quantity)
-{
-  EXPECT_EQ(quantity.status, EstimateStatus::Identified) << quantity.unit;
-  return quantity.value.value_or(std::nan(""));
 }
 
 } // namespace sensornoise::test

@@ -20,9 +20,8 @@
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/pixels/FarVariance.h"
+#include "sensornoise/pixels/JudgingLine.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
-#include "sensornoise/pixels/VarianceLine.h"
-#include "sensornoise/pixels/VarianceQuality.h"
 #include "helpers/ProjectionTestHelper.h"
 
 #include <algorithm>
@@ -44,15 +43,15 @@ struct Noise
 {
   Input             input;
   ProjectedVariance projected;
-  VarianceLine      line;
+  JudgingLine       line;
 
   explicit Noise(const std::function<double(std::size_t p)> & factor)
     : input(Series(factor))
     , projected(input.Project())
   {
     projected.Compute(0.0);
-    line.intercept = 400.0;
-    line.isDetermined = true;
+    line.line.intercept = 400.0;
+    line.line.isDetermined = true;
   }
   static Eigen::MatrixXd
   Series(const std::function<double(std::size_t p)> & factor)
@@ -164,16 +163,4 @@ TEST(SensorNoiseStaticPixels, FarOffIsFourAndAHalfStandardDeviations)
     EXPECT_FALSE(IsFarOff(below(3.8), freedom)) << freedom;
     EXPECT_TRUE(IsFarOff(below(5.2), freedom)) << freedom;
   }
-}
-
-TEST(SensorNoiseStaticPixels, IntensityChi2KnowsAWaveInTheVariance)
-{
-  const auto  mean = WavyScene(Width, Height);
-  const Noise plain(Everywhere);
-  const Noise wavy([&](std::size_t p) { return 1.0 + 0.2 * std::sin(0.03 * mean[p]); });
-  const auto  chi2Of = [](const Noise & noise) {
-    return IntensityChi2(noise.projected.GetData(noise.input.mask), noise.line, SerialFor);
-  };
-  EXPECT_NEAR(chi2Of(plain), 1.0, 0.9); // 62 degrees of freedom: 5 standard deviations of sqrt(2 / 62)
-  EXPECT_GT(chi2Of(wavy), 3.0);
 }

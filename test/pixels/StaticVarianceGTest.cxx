@@ -56,7 +56,8 @@ Series()
 StaticVariance
 Find(ProjectedVariance & projected, const std::vector<std::uint8_t> & usable)
 {
-  return FitStaticVariance(projected, usable, std::vector<std::uint8_t>(Pixels, Unknown), Gain, OffsetDn, SerialFor);
+  return FitStaticVariance(
+    projected, usable, std::vector<std::uint8_t>(Pixels, Unknown), Gain, OffsetDn, OffsetDn, SerialFor);
 }
 } // namespace
 

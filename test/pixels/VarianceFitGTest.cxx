@@ -23,7 +23,6 @@
 #include "helpers/StackTestHelper.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -74,48 +73,7 @@ struct Maps
     return FitVarianceLine(this->Data(), parallelFor);
   }
 };
-
-/** The integral over chi-square's density times x^power from \a low to \a high, by Simpson's rule. */
-double
-Integrate(double k, double low, double high, int power)
-{
-  const auto density = [&](double x) {
-    return std::exp((0.5 * k - 1.0) * std::log(x) - 0.5 * x - 0.5 * k * std::log(2.0) - std::lgamma(0.5 * k)) *
-           std::pow(x, power);
-  };
-  constexpr int steps = 4000;
-  double        sum = density(low) + density(high);
-  for (int i = 1; i < steps; ++i)
-  {
-    sum += (i % 2 == 1 ? 4.0 : 2.0) * density(low + (high - low) * i / steps);
-  }
-  return sum * (high - low) / steps / 3.0;
-}
 } // namespace
-
-TEST(SensorNoiseChiSquareTrim, MeanFactorAgreesWithNumericalIntegration)
-{
-  const ChiSquareTrim trim(4.0, 200.0);
-  for (const double k : { 4.0, 17.0, 95.0, 200.0 })
-  {
-    const auto & limits = trim.Of(k);
-    const double inside = Integrate(k, k * limits.low, k * limits.high, 0);
-    EXPECT_NEAR(inside, 1.0 - 2.0 * ChiSquareTrim::Tail, 1e-9) << k;
-    EXPECT_NEAR(Integrate(k, 1e-9, k * limits.low, 0), ChiSquareTrim::Tail, 1e-8) << k;
-    EXPECT_NEAR(limits.mean, Integrate(k, k * limits.low, k * limits.high, 1) / inside / k, 1e-9) << k;
-    EXPECT_NEAR(Integrate(k, 1e-9, k * limits.median, 0), 0.5, 1e-8) << k;
-  }
-}
-
-TEST(SensorNoiseChiSquareTrim, DegreesOfFreedomAreRoundedAndHeldInTheRange)
-{
-  const ChiSquareTrim trim(10.2, 20.7);
-  EXPECT_EQ(trim.Of(12.4).high, trim.Of(12.0).high);
-  EXPECT_EQ(trim.Of(3.0).high, trim.Of(10.0).high);
-  EXPECT_EQ(trim.Of(99.0).high, trim.Of(21.0).high);
-  EXPECT_GT(trim.Of(10.0).high, trim.Of(21.0).high);
-  EXPECT_GT(ChiSquareTrim(0.1, 0.2).Of(0.1).high, 1.0); // at least one
-}
 
 TEST(SensorNoiseVarianceFit, ExactLineIsRecovered)
 {
@@ -240,34 +198,6 @@ TEST(SensorNoiseVarianceFit, TrimmedPixelsAreTold)
   const auto used = static_cast<double>(std::count(maps.mask.begin(), maps.mask.end(), std::uint8_t{ 1 }));
   const auto count = static_cast<double>(std::count(trimmed.begin(), trimmed.end(), std::uint8_t{ 1 }));
   EXPECT_EQ(fit.GetLine().trimmedFraction, count / used);
-}
-
-TEST(SensorNoiseVarianceFit, PixelsWithNoiseOfTheirOwnWidenTheErrors)
-{
-  // 4 % of the pixels have 60 % more variance, 2.3 standard deviations: too little to be told one by one.
-  const auto errors = [](const Maps & maps) {
-    VarianceFit fit(maps.Data(), SerialFor, std::nullopt);
-    fit.Iterate(8);
-    fit.FillErrors();
-    // At the pivot, where the line is known best.
-    const VarianceLine &  line = fit.GetLine();
-    const Eigen::Vector2d at(line.pivotDn, 1.0);
-    const double          error = line.At(line.pivotDn) - (Intercept + Gain * line.pivotDn);
-    const double          sampling = at.dot(line.covariance * at);
-    return std::array<double, 3>{ error, sampling, at.dot(fit.TailDisagreement() * at) };
-  };
-  Maps       maps(true);
-  const auto plain = errors(maps);
-  EXPECT_LT(std::abs(plain[0]), 3.0 * std::sqrt(plain[1]));
-  EXPECT_LT(plain[2], plain[1]);
-  for (std::size_t p = 0; p < Pixels; p += 25)
-  {
-    maps.variance[p] *= 1.6;
-  }
-  const auto   noisy = errors(maps);
-  const double raised = noisy[0] - plain[0];
-  EXPECT_GT(raised, 5.0 * std::sqrt(noisy[1]));
-  EXPECT_LT(raised, 3.0 * std::sqrt(noisy[1] + noisy[2]));
 }
 
 TEST(SensorNoiseVarianceFit, StartsBetweenPatchesOfFewLevels)

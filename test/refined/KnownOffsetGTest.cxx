@@ -83,6 +83,9 @@ ReportOf(const Stack<Codes> & stack, const std::optional<KnownOffset> & offset =
   return Measure(stack, settings).GetReport();
 }
 
+/** Of 19 degrees of freedom, tabulated. */
+constexpr double StudentQuantile = 2.0930240544;
+
 /** As dark frames that hold the truth would tell it. */
 KnownOffset
 DarkOf(double varianceDn2, double errorDn2)
@@ -154,7 +157,8 @@ TEST(SensorNoiseKnownOffset, DarkFramesTellTheReadNoise)
   EXPECT_NEAR(ValueOf(report.readNoise), 8.0, 1e-9);
   EXPECT_NEAR(*report.readNoise.standardError, 0.32 / 16.0, 1e-9);
   ASSERT_TRUE(report.readNoise.interval95);
-  EXPECT_NEAR(*report.readNoise.interval95->low, std::sqrt(64.0 - 1.96 * 0.32), 1e-9);
+  // Twenty dark frames: Student's quantile for 19 degrees of freedom.
+  EXPECT_NEAR(*report.readNoise.interval95->low, std::sqrt(64.0 - StudentQuantile * 0.32), 1e-9);
   EXPECT_NEAR(ValueOf(report.readNoiseElectrons), 8.0 / *report.gain.value, 1e-9);
   EXPECT_GT(*report.readNoiseElectrons.standardError, *report.readNoise.standardError);
   EXPECT_TRUE(report.warnings.empty()) << report.warnings.front().code;
@@ -179,10 +183,10 @@ TEST(SensorNoiseKnownOffset, DarkFramesOfAnotherCameraAreNoticed)
 TEST(SensorNoiseKnownOffset, ReadNoiseThatTheDarkFramesDoNotShowIsAnUpperLimit)
 {
   const Stack<Codes> stack = Simulate<Codes>(WithFlicker(0.05), Size, Size);
-  const Report       noisy = ReportOf(stack, DarkOf(64.0, 40.0)); // 64 - 1.96 x 40 is below 0
+  const Report       noisy = ReportOf(stack, DarkOf(64.0, 40.0)); // 64 - 2.09 x 40 is below 0
   EXPECT_EQ(noisy.readNoise.status, EstimateStatus::UpperLimit);
   EXPECT_FALSE(noisy.readNoise.value);
-  EXPECT_NEAR(*noisy.readNoise.bracket->high, std::sqrt(64.0 - 1.0 / 12.0 + 1.96 * 40.0), 1e-9);
+  EXPECT_NEAR(*noisy.readNoise.bracket->high, std::sqrt(64.0 - 1.0 / 12.0 + StudentQuantile * 40.0), 1e-9);
   EXPECT_TRUE(Warns(noisy, "read-noise-upper-limit"));
   const Report coarse = ReportOf(stack, DarkOf(0.2, 0.001)); // of codes with a step of 1 DN
   EXPECT_EQ(coarse.readNoise.status, EstimateStatus::UpperLimit);

@@ -57,12 +57,6 @@ TexturedStack()
   return stack;
 }
 
-bool
-HasWarning(const Report & report, const std::string & code)
-{
-  return std::any_of(report.warnings.begin(), report.warnings.end(), [&](const Warning & w) { return w.code == code; });
-}
-
 void
 ExpectNothingMeasured(const Report & report)
 {

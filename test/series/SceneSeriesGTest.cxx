@@ -17,6 +17,7 @@
  *=========================================================================*/
 #include "sensornoise/series/SceneSeries.h"
 #include "sensornoise/base/NothingToMeasure.h"
+#include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/RollingShutter.h"
 #include "sensornoise/series/FrameEquations.h"
 #include "sensornoise/series/FrameProducts.h"
@@ -26,6 +27,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <gtest/gtest.h>
 #include <vector>
 
@@ -59,10 +61,42 @@ TEST(SensorNoiseSceneSeries, WithoutFlickerTheDarkestLevelServes)
   EXPECT_EQ(series.offset, frames.model.darkestDn - frames.model.centreDn);
 }
 
-TEST(SensorNoiseSceneSeries, OneIntensityIsNothingToMeasure)
+TEST(SensorNoiseSceneSeries, OneIntensityTellsTheFlickerAboutAKnownOffset)
+{
+  // A flat field of 500 DN, of which each frame has 2 % more or less: dark frames can still tell its gain.
+  std::vector<FrameChange> changes(24);
+  for (std::size_t t = 0; t < changes.size(); ++t)
+  {
+    changes[t].level = 10.0 * (t % 2 == 0 ? 1.0 : -1.0);
+  }
+  SyntheticFrames frames(Width, Height, changes);
+  std::fill(frames.reference.mean.begin(), frames.reference.mean.end(), 500.0);
+  frames.model.centreDn = 500.0;
+  frames.model.darkestDn = 490.0;
+  FrameSums sums = frames.EmptySums();
+  for (std::size_t t = 0; t < changes.size(); ++t)
+  {
+    const std::vector<double> frame(frames.Pixels(), 500.0 + changes[t].level);
+    sums.AddFrames(frame.data(), t, 1, SerialFor);
+  }
+  const SceneSeries blind = FindSceneSeries(sums, RollingShutter::Auto);
+  EXPECT_FALSE(blind.isOffsetTold);
+  EXPECT_EQ(blind.line.contrast, 0.0);
+  EXPECT_EQ(blind.offset, 490.0 - 500.0);
+  const SceneSeries known = FindSceneSeries(sums, RollingShutter::Auto, 100.0);
+  EXPECT_FALSE(known.isOffsetTold);
+  EXPECT_EQ(known.offset, 100.0 - 500.0);
+  ASSERT_EQ(known.line.gamma.size(), changes.size());
+  for (std::size_t t = 0; t < changes.size(); ++t)
+  {
+    EXPECT_NEAR(known.line.gamma[t], changes[t].level / (500.0 - 100.0), 1e-9) << t; // of the light
+  }
+}
+
+TEST(SensorNoiseSceneSeries, NoUsablePixelIsNothingToMeasure)
 {
   SyntheticFrames frames(Width, Height, std::vector<FrameChange>(24));
-  std::fill(frames.reference.mean.begin(), frames.reference.mean.end(), 500.0);
+  std::fill(frames.take.begin(), frames.take.end(), std::uint8_t{ 0 });
   const FrameSums sums = frames.EmptySums();
   EXPECT_THROW(FindSceneSeries(sums, RollingShutter::Auto), NothingToMeasure);
 }

@@ -86,6 +86,7 @@ TEST_P(EstimateToolWith, TheReportHasTheDocumentedNamesAndUnits)
                                     "gain",
                                     "offset",
                                     "read_noise",
+                                    "read_noise_median",
                                     "read_noise_electrons",
                                     "intercept",
                                     "total_intercept",
@@ -118,8 +119,9 @@ TEST_P(EstimateToolWith, TheReportHasTheDocumentedNamesAndUnits)
   EXPECT_EQ(report["flicker"].size(), 24u);
   EXPECT_EQ(NamesOf(report["pixels"]), (std::set<std::string>{ "total", "valid", "used", "clipped", "not_finite" }));
   EXPECT_EQ(report["pixels"]["total"], 64 * 64);
-  EXPECT_EQ(NamesOf(report["fit"]),
-            (std::set<std::string>{ "reduced_chi2", "curvature", "curvature_z", "offset_line_phi" }));
+  EXPECT_EQ(
+    NamesOf(report["fit"]),
+    (std::set<std::string>{ "reduced_chi2", "curvature", "curvature_z", "nonlinearity", "offset_line_phi", "line" }));
   EXPECT_EQ(report["covariance"]["of"], (std::vector<std::string>{ "gain", "intercept", "offset" }));
   EXPECT_EQ(report["covariance"]["matrix"].is_null(), !isRefined);
   EXPECT_EQ(report["motion"].is_null(), !isRefined);

@@ -46,7 +46,7 @@ constexpr double LargestOffsetPattern = 5.0;
 /** Variance of a pixel minus its diagonal mean, in units of a pixel's. */
 constexpr double DifferenceVariance = 1.125;
 
-/** What the pixels of every second row of a square differ by from their surroundings. */
+/** What every second pixel of a square, as on a chequerboard, differs by from their surroundings. */
 struct HalfSquare
 {
   double pixels{ 0.0 };
@@ -74,16 +74,16 @@ struct Square
 
   /** How rough it may be, by the half to choose by [DN^2]. */
   double
-  Roughness() const
+  Roughness(std::size_t chooser) const
   {
-    return half[0].Pattern() + 2.0 * half[0].Error();
+    return half[chooser].Pattern() + 2.0 * half[chooser].Error();
   }
   /** The same relative to the square of the light [1]. */
   double
-  RelativeRoughness(double blackDn) const
+  RelativeRoughness(std::size_t chooser, double blackDn) const
   {
-    const double light = half[0].level - blackDn;
-    return this->Roughness() / std::max(1e-12, light * light);
+    const double light = half[chooser].level - blackDn;
+    return this->Roughness(chooser) / std::max(1e-12, light * light);
   }
 };
 
@@ -97,12 +97,13 @@ SumPatternSquare(const ReferenceFrame & frame,
   const auto frames = static_cast<double>(frame.frames);
   for (std::size_t y = top; y < std::min(top + PatternSquareSide, frame.geometry.height); ++y)
   {
-    HalfSquare & half = square.half[y % 2];
     for (std::size_t x = left; x < std::min(left + PatternSquareSide, frame.geometry.width); ++x)
     {
       const std::size_t p = y * frame.geometry.width + x;
-      if (data.mask[p] != 0)
+      if (data.mask[p] != 0 && HasDiagonals(frame.usable.data(), frame.geometry.width, p))
       {
+        // As on a chequerboard: diagonal neighbours are of the same half, so that the halves have no pixel in common.
+        HalfSquare & half = square.half[(x + y) % 2];
         const double difference = frame.mean[p] - DiagonalMean(frame.mean.data(), frame.geometry.width, p);
         half.pixels += 1.0;
         half.level += frame.mean[p];
@@ -180,23 +181,31 @@ MeasureLevelPattern(const ReferenceFrame & frame,
   const auto sortBy = [&](auto value) {
     std::sort(squares.begin(), squares.end(), [&](const Square & a, const Square & b) { return value(a) < value(b); });
   };
-  const auto fluxOf = [&](const Square & square) { return std::max(1e-6, square.half[1].level - blackDn); };
-  sortBy([&](const Square & square) { return square.RelativeRoughness(blackDn); });
-  const double gainSquare = UpperMean(
-    squares,
-    count,
-    [&](const Square & square) { return square.half[1].Pattern() / (fluxOf(square) * fluxOf(square)); },
-    [&](const Square & square) { return square.half[1].Error() / (fluxOf(square) * fluxOf(square)); });
-  sortBy([](const Square & square) { return square.Roughness(); });
-  const double offsetSquareDn2 = UpperMean(
-    squares,
-    count,
-    [](const Square & square) { return square.half[1].Pattern(); },
-    [](const Square & square) { return square.half[1].Error(); });
-  const double largestOffsetDn2 = LargestOffsetPattern * LargestOffsetPattern * line.At(squares.front().half[1].level);
-  pattern.gainShare = std::min(gainSquare, LargestGainPattern * LargestGainPattern) *
-                      (fluxDn * fluxDn + pattern.lightDn2) / pattern.lightDn2;
-  pattern.offsetShare = std::min(offsetSquareDn2, largestOffsetDn2) / pattern.lightDn2;
+  // Each half measures once, so that a mirrored frame has the same pattern.
+  double gainSquare = 0.0;
+  double offsetSquareDn2 = 0.0;
+  for (const std::size_t chooser : { 0, 1 })
+  {
+    const auto measured = [&](const Square & square) -> const HalfSquare & { return square.half[1 - chooser]; };
+    const auto fluxOf = [&](const Square & square) { return std::max(1e-6, measured(square).level - blackDn); };
+    sortBy([&](const Square & square) { return square.RelativeRoughness(chooser, blackDn); });
+    const double gain = UpperMean(
+      squares,
+      count,
+      [&](const Square & square) { return measured(square).Pattern() / (fluxOf(square) * fluxOf(square)); },
+      [&](const Square & square) { return measured(square).Error() / (fluxOf(square) * fluxOf(square)); });
+    gainSquare += 0.5 * std::min(gain, LargestGainPattern * LargestGainPattern);
+    sortBy([&](const Square & square) { return square.Roughness(chooser); });
+    const double offsetDn2 = UpperMean(
+      squares,
+      count,
+      [&](const Square & square) { return measured(square).Pattern(); },
+      [&](const Square & square) { return measured(square).Error(); });
+    const double largestDn2 = LargestOffsetPattern * LargestOffsetPattern * line.At(measured(squares.front()).level);
+    offsetSquareDn2 += 0.5 * std::min(offsetDn2, largestDn2);
+  }
+  pattern.gainShare = gainSquare * (fluxDn * fluxDn + pattern.lightDn2) / pattern.lightDn2;
+  pattern.offsetShare = offsetSquareDn2 / pattern.lightDn2;
   return pattern;
 }
 

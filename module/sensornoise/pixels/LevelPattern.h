@@ -69,6 +69,15 @@ DiagonalMean(const double * mean, std::size_t width, std::size_t p)
                   at[2 * w + 2]);
 }
 
+/** Whether DiagonalMean() is made of valid pixels alone: one step away a usable pixel vouches for its neighbours. */
+inline bool
+HasDiagonals(const std::uint8_t * usable, std::size_t width, std::size_t p)
+{
+  const std::uint8_t * at = usable + p;
+  const auto           w = static_cast<std::ptrdiff_t>(width);
+  return at[-w - 1] != 0 && at[-w + 1] != 0 && at[w - 1] != 0 && at[w + 1] != 0;
+}
+
 /** Measures the pattern of the pixels that are used, whose variance is \a data and follows \a line. Shares are relative
  * to \a blackDn, the level without light, or a level that it is not below. */
 SensorNoise_EXPORT LevelPattern

@@ -61,7 +61,7 @@ FitLightLine(const VarianceFit &    fit,
     return DiagonalMean(frame.mean.data(), frame.geometry.width, p) - pivot;
   };
   const auto   s = SumOverBlocks<Sums>(data.pixels, parallelFor, [&](std::size_t p, auto & sums) {
-    if (data.mask[p] != 0)
+    if (data.mask[p] != 0 && HasDiagonals(frame.usable.data(), frame.geometry.width, p))
     {
       const auto [w, value] = fit.Weigh(p);
       const double x = data.mean[p] - pivot;
@@ -86,7 +86,7 @@ FitLightLine(const VarianceFit &    fit,
   light.intercept = s[WV] / s[W] - light.gain * light.pivotDn;
   // Of the squared scores, for the sandwich.
   const auto squares = SumOverBlocks<3>(data.pixels, parallelFor, [&](std::size_t p, auto & sums) {
-    if (data.mask[p] != 0)
+    if (data.mask[p] != 0 && HasDiagonals(frame.usable.data(), frame.geometry.width, p))
     {
       const auto [w, value] = fit.Weigh(p);
       const double score = w * (value - light.intercept - light.gain * data.mean[p]);
@@ -100,7 +100,7 @@ FitLightLine(const VarianceFit &    fit,
   const std::size_t width = frame.geometry.width;
   const auto        alike =
     SumOverBlocks(data.pixels, parallelFor, width + frame.geometry.height, [&](std::size_t p, double * sums) {
-      if (data.mask[p] != 0)
+      if (data.mask[p] != 0 && HasDiagonals(frame.usable.data(), frame.geometry.width, p))
       {
         const auto [w, value] = fit.Weigh(p);
         const double score = w * (value - light.intercept - light.gain * data.mean[p]) * (diagonalOf(p) - zMean);

@@ -162,6 +162,10 @@ UseDarkPoint(GainEstimate & estimate, const RefinedResults & found)
   }
   const LevelGains   gains = GainsOfLevels(found.variance.curve, dark);
   const VarianceLine line = estimate.line;
+  if (isBent || found.variance.curve.DarkestShare(dark.offsetDn) > VarianceCurve::DarkEnough)
+  {
+    estimate.atOffset.reset(); // a bend of the response may explain the difference
+  }
   if ((isBent || contradiction > LargestContradiction) && gains.mean > 0.0)
   {
     const double light = std::max(1e-9, line.pivotDn - dark.offsetDn);

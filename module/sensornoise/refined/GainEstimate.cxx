@@ -108,7 +108,7 @@ ChooseLine(GainEstimate & estimate, const StaticVariance & variance, const Provi
   }
   else
   {
-    estimate.covariance += SlopeCovariance(std::min(fromPattern, 1e6 * std::abs(all.gain)), all.pivotDn);
+    estimate.covariance += SlopeCovariance(std::min(fromPattern, 100.0 * std::abs(all.gain)), all.pivotDn);
   }
   estimate.covariance += SlopeCovariance(ErrorOfVibration(all, model), all.pivotDn);
 }

@@ -57,7 +57,8 @@ struct GainEstimate
   /** About the gain, whatever the slope: the variance over the light, both at the pivot [DN/e-]. */
   double scale{ 0.0 };
 
-  /** The line's value at the offset of dark frames, before these were used; null: there are none. */
+  /** The line's value at the offset of dark frames, before these were used; null: there are none, or a
+   * bend of the response may part them from the line. */
   std::optional<DarkVariance> atOffset;
 
   /** Whether parts of the levels differ visibly. */

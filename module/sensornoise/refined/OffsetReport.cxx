@@ -47,7 +47,7 @@ CompareDarkVariance(Report &             report,
                     double               errorDn2,
                     double               quantisationDn2)
 {
-  if (!gain.IsBent() && gain.atOffset &&
+  if (gain.atOffset &&
       std::abs(varianceDn2 - gain.atOffset->valueDn2) > 4.0 * std::hypot(errorDn2, gain.atOffset->standardErrorDn2))
   {
     report.Warn("dark-frames-differ",

@@ -1,0 +1,95 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_test_PatternTestHelper_h
+#define sensornoise_test_PatternTestHelper_h
+
+#include "sensornoise/pixels/VarianceLine.h"
+#include "sensornoise/scene/ReferenceFrame.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <random>
+#include <utility>
+#include <vector>
+
+/** \file
+ * Maps of mean and variance of a sensor whose pixels differ. */
+
+namespace sensornoise::test::pattern
+{
+
+inline constexpr std::size_t Size = 256;
+inline constexpr std::size_t Pixels = Size * Size;
+inline constexpr std::size_t FewFrames = 20;
+inline constexpr std::size_t ManyFrames = 1000000000000; // the means have no noise to speak of
+inline constexpr double      BlackDn = 100.0;
+inline constexpr double      GainDn = 0.5;            // per electron
+inline constexpr double      ReadVarianceDn2 = 400.0; // so that the weights hardly depend on the level
+
+/** What a pixel is: its light [DN at the mean gain], and its own gain, efficiency and offset. */
+struct Pixel
+{
+  double lightDn;
+  double gain{ 1.0 };       // relative
+  double efficiency{ 1.0 }; // relative
+  double offsetDn{ 0.0 };
+};
+
+/** The maps, with the noise of the means but not that of the variances, whose degrees of freedom are many. */
+struct Maps
+{
+  ReferenceFrame      frame;
+  std::vector<double> variance;
+  std::vector<float>  freedom = std::vector<float>(Pixels, 1e4F);
+
+  explicit Maps(const std::function<Pixel(std::size_t x, std::size_t y)> & pixelAt, std::size_t frames = ManyFrames)
+  {
+    std::mt19937               random(5);
+    std::normal_distribution<> normal;
+    std::vector<double>        mean;
+    for (std::size_t p = 0; p < Pixels; ++p)
+    {
+      const Pixel  pixel = pixelAt(p % Size, p / Size);
+      const double lightDn = pixel.gain * pixel.efficiency * pixel.lightDn;
+      variance.push_back(ReadVarianceDn2 + GainDn * pixel.gain * lightDn);
+      mean.push_back(BlackDn + pixel.offsetDn + lightDn +
+                     std::sqrt(variance.back() / static_cast<double>(frames)) * normal(random));
+    }
+    frame = MakeReferenceFrame(mean, variance, std::vector<std::uint8_t>(Pixels, 1), { Size, Size, 1 }, frames);
+  }
+  VarianceData
+  Data() const
+  {
+    return {
+      frame.mean.data(), frame.neighbourMean.data(), variance.data(), freedom.data(), frame.usable.data(), Pixels
+    };
+  }
+};
+
+/** Light that rises from 50 to 150 DN down the frame: smooth, but for less than half a DN from row to row. */
+inline double
+Ramp(std::size_t y)
+{
+  return 50.0 + 100.0 * static_cast<double>(y) / (Size - 1.0);
+}
+
+} // namespace sensornoise::test::pattern
+
+#endif

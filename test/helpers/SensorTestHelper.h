@@ -1,0 +1,113 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_test_SensorTestHelper_h
+#define sensornoise_test_SensorTestHelper_h
+
+#include "sensornoise/moments/KnownOffset.h"
+#include "sensornoise/refined/RefinedSettings.h"
+#include "sensornoise/report/Report.h"
+#include "sensornoise/simulation/SimulationSettings.h"
+#include "sensornoise/simulation/Simulator.h"
+#include "helpers/DarkPixelsTestHelper.h"
+#include "helpers/RefinedTestHelper.h"
+#include "helpers/ReportTestHelper.h"
+#include "helpers/StackTestHelper.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <gtest/gtest.h>
+#include <vector>
+
+/** \file
+ * Stacks of camera B (1 DN/e-, 100 DN, 8 DN) with flaws, with light and without. */
+
+namespace sensornoise::test::sensor
+{
+
+using Codes = unsigned short;
+
+/** A camera that holds still, with flicker of 2 %. */
+inline SimulationSettings
+StillCamera(std::size_t frames, std::uint64_t seed = 21)
+{
+  SimulationSettings settings;
+  settings.conditions = { 0.02, 0.0, 0.0 };
+  settings.frames = frames;
+  settings.seed = seed;
+  return settings;
+}
+
+/** A scene of one level, with a shading of \a shading towards the corners; one pixel without light spans the range,
+ * which the simulator spreads to its electrons. */
+inline std::vector<double>
+FlatScene(std::size_t size, double shading = 0.0)
+{
+  std::vector<double> scene(size * size);
+  const auto          half = 0.5 * static_cast<double>(size - 1);
+  for (std::size_t p = 0; p < scene.size(); ++p)
+  {
+    const double x = static_cast<double>(p % size) / half - 1.0;
+    const double y = static_cast<double>(p / size) / half - 1.0;
+    scene[p] = 1.0 - 0.5 * shading * (x * x + y * y);
+  }
+  scene[0] = 0.0;
+  return scene;
+}
+
+/** The same camera without light: as many frames. */
+inline Stack<Codes>
+DarkFramesOf(SimulationSettings settings, std::size_t size)
+{
+  settings.isDark = true;
+  return Simulate<Codes>(settings, size, size);
+}
+
+inline RefinedSettings
+WithDarkFrames(const Stack<Codes> & dark)
+{
+  RefinedSettings settings;
+  settings.offset = MeasureDarkStack(dark);
+  return settings;
+}
+
+/** The interval of a quantity holds the truth. */
+inline void
+ExpectHolds(const Quantity & quantity, double truth)
+{
+  ASSERT_EQ(quantity.status, EstimateStatus::Identified) << quantity.unit;
+  ASSERT_TRUE(quantity.interval95 && quantity.interval95->low && quantity.interval95->high);
+  EXPECT_LE(*quantity.interval95->low, truth) << quantity.unit;
+  EXPECT_GE(*quantity.interval95->high, truth) << quantity.unit;
+}
+
+/** Mean of the local gain over the frame [DN/e-]. */
+inline double
+MeanLocalGain(const StackSimulator & simulator)
+{
+  const std::size_t pixels = simulator.GetWidth() * simulator.GetHeight();
+  double            sum = 0.0;
+  for (std::size_t p = 0; p < pixels; ++p)
+  {
+    sum += simulator.LocalGainAt(p);
+  }
+  return sum / static_cast<double>(pixels);
+}
+
+} // namespace sensornoise::test::sensor
+
+#endif

@@ -1,0 +1,214 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/pixels/MeanGain.h"
+#include "sensornoise/pixels/VarianceCurve.h"
+#include "sensornoise/pixels/VarianceLine.h"
+
+#include <cmath>
+#include <cstddef>
+#include <gtest/gtest.h>
+#include <optional>
+#include <random>
+#include <vector>
+
+using namespace sensornoise;
+
+namespace
+{
+constexpr std::size_t Bins = VarianceCurve::Bins;
+constexpr double      Weight = 50.0;
+
+/** The curve about the line that fits it, by equal weights, of a variance at levels [DN^2, DN]. */
+VarianceCurve
+CurveOf(const std::vector<double> & levels, const std::vector<double> & variance)
+{
+  const auto count = static_cast<double>(levels.size());
+  double     meanLevel = 0.0;
+  double     meanVariance = 0.0;
+  for (std::size_t b = 0; b < levels.size(); ++b)
+  {
+    meanLevel += levels[b] / count;
+    meanVariance += variance[b] / count;
+  }
+  double square = 0.0;
+  double product = 0.0;
+  for (std::size_t b = 0; b < levels.size(); ++b)
+  {
+    square += std::pow(levels[b] - meanLevel, 2);
+    product += (levels[b] - meanLevel) * variance[b];
+  }
+  VarianceCurve curve;
+  curve.line.gain = product / square;
+  curve.line.intercept = meanVariance - curve.line.gain * meanLevel;
+  curve.line.pivotDn = meanLevel;
+  for (std::size_t b = 0; b < levels.size(); ++b)
+  {
+    const double excess = variance[b] - curve.line.intercept - curve.line.gain * levels[b];
+    curve.bins.push_back({ 100.0, Weight, Weight * (levels[b] - meanLevel), Weight * excess });
+  }
+  return curve;
+}
+
+/** Codes, variance and mean local gain of a response y(x), by bins without noise. */
+struct Response
+{
+  std::vector<double> levels;
+  std::vector<double> variance;
+  double              meanGain{ 0.0 };
+
+  template <typename TCode, typename TGain>
+  Response(double first, double last, double readNoiseElectrons2, TCode codeOf, TGain gainOf)
+  {
+    for (std::size_t b = 0; b < Bins; ++b)
+    {
+      const double x = first + (last - first) * static_cast<double>(b) / (Bins - 1.0);
+      levels.push_back(codeOf(x));
+      variance.push_back(gainOf(x) * gainOf(x) * (x + readNoiseElectrons2));
+      meanGain += gainOf(x) / Bins;
+    }
+  }
+  double
+  Slope() const
+  {
+    return CurveOf(levels, variance).line.gain;
+  }
+  double
+  Found(int degree, const std::optional<double> & offsetDn = std::nullopt) const
+  {
+    const auto found = FindMeanGain(CurveOf(levels, variance), degree, offsetDn);
+    EXPECT_TRUE(found);
+    return found ? found->value : 0.0;
+  }
+};
+
+/** Local gain 0.3 (1 + bend (1 - 2 x / 10000)): 10,000 electrons and a read noise of 2. */
+Response
+BentResponse(double bend)
+{
+  const auto codeOf = [=](double x) { return 100.0 + 0.3 * x * (1.0 + bend * (1.0 - x / 1e4)); };
+  return Response(0.0, 1e4, 4.0, codeOf, [=](double x) { return 0.3 * (1.0 + bend * (1.0 - 2.0 * x / 1e4)); });
+}
+} // namespace
+
+TEST(SensorNoiseMeanGain, StraightLineGivesItsSlope)
+{
+  const Response straight(50.0, 1e4, 25.0, [](double x) { return 100.0 + 0.3 * x; }, [](double) { return 0.3; });
+  for (const int degree : { 2, 3 })
+  {
+    EXPECT_NEAR(straight.Found(degree), 0.3, 1e-9) << degree;
+  }
+  // About another line than its own, too: what counts is the line and the excess together.
+  VarianceCurve curve = CurveOf(straight.levels, straight.variance);
+  curve.line.gain -= 0.1;
+  curve.line.intercept += 0.1 * curve.line.pivotDn;
+  for (CurveBin & bin : curve.bins)
+  {
+    bin.excess += 0.1 * bin.x;
+  }
+  const auto found = FindMeanGain(curve, 2);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->value, 0.3, 1e-9);
+}
+
+TEST(SensorNoiseMeanGain, PowerOfTheLightIsExactWithTheOffset)
+{
+  // y = c x^p, all shot noise: V is the power q = 2 - 1 / p of y. Over a quarter of y a cubic through it is exact to
+  // 2 (1 / 16)^4 |q (q - 1) (q - 2) (q - 3)| / 24 or 1e-6, and its slope at the end, which tells q, to 2e-4 of itself;
+  // Z goes as 1 / (2 - q).
+  for (const double p : { 0.6, 0.77, 1.0, 1.3 })
+  {
+    const auto     codeOf = [=](double x) { return 64.0 + 2.0 * std::pow(x, p); };
+    const auto     gainOf = [=](double x) { return 2.0 * p * std::pow(x, p - 1.0); };
+    const Response response(800.0, 1000.0, 0.0, codeOf, gainOf);
+    EXPECT_NEAR(response.Found(3, 64.0) / response.meanGain, 1.0, 3e-4) << p;
+    // Without the offset the darkest level is taken for one with little light, where V' is the gain; here it is
+    // (2 p - 1) / p of it.
+    if (p != 1.0)
+    {
+      EXPECT_GT(std::abs(response.Found(3) / response.meanGain - 1.0), 0.1) << p;
+    }
+  }
+}
+
+TEST(SensorNoiseMeanGain, BendIsRecoveredToSecondOrder)
+{
+  for (const double bend : { -0.04, -0.02, 0.02, 0.04 })
+  {
+    const Response response = BentResponse(bend);
+    // The slope of the line holds twice the change of the gain: it is off by the bend itself.
+    EXPECT_GT(std::abs(response.Slope() / response.meanGain - 1.0), 0.5 * std::abs(bend)) << bend;
+    EXPECT_NEAR(response.Found(2) / response.meanGain, 1.0, bend * bend) << bend;
+    EXPECT_NEAR(response.Found(3) / response.meanGain, 1.0, bend * bend) << bend;
+  }
+}
+
+TEST(SensorNoiseMeanGain, VarianceIsThatOfTheDifferenceFromTheLine)
+{
+  // 400 draws of noise: their variance is known to sqrt(2 / 400) = 7 %, 5 of which are allowed.
+  constexpr int              draws = 400;
+  const Response             response = BentResponse(0.04);
+  std::mt19937               random(9);
+  std::normal_distribution<> normal(0.0, 1.0 / std::sqrt(Weight));
+  for (const int degree : { 2, 3 })
+  {
+    double sum = 0.0;
+    double squares = 0.0;
+    double told = 0.0;
+    for (int i = 0; i < draws; ++i)
+    {
+      std::vector<double> variance = response.variance;
+      for (double & value : variance)
+      {
+        value += normal(random);
+      }
+      const VarianceCurve curve = CurveOf(response.levels, variance);
+      const auto          found = FindMeanGain(curve, degree);
+      ASSERT_TRUE(found);
+      const double difference = found->value - curve.line.gain;
+      sum += difference / draws;
+      squares += difference * difference / draws;
+      told += found->variance / draws;
+    }
+    EXPECT_NEAR((squares - sum * sum) / told, 1.0, 0.35) << degree;
+  }
+}
+
+TEST(SensorNoiseMeanGain, IsNullWhereTheVarianceTellsNone)
+{
+  const Response straight(50.0, 1e4, 25.0, [](double x) { return 100.0 + 0.3 * x; }, [](double) { return 0.3; });
+  // It falls with the level.
+  std::vector<double> falling(straight.variance.rbegin(), straight.variance.rend());
+  EXPECT_FALSE(FindMeanGain(CurveOf(straight.levels, falling), 2));
+  // It is below 0 at the darkest level.
+  std::vector<double> negative = straight.variance;
+  for (double & value : negative)
+  {
+    value -= straight.variance[20];
+  }
+  EXPECT_FALSE(FindMeanGain(CurveOf(straight.levels, negative), 2));
+  // A parabola takes four bins or more, and levels that differ.
+  VarianceCurve few = CurveOf(straight.levels, straight.variance);
+  few.bins.resize(3);
+  EXPECT_FALSE(FindMeanGain(few, 2));
+  VarianceCurve level = CurveOf(straight.levels, straight.variance);
+  for (CurveBin & bin : level.bins)
+  {
+    bin.x = 0.0;
+  }
+  EXPECT_FALSE(FindMeanGain(level, 2));
+}

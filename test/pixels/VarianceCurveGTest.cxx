@@ -1,0 +1,182 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/pixels/VarianceCurve.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/pixels/VarianceFit.h"
+#include "sensornoise/pixels/VarianceLine.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <gtest/gtest.h>
+#include <optional>
+#include <random>
+#include <vector>
+
+using namespace sensornoise;
+
+namespace
+{
+constexpr double PivotDn = 500.0;
+constexpr double Weight = 4.0; // of a bin [1/DN^4]
+
+VarianceLine
+MakeLine()
+{
+  VarianceLine line;
+  line.gain = 0.5;
+  line.intercept = 20.0;
+  line.pivotDn = PivotDn;
+  return line;
+}
+
+/** A bin at a level above the pivot, with the mean excess that \a excessAt has there. */
+template <typename TFunction>
+CurveBin
+BinAt(double x, TFunction excessAt, double weight = Weight)
+{
+  return { 100.0, weight, weight * x, weight * excessAt(x) };
+}
+
+/** 64 bins of equal weight at levels 2 DN apart, evenly about the pivot. */
+template <typename TFunction>
+VarianceCurve
+EvenCurve(TFunction excessAt)
+{
+  VarianceCurve curve{ MakeLine(), {} };
+  for (std::size_t b = 0; b < VarianceCurve::Bins; ++b)
+  {
+    curve.bins.push_back(BinAt(2.0 * static_cast<double>(b) - 63.0, excessAt));
+  }
+  return curve;
+}
+
+/** Variances of pixels about a line, and the curve of the line that fits them. */
+VarianceCurve
+CurveOfPixels(double gain, double wave)
+{
+  constexpr std::size_t            pixels = 20000;
+  std::mt19937                     random(41);
+  std::uniform_real_distribution<> uniform(100.0, 1100.0);
+  std::chi_squared_distribution<>  chiSquare(30.0);
+  std::vector<double>              mean;
+  std::vector<double>              variance;
+  const std::vector<float>         freedom(pixels, 30.0F);
+  const std::vector<std::uint8_t>  mask(pixels, 1);
+  for (std::size_t p = 0; p < pixels; ++p)
+  {
+    mean.push_back(uniform(random));
+    variance.push_back((20.0 + gain * mean[p]) * (1.0 + wave * std::sin(0.03 * mean[p])) * chiSquare(random) / 30.0);
+  }
+  VarianceFit fit(
+    { mean.data(), mean.data(), variance.data(), freedom.data(), mask.data(), pixels }, SerialFor, std::nullopt);
+  fit.Iterate(8);
+  return fit.CurveAbout(fit.GetLine());
+}
+} // namespace
+
+TEST(SensorNoiseVarianceCurve, StraightLineDepartsFromItselfNowhere)
+{
+  const VarianceCurve curve = EvenCurve([](double) { return 0.0; });
+  EXPECT_EQ(curve.ReducedChi2(), 0.0);
+  EXPECT_EQ(curve.Nonlinearity(1.0), 0.0);
+  ASSERT_EQ(curve.SlopesOfHalves().size(), 4u);
+  for (const SlopeExcess & half : curve.SlopesOfHalves())
+  {
+    EXPECT_EQ(half.value, 0.0);
+  }
+}
+
+TEST(SensorNoiseVarianceCurve, NoiseAboutALineIsChance)
+{
+  const VarianceCurve curve = CurveOfPixels(0.05, 0.0);
+  ASSERT_EQ(curve.bins.size(), VarianceCurve::Bins);
+  EXPECT_NEAR(curve.ReducedChi2(), 1.0, 0.9); // 62 degrees of freedom: 5 standard deviations of sqrt(2 / 62)
+  // A group of 1,250 pixels is known to sqrt(2 / 30 / 1250) = 0.73 %. Of 5 of them, chance may have 2.
+  EXPECT_LT(curve.Nonlinearity(1.0), std::sqrt(25.0 - 4.0) * 0.0073);
+  for (const SlopeExcess & half : curve.SlopesOfHalves())
+  {
+    EXPECT_NEAR(half.value, 0.0, 5.0 * std::sqrt(half.variance));
+    EXPECT_GT(half.variance, 0.0);
+  }
+}
+
+TEST(SensorNoiseVarianceCurve, WaveInTheVarianceIsNoChance)
+{
+  const VarianceCurve curve = CurveOfPixels(0.05, 0.2);
+  EXPECT_GT(curve.ReducedChi2(), 3.0);
+  EXPECT_GT(curve.Nonlinearity(1.0), 0.1);
+  EXPECT_LT(curve.Nonlinearity(1.0), 0.2 + 5.0 * 0.0073);
+}
+
+TEST(SensorNoiseVarianceCurve, ParabolaHasTheSizeAndTheSlopesOfItsFormula)
+{
+  // c (x^2 - mean of x^2) at levels 2 DN apart: it is the rest of a parabola about its line.
+  constexpr double    c = 0.01;
+  constexpr double    meanSquare = 4.0 * (64.0 * 64.0 - 1.0) / 12.0;
+  const VarianceCurve curve = EvenCurve([&](double x) { return c * (x * x - meanSquare); });
+  // The darkest group, of four bins about x = -60, has mean x^2 = 60^2 + 4 (0.5^2 + 1.5^2) / 2. It is the largest
+  // departure, as the brightest group's is the same above a higher line.
+  const double atGroup = c * (60.0 * 60.0 + 5.0 - meanSquare);
+  const double line = 20.0 + 0.5 * (PivotDn - 60.0);
+  for (const double dispersion : { 1.0, 3.0 })
+  {
+    const double chance = 4.0 * dispersion / (4.0 * Weight);
+    EXPECT_NEAR(curve.Nonlinearity(dispersion), std::sqrt(atGroup * atGroup - chance) / line, 1e-12);
+  }
+  EXPECT_EQ(curve.Nonlinearity(1e9), 0.0); // all of it may be chance
+  // A half, by count as by information, has its centre 32 DN from the pivot: there the parabola has the slope 2 c x.
+  const std::vector<SlopeExcess> halves = curve.SlopesOfHalves();
+  ASSERT_EQ(halves.size(), 4u);
+  const double ofHalf = 1.0 / (Weight * 4.0 * 32.0 * (32.0 * 32.0 - 1.0) / 12.0);
+  const double ofAll = 1.0 / (Weight * 64.0 * meanSquare);
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    EXPECT_NEAR(halves[i].value, (i % 2 == 0 ? -2.0 : 2.0) * c * 32.0, 1e-12) << i;
+    EXPECT_NEAR(halves[i].variance, ofHalf - ofAll, 1e-12 * ofHalf) << i;
+  }
+}
+
+TEST(SensorNoiseVarianceCurve, HalvesOfTheInformationArePartedWhereItIs)
+{
+  // 60 dark bins and 4 bright ones, which have nearly all information: its half lies between the second and the third.
+  VarianceCurve curve{ MakeLine(), {} };
+  const auto    excessAt = [](double x) { return x < 1150.0 ? -0.1 * x : 0.3 * (x - 1150.0); };
+  for (std::size_t b = 0; b < 64; ++b)
+  {
+    const auto x = static_cast<double>(b);
+    curve.bins.push_back(BinAt(b < 60 ? x : 1000.0 + 100.0 * (x - 60.0), excessAt));
+  }
+  const std::vector<SlopeExcess> halves = curve.SlopesOfHalves();
+  ASSERT_EQ(halves.size(), 4u);
+  EXPECT_NEAR(halves[0].value, -0.1, 1e-12); // the darker half of the pixels
+  EXPECT_NEAR(halves[2].value, -0.1, 1e-12);
+  EXPECT_NEAR(halves[3].value, 0.3, 1e-12);
+  // With two bright bins the brighter half of the information is one level, which has no slope.
+  curve.bins.erase(curve.bins.begin() + 60, curve.bins.begin() + 62);
+  EXPECT_EQ(curve.SlopesOfHalves().size(), 3u);
+}
+
+TEST(SensorNoiseVarianceCurve, DarkestShareIsThatOfTheLight)
+{
+  const VarianceCurve curve = EvenCurve([](double) { return 0.0; }); // from 437 to 563 DN
+  EXPECT_NEAR(curve.DarkestShare(413.0), 24.0 / 150.0, 1e-12);
+  EXPECT_EQ(curve.DarkestShare(450.0), 0.0); // no light
+  EXPECT_EQ(curve.DarkestShare(600.0), 1.0); // no levels above black
+  EXPECT_EQ((VarianceCurve{ MakeLine(), {} }.DarkestShare(0.0)), 1.0);
+}

@@ -1,0 +1,200 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/pixels/VarianceFit.h"
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/moments/DefectivePixels.h"
+#include "sensornoise/pixels/VarianceLine.h"
+#include "helpers/StackTestHelper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <gtest/gtest.h>
+#include <optional>
+#include <random>
+#include <vector>
+
+// TrimRule::Distance: the line is that of the mean of the pixels, whose own noise differs.
+
+using namespace sensornoise;
+
+namespace
+{
+constexpr std::size_t Pixels = 40000;
+constexpr float       Freedom = 30.0F;
+constexpr double      Gain = 0.05; // many electrons a DN: the variances are those of normal noise
+constexpr double      BlackDn = 100.0;
+
+/** Maps of means from 110 to 600 DN; the read noise's variance is what \a readVarianceOf draws [DN^2]. */
+struct Maps
+{
+  std::vector<double>       mean;
+  std::vector<double>       variance;
+  std::vector<double>       readVariance;
+  std::vector<float>        freedom = std::vector<float>(Pixels, Freedom);
+  std::vector<std::uint8_t> mask = std::vector<std::uint8_t>(Pixels, 1);
+
+  explicit Maps(const std::function<double(std::mt19937 &)> & readVarianceOf)
+  {
+    std::mt19937                     random(43);
+    std::uniform_real_distribution<> uniform(110.0, 600.0);
+    std::chi_squared_distribution<>  chiSquare(Freedom);
+    for (std::size_t p = 0; p < Pixels; ++p)
+    {
+      mean.push_back(uniform(random));
+      readVariance.push_back(readVarianceOf(random));
+      variance.push_back((readVariance[p] + Gain * (mean[p] - BlackDn)) * chiSquare(random) / Freedom);
+    }
+  }
+  VarianceData
+  Data() const
+  {
+    return { mean.data(), mean.data(), variance.data(), freedom.data(), mask.data(), Pixels };
+  }
+  VarianceFit
+  Fit(TrimRule rule, const ParallelFor & parallelFor = SerialFor) const
+  {
+    VarianceFit fit(this->Data(), parallelFor, std::nullopt, rule, BlackDn);
+    fit.Iterate(8);
+    fit.FillErrors();
+    return fit;
+  }
+  double
+  MeanReadVariance() const
+  {
+    double sum = 0.0;
+    for (const double value : readVariance)
+    {
+      sum += value / Pixels;
+    }
+    return sum;
+  }
+};
+
+/** Read noise of median 1 DN whose logarithm has a standard deviation of \a spread. */
+std::function<double(std::mt19937 &)>
+LogNormal(double spread)
+{
+  return [=](std::mt19937 & random) { return std::exp(2.0 * spread * std::normal_distribution<>()(random)); };
+}
+
+/** By how many of its standard errors the line's value at a level is off the truth. */
+double
+ErrorAt(const VarianceLine & line, double level, double truth)
+{
+  const Eigen::Vector2d at(level, 1.0);
+  return (line.intercept + line.gain * level - truth) / std::sqrt(at.dot(line.covariance * at));
+}
+} // namespace
+
+TEST(SensorNoiseVarianceFitDistance, LineOfLogNormalNoiseIsThatOfTheMean)
+{
+  const Maps         maps(LogNormal(0.4));
+  const double       read = maps.MeanReadVariance(); // exp(2 0.4^2) = 1.38 of the median's
+  const VarianceFit  fit = maps.Fit(TrimRule::Distance);
+  const VarianceLine mean = fit.GetLine();
+  const VarianceLine level = maps.Fit(TrimRule::Level).GetLine();
+  ASSERT_TRUE(mean.isDetermined && level.isDetermined);
+  EXPECT_NEAR(mean.gain, Gain, 5.0 * std::sqrt(mean.covariance(0, 0)));
+  EXPECT_LT(std::abs(ErrorAt(mean, BlackDn, read)), 5.0);
+  // The noisy pixels of the dark are beyond chi-square's tails there, and in the light they are not.
+  EXPECT_GT(level.gain, Gain + 5.0 * std::sqrt(level.covariance(0, 0)));
+  EXPECT_LT(ErrorAt(level, BlackDn, read), -5.0);
+  EXPECT_LT(mean.trimmedFraction, 1e-3);
+}
+
+TEST(SensorNoiseVarianceFitDistance, SpreadOfThePixelsOwnNoiseIsFound)
+{
+  const Maps   maps(LogNormal(0.3));
+  const double mean = maps.MeanReadVariance();
+  double       spread = 0.0;
+  for (const double value : maps.readVariance)
+  {
+    spread += (value - mean) * (value - mean) / Pixels;
+  }
+  // Of heavy tails, by the dark pixels in the main: known to a fifth.
+  EXPECT_NEAR(maps.Fit(TrimRule::Distance).GetLine().noiseSpreadDn4 / spread, 1.0, 0.5);
+  // Pixels of equal noise have none, and the weights stay those of chi-square.
+  EXPECT_EQ(Maps([](std::mt19937 &) { return 1.0; }).Fit(TrimRule::Distance).GetLine().noiseSpreadDn4, 0.0);
+}
+
+TEST(SensorNoiseVarianceFitDistance, ErrorsAreThoseOfTheWeights)
+{
+  // With the right weights the sandwich is the inverse information, sum (x, 1)'(x, 1) / (2 V^2 / freedom + S).
+  const Maps         maps(LogNormal(0.3));
+  const VarianceLine line = maps.Fit(TrimRule::Distance).GetLine();
+  Eigen::Matrix2d    information = Eigen::Matrix2d::Zero();
+  for (const double mean : maps.mean)
+  {
+    const Eigen::Vector2d row(mean, 1.0);
+    information += row * row.transpose() / (2.0 * std::pow(line.At(mean), 2) / Freedom + line.noiseSpreadDn4);
+  }
+  const Eigen::Matrix2d fisher = information.inverse();
+  EXPECT_NEAR(line.covariance(0, 0) / fisher(0, 0), 1.0, 0.2); // heavy tails: twice the scatter of normal ones
+  EXPECT_NEAR(line.covariance(1, 1) / fisher(1, 1), 1.0, 0.2);
+}
+
+TEST(SensorNoiseVarianceFitDistance, NoisyPixelsRaiseTheLineByTheirShare)
+{
+  // 4 % of the pixels have 60 % more variance: too little to be told one by one, and part of the mean.
+  Maps         maps([](std::mt19937 &) { return 1.0; });
+  VarianceLine plain = maps.Fit(TrimRule::Distance).GetLine();
+  for (std::size_t p = 0; p < Pixels; p += 25)
+  {
+    maps.variance[p] *= 1.6;
+  }
+  const VarianceLine raised = maps.Fit(TrimRule::Distance).GetLine();
+  for (const double level : { 150.0, plain.pivotDn, 550.0 })
+  {
+    EXPECT_LT(std::abs(ErrorAt(raised, level, 1.024 * (1.0 + Gain * (level - BlackDn)))), 5.0) << level;
+  }
+  EXPECT_GT(ErrorAt(raised, plain.pivotDn, 1.0 + Gain * (plain.pivotDn - BlackDn)), 5.0);
+}
+
+TEST(SensorNoiseVarianceFitDistance, DefectivePixelsAreTrimmedAtTheSameDistanceEverywhere)
+{
+  Maps                            maps([](std::mt19937 &) { return 1.0; });
+  const double                    factor = DefectiveNoiseFactor * DefectiveNoiseFactor;
+  const std::vector<std::uint8_t> before = maps.Fit(TrimRule::Distance).FindTrimmed();
+  EXPECT_LE(std::count(before.begin(), before.end(), std::uint8_t{ 1 }), 4); // 1e-5 of the brightest
+  for (std::size_t p = 0; p < Pixels; p += 100)
+  {
+    maps.variance[p] = 1.0 + Gain * (maps.mean[p] - BlackDn) + (p % 200 == 0 ? 1.5 : 0.5) * factor;
+  }
+  const VarianceFit               fit = maps.Fit(TrimRule::Distance);
+  const std::vector<std::uint8_t> trimmed = fit.FindTrimmed();
+  // The typical noise is known to a per cent.
+  EXPECT_NEAR(fit.GetReachDn2() / (factor - 1.0), 1.0, 0.2);
+  for (std::size_t p = 0; p < Pixels; p += 100)
+  {
+    EXPECT_EQ(trimmed[p], p % 200 == 0 ? 1 : 0) << p << ' ' << maps.mean[p];
+  }
+}
+
+TEST(SensorNoiseVarianceFitDistance, ThreadsChangeNoBit)
+{
+  const Maps         maps(LogNormal(0.3));
+  const VarianceLine expected = maps.Fit(TrimRule::Distance).GetLine();
+  const VarianceLine line = maps.Fit(TrimRule::Distance, test::Threads(3)).GetLine();
+  EXPECT_EQ(line.gain, expected.gain);
+  EXPECT_EQ(line.covariance, expected.covariance);
+  EXPECT_EQ(line.noiseSpreadDn4, expected.noiseSpreadDn4);
+}

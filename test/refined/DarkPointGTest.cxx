@@ -1,0 +1,173 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/refined/DarkPoint.h"
+#include "sensornoise/moments/KnownOffset.h"
+#include "sensornoise/report/Report.h"
+#include "sensornoise/simulation/SimulationSettings.h"
+#include "sensornoise/simulation/Simulator.h"
+#include "helpers/SensorTestHelper.h"
+
+#include <cmath>
+#include <cstddef>
+#include <gtest/gtest.h>
+#include <vector>
+
+// Dark frames are a point of the line.
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+using namespace sensornoise::test::sensor;
+
+namespace
+{
+constexpr std::size_t Size = 192;
+constexpr std::size_t Frames = 20;
+
+SimulationSettings
+FlatCamera()
+{
+  SimulationSettings settings = StillCamera(Frames);
+  settings.conditions.flickerSd = 0.0;
+  return settings;
+}
+
+/** Mean and mean temporal variance of all pixels but those at the border. */
+struct FlatMoments
+{
+  double mean{ 0.0 };
+  double variance{ 0.0 };
+
+  explicit FlatMoments(const Stack<Codes> & stack)
+  {
+    double pixels = 0.0;
+    for (std::size_t p = 0; p < stack.width * stack.height; ++p)
+    {
+      const std::size_t x = p % stack.width;
+      const std::size_t y = p / stack.width;
+      if (x < 2 || y < 2 || x + 2 >= stack.width || y + 2 >= stack.height)
+      {
+        continue;
+      }
+      double sum = 0.0;
+      double squares = 0.0;
+      for (std::size_t t = 0; t < stack.frames; ++t)
+      {
+        const double value = stack.Frame(t)[p];
+        sum += value;
+        squares += value * value;
+      }
+      const auto frames = static_cast<double>(stack.frames);
+      mean += sum / frames;
+      variance += (squares - sum * sum / frames) / (frames - 1.0);
+      pixels += 1.0;
+    }
+    mean /= pixels;
+    variance /= pixels;
+  }
+};
+} // namespace
+
+TEST(SensorNoiseDarkPoint, FlatAndDarkFramesArePhotonTransfer)
+{
+  const SimulationSettings settings = FlatCamera();
+  const Stack<Codes>       flat = Simulate<Codes>(settings, Size, Size, FlatScene(Size));
+  const Stack<Codes>       dark = DarkFramesOf(settings, Size);
+  const FlatMoments        light(flat);
+  const FlatMoments        black(dark);
+  const double             gain = (light.variance - black.variance) / (light.mean - black.mean);
+  const Report             report = Measure(flat, WithDarkFrames(dark)).GetReport();
+  // The method takes what frames have in common out of the variance, 1 or 2 of 19 degrees of freedom: of the error of
+  // 700,000 samples, 0.17 %, a third.
+  EXPECT_NEAR(ValueOf(report.gain) / gain, 1.0, 1e-3);
+  EXPECT_NEAR(ValueOf(report.gain), 1.0, 5.0 * *report.gain.standardError);
+  EXPECT_LT(*report.gain.standardError, 0.005);
+  EXPECT_NEAR(ValueOf(report.offset), black.mean, 0.01);
+  EXPECT_NEAR(ValueOf(report.readNoise), std::sqrt(black.variance - 1.0 / 12.0), 0.01);
+  EXPECT_FALSE(HasWarning(report, "dark-frames-differ"));
+  EXPECT_FALSE(HasWarning(report, "not-static"));
+  EXPECT_FALSE(HasWarning(report, "intensity-range-too-small"));
+}
+
+TEST(SensorNoiseDarkPoint, PixelsThatDifferDoNotBiasAFlat)
+{
+  SimulationSettings settings = FlatCamera();
+  settings.conditions.flickerSd = 0.003;
+  settings.flaws.pattern = { 0.01, 0.0, 0.0, 2.0 };
+  settings.dsnuSdDn = 10.0;
+  settings.prnuSd = 0.01;
+  const Stack<Codes>   flat = Simulate<Codes>(settings, Size, Size, FlatScene(Size, 0.003));
+  const StackSimulator simulator(FlatScene(Size), Size, Size, settings);
+  double               offsetDn = 0.0; // as its columns were drawn
+  for (std::size_t p = 0; p < Size * Size; ++p)
+  {
+    offsetDn += simulator.PixelOffsetDn(p) / (Size * Size);
+  }
+  const Report report = Measure(flat, WithDarkFrames(DarkFramesOf(settings, Size))).GetReport();
+  // A photon transfer's gain is that of the squares: 1 + 0.01^2 of the mean.
+  EXPECT_NEAR(ValueOf(report.gain), 1.0, 5.0 * *report.gain.standardError);
+  EXPECT_LT(*report.gain.standardError, 0.005);
+  EXPECT_NEAR(ValueOf(report.offset), offsetDn, 0.05);
+}
+
+TEST(SensorNoiseDarkPoint, DarkFramesOfAnotherCameraAreNoticed)
+{
+  // Levels down to the dark: no bend of the response can hide between them and the dark frames.
+  const Stack<Codes> stack = Simulate<Codes>(StillCamera(40), 128, 128);
+  const auto         reportOf = [&](double varianceDn2) {
+    RefinedSettings settings;
+    settings.offset = KnownOffset{ 100.0, 0.02, 20, DarkVariance{ varianceDn2, 0.3 } };
+    return Measure(stack, settings).GetReport();
+  };
+  EXPECT_FALSE(HasWarning(reportOf(64.0 + 1.0 / 12.0), "dark-frames-differ"));
+  for (const double varianceDn2 : { 40.0, 90.0 })
+  {
+    EXPECT_TRUE(HasWarning(reportOf(varianceDn2), "dark-frames-differ")) << varianceDn2;
+  }
+}
+
+TEST(SensorNoiseDarkPoint, NarrowRangeIsTiedToTheDarkFrames)
+{
+  // Levels from 70 to 100 % of the light: the line alone knows the gain to some per cent, the photon transfer to a few
+  // tenths.
+  const SimulationSettings settings = FlatCamera();
+  const Stack<Codes>       stack = Simulate<Codes>(settings, Size, Size, FlatScene(Size, 0.3));
+  const Report             report = Measure(stack, WithDarkFrames(DarkFramesOf(settings, Size))).GetReport();
+  EXPECT_NEAR(ValueOf(report.gain), 1.0, 5.0 * *report.gain.standardError);
+  EXPECT_LT(*report.gain.standardError, 0.005);
+  EXPECT_FALSE(HasWarning(report, "response-unchecked"));
+}
+
+TEST(SensorNoiseDarkPoint, RefusedStackStillHasWhatTheDarkFramesTell)
+{
+  // A gamma of 2.2 is no response of a sensor; nor is a constant stack.
+  SimulationSettings settings = StillCamera(Frames);
+  const Stack<Codes> dark = DarkFramesOf(settings, Size);
+  settings.flaws.response = { ResponseShape::Gamma, 2.2 };
+  for (const Stack<Codes> & stack :
+       { Simulate<Codes>(settings, Size, Size),
+         Stack<Codes>{ Size, Size, Frames, std::vector<Codes>(Size * Size * Frames, 700) } })
+  {
+    const Report report = Measure(stack, WithDarkFrames(dark)).GetReport();
+    EXPECT_NE(report.gain.status, EstimateStatus::Identified);
+    EXPECT_FALSE(report.gain.value);
+    EXPECT_NEAR(ValueOf(report.offset), 100.0, 0.05);
+    EXPECT_NEAR(ValueOf(report.readNoise), 8.0, 5.0 * *report.readNoise.standardError);
+    EXPECT_NEAR(ValueOf(report.readNoiseMedian), 8.0, 5.0 * *report.readNoiseMedian.standardError);
+    EXPECT_NE(report.readNoiseElectrons.status, EstimateStatus::Identified); // takes the gain
+  }
+}

@@ -1,0 +1,203 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/refined/GainEstimate.h"
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/moments/KnownOffset.h"
+#include "sensornoise/pixels/MeanGain.h"
+#include "sensornoise/pixels/VarianceCurve.h"
+#include "sensornoise/pixels/VarianceLine.h"
+#include "sensornoise/refined/RefinedResults.h"
+
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <gtest/gtest.h>
+#include <limits>
+#include <vector>
+
+using namespace sensornoise;
+
+namespace
+{
+constexpr double OffsetDn = 100.0;
+constexpr double ReadVarianceDn2 = 64.0;
+constexpr double PivotDn = 1600.0;
+constexpr double PivotErrorDn2 = 2.0;
+
+/** A line through the variance at the pivot, 1564 DN^2 with an error of 2. */
+VarianceLine
+LineOf(double gain, double gainError)
+{
+  VarianceLine line;
+  line.gain = gain;
+  line.pivotDn = PivotDn;
+  line.intercept = ReadVarianceDn2 + PivotDn - OffsetDn - gain * PivotDn;
+  line.lowestDn2 = 1.0;
+  line.isDetermined = true;
+  Eigen::Matrix2d toIntercept;
+  toIntercept << 1.0, 0.0, -PivotDn, 1.0;
+  Eigen::Matrix2d atPivot;
+  atPivot << gainError * gainError, 0.0, 0.0, PivotErrorDn2 * PivotErrorDn2;
+  line.covariance = toIntercept * atPivot * toIntercept.transpose();
+  return line;
+}
+
+/** What the passes found of a sensor of 1 DN/e-, 100 DN and 8 DN. */
+struct Found
+{
+  RefinedSettings     settings;
+  StillScene          scene;
+  SceneSeries         series;
+  StaticVariance      variance;
+  PolishedSeries      polished;
+  std::vector<double> corrected;
+
+  explicit Found(double gainError = 0.002)
+  {
+    variance.line = LineOf(1.0, gainError);
+    this->SetCurve([](double) { return 0.0; });
+  }
+  /** Levels from 110 to 3,090 DN; the variance departs from the line by a share of the line. */
+  void
+  SetCurve(const std::function<double(double levelDn)> & departureOf)
+  {
+    const VarianceLine & line = variance.line;
+    variance.curve = { line, {} };
+    for (std::size_t b = 0; b < VarianceCurve::Bins; ++b)
+    {
+      const double level = 110.0 + 2980.0 * static_cast<double>(b) / (VarianceCurve::Bins - 1.0);
+      const double weight = 10.0;
+      variance.curve.bins.push_back(
+        { 100.0, weight, weight * (level - PivotDn), weight * departureOf(level) * line.At(level) });
+    }
+  }
+  GainEstimate
+  Estimate() const
+  {
+    return EstimateGain({ settings, scene, series, variance, polished, corrected, OffsetDn });
+  }
+};
+} // namespace
+
+TEST(SensorNoiseGainEstimate, StraightSensorKeepsItsLineAndItsErrors)
+{
+  const GainEstimate estimate = Found().Estimate();
+  EXPECT_EQ(estimate.line.gain, 1.0);
+  EXPECT_FALSE(estimate.IsBent());
+  EXPECT_EQ(estimate.nonlinearity, 0.0);
+  EXPECT_EQ(estimate.RelativeModelError(), 0.0);
+  EXPECT_NEAR(estimate.StandardError(), 0.002, 1e-12);
+  EXPECT_NEAR(estimate.scale, 1564.0 / 1500.0, 1e-12); // variance over light at the pivot
+  EXPECT_FALSE(estimate.atOffset);
+}
+
+TEST(SensorNoiseGainEstimate, LineIsChosenByErrorsAndNeverByValues)
+{
+  for (const double lightGain : { 0.9, 1.0, 1.1 })
+  {
+    Found found;
+    found.variance.fromLight = LineOf(lightGain, 0.005);
+    EXPECT_EQ(found.Estimate().line.gain, 1.0) << lightGain; // no pattern: 0.002 is less
+    found.variance.pattern.gainShare = 0.01;
+    EXPECT_EQ(found.Estimate().line.gain, lightGain); // 0.01 is more than 0.005
+    EXPECT_NEAR(found.Estimate().StandardError(), 0.005, 1e-12);
+    found.variance.pattern.gainShare = 0.004;
+    const GainEstimate wider = found.Estimate();
+    EXPECT_EQ(wider.line.gain, 1.0);
+    EXPECT_NEAR(wider.StandardError(), std::hypot(0.002, 0.004), 1e-12); // what the pattern could cause
+    // The value at the pivot is as sure as before.
+    const Eigen::Vector2d pivot(PivotDn, 1.0);
+    EXPECT_NEAR(std::sqrt(pivot.dot(wider.covariance * pivot)), PivotErrorDn2, 1e-6);
+  }
+}
+
+TEST(SensorNoiseGainEstimate, SmootherHalfThatContradictsWidensTheErrors)
+{
+  Found found;
+  found.variance.fromFlat = LineOf(1.004, 0.003); // 0.004 of sqrt(0.003^2 - 0.002^2) = 0.0022: chance
+  EXPECT_NEAR(found.Estimate().StandardError(), 0.002, 1e-12);
+  found.variance.fromFlat = LineOf(1.02, 0.003);
+  EXPECT_NEAR(found.Estimate().StandardError(), std::sqrt(4e-6 + 4e-4 - 5e-6), 1e-9);
+  EXPECT_EQ(found.Estimate().line.gain, 1.0);
+}
+
+TEST(SensorNoiseGainEstimate, BentResponseHasTheMeanGain)
+{
+  // About 3 % more variance in the middle of the levels, 6 % less at the ends.
+  Found found;
+  found.SetCurve([](double level) { return 0.03 * (1.0 - 3.0 * std::pow((level - PivotDn) / 1490.0, 2)); });
+  const GainEstimate estimate = found.Estimate();
+  const auto         cubic = FindMeanGain(found.variance.curve, 3);
+  ASSERT_TRUE(cubic);
+  EXPECT_TRUE(estimate.IsBent());
+  EXPECT_EQ(estimate.line.gain, cubic->value);
+  EXPECT_EQ(estimate.nonlinearity, found.variance.curve.Nonlinearity(1.0));
+  // The interval reaches half of the way to the slope, and a third of the nonlinearity, on either side.
+  EXPECT_GE(estimate.below, 0.5 * std::abs(cubic->value - 1.0));
+  EXPECT_GE(estimate.above, estimate.nonlinearity * cubic->value / 3.0 - 1e-12);
+  EXPECT_NEAR(estimate.line.intercept + estimate.line.gain * PivotDn, 1564.0, 1e-9); // turned about the pivot
+}
+
+TEST(SensorNoiseGainEstimate, OneLevelAndADarkPointArePhotonTransfer)
+{
+  // A slope that is not known at all; the dark frames have other numbers than the line.
+  Found found(10.0);
+  found.settings.offset = KnownOffset{ 90.0, 0.03, 20, DarkVariance{ 50.0, 0.4 } };
+  const GainEstimate estimate = found.Estimate();
+  const double       light = PivotDn - 90.0;
+  EXPECT_NEAR(estimate.line.gain, (1564.0 - 50.0) / light, 1e-6);
+  EXPECT_NEAR(estimate.line.intercept + estimate.line.gain * 90.0, 50.0, 1e-3);
+  // Errors of the variance at the pivot, of the dark variance and of the offset.
+  const double error = std::hypot(PivotErrorDn2, std::hypot(0.4, estimate.scale * 0.03)) / light;
+  EXPECT_NEAR(estimate.StandardError(), error, 1e-4 * error);
+}
+
+TEST(SensorNoiseGainEstimate, LevelsThatMayAllBePatternLeaveThePhotonTransfer)
+{
+  Found found;
+  found.variance.pattern.gainShare = found.variance.pattern.offsetShare = std::numeric_limits<double>::infinity();
+  found.settings.offset = KnownOffset{ 90.0, 0.03, 20, DarkVariance{ 50.0, 0.4 } };
+  const GainEstimate estimate = found.Estimate();
+  const double       light = PivotDn - 90.0;
+  EXPECT_NEAR(estimate.line.gain, (1564.0 - 50.0) / light, 1e-6);
+  const double error = std::hypot(PivotErrorDn2, std::hypot(0.4, estimate.scale * 0.03)) / light;
+  EXPECT_NEAR(estimate.StandardError(), error, 1e-4 * error);
+}
+
+TEST(SensorNoiseGainEstimate, KnownLineAndDarkPointAreWeighted)
+{
+  Found found(0.002);
+  found.settings.offset = KnownOffset{ OffsetDn, 0.0, 20, DarkVariance{ ReadVarianceDn2 + 3.0, 1.0 } };
+  const GainEstimate estimate = found.Estimate();
+  // The line's value at the offset is 64 with a variance of 2^2 + (0.002 x 1500)^2 = 13, the dark frames' 67 with 1.
+  ASSERT_TRUE(estimate.atOffset);
+  EXPECT_NEAR(estimate.atOffset->valueDn2, ReadVarianceDn2, 1e-9);
+  EXPECT_NEAR(estimate.atOffset->standardErrorDn2, std::sqrt(13.0), 1e-9);
+  EXPECT_NEAR(estimate.line.intercept + estimate.line.gain * OffsetDn, ReadVarianceDn2 + 3.0 * 13.0 / 14.0, 1e-9);
+  EXPECT_NEAR(estimate.line.gain, 1.0 - 3.0 / 14.0 * 4e-6 * 1500.0, 1e-12);
+  EXPECT_LT(estimate.StandardError(), 0.002);
+}
+
+TEST(SensorNoiseGainEstimate, LineThatIsNotKnownHasNoDepartures)
+{
+  Found found(1.0);
+  found.SetCurve([](double level) { return level > PivotDn ? 0.2 : -0.2; });
+  const GainEstimate estimate = found.Estimate();
+  EXPECT_EQ(estimate.nonlinearity, 0.0);
+  EXPECT_FALSE(estimate.IsBent());
+}

@@ -1,0 +1,89 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/refined/OffsetReport.h"
+#include "sensornoise/report/Report.h"
+#include "sensornoise/simulation/SimulationSettings.h"
+#include "helpers/SensorTestHelper.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <gtest/gtest.h>
+
+// What physics leaves to an offset that the flicker does not tell.
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+using namespace sensornoise::test::sensor;
+
+namespace
+{
+constexpr std::size_t Size = 96;
+constexpr std::size_t Frames = 25;
+
+Report
+ReportOf(char camera, double flickerSd, std::uint64_t seed)
+{
+  SimulationSettings settings = StillCamera(Frames, seed);
+  settings.camera = PaperCamera(camera);
+  settings.conditions.flickerSd = flickerSd;
+  return Measure(Simulate<Codes>(settings, Size, Size), {}).GetReport();
+}
+} // namespace
+
+TEST(SensorNoiseOffsetLimits, WithoutFlickerTheBracketHoldsTheTruth)
+{
+  // Each end is meant for 97.5 % or more: of 24 stacks one may miss, by chance (three or more: p < 0.02).
+  int held = 0;
+  int stacks = 0;
+  for (const char camera : { 'A', 'B', 'C' })
+  {
+    const CameraModel truth = PaperCamera(camera);
+    for (std::uint64_t seed = 1; seed <= 8; ++seed)
+    {
+      const Report report = ReportOf(camera, 0.0, seed);
+      ASSERT_EQ(report.offset.status, EstimateStatus::NotIdentifiable);
+      ASSERT_TRUE(report.offset.bracket && report.offset.bracket->low && report.offset.bracket->high);
+      const double low = *report.offset.bracket->low;
+      const double high = *report.offset.bracket->high;
+      ++stacks;
+      held += low <= truth.offsetDn && truth.offsetDn <= high ? 1 : 0;
+      // The read noise leaves the lower end sigma^2 / g, the darkest level is dark: it tells something.
+      const double readWidthDn = truth.readNoiseDn * truth.readNoiseDn / truth.gainDnPerElectron;
+      EXPECT_LT(high - low, 2.0 * readWidthDn + 0.02 * truth.gainDnPerElectron * truth.electrons) << camera << seed;
+      ASSERT_TRUE(report.readNoise.bracket && report.readNoise.bracket->high);
+      EXPECT_EQ(*report.readNoise.bracket->low, 0.0);
+      EXPECT_GE(*report.readNoise.bracket->high, truth.readNoiseDn) << camera << seed;
+      EXPECT_GE(*report.readNoiseElectrons.bracket->high, 0.95 * truth.readNoiseDn / truth.gainDnPerElectron);
+    }
+  }
+  EXPECT_GE(held, stacks - 1);
+}
+
+TEST(SensorNoiseOffsetLimits, WhatIsIdentifiedIsWithinItsBracket)
+{
+  for (std::uint64_t seed = 1; seed <= 6; ++seed)
+  {
+    const Report report = ReportOf('B', 0.05, seed);
+    const double offsetDn = ValueOf(report.offset);
+    ASSERT_TRUE(report.offset.bracket && report.offset.bracket->low && report.offset.bracket->high);
+    EXPECT_LE(*report.offset.bracket->low, offsetDn - *report.offset.standardError) << seed;
+    EXPECT_GE(*report.offset.bracket->high, offsetDn + *report.offset.standardError) << seed;
+    EXPECT_NEAR(offsetDn, 100.0, 5.0 * *report.offset.standardError) << seed;
+  }
+}

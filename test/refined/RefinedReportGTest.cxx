@@ -1,0 +1,150 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/refined/RefinedReport.h"
+#include "sensornoise/report/Report.h"
+#include "sensornoise/report/ReportJson.h"
+#include "sensornoise/simulation/Scenes.h"
+#include "sensornoise/simulation/SimulationSettings.h"
+#include "sensornoise/simulation/Simulator.h"
+#include "helpers/SensorTestHelper.h"
+
+#include <cmath>
+#include <cstddef>
+#include <gtest/gtest.h>
+#include <string>
+#include <utility>
+#include <vector>
+
+// What the report says of sensors that are not the model's, and of scenes that tell too little.
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+using namespace sensornoise::test::sensor;
+
+namespace
+{
+constexpr std::size_t Size = 128;
+
+SimulationSettings
+BentCamera(ResponseShape shape, double bend, std::size_t frames)
+{
+  SimulationSettings settings = StillCamera(frames);
+  settings.flaws.response = { shape, bend };
+  return settings;
+}
+
+/** A target whose darkest level has \a low of the light of the brightest; one pixel without light spans the range. */
+Stack<Codes>
+SimulateLevels(double low)
+{
+  std::vector<double> scene = ScaleToRange(MakeTargetScene(Size, Size), low, 1.0);
+  scene[0] = 0.0;
+  return Simulate<Codes>(StillCamera(40), Size, Size, scene);
+}
+} // namespace
+
+TEST(SensorNoiseRefinedReport, FlatIsOneIntensityAndNotAThingThatMoves)
+{
+  for (const double flickerSd : { 0.0, 0.003 })
+  {
+    SimulationSettings settings = StillCamera(40);
+    settings.conditions.flickerSd = flickerSd;
+    const Report report = Measure(Simulate<Codes>(settings, Size, Size, FlatScene(Size)), {}).GetReport();
+    EXPECT_FALSE(report.gain.value);
+    EXPECT_EQ(report.gain.status, EstimateStatus::NotIdentifiable);
+    EXPECT_EQ(report.offset.status, EstimateStatus::NotIdentifiable);
+    EXPECT_EQ(report.readNoise.status, EstimateStatus::NotIdentifiable);
+    EXPECT_TRUE(HasWarning(report, "intensity-range-too-small")) << ToJson(report);
+    EXPECT_FALSE(HasWarning(report, "not-static"));
+    EXPECT_FALSE(HasWarning(report, "variance-not-affine"));
+    ASSERT_TRUE(report.fit.line);
+  }
+}
+
+TEST(SensorNoiseRefinedReport, NarrowRangeLeavesTheResponseUnchecked)
+{
+  const Report narrow = Measure(SimulateLevels(0.3), {}).GetReport();
+  EXPECT_TRUE(HasWarning(narrow, "response-unchecked")) << ToJson(narrow);
+  EXPECT_NEAR(ValueOf(narrow.gain), 1.0, 5.0 * *narrow.gain.standardError);
+  const Report full = Measure(SimulateLevels(0.0), {}).GetReport();
+  EXPECT_FALSE(HasWarning(full, "response-unchecked"));
+}
+
+TEST(SensorNoiseRefinedReport, BentResponseHasTheMeanGainInItsInterval)
+{
+  constexpr std::size_t size = 192;
+  for (const double bend : { 0.04, -0.04 })
+  {
+    const SimulationSettings settings = BentCamera(ResponseShape::Quadratic, bend, 40);
+    const StackSimulator     simulator(MakeTargetScene(size, size), size, size, settings);
+    const Report             report = Measure(Simulate<Codes>(settings, size, size), {}).GetReport();
+    EXPECT_TRUE(HasWarning(report, "response-not-straight")) << bend;
+    EXPECT_FALSE(HasWarning(report, "variance-not-affine")) << bend;
+    EXPECT_FALSE(HasWarning(report, "not-static")) << bend;
+    ExpectHolds(report.gain, MeanLocalGain(simulator));
+    EXPECT_LT(*report.gain.standardError, 0.04);
+    ASSERT_TRUE(report.fit.nonlinearity);
+    EXPECT_GT(*report.fit.nonlinearity, 0.01);
+    EXPECT_LT(*report.fit.nonlinearity, 0.12);
+  }
+}
+
+TEST(SensorNoiseRefinedReport, VerdictOnABendDoesNotDependOnTheSizeOfTheFrame)
+{
+  // Sixteen times the pixels make the bend more significant, not larger.
+  const SimulationSettings settings = BentCamera(ResponseShape::Quadratic, 0.04, 20);
+  const Report             small = Measure(Simulate<Codes>(settings, 128, 128), {}).GetReport();
+  const StackSimulator     simulator(MakeTargetScene(512, 512), 512, 512, settings);
+  const Report             large = Measure(Simulate<Codes>(settings, 512, 512), {}).GetReport();
+  EXPECT_EQ(small.gain.status, large.gain.status);
+  EXPECT_TRUE(HasWarning(small, "response-not-straight"));
+  EXPECT_TRUE(HasWarning(large, "response-not-straight"));
+  ExpectHolds(large.gain, MeanLocalGain(simulator));
+  // Of the small frame chance takes off two of its errors, 1 % each in a sixteenth of the pixels.
+  EXPECT_NEAR(*small.fit.nonlinearity, *large.fit.nonlinearity, 0.03);
+}
+
+TEST(SensorNoiseRefinedReport, ToneCurveIsRefusedWithItsLine)
+{
+  for (const auto & [shape, size] : { std::pair{ ResponseShape::Gamma, 1.3 }, std::pair{ ResponseShape::Gamma, 2.2 } })
+  {
+    const Report report = Measure(Simulate<Codes>(BentCamera(shape, size, 40), Size, Size), {}).GetReport();
+    EXPECT_EQ(report.gain.status, EstimateStatus::Failed) << size;
+    EXPECT_FALSE(report.gain.value || report.offset.value || report.readNoise.value) << size;
+    EXPECT_TRUE(HasWarning(report, "variance-not-affine")) << size;
+    ASSERT_TRUE(report.fit.line) << size;
+    EXPECT_TRUE(std::isfinite(report.fit.line->gain) && std::isfinite(report.fit.line->intercept)) << size;
+    EXPECT_NE(ToJson(report).find("\"line\""), std::string::npos);
+  }
+}
+
+TEST(SensorNoiseRefinedReport, FloatingPointFramesThatSaturateAreMeasuredAsTheirIntegers)
+{
+  SimulationSettings settings = StillCamera(40);
+  settings.clipHighDn = 2000.0; // of about 3,100
+  const Stack<Codes> codes = Simulate<Codes>(settings, Size, Size);
+  const Report       integer = Measure(codes, {}).GetReport();
+  const Report       floating = Measure(codes.Map<float>([](Codes u) { return u; }), {}).GetReport();
+  EXPECT_TRUE(HasWarning(floating, "clip-level-found"));
+  EXPECT_NEAR(ValueOf(integer.gain), 1.0, 5.0 * *integer.gain.standardError);
+  EXPECT_NEAR(ValueOf(floating.gain), ValueOf(integer.gain), 0.5 * *integer.gain.standardError);
+  EXPECT_EQ(floating.clipHighDn, integer.clipHighDn);
+  EXPECT_NEAR(static_cast<double>(floating.pixels.clipped),
+              static_cast<double>(integer.pixels.clipped),
+              0.01 * static_cast<double>(integer.pixels.clipped));
+}
