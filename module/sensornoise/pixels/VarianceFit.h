@@ -71,6 +71,13 @@ public:
   void
   FillErrors();
 
+  /** How far above the line a pixel may be, TrimRule::Distance [DN^2]. */
+  double
+  GetReachDn2() const
+  {
+    return m_ReachDn2;
+  }
+
   /** 1 at the pixels of the mask that the line trims: they have no weight in it. */
   std::vector<std::uint8_t>
   FindTrimmed() const;
