@@ -98,6 +98,10 @@ TEST(SensorNoiseRefinedReport, BentResponseHasTheMeanGainInItsInterval)
     EXPECT_FALSE(HasWarning(report, "not-static")) << bend;
     ExpectHolds(report.gain, MeanLocalGain(simulator));
     EXPECT_LT(*report.gain.standardError, 0.04);
+    // The matrix holds the same errors, the model's among them.
+    ASSERT_TRUE(report.covariance);
+    EXPECT_NEAR(std::sqrt((*report.covariance)[0][0]) / *report.gain.standardError, 1.0, 1e-9);
+    EXPECT_NEAR(std::sqrt((*report.covariance)[1][1]) / *report.totalIntercept.standardError, 1.0, 1e-6);
     ASSERT_TRUE(report.fit.nonlinearity);
     EXPECT_GT(*report.fit.nonlinearity, 0.01);
     EXPECT_LT(*report.fit.nonlinearity, 0.12);

@@ -308,7 +308,12 @@ FillOffsetAndReadNoise(Report &               report,
   {
     report.offset.bracket->low = std::min(*limits.lowestDn, offsetDn - offsetErrorDn);
   }
-  const Eigen::Matrix2d & covariance = gain.covariance;
+  // The error of taking the response for straight turns the line about its pivot.
+  const double    ofModel = 0.5 * (gain.below + gain.above);
+  const double    pivotDn = gain.line.pivotDn;
+  Eigen::Matrix2d covariance;
+  covariance << 1.0, -pivotDn, -pivotDn, pivotDn * pivotDn;
+  covariance = gain.covariance + ofModel * ofModel * covariance;
   report.covariance = std::array<std::array<double, 3>, 3>{ { { covariance(0, 0), covariance(0, 1), 0.0 },
                                                               { covariance(0, 1), covariance(1, 1), 0.0 },
                                                               { 0.0, 0.0, offsetErrorDn * offsetErrorDn } } };
