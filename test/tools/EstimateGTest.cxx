@@ -218,7 +218,7 @@ TEST_F(EstimateTool, TheNumberOfThreadsChangesNothing)
 
 TEST_F(EstimateTool, WarningsAreOnStandardErrorAndInTheReport)
 {
-  const nlohmann::json report = ReportOf(Write("s.mha", MakeBurst(12).GetPointer()));
+  const nlohmann::json report = ReportOf(Write("s.mha", MakeBurst(16).GetPointer()));
   ASSERT_FALSE(report["warnings"].empty());
   EXPECT_EQ(report["warnings"][0]["code"], "few-frames");
   std::string expected;
