@@ -136,7 +136,7 @@ TEST(SensorNoiseVarianceCurve, ParabolaHasTheSizeAndTheSlopesOfItsFormula)
   const double line = 20.0 + 0.5 * (PivotDn - 60.0);
   for (const double dispersion : { 1.0, 3.0 })
   {
-    const double chance = 4.0 * dispersion / (4.0 * Weight);
+    const double chance = 9.0 * dispersion / (4.0 * Weight); // three standard deviations
     EXPECT_NEAR(curve.Nonlinearity(dispersion), std::sqrt(atGroup * atGroup - chance) / line, 1e-12);
   }
   EXPECT_EQ(curve.Nonlinearity(1e9), 0.0); // all of it may be chance

@@ -32,8 +32,8 @@ namespace sensornoise
 
 namespace
 {
-constexpr std::size_t PatternSquareSide = 16; // pixels
-constexpr double      LeastHalfPixels = 32.0; // of either half of a square that counts
+constexpr std::size_t PatternSquareSide = 8;  // pixels
+constexpr double      LeastHalfPixels = 24.0; // of either half of a square that counts
 /** Share of the squares that count as the flattest [1], and their least number. Set by hand: with half and twice the
  * share the shares of natural scenes change by a third. */
 constexpr double      FlattestShare = 0.05;
