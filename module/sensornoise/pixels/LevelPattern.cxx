@@ -32,7 +32,11 @@ namespace sensornoise
 
 namespace
 {
-constexpr std::size_t PatternSquareSide = 8;  // pixels
+/** Side of a square [pixel]: many columns tell their pattern, but a small frame may have no large square that is flat.
+ * Set by hand: with 8 in large frames those squares are the flattest whose few columns are alike by chance. */
+constexpr std::size_t LargeSquareSide = 16;
+constexpr std::size_t SmallSquareSide = 8;
+constexpr std::size_t SmallFramePixels = 128 * 128;
 constexpr double      LeastHalfPixels = 24.0; // of either half of a square that counts
 /** Share of the squares that count as the flattest [1], and their least number. Set by hand: with half and twice the
  * share the shares of natural scenes change by a third. */
@@ -92,12 +96,13 @@ SumPatternSquare(const ReferenceFrame & frame,
                  const VarianceData &   data,
                  std::size_t            left,
                  std::size_t            top,
+                 std::size_t            side,
                  Square &               square)
 {
   const auto frames = static_cast<double>(frame.frames);
-  for (std::size_t y = top; y < std::min(top + PatternSquareSide, frame.geometry.height); ++y)
+  for (std::size_t y = top; y < std::min(top + side, frame.geometry.height); ++y)
   {
-    for (std::size_t x = left; x < std::min(left + PatternSquareSide, frame.geometry.width); ++x)
+    for (std::size_t x = left; x < std::min(left + side, frame.geometry.width); ++x)
     {
       const std::size_t p = y * frame.geometry.width + x;
       if (data.mask[p] != 0 && HasDiagonals(frame.usable.data(), frame.geometry.width, p))
@@ -121,14 +126,14 @@ SumPatternSquare(const ReferenceFrame & frame,
 std::vector<Square>
 MakeSquares(const ReferenceFrame & frame, const VarianceData & data, const ParallelFor & parallelFor)
 {
-  const std::size_t   across = (frame.geometry.width + PatternSquareSide - 1) / PatternSquareSide;
-  const std::size_t   down = (frame.geometry.height + PatternSquareSide - 1) / PatternSquareSide;
+  const std::size_t   side = frame.geometry.Pixels() < SmallFramePixels ? SmallSquareSide : LargeSquareSide;
+  const std::size_t   across = (frame.geometry.width + side - 1) / side;
+  const std::size_t   down = (frame.geometry.height + side - 1) / side;
   std::vector<Square> squares(across * down);
   parallelFor(down, [&](std::size_t row) {
     for (std::size_t column = 0; column < across; ++column)
     {
-      SumPatternSquare(
-        frame, data, column * PatternSquareSide, row * PatternSquareSide, squares[row * across + column]);
+      SumPatternSquare(frame, data, column * side, row * side, side, squares[row * across + column]);
     }
   });
   squares.erase(std::remove_if(squares.begin(),
