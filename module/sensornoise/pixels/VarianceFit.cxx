@@ -72,6 +72,9 @@ VarianceFit::VarianceFit(const VarianceData &                data,
       m_Trim.emplace(this->MakeTrim());
       if (m_Rule == TrimRule::Distance)
       {
+        std::vector<double> levels = this->SampleLevels();
+        m_DarkestDn = Quantile(levels, 0.002);
+        m_BrightestDn = Quantile(levels, 0.998);
         this->SetReach();
         this->SetNoiseSpread();
       }
@@ -113,7 +116,7 @@ VarianceFit::MakeTrim() const
 }
 
 VarianceFit::Weighed
-VarianceFit::Weigh(std::size_t p, const ChiSquareTrim & trim) const
+VarianceFit::Weigh(std::size_t p) const
 {
   const double own = m_Line.At(m_Data.mean[p]);
   const double expected = m_Line.At(m_Data.neighbourMean[p]);
@@ -124,21 +127,27 @@ VarianceFit::Weigh(std::size_t p, const ChiSquareTrim & trim) const
     const double excess = m_Data.variance[p] - own;
     return { excess < m_ReachDn2 && excess > -m_ReachBelowDn2 ? weight : 0.0, m_Data.variance[p] };
   }
-  const auto & limits = trim.Of(m_Line.EffectiveFreedom(m_Data.freedom[p], own));
+  const auto & limits = m_Trim->Of(m_Line.EffectiveFreedom(m_Data.freedom[p], own));
   const double ratio = m_Data.variance[p] / own;
   return { ratio > limits.low && ratio < limits.high ? weight : 0.0, m_Data.variance[p] / limits.mean };
 }
 
-void
-VarianceFit::SetReach()
+std::vector<double>
+VarianceFit::SampleLevels() const
 {
   std::vector<double> levels;
   for (const std::size_t p : SamplePixels({ m_Data.mask, m_Data.mask + m_Data.pixels }))
   {
     levels.push_back(m_Data.neighbourMean[p]);
   }
-  const double darkest = m_Line.At(Quantile(levels, 0.002));
-  const double brightest = m_Line.At(Quantile(levels, 0.998));
+  return levels;
+}
+
+void
+VarianceFit::SetReach()
+{
+  const double darkest = m_Line.At(m_DarkestDn);
+  const double brightest = m_Line.At(m_BrightestDn);
   const double largest = std::max(darkest, brightest);
   const double freedom = std::max(1.0, m_Line.SamplingFreedom(m_Freedoms.highest, largest));
   const double chance = largest * (ChiSquareUpperQuantile(ReachTail, freedom) / freedom - 1.0);
@@ -160,7 +169,7 @@ VarianceFit::SetNoiseSpread()
     Sums
   };
   const auto   s = SumOverBlocks<Sums>(m_Data.pixels, m_ParallelFor, [&](std::size_t p, auto & sums) {
-    if (m_Data.mask[p] != 0 && this->Weigh(p, *m_Trim).weight > 0.0)
+    if (m_Data.mask[p] != 0 && this->Weigh(p).weight > 0.0)
     {
       const double own = m_Line.At(m_Data.mean[p]);
       const double expected = m_Line.At(m_Data.neighbourMean[p]);
@@ -195,7 +204,7 @@ VarianceFit::Iterate(int iterations)
     const auto   s = SumOverBlocks<Sums>(m_Data.pixels, m_ParallelFor, [&](std::size_t p, auto & sums) {
       if (m_Data.mask[p] != 0)
       {
-        const auto [w, value] = this->Weigh(p, *m_Trim);
+        const auto [w, value] = this->Weigh(p);
         const double x = m_Data.mean[p] - pivot;
         sums[W] += w;
         sums[WX] += w * x;
@@ -257,7 +266,7 @@ VarianceFit::FillErrors()
   const auto s = SumOverBlocks<Sums>(m_Data.pixels, m_ParallelFor, [&](std::size_t p, auto & sums) {
     if (m_Data.mask[p] != 0)
     {
-      const auto [w, value] = this->Weigh(p, *m_Trim);
+      const auto [w, value] = this->Weigh(p);
       const double x = m_Data.mean[p] - m_Line.pivotDn;
       const double residual = value - m_Line.intercept - m_Line.gain * m_Data.mean[p];
       const double square = w * w * residual * residual;
@@ -305,7 +314,7 @@ VarianceFit::FindTrimmed() const
     ForBlocks(m_Data.pixels, m_ParallelFor, [&](std::size_t begin, std::size_t end) {
       for (std::size_t p = begin; p < end; ++p)
       {
-        trimmed[p] = m_Data.mask[p] != 0 && !(this->Weigh(p, *m_Trim).weight > 0.0) ? 1 : 0;
+        trimmed[p] = m_Data.mask[p] != 0 && !(this->Weigh(p).weight > 0.0) ? 1 : 0;
       }
     });
   }
@@ -315,17 +324,12 @@ VarianceFit::FindTrimmed() const
 VarianceCurve
 VarianceFit::CurveAbout(const VarianceLine & line) const
 {
-  std::vector<double> levels;
-  for (const std::size_t p : SamplePixels({ m_Data.mask, m_Data.mask + m_Data.pixels }))
-  {
-    levels.push_back(m_Data.neighbourMean[p]);
-  }
-  const std::vector<double> edges = EdgesOfEqualCount(levels, VarianceCurve::Bins);
+  const std::vector<double> edges = EdgesOfEqualCount(this->SampleLevels(), VarianceCurve::Bins);
   const auto                s =
     SumOverBlocks<VarianceCurve::Bins * CurveBin::Sums>(m_Data.pixels, m_ParallelFor, [&](std::size_t p, auto & sums) {
       if (m_Data.mask[p] != 0)
       {
-        const auto [w, value] = this->Weigh(p, *m_Trim);
+        const auto [w, value] = this->Weigh(p);
         const double x = m_Data.mean[p] - line.pivotDn;
         const double excess = value - line.intercept - line.gain * m_Data.mean[p];
         double *     own = sums.data() + CurveBin::Sums * BinOf(edges, m_Data.neighbourMean[p]);

@@ -93,10 +93,7 @@ public:
     double value;  ///< the variance, freed of the trimming's bias [DN^2]
   };
   Weighed
-  Weigh(std::size_t p) const
-  {
-    return this->Weigh(p, *m_Trim);
-  }
+  Weigh(std::size_t p) const;
 
   const VarianceLine &
   GetLine() const
@@ -117,9 +114,10 @@ private:
   RangeOfFreedom(const VarianceData & data, const ParallelFor & parallelFor);
   ChiSquareTrim
   MakeTrim() const;
-  Weighed
-  Weigh(std::size_t p, const ChiSquareTrim & trim) const;
 
+  /** The neighbours' means of a sample of the pixels [DN]. */
+  std::vector<double>
+  SampleLevels() const;
   /** Finds how far from the line pixels may be, TrimRule::Distance. */
   void
   SetReach();
@@ -134,6 +132,8 @@ private:
   std::optional<ChiSquareTrim> m_Trim;
   TrimRule                     m_Rule;
   double                       m_BlackDn;
+  double                       m_DarkestDn{ 0.0 }; // quantiles 0.002 and 0.998 of the levels
+  double                       m_BrightestDn{ 0.0 };
   double                       m_ReachDn2{ 0.0 };
   double                       m_ReachBelowDn2{ 0.0 };
 };
