@@ -35,6 +35,12 @@ struct CodeRange
   std::optional<double> clipHighDn;                ///< a pixel that attains it is clipped [DN]; null: none
   std::string           clipSource{ "none" }; ///< "given", "pile-up", "code range", "none", or "low: ..., high: ..."
 
+  /** Files where the clip levels are from. */
+  void
+  SetClipSources(const std::string & low, const std::string & high)
+  {
+    clipSource = low == high ? low : "low: " + low + ", high: " + high;
+  }
   bool
   IsClipped(double minimumDn, double maximumDn) const
   {

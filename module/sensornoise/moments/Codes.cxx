@@ -179,7 +179,7 @@ SetClipLevels(const Extremes & extremes, double step, double top, const CodeSett
     range.clipHighDn = found ? highest : top;
     highSource = found ? "pile-up" : "code range";
   }
-  range.clipSource = lowSource == highSource ? lowSource : "low: " + lowSource + ", high: " + highSource;
+  range.SetClipSources(lowSource, highSource);
 }
 
 } // namespace

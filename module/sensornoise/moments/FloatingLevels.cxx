@@ -66,7 +66,7 @@ FindLevels(const OutermostLevels & minima,
     range.clipHighDn = high ? maxima.Level() : settings.clipHighDn;
     const std::string lowSource = SourceOf(settings.clipLowDn.has_value(), low);
     const std::string highSource = SourceOf(settings.clipHighDn.has_value(), high);
-    range.clipSource = lowSource == highSource ? lowSource : "low: " + lowSource + ", high: " + highSource;
+    range.SetClipSources(lowSource, highSource);
   }
   return range;
 }
