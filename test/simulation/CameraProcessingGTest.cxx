@@ -85,6 +85,26 @@ TEST(SensorNoiseCameraProcessing, ResamplingBlendsTwoNeighboursAlongEachAxis)
   EXPECT_EQ(moved.Row(0)[599], noise.Row(0)[599]);
 }
 
+TEST(SensorNoiseCameraProcessing, CubicResamplingHasItsFourTapsAndKeepsParabolas)
+{
+  const DoubleFrame noise = NormalFrame(600, 500, 5);
+  const auto        found = CovarianceOf(ResampleFrame(noise, { 0.5, 0.0, Interpolation::Cubic }, SerialFor));
+  EXPECT_NEAR(found.variance, (81.0 + 81.0 + 1.0 + 1.0) / 256.0, FiveErrors);
+  EXPECT_NEAR(found.horizontal, (81.0 - 9.0 - 9.0) / 256.0, FiveErrors);
+  EXPECT_NEAR(found.vertical, 0.0, FiveErrors);
+  DoubleFrame parabola(30, 20);
+  const auto  valueAt = [](double x, double y) { return 2.0 + x * x - 3.0 * x * y + 0.5 * y * y; };
+  for (std::size_t i = 0; i < 600; ++i)
+  {
+    parabola.values[i] = valueAt(static_cast<double>(i % 30), static_cast<double>(i / 30));
+  }
+  const DoubleFrame moved = ResampleFrame(parabola, { 0.3, -1.2, Interpolation::Cubic }, SerialFor);
+  EXPECT_NEAR(moved.Row(9)[12], valueAt(12.3, 7.8), 1e-10);
+  const DoubleFrame whole = ResampleFrame(noise, { 2.0, -1.0, Interpolation::Cubic }, SerialFor);
+  EXPECT_EQ(whole.Row(10)[20], noise.Row(9)[22]);
+  EXPECT_EQ(whole.Row(0)[599], noise.Row(0)[599]);
+}
+
 TEST(SensorNoiseCameraProcessing, DefectsBecomeTheMedianOfTheirNeighbours)
 {
   DoubleFrame frame = NormalFrame(40, 30, 6);
@@ -179,6 +199,8 @@ TEST(SensorNoiseCameraProcessing, SameBitsForAnyNumberOfThreads)
   EXPECT_EQ(SmoothFrame(noise, { 0.6 }, Threads(3)).values, SmoothFrame(noise, { 0.6 }, SerialFor).values);
   EXPECT_EQ(ResampleFrame(noise, { 0.3, 1.2 }, Threads(3)).values,
             ResampleFrame(noise, { 0.3, 1.2 }, SerialFor).values);
+  const ResamplingSettings cubic{ 0.3, 1.2, Interpolation::Cubic };
+  EXPECT_EQ(ResampleFrame(noise, cubic, Threads(3)).values, ResampleFrame(noise, cubic, SerialFor).values);
   EXPECT_EQ(CorrectDefects(noise, { 1.5 }, Threads(3)).values, CorrectDefects(noise, { 1.5 }, SerialFor).values);
 }
 
@@ -186,6 +208,7 @@ TEST(SensorNoiseCameraProcessing, BadSettingsAreRefused)
 {
   EXPECT_THROW(CheckSettings(SmoothingSettings{ -0.1 }), std::invalid_argument);
   EXPECT_THROW(CheckSettings(ResamplingSettings{ 0.0, NAN }), std::invalid_argument);
+  EXPECT_THROW(CheckSettings(ResamplingSettings{ 0.5, 0.5, Interpolation::Nearest }), std::invalid_argument);
   EXPECT_THROW(CheckSettings(DefectCorrectionSettings{ -1.0 }), std::invalid_argument);
   EXPECT_THROW(CheckSettings(CompandingSettings{ 1 }, 12), std::invalid_argument);
   EXPECT_THROW(CheckSettings(CompandingSettings{ 8 }, 0), std::invalid_argument);

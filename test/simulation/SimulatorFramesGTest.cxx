@@ -49,8 +49,11 @@ MixedSettings()
   settings.flaws.coupling.fraction = 0.01;
   settings.flaws.defectCorrection.thresholdSd = 3.0;
   settings.flaws.temporalFilter.weight = 0.4;
+  settings.flaws.median.radiusPixels = 1;
   settings.flaws.smoothing.sdPixels = 0.5;
+  settings.flaws.binning.factor = 2;
   settings.flaws.resampling = { 0.5, 0.25 };
+  settings.flaws.blocks.quality = 95;
   settings.flaws.repetition.count = 2;
   return settings;
 }
@@ -127,6 +130,9 @@ TEST(SensorNoiseSimulatorFrames, RowsThatNeedOthersAreRefused)
   };
   EXPECT_TRUE(needsFrames([](SensorFlaws & flaws) { flaws.coupling.fraction = 0.01; }));
   EXPECT_TRUE(needsFrames([](SensorFlaws & flaws) { flaws.brighterFatter.perElectron = 1e-6; }));
+  EXPECT_TRUE(needsFrames([](SensorFlaws & flaws) { flaws.median.radiusPixels = 1; }));
+  EXPECT_TRUE(needsFrames([](SensorFlaws & flaws) { flaws.binning.factor = 2; }));
+  EXPECT_TRUE(needsFrames([](SensorFlaws & flaws) { flaws.blocks.quality = 95; }));
   EXPECT_TRUE(needsFrames([](SensorFlaws & flaws) { flaws.smoothing.sdPixels = 0.6; }));
   EXPECT_TRUE(needsFrames([](SensorFlaws & flaws) { flaws.resampling.shiftYPixels = 0.5; }));
   EXPECT_TRUE(needsFrames([](SensorFlaws & flaws) { flaws.temporalFilter.weight = 0.5; }));
@@ -154,6 +160,50 @@ TEST(SensorNoiseSimulatorFrames, RepeatedFramesAreEqualInCodesAndTruth)
     once.flaws.repetition.count = 1;
     EXPECT_EQ(FrameOf<double>(MakeSimulator(once), 1), FrameOf<double>(simulator, 3));
   }
+}
+
+TEST(SensorNoiseSimulatorFrames, EachThirdExposureMayBeRepeated)
+{
+  for (const bool isMixed : { false, true })
+  {
+    SimulationSettings settings = isMixed ? MixedSettings() : FlickeringSettings(6);
+    settings.frames = 8;
+    settings.flaws.repetition = { 1, 1 };
+    const StackSimulator once = MakeSimulator(settings);
+    settings.flaws.repetition = { 2, 3 };
+    const StackSimulator           simulator = MakeSimulator(settings);
+    const std::vector<std::size_t> exposures{ 0, 1, 2, 2, 3, 4, 5, 5 };
+    for (std::size_t frame = 0; frame < 8; ++frame)
+    {
+      EXPECT_EQ(FrameOf<double>(simulator, frame), FrameOf<double>(once, exposures[frame])) << frame;
+      EXPECT_EQ(simulator.GetTruth().series.gamma[frame], once.GetTruth().series.gamma[exposures[frame]]);
+      EXPECT_EQ(settings.flaws.repetition.ExposureOf(settings.flaws.repetition.FirstFrameOf(frame)), frame);
+    }
+  }
+  SimulationSettings settings;
+  settings.flaws.repetition.period = 0;
+  EXPECT_THROW(MakeSimulator(settings), std::invalid_argument);
+}
+
+TEST(SensorNoiseSimulatorFrames, TheCameraFiltersThenBinsThenMovesThenCompresses)
+{
+  SimulationSettings settings = StillSettings('B', 1);
+  settings.isDark = true;
+  settings.camera.readNoiseDn = 100.0;
+  const auto varianceWith = [&](const SensorFlaws & flaws) {
+    settings.flaws = flaws;
+    return MomentsOf(FrameOf<double>(StackSimulator(std::vector<double>(160000, 1.0), 400, 400, settings), 0)).variance;
+  };
+  SensorFlaws flaws;
+  flaws.binning.factor = 2;
+  EXPECT_NEAR(varianceWith(flaws), 2500.0, 5.0 * 2500.0 * std::sqrt(2.0 / 40000.0));
+  // Within a square the half pixel changes nothing, between two it halves the variance: 3/4 of it stay.
+  flaws.resampling.shiftXPixels = 0.5;
+  EXPECT_NEAR(varianceWith(flaws), 0.75 * 2500.0, 5.0 * 2500.0 * std::sqrt(2.0 / 40000.0));
+  // The blocks come last: all steps of quality 1 are 255 codes of 8 bits, and no noise is left, nor an interpolation of
+  // what differs between blocks.
+  flaws.blocks.quality = 1;
+  EXPECT_LT(varianceWith(flaws), 1e-6);
 }
 
 TEST(SensorNoiseSimulatorFrames, ChargeIsMovedBeforeReadNoiseAndCodesAreSmoothedAfterIt)

@@ -49,11 +49,17 @@ WriteJson(JsonWriter & json, const SensorFlaws & flaws)
     });
     json.Member("defect_threshold_sd", flaws.defectCorrection.thresholdSd);
     json.Member("temporal_filter_weight", flaws.temporalFilter.weight);
+    json.Member("median_radius", flaws.median.radiusPixels);
     json.Member("smoothing_sd", flaws.smoothing.sdPixels);
+    json.ObjectMember("binning", [&] {
+      json.Member("factor", flaws.binning.factor).Member("interpolation", NameOf(flaws.binning.interpolation));
+    });
     json.Member("resampling_shift",
                 std::array<double, 2>{ flaws.resampling.shiftXPixels, flaws.resampling.shiftYPixels });
+    json.Member("resampling_interpolation", NameOf(flaws.resampling.interpolation));
+    json.Member("block_quality", flaws.blocks.quality);
     json.Member("companding_bits", flaws.companding.bits);
-    json.Member("repeat_count", flaws.repetition.count);
+    json.Member("repeat_count", flaws.repetition.count).Member("repeat_period", flaws.repetition.period);
   });
 }
 

@@ -43,15 +43,30 @@ ProcessBeforeTemporalFilter(DoubleFrame codesDn, const SensorFlaws & flaws, cons
 }
 
 DoubleFrame
-ProcessAfterTemporalFilter(DoubleFrame codesDn, const SensorFlaws & flaws, const ParallelFor & parallelFor)
+ProcessAfterTemporalFilter(DoubleFrame         codesDn,
+                           const SensorFlaws & flaws,
+                           unsigned int        bitDepth,
+                           const ParallelFor & parallelFor)
 {
+  if (flaws.median.IsOn())
+  {
+    codesDn = FilterByMedian(codesDn, flaws.median, parallelFor);
+  }
   if (flaws.smoothing.IsOn())
   {
     codesDn = SmoothFrame(std::move(codesDn), flaws.smoothing, parallelFor);
   }
+  if (flaws.binning.IsOn())
+  {
+    codesDn = BinFrame(codesDn, flaws.binning, parallelFor);
+  }
   if (flaws.resampling.IsOn())
   {
     codesDn = ResampleFrame(codesDn, flaws.resampling, parallelFor);
+  }
+  if (flaws.blocks.IsOn())
+  {
+    codesDn = QuantiseBlocks(codesDn, StepsOfQuality(flaws.blocks, bitDepth), parallelFor);
   }
   return codesDn;
 }

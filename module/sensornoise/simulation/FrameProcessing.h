@@ -34,7 +34,8 @@ inline bool
 NeedsWholeFrames(const SensorFlaws & flaws)
 {
   return flaws.brighterFatter.IsOn() || flaws.coupling.IsOn() || flaws.defectCorrection.IsOn() ||
-         flaws.temporalFilter.IsOn() || flaws.smoothing.IsOn() || flaws.resampling.IsOn();
+         flaws.temporalFilter.IsOn() || flaws.median.IsOn() || flaws.smoothing.IsOn() || flaws.binning.IsOn() ||
+         flaws.resampling.IsOn() || flaws.blocks.IsOn();
 }
 
 /** What happens to the charges [e-] between collection and read-out: brighter-fatter, then coupling. */
@@ -45,9 +46,13 @@ MoveCharge(DoubleFrame charge, const SensorFlaws & flaws, const ParallelFor & pa
 SensorNoise_EXPORT DoubleFrame
 ProcessBeforeTemporalFilter(DoubleFrame codesDn, const SensorFlaws & flaws, const ParallelFor & parallelFor);
 
-/** What it does after it: smoothing, then resampling. */
+/** What it does after it: median, smoothing, binning, resampling, and last the compression in blocks, which needs the
+ * converter's \a bitDepth. */
 SensorNoise_EXPORT DoubleFrame
-ProcessAfterTemporalFilter(DoubleFrame codesDn, const SensorFlaws & flaws, const ParallelFor & parallelFor);
+ProcessAfterTemporalFilter(DoubleFrame         codesDn,
+                           const SensorFlaws & flaws,
+                           unsigned int        bitDepth,
+                           const ParallelFor & parallelFor);
 
 } // namespace sensornoise
 

@@ -21,19 +21,22 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/simulation/DoubleFrame.h"
+#include "sensornoise/simulation/Interpolation.h"
 
 namespace sensornoise
 {
 
 /** Resampling in the camera, as digital stabilisation or lens correction does: the frame at (x + shiftX, y + shiftY),
- * interpolated linearly, edge pixels replicated. A fraction f of a pixel leaves (1 - f)^2 + f^2 of the variance along
- * its axis. */
+ * interpolated, edge pixels replicated. A fraction f of a pixel leaves (1 - f)^2 + f^2 of the variance along its axis
+ * by linear interpolation, by cubic one more: 0.641 instead of 0.5 at half a pixel. */
 struct ResamplingSettings
 {
   /** [pixel], -1000 to 1000. */
   double shiftXPixels{ 0.0 };
   /** [pixel], -1000 to 1000. */
   double shiftYPixels{ 0.0 };
+  /** Linear or Cubic. */
+  Interpolation interpolation{ Interpolation::Linear };
 
   bool
   IsOn() const

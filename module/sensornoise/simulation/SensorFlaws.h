@@ -18,15 +18,18 @@
 #ifndef sensornoise_simulation_SensorFlaws_h
 #define sensornoise_simulation_SensorFlaws_h
 
+#include "sensornoise/simulation/BlockQuantisation.h"
 #include "sensornoise/simulation/BrighterFatter.h"
 #include "sensornoise/simulation/ChargeCoupling.h"
 #include "sensornoise/simulation/Companding.h"
 #include "sensornoise/simulation/DefectCorrection.h"
+#include "sensornoise/simulation/FrameBinning.h"
 #include "sensornoise/simulation/FrameRepetition.h"
 #include "sensornoise/simulation/FrameResampling.h"
 #include "sensornoise/simulation/FrameSmoothing.h"
 #include "sensornoise/simulation/GainPattern.h"
 #include "sensornoise/simulation/LineNoise.h"
+#include "sensornoise/simulation/MedianFilter.h"
 #include "sensornoise/simulation/ReadNoisePattern.h"
 #include "sensornoise/simulation/ResponseCurve.h"
 #include "sensornoise/simulation/TemporalFilter.h"
@@ -47,8 +50,11 @@ struct SensorFlaws
   LineNoiseSettings        lineNoise{};
   DefectCorrectionSettings defectCorrection{};
   TemporalFilterSettings   temporalFilter{};
+  MedianSettings           median{};
   SmoothingSettings        smoothing{};
+  BinningSettings          binning{};
   ResamplingSettings       resampling{};
+  BlockSettings            blocks{};
   CompandingSettings       companding{};
   RepetitionSettings       repetition{};
 };

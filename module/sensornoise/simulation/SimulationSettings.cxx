@@ -92,8 +92,11 @@ CheckSettings(const SimulationSettings & settings)
   CheckSettings(settings.flaws.coupling);
   CheckSettings(settings.flaws.defectCorrection);
   CheckSettings(settings.flaws.temporalFilter);
+  CheckSettings(settings.flaws.median);
   CheckSettings(settings.flaws.smoothing);
+  CheckSettings(settings.flaws.binning);
   CheckSettings(settings.flaws.resampling);
+  CheckSettings(settings.flaws.blocks, settings.bitDepth);
   CheckSettings(settings.flaws.companding, settings.bitDepth);
   CheckSettings(settings.flaws.repetition);
   constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -192,13 +192,13 @@ StackSimulator::RenderFrame(std::size_t frame, TPixel * out, const ParallelFor &
   RequireRow(frame, 0);
   const SensorFlaws & flaws = m_Truth.settings.flaws;
   const auto          codesOf = [&](std::size_t exposure) {
-    const std::size_t firstFrame = exposure * flaws.repetition.count;
+    const std::size_t firstFrame = flaws.repetition.FirstFrameOf(exposure);
     return ProcessBeforeTemporalFilter(ReadFrame(firstFrame, parallelFor), flaws, parallelFor);
   };
   const std::size_t exposure = flaws.repetition.ExposureOf(frame);
   DoubleFrame       codesDn =
     flaws.temporalFilter.IsOn() ? m_TemporalFilter->OutputFrame(exposure, codesOf, parallelFor) : codesOf(exposure);
-  codesDn = ProcessAfterTemporalFilter(std::move(codesDn), flaws, parallelFor);
+  codesDn = ProcessAfterTemporalFilter(std::move(codesDn), flaws, m_Truth.settings.bitDepth, parallelFor);
   parallelFor(m_Height, [&](std::size_t y) { WriteRow(codesDn.Row(y), out + y * m_Width); });
 }
 

@@ -1,0 +1,56 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_simulation_FrameBinning_h
+#define sensornoise_simulation_FrameBinning_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/simulation/DoubleFrame.h"
+#include "sensornoise/simulation/Interpolation.h"
+
+namespace sensornoise
+{
+
+/** Binning in the camera, and frames of the full size made of it again: the mean of each square of pixels, the squares
+ * at the right and at the bottom cut by the edge, then interpolated at the old pixels between the squares' centres.
+ * White noise keeps 1 / factor^2 of its variance by "nearest"; by "linear" a pixel has less. */
+struct BinningSettings
+{
+  /** Side of the square [pixel], 1 to 64; 1: none. */
+  unsigned int factor{ 1 };
+  /** Nearest (the square's pixels are equal) or Linear. */
+  Interpolation interpolation{ Interpolation::Nearest };
+
+  bool
+  IsOn() const
+  {
+    return factor > 1;
+  }
+};
+
+/** \throws std::invalid_argument naming the first setting that cannot be used. */
+SensorNoise_EXPORT void
+CheckSettings(const BinningSettings & settings);
+
+/** \a codesDn binned, in its old size [DN]. Where whole squares fill the frame, its mean is kept. */
+SensorNoise_EXPORT DoubleFrame
+BinFrame(const DoubleFrame & codesDn, const BinningSettings & settings, const ParallelFor & parallelFor);
+
+} // namespace sensornoise
+
+#endif
