@@ -265,20 +265,52 @@ public:
   /** Temporal filter in the camera: weight of the last frame [1], 0 to 0.99. Default 0. */
   itkSensorFlawMacro(TemporalFilterWeight, double, temporalFilter.weight);
 
+  /** Median filter in the camera: radius of its square [pixel], 1: 3 x 3, 0 to 10. Default 0: none. */
+  itkSensorFlawMacro(MedianRadius, unsigned int, median.radiusPixels);
+
   /** Smoothing in the camera: standard deviation of its Gaussian kernel [pixel], 0 to 100. Default 0. */
   itkSensorFlawMacro(SmoothingSd, double, smoothing.sdPixels);
 
-  /** Resampling in the camera by linear interpolation: horizontal shift [pixel], -1000 to 1000. Default 0. */
+  /** Binning in the camera, in the old size: side of the squares whose mean is taken [pixel], 1 to 64. Default 1:
+   * none. */
+  itkSensorFlawMacro(BinningFactor, unsigned int, binning.factor);
+
+  /** How the old size is made again: nearest, the default, or linear. */
+  void
+  SetBinningInterpolation(const std::string & name);
+  std::string
+  GetBinningInterpolation() const
+  {
+    return sensornoise::NameOf(m_Flaws.binning.interpolation);
+  }
+
+  /** Resampling in the camera: horizontal shift [pixel], -1000 to 1000. Default 0. */
   itkSensorFlawMacro(ResamplingShiftX, double, resampling.shiftXPixels);
 
   /** Vertical shift of the resampling [pixel], -1000 to 1000. Default 0. */
   itkSensorFlawMacro(ResamplingShiftY, double, resampling.shiftYPixels);
 
+  /** How the resampling interpolates: linear, the default, or cubic. */
+  void
+  SetResamplingInterpolation(const std::string & name);
+  std::string
+  GetResamplingInterpolation() const
+  {
+    return sensornoise::NameOf(m_Flaws.resampling.interpolation);
+  }
+
+  /** JPEG-like quantisation of blocks of 8 x 8 pixels: libjpeg's quality, 1 to 100; 0, the default: none. Needs a
+   * BitDepth above 0. */
+  itkSensorFlawMacro(BlockQuality, unsigned int, blocks.quality);
+
   /** Square-root companding: bits of the stored codes, 2 to 16; 0, the default: none. Needs a BitDepth above 0. */
   itkSensorFlawMacro(CompandingBits, unsigned int, companding.bits);
 
-  /** How often each exposure is written, 1 or more. Default 1. */
+  /** How often each exposure, or each one of RepeatPeriod, is written, 1 or more. Default 1. */
   itkSensorFlawMacro(RepeatCount, unsigned int, repetition.count);
+
+  /** The last of so many exposures is repeated, 1 or more. Default 1: each. */
+  itkSensorFlawMacro(RepeatPeriod, unsigned int, repetition.period);
 
   /** What an estimator of this stack should find. Up to date after UpdateOutputInformation() or Update(). */
   const sensornoise::SimulationTruth &
@@ -333,6 +365,10 @@ protected:
   PrintSelf(std::ostream & os, Indent indent) const override;
 
 private:
+  /** Sets one of the flaws' interpolations by its name. */
+  void
+  SetInterpolation(sensornoise::Interpolation & interpolation, const std::string & name);
+
   sensornoise::SimulationSettings
   MakeSettings() const;
 

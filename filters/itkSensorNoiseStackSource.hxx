@@ -99,6 +99,34 @@ SensorNoiseStackSource<TOutputStack>::SetResponseShape(const std::string & name)
 }
 
 template <typename TOutputStack>
+void
+SensorNoiseStackSource<TOutputStack>::SetInterpolation(sensornoise::Interpolation & interpolation,
+                                                       const std::string &          name)
+{
+  const sensornoise::Interpolation wanted =
+    WithItkErrors<std::invalid_argument>(this, [&name] { return sensornoise::InterpolationOf(name); }, Impossible);
+  if (interpolation != wanted)
+  {
+    interpolation = wanted;
+    this->Modified();
+  }
+}
+
+template <typename TOutputStack>
+void
+SensorNoiseStackSource<TOutputStack>::SetBinningInterpolation(const std::string & name)
+{
+  this->SetInterpolation(m_Flaws.binning.interpolation, name);
+}
+
+template <typename TOutputStack>
+void
+SensorNoiseStackSource<TOutputStack>::SetResamplingInterpolation(const std::string & name)
+{
+  this->SetInterpolation(m_Flaws.resampling.interpolation, name);
+}
+
+template <typename TOutputStack>
 sensornoise::SimulationSettings
 SensorNoiseStackSource<TOutputStack>::MakeSettings() const
 {
@@ -320,11 +348,17 @@ SensorNoiseStackSource<TOutputStack>::PrintSelf(std::ostream & os, Indent indent
   os << indent << "BandingPeriod: " << this->GetBandingPeriod() << std::endl;
   os << indent << "DefectThresholdSd: " << this->GetDefectThresholdSd() << std::endl;
   os << indent << "TemporalFilterWeight: " << this->GetTemporalFilterWeight() << std::endl;
+  os << indent << "MedianRadius: " << this->GetMedianRadius() << std::endl;
   os << indent << "SmoothingSd: " << this->GetSmoothingSd() << std::endl;
+  os << indent << "BinningFactor: " << this->GetBinningFactor() << std::endl;
+  os << indent << "BinningInterpolation: " << this->GetBinningInterpolation() << std::endl;
   os << indent << "ResamplingShiftX: " << this->GetResamplingShiftX() << std::endl;
   os << indent << "ResamplingShiftY: " << this->GetResamplingShiftY() << std::endl;
+  os << indent << "ResamplingInterpolation: " << this->GetResamplingInterpolation() << std::endl;
+  os << indent << "BlockQuality: " << this->GetBlockQuality() << std::endl;
   os << indent << "CompandingBits: " << this->GetCompandingBits() << std::endl;
   os << indent << "RepeatCount: " << this->GetRepeatCount() << std::endl;
+  os << indent << "RepeatPeriod: " << this->GetRepeatPeriod() << std::endl;
   os << indent << "Simulator: " << (m_Simulator ? "built" : "none") << std::endl;
 }
 

@@ -83,10 +83,19 @@ SimulateFlawOptions::AddTo(CLI::App & app)
       "A pixel so many standard deviations of its neighbours off becomes their median; 0: none",
       CameraGroup);
   add("--temporal-filter", temporalFilter, "Weight of the last frame in each frame; 0: none", CameraGroup);
+  add("--median", median, "Radius of a median filter [pixels], 1: 3 x 3; 0: none", CameraGroup);
   add("--smoothing", smoothing, "Standard deviation of a Gaussian filter [pixels]; 0: none", CameraGroup);
-  AddPair(app, "--resampling", resampling, "X,Y: shift by linear interpolation [pixels]", CameraGroup);
+  add("--binning", binning, "Means of squares of so many pixels, in the old size; 1: none", CameraGroup);
+  add("--binning-interpolation", binningInterpolation, "Between the squares: nearest or linear", CameraGroup);
+  AddPair(app, "--resampling", resampling, "X,Y: shift by interpolation [pixels]", CameraGroup);
+  add("--resampling-interpolation", resamplingInterpolation, "linear or cubic", CameraGroup);
+  add("--block-quality",
+      blockQuality,
+      "JPEG-like quantisation of 8 x 8 pixels: libjpeg's quality, 1 to 100; 0: none",
+      CameraGroup);
   add("--companding", companding, "Bits of square-root codes that are expanded again; 0: none", CameraGroup);
   add("--repeat", repeat, "How often each exposure is written", CameraGroup);
+  add("--repeat-period", repeatPeriod, "Of so many exposures the last one alone is repeated", CameraGroup);
 }
 
 } // namespace sensornoise::tools

@@ -52,9 +52,15 @@ struct SimulateFlawOptions
   double                         defectCorrection{ 0.0 };
   double                         temporalFilter{ 0.0 };
   double                         smoothing{ 0.0 };
+  unsigned int                   median{ 0 };
+  unsigned int                   binning{ 1 };
+  std::string                    binningInterpolation{ "nearest" };
   std::vector<double>            resampling;
+  std::string                    resamplingInterpolation{ "linear" };
+  unsigned int                   blockQuality{ 0 };
   unsigned int                   companding{ 0 };
   unsigned int                   repeat{ 1 };
+  unsigned int                   repeatPeriod{ 1 };
   bool                           isDark{ false };
 
   /** Adds the options, in groups of their own. */
@@ -101,14 +107,20 @@ SimulateFlawOptions::ApplyTo(TSource & source) const
   }
   source.SetDefectThresholdSd(defectCorrection);
   source.SetTemporalFilterWeight(temporalFilter);
+  source.SetMedianRadius(median);
   source.SetSmoothingSd(smoothing);
+  source.SetBinningFactor(binning);
+  source.SetBinningInterpolation(binningInterpolation);
   if (!resampling.empty())
   {
     source.SetResamplingShiftX(resampling[0]);
     source.SetResamplingShiftY(resampling[1]);
   }
+  source.SetResamplingInterpolation(resamplingInterpolation);
+  source.SetBlockQuality(blockQuality);
   source.SetCompandingBits(companding);
   source.SetRepeatCount(repeat);
+  source.SetRepeatPeriod(repeatPeriod);
   source.SetDark(isDark);
 }
 

@@ -48,6 +48,8 @@ SimulateOptions::Parse(int argc, char ** argv)
     ->delimiter(',')
     ->expected(2)
     ->default_str("");
+  app.add_option(
+    "--optical-blur", opticalBlur, "Standard deviation of a blur of the light, before the photons [pixels]");
   app.add_option("--rolling-shutter",
                  rollingShutterPeriod,
                  "Period of a pulsing lamp in rows of a rolling shutter; 0: the whole frame flickers");

@@ -44,6 +44,7 @@ struct SimulateOptions
   std::optional<double> flickerSd;
   std::vector<double>   vibrationSd;
   std::vector<double>   clip;
+  double                opticalBlur{ 0.5 };
   double                rollingShutterPeriod{ 0.0 };
   unsigned int          frames{ 100 };
   unsigned int          bitDepth{ 12 };

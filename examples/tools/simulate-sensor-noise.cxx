@@ -128,6 +128,7 @@ MakeSource(const SimulateOptions & options)
   source->SetFlickerSd(options.flickerSd.value_or(conditions.flickerSd));
   source->SetVibrationSdX(options.vibrationSd.empty() ? conditions.vibrationSdXPixels : options.vibrationSd[0]);
   source->SetVibrationSdY(options.vibrationSd.empty() ? conditions.vibrationSdYPixels : options.vibrationSd[1]);
+  source->SetOpticalBlur(options.opticalBlur);
   source->SetRollingShutterPeriod(options.rollingShutterPeriod);
   source->SetNumberOfFrames(options.frames);
   source->SetBitDepth(options.bitDepth);

@@ -157,11 +157,17 @@ TEST(SensorNoiseStackSourceFlaws, ParametersReachTheSimulator)
   source->SetBandingPeriod(25.0);
   source->SetDefectThresholdSd(2.6);
   source->SetTemporalFilterWeight(0.27);
+  source->SetMedianRadius(1);
   source->SetSmoothingSd(0.28);
+  source->SetBinningFactor(3);
+  source->SetBinningInterpolation("linear");
   source->SetResamplingShiftX(0.29);
   source->SetResamplingShiftY(-0.30);
+  source->SetResamplingInterpolation("cubic");
+  source->SetBlockQuality(91);
   source->SetCompandingBits(10);
   source->SetRepeatCount(2);
+  source->SetRepeatPeriod(3);
   source->UpdateOutputInformation();
   EXPECT_TRUE(source->GetTruth().settings.isDark);
   const sensornoise::SensorFlaws & flaws = source->GetTruth().settings.flaws;
@@ -183,17 +189,24 @@ TEST(SensorNoiseStackSourceFlaws, ParametersReachTheSimulator)
   EXPECT_EQ(flaws.lineNoise.bandingPeriodRows, 25.0);
   EXPECT_EQ(flaws.defectCorrection.thresholdSd, 2.6);
   EXPECT_EQ(flaws.temporalFilter.weight, 0.27);
+  EXPECT_EQ(flaws.median.radiusPixels, 1u);
   EXPECT_EQ(flaws.smoothing.sdPixels, 0.28);
+  EXPECT_EQ(flaws.binning.factor, 3u);
+  EXPECT_EQ(flaws.binning.interpolation, sensornoise::Interpolation::Linear);
   EXPECT_EQ(flaws.resampling.shiftXPixels, 0.29);
   EXPECT_EQ(flaws.resampling.shiftYPixels, -0.30);
+  EXPECT_EQ(flaws.resampling.interpolation, sensornoise::Interpolation::Cubic);
+  EXPECT_EQ(flaws.blocks.quality, 91u);
   EXPECT_EQ(flaws.companding.bits, 10u);
   EXPECT_EQ(flaws.repetition.count, 2u);
+  EXPECT_EQ(flaws.repetition.period, 3u);
   EXPECT_EQ(source->GetResponseShape(), "wave");
   EXPECT_EQ(source->GetRepeatCount(), 2u);
   std::ostringstream text;
   source->Print(text);
   EXPECT_NE(text.str().find("ResponseShape: wave"), std::string::npos);
   EXPECT_NE(text.str().find("BandingPeriod: 25"), std::string::npos);
+  EXPECT_NE(text.str().find("ResamplingInterpolation: cubic"), std::string::npos);
 }
 
 TEST(SensorNoiseStackSourceFlaws, ReadNoiseOfThePixelsIsKnownBeforeAnyPixel)
@@ -218,6 +231,7 @@ TEST(SensorNoiseStackSourceFlaws, AChangedFlawIsDrawnAndARefusedOneSaysWhy)
   source->SetRowNoiseSd(0.0);
   EXPECT_EQ(PixelsOf(source), plain);
   EXPECT_THROW(source->SetResponseShape("bent"), itk::ExceptionObject);
+  EXPECT_THROW(source->SetBinningInterpolation("sinc"), itk::ExceptionObject);
   source->SetCouplingFraction(0.5);
   try
   {

@@ -172,13 +172,15 @@ TEST_F(SimulateTool, ExplicitValuesOverrideCameraAndCondition)
 
 TEST_F(SimulateTool, FlawsReachTheTruth)
 {
-  ASSERT_EQ(Run("--output s.mha --truth t.json --size 64x48 --frames 4 --prnu 0.01 --dsnu 2 --hot-pixels 0.02,5 "
-                "--gain-pattern 0.011 --column-gain-pattern 0.012 --column-efficiency-pattern 0.013 "
-                "--column-offset-pattern 1.4 --brighter-fatter 1.5e-6 --coupling 0.016 --read-noise-spread 0.17 "
-                "--read-noise-tail 0.018,1.9 --response wave,-0.02 --row-noise 2.1 --column-noise 2.2 --banding 2.3,24 "
-                "--dark --defect-correction 2.5 --temporal-filter 0.26 --smoothing 0.27 --resampling 0.28,-0.29 "
-                "--companding 10 --repeat 2"),
-            0)
+  ASSERT_EQ(
+    Run("--output s.mha --truth t.json --size 64x48 --frames 4 --prnu 0.01 --dsnu 2 --hot-pixels 0.02,5 "
+        "--gain-pattern 0.011 --column-gain-pattern 0.012 --column-efficiency-pattern 0.013 "
+        "--column-offset-pattern 1.4 --brighter-fatter 1.5e-6 --coupling 0.016 --read-noise-spread 0.17 "
+        "--read-noise-tail 0.018,1.9 --response wave,-0.02 --row-noise 2.1 --column-noise 2.2 --banding 2.3,24 "
+        "--dark --defect-correction 2.5 --temporal-filter 0.26 --median 1 --smoothing 0.27 --binning 3 "
+        "--binning-interpolation linear --resampling 0.28,-0.29 --resampling-interpolation cubic --block-quality 91 "
+        "--companding 10 --repeat 2 --repeat-period 1 --optical-blur 0.75"),
+    0)
     << m_Message;
   const auto truth = ReadJson("t.json");
   EXPECT_EQ(truth["prnu_sd"], 0.01);
@@ -193,8 +195,11 @@ TEST_F(SimulateTool, FlawsReachTheTruth)
         "read_noise": {"spread": 0.17, "tail_fraction": 0.018, "tail_spread": 1.9},
         "response": {"shape": "wave", "size": -0.02, "full_scale_electrons": 0},
         "line_noise": {"row_noise_sd": 2.1, "column_noise_sd": 2.2, "banding_amplitude": 2.3, "banding_period": 24},
-        "defect_threshold_sd": 2.5, "temporal_filter_weight": 0.26, "smoothing_sd": 0.27,
-        "resampling_shift": [0.28, -0.29], "companding_bits": 10, "repeat_count": 2})");
+        "defect_threshold_sd": 2.5, "temporal_filter_weight": 0.26, "median_radius": 1, "smoothing_sd": 0.27,
+        "binning": {"factor": 3, "interpolation": "linear"}, "resampling_shift": [0.28, -0.29],
+        "resampling_interpolation": "cubic", "block_quality": 91, "companding_bits": 10, "repeat_count": 2,
+        "repeat_period": 1})");
+  EXPECT_EQ(truth["optical_blur"], 0.75);
   EXPECT_EQ(truth["flaws"], expected);
   const auto   stack = ReadStack("s.mha");
   const auto * pixels = stack->GetBufferPointer();

@@ -43,10 +43,20 @@ FLAWS = {
     "dark": (True, None),
     "defect_correction": (2, "2"),
     "temporal_filter": (0.5, "0.5"),
+    "median": (1, "1"),
     "smoothing": (0.6, "0.6"),
+    "binning": (2, "2"),
     "resampling": ((0.5, -0.25), "0.5,-0.25"),
+    "block_quality": (90, "90"),
     "companding": (8, "8"),
     "repeat": (2, "2"),
+    "optical_blur": (1.5, "1.5"),
+}
+# Parameters that change how another one works, with that one.
+MANNERS = {
+    "binning_interpolation": ("linear", {"binning": 2}),
+    "resampling_interpolation": ("cubic", {"resampling": (0.5, -0.25)}),
+    "repeat_period": (2, {"repeat": 2}),
 }
 SMALL = {"frames": 4, "size": (64, 48), "seed": 4}
 
@@ -66,6 +76,20 @@ def test_flaw_is_the_tool_s(tool, plain, tmp_path, name):
     np.testing.assert_array_equal(stack, itk.array_from_image(itk.imread(str(file))))
     assert truth == json.loads(truth_file.read_text())
     assert not np.array_equal(stack, plain)
+
+
+@pytest.mark.parametrize("name", MANNERS)
+def test_manner_of_a_flaw_is_the_tool_s(tool, tmp_path, name):
+    value, flaw = MANNERS[name]
+    file, truth_file = tmp_path / "stack.mha", tmp_path / "truth.json"
+    flags = ["--frames", "4", "--size", "64x48", "--seed", "4", "--" + name.replace("_", "-"), value]
+    for other, number in flaw.items():
+        flags += ["--" + other, ",".join(map(str, number)) if isinstance(number, tuple) else number]
+    tool("simulate-sensor-noise", "--output", file, "--truth", truth_file, *flags)
+    stack, truth = itk.simulate_sensor_noise(**SMALL, **flaw, **{name: value})
+    np.testing.assert_array_equal(stack, itk.array_from_image(itk.imread(str(file))))
+    assert truth == json.loads(truth_file.read_text())
+    assert not np.array_equal(stack, itk.simulate_sensor_noise(**SMALL, **flaw)[0])
 
 
 def test_dark_frames_are_of_the_same_sensor():
@@ -92,6 +116,8 @@ WRONG = {
     "not finite": ({"smoothing": float("nan")}, "smoothing is nan; expected a finite number"),
     "range": ({"coupling": 0.5}, "the coupling of charge is 0.500000; expected 0 to 0.2"),
     "bits": ({"companding": 1}, "the number of bits of the companding is 1.000000; expected 0 or 2 to 16"),
+    "quality": ({"block_quality": 101}, "block_quality is 101; expected a whole number from 0 to 100"),
+    "manner": ({"resampling_interpolation": "nearest"}, "expected 'linear' or 'cubic'"),
     "repeat": ({"repeat": 0}, "repeat is 0; expected a whole number from 1"),
 }
 

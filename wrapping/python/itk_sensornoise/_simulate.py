@@ -45,6 +45,20 @@ _NUMBERS = {
     "temporal_filter": "SetTemporalFilterWeight",
     "smoothing": "SetSmoothingSd",
 }
+# Setter and limits of each flaw that is a whole number.
+_COUNTS = {
+    "median": ("SetMedianRadius", 0, 10),
+    "binning": ("SetBinningFactor", 1, 64),
+    "block_quality": ("SetBlockQuality", 0, 100),
+    "companding": ("SetCompandingBits", 0, 16),
+    "repeat": ("SetRepeatCount", 1, 2**31 - 1),
+    "repeat_period": ("SetRepeatPeriod", 1, 2**31 - 1),
+}
+# Setter of each flaw that is a name, and the names.
+_NAMES = {
+    "binning_interpolation": ("SetBinningInterpolation", ["nearest", "linear"]),
+    "resampling_interpolation": ("SetResamplingInterpolation", ["linear", "cubic"]),
+}
 # What is expected of each flaw that is two numbers, and their setters.
 _PAIRS = {
     "hot_pixels": ("(fraction, factor), two numbers", "SetHotPixelFraction", "SetHotPixelNoiseFactor"),
@@ -69,6 +83,7 @@ def simulate_sensor_noise(
     electrons: float | None = None,
     flicker_sd: float | None = None,
     vibration_sd: tuple[float, float] | None = None,
+    optical_blur: float = 0.5,
     rolling_shutter: float = 0.0,
     bit_depth: int | None = None,
     clip: tuple[float, float] | None = None,
@@ -90,10 +105,16 @@ def simulate_sensor_noise(
     dark: bool = False,
     defect_correction: float = 0.0,
     temporal_filter: float = 0.0,
+    median: int = 0,
     smoothing: float = 0.0,
+    binning: int = 1,
+    binning_interpolation: Literal["nearest", "linear"] = "nearest",
     resampling: tuple[float, float] | None = None,
+    resampling_interpolation: Literal["linear", "cubic"] = "linear",
+    block_quality: int = 0,
     companding: int = 0,
     repeat: int = 1,
+    repeat_period: int = 1,
 ) -> tuple[np.ndarray, dict[str, Any]]:
     """Simulates a burst of raw frames under flickering light and on a trembling floor, with known noise.
 
@@ -115,6 +136,8 @@ def simulate_sensor_noise(
         Gain [DN/e-], offset [DN], read noise [DN], electrons of the brightest pixel [e-]. Default: the camera's.
     flicker_sd, vibration_sd
         Standard deviations of the flicker [1] and of the shifts (x, y) [pixel]. Default: the condition's.
+    optical_blur
+        Standard deviation of a Gaussian blur of the scene's light, before the photons are counted [pixel].
     rolling_shutter
         Period of a pulsing lamp in rows of a rolling shutter; 0: the whole frame flickers.
     bit_depth
@@ -150,14 +173,21 @@ def simulate_sensor_noise(
         In the camera: a pixel so many standard deviations of its neighbours off becomes their median; 0: none.
     temporal_filter
         In the camera: weight of the last frame in each frame [1], 0 to 0.99.
+    median
+        In the camera: radius of a median filter [pixel], 1: 3 x 3, at most 10; 0: none.
     smoothing
         In the camera: standard deviation of a Gaussian filter [pixel].
-    resampling
-        In the camera: shift (x, y) by linear interpolation [pixel]. Default: none.
+    binning, binning_interpolation
+        In the camera: means of squares of so many pixels, 1 to 64, made the old size again by "nearest" or "linear"
+        interpolation; 1: none.
+    resampling, resampling_interpolation
+        In the camera: shift (x, y) by "linear" or "cubic" interpolation [pixel]. Default: none.
+    block_quality
+        In the camera: JPEG-like quantisation of 8 x 8 pixels, libjpeg's quality from 1 to 100; 0: none.
     companding
         In the camera: bits of square-root codes that are expanded again, 2 to 16; 0: none.
-    repeat
-        How often each exposure is written, 1 or more.
+    repeat, repeat_period
+        How often each exposure, or the last one of each `repeat_period` exposures, is written, 1 or more.
 
     Returns
     -------
@@ -189,6 +219,7 @@ def simulate_sensor_noise(
         ("read_noise", read_noise, source.SetReadNoise),
         ("electrons", electrons, source.SetElectrons),
         ("flicker_sd", flicker_sd, source.SetFlickerSd),
+        ("optical_blur", optical_blur, source.SetOpticalBlur),
         ("rolling_shutter", rolling_shutter, source.SetRollingShutterPeriod),
     ):
         if value is not None:
@@ -204,8 +235,10 @@ def simulate_sensor_noise(
     _set_flaws(source, {name: value for name, value in parameters.items() if name in _NUMBERS or name in _PAIRS})
     if response is not None:
         _set_response(source, response)
-    source.SetCompandingBits(_options.integer("companding", companding, 0, 16))
-    source.SetRepeatCount(_options.integer("repeat", repeat, 1, 2**31 - 1))
+    for name, (setter, *limits) in _COUNTS.items():
+        getattr(source, setter)(_options.integer(name, parameters[name], *limits))
+    for name, (setter, names) in _NAMES.items():
+        getattr(source, setter)(_options.one_of(name, parameters[name], names))
     source.SetDark(bool(dark))
     # All that can go wrong here is a parameter out of range.
     with itk_errors(kind=ValueError):
