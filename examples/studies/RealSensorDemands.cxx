@@ -29,31 +29,6 @@ using Demands = std::vector<RealSensorDemand>;
 constexpr double LeastCoverage = 0.9;
 constexpr double LeastBracketCoverage = 0.95;
 
-RealSensorDemand
-NeverRefused()
-{
-  return { "not refused", [](const Setting &, const Outcome & outcome) -> Verdict { return !outcome.IsRefused(); } };
-}
-
-/** 95 % intervals of what is called identified. */
-RealSensorDemand
-Coverage(JudgedQuantity quantity)
-{
-  return { std::string("interval holds ") + NameOf(quantity),
-           [quantity](const Setting &, const Outcome & outcome) { return outcome.Of(quantity).Holds(); },
-           LeastCoverage,
-           true };
-}
-
-RealSensorDemand
-GainWithin(double fraction, const std::string & text)
-{
-  return { "gain within " + text + " or 3 standard errors",
-           [fraction](const Setting &, const Outcome & outcome) -> Verdict {
-             return outcome.Of(JudgedQuantity::Gain).IsWithin(fraction);
-           } };
-}
-
 /** Where the offset is known or found. */
 RealSensorDemand
 ReadNoiseWithin()
@@ -179,10 +154,38 @@ DemandsOnScmos(bool hasDarkFrames)
 }
 } // namespace
 
+RealSensorDemand
+NeverRefused()
+{
+  return { "not refused", [](const Setting &, const Outcome & outcome) -> Verdict { return !outcome.IsRefused(); } };
+}
+
+RealSensorDemand
+Coverage(JudgedQuantity quantity)
+{
+  return { std::string("interval holds ") + NameOf(quantity),
+           [quantity](const Setting &, const Outcome & outcome) { return outcome.Of(quantity).Holds(); },
+           LeastCoverage,
+           true };
+}
+
+RealSensorDemand
+GainWithin(double fraction, const std::string & text)
+{
+  return { "gain within " + text + " or 3 standard errors",
+           [fraction](const Setting &, const Outcome & outcome) -> Verdict {
+             return outcome.Of(JudgedQuantity::Gain).IsWithin(fraction);
+           } };
+}
+
 Demands
 GetDemands(const std::string & line)
 {
   using Q = JudgedQuantity;
+  if (const auto demands = FindProcessedDemands(line))
+  {
+    return *demands;
+  }
   if (line == "bends")
   {
     return { NeverRefused(), Coverage(Q::Gain) };

@@ -45,6 +45,23 @@ struct RealSensorDemand
 std::vector<RealSensorDemand>
 GetDemands(const std::string & line);
 
+/** Those on the lines of processed frames; null for another line. */
+std::optional<std::vector<RealSensorDemand>>
+FindProcessedDemands(const std::string & line);
+
+/** The gain is not `failed`. */
+RealSensorDemand
+NeverRefused();
+
+/** 95 % intervals of what is called identified hold the truth in 90 % of the stacks or more. */
+RealSensorDemand
+Coverage(JudgedQuantity quantity);
+
+/** The gain is identified, and off by \a fraction or three standard errors at most. \param text the fraction in words
+ */
+RealSensorDemand
+GainWithin(double fraction, const std::string & text);
+
 } // namespace sensornoise::tools
 
 #endif

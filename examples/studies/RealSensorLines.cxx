@@ -109,6 +109,7 @@ GetRealSensorLines()
   AppendResponseLines(lines);
   AppendPixelLines(lines);
   AppendSceneLines(lines);
+  AppendProcessedLines(lines);
   return lines;
 }
 

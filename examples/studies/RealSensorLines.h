@@ -47,6 +47,10 @@ AppendResponseLines(std::vector<RealSensorLine> & lines);
 void
 AppendPixelLines(std::vector<RealSensorLine> & lines);
 
+/** Sensors whose pixels share noise, and cameras that process their frames, beside plain ones. */
+void
+AppendProcessedLines(std::vector<RealSensorLine> & lines);
+
 /** Brackets of the offset, and an object that crosses the frame. */
 void
 AppendSceneLines(std::vector<RealSensorLine> & lines);

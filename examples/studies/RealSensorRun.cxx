@@ -28,6 +28,7 @@
 #include "sensornoise/refined/RefinedMethod.h"
 #include "sensornoise/refined/RefinedSettings.h"
 #include "sensornoise/simulation/SimulationTruth.h"
+#include "studies/RealSensorCorrelation.h"
 #include "studies/RealSensorStack.h"
 
 #include <algorithm>
@@ -124,15 +125,36 @@ CoverageOf(const IntervalMapDn & map, TTruth truthOf)
   return held / std::max(1.0, count);
 }
 
+/** The gain of the stack in which each exposure is there once. */
+std::optional<double>
+GainOfDistinctFrames(const RealSensorSetting & setting, const Codes & codes, std::size_t size)
+{
+  const RepetitionSettings & repetition = setting.settings.flaws.repetition;
+  const auto                 pixels = static_cast<std::ptrdiff_t>(size * size);
+  Codes                      distinct;
+  for (std::size_t t = 0; t < setting.settings.frames; ++t)
+  {
+    if (t == 0 || repetition.ExposureOf(t) != repetition.ExposureOf(t - 1))
+    {
+      const auto first = codes.begin() + static_cast<std::ptrdiff_t>(t) * pixels;
+      distinct.insert(distinct.end(), first, first + pixels);
+    }
+  }
+  return Estimate({}, distinct, size, distinct.size() / (size * size)).GetReport().gain.value;
+}
+
 RealSensorOutcome
-Compare(const Report & report, const PixelTruth & truth, double flickerSd)
+Compare(const Report & report, const PixelTruth & truth, double flickerSd, const LineNoiseSettings & lineNoise)
 {
   RealSensorOutcome outcome;
   outcome.judged = { { { truth.gain, report.gain },
                        { truth.offsetDn, report.offset },
                        { flickerSd, report.flickerSd },
                        { truth.readNoiseRmsDn, report.readNoise },
-                       { truth.readNoiseMedianDn, report.readNoiseMedian } } };
+                       { truth.readNoiseMedianDn, report.readNoiseMedian },
+                       { lineNoise.rowNoiseSdDn, RowNoiseOf(report) },
+                       { lineNoise.columnNoiseSdDn, ColumnNoiseOf(report) } } };
+  outcome.kind = KindOf(report);
   outcome.nonlinearity = report.fit.nonlinearity;
   for (const Warning & warning : report.warnings)
   {
@@ -146,7 +168,7 @@ const char *
 NameOf(JudgedQuantity quantity)
 {
   static constexpr std::array<const char *, NumberOfJudged> names{
-    "gain", "offset", "flicker", "read noise", "median read noise"
+    "gain", "offset", "flicker", "read noise", "median read noise", "row noise", "column noise"
   };
   return names[static_cast<std::size_t>(quantity)];
 }
@@ -213,12 +235,22 @@ MeasureRealSensor(const RealSensorSetting & setting, std::size_t size, std::uint
   {
     settings.offset = MeasureDark(RealSensorStack(setting, size, seed, true), frames);
   }
-  const auto        method = Estimate(settings, stack.Render(), size, frames);
+  const Codes       codes = stack.Render();
+  const auto        method = Estimate(settings, codes, size, frames);
   const DarkMaps *  dark = settings.offset ? settings.offset->maps.get() : nullptr;
   RealSensorOutcome outcome = Compare(method.GetReport(),
                                       TruthOfPixels(stack, method.GetPixelUse(), dark),
-                                      stack.GetSimulator().GetTruth().realisedFlickerSd);
+                                      stack.GetSimulator().GetTruth().realisedFlickerSd,
+                                      setting.settings.flaws.lineNoise);
   outcome.seed = seed;
+  if (setting.hasTwoLamps)
+  {
+    outcome.judged[static_cast<std::size_t>(JudgedQuantity::Flicker)] = {};
+  }
+  if (setting.settings.flaws.repetition.count > 1)
+  {
+    outcome.distinctGain = GainOfDistinctFrames(setting, codes, size);
+  }
   if (settings.offset && settings.offset->maps)
   {
     const PixelCalibration own = MakePixelCalibration(*settings.offset->maps);

@@ -38,9 +38,11 @@ enum class JudgedQuantity : std::size_t
   Offset,
   Flicker,
   ReadNoise,
-  ReadNoiseMedian
+  ReadNoiseMedian,
+  RowNoise,
+  ColumnNoise
 };
-inline constexpr std::size_t NumberOfJudged = 5;
+inline constexpr std::size_t NumberOfJudged = 7;
 
 /** The name as the table prints it. */
 const char *
@@ -88,6 +90,9 @@ struct RealSensorOutcome
   std::uint64_t                      seed{ 0 };
   std::array<Judged, NumberOfJudged> judged;
   std::vector<std::string>           warnings; ///< codes, in the report's order
+  std::string                        kind;     ///< of the noise, as KindOf() has it
+  /** Where frames are repeated: the gain of the stack without the repetitions; null: none. */
+  std::optional<double> distinctGain;
   /** Departure of the variance from a line [1]; null: the report has none. */
   std::optional<double> nonlinearity;
   /** Shares of the pixels whose own 95 % intervals for offset and read noise hold the truth; null: no such maps. */
@@ -111,7 +116,7 @@ struct RealSensorOutcome
 /** Simulates a stack of size x size pixels, and dark frames where the setting has them, estimates with the refined
  * method and compares. Truth of the gain: mean over the pixels that the estimate used of d(mean code) / d(electron); of
  * the offset: mean over the same of the mean code without light; of the flicker: what the stack really had; of the
- * read noise: root mean square, and median, over all pixels. */
+ * read noise: root mean square, and median, over all pixels; of row and column noise: the setting. */
 RealSensorOutcome
 MeasureRealSensor(const RealSensorSetting & setting, std::size_t size, std::uint64_t seed);
 

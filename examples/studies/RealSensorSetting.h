@@ -22,6 +22,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace sensornoise::tools
 {
@@ -57,6 +58,12 @@ struct RealSensorSetting
 
   bool hasDarkFrames{ false }; ///< as many as bright ones, from the same sensor, give the offset
   bool isCrossed{ false };     ///< a textured block moves through the frame
+  /** Two lamps, each with flicker of conditions.flickerSd of its own, and with its own part of the scene. Such a stack
+   * has no one flicker. */
+  bool hasTwoLamps{ false };
+
+  /** What the report may call the noise, as KindOf() has it; empty: any. */
+  std::vector<std::string> kinds;
 
   bool
   HasPattern() const

@@ -28,7 +28,8 @@ namespace sensornoise::tools
 {
 namespace
 {
-constexpr std::uint64_t CrossedPixelStream = 120;
+constexpr std::uint64_t LitPixelStream = 120;
+constexpr std::uint64_t LampStream = 121;
 constexpr std::size_t   EdgeRows = 16;  ///< farther than blur and vibration reach
 constexpr std::size_t   FieldRows = 16; ///< of the black and the white field
 
@@ -90,12 +91,43 @@ MakeReference(const RealSensorSetting & setting, std::size_t size)
   return scene;
 }
 
+/** Two normal numbers for each frame. */
+std::vector<double>
+DrawLamps(const SimulationSettings & settings, std::uint64_t seed)
+{
+  std::vector<double> flicker;
+  for (std::size_t t = 0; t < settings.frames; ++t)
+  {
+    CounterSeededRandom random(seed, LampStream, t);
+    flicker.push_back(settings.conditions.flickerSd * random.Normal());
+    flicker.push_back(settings.conditions.flickerSd * random.Normal());
+  }
+  return flicker;
+}
+
+/** The share of the second lamp rises from 0 to 1 along the diagonal. */
+void
+LightByLamps(double first, double second, std::size_t y, std::vector<double> & electrons)
+{
+  const double pi = 3.14159265358979323846;
+  for (std::size_t x = 0; x < electrons.size(); ++x)
+  {
+    const double along = static_cast<double>(x + y) / (2.0 * static_cast<double>(electrons.size()) - 2.0);
+    const double share = 0.5 - 0.5 * std::cos(pi * along);
+    electrons[x] *= std::max(0.0, 1.0 + (1.0 - share) * first + share * second);
+  }
+}
+
 StackSimulator
 MakeSimulator(const RealSensorSetting & setting, std::size_t size, std::uint64_t seed, bool isDark)
 {
   SimulationSettings settings = setting.settings;
   settings.seed = seed;
   settings.isDark = isDark;
+  if (setting.hasTwoLamps)
+  {
+    settings.conditions.flickerSd = 0.0; // the lamps have it
+  }
   return { MakeReference(setting, size), size, FillsRange(setting) ? size : size + EdgeRows + FieldRows, settings };
 }
 } // namespace
@@ -110,6 +142,10 @@ RealSensorStack::RealSensorStack(const RealSensorSetting & setting, std::size_t 
     // Another texture than the scene's.
     m_Block = MakeTextureScene(BlockWidth(size), BlockHeight(size), DefaultSceneSeed + 1);
   }
+  if (setting.hasTwoLamps && !isDark)
+  {
+    m_Lamps = DrawLamps(setting.settings, seed);
+  }
 }
 
 std::vector<std::uint16_t>
@@ -117,43 +153,44 @@ RealSensorStack::Render() const
 {
   const std::size_t          frames = m_Setting.settings.frames;
   std::vector<std::uint16_t> codes(Pixels() * frames);
-  for (std::size_t row = 0; row < m_Size * frames; ++row)
+  std::vector<std::uint16_t> frame(m_Simulator.GetWidth() * m_Simulator.GetHeight());
+  for (std::size_t t = 0; t < frames && m_Simulator.NeedsWholeFrames(); ++t)
+  {
+    m_Simulator.RenderFrame(t, frame.data());
+    std::copy_n(frame.begin(), Pixels(), codes.begin() + static_cast<std::ptrdiff_t>(t * Pixels()));
+  }
+  for (std::size_t row = 0; row < m_Size * frames && !m_Simulator.NeedsWholeFrames(); ++row)
   {
     std::uint16_t * const out = codes.data() + row * m_Size;
     const std::size_t     t = row / m_Size;
     const std::size_t     y = row % m_Size;
     // The block passes below the upper third of the frame, which stays still.
-    if (m_Block.empty() || y < m_Size - BlockHeight(m_Size))
+    const bool isBeside = m_Block.empty() || y < m_Size - BlockHeight(m_Size);
+    if (isBeside && m_Lamps.empty())
     {
       m_Simulator.RenderRow(t, y, out);
     }
     else
     {
-      RenderCrossedRow(t, y, out);
+      RenderLitRow(t, y, out);
     }
   }
   return codes;
 }
 
-/** As StackSimulator::RenderRow of a sensor without flaws. The block enters on the left, hides what is behind it, and
- * has left on the right at the end of the burst; it is lit as the scene is, with 20 to 80 % of the full light. */
+/** The block enters on the left, hides what is behind it, and has left on the right at the end of the burst; it is lit
+ * as the scene is, with 20 to 80 % of the full light. */
 void
-RealSensorStack::RenderCrossedRow(std::size_t t, std::size_t y, std::uint16_t * out) const
+RealSensorStack::DrawBlock(std::size_t t, std::size_t y, std::vector<double> & electrons) const
 {
   const SimulationTruth &    truth = m_Simulator.GetTruth();
   const SimulationSettings & settings = truth.settings;
-  const CameraModel &        camera = settings.camera;
-  std::vector<double>        electrons(m_Size);
-  m_Simulator.ExpectedElectronsRow(t, y, electrons.data());
-
-  const std::size_t   width = BlockWidth(m_Size);
-  const double *      block = m_Block.data() + (y - (m_Size - BlockHeight(m_Size))) * width;
-  const double        way = static_cast<double>(m_Size + width);
-  const double        last = static_cast<double>(std::max<std::size_t>(2, settings.frames) - 1);
-  const double        left = way * static_cast<double>(t) / last - static_cast<double>(width);
-  const double        full = camera.electrons * (1.0 + FlickerOfRow(settings, truth.series, t, y));
-  CounterSeededRandom random(settings.seed, CrossedPixelStream, t, y);
-  const auto          range = StackSimulator::CodeRange<std::uint16_t>(settings);
+  const std::size_t          width = BlockWidth(m_Size);
+  const double *             block = m_Block.data() + (y - (m_Size - BlockHeight(m_Size))) * width;
+  const double               way = static_cast<double>(m_Size + width);
+  const double               last = static_cast<double>(std::max<std::size_t>(2, settings.frames) - 1);
+  const double               left = way * static_cast<double>(t) / last - static_cast<double>(width);
+  const double               full = settings.camera.electrons * (1.0 + FlickerOfRow(settings, truth.series, t, y));
   for (std::size_t x = 0; x < m_Size; ++x)
   {
     const double inBlock = static_cast<double>(x) - left;
@@ -164,6 +201,29 @@ RealSensorStack::RenderCrossedRow(std::size_t t, std::size_t y, std::uint16_t * 
       const double grey = block[first] + share * (block[first + 1] - block[first]);
       electrons[x] = std::max(0.0, full * (0.2 + 0.6 * grey));
     }
+  }
+}
+
+/** As StackSimulator::RenderRow of a sensor without flaws. */
+void
+RealSensorStack::RenderLitRow(std::size_t t, std::size_t y, std::uint16_t * out) const
+{
+  const SimulationSettings & settings = m_Simulator.GetTruth().settings;
+  const CameraModel &        camera = settings.camera;
+  std::vector<double>        electrons(m_Size);
+  m_Simulator.ExpectedElectronsRow(t, y, electrons.data());
+  if (!m_Block.empty())
+  {
+    DrawBlock(t, y, electrons);
+  }
+  if (!m_Lamps.empty())
+  {
+    LightByLamps(m_Lamps[2 * t], m_Lamps[2 * t + 1], y, electrons);
+  }
+  CounterSeededRandom random(settings.seed, LitPixelStream, t, y);
+  const auto          range = StackSimulator::CodeRange<std::uint16_t>(settings);
+  for (std::size_t x = 0; x < m_Size; ++x)
+  {
     const double signal = camera.gainDnPerElectron * static_cast<double>(random.Poisson(electrons[x]));
     const double value = signal + camera.offsetDn + camera.readNoiseDn * random.Normal();
     out[x] = static_cast<std::uint16_t>(std::clamp(std::floor(value + 0.5), range.first, range.second));

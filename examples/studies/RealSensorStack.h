@@ -59,12 +59,17 @@ public:
   }
 
 private:
+  /** One row whose light the simulator does not know: the block crosses, or there are two lamps. */
   void
-  RenderCrossedRow(std::size_t t, std::size_t y, std::uint16_t * out) const;
+  RenderLitRow(std::size_t t, std::size_t y, std::uint16_t * out) const;
+
+  void
+  DrawBlock(std::size_t t, std::size_t y, std::vector<double> & electrons) const;
 
   RealSensorSetting   m_Setting;
   std::size_t         m_Size;
   StackSimulator      m_Simulator;
+  std::vector<double> m_Lamps; ///< flicker of both lamps in each frame [1]; empty: one lamp
   std::vector<double> m_Block; ///< texture of what crosses, as wide and high as the block [1]; empty: nothing does
 };
 

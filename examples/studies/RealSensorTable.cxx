@@ -22,9 +22,12 @@
 #include "studies/RealSensorStatistics.h"
 
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
+#include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace sensornoise::tools
 {
@@ -49,6 +52,24 @@ FormatWarnings(const std::vector<RealSensorOutcome> & outcomes)
     text += (text.empty() ? "" : ", ") + code + ' ' + std::to_string(count);
   }
   return text.empty() ? "-" : text;
+}
+
+/** What the reports call the noise, with the number of stacks; empty: no report has a name for it. */
+std::string
+FormatKinds(const std::vector<RealSensorOutcome> & outcomes)
+{
+  std::map<std::string, std::size_t> counts;
+  for (const RealSensorOutcome & outcome : outcomes)
+  {
+    ++counts[outcome.kind];
+  }
+  counts.erase("");
+  std::string text;
+  for (const auto & [kind, count] : counts)
+  {
+    text += (text.empty() ? "; noise " : ", ") + kind + ' ' + std::to_string(count);
+  }
+  return text;
 }
 
 std::string
@@ -134,7 +155,7 @@ PrintGroup(const RealSensorGroup & group)
               FormatCoverage(readNoise).c_str(),
               FormatShare(offset.bracketsHeld).c_str(),
               FormatShare(offset.inBracket).c_str(),
-              FormatWarnings(group.outcomes).c_str());
+              (FormatWarnings(group.outcomes) + FormatKinds(group.outcomes)).c_str());
   std::fflush(stdout);
 }
 
@@ -154,7 +175,7 @@ PrintStacks(const RealSensorGroup & group)
     }
     std::printf(" D %s; %s\n",
                 FormatNumber(outcome.nonlinearity.value_or(NAN), "%.3g").c_str(),
-                FormatWarnings({ outcome }).c_str());
+                (FormatWarnings({ outcome }) + FormatKinds({ outcome })).c_str());
   }
 }
 

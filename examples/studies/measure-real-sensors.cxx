@@ -155,7 +155,7 @@ MeasureGroups(std::vector<RealSensorGroup> & groups, const Options & options)
 void
 PrintPlan(const RealSensorLine & line, const std::vector<RealSensorGroup> & groups, bool isVerbose)
 {
-  std::printf("%-12s %4zu settings: %s\n", line.name.c_str(), groups.size(), line.what.c_str());
+  std::printf("%-15s %4zu settings: %s\n", line.name.c_str(), groups.size(), line.what.c_str());
   for (std::size_t k = 0; k < groups.size() && isVerbose; ++k)
   {
     const RealSensorSetting & setting = groups[k].setting;

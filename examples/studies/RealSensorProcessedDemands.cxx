@@ -1,0 +1,141 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "studies/RealSensorDemands.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace sensornoise::tools
+{
+namespace
+{
+using Setting = RealSensorSetting;
+using Outcome = RealSensorOutcome;
+using Verdict = std::optional<bool>;
+using Demands = std::vector<RealSensorDemand>;
+
+constexpr double MostStacks = 0.97;
+constexpr double LeastRefused = 0.95;
+
+RealSensorDemand
+KindNamed(double lowestShare)
+{
+  return { "kind of the noise as expected",
+           [](const Setting & setting, const Outcome & outcome) -> Verdict {
+             const std::vector<std::string> & kinds = setting.kinds;
+             return kinds.empty() ? std::nullopt
+                                  : Verdict(std::find(kinds.begin(), kinds.end(), outcome.kind) != kinds.end());
+           },
+           lowestShare };
+}
+
+RealSensorDemand
+Warned(const std::string & code)
+{
+  return { "warning " + code,
+           [code](const Setting &, const Outcome & outcome) -> Verdict { return outcome.HasWarning(code); } };
+}
+
+/** Where the sensor has such noise: the study gives it a fifth of the read noise or more. */
+RealSensorDemand
+LineNoiseWithin(JudgedQuantity quantity)
+{
+  return { std::string(NameOf(quantity)) + " within 5 % or 3 standard errors",
+           [quantity](const Setting &, const Outcome & outcome) -> Verdict {
+             const Judged & judged = outcome.Of(quantity);
+             return judged.truth > 0.0 ? Verdict(judged.IsWithin(0.05)) : std::nullopt;
+           } };
+}
+
+RealSensorDemand
+WithinOrRefused(double fraction, const std::string & text)
+{
+  return { "gain within " + text + " or 3 standard errors, or refused",
+           [fraction](const Setting &, const Outcome & outcome) -> Verdict {
+             return outcome.IsRefused() || outcome.Of(JudgedQuantity::Gain).IsWithin(fraction);
+           } };
+}
+
+RealSensorDemand
+AsFromDistinctFrames()
+{
+  return { "gain equals that of the distinct frames", [](const Setting &, const Outcome & outcome) -> Verdict {
+            const Judged & gain = outcome.Of(JudgedQuantity::Gain);
+            return outcome.distinctGain && gain.estimate.value &&
+                   std::abs(*gain.estimate.value - *outcome.distinctGain) <= 1e-9 * std::abs(*outcome.distinctGain);
+          } };
+}
+
+Demands
+DemandsOnNotLinear()
+{
+  return { { "refused",
+             [](const Setting &, const Outcome & outcome) -> Verdict { return outcome.IsRefused(); },
+             LeastRefused },
+           { "no interval that misses the gain",
+             [](const Setting &, const Outcome & outcome) -> Verdict {
+               return outcome.Of(JudgedQuantity::Gain).Holds().value_or(true);
+             } },
+           KindNamed(LeastRefused) };
+}
+
+/** The gain of the sensor in spite of what the camera does, with the kind named. */
+Demands
+DemandsOnGain(double fraction, const std::string & text, const Demands & more)
+{
+  Demands demands{ NeverRefused(), GainWithin(fraction, text), Coverage(JudgedQuantity::Gain) };
+  demands.insert(demands.end(), more.begin(), more.end());
+  return demands;
+}
+
+std::map<std::string, Demands>
+MakeProcessedDemands()
+{
+  const Demands isNamed{ KindNamed(MostStacks) };
+  return { { "plain",
+             DemandsOnGain(0.02,
+                           "2 %",
+                           { KindNamed(MostStacks),
+                             LineNoiseWithin(JudgedQuantity::RowNoise),
+                             LineNoiseWithin(JudgedQuantity::ColumnNoise) }) },
+           { "smoothed", DemandsOnGain(0.02, "2 %", isNamed) },
+           { "resampled", DemandsOnGain(0.02, "2 %", isNamed) },
+           { "binned", DemandsOnGain(0.02, "2 %", isNamed) },
+           { "coupling", DemandsOnGain(0.02, "2 %", isNamed) },
+           { "blur", DemandsOnGain(0.02, "2 %", isNamed) },
+           { "temporal", { WithinOrRefused(0.05, "5 %"), Coverage(JudgedQuantity::Gain), KindNamed(MostStacks) } },
+           { "repeated",
+             DemandsOnGain(0.02, "2 %", { Warned("repeated-frames"), AsFromDistinctFrames(), KindNamed(MostStacks) }) },
+           { "companded", DemandsOnGain(0.01, "1 %", { Warned("companded") }) },
+           { "brighter-fatter", DemandsOnGain(0.01, "1 %", isNamed) },
+           { "defects", DemandsOnNotLinear() },
+           { "median", DemandsOnNotLinear() },
+           { "blocks", DemandsOnNotLinear() } };
+}
+} // namespace
+
+std::optional<std::vector<RealSensorDemand>>
+FindProcessedDemands(const std::string & line)
+{
+  const auto all = MakeProcessedDemands();
+  const auto found = all.find(line);
+  return found == all.end() ? std::nullopt : std::optional<Demands>(found->second);
+}
+
+} // namespace sensornoise::tools

@@ -1,0 +1,273 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "studies/RealSensorLines.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sensornoise::tools
+{
+namespace
+{
+using Settings = std::vector<RealSensorSetting>;
+using Kinds = std::vector<std::string>;
+
+const Kinds White{ "white" };
+const Kinds Filtered{ "filtered" };
+const Kinds NotWhite{ "not-linear", "filtered" };
+
+/** Camera, light and floor that each kind of processing is tried with. */
+struct Situation
+{
+  char        camera;
+  int         condition; ///< 0: no flicker, nothing moves
+  std::size_t frames;
+};
+
+constexpr Situation Situations[] = { { 'B', 3, 50 }, { 'B', 3, 100 }, { 'A', 2, 50 }, { 'C', 2, 100 }, { 'B', 0, 50 } };
+
+std::string
+TextOf(const Situation & situation)
+{
+  return std::string(1, situation.camera) +
+         (situation.condition > 0 ? std::to_string(situation.condition) : std::string(" still"));
+}
+
+/** Both scenes in all situations, each changed by \a change and called \a name. */
+template <typename TChange>
+void
+AppendEverywhere(Settings & all, const std::string & name, const Kinds & kinds, TChange change)
+{
+  for (const RealSensorScene scene : { RealSensorScene::Target, RealSensorScene::Texture })
+  {
+    for (const Situation & situation : Situations)
+    {
+      auto setting = MakeRealSensorSetting(scene, TextOf(situation) + ", " + name);
+      setting.settings.camera = PaperCamera(situation.camera);
+      setting.settings.conditions =
+        situation.condition > 0 ? PaperConditions(situation.condition) : SceneConditions{ 0.0, 0.0, 0.0 };
+      setting.settings.frames = situation.frames;
+      setting.kinds = kinds;
+      change(setting);
+      all.push_back(std::move(setting));
+    }
+  }
+}
+
+/** A setting for each of \a strengths, which \a apply puts into the flaws. */
+template <typename TStrength, typename TApply>
+Settings
+MakeStrengths(const std::vector<TStrength> & strengths, const std::string & unit, const Kinds & kinds, TApply apply)
+{
+  Settings all;
+  for (const TStrength & strength : strengths)
+  {
+    AppendEverywhere(all, ShortText(strength) + unit, kinds, [&](RealSensorSetting & setting) {
+      apply(setting.settings.flaws, strength);
+    });
+  }
+  return all;
+}
+
+/** Noise that no two pixels share, or that rows and columns share; light that is not the same everywhere. */
+Settings
+MakePlainSettings()
+{
+  Settings all;
+  AppendEverywhere(all, "plain", White, [](RealSensorSetting &) {});
+  for (const double share : { 0.2, 0.5, 1.0 })
+  {
+    AppendEverywhere(all, "row noise " + ShortText(share) + " sigma", White, [=](RealSensorSetting & setting) {
+      setting.settings.flaws.lineNoise.rowNoiseSdDn = share * setting.settings.camera.readNoiseDn;
+    });
+    AppendEverywhere(all, "column noise " + ShortText(share) + " sigma", White, [=](RealSensorSetting & setting) {
+      setting.settings.flaws.lineNoise.columnNoiseSdDn = share * setting.settings.camera.readNoiseDn;
+    });
+  }
+  AppendEverywhere(all, "banding 0.5 sigma", White, [](RealSensorSetting & setting) {
+    setting.settings.flaws.lineNoise.bandingAmplitudeDn = 0.5 * setting.settings.camera.readNoiseDn;
+    setting.settings.flaws.lineNoise.bandingPeriodRows = 40.0;
+  });
+  AppendEverywhere(all, "rolling shutter", White, [](RealSensorSetting & setting) {
+    setting.settings.conditions.flickerSd = 0.03;
+    setting.settings.rollingShutterPeriodRows = 150.0;
+  });
+  AppendEverywhere(all, "two lamps", White, [](RealSensorSetting & setting) {
+    setting.settings.conditions.flickerSd = 0.03;
+    setting.hasTwoLamps = true;
+  });
+  return all;
+}
+
+Settings
+MakeSmoothedSettings()
+{
+  return MakeStrengths<double>(
+    { 0.4, 0.6, 0.8, 1.0 }, " px", Filtered, [](SensorFlaws & flaws, double sd) { flaws.smoothing.sdPixels = sd; });
+}
+
+Settings
+MakeResampledSettings()
+{
+  Settings all;
+  for (const Interpolation interpolation : { Interpolation::Linear, Interpolation::Cubic })
+  {
+    const Settings some = MakeStrengths<double>(
+      { 0.2, 0.35, 0.5 },
+      std::string(" px, ") + NameOf(interpolation),
+      Filtered,
+      [=](SensorFlaws & flaws, double shift) { flaws.resampling = { shift, shift, interpolation }; });
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  return all;
+}
+
+Settings
+MakeBinnedSettings()
+{
+  Settings all;
+  for (const Interpolation interpolation : { Interpolation::Nearest, Interpolation::Linear })
+  {
+    AppendEverywhere(all, std::string("2 x 2, ") + NameOf(interpolation), Filtered, [=](RealSensorSetting & setting) {
+      setting.settings.flaws.binning = { 2, interpolation };
+    });
+  }
+  return all;
+}
+
+/** Neighbours share some 2 fraction / (1 - 8 fraction) of their noise: above 2 % a filter is as good a name. */
+Settings
+MakeCouplingSettings()
+{
+  const auto     apply = [](SensorFlaws & flaws, double fraction) { flaws.coupling.fraction = fraction; };
+  Settings       all = MakeStrengths<double>({ 0.003, 0.006 }, " to each neighbour", { "crosstalk" }, apply);
+  const Settings more =
+    MakeStrengths<double>({ 0.012, 0.02 }, " to each neighbour", { "crosstalk", "filtered" }, apply);
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+Settings
+MakeBlurSettings()
+{
+  Settings all;
+  for (const double sd : { 0.0, 1.0, 2.0 })
+  {
+    AppendEverywhere(all, ShortText(sd) + " px of the light", White, [=](RealSensorSetting & setting) {
+      setting.settings.opticalBlurPixels = sd;
+    });
+  }
+  return all;
+}
+
+Settings
+MakeTemporalSettings()
+{
+  return MakeStrengths<double>({ 0.2, 0.4, 0.6 },
+                               " of the last frame",
+                               { "temporal" },
+                               [](SensorFlaws & flaws, double weight) { flaws.temporalFilter.weight = weight; });
+}
+
+Settings
+MakeRepeatedSettings()
+{
+  Settings all;
+  AppendEverywhere(
+    all, "each frame twice", White, [](RealSensorSetting & setting) { setting.settings.flaws.repetition = { 2, 1 }; });
+  AppendEverywhere(all, "each third frame twice", White, [](RealSensorSetting & setting) {
+    setting.settings.flaws.repetition = { 2, 3 };
+  });
+  return all;
+}
+
+Settings
+MakeCompandedSettings()
+{
+  Settings all;
+  for (const unsigned int bits : { 8u, 10u })
+  {
+    AppendEverywhere(all, "square root of " + std::to_string(bits) + " bits", {}, [=](RealSensorSetting & setting) {
+      setting.settings.flaws.companding.bits = bits;
+    });
+  }
+  return all;
+}
+
+Settings
+MakeDefectSettings()
+{
+  return MakeStrengths<double>({ 1.5, 2.0, 2.5, 3.0 }, " sigma", NotWhite, [](SensorFlaws & flaws, double threshold) {
+    flaws.defectCorrection.thresholdSd = threshold;
+  });
+}
+
+Settings
+MakeMedianSettings()
+{
+  return MakeStrengths<unsigned int>({ 1 }, " px radius", NotWhite, [](SensorFlaws & flaws, unsigned int radius) {
+    flaws.median.radiusPixels = radius;
+  });
+}
+
+Settings
+MakeBlockSettings()
+{
+  return MakeStrengths<unsigned int>({ 85, 90, 95, 98 },
+                                     " quality",
+                                     NotWhite,
+                                     [](SensorFlaws & flaws, unsigned int quality) { flaws.blocks.quality = quality; });
+}
+
+/** The variance of the brightest level loses the share 8 k Q (BrighterFatterSettings). */
+Settings
+MakeBrighterFatterSettings()
+{
+  Settings all;
+  for (const double loss : { 0.02, 0.05 })
+  {
+    AppendEverywhere(
+      all, ShortText(100.0 * loss) + " % at the top", { "brighter-fatter" }, [=](RealSensorSetting & setting) {
+        setting.settings.flaws.brighterFatter.perElectron = loss / (8.0 * setting.settings.camera.electrons);
+      });
+  }
+  return all;
+}
+} // namespace
+
+void
+AppendProcessedLines(std::vector<RealSensorLine> & lines)
+{
+  lines.push_back({ "plain", "white noise, row and column noise, banding, rolling shutter, lamps", MakePlainSettings });
+  lines.push_back({ "smoothed", "the camera smooths its frames", MakeSmoothedSettings });
+  lines.push_back({ "resampled", "the camera moves its frames along x and y", MakeResampledSettings });
+  lines.push_back({ "binned", "the camera bins its frames and gives them their old size", MakeBinnedSettings });
+  lines.push_back({ "coupling", "pixels give charge to their neighbours", MakeCouplingSettings });
+  lines.push_back({ "blur", "the light is blurred before the photons are counted", MakeBlurSettings });
+  lines.push_back({ "temporal", "the camera blends its frames with the last one", MakeTemporalSettings });
+  lines.push_back({ "repeated", "frames are written twice", MakeRepeatedSettings });
+  lines.push_back({ "companded", "square-root companding and back", MakeCompandedSettings });
+  lines.push_back({ "defects", "pixels far from their neighbours become the neighbours' median", MakeDefectSettings });
+  lines.push_back({ "median", "the camera takes the median of 3 x 3 pixels", MakeMedianSettings });
+  lines.push_back({ "blocks", "JPEG-like quantisation of 8 x 8 pixels", MakeBlockSettings });
+  lines.push_back({ "brighter-fatter", "charge spreads in proportion to its square", MakeBrighterFatterSettings });
+}
+
+} // namespace sensornoise::tools
