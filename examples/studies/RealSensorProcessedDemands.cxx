@@ -33,6 +33,13 @@ using Demands = std::vector<RealSensorDemand>;
 constexpr double MostStacks = 0.97;
 constexpr double LeastRefused = 0.95;
 
+/** Refused, or for another reason without a gain. */
+bool
+IsWithoutGain(const Outcome & outcome)
+{
+  return !outcome.Of(JudgedQuantity::Gain).IsIdentified();
+}
+
 RealSensorDemand
 KindNamed(double lowestShare)
 {
@@ -64,11 +71,11 @@ LineNoiseWithin(JudgedQuantity quantity)
 }
 
 RealSensorDemand
-WithinOrRefused(double fraction, const std::string & text)
+WithinOrNone(double fraction, const std::string & text)
 {
-  return { "gain within " + text + " or 3 standard errors, or refused",
+  return { "gain within " + text + " or 3 standard errors, or no gain",
            [fraction](const Setting &, const Outcome & outcome) -> Verdict {
-             return outcome.IsRefused() || outcome.Of(JudgedQuantity::Gain).IsWithin(fraction);
+             return IsWithoutGain(outcome) || outcome.Of(JudgedQuantity::Gain).IsWithin(fraction);
            } };
 }
 
@@ -85,8 +92,8 @@ AsFromDistinctFrames()
 Demands
 DemandsOnNotLinear()
 {
-  return { { "refused",
-             [](const Setting &, const Outcome & outcome) -> Verdict { return outcome.IsRefused(); },
+  return { { "refused, or no gain",
+             [](const Setting &, const Outcome & outcome) -> Verdict { return IsWithoutGain(outcome); },
              LeastRefused },
            { "no interval that misses the gain",
              [](const Setting &, const Outcome & outcome) -> Verdict {
@@ -119,7 +126,7 @@ MakeProcessedDemands()
            { "binned", DemandsOnGain(0.02, "2 %", isNamed) },
            { "coupling", DemandsOnGain(0.02, "2 %", isNamed) },
            { "blur", DemandsOnGain(0.02, "2 %", isNamed) },
-           { "temporal", { WithinOrRefused(0.05, "5 %"), Coverage(JudgedQuantity::Gain), KindNamed(MostStacks) } },
+           { "temporal", { WithinOrNone(0.05, "5 %"), Coverage(JudgedQuantity::Gain), KindNamed(MostStacks) } },
            { "repeated",
              DemandsOnGain(0.02, "2 %", { Warned("repeated-frames"), AsFromDistinctFrames(), KindNamed(MostStacks) }) },
            { "companded", DemandsOnGain(0.01, "1 %", { Warned("companded") }) },
