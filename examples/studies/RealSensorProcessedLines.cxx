@@ -16,10 +16,9 @@
  *
  *=========================================================================*/
 #include "studies/RealSensorLines.h"
+#include "studies/RealSensorSituations.h"
 
-#include <cmath>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace sensornoise::tools
@@ -32,44 +31,6 @@ using Kinds = std::vector<std::string>;
 const Kinds White{ "white" };
 const Kinds Filtered{ "filtered" };
 const Kinds NotWhite{ "not-linear", "filtered" };
-
-/** Camera, light and floor that each kind of processing is tried with. */
-struct Situation
-{
-  char        camera;
-  int         condition; ///< 0: no flicker, nothing moves
-  std::size_t frames;
-};
-
-constexpr Situation Situations[] = { { 'B', 3, 50 }, { 'B', 3, 100 }, { 'A', 2, 50 }, { 'C', 2, 100 }, { 'B', 0, 50 } };
-
-std::string
-TextOf(const Situation & situation)
-{
-  return std::string(1, situation.camera) +
-         (situation.condition > 0 ? std::to_string(situation.condition) : std::string(" still"));
-}
-
-/** Both scenes in all situations, each changed by \a change and called \a name. */
-template <typename TChange>
-void
-AppendEverywhere(Settings & all, const std::string & name, const Kinds & kinds, TChange change)
-{
-  for (const RealSensorScene scene : { RealSensorScene::Target, RealSensorScene::Texture })
-  {
-    for (const Situation & situation : Situations)
-    {
-      auto setting = MakeRealSensorSetting(scene, TextOf(situation) + ", " + name);
-      setting.settings.camera = PaperCamera(situation.camera);
-      setting.settings.conditions =
-        situation.condition > 0 ? PaperConditions(situation.condition) : SceneConditions{ 0.0, 0.0, 0.0 };
-      setting.settings.frames = situation.frames;
-      setting.kinds = kinds;
-      change(setting);
-      all.push_back(std::move(setting));
-    }
-  }
-}
 
 /** A setting for each of \a strengths, which \a apply puts into the flaws. */
 template <typename TStrength, typename TApply>

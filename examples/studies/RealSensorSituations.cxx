@@ -1,0 +1,68 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "studies/RealSensorSituations.h"
+
+#include "studies/RealSensorLines.h"
+
+#include <cstddef>
+#include <utility>
+
+namespace sensornoise::tools
+{
+namespace
+{
+struct Situation
+{
+  char        camera;
+  int         condition; ///< 0: no flicker, nothing moves
+  std::size_t frames;
+};
+
+constexpr Situation Situations[] = { { 'B', 3, 50 }, { 'B', 3, 100 }, { 'A', 2, 50 }, { 'C', 2, 100 }, { 'B', 0, 50 } };
+
+std::string
+TextOf(const Situation & situation)
+{
+  return std::string(1, situation.camera) +
+         (situation.condition > 0 ? std::to_string(situation.condition) : std::string(" still"));
+}
+} // namespace
+
+void
+AppendEverywhere(std::vector<RealSensorSetting> &                 all,
+                 const std::string &                              name,
+                 const std::vector<std::string> &                 kinds,
+                 const std::function<void(RealSensorSetting &)> & change)
+{
+  for (const RealSensorScene scene : { RealSensorScene::Target, RealSensorScene::Texture })
+  {
+    for (const Situation & situation : Situations)
+    {
+      auto setting = MakeRealSensorSetting(scene, TextOf(situation) + ", " + name);
+      setting.settings.camera = PaperCamera(situation.camera);
+      setting.settings.conditions =
+        situation.condition > 0 ? PaperConditions(situation.condition) : SceneConditions{ 0.0, 0.0, 0.0 };
+      setting.settings.frames = situation.frames;
+      setting.kinds = kinds;
+      change(setting);
+      all.push_back(std::move(setting));
+    }
+  }
+}
+
+} // namespace sensornoise::tools
