@@ -73,6 +73,7 @@ FillNoiseParameters(Report &              report,
     return;
   }
   report.gain = Quantity::Identified(line.slope, "DN/e-");
+  report.varianceSlope = report.gain;
   report.intercept = Quantity::Identified(line.intercept, "DN^2");
   report.totalIntercept = report.intercept;
 

@@ -152,7 +152,7 @@ UseDarkPoint(GainEstimate & estimate, const RefinedResults & found)
   const GainEstimate before = estimate;
   const double       contradiction = MoveToPoint(estimate, dark);
   if (!isBent && contradiction > AnotherSensor &&
-      found.variance.curve.DarkestShare(dark.offsetDn) < VarianceCurve::DarkEnough)
+      estimate.curve.DarkestShare(dark.offsetDn) < VarianceCurve::DarkEnough)
   {
     // A straight line that comes close to the dark knows the variance there: these are not its dark frames.
     const auto atOffset = estimate.atOffset;
@@ -160,9 +160,9 @@ UseDarkPoint(GainEstimate & estimate, const RefinedResults & found)
     estimate.atOffset = atOffset;
     return;
   }
-  const LevelGains   gains = GainsOfLevels(found.variance.curve, dark);
+  const LevelGains   gains = GainsOfLevels(estimate.curve, dark);
   const VarianceLine line = estimate.line;
-  if (isBent || found.variance.curve.DarkestShare(dark.offsetDn) > VarianceCurve::DarkEnough)
+  if (isBent || estimate.curve.DarkestShare(dark.offsetDn) > VarianceCurve::DarkEnough)
   {
     estimate.atOffset.reset(); // a bend of the response may explain the difference
   }

@@ -91,26 +91,29 @@ DispersionOfClasses(const StaticVariance & variance)
 /** Chooses between the line of all pixels, with the error that patterns can cause, and that of light alone: by the
  * errors, never by the values. */
 void
-ChooseLine(GainEstimate & estimate, const StaticVariance & variance, const ProvisionalModel & model)
+ChooseLine(GainEstimate &           estimate,
+           const SensorLines &      lines,
+           const StaticVariance &   variance,
+           const ProvisionalModel & model)
 {
-  const VarianceLine &  all = variance.line;
+  const VarianceLine &  all = lines.all;
   const double          dispersion = BeyondChance(variance.classes.reducedChi2, ProjectedVariance::Classes - 1.0);
-  const Eigen::Matrix2d flat = Disagreement(all, variance.fromFlat);
+  const Eigen::Matrix2d flat = Disagreement(all, lines.fromFlat);
   const double          fromPattern = variance.pattern.LargestShare() * std::abs(all.gain);
   const double          error = std::sqrt(dispersion * all.covariance(0, 0) + flat(0, 0));
   estimate.line = all;
   estimate.covariance = dispersion * all.covariance + flat;
-  if (variance.fromLight.isDetermined &&
-      std::hypot(error, fromPattern) > std::sqrt(dispersion * variance.fromLight.covariance(0, 0)))
+  if (lines.fromLight.isDetermined &&
+      std::hypot(error, fromPattern) > std::sqrt(dispersion * lines.fromLight.covariance(0, 0)))
   {
-    estimate.line = variance.fromLight;
-    estimate.covariance = dispersion * variance.fromLight.covariance;
+    estimate.line = lines.fromLight;
+    estimate.covariance = dispersion * lines.fromLight.covariance;
   }
   else
   {
     estimate.covariance += SlopeCovariance(std::min(fromPattern, 100.0 * std::abs(all.gain)), all.pivotDn);
   }
-  estimate.covariance += SlopeCovariance(ErrorOfVibration(all, model), all.pivotDn);
+  estimate.covariance += SlopeCovariance(ErrorOfVibration(all, model), all.pivotDn) + lines.errorOfShared;
 }
 
 /** The size of a difference without what chance makes of it, \a z of its standard deviations. */
@@ -220,14 +223,15 @@ GainEstimate::StandardError() const
 }
 
 GainEstimate
-EstimateGain(const RefinedResults & found)
+EstimateGain(const RefinedResults & found, const SensorLines & lines)
 {
   const StaticVariance & variance = found.variance;
   GainEstimate           estimate;
-  estimate.reducedChi2 = variance.curve.ReducedChi2();
-  ChooseLine(estimate, variance, found.scene.model);
+  estimate.curve = lines.curve;
+  estimate.reducedChi2 = lines.curve.ReducedChi2();
+  ChooseLine(estimate, lines, variance, found.scene.model);
   estimate.scale = estimate.line.At(estimate.line.pivotDn) / std::max(1e-9, estimate.line.pivotDn - found.blackDn);
-  FindModelError(estimate, variance.curve, found.blackDn, DispersionOfClasses(variance));
+  FindModelError(estimate, lines.curve, found.blackDn, DispersionOfClasses(variance));
   if (found.settings.offset && found.settings.offset->variance)
   {
     UseDarkPoint(estimate, found);

@@ -22,7 +22,9 @@
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/moments/KnownOffset.h"
 #include "sensornoise/pixels/VarianceLine.h"
+#include "sensornoise/pixels/VarianceCurve.h"
 #include "sensornoise/refined/RefinedResults.h"
+#include "sensornoise/refined/SensorLines.h"
 
 #include <optional>
 
@@ -42,6 +44,8 @@ struct GainEstimate
 {
   /** The line that stands for the sensor. */
   VarianceLine line;
+  /** How the variance departs from it along the levels. */
+  VarianceCurve curve;
   /** Of gain and intercept: the fit's, widened by all that contradicts it. */
   Eigen::Matrix2d covariance{ Eigen::Matrix2d::Zero() };
   /** How far below and above the gain parts of the levels put it: the error of taking the response for straight, beyond
@@ -77,9 +81,16 @@ struct GainEstimate
 
 /** Puts the results together: the line of all pixels, or of what is light alone where the pixels' own patterns matter
  * more than precision; the point (offset, variance) of dark frames; and, where the response bends, the gains of the
- * parts of the levels. */
+ * parts of the levels. \a lines are those of \a found's variance, or what the sensor had before it was shared. */
 SensorNoise_EXPORT GainEstimate
-EstimateGain(const RefinedResults & found);
+EstimateGain(const RefinedResults & found, const SensorLines & lines);
+
+/** Of the variance as it is. */
+inline GainEstimate
+EstimateGain(const RefinedResults & found)
+{
+  return EstimateGain(found, LinesOf(found.variance));
+}
 
 } // namespace sensornoise
 

@@ -29,6 +29,7 @@
 #include "sensornoise/series/FrameRegressors.h"
 #include "sensornoise/series/ShiftInstruments.h"
 
+#include "sensornoise/base/PixelUse.h"
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -103,6 +104,7 @@ RefinedMethod<TPixel>::AddFrames(const TPixel * chunk, std::size_t frames)
     ForBlocks(m_Geometry.Pixels(), m_ParallelFor, [&](std::size_t begin, std::size_t end) {
       m_Projections.AddFrames(m_Series->basis, chunk, first, frames, begin, end);
     });
+    m_Sample.AddFrames(chunk, first, frames, m_Scene->frame.mean, m_ParallelFor);
   }
 }
 
@@ -126,7 +128,15 @@ RefinedMethod<TPixel>::SaveSums(std::ostream & out) const
   }
   else if (m_FrameSums)
   {
-    m_InPass.GetPass() == 1 ? m_FrameSums->Save(out) : m_Projections.Save(out);
+    if (m_InPass.GetPass() == 1)
+    {
+      m_FrameSums->Save(out);
+    }
+    else
+    {
+      m_Projections.Save(out);
+      m_Sample.Save(out);
+    }
   }
 }
 
@@ -157,7 +167,10 @@ RefinedMethod<TPixel>::MergeSums(std::istream & in)
   {
     ProjectionSums others(pixels, m_Series->basis.Size());
     others.Restore(in);
+    NoiseSample sample(m_Geometry, m_Frames);
+    sample.Restore(in);
     m_Projections.Merge(others);
+    m_Sample.Merge(sample);
   }
   m_InPass.Merge(frames);
 }
@@ -250,6 +263,7 @@ RefinedMethod<TPixel>::EndFrameSums()
   m_Series.emplace(FindSceneSeries(
     *m_FrameSums, m_Settings.rollingShutter, knownOffsetDn, BlackLevel(m_Settings, *m_Scene, std::nullopt)));
   m_Projections = ProjectionSums(m_Geometry.Pixels(), m_Series->basis.Size(), m_ParallelFor);
+  m_Sample = NoiseSample(m_Geometry, m_Frames);
 }
 
 template <typename TPixel>
@@ -274,12 +288,31 @@ RefinedMethod<TPixel>::EndProjections()
     throw NothingToMeasure("too few pixels, or pixels of one intensity only, are left to fit the variance",
                            "intensity-range-too-small");
   }
+  this->MeasureCorrelation();
   m_Polished.emplace(PolishSceneSeries(*m_FrameSums, *m_Series, projected, *m_Variance, m_ParallelFor));
   m_CorrectedVariance = projected.TakeVariance();
   for (std::size_t p = 0; p < m_CorrectedVariance.size(); ++p)
   {
     m_CorrectedVariance[p] = frame.usable[p] != 0 ? m_CorrectedVariance[p] : std::numeric_limits<double>::quiet_NaN();
   }
+}
+
+template <typename TPixel>
+void
+RefinedMethod<TPixel>::MeasureCorrelation()
+{
+  const std::vector<std::uint8_t> & use = m_Variance->pixelUse;
+  std::vector<std::uint8_t>         take(use.size());
+  for (std::size_t p = 0; p < use.size(); ++p)
+  {
+    take[p] = use[p] == static_cast<std::uint8_t>(PixelUse::Used) ? 1 : 0;
+  }
+  const NoiseResiduals residuals(std::move(m_Sample),
+                                 m_Series->basis.GetBasis(),
+                                 { m_Scene->frame.mean, take, BlackLevel(m_Settings, *m_Scene, m_Series) },
+                                 m_ParallelFor);
+  const double         step = m_Scene->summary.codes.quantisationStepDn;
+  m_Correlation = MeasureNoiseCorrelation(residuals, step * step / 12.0, m_ParallelFor);
 }
 
 template <typename TPixel>
@@ -293,7 +326,8 @@ RefinedMethod<TPixel>::MakeReport()
                                               *m_Variance,
                                               *m_Polished,
                                               m_CorrectedVariance,
-                                              BlackLevel(m_Settings, *m_Scene, m_Series) });
+                                              BlackLevel(m_Settings, *m_Scene, m_Series),
+                                              m_Correlation });
 }
 
 template class RefinedMethod<unsigned char>;

@@ -22,6 +22,8 @@
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/NothingToMeasure.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/correlation/NoiseCorrelation.h"
+#include "sensornoise/correlation/NoiseSample.h"
 #include "sensornoise/moments/PassFrames.h"
 #include "sensornoise/moments/StackMoments.h"
 #include "sensornoise/pixels/ProjectionSums.h"
@@ -147,6 +149,8 @@ private:
   void
   EndProjections();
   void
+  MeasureCorrelation();
+  void
   MakeReport();
 
   RefinedSettings           m_Settings;
@@ -162,8 +166,10 @@ private:
   std::unique_ptr<FrameSums>            m_FrameSums; // null: the stack cannot be measured
   std::optional<const SceneSeries>      m_Series;
   ProjectionSums                        m_Projections;
+  NoiseSample                           m_Sample; // of the third pass
   std::optional<const StaticVariance>   m_Variance;
   std::optional<const PolishedSeries>   m_Polished;
+  NoiseCorrelation                      m_Correlation;
   std::vector<double>                   m_CorrectedVariance;
   std::optional<const NothingToMeasure> m_Obstacle;
   Report                                m_Report;

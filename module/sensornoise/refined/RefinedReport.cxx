@@ -22,10 +22,12 @@
 #include "sensornoise/base/RollingShutter.h"
 #include "sensornoise/base/Text.h"
 #include "sensornoise/pixels/VarianceLine.h"
+#include "sensornoise/refined/CorrelationReport.h"
 #include "sensornoise/refined/GainEstimate.h"
 #include "sensornoise/refined/GainReport.h"
 #include "sensornoise/refined/MotionReport.h"
 #include "sensornoise/refined/OffsetReport.h"
+#include "sensornoise/refined/SensorLines.h"
 #include "sensornoise/report/Quantities.h"
 #include "sensornoise/report/StackReport.h"
 
@@ -144,6 +146,66 @@ FillCurves(Report & report, const RefinedResults & found)
   FillBaselines(report, { scene.mean.data(), scene.variance.data(), used.data(), used.size() });
   FillScatter(report, scene.mean, scene.variance, found.correctedVariance, pixelUse);
 }
+/** Degrees of freedom of the 95 % intervals. */
+double
+StudentOf(const RefinedResults & found)
+{
+  return StudentQuantile(0.975, static_cast<double>(found.scene.frame.frames) - 2.0);
+}
+
+/** The settings with the variance of dark frames that the sensor had before a filter, which they passed, too. */
+RefinedSettings
+SettingsOfSensor(const RefinedResults & found, double codesDn2)
+{
+  RefinedSettings settings = found.settings;
+  const double    factor = FilterFactor(found.correlation);
+  if (settings.offset && settings.offset->variance && factor != 1.0)
+  {
+    DarkVariance & dark = *settings.offset->variance;
+    dark.valueDn2 = VarianceOfSensor(dark.valueDn2, factor, codesDn2);
+    dark.standardErrorDn2 *= factor;
+    settings.offset->maps.reset();
+    settings.offset->readNoiseMedian.reset();
+  }
+  return settings;
+}
+
+/** Files gain, offset, read noise and what the light and the floor did. */
+void
+FillSensor(Report & report, const RefinedResults & found, const GainEstimate & gain, double codesDn2)
+{
+  const OffsetLimits   limits = LimitsOf(found, gain, codesDn2);
+  const OffsetEstimate flicker = EstimateOffset(found, gain, limits);
+  const UsedOffset     offset = OffsetInUse(found, flicker, limits);
+  FillFlicker(report, found, offset.valueDn - found.scene.model.centreDn, offset.errorDn, gain.RelativeModelError());
+  FillMotion(report, found);
+  WarnOfMotion(report, found);
+  if (found.correlation.kind == NoiseKind::NotLinear)
+  {
+    SetSensorParameters(report, EstimateStatus::Failed);
+    FillFromDarkFrames(report, found.settings, codesDn2);
+  }
+  else if (FillGain(report, found, gain, codesDn2, StudentOf(found)))
+  {
+    FillOffsetAndReadNoise(report, found, gain, limits, flicker, codesDn2, StudentOf(found));
+    WarnOfNarrowRange(report, found, limits);
+  }
+  else
+  {
+    FillFromDarkFrames(report, found.settings, codesDn2);
+  }
+}
+
+/** Files what a denoiser needs: a pixel's variance as a function of its level, whatever the sensor's was. */
+void
+FillVariance(Report & report, const RefinedResults & found, const GainEstimate & ofVariance)
+{
+  Report own;
+  own.pixels = report.pixels;
+  FillGain(own, found, ofVariance, 0.0, StudentOf(found));
+  report.varianceSlope = own.gain;
+  report.totalIntercept = own.totalIntercept;
+}
 } // namespace
 
 Report
@@ -165,24 +227,27 @@ MakeRefinedReport(const RefinedResults & found)
   FillCurves(report, found);
   WarnOfScene(report, found);
 
-  const double         quantisationDn2 = QuantisationVariance(found.scene);
-  const GainEstimate   gain = EstimateGain(found);
-  const OffsetLimits   limits = LimitsOf(found, gain, quantisationDn2);
-  const OffsetEstimate flicker = EstimateOffset(found, gain, limits);
-  const UsedOffset     offset = OffsetInUse(found, flicker, limits);
-  FillFlicker(report, found, offset.valueDn - found.scene.model.centreDn, offset.errorDn, gain.RelativeModelError());
-  FillMotion(report, found);
-  WarnOfMotion(report, found);
-  const double student = StudentQuantile(0.975, static_cast<double>(found.scene.frame.frames) - 2.0);
-  if (FillGain(report, found, gain, quantisationDn2, student))
+  const double       codesDn2 = QuantisationVariance(found.scene);
+  const GainEstimate ofVariance = EstimateGain(found);
+  if (found.correlation.IsShared())
   {
-    FillOffsetAndReadNoise(report, found, gain, limits, flicker, quantisationDn2, student);
-    WarnOfNarrowRange(report, found, limits);
+    const RefinedSettings settings = SettingsOfSensor(found, codesDn2);
+    const SensorLines     lines = WithSharedNoise(LinesOf(found.variance), found.correlation, found.blackDn, codesDn2);
+    const RefinedResults  sensor = { settings,       found.scene,      found.series,
+                                     found.variance, found.polished,   found.correctedVariance,
+                                     found.blackDn,  found.correlation };
+    FillSensor(report, sensor, EstimateGain(sensor, lines), codesDn2);
   }
   else
   {
-    FillFromDarkFrames(report, found.settings, quantisationDn2);
+    FillSensor(report, found, ofVariance, codesDn2);
   }
+  if (found.correlation.kind != NoiseKind::NotMeasured)
+  {
+    report.noiseCorrelation = RecordOf(found.correlation);
+  }
+  FillVariance(report, found, ofVariance);
+  WarnOfCorrelation(report, found.correlation);
   return report;
 }
 

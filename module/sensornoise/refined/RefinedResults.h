@@ -18,6 +18,7 @@
 #ifndef sensornoise_refined_RefinedResults_h
 #define sensornoise_refined_RefinedResults_h
 
+#include "sensornoise/correlation/NoiseCorrelation.h"
 #include "sensornoise/refined/PolishedSeries.h"
 #include "sensornoise/refined/RefinedSettings.h"
 #include "sensornoise/scene/StillScene.h"
@@ -37,6 +38,7 @@ struct RefinedResults
   const PolishedSeries &      polished;          ///< of the second's sums, with the third's noise
   const std::vector<double> & correctedVariance; ///< NaN where it was not computed [DN^2]
   double                      blackDn;           ///< see BlackLevel()
+  NoiseCorrelation            correlation{};     ///< of the third pass's sample
 
   /** Whether the light changes in some places in another way than in others. */
   bool

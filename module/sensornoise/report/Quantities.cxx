@@ -60,6 +60,7 @@ void
 SetSensorParameters(Report & report, EstimateStatus status)
 {
   for (Quantity * quantity : { &report.gain,
+                               &report.varianceSlope,
                                &report.offset,
                                &report.readNoise,
                                &report.readNoiseElectrons,

@@ -76,6 +76,26 @@ struct Quantity
   }
 };
 
+/** What the noise of pixels, or of frames, has in common. */
+struct NoiseCorrelationRecord
+{
+  /** Of pixels \a x columns and \a y rows apart, or of frames \a frames apart. */
+  struct Lag
+  {
+    int    x{ 0 };
+    int    y{ 0 };
+    int    frames{ 0 };
+    double value{ 0.0 }; ///< correlation coefficient [1]
+    double standardError{ 0.0 };
+  };
+  std::string      kind; ///< white, crosstalk, filtered, temporal, brighter-fatter, not-linear
+  std::vector<Lag> space;
+  std::vector<Lag> time;
+  Quantity         rowNoise{ Quantity::Without(EstimateStatus::Failed, "DN") };    ///< common to a row of one frame
+  Quantity         columnNoise{ Quantity::Without(EstimateStatus::Failed, "DN") }; ///< common to a column
+  Quantity         excessKurtosis{ Quantity::Without(EstimateStatus::Failed, "1") };
+};
+
 /** Something that the user should know. */
 struct Warning
 {
@@ -116,6 +136,8 @@ struct Report
   } pixels;
 
   Quantity gain{ Quantity::Without(EstimateStatus::Failed, "DN/e-") };
+  /** Of a pixel's variance against its level: what a denoiser needs. The gain where the noise is white. */
+  Quantity varianceSlope{ Quantity::Without(EstimateStatus::Failed, "DN/e-") };
   Quantity offset{ Quantity::Without(EstimateStatus::Failed, "DN") };
   Quantity readNoise{ Quantity::Without(EstimateStatus::Failed, "DN") };
   /** Of the median pixel, where pixels differ: only dark frames tell it. */
@@ -149,8 +171,9 @@ struct Report
     std::optional<double>   offsetLinePhi;
     std::optional<Baseline> line; ///< through the corrected variance: indicative where the gain is not identified
   } fit;
-  std::optional<Baseline> affineBaseline;    ///< the line through the uncorrected variance: ignores flicker
-  std::optional<Baseline> quadraticBaseline; ///< the parabola through the uncorrected variance, (2.21)
+  std::optional<NoiseCorrelationRecord> noiseCorrelation; ///< null: not measured
+  std::optional<Baseline>               affineBaseline; ///< the line through the uncorrected variance: ignores flicker
+  std::optional<Baseline>               quadraticBaseline; ///< the parabola through the uncorrected variance, (2.21)
 
   std::vector<Warning> warnings;
 

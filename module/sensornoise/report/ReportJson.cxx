@@ -68,6 +68,23 @@ WriteJson(JsonWriter & json, const Quantity & quantity)
   });
 }
 
+/** A lag in space is [x, y], in pixels; one in time a number of frames. */
+void
+WriteJson(JsonWriter & json, const NoiseCorrelationRecord::Lag & lag)
+{
+  json.Object([&] {
+    if (lag.frames > 0)
+    {
+      json.Member("lag", lag.frames);
+    }
+    else
+    {
+      json.Member("lag", std::array<int, 2>{ lag.x, lag.y });
+    }
+    json.Member("value", lag.value).Member("standard_error", lag.standardError);
+  });
+}
+
 namespace
 {
 void
@@ -107,13 +124,31 @@ WriteStack(JsonWriter & json, const Report & report)
 void
 WriteSensor(JsonWriter & json, const Report & report)
 {
-  json.Member("gain", report.gain).Member("offset", report.offset).Member("read_noise", report.readNoise);
+  json.Member("gain", report.gain).Member("variance_slope", report.varianceSlope);
+  json.Member("offset", report.offset).Member("read_noise", report.readNoise);
   json.Member("read_noise_median", report.readNoiseMedian);
   json.Member("read_noise_electrons", report.readNoiseElectrons);
   json.Member("intercept", report.intercept).Member("total_intercept", report.totalIntercept);
   json.ObjectMember("covariance", [&] {
     json.Member("of", std::array<const char *, 3>{ "gain", "intercept", "offset" });
     json.Member("matrix", report.covariance);
+  });
+}
+
+/** What neighbours and frames share. */
+void
+WriteCorrelation(JsonWriter & json, const std::optional<NoiseCorrelationRecord> & correlation)
+{
+  if (!correlation)
+  {
+    json.Member("noise_correlation", std::optional<double>());
+    return;
+  }
+  json.ObjectMember("noise_correlation", [&] {
+    json.Member("kind", correlation->kind);
+    json.Member("space", correlation->space).Member("time", correlation->time);
+    json.Member("row_noise", correlation->rowNoise).Member("column_noise", correlation->columnNoise);
+    json.Member("excess_kurtosis", correlation->excessKurtosis);
   });
 }
 
@@ -163,6 +198,7 @@ ToJson(const Report & report)
     WriteStack(json, report);
     WriteSensor(json, report);
     WriteConditions(json, report);
+    WriteCorrelation(json, report.noiseCorrelation);
     WriteFit(json, report);
     json.Member("warnings", report.warnings);
     json.ObjectMember("scatter", [&] {

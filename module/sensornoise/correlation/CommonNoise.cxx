@@ -1,0 +1,72 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/correlation/CommonNoise.h"
+
+#include <cstddef>
+#include <cstdlib>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** The part of the light's square, of what is far apart along both axes; what does not depend on the light is another
+ * part. 0 where the levels cannot tell them apart. */
+double
+LightOf(const DistantSums & far)
+{
+  const double determinant = far.constant * far.lightSquare - far.light * far.light;
+  return determinant > 1e-6 * far.constant * far.lightSquare
+           ? (far.constant * far.lightCovariance - far.light * far.covariance) / determinant
+           : 0.0;
+}
+
+double
+ConstantOf(const DistantSums & line, double light)
+{
+  return line.constant > 0.0 ? (line.covariance - light * line.light) / line.constant : 0.0;
+}
+} // namespace
+
+LagSums
+CommonNoise::TakeOff(LagSums sums, const Lag & lag) const
+{
+  const auto   row = static_cast<std::size_t>(std::abs(lag.y));
+  const auto   column = static_cast<std::size_t>(std::abs(lag.x));
+  const double lines = (row < rows.size() ? rows[row] : 0.0) + (column < columns.size() ? columns[column] : 0.0);
+  for (PairSums & bin : sums.bins)
+  {
+    bin.covariance -= lines * bin.constant + light * bin.square;
+  }
+  return sums;
+}
+
+CommonNoise
+FindCommonNoise(const SharedLight & sums)
+{
+  CommonNoise common;
+  common.light = LightOf(sums.far);
+  for (std::size_t d = 0; d < SharedLight::Lines; ++d)
+  {
+    common.rows[d] = ConstantOf(sums.rows[d], common.light);
+    common.columns[d] = ConstantOf(sums.columns[d], common.light);
+  }
+  return common;
+}
+
+} // namespace sensornoise

@@ -1,0 +1,142 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/correlation/LagSums.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** Sums over time of the products of a tile's values with those \a shift further on and \a frames later. */
+void
+SumProducts(const float *        values,
+            std::size_t          frames,
+            std::size_t          size,
+            std::ptrdiff_t       shift,
+            std::size_t          later,
+            std::vector<float> & sums)
+{
+  std::fill(sums.begin(), sums.end(), 0.0F);
+  const std::size_t first = shift < 0 ? static_cast<std::size_t>(-shift) : 0;
+  const std::size_t last = shift < 0 ? size : size - static_cast<std::size_t>(shift);
+  for (std::size_t t = 0; t + later < frames; ++t)
+  {
+    const float * here = values + t * size;
+    const float * there = values + (t + later) * size + shift;
+    for (std::size_t p = first; p < last; ++p)
+    {
+      sums[p] += here[p] * there[p];
+    }
+  }
+}
+
+LagSums
+SumPairs(const NoiseResiduals & residuals, std::size_t tile, const Lag & lag, const std::vector<float> & products)
+{
+  const auto           side = static_cast<int>(residuals.GetTiles().side);
+  const float *        light = residuals.LightOf(tile);
+  const float *        weight = residuals.WeightOf(tile);
+  const std::uint8_t * bin = residuals.BinOf(tile);
+  const double         inverseFreedom = 1.0 / residuals.GetFreedom();
+  LagSums              sums;
+  for (int y = std::max(0, -lag.y); y < side - std::max(0, lag.y); ++y)
+  {
+    for (int x = std::max(0, -lag.x); x < side - std::max(0, lag.x); ++x)
+    {
+      const int    p = y * side + x;
+      const int    q = p + lag.y * side + lag.x;
+      const double w = static_cast<double>(weight[p]) * weight[q];
+      if (w > 0.0)
+      {
+        const double inverse = std::sqrt(w);
+        const double z = 0.5 * (static_cast<double>(light[p]) + light[q]);
+        PairSums &   sum = sums.bins[bin[p]];
+        sum.pairs += 1.0;
+        sum.covariance += inverseFreedom * products[static_cast<std::size_t>(p)] * inverse;
+        sum.constant += inverse;
+        sum.light += z * inverse;
+        sum.square += z * z * inverse;
+      }
+    }
+  }
+  return sums;
+}
+} // namespace
+
+PairSums &
+PairSums::operator+=(const PairSums & other)
+{
+  pairs += other.pairs;
+  covariance += other.covariance;
+  constant += other.constant;
+  light += other.light;
+  square += other.square;
+  return *this;
+}
+
+LagSums &
+LagSums::operator+=(const LagSums & other)
+{
+  for (std::size_t b = 0; b < bins.size(); ++b)
+  {
+    bins[b] += other.bins[b];
+  }
+  return *this;
+}
+
+PairSums
+LagSums::Total() const
+{
+  PairSums total;
+  for (const PairSums & bin : bins)
+  {
+    total += bin;
+  }
+  return total;
+}
+
+std::vector<std::vector<LagSums>>
+SumLags(const NoiseResiduals & residuals, const std::vector<Lag> & lags, const ParallelFor & parallelFor)
+{
+  const SampleTiles &               tiles = residuals.GetTiles();
+  const auto                        side = static_cast<std::ptrdiff_t>(tiles.side);
+  std::vector<std::vector<LagSums>> sums(tiles.origins.size(), std::vector<LagSums>(lags.size()));
+  parallelFor(tiles.origins.size(), [&](std::size_t i) {
+    std::vector<float> products(tiles.Pixels());
+    for (std::size_t k = 0; k < lags.size(); ++k)
+    {
+      const Lag & lag = lags[k];
+      SumProducts(residuals.OfTile(i),
+                  tiles.frames,
+                  tiles.Pixels(),
+                  lag.y * side + lag.x,
+                  static_cast<std::size_t>(lag.t),
+                  products);
+      sums[i][k] = SumPairs(residuals, i, lag, products);
+    }
+  });
+  return sums;
+}
+
+} // namespace sensornoise

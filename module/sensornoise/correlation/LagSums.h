@@ -1,0 +1,71 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_correlation_LagSums_h
+#define sensornoise_correlation_LagSums_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/correlation/NoiseResiduals.h"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** How far two values are apart, [pixels] and [frames]. */
+struct Lag
+{
+  int x{ 0 };
+  int y{ 0 };
+  int t{ 0 };
+};
+
+/** Sums over pairs of pixels: of their covariance y, with V their typical variance and z their light. */
+struct PairSums
+{
+  double pairs{ 0.0 };
+  double covariance{ 0.0 }; ///< of y / V
+  double constant{ 0.0 };   ///< of 1 / V
+  double light{ 0.0 };      ///< of z / V
+  double square{ 0.0 };     ///< of z^2 / V
+
+  PairSums &
+  operator+=(const PairSums & other);
+};
+
+/** The sums of one lag, in the bins of the light. */
+struct LagSums
+{
+  std::array<PairSums, NoiseResiduals::LightBins> bins;
+
+  LagSums &
+  operator+=(const LagSums & other);
+  /** Over all bins. */
+  PairSums
+  Total() const;
+};
+
+/** The sums of every tile, for each lag: [tile][lag]. y is sum_t r_t(p) r_(t + lag.t)(q), over the freedom. */
+SensorNoise_EXPORT std::vector<std::vector<LagSums>>
+SumLags(const NoiseResiduals & residuals, const std::vector<Lag> & lags, const ParallelFor & parallelFor);
+
+} // namespace sensornoise
+
+#endif

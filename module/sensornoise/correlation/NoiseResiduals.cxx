@@ -1,0 +1,198 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/correlation/NoiseResiduals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** Bins of equal count along the light in which the variance is averaged, and the least pixels of one. */
+constexpr std::size_t NoiseBins = 32;
+constexpr std::size_t LeastPixelsOfBin = 256;
+
+/** An orthonormal basis of the constant and what the series add to it. */
+Eigen::MatrixXd
+BasisOf(const Eigen::MatrixXd & series, std::size_t frames)
+{
+  const auto      rows = static_cast<Eigen::Index>(frames);
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Constant(rows, 1, 1.0 / std::sqrt(static_cast<double>(frames)));
+  for (Eigen::Index j = 0; j < series.cols(); ++j)
+  {
+    Eigen::VectorXd column = series.col(j).head(rows);
+    const double    size = column.norm();
+    for (int twice = 0; twice < 2; ++twice)
+    {
+      column -= basis * (basis.transpose() * column);
+    }
+    if (column.norm() > 1e-6 * size)
+    {
+      basis.conservativeResize(rows, basis.cols() + 1);
+      basis.rightCols(1) = column.normalized();
+    }
+  }
+  return basis;
+}
+
+/** A curve through points of growing x. */
+class NoiseCurve
+{
+public:
+  void
+  Add(double x, double y)
+  {
+    m_Points.emplace_back(x, y);
+  }
+  double
+  At(double x) const
+  {
+    const auto above = std::upper_bound(
+      m_Points.begin(), m_Points.end(), x, [](double value, const auto & p) { return value < p.first; });
+    if (above == m_Points.begin() || above == m_Points.end())
+    {
+      return above == m_Points.end() ? m_Points.back().second : m_Points.front().second;
+    }
+    const auto & a = *(above - 1);
+    return a.second + (above->second - a.second) * (x - a.first) / (above->first - a.first);
+  }
+
+private:
+  std::vector<std::pair<double, double>> m_Points;
+};
+} // namespace
+
+NoiseResiduals::NoiseResiduals(NoiseSample             sample,
+                               const Eigen::MatrixXd & series,
+                               const SampledPixels &   pixels,
+                               const ParallelFor &     parallelFor)
+  : m_Sample(std::move(sample))
+  , m_Basis(BasisOf(series, m_Sample.GetTiles().frames))
+{
+  const SampleTiles &       tiles = m_Sample.GetTiles();
+  const std::size_t         size = tiles.Pixels();
+  std::vector<std::uint8_t> take(tiles.origins.size() * size);
+  m_Light.resize(take.size());
+  m_Weight.assign(take.size(), 0.0F);
+  m_Bin.assign(take.size(), 0);
+  parallelFor(tiles.origins.size(), [&](std::size_t i) {
+    for (std::size_t p = 0; p < size; ++p)
+    {
+      const std::size_t pixel = m_Sample.PixelOf(i, p);
+      take[i * size + p] = pixels.take[pixel];
+      m_Light[i * size + p] = static_cast<float>(pixels.mean[pixel] - pixels.blackDn);
+    }
+    this->ProjectTile(i);
+  });
+  this->Weigh(take, parallelFor);
+}
+
+void
+NoiseResiduals::ProjectTile(std::size_t i)
+{
+  const std::size_t  size = this->GetTiles().Pixels();
+  const std::size_t  frames = this->GetTiles().frames;
+  float *            values = m_Sample.OfTile(i);
+  std::vector<float> coordinates(static_cast<std::size_t>(m_Basis.cols()) * size, 0.0F);
+  for (std::size_t t = 0; t < frames; ++t)
+  {
+    for (Eigen::Index j = 0; j < m_Basis.cols(); ++j)
+    {
+      const auto    q = static_cast<float>(m_Basis(static_cast<Eigen::Index>(t), j));
+      float *       sum = coordinates.data() + static_cast<std::size_t>(j) * size;
+      const float * value = values + t * size;
+      for (std::size_t p = 0; p < size; ++p)
+      {
+        sum[p] += q * value[p];
+      }
+    }
+  }
+  for (std::size_t t = 0; t < frames; ++t)
+  {
+    for (Eigen::Index j = 0; j < m_Basis.cols(); ++j)
+    {
+      const auto    q = static_cast<float>(m_Basis(static_cast<Eigen::Index>(t), j));
+      const float * coordinate = coordinates.data() + static_cast<std::size_t>(j) * size;
+      float *       value = values + t * size;
+      for (std::size_t p = 0; p < size; ++p)
+      {
+        value[p] -= q * coordinate[p];
+      }
+    }
+  }
+}
+
+void
+NoiseResiduals::Weigh(const std::vector<std::uint8_t> & take, const ParallelFor & parallelFor)
+{
+  const SampleTiles & tiles = this->GetTiles();
+  const std::size_t   size = tiles.Pixels();
+  std::vector<double> variance(take.size());
+  parallelFor(tiles.origins.size(), [&](std::size_t i) {
+    for (std::size_t t = 0; t < tiles.frames; ++t)
+    {
+      const float * values = this->OfTile(i) + t * size;
+      for (std::size_t p = 0; p < size; ++p)
+      {
+        variance[i * size + p] += static_cast<double>(values[p]) * values[p];
+      }
+    }
+  });
+  std::vector<std::size_t> order;
+  for (std::size_t k = 0; k < take.size(); ++k)
+  {
+    if (take[k] != 0)
+    {
+      order.push_back(k);
+    }
+  }
+  m_Pixels = order.size();
+  std::sort(order.begin(), order.end(), [this](std::size_t a, std::size_t b) {
+    return m_Light[a] != m_Light[b] ? m_Light[a] < m_Light[b] : a < b;
+  });
+  const std::size_t bins = std::clamp<std::size_t>(order.size() / LeastPixelsOfBin, 1, NoiseBins);
+  NoiseCurve        curve;
+  for (std::size_t b = 0; b < bins; ++b)
+  {
+    const std::size_t first = b * order.size() / bins;
+    const std::size_t last = (b + 1) * order.size() / bins;
+    double            light = 0.0;
+    double            sum = 0.0;
+    for (std::size_t k = first; k < last; ++k)
+    {
+      light += m_Light[order[k]];
+      sum += variance[order[k]];
+    }
+    const auto count = static_cast<double>(std::max<std::size_t>(1, last - first));
+    curve.Add(light / count, sum / count / std::max(1.0, this->GetFreedom()));
+  }
+  for (std::size_t rank = 0; rank < order.size(); ++rank)
+  {
+    const std::size_t k = order[rank];
+    const double      typical = curve.At(m_Light[k]);
+    m_Weight[k] = typical > 0.0 ? static_cast<float>(1.0 / typical) : 0.0F;
+    m_Bin[k] = static_cast<std::uint8_t>(rank * LightBins / order.size());
+  }
+}
+
+} // namespace sensornoise

@@ -1,0 +1,125 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_correlation_NoiseResiduals_h
+#define sensornoise_correlation_NoiseResiduals_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/correlation/NoiseSample.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** What is known of the pixels of a frame whose noise is looked at. */
+struct SampledPixels
+{
+  const std::vector<double> &       mean;    ///< of each pixel or its neighbours [DN]
+  const std::vector<std::uint8_t> & take;    ///< 1: static and not clipped
+  double                            blackDn; ///< level without light, from which light is measured
+};
+
+/** \class NoiseResiduals
+ * \brief What is left of a NoiseSample when the series of the scene are projected out of every pixel: its noise.
+ *
+ * r = P u with P = I - Q Q', where Q spans the constant and the series. For noise that is white in time,
+ * E[sum_t r_t(p) r_t(q)] = C_pq tr P. */
+class SensorNoise_EXPORT NoiseResiduals
+{
+public:
+  /** Bins of equal count along the light, in which what is shared is summed: four tell a constant from a line and a
+   * parabola. */
+  static constexpr std::size_t LightBins = 4;
+
+  /** \a series: frames x series, of all frames or of those of the sample. Takes the sample's memory. */
+  NoiseResiduals(NoiseSample             sample,
+                 const Eigen::MatrixXd & series,
+                 const SampledPixels &   pixels,
+                 const ParallelFor &     parallelFor);
+
+  const SampleTiles &
+  GetTiles() const
+  {
+    return m_Sample.GetTiles();
+  }
+  /** Residuals of tile \a i as in NoiseSample. */
+  const float *
+  OfTile(std::size_t i) const
+  {
+    return m_Sample.OfTile(i);
+  }
+  /** The light of the pixels of tile \a i [DN above black]. */
+  const float *
+  LightOf(std::size_t i) const
+  {
+    return m_Light.data() + i * this->GetTiles().Pixels();
+  }
+  /** The inverse of the noise's typical variance at the light of the pixels of tile \a i; 0: the pixel is left out
+   * [1/DN^2]. */
+  const float *
+  WeightOf(std::size_t i) const
+  {
+    return m_Weight.data() + i * this->GetTiles().Pixels();
+  }
+  /** The bins of the light of the pixels of tile \a i. */
+  const std::uint8_t *
+  BinOf(std::size_t i) const
+  {
+    return m_Bin.data() + i * this->GetTiles().Pixels();
+  }
+  /** Orthonormal, frames x (1 + series). */
+  const Eigen::MatrixXd &
+  GetBasis() const
+  {
+    return m_Basis;
+  }
+  /** tr P. */
+  double
+  GetFreedom() const
+  {
+    return static_cast<double>(m_Basis.rows() - m_Basis.cols());
+  }
+  /** Pixels that are taken. */
+  std::size_t
+  GetNumberOfPixels() const
+  {
+    return m_Pixels;
+  }
+
+private:
+  void
+  ProjectTile(std::size_t i);
+  /** The variance along the light, and its inverse at every pixel. */
+  void
+  Weigh(const std::vector<std::uint8_t> & take, const ParallelFor & parallelFor);
+
+  NoiseSample               m_Sample;
+  Eigen::MatrixXd           m_Basis;
+  std::vector<float>        m_Light;
+  std::vector<float>        m_Weight;
+  std::vector<std::uint8_t> m_Bin;
+  std::size_t               m_Pixels{ 0 };
+};
+
+} // namespace sensornoise
+
+#endif

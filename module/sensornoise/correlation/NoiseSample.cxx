@@ -1,0 +1,112 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/correlation/NoiseSample.h"
+
+#include "sensornoise/base/BinaryStream.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <stdexcept>
+#include <utility>
+
+namespace sensornoise
+{
+
+namespace
+{
+constexpr const char * SampleName = "NoiseSample";
+} // namespace
+
+NoiseSample::NoiseSample(const FrameGeometry & geometry, std::size_t frames)
+  : m_Tiles(MakeSampleTiles(geometry, frames))
+  , m_Width(geometry.width)
+  , m_FramePixels(geometry.Pixels())
+  , m_Values(m_Tiles.origins.size() * m_Tiles.frames * m_Tiles.Pixels(), 0.0F)
+{}
+
+template <typename TPixel>
+void
+NoiseSample::AddFrames(const TPixel *              frames,
+                       std::size_t                 firstFrame,
+                       std::size_t                 count,
+                       const std::vector<double> & mean,
+                       const ParallelFor &         parallelFor)
+{
+  const std::size_t last = std::min(firstFrame + count, m_Tiles.frames);
+  if (firstFrame >= last)
+  {
+    return;
+  }
+  parallelFor(m_Tiles.origins.size(), [&](std::size_t i) {
+    for (std::size_t t = firstFrame; t < last; ++t)
+    {
+      const TPixel * frame = frames + (t - firstFrame) * m_FramePixels;
+      float *        values = this->OfTile(i) + t * m_Tiles.Pixels();
+      for (std::size_t row = 0; row < m_Tiles.side; ++row)
+      {
+        const std::size_t first = this->PixelOf(i, row * m_Tiles.side);
+        for (std::size_t x = 0; x < m_Tiles.side; ++x)
+        {
+          *values++ = static_cast<float>(static_cast<double>(frame[first + x]) - mean[first + x]);
+        }
+      }
+    }
+  });
+}
+
+#define SensorNoise_INSTANTIATE(TPixel)                    \
+  template SensorNoise_EXPORT void NoiseSample::AddFrames( \
+    const TPixel *, std::size_t, std::size_t, const std::vector<double> &, const ParallelFor &)
+SensorNoise_INSTANTIATE(unsigned char);
+SensorNoise_INSTANTIATE(unsigned short);
+SensorNoise_INSTANTIATE(short);
+SensorNoise_INSTANTIATE(float);
+SensorNoise_INSTANTIATE(double);
+#undef SensorNoise_INSTANTIATE
+
+void
+NoiseSample::Merge(const NoiseSample & other)
+{
+  if (other.m_Values.size() != m_Values.size() || other.m_FramePixels != m_FramePixels)
+  {
+    throw std::invalid_argument("samples of the noise of different stacks cannot be merged");
+  }
+  // A frame that is not here is 0, so that no sum is rounded.
+  for (std::size_t k = 0; k < m_Values.size(); ++k)
+  {
+    m_Values[k] += other.m_Values[k];
+  }
+}
+
+void
+NoiseSample::Save(std::ostream & out) const
+{
+  WriteSumsHeader(out, SampleName, m_FramePixels, m_Tiles.frames);
+  WriteNumbers(out, m_Values);
+}
+
+void
+NoiseSample::Restore(std::istream & in)
+{
+  NoiseSample read = *this;
+  RequireCount("sampled frames", ReadSumsHeader(in, SampleName, m_FramePixels), m_Tiles.frames);
+  ReadNumbers(in, read.m_Values);
+  *this = std::move(read);
+}
+
+} // namespace sensornoise

@@ -1,0 +1,71 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_correlation_SharedLight_h
+#define sensornoise_correlation_SharedLight_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/correlation/NoiseResiduals.h"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** Products of sums over pixels that are at least a quarter of a tile apart, and what would make them: y a covariance,
+ * w = 1 / V, z the light. */
+struct DistantSums
+{
+  double covariance{ 0.0 };      ///< of w w' y
+  double constant{ 0.0 };        ///< of w w'
+  double light{ 0.0 };           ///< of w z w' z'
+  double lightCovariance{ 0.0 }; ///< of w z w' z' y
+  double lightSquare{ 0.0 };     ///< of w z^2 w' z'^2
+
+  DistantSums &
+  operator+=(const DistantSums & other);
+};
+
+/** \struct SharedLight
+ * \brief What pixels far apart share, in a tile: noise of whole rows and columns, and light that the series did not
+ * take out.
+ *
+ * None of it falls off with the distance, as what neighbours share does. The noise of rows and columns does not grow
+ * with the level, light that is left grows with its square. */
+struct SharedLight
+{
+  /** Rows, or columns, between two pixels up to which what lines share is looked at. */
+  static constexpr std::size_t Lines = 7;
+
+  std::array<DistantSums, Lines> rows;    ///< pixels as many rows apart, and far along them
+  std::array<DistantSums, Lines> columns; ///< pixels as many columns apart, and far along them
+  DistantSums                    far;     ///< pixels far apart along both axes
+
+  SharedLight &
+  operator+=(const SharedLight & other);
+};
+
+/** The sums of every tile. */
+SensorNoise_EXPORT std::vector<SharedLight>
+SumSharedLight(const NoiseResiduals & residuals, const ParallelFor & parallelFor);
+
+} // namespace sensornoise
+
+#endif

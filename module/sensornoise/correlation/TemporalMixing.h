@@ -1,0 +1,39 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_correlation_TemporalMixing_h
+#define sensornoise_correlation_TemporalMixing_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/base/Eigen.h"
+
+#include <cstddef>
+
+namespace sensornoise
+{
+
+/** How the projection mixes the autocovariances R_k of a series: with P = I - Q Q', for orthonormal \a basis Q,
+ *
+ *     E[sum_t r_t r_(t+d)] = sum_k M_dk R_k,   M_dk = sum_t (P B_k P)_(t, t+d),   d, k = 0 ... lags,
+ *
+ * where B_0 = I and B_k is the shift by k frames both ways. Exact whatever the noise. */
+SensorNoise_EXPORT Eigen::MatrixXd
+TemporalMixing(const Eigen::MatrixXd & basis, std::size_t lags);
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,141 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/refined/CorrelationReport.h"
+
+#include "sensornoise/base/Text.h"
+#include "sensornoise/report/Quantities.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** Standard errors by which the variance of a row's or column's noise must exceed 0 to be identified [1]. */
+constexpr double LineNoiseZ = 3.0;
+
+Quantity
+LineNoise(const MeasuredNumber & variance)
+{
+  if (!variance.Exceeds(0.0, LineNoiseZ) || variance.value < 0.0)
+  {
+    return UpperLimit(std::sqrt(std::max(0.0, variance.value) + 2.0 * variance.standardError), "DN");
+  }
+  return RootOf(variance.value, variance.standardError, "DN", 2.0);
+}
+
+const LagCoefficient *
+LargestOf(const std::vector<LagCoefficient> & lags)
+{
+  const auto largest = std::max_element(lags.begin(), lags.end(), [](const auto & a, const auto & b) {
+    return std::abs(a.coefficient.value) < std::abs(b.coefficient.value);
+  });
+  return largest == lags.end() ? nullptr : &*largest;
+}
+
+std::string
+PercentOf(const MeasuredNumber & number)
+{
+  return Text(100.0 * number.value) + " +- " + Text(100.0 * number.standardError) + " %";
+}
+
+std::string
+NeighbourAt(const Lag & lag)
+{
+  return "pixels " + std::to_string(std::abs(lag.x)) + " columns and " + std::to_string(std::abs(lag.y)) +
+         " rows apart share ";
+}
+
+/** What the user is told of the gain. */
+std::string
+Consequence(const Report & report)
+{
+  if (!report.gain.value || !report.varianceSlope.value)
+  {
+    return "";
+  }
+  return ": the variance of a pixel shows " + Text(100.0 * *report.varianceSlope.value / *report.gain.value) +
+         " % of the gain, which is from the sum over all lags; variance_slope is that of the variance";
+}
+} // namespace
+
+NoiseCorrelationRecord
+RecordOf(const NoiseCorrelation & correlation)
+{
+  NoiseCorrelationRecord record;
+  record.kind = NameOf(correlation.kind);
+  const auto lagOf = [](const LagCoefficient & lag) {
+    return NoiseCorrelationRecord::Lag{
+      lag.lag.x, lag.lag.y, lag.lag.t, lag.coefficient.value, lag.coefficient.standardError
+    };
+  };
+  std::transform(correlation.space.begin(), correlation.space.end(), std::back_inserter(record.space), lagOf);
+  std::transform(correlation.time.begin(), correlation.time.end(), std::back_inserter(record.time), lagOf);
+  record.rowNoise = LineNoise(correlation.rowsDn2);
+  record.columnNoise = LineNoise(correlation.columnsDn2);
+  record.excessKurtosis =
+    WithError(correlation.kurtosis.front().value, correlation.kurtosis.front().standardError, "1", 2.0);
+  return record;
+}
+
+void
+WarnOfCorrelation(Report & report, const NoiseCorrelation & correlation)
+{
+  const LagCoefficient * space = LargestOf(correlation.space);
+  const LagCoefficient * time = LargestOf(correlation.time);
+  switch (correlation.kind)
+  {
+    case NoiseKind::NotLinear:
+      report.Warn("noise-not-linear",
+                  "the noise is not distributed as a sensor's or a linear filter's (excess kurtosis " +
+                    Text(correlation.kurtosis.front().value) + ", of four neighbours in turn " +
+                    Text(correlation.kurtosis[3].value) +
+                    ", expected 0): the camera corrects defects, takes medians or compresses, and what gain it had "
+                    "before cannot be told; ask it for raw frames");
+      break;
+    case NoiseKind::Temporal:
+      report.Warn("noise-correlated",
+                  "the camera mixes its frames: frames " + std::to_string(time->lag.t) + " apart share " +
+                    PercentOf(time->coefficient) + " of their noise" + Consequence(report));
+      break;
+    case NoiseKind::Filtered:
+      report.Warn("noise-correlated",
+                  "the camera smooths, resamples or sharpens its frames: " + NeighbourAt(space->lag) +
+                    PercentOf(space->coefficient) + " of their noise" + Consequence(report));
+      break;
+    case NoiseKind::Crosstalk:
+      report.Warn("noise-correlated",
+                  "neighbours are coupled, or slightly filtered: " + NeighbourAt(space->lag) +
+                    PercentOf(space->coefficient) + " of their noise" + Consequence(report));
+      break;
+    case NoiseKind::BrighterFatter:
+      report.Warn("noise-correlated",
+                  "charge repels charge in bright pixels (brighter-fatter effect): " + NeighbourAt(space->lag) +
+                    PercentOf(space->coefficient) + " of their noise, in proportion to the square of the light" +
+                    Consequence(report));
+      break;
+    case NoiseKind::White:
+    case NoiseKind::NotMeasured:
+      break;
+  }
+}
+
+} // namespace sensornoise

@@ -1,0 +1,199 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/refined/SensorLines.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** What is shared as a function of the level, of a line and a parabola. */
+class SharedVariance
+{
+public:
+  SharedVariance(const NoiseCorrelation & correlation, double blackDn, double codesDn2)
+    : m_OfVariance(correlation.ofVariance.probability * correlation.ofVariance.coefficient.value)
+    , m_OfLight(correlation.ofLight.probability * correlation.ofLight.coefficient.value)
+    , m_OfSquare(correlation.ofSquare.probability * correlation.ofSquare.coefficient.value)
+    , m_Time(correlation.timeFactor.value)
+    , m_BlackDn(blackDn)
+    , m_CodesDn2(codesDn2)
+  {}
+
+  /** The sensor's variance, of that of a pixel at a level. */
+  double
+  SensorOf(double varianceDn2, double levelDn) const
+  {
+    const double light = levelDn - m_BlackDn;
+    const double noise = varianceDn2 - m_CodesDn2;
+    return m_Time * (noise * (1.0 + m_OfVariance) + light * (m_OfLight + light * m_OfSquare)) + m_CodesDn2;
+  }
+  /** How much the sensor's variance changes with that of a pixel. */
+  double
+  Factor() const
+  {
+    return m_Time * (1.0 + m_OfVariance);
+  }
+  /** The line of the sensor; \a slopeOfSquare and \a meanOfSquare are of the line through the square of the level. */
+  VarianceLine
+  SensorOf(const VarianceLine & line, const Eigen::Vector2d & lineOfSquare) const
+  {
+    VarianceLine sensor = line;
+    const double factor = this->Factor();
+    sensor.gain = factor * line.gain + m_Time * (m_OfLight + m_OfSquare * lineOfSquare(0));
+    sensor.intercept = m_CodesDn2 + factor * (line.intercept - m_CodesDn2) +
+                       m_Time * (m_OfSquare * lineOfSquare(1) - m_OfLight * m_BlackDn);
+    sensor.lowestDn2 = line.lowestDn2 * factor;
+    sensor.covariance = line.covariance * (factor * factor);
+    sensor.curvature = line.curvature * factor + m_Time * m_OfSquare;
+    sensor.curvatureSd = line.curvatureSd * factor;
+    sensor.weightSum = line.weightSum / (factor * factor);
+    sensor.noiseSpreadDn4 = line.noiseSpreadDn4 * factor * factor;
+    return sensor;
+  }
+
+private:
+  double m_OfVariance;
+  double m_OfLight;
+  double m_OfSquare;
+  double m_Time;
+  double m_BlackDn;
+  double m_CodesDn2;
+};
+
+/** Slope and intercept of the line through the square of the light, weighted as the curve. */
+Eigen::Vector2d
+LineOfSquare(const VarianceCurve & curve, double blackDn)
+{
+  double weight = 0.0;
+  double first = 0.0;
+  double second = 0.0;
+  for (const CurveBin & bin : curve.bins)
+  {
+    if (bin.weight > 0.0)
+    {
+      const double light = curve.LevelOf(bin) - blackDn;
+      weight += bin.weight;
+      first += bin.weight * light;
+      second += bin.weight * light * light;
+    }
+  }
+  if (!(weight > 0.0))
+  {
+    return Eigen::Vector2d::Zero();
+  }
+  const double mean = first / weight;
+  const double meanSquare = second / weight;
+  double       spread = 0.0;
+  double       product = 0.0;
+  for (const CurveBin & bin : curve.bins)
+  {
+    if (bin.weight > 0.0)
+    {
+      const double light = curve.LevelOf(bin) - blackDn;
+      spread += bin.weight * (light - mean) * (light - mean);
+      product += bin.weight * (light - mean) * (light * light - meanSquare);
+    }
+  }
+  const double slope = spread > 0.0 ? product / spread : 2.0 * mean;
+  return { slope, meanSquare - slope * (mean + blackDn) };
+}
+
+VarianceCurve
+CurveOfSensor(const VarianceCurve & curve, const SharedVariance & shared, const VarianceLine & line)
+{
+  VarianceCurve sensor{ line, {} };
+  for (const CurveBin & bin : curve.bins)
+  {
+    CurveBin changed = bin;
+    if (bin.weight > 0.0)
+    {
+      const double level = curve.LevelOf(bin);
+      const double variance = curve.line.intercept + curve.line.gain * level + bin.excess / bin.weight;
+      changed.weight = bin.weight / (shared.Factor() * shared.Factor());
+      changed.x = changed.weight * (level - line.pivotDn);
+      changed.excess = changed.weight * (shared.SensorOf(variance, level) - line.intercept - line.gain * level);
+    }
+    sensor.bins.push_back(changed);
+  }
+  return sensor;
+}
+
+/** What is not known of what is shared, as a covariance of gain and intercept: the coefficients' errors, and that the
+ * shape may be another one. */
+Eigen::Matrix2d
+ErrorOf(const NoiseCorrelation & correlation,
+        const VarianceLine &     line,
+        const VarianceLine &     sensor,
+        const Eigen::Vector2d &  lineOfSquare,
+        double                   blackDn,
+        double                   codesDn2)
+{
+  const double          time = correlation.timeFactor.value;
+  const Eigen::Vector2d units[] = { { line.gain, line.intercept - codesDn2 }, { 1.0, -blackDn }, lineOfSquare };
+  const SharedShape     shapes[] = { correlation.ofVariance, correlation.ofLight, correlation.ofSquare };
+  Eigen::Vector2d       mean = Eigen::Vector2d::Zero();
+  for (int k = 0; k < 3; ++k)
+  {
+    mean += shapes[k].probability * shapes[k].coefficient.value * time * units[k];
+  }
+  Eigen::Matrix2d error = Eigen::Matrix2d::Zero();
+  for (int k = 0; k < 3; ++k)
+  {
+    const Eigen::Vector2d own = shapes[k].coefficient.value * time * units[k] - mean;
+    const Eigen::Vector2d chance = shapes[k].coefficient.standardError * time * units[k];
+    error += shapes[k].probability * (own * own.transpose() + chance * chance.transpose());
+  }
+  const Eigen::Vector2d whole(sensor.gain, sensor.intercept - codesDn2);
+  const double          relative = std::hypot(correlation.timeFactor.standardError / std::max(1e-9, time),
+                                     correlation.beyondReach * line.gain * time / std::max(1e-9, sensor.gain));
+  return error + relative * relative * whole * whole.transpose();
+}
+} // namespace
+
+SensorLines
+LinesOf(const StaticVariance & variance)
+{
+  return { variance.line, variance.fromLight, variance.fromFlat, variance.curve, Eigen::Matrix2d::Zero() };
+}
+
+double
+FilterFactor(const NoiseCorrelation & correlation)
+{
+  return correlation.timeFactor.value *
+         (1.0 + correlation.ofVariance.probability * correlation.ofVariance.coefficient.value);
+}
+
+SensorLines
+WithSharedNoise(const SensorLines & lines, const NoiseCorrelation & correlation, double blackDn, double codesDn2)
+{
+  const SharedVariance  shared(correlation, blackDn, codesDn2);
+  const Eigen::Vector2d square = LineOfSquare(lines.curve, blackDn);
+  SensorLines           sensor;
+  sensor.all = shared.SensorOf(lines.all, square);
+  sensor.fromLight = shared.SensorOf(lines.fromLight, square);
+  sensor.fromFlat = shared.SensorOf(lines.fromFlat, square);
+  sensor.curve = CurveOfSensor(lines.curve, shared, shared.SensorOf(lines.curve.line, square));
+  sensor.errorOfShared = ErrorOf(correlation, lines.all, sensor.all, square, blackDn, codesDn2);
+  return sensor;
+}
+
+} // namespace sensornoise

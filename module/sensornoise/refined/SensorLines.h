@@ -1,0 +1,65 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_refined_SensorLines_h
+#define sensornoise_refined_SensorLines_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/correlation/NoiseCorrelation.h"
+#include "sensornoise/pixels/StaticVariance.h"
+#include "sensornoise/pixels/VarianceCurve.h"
+#include "sensornoise/pixels/VarianceLine.h"
+
+namespace sensornoise
+{
+
+/** The lines of a StaticVariance: of the pixels' variance as it is, or as the sensor had it before neighbours and
+ * frames shared it. */
+struct SensorLines
+{
+  VarianceLine  all;
+  VarianceLine  fromLight;
+  VarianceLine  fromFlat;
+  VarianceCurve curve;
+  /** Of gain and intercept: what is not known of what is shared. */
+  Eigen::Matrix2d errorOfShared{ Eigen::Matrix2d::Zero() };
+};
+
+SensorNoise_EXPORT SensorLines
+LinesOf(const StaticVariance & variance);
+
+/** What a pixel's noise has to be multiplied by to be that of the sensor's, where a filter after the read-out shares it
+ * [1]. \see VarianceOfSensor */
+SensorNoise_EXPORT double
+FilterFactor(const NoiseCorrelation & correlation);
+
+/** The variance before a filter, which the codes' noise has not passed. */
+inline double
+VarianceOfSensor(double varianceDn2, double filterFactor, double codesDn2)
+{
+  return (varianceDn2 - codesDn2) * filterFactor + codesDn2;
+}
+
+/** The lines of the variance that the sensor had: with what neighbours and frames share, summed over all lags. Levels
+ * are light above \a blackDn. */
+SensorNoise_EXPORT SensorLines
+WithSharedNoise(const SensorLines & lines, const NoiseCorrelation & correlation, double blackDn, double codesDn2);
+
+} // namespace sensornoise
+
+#endif
