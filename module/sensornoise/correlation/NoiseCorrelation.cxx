@@ -450,6 +450,10 @@ private:
         break;
       }
     }
+    // A recursive filter begins with a frame that it has not filtered, for which the sum over lags does not hold.
+    const double first =
+      std::abs(m_Found.timeFactor.value - 1.0) / static_cast<double>(m_Residuals.GetTiles().frames);
+    m_Found.timeFactor.standardError = std::hypot(m_Found.timeFactor.standardError, first);
     this->FindCoefficients();
   }
 
@@ -525,6 +529,18 @@ bool
 MeasuredNumber::Exceeds(double least, double z) const
 {
   return std::abs(value) > least + z * standardError;
+}
+
+double
+NoiseCorrelation::SharedSquares() const
+{
+  double sum = 1.0;
+  for (const LagCoefficient & lag : space)
+  {
+    const double chance = lag.coefficient.standardError * lag.coefficient.standardError;
+    sum += 2.0 * std::max(0.0, lag.coefficient.value * lag.coefficient.value - chance);
+  }
+  return sum;
 }
 
 NoiseCorrelation

@@ -99,6 +99,10 @@ struct SensorNoise_EXPORT NoiseCorrelation
   /** Of the brightest twentieth of the pixels [DN above black]. */
   double brightLightDn{ 0.0 };
 
+  /** Sum over all lags in space of the squared coefficients: by how much more mean variances scatter [1]. */
+  double
+  SharedSquares() const;
+
   /** Whether the variance is not that of the sensor. */
   bool
   IsShared() const

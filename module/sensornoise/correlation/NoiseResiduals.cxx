@@ -89,22 +89,40 @@ NoiseResiduals::NoiseResiduals(NoiseSample             sample,
   : m_Sample(std::move(sample))
   , m_Basis(BasisOf(series, m_Sample.GetTiles().frames))
 {
-  const SampleTiles &       tiles = m_Sample.GetTiles();
-  const std::size_t         size = tiles.Pixels();
-  std::vector<std::uint8_t> take(tiles.origins.size() * size);
-  m_Light.resize(take.size());
-  m_Weight.assign(take.size(), 0.0F);
-  m_Bin.assign(take.size(), 0);
+  const SampleTiles & tiles = m_Sample.GetTiles();
+  const std::size_t   size = tiles.Pixels();
+  m_Light.resize(tiles.origins.size() * size);
+  m_Variance.assign(m_Light.size(), 0.0F);
   parallelFor(tiles.origins.size(), [&](std::size_t i) {
     for (std::size_t p = 0; p < size; ++p)
     {
-      const std::size_t pixel = m_Sample.PixelOf(i, p);
-      take[i * size + p] = pixels.take[pixel];
-      m_Light[i * size + p] = static_cast<float>(pixels.mean[pixel] - pixels.blackDn);
+      m_Light[i * size + p] = static_cast<float>(pixels.mean[m_Sample.PixelOf(i, p)] - pixels.blackDn);
     }
     this->ProjectTile(i);
+    for (std::size_t t = 0; t < tiles.frames; ++t)
+    {
+      const float * values = this->OfTile(i) + t * size;
+      for (std::size_t p = 0; p < size; ++p)
+      {
+        m_Variance[i * size + p] += values[p] * values[p];
+      }
+    }
   });
-  this->Weigh(take, parallelFor);
+  this->Take(pixels.take, parallelFor);
+}
+
+void
+NoiseResiduals::Take(const std::vector<std::uint8_t> & take, const ParallelFor & parallelFor)
+{
+  const std::size_t         size = this->GetTiles().Pixels();
+  std::vector<std::uint8_t> ofSample(m_Light.size());
+  parallelFor(this->GetTiles().origins.size(), [&](std::size_t i) {
+    for (std::size_t p = 0; p < size; ++p)
+    {
+      ofSample[i * size + p] = take[m_Sample.PixelOf(i, p)];
+    }
+  });
+  this->Weigh(ofSample);
 }
 
 void
@@ -143,21 +161,10 @@ NoiseResiduals::ProjectTile(std::size_t i)
 }
 
 void
-NoiseResiduals::Weigh(const std::vector<std::uint8_t> & take, const ParallelFor & parallelFor)
+NoiseResiduals::Weigh(const std::vector<std::uint8_t> & take)
 {
-  const SampleTiles & tiles = this->GetTiles();
-  const std::size_t   size = tiles.Pixels();
-  std::vector<double> variance(take.size());
-  parallelFor(tiles.origins.size(), [&](std::size_t i) {
-    for (std::size_t t = 0; t < tiles.frames; ++t)
-    {
-      const float * values = this->OfTile(i) + t * size;
-      for (std::size_t p = 0; p < size; ++p)
-      {
-        variance[i * size + p] += static_cast<double>(values[p]) * values[p];
-      }
-    }
-  });
+  m_Weight.assign(take.size(), 0.0F);
+  m_Bin.assign(take.size(), 0);
   std::vector<std::size_t> order;
   for (std::size_t k = 0; k < take.size(); ++k)
   {
@@ -181,7 +188,7 @@ NoiseResiduals::Weigh(const std::vector<std::uint8_t> & take, const ParallelFor 
     for (std::size_t k = first; k < last; ++k)
     {
       light += m_Light[order[k]];
-      sum += variance[order[k]];
+      sum += m_Variance[order[k]];
     }
     const auto count = static_cast<double>(std::max<std::size_t>(1, last - first));
     curve.Add(light / count, sum / count / std::max(1.0, this->GetFreedom()));

@@ -56,6 +56,10 @@ public:
                  const SampledPixels &   pixels,
                  const ParallelFor &     parallelFor);
 
+  /** Takes other pixels. */
+  void
+  Take(const std::vector<std::uint8_t> & take, const ParallelFor & parallelFor);
+
   const SampleTiles &
   GetTiles() const
   {
@@ -110,11 +114,12 @@ private:
   ProjectTile(std::size_t i);
   /** The variance along the light, and its inverse at every pixel. */
   void
-  Weigh(const std::vector<std::uint8_t> & take, const ParallelFor & parallelFor);
+  Weigh(const std::vector<std::uint8_t> & take);
 
   NoiseSample               m_Sample;
   Eigen::MatrixXd           m_Basis;
   std::vector<float>        m_Light;
+  std::vector<float>        m_Variance; // sum over time of the squares
   std::vector<float>        m_Weight;
   std::vector<std::uint8_t> m_Bin;
   std::size_t               m_Pixels{ 0 };

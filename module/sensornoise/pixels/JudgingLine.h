@@ -40,6 +40,9 @@ struct SensorNoise_EXPORT JudgingLine
   std::vector<double> levels; ///< rising [DN]; empty: the line as it is
   std::vector<double> ratios; ///< variance over line at these levels [1]
   bool byNeighbours{ false }; ///< whether a pixel's level is its neighbours' mean: its own offset is no light
+  /** By how much more the mean variance of many pixels scatters than if they shared no noise: the sum over all lags of
+   * the squared correlation coefficients [1]. */
+  double sharedSquares{ 1.0 };
 
   double
   At(double meanDn) const

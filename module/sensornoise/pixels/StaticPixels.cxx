@@ -74,8 +74,8 @@ SumClasses(const ProjectedVariance &         projected,
         own[Kept] += 1.0;
         own[Weight] += near * near;
         own[WeightedRatio] += near * near * ratio;
-        own[SquaredErrors] +=
-          2.0 / static_cast<double>(frame.frames - 1) + line.line.noiseSpreadDn4 / (expected * expected);
+        own[SquaredErrors] += 2.0 * line.sharedSquares / static_cast<double>(frame.frames - 1) +
+                              line.line.noiseSpreadDn4 / (expected * expected);
       }
     }
   });
@@ -217,7 +217,7 @@ FindLocalMisfit(const ProjectedVariance &         projected,
     {
       const double excess = sum[p] / std::max(1.0, count[p]) - 1.0;
       const double own = line.EffectiveFreedom(freedom, line.At(frame.neighbourMean[p]));
-      const double sd = std::sqrt(2.0 / (own * std::max(1.0, count[p])));
+      const double sd = std::sqrt(2.0 * line.sharedSquares / (own * std::max(1.0, count[p])));
       core[p] = core[p] != 0 || (excess > std::max(5.0 * sd, 0.04) && count[p] > 0.3 * area) ? 1 : 0;
     }
   });

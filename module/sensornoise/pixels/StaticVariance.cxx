@@ -48,12 +48,15 @@ FollowLine(const ProjectedVariance &           projected,
            const std::vector<std::uint8_t> &   mask,
            double                              blackDn,
            const ParallelFor &                 parallelFor,
+           double                              sharedSquares,
            const std::optional<VarianceLine> & start)
 {
   VarianceFit fit(projected.GetData(mask), parallelFor, start);
   fit.Iterate(3);
-  return fit.GetLine().isDetermined ? MakeJudgingLine(fit.GetLine(), projected, mask, blackDn, parallelFor)
-                                    : JudgingLine{ fit.GetLine(), {}, {} };
+  JudgingLine judge = fit.GetLine().isDetermined ? MakeJudgingLine(fit.GetLine(), projected, mask, blackDn, parallelFor)
+                                                 : JudgingLine{ fit.GetLine(), {}, {} };
+  judge.sharedSquares = sharedSquares;
+  return judge;
 }
 
 std::vector<std::uint8_t>
@@ -118,15 +121,17 @@ FitStaticVariance(ProjectedVariance &               projected,
                   double                            slopeDn,
                   double                            offsetDn,
                   double                            blackDn,
-                  const ParallelFor &               parallelFor)
+                  const ParallelFor &               parallelFor,
+                  double                            sharedSquares)
 {
   StaticVariance found;
+  found.sharedSquares = sharedSquares;
   found.pixelUse = std::move(pixelUse);
   // The line of the flat classes tells which neighbourhoods fit, and among these, which classes do.
   projected.Compute(slopeDn);
   found.mask = MaskOfFlatClasses(projected, usable);
   const ReferenceFrame & frame = projected.GetFrame();
-  JudgingLine            judge = FollowLine(projected, found.mask, blackDn, parallelFor, std::nullopt);
+  JudgingLine            judge = FollowLine(projected, found.mask, blackDn, parallelFor, sharedSquares, std::nullopt);
   if (!judge.line.isDetermined)
   {
     return found;
@@ -135,7 +140,7 @@ FitStaticVariance(ProjectedVariance &               projected,
   for (int round = 0; round < 2; ++round)
   {
     const std::size_t misfits = SelectPixels(projected, judge, usable, found, parallelFor);
-    judge = FollowLine(projected, found.mask, blackDn, parallelFor, judge.line);
+    judge = FollowLine(projected, found.mask, blackDn, parallelFor, sharedSquares, judge.line);
     if (!judge.line.isDetermined)
     {
       return found;

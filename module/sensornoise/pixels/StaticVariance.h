@@ -54,6 +54,8 @@ struct StaticVariance
   std::vector<std::uint8_t> pixelUse;
   /** Pixels whose use is PixelUse::NotStatic. */
   std::size_t notStatic{ 0 };
+  /** See JudgingLine [1]. */
+  double sharedSquares{ 1.0 };
 };
 
 /** Finds the pixels that fit a static scene and the line of their variance, from the flat classes outwards.
@@ -61,8 +63,8 @@ struct StaticVariance
  *
  * \a pixelUse is what is known of the pixels before; that of the \a usable ones is found out here. \a slopeDn is about
  * the gain, \a offsetDn the offset, or the darkest level where it is not known; \a blackDn is the offset, or a level
- * that it is not below. If too few pixels are left, the line is not determined, and what would have followed is
- * missing. */
+ * that it is not below; \a sharedSquares tells how much noise neighbours share, see JudgingLine. If too few pixels are
+ * left, the line is not determined, and what would have followed is missing. */
 SensorNoise_EXPORT StaticVariance
 FitStaticVariance(ProjectedVariance &               projected,
                   const std::vector<std::uint8_t> & usable,
@@ -70,7 +72,8 @@ FitStaticVariance(ProjectedVariance &               projected,
                   double                            slopeDn,
                   double                            offsetDn,
                   double                            blackDn,
-                  const ParallelFor &               parallelFor);
+                  const ParallelFor &               parallelFor,
+                  double                            sharedSquares = 1.0);
 
 } // namespace sensornoise
 

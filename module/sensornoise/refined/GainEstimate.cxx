@@ -85,7 +85,7 @@ BeyondChance(double chi2, double freedom)
 double
 DispersionOfClasses(const StaticVariance & variance)
 {
-  return BeyondChance(variance.classes.reducedChi2, ProjectedVariance::Classes - 1.0);
+  return variance.sharedSquares * BeyondChance(variance.classes.reducedChi2, ProjectedVariance::Classes - 1.0);
 }
 
 /** Chooses between the line of all pixels, with the error that patterns can cause, and that of light alone: by the
@@ -97,7 +97,7 @@ ChooseLine(GainEstimate &           estimate,
            const ProvisionalModel & model)
 {
   const VarianceLine &  all = lines.all;
-  const double          dispersion = BeyondChance(variance.classes.reducedChi2, ProjectedVariance::Classes - 1.0);
+  const double          dispersion = DispersionOfClasses(variance);
   const Eigen::Matrix2d flat = Disagreement(all, lines.fromFlat);
   const double          fromPattern = variance.pattern.LargestShare() * std::abs(all.gain);
   const double          error = std::sqrt(dispersion * all.covariance(0, 0) + flat(0, 0));
@@ -228,7 +228,7 @@ EstimateGain(const RefinedResults & found, const SensorLines & lines)
   const StaticVariance & variance = found.variance;
   GainEstimate           estimate;
   estimate.curve = lines.curve;
-  estimate.reducedChi2 = lines.curve.ReducedChi2();
+  estimate.reducedChi2 = lines.curve.ReducedChi2() / variance.sharedSquares;
   ChooseLine(estimate, lines, variance, found.scene.model);
   estimate.scale = estimate.line.At(estimate.line.pivotDn) / std::max(1e-9, estimate.line.pivotDn - found.blackDn);
   FindModelError(estimate, lines.curve, found.blackDn, DispersionOfClasses(variance));

@@ -35,6 +35,14 @@ namespace sensornoise
 SensorNoise_EXPORT double
 BlackLevel(const RefinedSettings & settings, const StillScene & scene, const std::optional<const SceneSeries> & series);
 
+/** The noise of rounding to codes [DN^2]. */
+inline double
+CodesVariance(const StillScene & scene)
+{
+  const double step = scene.summary.codes.quantisationStepDn;
+  return step * step / 12.0;
+}
+
 /** The pixels that are usable, at levels that the user wants, and not found defective in dark frames: what is left out
  * in the dark is left out in the light. */
 SensorNoise_EXPORT std::vector<std::uint8_t>

@@ -22,6 +22,7 @@
 #include "sensornoise/moments/StackRequirements.h"
 #include "sensornoise/pixels/PixelCoordinates.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
+#include "sensornoise/refined/PixelNoise.h"
 #include "sensornoise/refined/PixelsOfVariance.h"
 #include "sensornoise/refined/RefinedReport.h"
 #include "sensornoise/series/FrameProducts.h"
@@ -29,7 +30,6 @@
 #include "sensornoise/series/FrameRegressors.h"
 #include "sensornoise/series/ShiftInstruments.h"
 
-#include "sensornoise/base/PixelUse.h"
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -274,45 +274,15 @@ RefinedMethod<TPixel>::EndProjections()
   const PixelCoordinates coordinates(std::move(m_Projections), m_Series->basis, frame.mean, m_ParallelFor);
   ProjectedVariance      projected(
     frame, m_Series->basis, m_Series->motion, coordinates, m_Scene->model, frame.usable, m_ParallelFor);
-  std::vector<std::uint8_t>       pixelUse = m_Scene->pixelUse;
-  const std::vector<std::uint8_t> chosen = PixelsOfVariance(*m_Scene, m_Settings, pixelUse);
-  m_Variance.emplace(FitStaticVariance(projected,
-                                       chosen,
-                                       std::move(pixelUse),
-                                       m_Scene->model.slopeDn,
-                                       m_Series->offset + m_Scene->model.centreDn,
-                                       BlackLevel(m_Settings, *m_Scene, m_Series),
-                                       m_ParallelFor));
-  if (!m_Variance->line.isDetermined)
-  {
-    throw NothingToMeasure("too few pixels, or pixels of one intensity only, are left to fit the variance",
-                           "intensity-range-too-small");
-  }
-  this->MeasureCorrelation();
+  PixelNoise noise = MeasurePixelNoise(projected, std::move(m_Sample), *m_Scene, m_Series, m_Settings, m_ParallelFor);
+  m_Variance.emplace(std::move(noise.variance));
+  m_Correlation = std::move(noise.correlation);
   m_Polished.emplace(PolishSceneSeries(*m_FrameSums, *m_Series, projected, *m_Variance, m_ParallelFor));
   m_CorrectedVariance = projected.TakeVariance();
   for (std::size_t p = 0; p < m_CorrectedVariance.size(); ++p)
   {
     m_CorrectedVariance[p] = frame.usable[p] != 0 ? m_CorrectedVariance[p] : std::numeric_limits<double>::quiet_NaN();
   }
-}
-
-template <typename TPixel>
-void
-RefinedMethod<TPixel>::MeasureCorrelation()
-{
-  const std::vector<std::uint8_t> & use = m_Variance->pixelUse;
-  std::vector<std::uint8_t>         take(use.size());
-  for (std::size_t p = 0; p < use.size(); ++p)
-  {
-    take[p] = use[p] == static_cast<std::uint8_t>(PixelUse::Used) ? 1 : 0;
-  }
-  const NoiseResiduals residuals(std::move(m_Sample),
-                                 m_Series->basis.GetBasis(),
-                                 { m_Scene->frame.mean, take, BlackLevel(m_Settings, *m_Scene, m_Series) },
-                                 m_ParallelFor);
-  const double         step = m_Scene->summary.codes.quantisationStepDn;
-  m_Correlation = MeasureNoiseCorrelation(residuals, step * step / 12.0, m_ParallelFor);
 }
 
 template <typename TPixel>

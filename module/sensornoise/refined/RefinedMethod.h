@@ -149,8 +149,6 @@ private:
   void
   EndProjections();
   void
-  MeasureCorrelation();
-  void
   MakeReport();
 
   RefinedSettings           m_Settings;

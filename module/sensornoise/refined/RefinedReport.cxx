@@ -27,6 +27,7 @@
 #include "sensornoise/refined/GainReport.h"
 #include "sensornoise/refined/MotionReport.h"
 #include "sensornoise/refined/OffsetReport.h"
+#include "sensornoise/refined/PixelsOfVariance.h"
 #include "sensornoise/refined/SensorLines.h"
 #include "sensornoise/report/Quantities.h"
 #include "sensornoise/report/StackReport.h"
@@ -128,14 +129,6 @@ DescribeInput(const RefinedSettings & settings, const StillScene & scene, const 
   return report;
 }
 
-/** The noise of rounding to codes [DN^2]. */
-double
-QuantisationVariance(const StillScene & scene)
-{
-  const double step = scene.summary.codes.quantisationStepDn;
-  return step * step / 12.0;
-}
-
 /** Files baselines and scatter, over the pixels used. */
 void
 FillCurves(Report & report, const RefinedResults & found)
@@ -216,7 +209,7 @@ MakeRefusal(const RefinedSettings &           settings,
 {
   Report report = DescribeInput(settings, scene, pixelUse);
   report.Warn(obstacle.GetCode(), obstacle.what());
-  FillFromDarkFrames(report, settings, QuantisationVariance(scene));
+  FillFromDarkFrames(report, settings, CodesVariance(scene));
   return report;
 }
 
@@ -227,7 +220,7 @@ MakeRefinedReport(const RefinedResults & found)
   FillCurves(report, found);
   WarnOfScene(report, found);
 
-  const double       codesDn2 = QuantisationVariance(found.scene);
+  const double       codesDn2 = CodesVariance(found.scene);
   const GainEstimate ofVariance = EstimateGain(found);
   if (found.correlation.IsShared())
   {

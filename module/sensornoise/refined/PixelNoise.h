@@ -1,0 +1,55 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_refined_PixelNoise_h
+#define sensornoise_refined_PixelNoise_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/correlation/NoiseCorrelation.h"
+#include "sensornoise/correlation/NoiseSample.h"
+#include "sensornoise/pixels/ProjectedVariance.h"
+#include "sensornoise/pixels/StaticVariance.h"
+#include "sensornoise/refined/RefinedSettings.h"
+#include "sensornoise/scene/StillScene.h"
+#include "sensornoise/series/SceneSeries.h"
+
+#include <optional>
+
+namespace sensornoise
+{
+
+/** What the third pass tells of the noise: of each pixel, and what pixels and frames share. */
+struct PixelNoise
+{
+  StaticVariance   variance;
+  NoiseCorrelation correlation;
+};
+
+/** Fits the variance and measures what is shared. Where neighbours share much, the mean variance of an area scatters
+ * more, and what fits a static scene is judged once more. Throws NothingToMeasure if too few pixels are left. */
+SensorNoise_EXPORT PixelNoise
+MeasurePixelNoise(ProjectedVariance &                      projected,
+                  NoiseSample                              sample,
+                  const StillScene &                       scene,
+                  const std::optional<const SceneSeries> & series,
+                  const RefinedSettings &                  settings,
+                  const ParallelFor &                      parallelFor);
+
+} // namespace sensornoise
+
+#endif
