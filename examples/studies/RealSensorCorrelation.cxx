@@ -20,24 +20,22 @@
 namespace sensornoise::tools
 {
 
-// Reports do not name the kind of the noise yet, nor its row and column parts: the demands on them are missed.
-
 std::string
-KindOf(const Report &)
+KindOf(const Report & report)
 {
-  return "";
+  return report.noiseCorrelation ? report.noiseCorrelation->kind : "";
 }
 
 Quantity
-RowNoiseOf(const Report &)
+RowNoiseOf(const Report & report)
 {
-  return {};
+  return report.noiseCorrelation ? report.noiseCorrelation->rowNoise : Quantity();
 }
 
 Quantity
-ColumnNoiseOf(const Report &)
+ColumnNoiseOf(const Report & report)
 {
-  return {};
+  return report.noiseCorrelation ? report.noiseCorrelation->columnNoise : Quantity();
 }
 
 } // namespace sensornoise::tools
