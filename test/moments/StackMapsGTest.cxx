@@ -118,6 +118,18 @@ TYPED_TEST(SensorNoiseStackMapsOfFloating, CopiesOfCodesThatSaturateLeaveOutTheS
   }
 }
 
+TYPED_TEST(SensorNoiseStackMapsOfFloating, ClipLevelThatMostPixelsAttainIsFound)
+{
+  const auto codes = CodesBetween({}, 600.0);
+  const Maps expected = MapsOf(codes);
+  EXPECT_EQ(expected.summary.codes.clipSource, "low: code range, high: pile-up");
+  EXPECT_EQ(expected.summary.codes.clipHighDn, 600.0);
+  EXPECT_GT(expected.summary.clipped, Width * Height / 2);
+  const Maps maps = MapsOf(codes.Map<TypeParam>([](std::uint16_t u) { return u / 16.0; }));
+  EXPECT_EQ(maps.summary.codes.clipHighDn, 600.0 / 16.0);
+  EXPECT_EQ(maps.valid, expected.valid);
+}
+
 TYPED_TEST(SensorNoiseStackMapsOfFloating, FloorIsFoundBelowAboveAndAtZero)
 {
   const auto codes = CodesBetween(500.0, {});

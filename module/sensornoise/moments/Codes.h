@@ -67,8 +67,8 @@ FindQuantisationStep(const std::vector<std::int32_t> & codes, bool & regular);
  *
  * Given values win. The bit depth is the smallest of 8, 10, 12, 14 and 16 that holds the codes. A clip level is a
  * pile-up of the extremes, else the end of the code range (design: a sensor that saturates at 3,400 of 4,095, or rests
- * on a floor above 0, is common). \a typicalVarianceDn2 is the median temporal variance: where a pile-up says nothing,
- * see CanTellPileUp(), only the code range is trusted.
+ * on a floor above 0, is common). \a typicalVarianceDn2 is the median temporal variance of the pixels that vary: where
+ * a pile-up says nothing, see CanTellPileUp(), only the code range is trusted.
  *
  * Throws std::invalid_argument if the data pass what was given. */
 SensorNoise_EXPORT CodeRange

@@ -34,7 +34,8 @@ namespace sensornoise
  * Given values win. There are no codes, and so no end of a code range: where nothing is given and nothing piles up, no
  * pixel is clipped. Frames of codes that were converted, or scaled by one number, pile up as the codes did, and are
  * compared with the levels one step apart. A flat field that is divided out spreads a clip level over many values: then
- * it cannot be found and must be given. \a typicalVarianceDn2 is the median temporal variance, see CanTellPileUp().
+ * it cannot be found and must be given. \a typicalVarianceDn2 is the median temporal variance of the pixels that vary,
+ * see CanTellPileUp().
  * \a minima or \a maxima may be empty where they are known not to pile up. */
 SensorNoise_EXPORT CodeRange
 FindLevels(const OutermostLevels & minima,

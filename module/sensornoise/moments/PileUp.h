@@ -52,8 +52,9 @@ struct ExtremeDepths
   double high{ 0.0 };
 };
 
-/** Whether a pile-up says anything: where the noise, of the median variance \a typicalVarianceDn2, is below half a step
- * of the levels, every level piles up. So it is where \a depth, see ExtremeDepths, is 2.5 or more. */
+/** Whether a pile-up says anything: where the noise, of the median variance \a typicalVarianceDn2 of the pixels that
+ * vary, is below half a step of the levels, every level piles up. So it is where \a depth, see ExtremeDepths, is 2.5 or
+ * more. */
 inline bool
 CanTellPileUp(double typicalVarianceDn2, double stepDn, double depth)
 {

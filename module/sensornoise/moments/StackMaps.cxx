@@ -42,7 +42,8 @@ namespace sensornoise
 namespace
 {
 
-/** The median temporal variance [DN^2]: some thousand pixels, evenly spread, tell the typical noise. */
+/** The median temporal variance [DN^2] of the pixels that vary: some thousand, evenly spread, tell the typical noise.
+ * Pixels that a clip level holds fast do not vary, and may be most of them. */
 template <typename TMoments>
 double
 TypicalVariance(const TMoments & moments, const double * variance)
@@ -51,7 +52,7 @@ TypicalVariance(const TMoments & moments, const double * variance)
   std::vector<double> variances;
   for (std::size_t p = 0; p < pixels; p += std::max<std::size_t>(1, pixels / 8192))
   {
-    if (moments.IsFinite(p))
+    if (moments.IsFinite(p) && variance[p] > 0.0)
     {
       variances.push_back(variance[p]);
     }
