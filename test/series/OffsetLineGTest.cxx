@@ -219,3 +219,40 @@ TEST(SensorNoiseOffsetLine, FramesWithMotionLieOnOneLine)
   EXPECT_NEAR(line->offset + sums.GetRegressors().GetModel().centreDn, 120.0, 1e-5);
   EXPECT_LT(line->lastClass, GradientClasses);
 }
+
+TEST(SensorNoiseOffsetLine, RampTellsTheFlickerWhateverTheLevel)
+{
+  // Motion along a ramp changes all levels alike, as an offset does; across it nothing is seen.
+  for (const double across : { 0.0, 0.5, 2.0 })
+  {
+    const std::vector<FrameChange> changes = FlickerAndMotion(24, 0.0, 0.0);
+    SyntheticFrames                frames(70, 45, changes);
+    std::vector<double> &          mean = frames.reference.mean;
+    for (std::size_t p = 0; p < mean.size(); ++p)
+    {
+      mean[p] = 400.0 + 15.0 * (static_cast<double>(p % 70) + across * static_cast<double>(p / 70));
+    }
+    FrameSums sums = frames.EmptySums();
+    for (std::size_t t = 0; t < changes.size(); ++t)
+    {
+      std::vector<double> frame = mean;
+      for (double & value : frame)
+      {
+        value += changes[t].slope * value + 10.0 * static_cast<double>(t % 5);
+      }
+      sums.AddFrames(frame.data(), t, 1, SerialFor);
+    }
+    const FrameEquations equations = MakeFrameEquations(sums, {}, GradientClasses - 1);
+    EXPECT_TRUE(equations.isLevelMotion) << across;
+    const std::vector<std::size_t> stronger{ 0, 1, 2 + (across > 1.0 ? StencilY : StencilX) };
+    EXPECT_EQ(equations.active, stronger) << across;
+    const auto line = FitOffsetLine(sums, {});
+    ASSERT_TRUE(line) << across;
+    EXPECT_TRUE(line->isLevelMotion) << across;
+    EXPECT_FALSE(line->TellsOffset()) << across;
+    for (std::size_t t = 0; t < changes.size(); ++t)
+    {
+      EXPECT_NEAR(line->gamma[t], changes[t].slope, 1e-9) << across << ' ' << t;
+    }
+  }
+}

@@ -150,8 +150,14 @@ FillMotion(Report & report, const RefinedResults & found)
 {
   const PolishedSeries & polished = found.polished;
   const auto             frames = static_cast<double>(report.flicker.size());
-  const AxisMotion       x = MotionAlong(0, StencilX, polished, report.flicker);
-  const AxisMotion       y = MotionAlong(1, StencilY, polished, report.flicker);
+  if (polished.line.isLevelMotion)
+  {
+    report.vibrationSdX = report.vibrationSdY = Quantity::Without(EstimateStatus::NotIdentifiable, "pixel");
+    report.vibrationCovariance = Quantity::Without(EstimateStatus::NotIdentifiable, "pixel^2");
+    return;
+  }
+  const AxisMotion x = MotionAlong(0, StencilX, polished, report.flicker);
+  const AxisMotion y = MotionAlong(1, StencilY, polished, report.flicker);
   report.vibrationSdX = x.sd;
   report.vibrationSdY = y.sd;
   report.vibrationCovariance = Quantity::Without(EstimateStatus::NotIdentifiable, "pixel^2");

@@ -243,6 +243,10 @@ EstimateOffset(const RefinedResults & found, const GainEstimate & gain, const Of
   {
     estimate.obstacle = "the scene has one intensity";
   }
+  else if (line.isLevelMotion && !isLocal)
+  {
+    estimate.obstacle = "the scene is a ramp, along which motion changes every level alike, as an offset does";
+  }
   else if (!(line.flickerZ > RequiredFlickerZ) && !isLocal)
   {
     estimate.obstacle =

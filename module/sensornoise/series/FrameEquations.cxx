@@ -27,6 +27,13 @@ namespace sensornoise
 
 namespace
 {
+/** Share of a column that others may leave of it for it to be told from them [1]. Set by hand: what is less is within
+ * what vignetting makes of a ramp, and an offset by it would be ten times as uncertain as by levels. */
+constexpr double LeastOwnShare = 0.01;
+
+/** Standard deviations by which a share must exceed what chance makes of it [1]. */
+constexpr double OwnShareZ = 4.0;
+
 /** What white noise of variance 1 in the mean adds to the Gram matrix. */
 FrameSums::ClassMatrix
 KernelGram()
@@ -76,6 +83,47 @@ FindCandidates(const Eigen::MatrixXd & rawGram, const Eigen::MatrixXd & gram, in
     }
   }
   return active;
+}
+
+/** Share by which a column must differ from those of the first derivatives in \a active, whose noise chance leaves in
+ * the Gram matrix: relative to their signal, sqrt(3 / pixels) of it, as neighbours share half of theirs. */
+double
+LeastShareBeside(const Eigen::MatrixXd &          rawGram,
+                 const Eigen::MatrixXd &          gram,
+                 const std::vector<std::size_t> & active,
+                 double                           pixels)
+{
+  double noise = 0.0;
+  for (const std::size_t k : active)
+  {
+    if (k >= 2 && MotionStencils()[k - 2].order == 1)
+    {
+      const auto i = static_cast<Eigen::Index>(k);
+      noise += (rawGram(i, i) - gram(i, i)) / gram(i, i);
+    }
+  }
+  return std::max(LeastOwnShare, noise > 0.0 ? OwnShareZ * noise * std::sqrt(3.0 / pixels) : 0.0);
+}
+
+/** Leaves out the weaker of the first derivatives, if the other says the same: then only motion along the gradient is
+ * seen. */
+void
+DropTwin(const Eigen::MatrixXd &    rawGram,
+         const Eigen::MatrixXd &    gram,
+         double                     pixels,
+         std::vector<std::size_t> & active)
+{
+  constexpr auto x = static_cast<Eigen::Index>(2 + StencilX);
+  constexpr auto y = static_cast<Eigen::Index>(2 + StencilY);
+  const auto     isActive = [&](Eigen::Index k) {
+    return std::find(active.begin(), active.end(), static_cast<std::size_t>(k)) != active.end();
+  };
+  if (isActive(x) && isActive(y) &&
+      1.0 - gram(x, y) * gram(x, y) / (gram(x, x) * gram(y, y)) < LeastShareBeside(rawGram, gram, active, pixels))
+  {
+    const auto weaker = static_cast<std::size_t>(gram(x, x) < gram(y, y) ? x : y);
+    active.erase(std::remove(active.begin(), active.end(), weaker), active.end());
+  }
 }
 
 /** Smallest eigenvalue of the matrix whose rows and columns are scaled to a diagonal of 1. */
@@ -133,9 +181,11 @@ std::vector<std::size_t>
 FindActiveColumns(const Eigen::MatrixXd & rawGram,
                   const Eigen::MatrixXd & gram,
                   const Eigen::MatrixXd & right,
-                  int                     largestOrder)
+                  int                     largestOrder,
+                  double                  pixels)
 {
   std::vector<std::size_t> active = FindCandidates(rawGram, gram, largestOrder);
+  DropTwin(rawGram, gram, pixels, active);
   for (;;)
   {
     const Eigen::MatrixXd a = Select(gram, active, active);
@@ -169,6 +219,20 @@ PartialOutMotion(FrameEquations & equations)
       equations.gram.bottomRightCorner(motion, motion).ldlt().solve(equations.gram.bottomLeftCorner(motion, 2));
     equations.light -= equations.gram.topRightCorner(2, motion) * partial;
     equations.response -= equations.right.rightCols(motion) * partial;
+  }
+}
+
+/** Takes the level out of the light, where it cannot be told from motion. */
+void
+PartialOutLevel(FrameEquations & equations, double leastShare)
+{
+  Eigen::Matrix2d & light = equations.light;
+  equations.isLevelMotion =
+    equations.active.size() > 2 && !(light(0, 0) > leastShare * equations.gram(0, 0)) && light(1, 1) > 0.0;
+  if (equations.isLevelMotion)
+  {
+    light(0, 0) = light(0, 1) = light(1, 0) = 0.0;
+    equations.response.col(0).setZero();
   }
 }
 } // namespace
@@ -212,8 +276,9 @@ MakeFrameEquations(const FrameSums &           sums,
     }
   }
 
+  const double   pixels = variance * static_cast<double>(frames); // about: variances have been divided by the model's
   FrameEquations equations;
-  equations.active = FindActiveColumns(rawGram, gram, right, frames < 20 ? 2 : 3);
+  equations.active = FindActiveColumns(rawGram, gram, right, frames < 20 ? 2 : 3, pixels);
   std::vector<std::size_t> rows(frames);
   for (std::size_t t = 0; t < frames; ++t)
   {
@@ -223,6 +288,7 @@ MakeFrameEquations(const FrameSums &           sums,
   equations.gram = Select(gram, equations.active, equations.active);
   equations.right = Select(right, rows, equations.active);
   PartialOutMotion(equations);
+  PartialOutLevel(equations, LeastShareBeside(rawGram, gram, equations.active, pixels));
   return equations;
 }
 

@@ -48,6 +48,9 @@ struct SensorNoise_EXPORT FrameEquations
   Eigen::MatrixXd          right;    ///< frames x active
   Eigen::Matrix2d          light;    ///< of columns 0 and 1, the motion partialled out (Schur complement)
   Eigen::MatrixX2d         response; ///< frames x 2, the same
+  /** Whether a level that all pixels share cannot be told from motion: the derivatives are the same everywhere, the
+   * scene is a ramp. Then light and response hold column 1 alone, all else partialled out. */
+  bool isLevelMotion{ false };
 
   /** Place of a column among the active ones. */
   std::optional<std::size_t>
@@ -59,7 +62,8 @@ struct SensorNoise_EXPORT FrameEquations
  * The columns are made of the mean, whose noise has the variance V / T. It adds sum w V / T times the kernels' inner
  * products to the Gram matrix, which is taken off; and where the frame's own noise is larger or smaller than the
  * average's by gamma_t g q, its product with a column's centre weight adds to the right-hand side, which is taken off
- * where \a gamma is given. Frames fewer than 20 get no third order. */
+ * where \a gamma is given. Frames fewer than 20 get no third order. Of two first derivatives that are one and the same
+ * but for a factor, as on a ramp across the frame, the weaker is left out. */
 SensorNoise_EXPORT FrameEquations
 MakeFrameEquations(const FrameSums &           sums,
                    const RegressorNoise &      noise,

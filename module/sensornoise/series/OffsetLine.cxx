@@ -84,7 +84,7 @@ FitOffsetLine(const FrameEquations & equations)
   const auto                        frames = static_cast<double>(equations.response.rows());
   const Eigen::Matrix2d             energy = equations.response.transpose() * equations.response;
   const Eigen::LLT<Eigen::Matrix2d> factor(equations.light);
-  if (factor.info() != Eigen::Success || !energy.allFinite())
+  if (equations.isLevelMotion || factor.info() != Eigen::Success || !energy.allFinite())
   {
     return std::nullopt;
   }
@@ -112,6 +112,12 @@ FitOffsetLine(const FrameEquations & equations)
 
 namespace
 {
+double
+ContrastOf(const FrameEquations & equations)
+{
+  return std::clamp(equations.gram(1, 1) / equations.rawGram(1, 1), 0.0, 1.0);
+}
+
 /** The flicker of a scene of one level, whose offset it cannot tell; null if the levels are one and the same, or their
  * gram has no part left for light. */
 std::optional<OffsetLine>
@@ -127,6 +133,24 @@ LineOfOneLevel(const FrameEquations & equations, double offset)
   line.offset = offset;
   line.lastClass = GradientClasses - 1;
   line.UseOffset(offset);
+  return line;
+}
+
+/** The flicker of a ramp, by what its slope changes. Any offset goes with it: a level can be motion. */
+OffsetLine
+LineOfRamp(const FrameEquations & equations, double offset)
+{
+  OffsetLine line;
+  line.light = equations.light;
+  line.response = equations.response;
+  line.offset = offset;
+  line.contrast = ContrastOf(equations);
+  line.lastClass = GradientClasses - 1;
+  line.isLevelMotion = true;
+  line.UseOffset(offset);
+  const auto frames = static_cast<double>(line.gamma.size());
+  const auto gamma = Eigen::Map<const Eigen::VectorXd>(line.gamma.data(), equations.response.rows());
+  line.flickerZ = (line.precision * gamma.squaredNorm() - (frames - 1.0)) / std::sqrt(2.0 * (frames - 1.0));
   return line;
 }
 } // namespace
@@ -148,7 +172,7 @@ FitOffsetLine(const FrameSums & sums, const RegressorNoise & noise, const std::v
       {
         smallest = error;
         line->lastClass = c;
-        line->contrast = std::clamp(equations.gram(1, 1) / equations.rawGram(1, 1), 0.0, 1.0);
+        line->contrast = ContrastOf(equations);
         best = std::move(line);
       }
     }
@@ -156,8 +180,9 @@ FitOffsetLine(const FrameSums & sums, const RegressorNoise & noise, const std::v
   if (!best)
   {
     const ProvisionalModel & model = sums.GetRegressors().GetModel();
-    best =
-      LineOfOneLevel(MakeFrameEquations(sums, noise, GradientClasses - 1, gamma), model.darkestDn - model.centreDn);
+    const FrameEquations     equations = MakeFrameEquations(sums, noise, GradientClasses - 1, gamma);
+    const double             darkest = model.darkestDn - model.centreDn;
+    best = equations.isLevelMotion ? LineOfRamp(equations, darkest) : LineOfOneLevel(equations, darkest);
   }
   return best;
 }

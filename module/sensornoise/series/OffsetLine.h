@@ -49,6 +49,8 @@ struct SensorNoise_EXPORT OffsetLine
   double              sensitivity{ 0.0 }; ///< relative change of gamma_t with the offset [1/DN]
   std::vector<double> gamma;              ///< of every frame [1]
   std::size_t         lastClass{ 0 };     ///< roughest gradient class that was admitted
+  /** The scene is a ramp, and the flicker was taken from its slope alone, see FrameEquations::isLevelMotion. */
+  bool isLevelMotion{ false };
 
   Eigen::Matrix2d  light;    ///< of the equations that were used
   Eigen::MatrixX2d response; ///< frames x 2
@@ -81,12 +83,13 @@ struct SensorNoise_EXPORT OffsetLine
  *
  * is the maximum-likelihood line with errors in both variables, a generalised eigenvector of sum r r' and G. The
  * second eigenvalue over T - 2 is the dispersion phi, and {m: J(m) >= max J - t^2 phi} the interval, which may be
- * unbounded; t is Student's quantile for T - 2 degrees of freedom. Estimator.md, 3.3. Null if G is not positive. */
+ * unbounded; t is Student's quantile for T - 2 degrees of freedom. Estimator.md, 3.3. Null if G is not positive, or the
+ * level cannot be told from motion. */
 SensorNoise_EXPORT std::optional<OffsetLine>
 FitOffsetLine(const FrameEquations & equations);
 
 /** The best line over the gradient classes: rougher ones are admitted while they reduce the standard error that the
- * dispersion widens. */
+ * dispersion widens. On a ramp the flicker tells no offset, and on a scene of one level neither. */
 SensorNoise_EXPORT std::optional<OffsetLine>
 FitOffsetLine(const FrameSums & sums, const RegressorNoise & noise, const std::vector<double> & gamma = {});
 

@@ -1,0 +1,122 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/refined/RefinedMethod.h"
+#include "sensornoise/report/Report.h"
+#include "sensornoise/simulation/SimulationSettings.h"
+#include "helpers/RefinedTestHelper.h"
+#include "helpers/StackTestHelper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <gtest/gtest.h>
+#include <string>
+#include <tuple>
+#include <vector>
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+
+namespace
+{
+constexpr std::size_t Size = 256;
+constexpr std::size_t Frames = 50;
+
+/** From dark to full along "x", "y" or the "diagonal". */
+std::vector<double>
+RampAlong(const std::string & direction)
+{
+  std::vector<double> scene(Size * Size);
+  for (std::size_t p = 0; p < scene.size(); ++p)
+  {
+    const double x = static_cast<double>(p % Size) / (Size - 1.0);
+    const double y = static_cast<double>(p / Size) / (Size - 1.0);
+    scene[p] = direction == "x" ? x : direction == "y" ? y : 0.5 * (x + y);
+  }
+  return scene;
+}
+
+Report
+MeasureRamp(const std::string & direction, const SceneConditions & conditions, std::uint64_t seed)
+{
+  SimulationSettings settings;
+  settings.conditions = conditions;
+  settings.frames = Frames;
+  settings.seed = seed;
+  return Measure(Simulate<std::uint16_t>(settings, Size, Size, RampAlong(direction))).GetReport();
+}
+
+/** Direction, flicker and vibration. */
+class SensorNoiseRamp : public ::testing::TestWithParam<std::tuple<const char *, double, double>>
+{};
+} // namespace
+
+TEST_P(SensorNoiseRamp, TellsTheGain)
+{
+  const auto [direction, flicker, vibration] = GetParam();
+  for (const std::uint64_t seed : { 11, 12 })
+  {
+    const Report report = MeasureRamp(direction, { flicker, vibration, vibration }, seed);
+    ASSERT_TRUE(report.gain.value && report.gain.standardError) << seed;
+    EXPECT_NEAR(*report.gain.value, SimulationSettings().camera.gainDnPerElectron, 3.0 * *report.gain.standardError)
+      << seed;
+    EXPECT_LT(*report.gain.standardError, 0.02 * *report.gain.value) << seed;
+    // An offset that is told is right, or it is said not to be told.
+    const double offsetDn = SimulationSettings().camera.offsetDn;
+    if (report.offset.value)
+    {
+      EXPECT_NEAR(*report.offset.value, offsetDn, 3.0 * *report.offset.standardError) << seed;
+    }
+    ASSERT_TRUE(report.offset.bracket) << seed;
+    EXPECT_LT(report.offset.bracket->low.value_or(0.0), offsetDn) << seed;
+    EXPECT_GT(report.offset.bracket->high.value_or(1e9), offsetDn) << seed;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(,
+                         SensorNoiseRamp,
+                         ::testing::Combine(::testing::Values("x", "y", "diagonal"),
+                                            ::testing::Values(0.0, 0.01),
+                                            ::testing::Values(0.0, 0.01, 0.1)));
+
+TEST(SensorNoiseRampAlongAnAxis, FlickerIsToldAndMotionIsNot)
+{
+  for (const char * const direction : { "x", "y" })
+  {
+    const Report report = MeasureRamp(direction, { 0.01, 0.05, 0.05 }, 4);
+    ASSERT_TRUE(report.flickerSd.value) << direction;
+    double squares = 0.0;
+    for (const double gamma : report.flicker)
+    {
+      squares += gamma * gamma;
+    }
+    EXPECT_NEAR(*report.flickerSd.value, std::sqrt(squares / (Frames - 1.0)), 1e-3) << direction;
+    EXPECT_NEAR(*report.flickerSd.value, 0.01, 4.0 * 0.01 / std::sqrt(2.0 * Frames)) << direction;
+    EXPECT_EQ(report.offset.status, EstimateStatus::NotIdentifiable) << direction;
+    EXPECT_EQ(report.vibrationSdX.status, EstimateStatus::NotIdentifiable) << direction;
+    EXPECT_EQ(report.vibrationSdY.status, EstimateStatus::NotIdentifiable) << direction;
+    EXPECT_TRUE(std::any_of(report.warnings.begin(),
+                            report.warnings.end(),
+                            [](const Warning & warning) {
+                              return warning.code == "offset-not-identifiable" &&
+                                     warning.message.find("ramp") != std::string::npos;
+                            }))
+      << direction;
+  }
+}
