@@ -66,6 +66,21 @@ Summarise(const std::vector<const Run *> & runs, Deviation Run::* member)
   return summary;
 }
 
+namespace
+{
+/** Whether the gain is as good as its case allows. */
+bool
+IsGainRight(const Run & run)
+{
+  if (run.stressCase.expectation == StressExpectation::Bent)
+  {
+    const auto & interval = run.report.gain.interval95;
+    return interval && interval->low && interval->high && *interval->low <= run.gain && run.gain <= *interval->high;
+  }
+  return std::abs(*run.gainPercent.error) <= 1.0;
+}
+} // namespace
+
 std::string
 FindFault(const Run & run)
 {
@@ -84,7 +99,7 @@ FindFault(const Run & run)
   {
     return "no gain";
   }
-  if (!(std::abs(*run.gainPercent.error) <= 1.0))
+  if (!IsGainRight(run))
   {
     return "gain";
   }

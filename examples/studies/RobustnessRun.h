@@ -42,6 +42,7 @@ struct Run
   StressCase    stressCase;
   std::string   reference;
   std::uint64_t seed;
+  double        gain{ 0.0 }; ///< the true one [DN/e-]
   Deviation     gainPercent;
   Deviation     intercept;
   Deviation     offset;
@@ -61,7 +62,8 @@ Deviation
 Summarise(const std::vector<const Run *> & runs, Deviation Run::* member);
 
 /** What is wrong with one run: empty if the gain is within 1 % and the intercept within 3 standard errors, or if it is
- * refused and should be, or if the case is `Processed`. */
+ * refused and should be, or if the case is `Processed`. Where the response bends the gain has no one value: there its
+ * 95 % interval must hold the mean. */
 std::string
 FindFault(const Run & run);
 

@@ -164,8 +164,9 @@ PrintSummary(const std::vector<Run> & runs)
 {
   std::printf(
     "\nover the seeds: mean error, rms of error / standard error; id: runs that identify the offset; verdict ok: "
-    "every gain within 1 %%\nand every intercept within 3 standard errors (if there are any); an identified "
-    "offset is only marked; processed: noise\nis shared between pixels or frames, which is not counted\n");
+    "every gain within 1 %%,\nor its 95 %% interval holds the mean gain where the response bends, and every intercept "
+    "within 3 standard errors (if there are any);\nan identified offset is only marked; processed: noise is shared "
+    "between pixels or frames, which is not counted\n");
   std::printf("%-20s %-8s  %9s %6s  %10s %6s  %9s %6s  %-5s  %5s  %s\n",
               "case",
               "ref.",

@@ -128,7 +128,9 @@ AppendBentEntries(std::vector<StressRecipeEntry> & entries)
     for (const int percent : { 2, -2, 4, -4 })
     {
       const std::string size = (percent > 0 ? "+" : "") + std::to_string(percent);
-      entries.push_back({ { std::string(NameOf(shape)) + size, "the response is bent, local gain by so many %" },
+      entries.push_back({ { std::string(NameOf(shape)) + size,
+                            "the response is bent, local gain by so many %",
+                            StressExpectation::Bent },
                           [=](StressRecipe & recipe) { recipe.settings.flaws.response = { shape, 0.01 * percent }; } });
     }
   }

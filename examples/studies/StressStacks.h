@@ -34,6 +34,7 @@ namespace sensornoise::tools
 enum class StressExpectation
 {
   Measured, ///< gain and intercept as they are
+  Bent,     ///< the response bends: the gain's interval holds the mean of the local gain
   Refused,  ///< the codes are no affine function of the light: the gain is `failed`
   Processed ///< noise is shared between pixels or frames: reported, neither right nor wrong
 };

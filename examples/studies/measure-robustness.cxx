@@ -103,6 +103,7 @@ Execute(Run & run, const Options & options)
        : Estimate(options.method, stack, stack.codes);
   const tools::StressTruth truth = stack.TruthOver(estimation.isUsed);
   run.report = estimation.report;
+  run.gain = truth.gain;
   run.gainPercent = tools::Compare(run.report.gain, truth.gain, 0.01 * truth.gain);
   run.intercept = tools::Compare(
     run.report.intercept, truth.InterceptNear(run.report.intercept.value.value_or(0.0), stack.sharedVariance), 1.0);
