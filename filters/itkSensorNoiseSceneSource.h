@@ -37,7 +37,8 @@ namespace itk
  * \brief Draws a reference image for SensorNoiseStackSource: values from 0 to 1.
  *
  * Scenes: "target", 4 x 4 even patches (MakeTargetScene); "bars", vertical bars, so that every row holds every level
- * (MakeBarsScene); "texture", like a natural image (MakeTextureScene). The same parameters give the same image.
+ * (MakeBarsScene); "texture", like a natural image (MakeTextureScene); "flat", 1 everywhere (MakeFlatScene). The same
+ * parameters give the same image.
  *
  * \tparam TOutputImage Image<double, 2>.
  * \ingroup SensorNoise
@@ -61,11 +62,11 @@ public:
     return "SensorNoiseSceneSource";
   }
 
-  /** "target" (default), "bars" or "texture". */
+  /** "target" (default), "bars", "texture" or "flat". */
   itkSetStringMacro(Scene);
   itkGetStringMacro(Scene);
 
-  /** Size [pixel]. Defaults 512; a target has at least 32 x 32, bars 16 x 1, a texture 16 x 16. */
+  /** Size [pixel]. Defaults 512; a target has at least 32 x 32, bars 16 x 1, a texture 16 x 16, a flat 1 x 1. */
   itkSetMacro(Width, SizeValueType);
   itkGetConstMacro(Width, SizeValueType);
   itkSetMacro(Height, SizeValueType);
@@ -96,11 +97,12 @@ protected:
       return m_Scene == "target"    ? sensornoise::MakeTargetScene(m_Width, m_Height)
              : m_Scene == "bars"    ? sensornoise::MakeBarsScene(m_Width, m_Height)
              : m_Scene == "texture" ? sensornoise::MakeTextureScene(m_Width, m_Height)
+             : m_Scene == "flat"    ? sensornoise::MakeFlatScene(m_Width, m_Height)
                                     : std::vector<double>();
     });
     if (scene.empty())
     {
-      itkExceptionMacro("the scene is \"" << m_Scene << "\"; expected target, bars or texture");
+      itkExceptionMacro("the scene is \"" << m_Scene << "\"; expected target, bars, texture or flat");
     }
     this->AllocateOutputs();
     std::copy(scene.begin(), scene.end(), this->GetOutput()->GetBufferPointer());

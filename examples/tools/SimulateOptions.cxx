@@ -33,7 +33,7 @@ SimulateOptions::Parse(int argc, char ** argv)
   app.option_defaults()->always_capture_default();
   app.add_option("--output", output, "Stack to write: .mha (streamed, any length), .nrrd, .tif or .tiff")->required();
   app.add_option("--truth", truth, "JSON file to write, with what an estimator should find");
-  app.add_option("--reference", reference, "Scene: target, bars, texture, or a grey image file");
+  app.add_option("--reference", reference, "Scene: target, bars, texture, flat, or a grey image file");
   app.add_option("--size", size, "Width x height of the scene, as 512x512 (the default)");
   app.add_option("--camera", camera, "Camera of the paper's Table 1: A, B or C");
   app.add_option("--gain", gain, "Gain instead of the camera's [DN/e-]");

@@ -58,7 +58,7 @@ ReadReference(const std::string & name)
 {
   if (!fs::is_regular_file(name))
   {
-    throw std::runtime_error("the reference " + name + " is neither target, bars or texture nor a file");
+    throw std::runtime_error("the reference " + name + " is neither target, bars, texture or flat nor a file");
   }
   const auto io = itk::ImageIOFactory::CreateImageIO(name.c_str(), itk::ImageIOFactory::IOFileModeEnum::ReadMode);
   if (!io)
@@ -87,13 +87,14 @@ ReadReference(const std::string & name)
 ReferenceType::Pointer
 MakeReference(const SimulateOptions & options)
 {
-  const bool isScene = options.reference == "target" || options.reference == "bars" || options.reference == "texture";
+  const bool isScene = options.reference == "target" || options.reference == "bars" || options.reference == "texture" ||
+                       options.reference == "flat";
   if (!isScene)
   {
     if (!options.size.empty())
     {
       throw std::runtime_error(
-        "--size is for the scenes target, bars and texture; a reference file keeps its own size");
+        "--size is for the scenes target, bars, texture and flat; a reference file keeps its own size");
     }
     return ReadReference(options.reference);
   }

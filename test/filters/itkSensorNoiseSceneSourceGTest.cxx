@@ -66,6 +66,7 @@ TEST(SensorNoiseSceneSource, DrawsTheScenesOfTheModule)
   EXPECT_EQ(ValuesOf(SourceOf("target", 64, 48)), sensornoise::MakeTargetScene(64, 48));
   EXPECT_EQ(ValuesOf(SourceOf("bars", 64, 48)), sensornoise::MakeBarsScene(64, 48));
   EXPECT_EQ(ValuesOf(SourceOf("texture", 64, 48)), sensornoise::MakeTextureScene(64, 48));
+  EXPECT_EQ(ValuesOf(SourceOf("flat", 64, 48)), sensornoise::MakeFlatScene(64, 48));
   EXPECT_EQ(SourceType::New()->GetScene(), std::string("target"));
 }
 
@@ -82,7 +83,7 @@ TEST(SensorNoiseSceneSource, WrongUseIsRefusedWithWhatWasFound)
 {
   const std::string unknown = ErrorOf(SourceOf("boat", 64, 48));
   EXPECT_NE(unknown.find("\"boat\""), std::string::npos) << unknown;
-  EXPECT_NE(unknown.find("target, bars or texture"), std::string::npos) << unknown;
+  EXPECT_NE(unknown.find("target, bars, texture or flat"), std::string::npos) << unknown;
   const std::string small = ErrorOf(SourceOf("target", 8, 48));
   EXPECT_NE(small.find("8"), std::string::npos) << small;
   EXPECT_NE(small.find("32"), std::string::npos) << small;

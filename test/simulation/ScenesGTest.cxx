@@ -157,6 +157,12 @@ TEST(SensorNoiseScenes, ScaleToRangeIsLinearAndLiftsAConstant)
   EXPECT_TRUE(ScaleToRange({}, 0.0, 1.0).empty());
 }
 
+TEST(SensorNoiseScenes, FlatIsFullyLitEverywhere)
+{
+  EXPECT_EQ(MakeFlatScene(3, 2), std::vector<double>(6, 1.0));
+  EXPECT_THROW(MakeFlatScene(0, 2), std::invalid_argument);
+}
+
 TEST(SensorNoiseScenes, TooSmallASceneIsRefusedWithItsSize)
 {
   try

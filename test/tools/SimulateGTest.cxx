@@ -22,10 +22,13 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <numeric>
 #include <set>
 #include <string>
 #include <vector>
@@ -141,6 +144,17 @@ TEST_F(SimulateTool, WritesTheStackAndItsTruth)
     EXPECT_EQ(truth[series].size(), 7u) << series;
   }
   EXPECT_TRUE(truth["phase"].is_null());
+}
+
+TEST_F(SimulateTool, FlatSceneHasOneLevel)
+{
+  ASSERT_EQ(Run("--output s.mha --truth t.json --size 32x24 --frames 3 --reference flat --camera B --flicker-sd 0"), 0)
+    << m_Message;
+  const auto            stack = ReadStack("s.mha");
+  const auto * const    pixels = stack->GetBufferPointer();
+  constexpr std::size_t count = 32 * 24 * 3;
+  const double          mean = std::accumulate(pixels, pixels + count, 0.0) / count;
+  EXPECT_NEAR(mean, 3100.0, 5.0 * std::sqrt(3064.0 / count)); // 3000 e- at 1 DN/e- above 100 DN, 5 s.e.
 }
 
 TEST_F(SimulateTool, ExplicitValuesOverrideCameraAndCondition)
@@ -271,7 +285,7 @@ TEST_F(SimulateTool, WrongUseIsRefusedInOneSentenceAndLeavesNothing)
   ExpectRefusal("--output s.mha --camera D", "expected A, B or C");
   ExpectRefusal("--output s.mha --camera BB", "expected A, B or C");
   ExpectRefusal("--output s.mha --condition 4", "expected 1, 2 or 3");
-  ExpectRefusal("--output s.mha --reference moon", "neither target, bars or texture nor a file");
+  ExpectRefusal("--output s.mha --reference moon", "neither target, bars, texture or flat nor a file");
   ExpectRefusal("--output s.mha --frames 0", "expected at least 1");
   ExpectRefusal("--output s.mha --frames many", "--frames");
   ExpectRefusal("--output s.mha --bit-depth 17", "the pixel type holds at most 16 bits");

@@ -119,7 +119,7 @@ def test_all_nan_is_a_report_that_says_so():
         ({"condition": 4}, "condition is 4; expected a whole number from 1 to 3"),
         ({"frames": 0}, "frames is 0; expected a whole number from 1 to"),
         ({"size": (64,)}, "size is (64,); expected (width, height)"),
-        ({"reference": "moon"}, "reference is 'moon'; expected 'target' or 'bars' or 'texture'"),
+        ({"reference": "moon"}, "reference is 'moon'; expected 'target' or 'bars' or 'texture' or 'flat'"),
         ({"reference": np.ones((2, 3, 4))}, "reference has 3 dimensions"),
         ({"reference": np.ones((20, 30)), "size": (9, 9)}, "size is (9, 9), but a reference that is an array"),
         ({"dtype": "int64"}, "dtype is int64; expected uint8"),

@@ -230,4 +230,11 @@ MakeTextureScene(std::size_t width, std::size_t height, std::uint64_t seed)
   return ScaleToRange(std::move(image), 0.0, 1.0);
 }
 
+std::vector<double>
+MakeFlatScene(std::size_t width, std::size_t height)
+{
+  CheckSceneSize("flat", width, height, 1, 1);
+  return std::vector<double>(width * height, 1.0);
+}
+
 } // namespace sensornoise

@@ -67,6 +67,10 @@ MakeBarsScene(std::size_t width, std::size_t height);
 SensorNoise_EXPORT std::vector<double>
 MakeTextureScene(std::size_t width, std::size_t height, std::uint64_t seed = DefaultSceneSeed);
 
+/** An even surface under even light: 1 everywhere. At least 1 x 1 pixel. */
+SensorNoise_EXPORT std::vector<double>
+MakeFlatScene(std::size_t width, std::size_t height);
+
 } // namespace sensornoise
 
 #endif // sensornoise_simulation_Scenes_h

@@ -127,7 +127,7 @@ def simulate_sensor_noise(
     size
         (width, height) of the scene [pixel]. Default (512, 512); a reference that is an array has its own.
     reference
-        The scene: "target", "bars", "texture", or an array (y, x) of any range.
+        The scene: "target", "bars", "texture", "flat", or an array (y, x) of any range.
     seed
         Seed of the noise, 0 or more: the same seed gives the same bits. The scene stays the same.
     dtype
@@ -310,7 +310,7 @@ def _scene(reference: Any, size: Any) -> tuple[Any, Any]:
             raise ValueError(f"size is {size!r}, but a reference that is an array has its own; expected no size")
         array = as_frame(reference, "reference", np.float64)
         return view(array), array
-    _options.one_of("reference", reference, ["target", "bars", "texture"])
+    _options.one_of("reference", reference, ["target", "bars", "texture", "flat"])
     expected = "(width, height), two whole numbers above 0 [pixel]"
     width, height = (512, 512) if size is None else _options.integers("size", size, 2, expected)
     if min(width, height) < 1:
