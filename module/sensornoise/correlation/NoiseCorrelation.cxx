@@ -41,6 +41,8 @@ constexpr double      LeastFreedom = 3.0;
 /** Coefficient that is worth a word [1]. Set by hand: charge coupling of 0.3 % makes 0.006 of it, noise of a whole
  * frame's plain sample 0.0004 to 0.0007. */
 constexpr double LeastCoefficient = 0.002;
+/** What the nearest four share together that is worth a word, relative to the variance of the bright pixels [1]. */
+constexpr double LeastEffect = 0.005;
 /** The same between frames: slow drifts of a few pixels make 0.003 of it. */
 constexpr double LeastTimeCoefficient = 0.01;
 /** Standard errors by which a coefficient must exceed it: that of the nearest neighbours, and any of the others. */
@@ -56,7 +58,7 @@ constexpr int    MostTimeLags = 24;
 /** Coefficient up to which charge may be coupled [1]: sensors have a few hundredths. */
 constexpr double LargestCrosstalk = 0.06;
 /** Evidence that a rarer shape needs, as a difference of chi-squares: 2 ln 20. */
-constexpr double EvidenceOfRareShape = 6.0;
+constexpr double EvidenceOfRareShape = 2.0;
 /** Excess kurtosis that no linear filter leaves [1]. Set by hand: the correction of defects at 3 standard deviations
  * makes -0.06 to -0.08 of the noise and 0.1 to 0.25 of four neighbours in turn, white and filtered noise 0.01. */
 constexpr double LargestExcess = 0.04;
@@ -133,6 +135,7 @@ public:
     {
       m_Found.kind = NoiseKind::NotLinear;
     }
+    if (getenv("EXPLORE")) { fprintf(stderr, "kurt"); for (auto & k : m_Found.kurtosis) fprintf(stderr, " %.4f+-%.4f", k.value, k.standardError); fprintf(stderr, "\n"); }
     return m_Found;
   }
 
@@ -271,24 +274,34 @@ private:
     }
   }
 
+  /** Whether the nearest neighbours together, or any neighbour, share more than a trifle. What grows with the light is
+   * looked for where it is bright. */
   bool
   SharesInSpace() const
   {
     const std::vector<std::size_t> nearest =
       this->LagsWhere([](const Lag & lag) { return lag.t == 0 && std::abs(lag.x) + std::abs(lag.y) == 1; });
-    const JackknifeEstimate estimate = Jackknife(m_Tiles, [&](const TileSums & sums) {
-      const CommonNoise common = FindCommonNoise(sums.shared);
-      double            mean = 0.0;
-      for (const std::size_t k : nearest)
+    const Eigen::VectorXd   errors = this->ErrorsInBins(nearest);
+    const JackknifeEstimate atTheTop = Jackknife(m_Tiles, [&](const TileSums & sums) {
+      const Eigen::MatrixXd shapes = PredictShapes(sums.lags[0], m_CodesDn2);
+      const auto            fits = FitShapes(shapes, this->SharedInBins(sums, nearest), errors);
+      Eigen::VectorXd       effects(NumberOfShapes - 1);
+      for (Eigen::Index k = 0; k < effects.size(); ++k)
       {
-        mean += this->CoefficientOf(sums, common, k) / static_cast<double>(nearest.size());
+        effects(k) = fits[static_cast<std::size_t>(k)].coefficient * shapes(shapes.rows() - 1, k);
       }
-      return Eigen::VectorXd(Eigen::VectorXd::Constant(1, mean));
+      return effects;
     });
-    return NumberOf(estimate, 0).Exceeds(LeastCoefficient, NearestZ) ||
-           std::any_of(m_Found.space.begin(), m_Found.space.end(), [](const LagCoefficient & lag) {
-             return lag.coefficient.Exceeds(LeastCoefficient, AnyZ);
-           });
+    for (Eigen::Index k = 0; k < atTheTop.value.size(); ++k)
+    {
+      if (NumberOf(atTheTop, k).Exceeds(LeastEffect, NearestZ))
+      {
+        return true;
+      }
+    }
+    return std::any_of(m_Found.space.begin(), m_Found.space.end(), [](const LagCoefficient & lag) {
+      return lag.coefficient.Exceeds(LeastCoefficient, AnyZ);
+    });
   }
 
   /** Twice the sum of the coefficients of some lags. */
@@ -346,16 +359,22 @@ private:
     return shared;
   }
 
+  Eigen::VectorXd
+  ErrorsInBins(const std::vector<std::size_t> & lags) const
+  {
+    const JackknifeEstimate shared =
+      Jackknife(m_Tiles, [&](const TileSums & sums) { return this->SharedInBins(sums, lags); });
+    return shared.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  }
+
   void
   SumOverSpace()
   {
     const int                      reach = this->FindReach();
     const std::vector<std::size_t> lags = this->Ring(1, reach);
     this->FindCoefficients();
-    const JackknifeEstimate shared =
-      Jackknife(m_Tiles, [&](const TileSums & sums) { return this->SharedInBins(sums, lags); });
-    const Eigen::VectorXd   errors = shared.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
-    const JackknifeEstimate fits = Jackknife(m_Tiles, [&](const TileSums & sums) {
+    const Eigen::VectorXd          errors = this->ErrorsInBins(lags);
+    const JackknifeEstimate        fits = Jackknife(m_Tiles, [&](const TileSums & sums) {
       const auto shapes = FitShapes(PredictShapes(sums.lags[0], m_CodesDn2), this->SharedInBins(sums, lags), errors);
       Eigen::VectorXd figures(2 * NumberOfShapes);
       for (std::size_t k = 0; k < NumberOfShapes; ++k)
@@ -382,6 +401,7 @@ private:
     m_Found.ofVariance = { NumberOf(fits, static_cast<Eigen::Index>(ShapeOfShared::Variance)), variance / sum };
     m_Found.ofLight = { NumberOf(fits, static_cast<Eigen::Index>(ShapeOfShared::Light)), light / sum };
     m_Found.ofSquare = { NumberOf(fits, static_cast<Eigen::Index>(ShapeOfShared::Square)), square / sum };
+    if (getenv("EXPLORE")) { TileSums all; for (auto & t : m_Tiles) all += t; auto sh = this->SharedInBins(all, lags); auto pr = PredictShapes(all.lags[0], m_CodesDn2); fprintf(stderr, "reach %d shared", reach); for (int b = 0; b < 4; ++b) fprintf(stderr, " %.4f+-%.4f(V %.3f z %.3f zz %.3f)", sh(b), errors(b), pr(b,0), pr(b,1), pr(b,2)); for (int k = 0; k < 4; ++k) fprintf(stderr, " | %.4g chi2 %.2f", fits.value(k), fits.value(4+k)); fprintf(stderr, " P %.2f %.2f %.2f beyond %.4f\n", variance/sum, light/sum, square/sum, m_Found.beyondReach); }
     if (m_Found.kind != NoiseKind::Temporal)
     {
       m_Found.kind = 2.0 * square > sum          ? NoiseKind::BrighterFatter

@@ -45,6 +45,19 @@ UsedPixels(const StaticVariance & variance)
   });
   return used;
 }
+/** Part of the levels' range above black up to which the darkest may lie to be the zero of the light [1]: flat fields
+ * have none that is near it. */
+constexpr double DarkShare = 0.3;
+
+/** The level from which light is measured. Where nothing tells it, the darkest: what is shared in proportion to the
+ * variance is in proportion to the light above a level that is below. */
+double
+ZeroOfLight(const RefinedSettings & settings, const StillScene & scene, const SceneSeries & series, double blackDn)
+{
+  const double dark = scene.model.darkestDn;
+  const bool   isTold = settings.offset.has_value() || series.isOffsetTold;
+  return !isTold && dark - blackDn < DarkShare * (scene.model.brightestDn - blackDn) ? dark : blackDn;
+}
 } // namespace
 
 PixelNoise
@@ -73,7 +86,7 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   const double              codesDn2 = CodesVariance(scene);
   std::vector<std::uint8_t> used = UsedPixels(noise.variance);
   NoiseResiduals            residuals(
-    std::move(sample), series->basis.GetBasis(), { scene.frame.mean, used, blackDn }, parallelFor);
+    std::move(sample), series->basis.GetBasis(), { scene.frame.mean, used, ZeroOfLight(settings, scene, *series, blackDn) }, parallelFor);
   noise.correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
   const double sharedSquares = noise.correlation.SharedSquares();
   if (noise.correlation.IsShared() && sharedSquares > LeastSharedSquares)
