@@ -206,6 +206,7 @@ FullReport()
   report.method = "published";
   report.settings = { { "level", 0.01 }, { "rolling_shutter", std::string("auto") }, { "flag", true } };
   report.frames = 2;
+  report.framesDistinct = 2;
   report.width = 4;
   report.height = 3;
   report.bitDepth = 12;
@@ -248,7 +249,8 @@ TEST(SensorNoiseReportJson, CheckerTellsJsonFromWhatIsNot)
 TEST(SensorNoiseReportJson, RecordIsValidAndHasAllNamesInOrder)
 {
   std::istringstream list(
-    "schema version method settings frames width height channel bit_depth bit_depth_source quantisation_step clip_low "
+    "schema version method settings frames frames_distinct width height channel bit_depth bit_depth_source "
+    "quantisation_step clip_low "
     "clip_high clip_source pixels gain offset read_noise read_noise_median read_noise_electrons intercept "
     "total_intercept "
     "covariance flicker_sd vibration flicker flicker_rows motion fit affine_baseline quadratic_baseline warnings "

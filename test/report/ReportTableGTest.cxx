@@ -52,6 +52,16 @@ TEST(SensorNoiseReportTable, ValuesHaveTheirErrorsAndIntervals)
             "offset mu                           -                DN       failed            ");
 }
 
+TEST(SensorNoiseReportTable, EqualFramesAreToldWhereThereAreAny)
+{
+  Report report;
+  report.frames = report.framesDistinct = 100;
+  report.width = report.height = 64;
+  EXPECT_EQ(MakeTable(report).substr(0, 31), "100 frames of 64 x 64 pixels\n0 ");
+  report.framesDistinct = 50;
+  EXPECT_EQ(MakeTable(report).substr(0, 49), "100 frames (50 different ones) of 64 x 64 pixels\n");
+}
+
 TEST(SensorNoiseReportTable, WithoutAnyErrorThereIsNoColumnForThem)
 {
   Report report;

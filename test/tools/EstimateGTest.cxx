@@ -73,6 +73,7 @@ TEST_P(EstimateToolWith, TheReportHasTheDocumentedNamesAndUnits)
                                     "method",
                                     "settings",
                                     "frames",
+                                    "frames_distinct",
                                     "width",
                                     "height",
                                     "channel",
@@ -114,6 +115,7 @@ TEST_P(EstimateToolWith, TheReportHasTheDocumentedNamesAndUnits)
   EXPECT_EQ(report["schema"], "itk-sensornoise-report/1");
   EXPECT_EQ(report["method"], GetParam());
   EXPECT_EQ(report["frames"], 24);
+  EXPECT_EQ(report["frames_distinct"], 24);
   EXPECT_EQ(report["width"], 64);
   EXPECT_EQ(report["height"], 64);
   EXPECT_EQ(report["flicker"].size(), 24u);
@@ -227,6 +229,35 @@ TEST_F(EstimateTool, WarningsAreOnStandardErrorAndInTheReport)
     expected += "warning: " + warning["message"].get<std::string>() + " [" + warning["code"].get<std::string>() + "]\n";
   }
   EXPECT_EQ(m_Message, expected);
+}
+
+TEST_F(EstimateTool, FramesThatAreWrittenTwiceAreCountedOnce)
+{
+  const auto simulate = [this](const std::string & flags) {
+    ASSERT_EQ(
+      RunCommand("\"" SENSORNOISE_BIN "/simulate-sensor-noise\" --seed 3 --flicker-sd 0.1 --size 64x64 " + flags), 0)
+      << m_Message;
+  };
+  simulate("--output once.mha --frames 24");
+  simulate("--output twice.mha --frames 48 --repeat 2");
+  for (const std::string method : { " --method refined", " --method published" })
+  {
+    const nlohmann::json once = ReportOf("once.mha" + method);
+    const nlohmann::json twice = ReportOf("twice.mha" + method);
+    EXPECT_EQ(once["frames_distinct"], 24);
+    EXPECT_EQ(twice["frames_distinct"], 24);
+    EXPECT_EQ(twice["frames"], 48);
+    EXPECT_EQ(twice["warnings"][0]["code"], "repeated-frames");
+    for (const char * name :
+         { "gain", "offset", "read_noise", "intercept", "flicker_sd", "vibration", "fit", "scatter" })
+    {
+      EXPECT_EQ(twice[name], once[name]) << name;
+    }
+    for (std::size_t t = 0; t < 48; ++t)
+    {
+      EXPECT_EQ(twice["flicker"][t], once["flicker"][t / 2]) << t;
+    }
+  }
 }
 
 TEST_F(EstimateTool, NoProgressGoesIntoAPipe)

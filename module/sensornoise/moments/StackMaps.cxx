@@ -121,12 +121,13 @@ FillMeanAndVariance(const TemporalMoments<TPixel> & moments,
                     double *                        variance)
 {
   const std::size_t      pixels = moments.GetNumberOfPixels();
+  const bool             hasVariance = moments.GetNumberOfFrames() > 1;
   std::vector<StackEnds> blocks((pixels + PixelsPerBlock - 1) / PixelsPerBlock);
   ForBlocks(pixels, parallelFor, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p)
     {
       mean[p] = moments.GetMean(p);
-      variance[p] = moments.GetVariance(p);
+      variance[p] = hasVariance ? moments.GetVariance(p) : 0.0 * mean[p]; // not finite: NaN
     }
     StackEnds block;
     block.AddPixels(moments, begin, end);

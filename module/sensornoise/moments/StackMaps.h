@@ -39,8 +39,9 @@ struct StackSummary
 };
 
 /** Turns the moments of a stack into frame-sized maps: mean [DN], unbiased variance [DN^2] and the valid mask (1:
- * finite and never at a clip level). Codes and clip levels are given or found, see FindCodes() and FindLevels(). NaN
- * stands where a pixel was not finite. Throws std::invalid_argument if the data pass the given bit depth. */
+ * finite and never at a clip level). The variance of a single frame is 0. Codes and clip levels are given or found, see
+ * FindCodes() and FindLevels(). NaN stands where a pixel was not finite. Throws std::invalid_argument if the data pass
+ * the given bit depth. */
 template <typename TPixel>
 StackSummary
 MakeStackMaps(const TemporalMoments<TPixel> & moments,

@@ -18,7 +18,9 @@
 #include "sensornoise/moments/StackMoments.h"
 
 #include "sensornoise/base/BinaryStream.h"
+#include "sensornoise/base/BytesFingerprint.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/moments/ChosenFrames.h"
 #include "sensornoise/moments/TemporalMoments.h"
 
 #include <algorithm>
@@ -40,22 +42,51 @@ namespace sensornoise
 namespace
 {
 
-/** Sum of the finite pixels. */
+/** Sum of the finite ones of \a count pixels. */
 template <typename TPixel>
 double
-SumOfFrame(const TPixel * frame, std::size_t pixels)
+SumOfPixels(const TPixel * pixels, std::size_t count)
 {
   if constexpr (std::is_integral_v<TPixel>)
   {
     using Sum = std::conditional_t<std::is_signed_v<TPixel>, std::int64_t, std::uint64_t>;
-    return static_cast<double>(std::accumulate(frame, frame + pixels, Sum{ 0 }));
+    return static_cast<double>(std::accumulate(pixels, pixels + count, Sum{ 0 }));
   }
   else
   {
-    return std::accumulate(frame, frame + pixels, 0.0, [](double sum, TPixel value) {
+    return std::accumulate(pixels, pixels + count, 0.0, [](double sum, TPixel value) {
       return std::isfinite(value) ? sum + static_cast<double>(value) : sum;
     });
   }
+}
+
+/** A frame's bytes pass the cache once for its mean and its fingerprint. */
+template <typename TPixel>
+std::vector<BytesFingerprint>
+FindMeansAndFingerprints(const TPixel *      frames,
+                         std::size_t         pixels,
+                         std::size_t         count,
+                         const ParallelFor & parallelFor,
+                         double *            means)
+{
+  constexpr std::size_t         pixelsOfBlock = FingerprintBlockBytes / sizeof(TPixel);
+  const std::size_t             blocks = (pixels + pixelsOfBlock - 1) / pixelsOfBlock;
+  std::vector<double>           sums(count * blocks);
+  std::vector<BytesFingerprint> fingerprints =
+    FingerprintsOf(frames,
+                   pixels * sizeof(TPixel),
+                   count,
+                   parallelFor,
+                   [&](std::size_t k, std::size_t block, std::size_t firstByte, std::size_t bytes) {
+                     sums[k * blocks + block] =
+                       SumOfPixels(frames + k * pixels + firstByte / sizeof(TPixel), bytes / sizeof(TPixel));
+                   });
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    const double * const first = sums.data() + k * blocks;
+    means[k] = std::accumulate(first, first + blocks, 0.0) / static_cast<double>(pixels);
+  }
+  return fingerprints;
 }
 
 } // namespace
@@ -64,6 +95,7 @@ template <typename TPixel>
 StackMoments<TPixel>::StackMoments(std::size_t pixels, std::size_t frames)
   : m_Pixels(pixels)
   , m_FrameMeans(frames, 0.0)
+  , m_Fingerprints(frames)
   , m_Own(pixels)
 {}
 
@@ -75,12 +107,13 @@ StackMoments<TPixel>::AddFrames(const TPixel *      frames,
                                 const ParallelFor & parallelFor)
 {
   m_First = std::min(m_First, first);
-  ForBlocks(m_Pixels, parallelFor, [&](std::size_t begin, std::size_t end) {
-    m_Own.AddFrames(frames, m_Pixels, count, begin, end);
-  });
-  m_Own.AdvanceFrames(count);
-  parallelFor(count, [&](std::size_t k) {
-    m_FrameMeans[first + k] = SumOfFrame(frames + k * m_Pixels, m_Pixels) / static_cast<double>(m_Pixels);
+  const std::vector<std::uint8_t> isNew = m_Fingerprints.Add(
+    first, FindMeansAndFingerprints(frames, m_Pixels, count, parallelFor, m_FrameMeans.data() + first));
+  ForChosenFrames(frames, m_Pixels, isNew, parallelFor, [&](const TPixel * chosen, std::size_t number) {
+    ForBlocks(m_Pixels, parallelFor, [&](std::size_t begin, std::size_t end) {
+      m_Own.AddFrames(chosen, m_Pixels, number, begin, end);
+    });
+    m_Own.AdvanceFrames(number);
   });
 }
 
@@ -89,6 +122,7 @@ void
 StackMoments<TPixel>::Save(std::ostream & out) const
 {
   WriteNumbers(out, m_FrameMeans);
+  m_Fingerprints.Save(out);
   WriteCount(out, m_Others.size() + 1);
   WriteCount(out, m_First);
   m_Own.Save(out);
@@ -105,12 +139,15 @@ StackMoments<TPixel>::Merge(std::istream & in)
 {
   std::vector<double> frameMeans(m_FrameMeans.size());
   ReadNumbers(in, frameMeans);
+  const FrameFingerprints                        fingerprints = m_Fingerprints.ReadOther(in);
   std::map<std::size_t, TemporalMoments<TPixel>> parts;
   for (std::uint64_t count = ReadCount(in); count > 0; --count)
   {
     const std::size_t first = ReadCount(in);
     parts.try_emplace(first, m_Pixels).first->second.Restore(in);
   }
+  m_Fingerprints.RequireApart(fingerprints);
+  m_Fingerprints.Merge(fingerprints);
   for (auto & [first, moments] : parts)
   {
     if constexpr (std::is_integral_v<TPixel>)

@@ -19,6 +19,8 @@
 #define sensornoise_moments_StackMoments_h
 
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/moments/DistinctFrames.h"
+#include "sensornoise/moments/FrameFingerprints.h"
 #include "sensornoise/moments/TemporalMoments.h"
 #include "SensorNoiseExport.h"
 
@@ -33,7 +35,9 @@ namespace sensornoise
 {
 
 /** \class StackMoments
- * \brief The first pass: the temporal moments of every pixel, and the mean of every frame.
+ * \brief The first pass: the temporal moments of every pixel, the mean of every frame, and which frames are equal.
+ *
+ * A frame that equals one before is not summed: the moments are those of the distinct frames.
  *
  * Frames may be added in parts, here and in other processes, and the parts merged. Integers are summed exactly, in any
  * order. Parts with floating-point pixels are kept and merged in the order of their first frames: the same bits whoever
@@ -53,23 +57,31 @@ public:
   Save(std::ostream & out) const;
 
   /** Adds the moments and means of other frames from a stream. Throws std::runtime_error, and changes nothing, if it
-   * ends early or does not hold them. */
+   * ends early, does not hold them, or summed a frame that equals one summed here: that one cannot be taken off. */
   void
   Merge(std::istream & in);
 
-  /** The moments of all frames. What was added is given away. */
+  /** The moments of the distinct frames. What was added is given away. */
   TemporalMoments<TPixel>
   Take();
 
+  /** Of all frames, also of those that were not summed. */
   const std::vector<double> &
   GetFrameMeans() const
   {
     return m_FrameMeans;
   }
+  /** Which frames are equal, when all have been added. */
+  DistinctFrames
+  FindDistinct() const
+  {
+    return m_Fingerprints.FindDistinct();
+  }
 
 private:
   std::size_t             m_Pixels;
   std::vector<double>     m_FrameMeans; // 0 where a frame was not added
+  FrameFingerprints       m_Fingerprints;
   TemporalMoments<TPixel> m_Own;
   std::size_t             m_First{ std::numeric_limits<std::size_t>::max() }; // frame of m_Own
 

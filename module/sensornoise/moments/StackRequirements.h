@@ -20,7 +20,10 @@
 
 #include "SensorNoiseExport.h"
 
+#include "sensornoise/base/NothingToMeasure.h"
+
 #include <cstddef>
+#include <string>
 
 namespace sensornoise
 {
@@ -34,6 +37,18 @@ inline constexpr std::size_t MinimumFrames = 5;
  * mask of another size than a frame; \a maskPixels is 0 without a mask. */
 SensorNoise_EXPORT void
 RequireStack(const FrameGeometry & geometry, std::size_t frames, std::size_t maskPixels);
+
+/** Throws NothingToMeasure if fewer than MinimumFrames frames are left when equal ones are counted once. */
+inline void
+RequireDistinctFrames(std::size_t distinct)
+{
+  if (distinct < MinimumFrames)
+  {
+    throw NothingToMeasure("equal frames are counted once, and only " + std::to_string(distinct) +
+                           (distinct == 1 ? " frame is" : " different frames are") + " left; expected at least " +
+                           std::to_string(MinimumFrames));
+  }
+}
 
 } // namespace sensornoise
 

@@ -20,6 +20,7 @@
 #include "sensornoise/base/PixelUse.h"
 #include "sensornoise/moments/StackMaps.h"
 #include "sensornoise/moments/StackRequirements.h"
+#include "sensornoise/report/RepeatedFrames.h"
 
 #include <cmath>
 #include <utility>
@@ -39,7 +40,7 @@ PublishedMethod<TPixel>::PublishedMethod(const PublishedSettings &         setti
   , m_UserMask(mask)
   , m_ParallelFor(std::move(parallelFor))
   , m_InPass(frames)
-  , m_Moments(geometry.Pixels())
+  , m_Moments(geometry.Pixels(), frames)
 {
   RequireStack(geometry, frames, mask.size());
   settings.Validate();
@@ -50,22 +51,26 @@ void
 PublishedMethod<TPixel>::AddFrames(const TPixel * chunk, std::size_t frames)
 {
   const std::size_t  pixels = m_Geometry.Pixels();
-  const std::size_t  width = m_Geometry.width;
   const std::size_t  first = m_InPass.Add(frames);
   const unsigned int pass = m_InPass.GetPass();
   if (pass == 0)
   {
-    m_ParallelFor(m_Geometry.height,
-                  [&](std::size_t y) { m_Moments.AddFrames(chunk, pixels, frames, y * width, (y + 1) * width); });
-    m_Moments.AdvanceFrames(frames);
+    m_Moments.AddFrames(chunk, first, frames, m_ParallelFor);
   }
-  else if (pass == 1 && m_Sums)
+  else if (m_Sums || m_Correction)
   {
-    m_ParallelFor(frames, [&](std::size_t k) { m_Sums->AddFrame(chunk + k * pixels, first + k); });
-  }
-  else if (pass == 2 && m_Correction)
-  {
-    m_ParallelFor(m_Geometry.height, [&](std::size_t y) { m_Correction->AddRow(chunk, pixels, frames, first, y); });
+    m_Distinct.ForDistinct(
+      chunk, pixels, first, frames, m_ParallelFor, [&](const TPixel * distinct, std::size_t place, std::size_t count) {
+        if (pass == 1)
+        {
+          m_ParallelFor(count, [&](std::size_t k) { m_Sums->AddFrame(distinct + k * pixels, place + k); });
+        }
+        else
+        {
+          m_ParallelFor(m_Geometry.height,
+                        [&](std::size_t y) { m_Correction->AddRow(distinct, pixels, count, place, y); });
+        }
+      });
   }
 }
 
@@ -80,20 +85,21 @@ PublishedMethod<TPixel>::EndPass()
     m_Scene = this->EndMoments();
     if (!m_Scene.obstacle)
     {
-      m_Sums.emplace(m_Scene.bright, m_Scene.dark, m_Scene.mean.data(), m_Geometry, m_Frames, m_Scene.rowSet);
+      m_Sums.emplace(m_Scene.bright, m_Scene.dark, m_Scene.mean.data(), m_Geometry, m_Distinct.Count(), m_Scene.rowSet);
     }
   }
   else if (pass == 1 && m_Sums)
   {
     m_Flicker = EstimateFlicker(*m_Sums, m_Scene.bright, m_Scene.dark, m_Settings.rollingShutter, m_Settings.sigmaRows);
     m_Sums.reset(); // their memory
-    m_Correction.emplace(m_Flicker, m_Geometry, m_Frames);
+    m_Correction.emplace(m_Flicker, m_Geometry, m_Distinct.Count());
   }
   else if (pass + 1 == NumberOfPasses)
   {
     m_Corrected = this->EndCorrection();
     m_Correction.reset(); // their memory
-    m_Report = MakePublishedReport({ m_Settings, m_Geometry, m_Frames, m_Scene, m_Flicker, m_Corrected });
+    m_Report = MakePublishedReport({ m_Settings, m_Geometry, m_Distinct.Count(), m_Scene, m_Flicker, m_Corrected });
+    ReportAllFrames(m_Report, m_Distinct);
   }
 }
 
@@ -106,11 +112,11 @@ PublishedMethod<TPixel>::EndMoments()
   scene.mean.resize(pixels);
   scene.variance.resize(pixels);
   scene.valid.resize(pixels);
+  m_Distinct = m_Moments.FindDistinct();
   scene.summary = MakeStackMaps<TPixel>(
-    m_Moments, m_Settings.codes, m_ParallelFor, scene.mean.data(), scene.variance.data(), scene.valid.data());
-  m_Moments = TemporalMoments<TPixel>(0); // their memory
-  SortPixels(scene, m_Settings, m_Geometry, m_Frames, m_UserMask);
-  FindSets(scene, m_Settings, m_Frames);
+    m_Moments.Take(), m_Settings.codes, m_ParallelFor, scene.mean.data(), scene.variance.data(), scene.valid.data());
+  SortPixels(scene, m_Settings, m_Geometry, m_Distinct.Count(), m_UserMask);
+  FindSets(scene, m_Settings, m_Distinct.Count());
   return scene;
 }
 
@@ -123,7 +129,7 @@ PublishedMethod<TPixel>::EndCorrection() const
   {
     return maps;
   }
-  const double dof = static_cast<double>(m_Frames - 1);
+  const double dof = static_cast<double>(m_Distinct.Count() - 1);
   maps.variance.resize(m_Geometry.Pixels());
   m_ParallelFor(m_Geometry.height, [&](std::size_t y) {
     for (std::size_t p = y * m_Geometry.width; p < (y + 1) * m_Geometry.width; ++p)

@@ -21,8 +21,9 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/moments/DistinctFrames.h"
 #include "sensornoise/moments/PassFrames.h"
-#include "sensornoise/moments/TemporalMoments.h"
+#include "sensornoise/moments/StackMoments.h"
 #include "sensornoise/published/CorrectedVariance.h"
 #include "sensornoise/published/FlickerEstimate.h"
 #include "sensornoise/published/FlickerSums.h"
@@ -54,6 +55,8 @@ namespace sensornoise
    }
    method.GetReport();
    \endcode
+ *
+ * Frames that are equal are counted once, see DistinctFrames; flicker is reported for all of them.
  *
  * Same bits for any number of threads and any chunks. Memory: about 70 bytes a pixel, 8 bytes a frame and row.
  * A stack that cannot be measured ends in a report whose quantities are `failed`, with a warning that says why; wrong
@@ -123,11 +126,12 @@ private:
   PassFrames                m_InPass;
 
   // What the passes gather; there are no sums of passes 2 and 3 if the stack cannot be measured.
-  TemporalMoments<TPixel>          m_Moments;
+  StackMoments<TPixel>             m_Moments;
   std::optional<FlickerSums>       m_Sums;
   std::optional<CorrectedVariance> m_Correction;
 
   // What the passes find, one after the other.
+  DistinctFrames  m_Distinct;
   PublishedScene  m_Scene;
   FlickerEstimate m_Flicker;
   CorrectedMaps   m_Corrected;

@@ -19,6 +19,7 @@
 
 #include "sensornoise/base/PixelUse.h"
 #include "sensornoise/base/RollingShutter.h"
+#include "sensornoise/moments/StackRequirements.h"
 #include "sensornoise/published/VibrationMask.h"
 
 #include <cmath>
@@ -86,6 +87,7 @@ FindSets(PublishedScene & scene, const PublishedSettings & settings, std::size_t
 {
   try
   {
+    RequireDistinctFrames(frames);
     const IsoIntensitySetFinder finder(
       scene.mean.data(), scene.variance.data(), scene.kept.data(), scene.mean.size(), frames);
     scene.bright = finder.Find(settings.brightQuantile);

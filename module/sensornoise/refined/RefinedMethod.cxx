@@ -25,6 +25,7 @@
 #include "sensornoise/refined/PixelNoise.h"
 #include "sensornoise/refined/PixelsOfVariance.h"
 #include "sensornoise/refined/RefinedReport.h"
+#include "sensornoise/report/RepeatedFrames.h"
 #include "sensornoise/series/FrameProducts.h"
 #include "sensornoise/scene/UnexplainedPixels.h"
 #include "sensornoise/series/FrameRegressors.h"
@@ -95,16 +96,33 @@ RefinedMethod<TPixel>::AddFrames(const TPixel * chunk, std::size_t frames)
   {
     m_Moments.AddFrames(chunk, first, frames, m_ParallelFor);
   }
-  else if (pass == 1 && m_FrameSums)
+  else if (m_FrameSums)
   {
-    m_FrameSums->AddFrames(chunk, first, frames, m_ParallelFor);
+    m_Distinct.ForDistinct(chunk,
+                           m_Geometry.Pixels(),
+                           first,
+                           frames,
+                           m_ParallelFor,
+                           [&](const TPixel * distinct, std::size_t place, std::size_t count) {
+                             this->AddDistinct(distinct, place, count);
+                           });
   }
-  else if (pass == 2 && m_FrameSums)
+}
+
+template <typename TPixel>
+void
+RefinedMethod<TPixel>::AddDistinct(const TPixel * frames, std::size_t place, std::size_t count)
+{
+  if (m_InPass.GetPass() == 1)
+  {
+    m_FrameSums->AddFrames(frames, place, count, m_ParallelFor);
+  }
+  else
   {
     ForBlocks(m_Geometry.Pixels(), m_ParallelFor, [&](std::size_t begin, std::size_t end) {
-      m_Projections.AddFrames(m_Series->basis, chunk, first, frames, begin, end);
+      m_Projections.AddFrames(m_Series->basis, frames, place, count, begin, end);
     });
-    m_Sample.AddFrames(chunk, first, frames, m_Scene->frame.mean, m_ParallelFor);
+    m_Sample.AddFrames(frames, place, count, m_Scene->frame.mean, m_ParallelFor);
   }
 }
 
@@ -167,7 +185,7 @@ RefinedMethod<TPixel>::MergeSums(std::istream & in)
   {
     ProjectionSums others(pixels, m_Series->basis.Size());
     others.Restore(in);
-    NoiseSample sample(m_Geometry, m_Frames);
+    NoiseSample sample(m_Geometry, m_Distinct.Count());
     sample.Restore(in);
     m_Projections.Merge(others);
     m_Sample.Merge(sample);
@@ -183,12 +201,13 @@ RefinedMethod<TPixel>::FingerprintOfPass() const
   const std::size_t sizes[2] = { m_Geometry.width, m_FrameSums ? 1U : 0U };
   fingerprint.Add(sizes, 2);
   fingerprint.Add(m_UserMask.data(), m_UserMask.size());
+  fingerprint.Add(m_Distinct.Places().data(), m_Distinct.Given());
   fingerprint.Add(m_Scene->mean.data(), m_Scene->mean.size());
   fingerprint.Add(m_Scene->variance.data(), m_Scene->variance.size());
   fingerprint.Add(m_Scene->pixelUse.data(), m_Scene->pixelUse.size());
   for (std::size_t j = 0; m_Series && j < m_Series->basis.Size(); ++j)
   {
-    for (std::size_t t = 0; t < m_Frames; ++t)
+    for (std::size_t t = 0; t < m_Distinct.Count(); ++t)
     {
       const double rounded = m_Series->basis.Rounded(t, j);
       fingerprint.Add(&rounded, 1);
@@ -233,7 +252,8 @@ RefinedMethod<TPixel>::EndMoments()
   std::vector<double>       mean(pixels);
   std::vector<double>       variance(pixels);
   std::vector<std::uint8_t> valid(pixels);
-  const StackSummary        summary = MakeStackMaps<TPixel>(
+  m_Distinct = m_Moments.FindDistinct();
+  const StackSummary summary = MakeStackMaps<TPixel>(
     m_Moments.Take(), m_Settings.codes, m_ParallelFor, mean.data(), variance.data(), valid.data());
   m_Scene = std::make_unique<const StillScene>(MakeStillScene(summary,
                                                               std::move(mean),
@@ -241,8 +261,8 @@ RefinedMethod<TPixel>::EndMoments()
                                                               std::move(valid),
                                                               m_UserMask,
                                                               m_Geometry,
-                                                              m_Frames,
-                                                              m_Moments.GetFrameMeans(),
+                                                              m_Distinct.Count(),
+                                                              m_Distinct.OfDistinct(m_Moments.GetFrameMeans()),
                                                               m_ParallelFor));
   if (m_Scene->obstacle)
   {
@@ -263,7 +283,7 @@ RefinedMethod<TPixel>::EndFrameSums()
   m_Series.emplace(FindSceneSeries(
     *m_FrameSums, m_Settings.rollingShutter, knownOffsetDn, BlackLevel(m_Settings, *m_Scene, std::nullopt)));
   m_Projections = ProjectionSums(m_Geometry.Pixels(), m_Series->basis.Size(), m_ParallelFor);
-  m_Sample = NoiseSample(m_Geometry, m_Frames);
+  m_Sample = NoiseSample(m_Geometry, m_Distinct.Count());
 }
 
 template <typename TPixel>
@@ -298,6 +318,7 @@ RefinedMethod<TPixel>::MakeReport()
                                               m_CorrectedVariance,
                                               BlackLevel(m_Settings, *m_Scene, m_Series),
                                               m_Correlation });
+  ReportAllFrames(m_Report, m_Distinct);
 }
 
 template class RefinedMethod<unsigned char>;

@@ -24,6 +24,7 @@
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/correlation/NoiseCorrelation.h"
 #include "sensornoise/correlation/NoiseSample.h"
+#include "sensornoise/moments/DistinctFrames.h"
 #include "sensornoise/moments/PassFrames.h"
 #include "sensornoise/moments/StackMoments.h"
 #include "sensornoise/pixels/ProjectionSums.h"
@@ -54,12 +55,18 @@ namespace sensornoise
  * offset. Pass 3 projects every pixel's time series on these few series; what is left is sensor noise, whose
  * regression on the mean gives gain and intercept. Usage as PublishedMethod.
  *
+ * Frames that are equal, bit by bit, are counted once: the result is that of the distinct frames, and the report's
+ series
+ * repeat the values of a frame's original.
+ *
  * Same bits for any number of threads and any chunks. Memory: about 130 bytes a pixel and 8 more a series (4 to 20), 20
  * kB a frame. A stack that cannot be measured (NothingToMeasure) ends in a report whose quantities are `failed`, with a
  * warning that says why; wrong use throws std::invalid_argument. May be moved, also between and within passes.
  *
  * Several processes, each with a part of the frames, get the whole's report if they share the sums of every pass: the
  * whole's bits with integer pixels; with floating point the same bits in all of them, equal to the whole's to rounding.
+ * Equal frames must be read by one process, or by one that has merged the other's sums before: where two have counted
+ * the same frame, MergeSums() throws and names both.
    \code
    RefinedMethod<unsigned short> method(settings, geometry, frames); // alike in every process
    for (unsigned int pass = 0; pass < method.NumberOfPasses; ++pass)
@@ -102,7 +109,7 @@ public:
   SaveSums(std::ostream & out) const;
 
   /** Adds the sums that another object, with the same arguments, saved in the same pass. Throws std::runtime_error, and
-   * changes nothing, if the stream is no such sums, or holds a frame that is here, too. */
+   * changes nothing, if the stream is no such sums, or holds a frame that is here, too, or equals one that is. */
   void
   MergeSums(std::istream & in);
 
@@ -139,6 +146,9 @@ public:
   }
 
 private:
+  /** Adds \a count of the distinct frames, the first of which has the given place among them, in pass 2 or 3. */
+  void
+  AddDistinct(const TPixel * frames, std::size_t place, std::size_t count);
   /** Of all that the sums of the current pass depend on beside the frames. */
   std::uint64_t
   FingerprintOfPass() const;
@@ -160,6 +170,7 @@ private:
 
   // The sums of the passes, and what each pass found. The scene stays where it is: FrameSums points to its frame.
   StackMoments<TPixel>                  m_Moments;
+  DistinctFrames                        m_Distinct;
   std::unique_ptr<const StillScene>     m_Scene;
   std::unique_ptr<FrameSums>            m_FrameSums; // null: the stack cannot be measured
   std::optional<const SceneSeries>      m_Series;

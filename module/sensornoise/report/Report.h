@@ -116,6 +116,7 @@ struct Report
   std::vector<std::pair<std::string, SettingValue>> settings; ///< every parameter as used
 
   std::size_t           frames{ 0 };
+  std::size_t           framesDistinct{ 0 }; ///< equal frames are counted once: what all but the series is made of
   std::size_t           width{ 0 };
   std::size_t           height{ 0 };
   std::string           channel{ "mono" };
@@ -152,7 +153,7 @@ struct Report
   Quantity vibrationSdY{ Quantity::Without(EstimateStatus::Failed, "pixel") };
   Quantity vibrationCovariance{ Quantity::Without(EstimateStatus::Failed, "pixel^2") };
 
-  std::vector<double>                flicker;     ///< gamma_t of every frame [1]
+  std::vector<double>                flicker;     ///< gamma_t of every frame [1]; of equal ones the same
   std::vector<std::vector<double>>   flickerRows; ///< gamma_t(y): frame by frame; empty: null in JSON
   std::vector<std::array<double, 2>> motion;      ///< (alpha_t, beta_t) [pixel]; empty: the method has none
 

@@ -108,7 +108,8 @@ WriteBaseline(JsonWriter & json, const char * name, const std::optional<Report::
 void
 WriteStack(JsonWriter & json, const Report & report)
 {
-  json.Member("frames", report.frames).Member("width", report.width).Member("height", report.height);
+  json.Member("frames", report.frames).Member("frames_distinct", report.framesDistinct);
+  json.Member("width", report.width).Member("height", report.height);
   json.Member("channel", report.channel);
   json.Member("bit_depth", report.bitDepth).Member("bit_depth_source", report.bitDepthSource);
   json.Member("quantisation_step", report.quantisationStepDn);

@@ -100,7 +100,9 @@ DescribeCodes(const Report & report)
 std::string
 MakeTable(const Report & report)
 {
-  std::string table = Format("%zu frames of %zu x %zu pixels", report.frames, report.width, report.height);
+  std::string table = Format("%zu frames", report.frames);
+  table += report.framesDistinct < report.frames ? Format(" (%zu different ones)", report.framesDistinct) : "";
+  table += Format(" of %zu x %zu pixels", report.width, report.height);
   table += DescribeCodes(report) + "\n";
   table += Format("%zu of %zu pixels used (%.1f %%), %zu clipped, %zu not finite\n",
                   report.pixels.used,

@@ -21,6 +21,7 @@
 #include "sensornoise/base/PixelUse.h"
 #include "sensornoise/base/Text.h"
 #include "sensornoise/moments/CodeRange.h"
+#include "sensornoise/moments/StackRequirements.h"
 
 #include <algorithm>
 #include <string>
@@ -51,6 +52,7 @@ DescribeStack(Report &                          report,
               const std::vector<std::uint8_t> & pixelUse)
 {
   report.frames = frames;
+  report.framesDistinct = frames;
   report.width = geometry.width;
   report.height = geometry.height;
 
@@ -77,10 +79,11 @@ void
 WarnOfStack(Report & report, std::size_t frames, const StackSummary & summary)
 {
   const CodeRange & codes = summary.codes;
-  if (frames < 20)
+  if (frames >= MinimumFrames && frames < 20)
   {
     report.Warn("few-frames",
-                "the stack has " + std::to_string(frames) + " frames: indicative only; 20 or more are usable");
+                "the stack has " + std::to_string(frames) +
+                  " different frames: indicative only; 20 or more are usable");
   }
   if (codes.clipSource.find("pile-up") != std::string::npos)
   {

@@ -18,6 +18,7 @@
 #include "sensornoise/scene/StillScene.h"
 
 #include "sensornoise/base/PixelUse.h"
+#include "sensornoise/moments/StackRequirements.h"
 #include "sensornoise/scene/CrossedRegion.h"
 #include "sensornoise/scene/UsablePixels.h"
 
@@ -71,6 +72,7 @@ MakeStillScene(const StackSummary &              summary,
   scene.valid = std::move(valid);
   try
   {
+    RequireDistinctFrames(frames);
     scene.model = FitProvisionalModel(scene.frame);
     if (LeaveOutCrossed(scene))
     {

@@ -51,7 +51,8 @@ struct StillScene
   std::optional<NothingToMeasure> obstacle;
 };
 
-/** Makes the scene of the maps of a stack of \a frames frames: \a mean, \a variance and \a valid as of MakeStackMaps().
+/** Makes the scene of the maps of a stack of \a frames distinct frames: \a mean, \a variance and \a valid as of
+ * MakeStackMaps().
  * \a userMask, if not empty, has a nonzero value at the pixels to be used; \a frameMeans are the frames' means [DN]. */
 SensorNoise_EXPORT StillScene
 MakeStillScene(const StackSummary &              summary,

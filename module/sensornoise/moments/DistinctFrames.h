@@ -1,0 +1,132 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_moments_DistinctFrames_h
+#define sensornoise_moments_DistinctFrames_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/moments/ChosenFrames.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** \class DistinctFrames
+ * \brief Which frames of a stack are counted: of those that are equal the first one alone, its original.
+ *
+ * What is computed of the stack knows the distinct frames only, by their place among each other. */
+class SensorNoise_EXPORT DistinctFrames
+{
+public:
+  /** \a originals holds, for each frame, the first frame that it equals: itself, or an earlier one. */
+  explicit DistinctFrames(std::vector<std::size_t> originals = {});
+
+  /** Frames of the stack as given. */
+  std::size_t
+  Given() const
+  {
+    return m_Originals.size();
+  }
+  /** Frames that are counted. */
+  std::size_t
+  Count() const
+  {
+    return m_Count;
+  }
+  std::size_t
+  OriginalOf(std::size_t t) const
+  {
+    return m_Originals[t];
+  }
+  /** Of frame \a t's original, from 0. */
+  std::size_t
+  PlaceOf(std::size_t t) const
+  {
+    return m_Places[t];
+  }
+  const std::vector<std::size_t> &
+  Places() const
+  {
+    return m_Places;
+  }
+
+  /** Of values of all frames those of the distinct ones. */
+  template <typename TValue>
+  std::vector<TValue>
+  OfDistinct(const std::vector<TValue> & ofGiven) const
+  {
+    std::vector<TValue> values;
+    for (std::size_t t = 0; t < m_Originals.size(); ++t)
+    {
+      if (m_Originals[t] == t)
+      {
+        values.push_back(ofGiven[t]);
+      }
+    }
+    return values;
+  }
+
+  /** For every frame its original's value, of those of the distinct frames. */
+  template <typename TValue>
+  std::vector<TValue>
+  OfGiven(const std::vector<TValue> & ofDistinct) const
+  {
+    std::vector<TValue> values;
+    for (const std::size_t place : m_Places)
+    {
+      values.push_back(ofDistinct[place]);
+    }
+    return values;
+  }
+
+  /** Calls function(frames, place of the first, number) with the distinct ones of the frames first ... first + count -
+   * 1, one after the other, see ForChosenFrames(). */
+  template <typename TPixel, typename TFunction>
+  void
+  ForDistinct(const TPixel *      frames,
+              std::size_t         pixels,
+              std::size_t         first,
+              std::size_t         count,
+              const ParallelFor & parallelFor,
+              TFunction           function) const
+  {
+    std::vector<std::uint8_t> isDistinct(count);
+    std::size_t               place = m_Count;
+    for (std::size_t k = count; k > 0; --k)
+    {
+      isDistinct[k - 1] = m_Originals[first + k - 1] == first + k - 1 ? 1 : 0;
+      place = isDistinct[k - 1] != 0 ? m_Places[first + k - 1] : place;
+    }
+    ForChosenFrames(frames, pixels, isDistinct, parallelFor, [&](const TPixel * chosen, std::size_t number) {
+      function(chosen, place, number);
+      place += number;
+    });
+  }
+
+private:
+  std::vector<std::size_t> m_Originals;
+  std::vector<std::size_t> m_Places;
+  std::size_t              m_Count{ 0 };
+};
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,84 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/published/PublishedMethod.h"
+#include "sensornoise/simulation/Scenes.h"
+#include "helpers/PublishedTestHelper.h"
+#include "helpers/RepeatedTestHelper.h"
+
+#include <cstddef>
+#include <gtest/gtest.h>
+#include <string>
+
+// What is equal is counted once: the result is, bit by bit, that of the distinct frames.
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+
+namespace
+{
+template <typename TPixel>
+void
+ExpectResultOfDistinct(const PublishedMethod<TPixel> & method,
+                       const PublishedMethod<TPixel> & distinct,
+                       const Shown &                   shown)
+{
+  ExpectReportOfDistinct(method.GetReport(), distinct.GetReport(), shown);
+  EXPECT_TRUE(HaveSameBits(method.GetMean(), distinct.GetMean()));
+  EXPECT_TRUE(HaveSameBits(method.GetVariance(), distinct.GetVariance()));
+  EXPECT_TRUE(HaveSameBits(method.GetCorrectedVariance(), distinct.GetCorrectedVariance()));
+  EXPECT_TRUE(HaveSameBits(method.GetPixelUse(), distinct.GetPixelUse()));
+}
+} // namespace
+
+TEST(SensorNoisePublishedRepeatedFrames, AnyWayGiveTheResultOfTheDistinctOnes)
+{
+  const auto & stack = FlickeringStack();
+  const auto   expected = Measure(stack);
+  ASSERT_EQ(expected.GetReport().gain.status, EstimateStatus::Identified);
+  for (const auto & [name, shown] : WaysToRepeat(stack.frames))
+  {
+    SCOPED_TRACE(name);
+    const auto repeated = Show(stack, shown);
+    ExpectResultOfDistinct(Measure(repeated), expected, shown);
+    ExpectResultOfDistinct(Measure(repeated, {}, 7, {}, Threads(3)), expected, shown);
+  }
+}
+
+TEST(SensorNoisePublishedRepeatedFrames, FlickerOfRowsIsThatOfTheDistinctOnes)
+{
+  SimulationSettings simulation = SettingsOf(0.05, 30);
+  simulation.rollingShutterPeriodRows = 40.0;
+  const auto stack = Simulate<float>(simulation, 64, 56, MakeBarsScene(64, 56)); // the flicker of each row is known
+  PublishedSettings settings;
+  settings.rollingShutter = RollingShutter::Fixed;
+  settings.sigmaRows = 8.0;
+  const auto  expected = Measure(stack, settings);
+  const Shown shown = WaysToRepeat(stack.frames)[1].second;
+  ASSERT_FALSE(expected.GetReport().flickerRows.empty());
+  ExpectResultOfDistinct(Measure(Show(stack, shown), settings), expected, shown);
+}
+
+TEST(SensorNoisePublishedRepeatedFrames, TooFewDistinctOnesAreRefused)
+{
+  const Report report = Measure(Show(FlickeringStack(), Shown{ 0, 1, 2, 3, 0, 1, 2, 3 })).GetReport();
+  EXPECT_FALSE(report.IsUsable());
+  EXPECT_EQ(report.framesDistinct, 4U);
+  EXPECT_TRUE(HasWarning(report, "repeated-frames"));
+  EXPECT_EQ(report.warnings.back().message,
+            "equal frames are counted once, and only 4 different frames are left; expected at least 5");
+}

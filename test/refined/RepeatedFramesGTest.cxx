@@ -1,0 +1,235 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/refined/RefinedMethod.h"
+#include "helpers/MergeTestHelper.h"
+#include "helpers/RepeatedTestHelper.h"
+
+#include <cmath>
+#include <cstddef>
+#include <gtest/gtest.h>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+// What is equal is counted once: the result is, bit by bit, that of the distinct frames.
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+using namespace sensornoise::test::merge;
+
+namespace
+{
+using Codes = unsigned short;
+
+template <typename TPixel>
+void
+ExpectResultOfDistinct(const RefinedMethod<TPixel> & method,
+                       const RefinedMethod<TPixel> & distinct,
+                       const Shown &                 shown)
+{
+  ExpectReportOfDistinct(method.GetReport(), distinct.GetReport(), shown);
+  EXPECT_TRUE(HaveSameBits(method.GetMean(), distinct.GetMean()));
+  EXPECT_TRUE(HaveSameBits(method.GetVariance(), distinct.GetVariance()));
+  EXPECT_TRUE(HaveSameBits(method.GetCorrectedVariance(), distinct.GetCorrectedVariance()));
+  EXPECT_TRUE(HaveSameBits(method.GetPixelUse(), distinct.GetPixelUse()));
+}
+
+/** The small stack, each frame twice. */
+Stack<Codes>
+Doubled(Shown & shown)
+{
+  shown = WaysToRepeat(Frames).front().second;
+  return Show(SmallStack<Codes>(), shown);
+}
+
+std::string
+SumsOf(const RefinedMethod<Codes> & method)
+{
+  std::ostringstream out;
+  method.SaveSums(out);
+  return out.str();
+}
+
+void
+MergeText(RefinedMethod<Codes> & method, const std::string & sums)
+{
+  std::istringstream in(sums);
+  method.MergeSums(in);
+}
+
+/** Two processes; \a isFirst(t): the first one reads frame t. */
+template <typename TIsFirst>
+void
+RunPass(RefinedMethod<Codes> & one, RefinedMethod<Codes> & two, const Stack<Codes> & stack, TIsFirst isFirst)
+{
+  for (std::size_t t = 0; t < stack.frames; ++t)
+  {
+    isFirst(t) ? one.AddFrames(stack.Frame(t), 1) : one.SkipFrames(1);
+    isFirst(t) ? two.SkipFrames(1) : two.AddFrames(stack.Frame(t), 1);
+  }
+  const std::string sums = SumsOf(one);
+  MergeText(one, SumsOf(two));
+  MergeText(two, sums);
+  one.EndPass();
+  two.EndPass();
+}
+} // namespace
+
+template <typename TPixel>
+class SensorNoiseRepeatedFramesOf : public ::testing::Test
+{};
+using PixelTypes = ::testing::Types<unsigned short, float>;
+TYPED_TEST_SUITE(SensorNoiseRepeatedFramesOf, PixelTypes);
+
+TYPED_TEST(SensorNoiseRepeatedFramesOf, AnyWayGiveTheResultOfTheDistinctOnes)
+{
+  Stack<TypeParam> stack = SmallStack<TypeParam>();
+  if (std::numeric_limits<TypeParam>::has_quiet_NaN)
+  {
+    for (std::size_t t = 0; t < Frames; ++t) // NaN are bytes, which may be equal
+    {
+      stack.pixels[t * Width * Height + 1000] = std::numeric_limits<TypeParam>::quiet_NaN();
+    }
+  }
+  const auto expected = Measure(stack);
+  ASSERT_EQ(expected.GetReport().gain.status, EstimateStatus::Identified);
+  for (const auto & [name, shown] : WaysToRepeat(Frames))
+  {
+    SCOPED_TRACE(name);
+    ExpectResultOfDistinct(Measure(Show(stack, shown)), expected, shown);
+  }
+}
+
+TYPED_TEST(SensorNoiseRepeatedFramesOf, AnyChunksAndThreadsGiveTheSameBits)
+{
+  const auto & stack = SmallStack<TypeParam>();
+  const auto   expected = Measure(stack);
+  const Shown  shown = WaysToRepeat(Frames)[1].second;
+  const auto   repeated = Show(stack, shown);
+  for (const std::size_t chunk : { 1, 2, 7 })
+  {
+    ExpectResultOfDistinct(Measure(repeated, WithCodes(), chunk, Threads(chunk)), expected, shown);
+  }
+}
+
+TEST(SensorNoiseRepeatedFrames, AreNamedInOneWarning)
+{
+  Shown      shown;
+  const auto twice = Measure(Doubled(shown));
+  EXPECT_EQ(
+    twice.GetReport().warnings.front().message,
+    "24 of 48 frames are equal to an earlier one (frame 1 equals frame 0, frame 3 equals frame 2, ...; the first "
+    "is 0): each is counted once");
+  const auto last = Measure(Show(SmallStack<Codes>(), WaysToRepeat(Frames)[2].second));
+  EXPECT_EQ(
+    last.GetReport().warnings.front().message,
+    "1 of 25 frames is equal to an earlier one (frame 24 equals frame 0; the first is 0): each is counted once");
+  EXPECT_FALSE(HasWarning(Measure(SmallStack<Codes>()).GetReport(), "repeated-frames"));
+}
+
+TEST(SensorNoiseRepeatedFrames, ThatOneProcessReadsAreCountedOnceByAll)
+{
+  Shown      shown;
+  const auto stack = Doubled(shown);
+  const auto whole = Measure(stack);
+  for (const std::size_t run : { 2, 16, 24 })
+  {
+    auto one = MethodOf(stack);
+    auto two = MethodOf(stack);
+    // In pass 1 equal frames go to one process; later any process may read any of them.
+    RunPass(one, two, stack, [run](std::size_t t) { return t / run % 2 == 0; });
+    RunPass(one, two, stack, [](std::size_t t) { return t % 2 == 0; });
+    RunPass(one, two, stack, [](std::size_t t) { return t % 3 == 0; });
+    EXPECT_EQ(ToJson(one.GetReport()), ToJson(whole.GetReport()));
+    EXPECT_EQ(ToJson(two.GetReport()), ToJson(whole.GetReport()));
+    EXPECT_TRUE(HaveSameBits(one.GetCorrectedVariance(), whole.GetCorrectedVariance()));
+  }
+}
+
+TEST(SensorNoiseRepeatedFrames, ThatTwoProcessesCountedAreRefusedByNameAndChangeNothing)
+{
+  Shown      shown;
+  const auto stack = Doubled(shown);
+  auto       one = MethodOf(stack);
+  auto       two = MethodOf(stack);
+  AddPart(one, stack, 0, 2, [](std::size_t t, std::size_t) -> std::size_t { return t < 7 ? 0 : 1; });
+  AddPart(two, stack, 1, 2, [](std::size_t t, std::size_t) -> std::size_t { return t < 7 ? 0 : 1; });
+  const std::string before = SumsOf(one);
+  try
+  {
+    MergeText(one, SumsOf(two));
+    FAIL();
+  }
+  catch (const std::runtime_error & error)
+  {
+    EXPECT_NE(std::string(error.what()).find("frame 7 equals frame 6"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(SumsOf(one), before);
+  EXPECT_THROW(MergeText(two, before), std::runtime_error);
+}
+
+TEST(SensorNoiseRepeatedFrames, OfSumsThatWereMergedBeforeAreNotCountedAgain)
+{
+  // The second process reads the later half first, which shows the same frames: the first one sees that.
+  Shown shown(2 * Frames);
+  for (std::size_t t = 0; t < shown.size(); ++t)
+  {
+    shown[t] = t % Frames;
+  }
+  const auto stack = Show(SmallStack<Codes>(), shown);
+  auto       one = MethodOf(stack);
+  auto       two = MethodOf(stack);
+  two.SkipFrames(Frames);
+  two.AddFrames(stack.Frame(Frames), Frames);
+  MergeText(one, SumsOf(two));
+  one.AddFrames(stack.Frame(0), Frames);
+  one.EndPass();
+  for (unsigned int pass = 1; pass < one.NumberOfPasses; ++pass)
+  {
+    one.AddFrames(stack.Frame(0), stack.frames);
+    one.EndPass();
+  }
+  ExpectResultOfDistinct(one, Measure(SmallStack<Codes>()), shown);
+}
+
+TEST(SensorNoiseRepeatedFrames, TooFewDistinctOnesAreRefused)
+{
+  for (const std::size_t distinct : { 1, 2, 4 })
+  {
+    Shown shown(40);
+    for (std::size_t t = 0; t < shown.size(); ++t)
+    {
+      shown[t] = t % distinct;
+    }
+    const Report report = Measure(Show(SmallStack<Codes>(), shown)).GetReport();
+    EXPECT_FALSE(report.IsUsable());
+    EXPECT_EQ(report.frames, 40U);
+    EXPECT_EQ(report.framesDistinct, distinct);
+    EXPECT_TRUE(HasWarning(report, "repeated-frames"));
+    EXPECT_EQ(report.warnings.back().code, "nothing-to-measure");
+    const std::string found = "only " + std::to_string(distinct) + (distinct == 1 ? " frame is" : " different frames");
+    EXPECT_NE(report.warnings.back().message.find(found), std::string::npos) << report.warnings.back().message;
+    EXPECT_NE(report.warnings.back().message.find("expected at least 5"), std::string::npos);
+  }
+  // Five are measured, as five are without a repetition.
+  Shown shown{ 0, 1, 2, 3, 4, 0, 1, 2, 3, 4 };
+  ExpectResultOfDistinct(
+    Measure(Show(SmallStack<Codes>(), shown)), Measure(Show(SmallStack<Codes>(), Shown{ 0, 1, 2, 3, 4 })), shown);
+}
