@@ -215,8 +215,9 @@ TYPED_TEST(SensorNoiseBinaryStream, OtherSizesAndVersionsAreRefused)
   EXPECT_TRUE(Has(RestoreComplaint(sums, Saved(Make<TypeParam>(38))), "found 38 pixels, expected 37"));
   EXPECT_THROW(sums.Merge(Make<TypeParam>(38)), std::invalid_argument);
   std::string other = Saved(sums);
-  other[32] = 2; // the lowest byte of the version comes first
-  EXPECT_TRUE(Has(RestoreComplaint(sums, other), "found 2, expected 1"));
+  other[32] = static_cast<char>(SumsVersion + 1); // the lowest byte of the version comes first
+  EXPECT_TRUE(Has(RestoreComplaint(sums, other),
+                  "found " + std::to_string(SumsVersion + 1) + ", expected " + std::to_string(SumsVersion)));
 }
 
 TEST(SensorNoiseBinaryStreamOfNumbers, StreamThatTakesNothingIsAnError)

@@ -119,7 +119,12 @@ TEST(SensorNoisePublishedMethod, StacksWithoutInformationFailWithAReason)
   const auto clipped = Measure(ConstantStack<unsigned char>(255));
   ExpectNothingMeasured(clipped.GetReport(), "nothing-to-measure");
   EXPECT_EQ(clipped.GetReport().pixels.clipped, 320u);
-  const auto constant = Measure(ConstantStack<Codes>(700));
+  auto still = ConstantStack<Codes>(700);
+  for (std::size_t t = 0; t < still.frames; ++t)
+  {
+    still.pixels[t * 20 * 16] = static_cast<Codes>(700 + t); // else they would be one frame
+  }
+  const auto constant = Measure(still);
   ExpectNothingMeasured(constant.GetReport(), "nothing-to-measure");
   EXPECT_EQ(constant.GetPixelUse()[30], static_cast<std::uint8_t>(PixelUse::Constant));
   EXPECT_EQ(constant.GetPixelUse()[5], static_cast<std::uint8_t>(PixelUse::Border));
@@ -131,7 +136,7 @@ TEST(SensorNoisePublishedMethod, StacksWithoutInformationFailWithAReason)
   const std::size_t pixels = repeated.width * repeated.height;
   for (std::size_t i = pixels; i < repeated.pixels.size(); ++i)
   {
-    repeated.pixels[i] = repeated.pixels[i % pixels];
+    repeated.pixels[i] = i % pixels == 0 ? static_cast<Codes>(i / pixels) : repeated.pixels[i % pixels];
   }
   ExpectNothingMeasured(Measure(repeated).GetReport(), "nothing-to-measure");
 }

@@ -181,8 +181,14 @@ TEST(SensorNoiseRefinedMethod, StacksWithoutInformationFailWithAReason)
   const auto clipped = Measure(constant(static_cast<unsigned char>(255)), {});
   ExpectNothingMeasured(clipped.GetReport());
   EXPECT_EQ(clipped.GetReport().pixels.clipped, 320u);
-  const auto still = Measure(constant(Codes{ 700 }), {});
+  auto frames = constant(Codes{ 700 });
+  for (std::size_t t = 0; t < frames.frames; ++t)
+  {
+    frames.pixels[t * 20 * 16] = static_cast<Codes>(700 + t); // else they would be one frame
+  }
+  const auto still = Measure(frames, {});
   ExpectNothingMeasured(still.GetReport());
+  EXPECT_EQ(still.GetReport().framesDistinct, frames.frames);
   EXPECT_EQ(still.GetPixelUse()[50], static_cast<std::uint8_t>(PixelUse::Constant));
   EXPECT_TRUE(still.GetCorrectedVariance().empty());
   const auto nan = Measure(constant(std::numeric_limits<float>::quiet_NaN()), {});

@@ -47,15 +47,21 @@ TEST_F(EstimateFailureTool, AConstantStackGivesNoEstimate)
 {
   for (const std::string name : { "s.mha", "s.nrrd", "s.tif" })
   {
-    GivesNoEstimate(Write(name, Make<StackType>({ { 32, 32, 20 } }, 700).GetPointer()),
-                    { "only 0 pixels", "expected at least" });
+    const auto stack = Make<StackType>({ { 32, 32, 20 } }, 700);
+    GivesNoEstimate(Write(name, stack.GetPointer()), { "counted once", "only 1 frame is left", "expected at least 5" });
+    for (unsigned short t = 0; t < 20; ++t)
+    {
+      stack->SetPixel({ { 0, 0, t } }, 700 + t); // a pixel at the border tells the frames apart
+    }
+    GivesNoEstimate(Write(name, stack.GetPointer()), { "only 0 pixels", "expected at least" });
   }
 }
 
 TEST_F(EstimateFailureTool, TheSameFrameTwelveTimesGivesNoEstimate)
 {
   const std::string name = WriteList<unsigned short>(MakeBurst(1), ".tif").front();
-  GivesNoEstimate(Joined(std::vector<std::string>(12, name)), { "only 0 pixels", "expected at least" });
+  GivesNoEstimate(Joined(std::vector<std::string>(12, name)),
+                  { "counted once", "only 1 frame is left", "expected at least 5" });
 }
 
 TEST_F(EstimateFailureTool, PixelsThatAreAllNaNGiveNoEstimate)
@@ -92,7 +98,7 @@ TEST_F(EstimateFailureTool, AReportWithoutAnEstimateIsWrittenWhole)
   Write("s.mha", Make<StackType>({ { 32, 32, 20 } }, 700).GetPointer());
   EXPECT_EQ(Run("s.mha --json r.json"), 3);
   EXPECT_EQ(nlohmann::json::parse(ReadText(Path("r.json")))["gain"]["status"], "failed");
-  EXPECT_NE(m_Output.find("20 frames of 32 x 32 pixels"), std::string::npos);
+  EXPECT_NE(m_Output.find("20 frames (1 different) of 32 x 32 pixels"), std::string::npos);
 }
 
 TEST_F(EstimateFailureTool, UnknownAndMalformedOptionsAreRefused)

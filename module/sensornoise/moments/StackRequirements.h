@@ -22,8 +22,11 @@
 
 #include "sensornoise/base/NothingToMeasure.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace sensornoise
 {
@@ -38,11 +41,12 @@ inline constexpr std::size_t MinimumFrames = 5;
 SensorNoise_EXPORT void
 RequireStack(const FrameGeometry & geometry, std::size_t frames, std::size_t maskPixels);
 
-/** Throws NothingToMeasure if fewer than MinimumFrames frames are left when equal ones are counted once. */
+/** Throws NothingToMeasure if fewer than MinimumFrames frames are left when equal ones are counted once; not where no
+ * pixel is \a valid: then that is the reason, and frames are equal because of it. */
 inline void
-RequireDistinctFrames(std::size_t distinct)
+RequireDistinctFrames(std::size_t distinct, const std::vector<std::uint8_t> & valid)
 {
-  if (distinct < MinimumFrames)
+  if (distinct < MinimumFrames && std::find(valid.begin(), valid.end(), std::uint8_t{ 1 }) != valid.end())
   {
     throw NothingToMeasure("equal frames are counted once, and only " + std::to_string(distinct) +
                            (distinct == 1 ? " frame is" : " different frames are") + " left; expected at least " +

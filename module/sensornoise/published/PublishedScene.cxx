@@ -87,7 +87,7 @@ FindSets(PublishedScene & scene, const PublishedSettings & settings, std::size_t
 {
   try
   {
-    RequireDistinctFrames(frames);
+    RequireDistinctFrames(frames, scene.valid);
     const IsoIntensitySetFinder finder(
       scene.mean.data(), scene.variance.data(), scene.kept.data(), scene.mean.size(), frames);
     scene.bright = finder.Find(settings.brightQuantile);

@@ -101,7 +101,7 @@ std::string
 MakeTable(const Report & report)
 {
   std::string table = Format("%zu frames", report.frames);
-  table += report.framesDistinct < report.frames ? Format(" (%zu different ones)", report.framesDistinct) : "";
+  table += report.framesDistinct < report.frames ? Format(" (%zu different)", report.framesDistinct) : "";
   table += Format(" of %zu x %zu pixels", report.width, report.height);
   table += DescribeCodes(report) + "\n";
   table += Format("%zu of %zu pixels used (%.1f %%), %zu clipped, %zu not finite\n",

@@ -72,7 +72,7 @@ MakeStillScene(const StackSummary &              summary,
   scene.valid = std::move(valid);
   try
   {
-    RequireDistinctFrames(frames);
+    RequireDistinctFrames(frames, scene.valid);
     scene.model = FitProvisionalModel(scene.frame);
     if (LeaveOutCrossed(scene))
     {
