@@ -59,6 +59,8 @@ constexpr int    MostTimeLags = 24;
 constexpr double LargestCrosstalk = 0.06;
 /** Evidence that a rarer shape needs, as a difference of chi-squares: 2 ln 20. */
 constexpr double EvidenceOfRareShape = 2.0;
+/** Probability from which what neighbours share, with the opposite sign, is taken for the rounding of blocks [1]. */
+constexpr double RoundingProbability = 0.05;
 /** Excess kurtosis that no linear filter leaves [1]. Set by hand: the correction of defects at 3 standard deviations
  * makes -0.06 to -0.08 of the noise and 0.1 to 0.25 of four neighbours in turn, white and filtered noise 0.01. */
 constexpr double LargestExcess = 0.04;
@@ -135,7 +137,6 @@ public:
     {
       m_Found.kind = NoiseKind::NotLinear;
     }
-    if (getenv("EXPLORE")) { fprintf(stderr, "kurt"); for (auto & k : m_Found.kurtosis) fprintf(stderr, " %.4f+-%.4f", k.value, k.standardError); fprintf(stderr, "\n"); }
     return m_Found;
   }
 
@@ -373,8 +374,8 @@ private:
     const int                      reach = this->FindReach();
     const std::vector<std::size_t> lags = this->Ring(1, reach);
     this->FindCoefficients();
-    const Eigen::VectorXd          errors = this->ErrorsInBins(lags);
-    const JackknifeEstimate        fits = Jackknife(m_Tiles, [&](const TileSums & sums) {
+    const Eigen::VectorXd   errors = this->ErrorsInBins(lags);
+    const JackknifeEstimate fits = Jackknife(m_Tiles, [&](const TileSums & sums) {
       const auto shapes = FitShapes(PredictShapes(sums.lags[0], m_CodesDn2), this->SharedInBins(sums, lags), errors);
       Eigen::VectorXd figures(2 * NumberOfShapes);
       for (std::size_t k = 0; k < NumberOfShapes; ++k)
@@ -397,16 +398,23 @@ private:
     const double variance = weightOf(ShapeOfShared::Variance, 0.0);
     const double light = mayBeCharge ? weightOf(ShapeOfShared::Light, 0.0) : 0.0;
     const double square = mayBeCharge ? weightOf(ShapeOfShared::Square, EvidenceOfRareShape) : 0.0;
-    const double sum = std::max(1e-300, variance + light + square);
+    const double constant = weightOf(ShapeOfShared::Constant, EvidenceOfRareShape);
+    const double sum = std::max(1e-300, variance + light + square + constant);
     m_Found.ofVariance = { NumberOf(fits, static_cast<Eigen::Index>(ShapeOfShared::Variance)), variance / sum };
     m_Found.ofLight = { NumberOf(fits, static_cast<Eigen::Index>(ShapeOfShared::Light)), light / sum };
     m_Found.ofSquare = { NumberOf(fits, static_cast<Eigen::Index>(ShapeOfShared::Square)), square / sum };
-    if (getenv("EXPLORE")) { TileSums all; for (auto & t : m_Tiles) all += t; auto sh = this->SharedInBins(all, lags); auto pr = PredictShapes(all.lags[0], m_CodesDn2); fprintf(stderr, "reach %d shared", reach); for (int b = 0; b < 4; ++b) fprintf(stderr, " %.4f+-%.4f(V %.3f z %.3f zz %.3f)", sh(b), errors(b), pr(b,0), pr(b,1), pr(b,2)); for (int k = 0; k < 4; ++k) fprintf(stderr, " | %.4g chi2 %.2f", fits.value(k), fits.value(4+k)); fprintf(stderr, " P %.2f %.2f %.2f beyond %.4f\n", variance/sum, light/sum, square/sum, m_Found.beyondReach); }
-    if (m_Found.kind != NoiseKind::Temporal)
+    // A filter that sharpens takes in proportion to the variance; what blocks of pixels are rounded to does not.
+    const bool isRounding = m_Found.ofVariance.coefficient.value < 0.0 && constant > RoundingProbability * sum;
+    if (isRounding)
     {
-      m_Found.kind = 2.0 * square > sum          ? NoiseKind::BrighterFatter
-                     : mayBeCharge && reach == 1 ? NoiseKind::Crosstalk
-                                                 : NoiseKind::Filtered;
+      m_Found.kind = NoiseKind::NotLinear;
+    }
+    else if (m_Found.kind != NoiseKind::Temporal)
+    {
+      const bool isCharge = mayBeCharge && (reach == 1 || light > variance);
+      m_Found.kind = 2.0 * square > sum ? NoiseKind::BrighterFatter
+                     : isCharge         ? NoiseKind::Crosstalk
+                                        : NoiseKind::Filtered;
     }
   }
 
@@ -471,8 +479,7 @@ private:
       }
     }
     // A recursive filter begins with a frame that it has not filtered, for which the sum over lags does not hold.
-    const double first =
-      std::abs(m_Found.timeFactor.value - 1.0) / static_cast<double>(m_Residuals.GetTiles().frames);
+    const double first = std::abs(m_Found.timeFactor.value - 1.0) / static_cast<double>(m_Residuals.GetTiles().frames);
     m_Found.timeFactor.standardError = std::hypot(m_Found.timeFactor.standardError, first);
     this->FindCoefficients();
   }

@@ -55,6 +55,9 @@ Alternate(const float * values, std::size_t side, const Alternation & of, std::v
   }
 }
 
+/** Part of a pixel's variance that a series must have [1]. */
+constexpr float LeastNoise = 1e-3F;
+
 bool
 AllAreTaken(const float * weight, std::size_t side, const Alternation & of, std::size_t p)
 {
@@ -113,7 +116,9 @@ SumKurtosis(const NoiseResiduals & residuals, const ParallelFor & parallelFor)
       }
       for (std::size_t p = 0; p < size; ++p)
       {
-        if (squares[p] > 0.0F && AllAreTaken(residuals.WeightOf(i), tiles.side, Alternations[k], p))
+        // Of pixels that are copies of each other nothing is left but rounding.
+        const bool isNoise = squares[p] * residuals.WeightOf(i)[p] > LeastNoise * static_cast<float>(freedom);
+        if (isNoise && AllAreTaken(residuals.WeightOf(i), tiles.side, Alternations[k], p))
         {
           const double square = squares[p];
           sums[i].series[k] += 1.0;

@@ -85,8 +85,10 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   PixelNoise                noise{ fit(1.0), {} };
   const double              codesDn2 = CodesVariance(scene);
   std::vector<std::uint8_t> used = UsedPixels(noise.variance);
-  NoiseResiduals            residuals(
-    std::move(sample), series->basis.GetBasis(), { scene.frame.mean, used, ZeroOfLight(settings, scene, *series, blackDn) }, parallelFor);
+  NoiseResiduals            residuals(std::move(sample),
+                           series->basis.GetBasis(),
+                                      { scene.frame.mean, used, ZeroOfLight(settings, scene, *series, blackDn) },
+                           parallelFor);
   noise.correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
   const double sharedSquares = noise.correlation.SharedSquares();
   if (noise.correlation.IsShared() && sharedSquares > LeastSharedSquares)
