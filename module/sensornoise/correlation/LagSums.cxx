@@ -21,6 +21,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+#include <utility>
 #include <vector>
 
 namespace sensornoise
@@ -51,6 +53,33 @@ SumProducts(const float *        values,
   }
 }
 
+/** Weights of \a count places in a row that fall off at both ends, so that places two, three or four apart sum up
+ * alike wherever one begins: noise of binned or doubled pixels has such a period. */
+std::vector<double>
+PeriodlessWeights(std::size_t count)
+{
+  std::vector<double> weights{ 1.0 };
+  const auto          blur = [&weights](std::size_t length) {
+    std::vector<double> wider(weights.size() + length - 1, 0.0);
+    for (std::size_t k = 0; k < weights.size() * length; ++k)
+    {
+      wider[k / length + k % length] += weights[k / length] / static_cast<double>(length);
+    }
+    weights = std::move(wider);
+  };
+  for (const std::size_t period : { 2U, 3U, 4U })
+  {
+    if (weights.size() + period <= count)
+    {
+      blur(period);
+    }
+  }
+  blur(count + 1 - weights.size());
+  const double top = *std::max_element(weights.begin(), weights.end());
+  std::transform(weights.begin(), weights.end(), weights.begin(), [top](double weight) { return weight / top; });
+  return weights;
+}
+
 LagSums
 SumPairs(const NoiseResiduals & residuals, std::size_t tile, const Lag & lag, const std::vector<float> & products)
 {
@@ -59,20 +88,26 @@ SumPairs(const NoiseResiduals & residuals, std::size_t tile, const Lag & lag, co
   const float *        weight = residuals.WeightOf(tile);
   const std::uint8_t * bin = residuals.BinOf(tile);
   const double         inverseFreedom = 1.0 / residuals.GetFreedom();
+  const auto           ofColumns = PeriodlessWeights(static_cast<std::size_t>(side - std::abs(lag.x)));
+  const auto           ofRows = PeriodlessWeights(static_cast<std::size_t>(side - std::abs(lag.y)));
+  const int            firstX = std::max(0, -lag.x);
+  const int            firstY = std::max(0, -lag.y);
   LagSums              sums;
-  for (int y = std::max(0, -lag.y); y < side - std::max(0, lag.y); ++y)
+  for (int y = firstY; y < side - std::max(0, lag.y); ++y)
   {
-    for (int x = std::max(0, -lag.x); x < side - std::max(0, lag.x); ++x)
+    for (int x = firstX; x < side - std::max(0, lag.x); ++x)
     {
+      const double share =
+        ofRows[static_cast<std::size_t>(y - firstY)] * ofColumns[static_cast<std::size_t>(x - firstX)];
       const int    p = y * side + x;
       const int    q = p + lag.y * side + lag.x;
       const double w = static_cast<double>(weight[p]) * weight[q];
       if (w > 0.0)
       {
-        const double inverse = std::sqrt(w);
+        const double inverse = share * std::sqrt(w);
         const double z = 0.5 * (static_cast<double>(light[p]) + light[q]);
         PairSums &   sum = sums.bins[bin[p]];
-        sum.pairs += 1.0;
+        sum.pairs += share;
         sum.covariance += inverseFreedom * products[static_cast<std::size_t>(p)] * inverse;
         sum.constant += inverse;
         sum.light += z * inverse;

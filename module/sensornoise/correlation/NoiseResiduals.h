@@ -60,6 +60,11 @@ public:
   void
   Take(const std::vector<std::uint8_t> & take, const ParallelFor & parallelFor);
 
+  /** Leaves out the first frames, which may be other than the rest: a recursive filter begins with a frame that it has
+   * not filtered. The typical variance stays that of all frames. */
+  void
+  DropFirst(std::size_t frames, const ParallelFor & parallelFor);
+
   const SampleTiles &
   GetTiles() const
   {

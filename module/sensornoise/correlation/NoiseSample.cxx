@@ -80,6 +80,20 @@ SensorNoise_INSTANTIATE(double);
 #undef SensorNoise_INSTANTIATE
 
 void
+NoiseSample::DropFirst(std::size_t frames)
+{
+  const std::size_t size = m_Tiles.Pixels();
+  const std::size_t left = m_Tiles.frames - frames;
+  for (std::size_t i = 0; i < m_Tiles.origins.size(); ++i)
+  {
+    const auto from = m_Values.begin() + static_cast<std::ptrdiff_t>((i * m_Tiles.frames + frames) * size);
+    std::copy_n(from, left * size, m_Values.begin() + static_cast<std::ptrdiff_t>(i * left * size));
+  }
+  m_Tiles.frames = left;
+  m_Values.resize(m_Tiles.origins.size() * left * size);
+}
+
+void
 NoiseSample::Merge(const NoiseSample & other)
 {
   if (other.m_Values.size() != m_Values.size() || other.m_FramePixels != m_FramePixels)

@@ -51,6 +51,10 @@ public:
             const std::vector<double> & mean,
             const ParallelFor &         parallelFor = SerialFor);
 
+  /** Leaves out the first frames. */
+  void
+  DropFirst(std::size_t frames);
+
   /** Adds the sample of other frames of the same stack. */
   void
   Merge(const NoiseSample & other);

@@ -45,6 +45,9 @@ UsedPixels(const StaticVariance & variance)
   });
   return used;
 }
+/** Frames after which a recursive filter has forgotten how it began: its first frame is not filtered. */
+constexpr std::size_t FirstFrames = 8;
+
 /** Part of the levels' range above black up to which the darkest may lie to be the zero of the light [1]: flat fields
  * have none that is near it. */
 constexpr double DarkShare = 0.3;
@@ -96,6 +99,11 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
     noise.variance = fit(sharedSquares);
     used = UsedPixels(noise.variance);
     residuals.Take(used, parallelFor);
+    noise.correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
+  }
+  if (noise.correlation.kind == NoiseKind::Temporal)
+  {
+    residuals.DropFirst(std::min(FirstFrames, residuals.GetTiles().frames / 5), parallelFor);
     noise.correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
   }
   return noise;
