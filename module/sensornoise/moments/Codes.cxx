@@ -19,6 +19,7 @@
 
 #include "sensornoise/moments/CodeRange.h"
 #include "sensornoise/moments/CodeSettings.h"
+#include "sensornoise/moments/CodeSteps.h"
 #include "sensornoise/moments/PileUp.h"
 
 #include <algorithm>
@@ -106,6 +107,19 @@ CodePilesUp(const CodeHistogram & extremes, std::int32_t end, std::int32_t inwar
   return IsPileUp(extremes.Count(end), inside);
 }
 
+/** The same of companded codes, which are not evenly spaced: compared with the next \a occupied codes inside. */
+bool
+CompandedPileUp(const CodeHistogram & extremes, const std::vector<std::int32_t> & occupied, bool isHigh)
+{
+  std::uint32_t     inside = 0;
+  const std::size_t last = occupied.size() - 1;
+  for (std::size_t k = 1; k <= std::min<std::size_t>(LevelsInsidePileUp, last); ++k)
+  {
+    inside = std::max(inside, extremes.Count(occupied[isHigh ? last - k : k]));
+  }
+  return IsPileUp(extremes.Count(isHigh ? occupied.back() : occupied.front()), inside);
+}
+
 /** The codes that are an extreme of a pixel, ascending. */
 std::vector<std::int32_t>
 OccupiedCodes(const CodeHistogram & minima, const CodeHistogram & maxima)
@@ -116,6 +130,28 @@ OccupiedCodes(const CodeHistogram & minima, const CodeHistogram & maxima)
   std::sort(codes.begin(), codes.end());
   codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
   return codes;
+}
+
+std::vector<SeenCode>
+WithCounts(const std::vector<std::int32_t> & codes, const CodeHistogram & minima, const CodeHistogram & maxima)
+{
+  std::vector<SeenCode> seen(codes.size());
+  std::transform(codes.begin(), codes.end(), seen.begin(), [&](std::int32_t code) {
+    return SeenCode{ code, minima.Count(code) + maxima.Count(code) };
+  });
+  return seen;
+}
+
+/** What all distances between the codes are multiples of [DN]. */
+double
+CommonDivisor(const std::vector<std::int32_t> & codes)
+{
+  std::int32_t divisor = 0;
+  for (const std::int32_t code : codes)
+  {
+    divisor = std::gcd(divisor, code - codes.front());
+  }
+  return std::max(divisor, 1);
 }
 
 /** Sets the bit depth, given or found, and returns where the codes end [DN]. */
@@ -145,37 +181,49 @@ SetBitDepth(std::int32_t highest, double step, const CodeSettings & settings, Co
 /** The extremes of the pixels, and what tells whether they may be trusted, see FindCodes(). */
 struct Extremes
 {
-  const CodeHistogram & minima;
-  const CodeHistogram & maxima;
-  std::int32_t          lowest;
-  std::int32_t          highest;
-  double                typicalVarianceDn2;
-  const ExtremeDepths & depths;
+  const CodeHistogram &     minima;
+  const CodeHistogram &     maxima;
+  std::vector<std::int32_t> codes; ///< that occur, ascending
+  double                    typicalVarianceDn2;
+  const ExtremeDepths &     depths;
 };
+
+/** Whether an end of the codes, of spacing \a step and ending at \a top, is a pile-up. */
+bool
+EndPilesUp(const Extremes & extremes, bool isHigh, double step, const CodeSteps & steps)
+{
+  const CodeHistogram & histogram = isHigh ? extremes.maxima : extremes.minima;
+  const std::int32_t    end = isHigh ? extremes.codes.back() : extremes.codes.front();
+  const double          depth = isHigh ? extremes.depths.high : extremes.depths.low;
+  if (steps.IsCompanded())
+  {
+    return CanTellPileUp(extremes.typicalVarianceDn2, steps.StepAt(end), depth) &&
+           CompandedPileUp(histogram, extremes.codes, isHigh);
+  }
+  const auto stride = static_cast<std::int32_t>(step);
+  return CanTellPileUp(extremes.typicalVarianceDn2, step, depth) &&
+         CodePilesUp(histogram, end, isHigh ? -stride : stride);
+}
 
 /** Sets the clip levels, given or found; the codes end at \a top. */
 void
 SetClipLevels(const Extremes & extremes, double step, double top, const CodeSettings & settings, CodeRange & range)
 {
-  const std::int32_t lowest = extremes.lowest;
-  const std::int32_t highest = extremes.highest;
-  const double       variance = extremes.typicalVarianceDn2;
-  const auto         stride = static_cast<std::int32_t>(step);
+  const std::int32_t lowest = extremes.codes.front();
+  const std::int32_t highest = extremes.codes.back();
   std::string        lowSource = "given";
   std::string        highSource = "given";
   range.clipLowDn = settings.clipLowDn;
   range.clipHighDn = settings.clipHighDn;
   if (!range.clipLowDn)
   {
-    const bool found = lowest < highest && lowest != 0 && CanTellPileUp(variance, step, extremes.depths.low) &&
-                       CodePilesUp(extremes.minima, lowest, stride);
+    const bool found = lowest < highest && lowest != 0 && EndPilesUp(extremes, false, step, range.steps);
     range.clipLowDn = found ? lowest : (lowest < 0 ? -32768.0 : 0.0);
     lowSource = found ? "pile-up" : "code range";
   }
   if (!range.clipHighDn)
   {
-    const bool found = lowest < highest && highest < top && CanTellPileUp(variance, step, extremes.depths.high) &&
-                       CodePilesUp(extremes.maxima, highest, -stride);
+    const bool found = lowest < highest && highest < top && EndPilesUp(extremes, true, step, range.steps);
     range.clipHighDn = found ? highest : top;
     highSource = found ? "pile-up" : "code range";
   }
@@ -196,19 +244,25 @@ FindCodes(const CodeHistogram & minima,
   {
     throw std::invalid_argument("the stack holds no pixel");
   }
-  const std::int32_t lowest = codes.front();
-  const std::int32_t highest = codes.back();
-
   CodeRange range;
   range.quantisationStepDn = FindQuantisationStep(codes, range.isRegular);
   if (settings.quantisationStepDn)
   {
     range.quantisationStepDn = *settings.quantisationStepDn;
   }
-  const double step = range.quantisationStepDn > 0.0 ? range.quantisationStepDn : 1.0;
-
-  const double top = SetBitDepth(highest, step, settings, range);
-  SetClipLevels({ minima, maxima, lowest, highest, typicalVarianceDn2, depths }, step, top, settings, range);
+  else
+  {
+    range.steps = FindCodeSteps(WithCounts(codes, minima, maxima));
+  }
+  double step = range.quantisationStepDn > 0.0 ? range.quantisationStepDn : 1.0;
+  if (range.steps.IsCompanded())
+  {
+    step = CommonDivisor(codes);
+    range.isRegular = true;
+    range.quantisationStepDn = range.steps.GetTable().front().stepDn;
+  }
+  const double top = SetBitDepth(codes.back(), step, settings, range);
+  SetClipLevels({ minima, maxima, codes, typicalVarianceDn2, depths }, step, top, settings, range);
   return range;
 }
 

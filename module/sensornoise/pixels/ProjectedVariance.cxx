@@ -98,7 +98,8 @@ ProjectedVariance::Compute(double gain)
   ForBlocks(m_Mask.size(), m_ParallelFor, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p)
     {
-      m_Variance[p] = m_Mask[p] != 0 ? (m_Rss[p] + gain * m_Skew[p]) / m_Freedom[p] : 0.0;
+      m_Variance[p] =
+        m_Mask[p] != 0 ? (m_Rss[p] + gain * m_Skew[p]) / m_Freedom[p] - m_CodeNoise.RestAt(m_Frame.mean[p]) : 0.0;
     }
   });
 }

@@ -20,6 +20,7 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/pixels/CodeNoise.h"
 #include "sensornoise/pixels/VarianceLine.h"
 
 #include <cstddef>
@@ -71,6 +72,13 @@ public:
                     const ProvisionalModel &          model,
                     const std::vector<std::uint8_t> & mask,
                     const ParallelFor &               parallelFor);
+
+  /** What of the noise of rounding is no line is taken off by Compute(). */
+  void
+  SetCodeNoise(const CodeNoise & noise)
+  {
+    m_CodeNoise = noise;
+  }
 
   /** Computes the variance; \a gain serves the noise that changes with the light. */
   void
@@ -132,6 +140,7 @@ private:
   const PixelCoordinates &          m_Coordinates;
   const std::vector<std::uint8_t> & m_Mask;
   ParallelFor                       m_ParallelFor;
+  CodeNoise                         m_CodeNoise;
   std::vector<double>               m_Rss;
   std::vector<float>                m_Skew; // sum_i S_i sum_j K_ij
   std::vector<double>               m_Variance;

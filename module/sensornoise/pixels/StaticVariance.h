@@ -20,6 +20,7 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/pixels/CodeNoise.h"
 #include "sensornoise/pixels/LevelPattern.h"
 #include "sensornoise/pixels/StaticPixels.h"
 #include "sensornoise/pixels/VarianceCurve.h"
@@ -48,6 +49,8 @@ struct StaticVariance
   ClassFit     classes;
   /** About the line, or that of light alone. */
   VarianceCurve curve;
+  /** What rounding to companded codes adds; where it is not zero, it has been taken off all of the above. */
+  CodeNoise codeNoise;
   /** 1: a pixel that fits a static scene; outliers among them, too, which a fit trims by itself. */
   std::vector<std::uint8_t> mask;
   /** Values of PixelUse; the pixels of the mask that the final fit trims are PixelUse::Outlier. */

@@ -19,6 +19,7 @@
 
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Text.h"
+#include "sensornoise/pixels/CodeNoise.h"
 #include "sensornoise/pixels/LevelPattern.h"
 #include "sensornoise/pixels/VarianceCurve.h"
 #include "sensornoise/pixels/VarianceLine.h"
@@ -122,16 +123,24 @@ FillTooLittle(Report & report, const RefinedResults & found, const GainEstimate 
 
 /** Gain and intercept with their intervals, which hold the gains of all parts of the levels. */
 void
-FillGainAndIntercept(Report & report, const GainEstimate & gain, double quantisationDn2, double student)
+FillGainAndIntercept(Report &             report,
+                     const GainEstimate & gain,
+                     const CodeNoise &    codes,
+                     double               quantisationDn2,
+                     double               student)
 {
   const double error = std::sqrt(gain.covariance(0, 0));
   report.gain = WithError(gain.line.gain, gain.StandardError(), "DN/e-", student);
   report.gain.interval95 =
     Interval{ gain.line.gain - gain.below - student * error, gain.line.gain + gain.above + student * error };
+  report.varianceSlope = report.gain;
+  report.varianceSlope.value = gain.line.gain + codes.slopeDn;
+  report.varianceSlope.interval95 =
+    Interval{ *report.gain.interval95->low + codes.slopeDn, *report.gain.interval95->high + codes.slopeDn };
   // The value at the pivot is sure: the intercept moves against the gain.
   const double interceptError =
     std::hypot(std::sqrt(gain.covariance(1, 1)), 0.5 * (gain.below + gain.above) * gain.line.pivotDn);
-  report.totalIntercept = WithError(gain.line.intercept, interceptError, "DN^2", student);
+  report.totalIntercept = WithError(gain.line.intercept + codes.interceptDn2, interceptError, "DN^2", student);
   report.intercept = WithError(gain.line.intercept - quantisationDn2, interceptError, "DN^2", student);
   if (gain.nonlinearity > LeastNonlinearity && gain.IsBent())
   {
@@ -168,7 +177,7 @@ FillGain(Report &               report,
     report.Warn("variance-not-affine", contradiction);
     return false;
   }
-  FillGainAndIntercept(report, gain, quantisationDn2, student);
+  FillGainAndIntercept(report, gain, found.variance.codeNoise, quantisationDn2, student);
   BoundGain(report, found, gain);
   return true;
 }

@@ -17,7 +17,6 @@
  *=========================================================================*/
 #include "sensornoise/refined/PixelNoise.h"
 
-#include "sensornoise/base/NothingToMeasure.h"
 #include "sensornoise/base/PixelUse.h"
 #include "sensornoise/correlation/NoiseResiduals.h"
 #include "sensornoise/refined/PixelsOfVariance.h"
@@ -69,6 +68,7 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
                   const StillScene &                       scene,
                   const std::optional<const SceneSeries> & series,
                   const RefinedSettings &                  settings,
+                  double                                   codesDn2,
                   const ParallelFor &                      parallelFor)
 {
   const double                    blackDn = BlackLevel(settings, scene, series);
@@ -76,17 +76,14 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   std::vector<std::uint8_t>       pixelUse = scene.pixelUse;
   const std::vector<std::uint8_t> chosen = PixelsOfVariance(scene, settings, pixelUse);
   const auto                      fit = [&](double sharedSquares) {
-    StaticVariance variance = FitStaticVariance(
+    return FitStaticVariance(
       projected, chosen, pixelUse, scene.model.slopeDn, offsetDn, blackDn, parallelFor, sharedSquares);
-    if (!variance.line.isDetermined)
-    {
-      throw NothingToMeasure("too few pixels, or pixels of one intensity only, are left to fit the variance",
-                             "intensity-range-too-small");
-    }
-    return variance;
   };
-  PixelNoise                noise{ fit(1.0), {} };
-  const double              codesDn2 = CodesVariance(scene);
+  PixelNoise noise{ fit(1.0), {} };
+  if (!noise.variance.line.isDetermined)
+  {
+    return noise;
+  }
   std::vector<std::uint8_t> used = UsedPixels(noise.variance);
   NoiseResiduals            residuals(std::move(sample),
                            series->basis.GetBasis(),

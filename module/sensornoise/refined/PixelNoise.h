@@ -41,13 +41,15 @@ struct PixelNoise
 };
 
 /** Fits the variance and measures what is shared. Where neighbours share much, the mean variance of an area scatters
- * more, and what fits a static scene is judged once more. Throws NothingToMeasure if too few pixels are left. */
+ * more, and what fits a static scene is judged once more. \a codesDn2 is the noise of rounding in the dark. If too few
+ * pixels are left for a line, nothing else is measured. */
 SensorNoise_EXPORT PixelNoise
 MeasurePixelNoise(ProjectedVariance &                      projected,
                   NoiseSample                              sample,
                   const StillScene &                       scene,
                   const std::optional<const SceneSeries> & series,
                   const RefinedSettings &                  settings,
+                  double                                   codesDn2,
                   const ParallelFor &                      parallelFor);
 
 } // namespace sensornoise

@@ -18,6 +18,7 @@
 #include "sensornoise/refined/RefinedMethod.h"
 
 #include "sensornoise/base/BinaryStream.h"
+#include "sensornoise/moments/DarkMaps.h"
 #include "sensornoise/moments/StackMaps.h"
 #include "sensornoise/moments/StackRequirements.h"
 #include "sensornoise/pixels/PixelCoordinates.h"
@@ -294,15 +295,35 @@ RefinedMethod<TPixel>::EndProjections()
   const PixelCoordinates coordinates(std::move(m_Projections), m_Series->basis, frame.mean, m_ParallelFor);
   ProjectedVariance      projected(
     frame, m_Series->basis, m_Series->motion, coordinates, m_Scene->model, frame.usable, m_ParallelFor);
-  PixelNoise noise = MeasurePixelNoise(projected, std::move(m_Sample), *m_Scene, m_Series, m_Settings, m_ParallelFor);
-  m_Variance.emplace(std::move(noise.variance));
+  const CodeNoise codeNoise = this->FindCodeNoise();
+  projected.SetCodeNoise(codeNoise);
+  PixelNoise noise = MeasurePixelNoise(
+    projected, std::move(m_Sample), *m_Scene, m_Series, m_Settings, codeNoise.inTheDarkDn2, m_ParallelFor);
+  if (!noise.variance.line.isDetermined)
+  {
+    m_Variance.emplace(std::move(noise.variance));
+    throw NothingToMeasure("too few pixels, or pixels of one intensity only, are left to fit the variance",
+                           "intensity-range-too-small");
+  }
   m_Correlation = std::move(noise.correlation);
-  m_Polished.emplace(PolishSceneSeries(*m_FrameSums, *m_Series, projected, *m_Variance, m_ParallelFor));
+  m_Polished.emplace(PolishSceneSeries(*m_FrameSums, *m_Series, projected, noise.variance, m_ParallelFor));
+  TakeOffLine(noise.variance, codeNoise); // the series were weighed by all of the noise
+  m_Variance.emplace(std::move(noise.variance));
   m_CorrectedVariance = projected.TakeVariance();
   for (std::size_t p = 0; p < m_CorrectedVariance.size(); ++p)
   {
-    m_CorrectedVariance[p] = frame.usable[p] != 0 ? m_CorrectedVariance[p] : std::numeric_limits<double>::quiet_NaN();
+    m_CorrectedVariance[p] = frame.usable[p] != 0 ? m_CorrectedVariance[p] + codeNoise.RestAt(frame.mean[p])
+                                                  : std::numeric_limits<double>::quiet_NaN();
   }
+}
+
+template <typename TPixel>
+CodeNoise
+RefinedMethod<TPixel>::FindCodeNoise() const
+{
+  const auto & offset = m_Settings.offset;
+  const double darkStepDn = offset && offset->maps ? offset->maps->stepDn : 0.0;
+  return MakeCodeNoise(m_Scene->summary.codes, m_Scene->frame, m_Scene->model, darkStepDn);
 }
 
 template <typename TPixel>

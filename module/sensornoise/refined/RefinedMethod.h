@@ -158,6 +158,9 @@ private:
   EndFrameSums();
   void
   EndProjections();
+  /** Of companded codes. */
+  CodeNoise
+  FindCodeNoise() const;
   void
   MakeReport();
 

@@ -196,7 +196,7 @@ FillVariance(Report & report, const RefinedResults & found, const GainEstimate &
   Report own;
   own.pixels = report.pixels;
   FillGain(own, found, ofVariance, 0.0, StudentOf(found));
-  report.varianceSlope = own.gain;
+  report.varianceSlope = own.varianceSlope;
   report.totalIntercept = own.totalIntercept;
 }
 } // namespace
@@ -220,7 +220,7 @@ MakeRefinedReport(const RefinedResults & found)
   FillCurves(report, found);
   WarnOfScene(report, found);
 
-  const double       codesDn2 = CodesVariance(found.scene);
+  const double       codesDn2 = found.variance.codeNoise.inTheDarkDn2;
   const GainEstimate ofVariance = EstimateGain(found);
   if (found.correlation.IsShared())
   {

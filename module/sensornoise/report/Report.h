@@ -137,7 +137,8 @@ struct Report
   } pixels;
 
   Quantity gain{ Quantity::Without(EstimateStatus::Failed, "DN/e-") };
-  /** Of a pixel's variance against its level: what a denoiser needs. The gain where the noise is white. */
+  /** Of a pixel's variance against its level: with totalIntercept what a denoiser needs. The gain where the noise is
+   * white and the codes are even. */
   Quantity varianceSlope{ Quantity::Without(EstimateStatus::Failed, "DN/e-") };
   Quantity offset{ Quantity::Without(EstimateStatus::Failed, "DN") };
   Quantity readNoise{ Quantity::Without(EstimateStatus::Failed, "DN") };

@@ -91,6 +91,17 @@ WarnOfStack(Report & report, std::size_t frames, const StackSummary & summary)
                 "the sensor attains only the levels " + TextOfLevels(codes) + " DN (" + codes.clipSource +
                   "); pixels that reach an end are left out");
   }
+  if (codes.steps.IsCompanded())
+  {
+    const CodeSteps::Local & dark = codes.steps.GetTable().front();
+    const CodeSteps::Local & bright = codes.steps.GetTable().back();
+    report.Warn(
+      "companded",
+      "the grey levels lie " + Text(dark.stepDn) + " DN apart about " + Text(dark.levelDn) + " DN and " +
+        Text(bright.stepDn) + " DN about " + Text(bright.levelDn) +
+        " DN: a tone curve was applied to fewer bits and undone, and the noise of rounding differs from level "
+        "to level");
+  }
   if (!codes.isRegular)
   {
     report.Warn("irregular-codes",

@@ -40,7 +40,8 @@ FindGuardBand(const ReferenceFrame &   frame,
   {
     return guarded;
   }
-  const double half = 0.5 * codes.quantisationStepDn;
+  const double halfLow = 0.5 * codes.StepAt(codes.clipLowDn.value_or(0.0));
+  const double halfHigh = 0.5 * codes.StepAt(codes.clipHighDn.value_or(0.0));
   ForBlocks(guarded.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p)
     {
@@ -55,10 +56,10 @@ FindGuardBand(const ReferenceFrame &   frame,
         const double motion = model.MotionVariance(gx, gy);
         const double high = level + brightest * flux + sds * std::sqrt(noise * (1.0 + brightest) + motion);
         const double low = level + darkest * flux - sds * std::sqrt(noise + motion);
-        guarded[p] =
-          (codes.clipHighDn && high >= *codes.clipHighDn - half) || (codes.clipLowDn && low <= *codes.clipLowDn + half)
-            ? 1
-            : 0;
+        guarded[p] = (codes.clipHighDn && high >= *codes.clipHighDn - halfHigh) ||
+                         (codes.clipLowDn && low <= *codes.clipLowDn + halfLow)
+                       ? 1
+                       : 0;
       }
     }
   });

@@ -97,8 +97,7 @@ LeaveOutCoarseAndGuarded(const ReferenceFrame &      frame,
                          std::vector<std::uint8_t>   pixelUse,
                          const ParallelFor &         parallelFor)
 {
-  const double step = codes.quantisationStepDn;
-  const auto   usable = static_cast<double>(std::count(frame.usable.begin(), frame.usable.end(), std::uint8_t{ 1 }));
+  const auto usable = static_cast<double>(std::count(frame.usable.begin(), frame.usable.end(), std::uint8_t{ 1 }));
   const auto [darkest, brightest] = ExtremesOfLight(frame, model, frameMeans);
   const auto   guarded = FindGuardBand(frame, model, codes, brightest, darkest, parallelFor);
   UsablePixels pixels;
@@ -108,12 +107,15 @@ LeaveOutCoarseAndGuarded(const ReferenceFrame &      frame,
   {
     if (frame.usable[p] != 0)
     {
-      const bool isCoarse = step > 0.0 && model.NoiseVariance(frame.neighbourMean[p]) < 0.25 * step * step;
+      const double level = frame.neighbourMean[p];
+      const double step = codes.StepAt(level);
+      const bool   isCoarse = step > 0.0 && model.NoiseVariance(level) < 0.25 * step * step;
       if (isCoarse || guarded[p] != 0)
       {
         pixels.pixelUse[p] = static_cast<std::uint8_t>(isCoarse ? PixelUse::CoarseCodes : PixelUse::NearClip);
         pixels.usable[p] = 0;
         ++(isCoarse ? pixels.coarse : pixels.nearClip);
+        pixels.coarseInLight += isCoarse && codes.steps.IsCompanded() && level > model.centreDn ? 1 : 0;
       }
     }
   }
@@ -124,7 +126,7 @@ LeaveOutCoarseAndGuarded(const ReferenceFrame &      frame,
 void
 RequireFineCodes(const UsablePixels & pixels, double stepDn)
 {
-  const auto   coarse = static_cast<double>(pixels.coarse);
+  const auto   coarse = static_cast<double>(pixels.coarse - pixels.coarseInLight);
   const double all = pixels.count + static_cast<double>(pixels.coarse + pixels.nearClip);
   if (coarse > 0.02 * all)
   {

@@ -47,6 +47,8 @@ struct UsablePixels
   double                    count{ 0.0 };  ///< pixels that serve
   std::size_t               nearClip{ 0 }; ///< usable pixels of the frame in the guard band
   std::size_t               coarse{ 0 };   ///< usable pixels of the frame whose noise is below half a code step
+  /** Of the coarse pixels, the brighter ones of companded codes: the others tell the line without them. */
+  std::size_t coarseInLight{ 0 };
 };
 
 /** Leaves out what clipping could touch (FindGuardBand), and pixels whose noise is below half a code step, where the

@@ -1,0 +1,128 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/pixels/CodeNoise.h"
+
+#include "sensornoise/base/Quantiles.h"
+#include "sensornoise/moments/CodeSteps.h"
+#include "sensornoise/pixels/StaticVariance.h"
+#include "sensornoise/pixels/VarianceLine.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+constexpr std::size_t LevelsOfRest = 513;
+
+/** The noise of rounding of a pixel of the mean \a levelDn and the standard deviation \a sdDn: the expectation over a
+ * normal distribution, by the five-point rule of Gauss and Hermite. */
+double
+MeanVarianceAt(const CodeSteps & steps, double levelDn, double sdDn)
+{
+  constexpr std::array<double, 3> nodes{ 0.0, 1.3556261799742659, 2.8569700138728056 };
+  constexpr std::array<double, 3> weights{ 0.53333333333333333, 0.22207592200561266, 0.01125741132772069 };
+  double                          sum = weights[0] * steps.VarianceAt(levelDn);
+  for (std::size_t k = 1; k < nodes.size(); ++k)
+  {
+    sum += weights[k] * (steps.VarianceAt(levelDn - nodes[k] * sdDn) + steps.VarianceAt(levelDn + nodes[k] * sdDn));
+  }
+  return sum;
+}
+
+/** Parts the rests, which are still all of the noise, into line and rest: the line that pixels with weights as in the
+ * fit of the variance draw. */
+void
+PartOffLine(CodeNoise & noise, const ReferenceFrame & frame, const ProvisionalModel & model)
+{
+  double weight = 0.0, x = 0.0, xx = 0.0, v = 0.0, xv = 0.0;
+  for (const std::size_t p : SamplePixels(frame.usable))
+  {
+    const double level = frame.neighbourMean[p] - model.centreDn;
+    const double expected = model.NoiseVariance(frame.neighbourMean[p]);
+    const double w = 1.0 / (expected * expected);
+    const double value = noise.RestAt(frame.neighbourMean[p]);
+    weight += w;
+    x += w * level;
+    xx += w * level * level;
+    v += w * value;
+    xv += w * level * value;
+  }
+  const double determinant = weight * xx - x * x;
+  if (determinant > 0.0)
+  {
+    noise.slopeDn = (weight * xv - x * v) / determinant;
+    noise.interceptDn2 = (v - noise.slopeDn * x) / weight - noise.slopeDn * model.centreDn;
+    for (std::size_t i = 0; i < noise.restsDn2.size(); ++i)
+    {
+      noise.restsDn2[i] -=
+        noise.interceptDn2 + noise.slopeDn * (noise.lowestDn + static_cast<double>(i) * noise.spacingDn);
+    }
+  }
+}
+} // namespace
+
+CodeNoise
+MakeCodeNoise(const CodeRange & codes, const ReferenceFrame & frame, const ProvisionalModel & model, double darkStepDn)
+{
+  CodeNoise noise;
+  noise.inTheDarkDn2 = codes.quantisationStepDn * codes.quantisationStepDn / 12.0;
+  double brightestDn = -1.0;
+  bool   isFirst = true;
+  for (std::size_t p = 0; p < frame.usable.size() && codes.steps.IsCompanded(); ++p)
+  {
+    if (frame.usable[p] != 0)
+    {
+      noise.lowestDn = isFirst ? frame.mean[p] : std::min(noise.lowestDn, frame.mean[p]);
+      brightestDn = isFirst ? frame.mean[p] : std::max(brightestDn, frame.mean[p]);
+      isFirst = false;
+    }
+  }
+  if (isFirst || !(brightestDn > noise.lowestDn))
+  {
+    return noise;
+  }
+  noise.inTheDarkDn2 = darkStepDn > 0.0 ? darkStepDn * darkStepDn / 12.0 : codes.steps.GetTable().front().varianceDn2;
+  noise.spacingDn = (brightestDn - noise.lowestDn) / static_cast<double>(LevelsOfRest - 1);
+  for (std::size_t i = 0; i < LevelsOfRest; ++i)
+  {
+    const double level = noise.lowestDn + static_cast<double>(i) * noise.spacingDn;
+    const double sd = std::sqrt(model.NoiseVariance(level));
+    noise.restsDn2.push_back(MeanVarianceAt(codes.steps, level, sd) - noise.inTheDarkDn2);
+  }
+  PartOffLine(noise, frame, model);
+  return noise;
+}
+
+void
+TakeOffLine(StaticVariance & variance, const CodeNoise & noise)
+{
+  for (VarianceLine * line : { &variance.line, &variance.fromLight, &variance.fromFlat, &variance.curve.line })
+  {
+    line->gain -= noise.slopeDn;
+    line->intercept -= noise.interceptDn2;
+  }
+  variance.codeNoise = noise;
+}
+
+} // namespace sensornoise
