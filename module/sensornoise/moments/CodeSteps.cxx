@@ -142,8 +142,9 @@ Differ(const std::vector<CodeSteps::Local> & table, double unitDn)
 }
 } // namespace
 
-CodeSteps::CodeSteps(std::vector<Local> table)
+CodeSteps::CodeSteps(std::vector<Local> table, double unitDn)
   : m_Table(std::move(table))
+  , m_UnitDn(unitDn)
 {}
 
 double
@@ -189,7 +190,7 @@ FindCodeSteps(const std::vector<SeenCode> & codes)
   }
   table.insert(table.begin(), ends.front().At(std::min(distances.front().levelDn, table.front().levelDn - unit)));
   table.push_back(ends.back().At(std::max(distances.back().levelDn, table.back().levelDn + unit)));
-  return CodeSteps(std::move(table));
+  return CodeSteps(std::move(table), unit);
 }
 
 } // namespace sensornoise

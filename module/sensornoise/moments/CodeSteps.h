@@ -54,7 +54,7 @@ public:
 
   CodeSteps() = default;
   /** \a table rises with the level. */
-  explicit CodeSteps(std::vector<Local> table);
+  explicit CodeSteps(std::vector<Local> table, double unitDn = 1.0);
 
   /** False: the step is the same everywhere, or nothing tells otherwise, and there is no table. */
   bool
@@ -67,6 +67,12 @@ public:
   GetTable() const
   {
     return m_Table;
+  }
+  /** What all codes are multiples of [DN]. */
+  double
+  GetUnitDn() const
+  {
+    return m_UnitDn;
   }
   /** [DN]; 0 without a table. */
   double
@@ -86,6 +92,7 @@ private:
   Interpolate(double levelDn, double Local::* value) const;
 
   std::vector<Local> m_Table;
+  double             m_UnitDn{ 1.0 };
 };
 
 /** Ratio of the largest local step to the smallest from which on codes are called companded [1]. Set by hand: where

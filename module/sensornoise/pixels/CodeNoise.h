@@ -19,6 +19,7 @@
 #define sensornoise_pixels_CodeNoise_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/base/Eigen.h"
 #include "sensornoise/moments/CodeRange.h"
 #include "sensornoise/scene/ProvisionalModel.h"
 #include "sensornoise/scene/ReferenceFrame.h"
@@ -48,6 +49,13 @@ struct SensorNoise_EXPORT CodeNoise
   double              lowestDn{ 0.0 };  ///< level of the first rest [DN]
   double              spacingDn{ 1.0 }; ///< of the levels of the rests [DN]
   std::vector<double> restsDn2;         ///< beyond the line; empty: none
+
+  double unitDn{ 0.0 }; ///< to which companded codes are rounded when they are expanded
+
+  /** Covariance of gain and intercept by what is not known of this noise: some per cent of it, and in the dark half of
+   * what rounding to the unit adds. 0 for even codes. */
+  Eigen::Matrix2d
+  ErrorOfLine(double pivotDn) const;
 
   /** Beyond the line [DN^2]. */
   double

@@ -1,0 +1,120 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/refined/RefinedMethod.h"
+#include "sensornoise/report/Report.h"
+#include "sensornoise/report/ReportJson.h"
+#include "sensornoise/simulation/Scenes.h"
+#include "sensornoise/simulation/SimulationSettings.h"
+#include "helpers/RefinedTestHelper.h"
+#include "helpers/ReportTestHelper.h"
+#include "helpers/SensorTestHelper.h"
+#include "helpers/StackTestHelper.h"
+
+#include <cmath>
+#include <cstddef>
+#include <gtest/gtest.h>
+#include <sstream>
+
+// Cameras that compand: gain is the sensor's, variance_slope holds the noise of the codes.
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+using namespace sensornoise::test::sensor;
+
+namespace
+{
+constexpr std::size_t Size = 160;
+constexpr std::size_t Frames = 40;
+
+test::Stack<unsigned short>
+SimulateCompanded(unsigned int bits, double gain)
+{
+  SimulationSettings settings;
+  settings.camera.gainDnPerElectron = gain;
+  settings.camera.electrons = 3300.0 / gain;
+  settings.frames = Frames;
+  settings.seed = 7;
+  settings.flaws.companding.bits = bits;
+  return Simulate<unsigned short>(settings, Size, Size, MakeTextureScene(Size, Size));
+}
+} // namespace
+
+TEST(SensorNoiseCompandedCodes, GainIsTheSensorsAndTheSlopeHoldsTheCodes)
+{
+  for (const unsigned int bits : { 8U, 10U })
+  {
+    const double gain = bits == 8 ? 1.0 : 0.1;
+    const Report report = Measure(SimulateCompanded(bits, gain), {}).GetReport();
+    ASSERT_TRUE(report.gain.value) << ToJson(report);
+    EXPECT_TRUE(HasWarning(report, "companded"));
+    const double error = *report.gain.standardError;
+    EXPECT_LT(error, 0.005 * gain);
+    EXPECT_NEAR(*report.gain.value, gain, 3.0 * error) << bits;
+    // The step near level v is 2 sqrt(4095 v) / (2^bits - 1): its square over 12 has this slope.
+    const double top = std::exp2(bits) - 1.0;
+    const double ofCodes = 4.0 * 4095.0 / (12.0 * top * top);
+    EXPECT_GT(ofCodes, 3.0 * error); // else nothing is tested
+    EXPECT_NEAR(*report.varianceSlope.value - *report.gain.value, ofCodes, 0.05 * ofCodes);
+    EXPECT_NEAR(*report.readNoise.value, 8.0, 4.0 * *report.readNoise.standardError);
+  }
+}
+
+TEST(SensorNoiseCompandedCodes, EvenCodesHaveOneSlope)
+{
+  const Report report = Measure(SimulateCompanded(0, 1.0), {}).GetReport();
+  EXPECT_FALSE(HasWarning(report, "companded"));
+  EXPECT_EQ(report.varianceSlope.value, report.gain.value);
+  EXPECT_EQ(report.varianceSlope.standardError, report.gain.standardError);
+  EXPECT_EQ(*report.totalIntercept.value - 1.0 / 12.0, *report.intercept.value);
+}
+
+TEST(SensorNoiseCompandedCodes, SameBitsForAnyChunksAndParts)
+{
+  const auto                    stack = SimulateCompanded(8, 1.0);
+  const auto                    whole = Measure(stack, {});
+  const auto                    chunks = Measure(stack, {}, 7);
+  RefinedMethod<unsigned short> parts[2] = { { {}, GeometryOf(stack), Frames }, { {}, GeometryOf(stack), Frames } };
+  for (unsigned int pass = 0; pass < whole.NumberOfPasses; ++pass)
+  {
+    std::stringstream sums[2];
+    parts[0].AddFrames(stack.Frame(0), 15);
+    parts[0].SkipFrames(Frames - 15);
+    parts[1].SkipFrames(15);
+    parts[1].AddFrames(stack.Frame(15), Frames - 15);
+    parts[0].SaveSums(sums[0]);
+    parts[1].SaveSums(sums[1]);
+    parts[0].MergeSums(sums[1]);
+    parts[1].MergeSums(sums[0]);
+    parts[0].EndPass();
+    parts[1].EndPass();
+  }
+  ASSERT_TRUE(HasWarning(whole.GetReport(), "companded"));
+  for (const auto * method : { &chunks,
+                               static_cast<const RefinedMethod<unsigned short> *>(&parts[0]),
+                               static_cast<const RefinedMethod<unsigned short> *>(&parts[1]) })
+  {
+    EXPECT_EQ(ToJson(method->GetReport()), ToJson(whole.GetReport()));
+  }
+}
+
+TEST(SensorNoiseCompandedCodes, TooCoarseInTheDarkIsRefused)
+{
+  const Report report = Measure(SimulateCompanded(6, 1.0), {}).GetReport();
+  EXPECT_FALSE(report.gain.value);
+  EXPECT_TRUE(HasWarning(report, "codes-too-coarse")) << ToJson(report);
+}
