@@ -85,6 +85,7 @@ TEST_P(EstimateToolWith, TheReportHasTheDocumentedNamesAndUnits)
                                     "clip_source",
                                     "pixels",
                                     "gain",
+                                    "variance_slope",
                                     "offset",
                                     "read_noise",
                                     "read_noise_median",
@@ -103,6 +104,7 @@ TEST_P(EstimateToolWith, TheReportHasTheDocumentedNamesAndUnits)
                                     "warnings",
                                     "scatter" }));
   IsAQuantity(report, "/gain", "DN/e-", isRefined);
+  IsAQuantity(report, "/variance_slope", "DN/e-", isRefined);
   IsAQuantity(report, "/offset", "DN", isRefined);
   IsAQuantity(report, "/read_noise", "DN", isRefined);
   IsAQuantity(report, "/read_noise_electrons", "e-", isRefined);
@@ -289,4 +291,21 @@ TEST_F(EstimateTool, HelpNamesEveryOptionAndTheExitCodes)
   {
     EXPECT_NE(m_Output.find(option), std::string::npos) << option;
   }
+}
+
+TEST_P(EstimateToolWith, CompandedCodesAreNamed)
+{
+  ASSERT_EQ(RunCommand("\"" SENSORNOISE_BIN
+                       "/simulate-sensor-noise\" --output companded.mha --companding 8 --size 96x96 "
+                       "--frames 24 --flicker-sd 0.1 --reference texture"),
+            0);
+  const std::string    stack = std::string("companded.mha --method ") + GetParam();
+  const nlohmann::json report = ReportOf(stack);
+  EXPECT_NE(report["warnings"].dump().find("companded"), std::string::npos) << report["warnings"];
+  EXPECT_NE(report["warnings"].dump().find("DN apart about"), std::string::npos);
+  const nlohmann::json even = ReportOf(stack + " --step 1");
+  EXPECT_EQ(even["warnings"].dump().find("companded"), std::string::npos);
+  const double gain = report["gain"]["value"];
+  const double slope = report["variance_slope"]["value"];
+  GetParam() == std::string("refined") ? EXPECT_GT(slope, 1.01 * gain) : EXPECT_EQ(slope, gain);
 }

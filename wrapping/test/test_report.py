@@ -86,7 +86,8 @@ def test_plot_draws_the_scatter_and_the_line(report):
     np.testing.assert_array_equal(variance.get_ydata(), report["scatter"]["variance"])
     np.testing.assert_array_equal(corrected.get_ydata(), report["scatter"]["corrected_variance"])
     ends = np.array(line.get_xdata())
-    np.testing.assert_allclose(line.get_ydata(), report["gain"]["value"] * ends + report["total_intercept"]["value"])
+    expected = report["variance_slope"]["value"] * ends + report["total_intercept"]["value"]
+    np.testing.assert_allclose(line.get_ydata(), expected)
     assert line.get_linestyle() == "-" and figure.axes[0].get_legend().get_title().get_text() == ""
     assert report.plot(figure.axes[0]) is figure
     matplotlib.pyplot.close(figure)

@@ -40,6 +40,11 @@ constexpr std::size_t LevelsOfRest = 513;
  * as the noise; a texture less. */
 constexpr double ErrorOfCodeNoise = 0.05;
 
+/** What rounding the expanded codes to their unit does to the variance at one level, which the codes at that level
+ * stretch or squeeze by chance: relative to the unit times the root of noise and step [1]. Set by hand, on charts whose
+ * darkest patch has one level. */
+constexpr double ErrorOfRounding = 0.15;
+
 /** The noise of rounding of a pixel of the mean \a levelDn and the standard deviation \a sdDn: the expectation over a
  * normal distribution, by the five-point rule of Gauss and Hermite. */
 double
@@ -108,7 +113,9 @@ MakeCodeNoise(const CodeRange & codes, const ReferenceFrame & frame, const Provi
     return noise;
   }
   noise.inTheDarkDn2 = darkStepDn > 0.0 ? darkStepDn * darkStepDn / 12.0 : codes.steps.GetTable().front().varianceDn2;
-  noise.unitDn = codes.steps.GetUnitDn();
+  const double darkNoiseDn = std::sqrt(model.NoiseVariance(model.darkestDn));
+  noise.darkErrorDn2 =
+    ErrorOfRounding * codes.steps.GetUnitDn() * std::sqrt(darkNoiseDn * codes.steps.StepAt(model.darkestDn));
   noise.spacingDn = (brightestDn - noise.lowestDn) / static_cast<double>(LevelsOfRest - 1);
   for (std::size_t i = 0; i < LevelsOfRest; ++i)
   {
@@ -124,11 +131,10 @@ Eigen::Matrix2d
 CodeNoise::ErrorOfLine(double pivotDn) const
 {
   const double    slope = ErrorOfCodeNoise * slopeDn;
-  const double    value = restsDn2.empty() ? 0.0 : ErrorOfCodeNoise * inTheDarkDn2 + unitDn * unitDn / 24.0;
   Eigen::Matrix2d error;
   error << 1.0, -pivotDn, -pivotDn, pivotDn * pivotDn;
   error *= slope * slope;
-  error(1, 1) += value * value;
+  error(1, 1) += darkErrorDn2 * darkErrorDn2;
   return error;
 }
 

@@ -50,10 +50,10 @@ struct SensorNoise_EXPORT CodeNoise
   double              spacingDn{ 1.0 }; ///< of the levels of the rests [DN]
   std::vector<double> restsDn2;         ///< beyond the line; empty: none
 
-  double unitDn{ 0.0 }; ///< to which companded codes are rounded when they are expanded
+  double darkErrorDn2{ 0.0 }; ///< of the noise in the dark
 
-  /** Covariance of gain and intercept by what is not known of this noise: some per cent of it, and in the dark half of
-   * what rounding to the unit adds. 0 for even codes. */
+  /** Covariance of gain and intercept by what is not known of this noise: some per cent of it, and the error in the
+   * dark. 0 for even codes. */
   Eigen::Matrix2d
   ErrorOfLine(double pivotDn) const;
 

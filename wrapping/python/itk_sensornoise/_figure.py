@@ -52,7 +52,7 @@ def draw(report: Mapping[str, Any], axes: "Axes") -> "Figure":
         (scatter["corrected_variance"], "C0.", "variance, flicker corrected"),
     ):
         axes.plot(mean, [float("nan") if value is None else value for value in values], style, label=label)
-    gain, intercept = report["gain"]["value"], report["total_intercept"]["value"]
+    gain, intercept = report["variance_slope"]["value"], report["total_intercept"]["value"]
     indicative = report["fit"].get("line")
     if gain is not None and intercept is not None:
         _draw_line(axes, mean, gain, intercept, "k-", "")
