@@ -15,6 +15,7 @@
  *  limitations under the License.
  *
  *=========================================================================*/
+#include "sensornoise/base/PixelUse.h"
 #include "sensornoise/refined/RefinedMethod.h"
 #include "sensornoise/report/Report.h"
 #include "sensornoise/report/ReportJson.h"
@@ -42,10 +43,11 @@ constexpr std::size_t Size = 160;
 constexpr std::size_t Frames = 40;
 
 test::Stack<unsigned short>
-SimulateCompanded(unsigned int bits, double gain)
+SimulateCompanded(unsigned int bits, double gain, double readNoiseDn = 8.0)
 {
   SimulationSettings settings;
   settings.camera.gainDnPerElectron = gain;
+  settings.camera.readNoiseDn = readNoiseDn;
   settings.camera.electrons = 3300.0 / gain;
   settings.frames = Frames;
   settings.seed = 7;
@@ -114,7 +116,28 @@ TEST(SensorNoiseCompandedCodes, SameBitsForAnyChunksAndParts)
 
 TEST(SensorNoiseCompandedCodes, TooCoarseInTheDarkIsRefused)
 {
-  const Report report = Measure(SimulateCompanded(6, 1.0), {}).GetReport();
+  const Report report = Measure(SimulateCompanded(6, 0.2), {}).GetReport();
   EXPECT_FALSE(report.gain.value);
   EXPECT_TRUE(HasWarning(report, "codes-too-coarse")) << ToJson(report);
+}
+
+TEST(SensorNoiseCompandedCodes, TooCoarseInTheLightIsLeftOut)
+{
+  const auto   stack = SimulateCompanded(7, 0.05, 15.0);
+  const auto   method = Measure(stack, {});
+  const Report report = method.GetReport();
+  EXPECT_FALSE(HasWarning(report, "codes-too-coarse")) << ToJson(report);
+  std::size_t coarse = 0;
+  std::size_t usedInLight = 0;
+  for (std::size_t p = 0; p < Size * Size; ++p)
+  {
+    const auto use = static_cast<PixelUse>(method.GetPixelUse()[p]);
+    coarse += use == PixelUse::CoarseCodes ? 1 : 0;
+    // A step of 49 DN, and a noise of 18.6 DN. What counts is the mean of the neighbours: edges are left.
+    usedInLight += method.GetMean()[p] > 2400.0 && use == PixelUse::Used ? 1 : 0;
+  }
+  EXPECT_LT(usedInLight, coarse / 20);
+  EXPECT_GT(coarse, 100u);
+  ASSERT_TRUE(report.gain.value) << ToJson(report);
+  EXPECT_NEAR(*report.gain.value, 0.05, 3.0 * *report.gain.standardError);
 }
