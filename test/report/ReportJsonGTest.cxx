@@ -253,7 +253,8 @@ TEST(SensorNoiseReportJson, RecordIsValidAndHasAllNamesInOrder)
     "quantisation_step clip_low clip_high clip_source pixels gain variance_slope offset read_noise read_noise_median "
     "read_noise_electrons intercept "
     "total_intercept "
-    "covariance flicker_sd vibration flicker flicker_rows motion noise_correlation fit affine_baseline quadratic_baseline warnings "
+    "covariance flicker_sd vibration flicker flicker_rows motion noise_correlation fit affine_baseline "
+    "quadratic_baseline warnings "
     "scatter");
   const std::vector<std::string> names{ std::istream_iterator<std::string>(list), {} };
   for (const Report & report : { Report(), FullReport() })
