@@ -21,6 +21,7 @@
 #include "sensornoise/base/Eigen.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 

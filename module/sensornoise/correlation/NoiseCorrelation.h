@@ -96,9 +96,6 @@ struct SensorNoise_EXPORT NoiseCorrelation
   MeasuredNumber timeFactor{ 1.0, 0.0 };
   /** What the lags beyond the last may add, relative to the variance [1]. */
   double beyondReach{ 0.0 };
-  /** Of the brightest twentieth of the pixels [DN above black]. */
-  double brightLightDn{ 0.0 };
-
   /** Sum over all lags in space of the squared coefficients: by how much more mean variances scatter [1]. */
   double
   SharedSquares() const;

@@ -32,13 +32,13 @@ namespace
 constexpr std::size_t Segments = 4;
 
 /** Sums over the segments of the tile's rows, of its columns, and over its cells. */
-struct TileSums
+struct SegmentSums
 {
   std::vector<std::array<double, Segments>> rows;
   std::vector<std::array<double, Segments>> columns;
   std::array<double, Segments * Segments>   cells;
 
-  explicit TileSums(std::size_t side)
+  explicit SegmentSums(std::size_t side)
     : rows(side)
     , columns(side)
     , cells{}
@@ -108,7 +108,7 @@ CellProduct(const std::array<double, Segments * Segments> & cells)
 
 /** Adds the products of a tile's sums, times \a factor, to one member of all DistantSums. */
 void
-AddProducts(SharedLight & light, const TileSums & sums, double DistantSums::* member, double factor)
+AddProducts(SharedLight & light, const SegmentSums & sums, double DistantSums::* member, double factor)
 {
   for (std::size_t d = 0; d < SharedLight::Lines; ++d)
   {
@@ -127,7 +127,7 @@ SumTile(const NoiseResiduals & residuals, std::size_t i)
   const float *       z = residuals.LightOf(i);
   const double        factor = 1.0 / residuals.GetFreedom();
   SharedLight         light;
-  TileSums            sums(tiles.side);
+  SegmentSums         sums(tiles.side);
   sums.Sum([&](std::size_t p) { return w[p]; });
   AddProducts(light, sums, &DistantSums::constant, 1.0);
   sums.Sum([&](std::size_t p) { return static_cast<double>(w[p]) * z[p]; });

@@ -1,0 +1,195 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/correlation/CorrelationSums.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace sensornoise
+{
+
+namespace
+{
+double
+Ratio(double sum, double count)
+{
+  return count > 0.0 ? sum / count : 0.0;
+}
+
+template <typename TPredicate>
+CorrelationSums::Lags
+IndicesWhere(const std::vector<Lag> & lags, TPredicate predicate)
+{
+  CorrelationSums::Lags found;
+  for (std::size_t k = 1; k < lags.size(); ++k)
+  {
+    if (predicate(lags[k]))
+    {
+      found.push_back(k);
+    }
+  }
+  return found;
+}
+} // namespace
+
+TileSums &
+TileSums::operator+=(const TileSums & other)
+{
+  lags.resize(other.lags.size());
+  for (std::size_t k = 0; k < lags.size(); ++k)
+  {
+    lags[k] += other.lags[k];
+  }
+  shared += other.shared;
+  kurtosis += other.kurtosis;
+  return *this;
+}
+
+CorrelationSums::CorrelationSums(const NoiseResiduals & residuals, double codesDn2, const ParallelFor & parallelFor)
+  : m_Residuals(residuals)
+  , m_CodesDn2(codesDn2)
+  , m_ParallelFor(parallelFor)
+  , m_Tiles(residuals.GetTiles().origins.size())
+{
+  const std::vector<SharedLight>  shared = SumSharedLight(residuals, parallelFor);
+  const std::vector<KurtosisSums> kurtosis = SumKurtosis(residuals, parallelFor);
+  for (std::size_t i = 0; i < m_Tiles.size(); ++i)
+  {
+    m_Tiles[i].shared = shared[i];
+    m_Tiles[i].kurtosis = kurtosis[i];
+  }
+  this->AddLags({ Lag{} });
+}
+
+void
+CorrelationSums::AddLags(const std::vector<Lag> & lags)
+{
+  const auto sums = SumLags(m_Residuals, lags, m_ParallelFor);
+  for (std::size_t i = 0; i < m_Tiles.size(); ++i)
+  {
+    m_Tiles[i].lags.insert(m_Tiles[i].lags.end(), sums[i].begin(), sums[i].end());
+  }
+  m_Lags.insert(m_Lags.end(), lags.begin(), lags.end());
+}
+
+void
+CorrelationSums::AddRing(int distance)
+{
+  std::vector<Lag> lags;
+  for (int y = 0; y <= distance; ++y)
+  {
+    for (int x = -distance; x <= distance; ++x)
+    {
+      if (std::max(std::abs(x), y) == distance && (y > 0 || x > 0))
+      {
+        lags.push_back({ x, y, 0 });
+      }
+    }
+  }
+  this->AddLags(lags);
+}
+
+void
+CorrelationSums::AddTimeLags(int last)
+{
+  const int        frames = static_cast<int>(m_Residuals.GetTiles().frames);
+  std::vector<Lag> lags;
+  for (int t = static_cast<int>(this->TimeLags().size()) + 1; t <= std::min(last, frames / 3); ++t)
+  {
+    lags.push_back({ 0, 0, t });
+  }
+  this->AddLags(lags);
+}
+
+CorrelationSums::Lags
+CorrelationSums::Ring(int first, int last) const
+{
+  return IndicesWhere(m_Lags, [=](const Lag & lag) {
+    const int distance = std::max(std::abs(lag.x), std::abs(lag.y));
+    return lag.t == 0 && distance >= first && distance <= last;
+  });
+}
+
+CorrelationSums::Lags
+CorrelationSums::Nearest() const
+{
+  return IndicesWhere(m_Lags, [](const Lag & lag) { return lag.t == 0 && std::abs(lag.x) + std::abs(lag.y) == 1; });
+}
+
+CorrelationSums::Lags
+CorrelationSums::TimeLags() const
+{
+  return IndicesWhere(m_Lags, [](const Lag & lag) { return lag.t > 0; });
+}
+
+TileSums
+CorrelationSums::Total() const
+{
+  TileSums total;
+  for (const TileSums & tile : m_Tiles)
+  {
+    total += tile;
+  }
+  return total;
+}
+
+double
+CorrelationSums::CoefficientOf(const TileSums & sums, const CommonNoise & common, std::size_t lag) const
+{
+  const PairSums total = common.TakeOff(sums.lags[lag], m_Lags[lag]).Total();
+  return Ratio(total.covariance, total.pairs);
+}
+
+Eigen::VectorXd
+CorrelationSums::SharedInBins(const TileSums & sums, const Lags & lags) const
+{
+  const CommonNoise common = FindCommonNoise(sums.shared);
+  Eigen::VectorXd   shared = Eigen::VectorXd::Zero(NoiseResiduals::LightBins);
+  for (const std::size_t k : lags)
+  {
+    const LagSums lag = m_Lags[k].t == 0 ? common.TakeOff(sums.lags[k], m_Lags[k]) : sums.lags[k];
+    for (std::size_t b = 0; b < lag.bins.size(); ++b)
+    {
+      shared(static_cast<Eigen::Index>(b)) += 2.0 * Ratio(lag.bins[b].covariance, lag.bins[b].pairs);
+    }
+  }
+  return shared;
+}
+
+Eigen::VectorXd
+CorrelationSums::ErrorsInBins(const Lags & lags) const
+{
+  const JackknifeEstimate shared =
+    Jackknife(m_Tiles, [&](const TileSums & sums) { return this->SharedInBins(sums, lags); });
+  return shared.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+}
+
+Eigen::VectorXd
+CorrelationSums::Autocovariance(const TileSums & sums, const Eigen::MatrixXd & mixing) const
+{
+  Eigen::VectorXd found(mixing.rows());
+  const Lags      lags = this->TimeLags();
+  for (Eigen::Index j = 0; j < found.size(); ++j)
+  {
+    const PairSums total = sums.lags[j == 0 ? 0 : lags[static_cast<std::size_t>(j) - 1]].Total();
+    found(j) = Ratio(total.covariance, total.pairs);
+  }
+  return mixing.fullPivLu().solve(Eigen::VectorXd(m_Residuals.GetFreedom() * found));
+}
+
+} // namespace sensornoise

@@ -1,0 +1,127 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_correlation_CorrelationSums_h
+#define sensornoise_correlation_CorrelationSums_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/correlation/CommonNoise.h"
+#include "sensornoise/correlation/Jackknife.h"
+#include "sensornoise/correlation/LagSums.h"
+#include "sensornoise/correlation/NoiseKurtosis.h"
+#include "sensornoise/correlation/NoiseResiduals.h"
+#include "sensornoise/correlation/SharedLight.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** All sums of a tile; the lags are those of a CorrelationSums. */
+struct TileSums
+{
+  std::vector<LagSums> lags;
+  SharedLight          shared;
+  KurtosisSums         kurtosis;
+
+  SensorNoise_EXPORT TileSums &
+  operator+=(const TileSums & other);
+};
+
+/** \class CorrelationSums
+ * \brief The sums of all tiles, at as many lags as are asked for, and the figures that are made of them.
+ *
+ * A figure is a function of the sums of some tiles, so that a jackknife tells its error. Lags are indices into
+ * GetLag(); the lag 0 is the first. */
+class SensorNoise_EXPORT CorrelationSums
+{
+public:
+  using Lags = std::vector<std::size_t>;
+
+  /** \a codesDn2: noise of the codes' steps, which no filter has seen. The references must outlive the object. */
+  CorrelationSums(const NoiseResiduals & residuals, double codesDn2, const ParallelFor & parallelFor);
+
+  /** Adds half of the lags in space at a distance: the other half is the same. */
+  void
+  AddRing(int distance);
+  /** Adds the lags in time up to \a last frames, at most a third of the frames. */
+  void
+  AddTimeLags(int last);
+
+  const Lag &
+  GetLag(std::size_t k) const
+  {
+    return m_Lags[k];
+  }
+  /** The lags in space at distances from \a first to \a last. */
+  Lags
+  Ring(int first, int last) const;
+  /** The lags of the neighbour to the right and the one below. */
+  Lags
+  Nearest() const;
+  Lags
+  TimeLags() const;
+
+  const std::vector<TileSums> &
+  GetTiles() const
+  {
+    return m_Tiles;
+  }
+  TileSums
+  Total() const;
+  const NoiseResiduals &
+  GetResiduals() const
+  {
+    return m_Residuals;
+  }
+  double
+  GetCodesDn2() const
+  {
+    return m_CodesDn2;
+  }
+
+  /** Correlation coefficient of a lag in space, without what is common to all pixels [1]. */
+  double
+  CoefficientOf(const TileSums & sums, const CommonNoise & common, std::size_t lag) const;
+  /** What a pixel shares with all neighbours at some lags, and at the opposite ones, over the variance, in the bins of
+   * the light [1]. */
+  Eigen::VectorXd
+  SharedInBins(const TileSums & sums, const Lags & lags) const;
+  /** The standard errors of SharedInBins() of all tiles. */
+  Eigen::VectorXd
+  ErrorsInBins(const Lags & lags) const;
+  /** Autocovariances over time over the typical variance, at 0 and the lags in time; \a mixing of TemporalMixing(). */
+  Eigen::VectorXd
+  Autocovariance(const TileSums & sums, const Eigen::MatrixXd & mixing) const;
+
+private:
+  void
+  AddLags(const std::vector<Lag> & lags);
+
+  const NoiseResiduals & m_Residuals;
+  double                 m_CodesDn2;
+  const ParallelFor &    m_ParallelFor;
+  std::vector<TileSums>  m_Tiles;
+  std::vector<Lag>       m_Lags;
+};
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,214 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/correlation/SpaceCorrelation.h"
+
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/correlation/SharedShapes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** Coefficient that is worth a word [1]. Set by hand: charge coupling of 0.3 % makes 0.006 of it, the noise of a plain
+ * sample 0.0004 to 0.0007. */
+constexpr double LeastCoefficient = 0.002;
+/** What the nearest four share together that is worth a word, relative to the variance of the bright pixels [1]. Set by
+ * hand: a brighter-fatter effect of 2 % at full well makes 0.02. */
+constexpr double LeastEffect = 0.005;
+/** Standard errors by which that of the nearest neighbours, and any of the others, must exceed it [1]. */
+constexpr double NearestZ = 3.0;
+constexpr double AnyZ = 4.0;
+
+/** What a further ring may add to the sum without being looked at, of the sum [1]. */
+constexpr double SmallRing = 0.005;
+/** Of the sum over lags [pixels]: smoothing by a Gaussian of 1 pixel reaches as far. */
+constexpr int LargestReach = 5;
+
+/** Coefficient up to which charge may be coupled [1]: sensors have a few hundredths. */
+constexpr double LargestCrosstalk = 0.06;
+/** Distance up to which charge is coupled [pixels]. */
+constexpr int ReachOfCharge = 2;
+/** Evidence that a rarer shape needs, as a difference of chi-squares [1]: one in e. */
+constexpr double EvidenceOfRareShape = 2.0;
+/** Probability from which what neighbours share, with the opposite sign, is taken for the rounding of blocks [1]. */
+constexpr double RoundingProbability = 0.05;
+/** Chi-square of the best shape from which nothing explains it: the 99 % quantile for four bins and one number [1]. */
+constexpr double LargestChi2 = 11.3;
+
+MeasuredNumber
+NumberAt(const JackknifeEstimate & estimate, std::size_t k)
+{
+  const auto index = static_cast<Eigen::Index>(k);
+  return { estimate.value(index), estimate.StandardError(index) };
+}
+
+/** Twice the sum of the coefficients of some lags. */
+MeasuredNumber
+SumOfCoefficients(const CorrelationSums & sums, const CorrelationSums::Lags & lags)
+{
+  return NumberAt(Jackknife(sums.GetTiles(),
+                            [&](const TileSums & tiles) {
+                              const CommonNoise common = FindCommonNoise(tiles.shared);
+                              double            sum = 0.0;
+                              for (const std::size_t k : lags)
+                              {
+                                sum += 2.0 * sums.CoefficientOf(tiles, common, k);
+                              }
+                              return Eigen::VectorXd(Eigen::VectorXd::Constant(1, sum));
+                            }),
+                  0);
+}
+
+/** \a sums holds two rings. */
+int
+FindReach(CorrelationSums & sums, double & beyond)
+{
+  for (int reach = 1;; ++reach)
+  {
+    if (reach > 1)
+    {
+      sums.AddRing(reach + 1);
+    }
+    const MeasuredNumber next = SumOfCoefficients(sums, sums.Ring(reach + 1, reach + 1));
+    const double         inside = 1.0 + SumOfCoefficients(sums, sums.Ring(1, reach)).value;
+    const double         size = std::abs(next.value);
+    if (size < SmallRing * std::abs(inside) || size < next.standardError || reach == LargestReach)
+    {
+      beyond = std::max(size, 0.5 * next.standardError);
+      return reach;
+    }
+  }
+}
+
+/** Coefficients of the shapes, then their chi-squares. */
+JackknifeEstimate
+FitAllShapes(const CorrelationSums & sums, const CorrelationSums::Lags & lags)
+{
+  const Eigen::VectorXd errors = sums.ErrorsInBins(lags);
+  return Jackknife(sums.GetTiles(), [&](const TileSums & tiles) {
+    const auto shapes =
+      FitShapes(PredictShapes(tiles.lags[0], sums.GetCodesDn2()), sums.SharedInBins(tiles, lags), errors);
+    Eigen::VectorXd figures(2 * NumberOfShapes);
+    for (std::size_t k = 0; k < NumberOfShapes; ++k)
+    {
+      figures(static_cast<Eigen::Index>(k)) = shapes[k].coefficient;
+      figures(static_cast<Eigen::Index>(NumberOfShapes + k)) = shapes[k].chi2;
+    }
+    return figures;
+  });
+}
+
+/** Probabilities of the shapes, by their chi-squares: charge is coupled weakly and not far. */
+std::array<double, NumberOfShapes>
+ProbabilitiesOf(const Eigen::VectorXd & chi2, bool mayBeCharge)
+{
+  std::array<double, NumberOfShapes> probabilities{};
+  double                             sum = 0.0;
+  for (std::size_t k = 0; k < NumberOfShapes; ++k)
+  {
+    const auto   shape = static_cast<ShapeOfShared>(k);
+    const bool   isCharge = shape == ShapeOfShared::Light || shape == ShapeOfShared::Square;
+    const bool   isRare = shape == ShapeOfShared::Square || shape == ShapeOfShared::Constant;
+    const double evidence = isRare ? EvidenceOfRareShape : 0.0;
+    probabilities[k] = isCharge && !mayBeCharge
+                         ? 0.0
+                         : std::exp(-0.5 * (chi2(static_cast<Eigen::Index>(k)) + evidence - chi2.minCoeff()));
+    sum += probabilities[k];
+  }
+  for (double & probability : probabilities)
+  {
+    probability /= std::max(1e-300, sum);
+  }
+  return probabilities;
+}
+} // namespace
+
+bool
+SharesInSpace(const CorrelationSums & sums, const std::vector<LagCoefficient> & coefficients)
+{
+  const CorrelationSums::Lags nearest = sums.Nearest();
+  const Eigen::VectorXd       errors = sums.ErrorsInBins(nearest);
+  const JackknifeEstimate     atTheTop = Jackknife(sums.GetTiles(), [&](const TileSums & tiles) {
+    const Eigen::MatrixXd shapes = PredictShapes(tiles.lags[0], sums.GetCodesDn2());
+    const auto            fits = FitShapes(shapes, sums.SharedInBins(tiles, nearest), errors);
+    Eigen::Vector3d       effects;
+    for (Eigen::Index k = 0; k < effects.size(); ++k) // not of the constant
+    {
+      effects(k) = fits[static_cast<std::size_t>(k)].coefficient * shapes(shapes.rows() - 1, k);
+    }
+    return Eigen::VectorXd(effects);
+  });
+  for (std::size_t k = 0; k < static_cast<std::size_t>(atTheTop.value.size()); ++k)
+  {
+    if (NumberAt(atTheTop, k).Exceeds(LeastEffect, NearestZ))
+    {
+      return true;
+    }
+  }
+  return std::any_of(coefficients.begin(), coefficients.end(), [](const LagCoefficient & lag) {
+    return lag.coefficient.Exceeds(LeastCoefficient, AnyZ);
+  });
+}
+
+void
+SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
+{
+  const int                   reach = FindReach(sums, found.beyondReach);
+  const CorrelationSums::Lags lags = sums.Ring(1, reach);
+  const TileSums              all = sums.Total();
+  const CommonNoise           common = FindCommonNoise(all.shared);
+  double                      largest = 0.0;
+  for (const std::size_t k : lags)
+  {
+    largest = std::max(largest, std::abs(sums.CoefficientOf(all, common, k)));
+  }
+  const bool              mayBeCharge = largest < LargestCrosstalk && reach <= ReachOfCharge;
+  const JackknifeEstimate fits = FitAllShapes(sums, lags);
+  const Eigen::VectorXd   chi2 = fits.value.tail(NumberOfShapes);
+  const auto              probabilities = ProbabilitiesOf(chi2, mayBeCharge);
+  const auto              shapeOf = [&](ShapeOfShared shape) {
+    const auto k = static_cast<std::size_t>(shape);
+    return SharedShape{ NumberAt(fits, k), probabilities[k] };
+  };
+  found.ofVariance = shapeOf(ShapeOfShared::Variance);
+  found.ofLight = shapeOf(ShapeOfShared::Light);
+  found.ofSquare = shapeOf(ShapeOfShared::Square);
+  // A filter that sharpens takes in proportion to the variance; what blocks of pixels are rounded to does not.
+  const double constant = probabilities[static_cast<std::size_t>(ShapeOfShared::Constant)];
+  const bool   isRounding =
+    found.ofVariance.coefficient.value < 0.0 && (constant > RoundingProbability || chi2.minCoeff() > LargestChi2);
+  if (isRounding)
+  {
+    found.kind = NoiseKind::NotLinear;
+  }
+  else if (found.kind != NoiseKind::Temporal)
+  {
+    const bool isCharge = mayBeCharge && (reach == 1 || found.ofLight.probability > found.ofVariance.probability);
+    found.kind = found.ofSquare.probability > 0.5 ? NoiseKind::BrighterFatter
+                 : isCharge                       ? NoiseKind::Crosstalk
+                                                  : NoiseKind::Filtered;
+  }
+}
+
+} // namespace sensornoise
