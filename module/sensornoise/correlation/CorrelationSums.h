@@ -21,6 +21,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/correlation/BlockPhases.h"
 #include "sensornoise/correlation/CommonNoise.h"
 #include "sensornoise/correlation/Jackknife.h"
 #include "sensornoise/correlation/LagSums.h"
@@ -86,6 +87,12 @@ public:
   }
   TileSums
   Total() const;
+  /** What nearest neighbours share, by their place in a block, of every tile. */
+  std::vector<BlockPhases>
+  SumPhases() const
+  {
+    return SumBlockPhases(m_Residuals, m_ParallelFor);
+  }
   const NoiseResiduals &
   GetResiduals() const
   {

@@ -149,6 +149,21 @@ MeasuredNumber::Exceeds(double least, double z) const
   return std::abs(value) > least + z * standardError;
 }
 
+MeasuredNumber
+NoiseCorrelation::LineNoise() const
+{
+  MeasuredNumber sum;
+  for (const MeasuredNumber & lines : { rowsDn2, columnsDn2 })
+  {
+    if (lines.value > LeastLineNoiseZ * lines.standardError)
+    {
+      sum.value += lines.value;
+      sum.standardError = std::hypot(sum.standardError, lines.standardError);
+    }
+  }
+  return sum;
+}
+
 double
 NoiseCorrelation::SharedSquares() const
 {

@@ -59,6 +59,9 @@ struct MeasuredNumber
   Exceeds(double least, double z) const;
 };
 
+/** Standard errors by which the variance of whole rows' or columns' noise must exceed 0 to be there [1]. */
+inline constexpr double LeastLineNoiseZ = 4.0;
+
 /** The correlation coefficient of the noise of two values [1]. */
 struct LagCoefficient
 {
@@ -99,6 +102,10 @@ struct SensorNoise_EXPORT NoiseCorrelation
   /** Sum over all lags in space of the squared coefficients: by how much more mean variances scatter [1]. */
   double
   SharedSquares() const;
+
+  /** Variance of the noise of whole rows and columns, where it is seen [DN^2]. */
+  MeasuredNumber
+  LineNoise() const;
 
   /** Whether the variance is not that of the sensor. */
   bool

@@ -18,6 +18,7 @@
 #include "sensornoise/correlation/SpaceCorrelation.h"
 
 #include "sensornoise/base/Eigen.h"
+#include "sensornoise/correlation/BlockPhases.h"
 #include "sensornoise/correlation/SharedShapes.h"
 
 #include <algorithm>
@@ -35,9 +36,13 @@ namespace
 constexpr double LeastCoefficient = 0.002;
 /** What the nearest four share together that is worth a word, relative to the variance of the bright pixels [1]. Set by
  * hand: a brighter-fatter effect of 2 % at full well makes 0.02. */
-constexpr double LeastEffect = 0.005;
+constexpr double LeastEffect = 0.003;
 /** Standard errors by which that of the nearest neighbours, and any of the others, must exceed it [1]. */
-constexpr double NearestZ = 3.0;
+constexpr double NearestZ = 2.7;
+/** Standard errors of what grows with the square of the light, and chi-square by which it straightens the variance,
+ * that together tell it from chance [1]. */
+constexpr double LeastZOfSquare = 1.5;
+constexpr double LeastEvidenceOfBend = 9.0;
 constexpr double AnyZ = 4.0;
 
 /** What a further ring may add to the sum without being looked at, of the sum [1]. */
@@ -55,6 +60,15 @@ constexpr double EvidenceOfRareShape = 2.0;
 constexpr double RoundingProbability = 0.05;
 /** Chi-square of the best shape from which nothing explains it: the 99 % quantile for four bins and one number [1]. */
 constexpr double LargestChi2 = 11.3;
+
+/** Chi-square that a bend of the variance may count at most [1]: the response may bend, too. */
+constexpr double MostEvidenceOfBend = 20.0;
+/** Root mean square by which what nearest neighbours share may differ with the place in a block [1]. Set by hand: a
+ * JPEG of quality 98 makes 0.01. */
+constexpr double LargestSpreadOfPhases = 0.003;
+/** What neighbours share in all that blocks can make [1]. Frames that were binned and have their old size again share
+ * 3, by the place, too, and linearly. */
+constexpr double LargestSumOfBlocks = 0.5;
 
 MeasuredNumber
 NumberAt(const JackknifeEstimate & estimate, std::size_t k)
@@ -101,6 +115,35 @@ FindReach(CorrelationSums & sums, double & beyond)
   }
 }
 
+/** Chi-square of \a variance, of the bins and relative to its typical value, about a line of the light. */
+double
+Chi2OfLine(const Eigen::MatrixXd & shapes, const Eigen::VectorXd & variance, const Eigen::VectorXd & errors)
+{
+  Eigen::MatrixXd design(variance.size(), 2);
+  design.col(0) = shapes.col(static_cast<Eigen::Index>(ShapeOfShared::Light));
+  design.col(1) = shapes.col(static_cast<Eigen::Index>(ShapeOfShared::Constant));
+  const Eigen::VectorXd weights = errors.unaryExpr([](double error) { return error > 0.0 ? 1.0 / error : 0.0; });
+  const Eigen::MatrixXd weighted = weights.asDiagonal() * design;
+  const Eigen::VectorXd values = weights.cwiseProduct(variance);
+  return (values - weighted * weighted.colPivHouseholderQr().solve(values)).squaredNorm();
+}
+
+/** What each shape leaves of the variance's departure from a line of the light, as a chi-square: charge that repels
+ * charge bends the variance of a pixel and not its sum over all neighbours. */
+Eigen::VectorXd
+Chi2OfSums(const CorrelationSums & sums, const TileSums & all, const Eigen::VectorXd & coefficients)
+{
+  const CorrelationSums::Lags itself{ 0 };
+  const Eigen::MatrixXd       shapes = PredictShapes(all.lags[0], sums.GetCodesDn2());
+  const Eigen::VectorXd       own = 0.5 * sums.SharedInBins(all, itself);
+  const Eigen::VectorXd       errors = 0.5 * sums.ErrorsInBins(itself);
+  const double                straight = Chi2OfLine(shapes, own, errors);
+  Eigen::VectorXd             chi2 = Eigen::VectorXd::Constant(NumberOfShapes, straight);
+  const auto                  square = static_cast<Eigen::Index>(ShapeOfShared::Square);
+  chi2(square) = Chi2OfLine(shapes, own + coefficients(square) * shapes.col(square), errors);
+  return chi2.cwiseMin(chi2.minCoeff() + MostEvidenceOfBend);
+}
+
 /** Coefficients of the shapes, then their chi-squares. */
 JackknifeEstimate
 FitAllShapes(const CorrelationSums & sums, const CorrelationSums::Lags & lags)
@@ -142,6 +185,26 @@ ProbabilitiesOf(const Eigen::VectorXd & chi2, bool mayBeCharge)
   }
   return probabilities;
 }
+/** Whether the variance bends as charge that repels charge bends it, and what the nearest share straightens it. Either
+ * alone would be chance, or the response. */
+bool
+StraightensVariance(const CorrelationSums & sums, const Eigen::VectorXd & errors, const MeasuredNumber & effect)
+{
+  if (effect.value < LeastEffect || !effect.Exceeds(0.0, LeastZOfSquare))
+  {
+    return false;
+  }
+  const TileSums        all = sums.Total();
+  const Eigen::MatrixXd shapes = PredictShapes(all.lags[0], sums.GetCodesDn2());
+  const auto            fits = FitShapes(shapes, sums.SharedInBins(all, sums.Nearest()), errors);
+  Eigen::VectorXd       coefficients(NumberOfShapes);
+  std::transform(
+    fits.begin(), fits.end(), coefficients.data(), [](const FittedShape & fit) { return fit.coefficient; });
+  const Eigen::VectorXd chi2 = Chi2OfSums(sums, all, coefficients);
+  return chi2(static_cast<Eigen::Index>(ShapeOfShared::Variance)) -
+           chi2(static_cast<Eigen::Index>(ShapeOfShared::Square)) >
+         LeastEvidenceOfBend;
+}
 } // namespace
 
 bool
@@ -166,6 +229,10 @@ SharesInSpace(const CorrelationSums & sums, const std::vector<LagCoefficient> & 
       return true;
     }
   }
+  if (StraightensVariance(sums, errors, NumberAt(atTheTop, static_cast<std::size_t>(ShapeOfShared::Square))))
+  {
+    return true;
+  }
   return std::any_of(coefficients.begin(), coefficients.end(), [](const LagCoefficient & lag) {
     return lag.coefficient.Exceeds(LeastCoefficient, AnyZ);
   });
@@ -186,7 +253,8 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
   const bool              mayBeCharge = largest < LargestCrosstalk && reach <= ReachOfCharge;
   const JackknifeEstimate fits = FitAllShapes(sums, lags);
   const Eigen::VectorXd   chi2 = fits.value.tail(NumberOfShapes);
-  const auto              probabilities = ProbabilitiesOf(chi2, mayBeCharge);
+  const Eigen::VectorXd   withBend = chi2 + Chi2OfSums(sums, all, fits.value.head(NumberOfShapes));
+  const auto              probabilities = ProbabilitiesOf(withBend, mayBeCharge);
   const auto              shapeOf = [&](ShapeOfShared shape) {
     const auto k = static_cast<std::size_t>(shape);
     return SharedShape{ NumberAt(fits, k), probabilities[k] };
@@ -196,8 +264,9 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
   found.ofSquare = shapeOf(ShapeOfShared::Square);
   // A filter that sharpens takes in proportion to the variance; what blocks of pixels are rounded to does not.
   const double constant = probabilities[static_cast<std::size_t>(ShapeOfShared::Constant)];
-  const bool   isRounding =
-    found.ofVariance.coefficient.value < 0.0 && (constant > RoundingProbability || chi2.minCoeff() > LargestChi2);
+  const double shared = found.ofVariance.coefficient.value;
+  const bool   isRounding = (shared < 0.0 && (constant > RoundingProbability || chi2.minCoeff() > LargestChi2)) ||
+                          (shared < LargestSumOfBlocks && SpreadOfPhases(sums.SumPhases()) > LargestSpreadOfPhases);
   if (isRounding)
   {
     found.kind = NoiseKind::NotLinear;

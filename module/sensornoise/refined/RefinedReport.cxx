@@ -146,17 +146,18 @@ StudentOf(const RefinedResults & found)
   return StudentQuantile(0.975, static_cast<double>(found.scene.frame.frames) - 2.0);
 }
 
-/** The settings with the variance of dark frames that the sensor had before a filter, which they passed, too. */
+/** The settings with the variance of dark frames that the sensor's pixels had: they passed a filter, too, and have the
+ * noise of rows and columns. */
 RefinedSettings
 SettingsOfSensor(const RefinedResults & found, double codesDn2)
 {
   RefinedSettings settings = found.settings;
-  const double    factor = FilterFactor(found.correlation);
-  if (settings.offset && settings.offset->variance && factor != 1.0)
+  if (settings.offset && settings.offset->variance)
   {
     DarkVariance & dark = *settings.offset->variance;
-    dark.valueDn2 = VarianceOfSensor(dark.valueDn2, factor, codesDn2);
-    dark.standardErrorDn2 *= factor;
+    dark.valueDn2 = VarianceOfSensor(dark.valueDn2, found.correlation, codesDn2);
+    dark.standardErrorDn2 =
+      std::hypot(dark.standardErrorDn2 * FilterFactor(found.correlation), found.correlation.LineNoise().standardError);
     settings.offset->maps.reset();
     settings.offset->readNoiseMedian.reset();
   }
@@ -222,7 +223,7 @@ MakeRefinedReport(const RefinedResults & found)
 
   const double       codesDn2 = found.variance.codeNoise.inTheDarkDn2;
   const GainEstimate ofVariance = EstimateGain(found);
-  if (found.correlation.IsShared())
+  if (found.correlation.IsShared() || found.correlation.LineNoise().value > 0.0)
   {
     const RefinedSettings settings = SettingsOfSensor(found, codesDn2);
     const SensorLines     lines = WithSharedNoise(LinesOf(found.variance), found.correlation, found.blackDn, codesDn2);

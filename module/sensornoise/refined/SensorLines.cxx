@@ -36,6 +36,7 @@ public:
     , m_Time(correlation.timeFactor.value)
     , m_BlackDn(blackDn)
     , m_CodesDn2(codesDn2)
+    , m_LinesDn2(correlation.LineNoise().value)
   {}
 
   /** The sensor's variance, of that of a pixel at a level. */
@@ -44,7 +45,7 @@ public:
   {
     const double light = levelDn - m_BlackDn;
     const double noise = varianceDn2 - m_CodesDn2;
-    return m_Time * (noise * (1.0 + m_OfVariance) + light * (m_OfLight + light * m_OfSquare)) + m_CodesDn2;
+    return m_Time * (noise * (1.0 + m_OfVariance) + light * (m_OfLight + light * m_OfSquare)) + m_CodesDn2 - m_LinesDn2;
   }
   /** How much the sensor's variance changes with that of a pixel. */
   double
@@ -59,7 +60,7 @@ public:
     VarianceLine sensor = line;
     const double factor = this->Factor();
     sensor.gain = factor * line.gain + m_Time * (m_OfLight + m_OfSquare * lineOfSquare(0));
-    sensor.intercept = m_CodesDn2 + factor * (line.intercept - m_CodesDn2) +
+    sensor.intercept = m_CodesDn2 - m_LinesDn2 + factor * (line.intercept - m_CodesDn2) +
                        m_Time * (m_OfSquare * lineOfSquare(1) - m_OfLight * m_BlackDn);
     sensor.lowestDn2 = line.lowestDn2 * factor;
     sensor.covariance = line.covariance * (factor * factor);
@@ -77,6 +78,7 @@ private:
   double m_Time;
   double m_BlackDn;
   double m_CodesDn2;
+  double m_LinesDn2;
 };
 
 /** Slope and intercept of the line through the square of the light, weighted as the curve. */
@@ -165,7 +167,9 @@ ErrorOf(const NoiseCorrelation & correlation,
   const Eigen::Vector2d whole(sensor.gain, sensor.intercept - codesDn2);
   const double          relative = std::hypot(correlation.timeFactor.standardError / std::max(1e-9, time),
                                      correlation.beyondReach * line.gain * time / std::max(1e-9, sensor.gain));
-  return error + relative * relative * whole * whole.transpose();
+  error += relative * relative * whole * whole.transpose();
+  error(1, 1) += correlation.LineNoise().standardError * correlation.LineNoise().standardError;
+  return error;
 }
 } // namespace
 

@@ -48,15 +48,16 @@ LinesOf(const StaticVariance & variance);
 SensorNoise_EXPORT double
 FilterFactor(const NoiseCorrelation & correlation);
 
-/** The variance before a filter, which the codes' noise has not passed. */
+/** The variance of a pixel before a filter, which the codes' noise has not passed, without that of its row and column.
+ */
 inline double
-VarianceOfSensor(double varianceDn2, double filterFactor, double codesDn2)
+VarianceOfSensor(double varianceDn2, const NoiseCorrelation & correlation, double codesDn2)
 {
-  return (varianceDn2 - codesDn2) * filterFactor + codesDn2;
+  return (varianceDn2 - codesDn2 - correlation.LineNoise().value) * FilterFactor(correlation) + codesDn2;
 }
 
-/** The lines of the variance that the sensor had: with what neighbours and frames share, summed over all lags. Levels
- * are light above \a blackDn. */
+/** The lines of the variance that the sensor's pixels had: with what neighbours and frames share, summed over all lags,
+ * and without the noise of whole rows and columns. Levels are light above \a blackDn. */
 SensorNoise_EXPORT SensorLines
 WithSharedNoise(const SensorLines & lines, const NoiseCorrelation & correlation, double blackDn, double codesDn2);
 

@@ -1,0 +1,113 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/correlation/BlockPhases.h"
+
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/correlation/Jackknife.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** Standard deviations of chance by which the sum of the squared differences is cut [1]. */
+constexpr double PhaseZ = 4.0;
+
+/** The coefficients of the phases less the mean of their axis. */
+Eigen::VectorXd
+Differences(const BlockPhases & sums)
+{
+  constexpr auto  period = static_cast<Eigen::Index>(BlockPhases::Period);
+  Eigen::VectorXd coefficients(2 * period);
+  for (Eigen::Index k = 0; k < coefficients.size(); ++k)
+  {
+    const double pairs = sums.pairs[static_cast<std::size_t>(k)];
+    coefficients(k) = pairs > 0.0 ? sums.covariance[static_cast<std::size_t>(k)] / pairs : 0.0;
+  }
+  coefficients.head(period).array() -= coefficients.head(period).mean();
+  coefficients.tail(period).array() -= coefficients.tail(period).mean();
+  return coefficients;
+}
+
+void
+AddAxis(const NoiseResiduals & residuals, std::size_t tile, std::size_t axis, BlockPhases & sums)
+{
+  const SampleTiles & tiles = residuals.GetTiles();
+  const std::size_t   size = tiles.Pixels();
+  const std::size_t   shift = axis == 0 ? 1 : tiles.side;
+  const float *       weight = residuals.WeightOf(tile);
+  std::vector<float>  products(size, 0.0F);
+  for (std::size_t t = 0; t < tiles.frames; ++t)
+  {
+    const float * values = residuals.OfTile(tile) + t * size;
+    for (std::size_t p = 0; p + shift < size; ++p)
+    {
+      products[p] += values[p] * values[p + shift];
+    }
+  }
+  const SampleTiles::Origin & origin = tiles.origins[tile];
+  for (std::size_t p = 0; p + shift < size; ++p)
+  {
+    const std::size_t x = p % tiles.side;
+    const double      w = static_cast<double>(weight[p]) * weight[p + shift];
+    if (w > 0.0 && (axis == 1 || x + 1 < tiles.side))
+    {
+      const std::size_t at = axis == 0 ? origin.x + x : origin.y + p / tiles.side;
+      const std::size_t k = axis * BlockPhases::Period + at % BlockPhases::Period;
+      sums.covariance[k] += products[p] * std::sqrt(w) / residuals.GetFreedom();
+      sums.pairs[k] += 1.0;
+    }
+  }
+}
+} // namespace
+
+BlockPhases &
+BlockPhases::operator+=(const BlockPhases & other)
+{
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+  {
+    covariance[k] += other.covariance[k];
+    pairs[k] += other.pairs[k];
+  }
+  return *this;
+}
+
+std::vector<BlockPhases>
+SumBlockPhases(const NoiseResiduals & residuals, const ParallelFor & parallelFor)
+{
+  std::vector<BlockPhases> sums(residuals.GetTiles().origins.size());
+  parallelFor(sums.size(), [&](std::size_t i) {
+    AddAxis(residuals, i, 0, sums[i]);
+    AddAxis(residuals, i, 1, sums[i]);
+  });
+  return sums;
+}
+
+double
+SpreadOfPhases(const std::vector<BlockPhases> & tiles)
+{
+  const JackknifeEstimate estimate = Jackknife(tiles, Differences);
+  const Eigen::VectorXd   variances = estimate.covariance.diagonal();
+  const double            chance = variances.sum() + PhaseZ * std::sqrt(2.0 * variances.squaredNorm());
+  return std::sqrt(std::max(0.0, estimate.value.squaredNorm() - chance) / static_cast<double>(estimate.value.size()));
+}
+
+} // namespace sensornoise
