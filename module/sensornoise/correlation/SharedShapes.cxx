@@ -23,7 +23,7 @@ namespace sensornoise
 {
 
 Eigen::MatrixXd
-PredictShapes(const LagSums & own, double codesDn2)
+PredictShapes(const LagSums & own, double unfilteredDn2)
 {
   Eigen::MatrixXd shapes = Eigen::MatrixXd::Zero(NoiseResiduals::LightBins, NumberOfShapes);
   for (std::size_t b = 0; b < own.bins.size(); ++b)
@@ -32,7 +32,7 @@ PredictShapes(const LagSums & own, double codesDn2)
     if (bin.pairs > 0.0)
     {
       const auto row = static_cast<Eigen::Index>(b);
-      shapes.row(row) << bin.pairs - codesDn2 * bin.constant, bin.light, bin.square, bin.constant;
+      shapes.row(row) << bin.pairs - unfilteredDn2 * bin.constant, bin.light, bin.square, bin.constant;
       shapes.row(row) /= bin.pairs;
     }
   }

@@ -39,9 +39,10 @@ enum class ShapeOfShared : std::uint8_t
 };
 inline constexpr std::size_t NumberOfShapes = 4;
 
-/** What one unit of a shape makes of the covariance relative to the variance, in each bin of the light. */
+/** What one unit of a shape makes of the covariance relative to the variance, in each bin of the light;
+ * \a unfilteredDn2 is the part of the variance that no filter has seen, of the codes' steps. */
 SensorNoise_EXPORT Eigen::MatrixXd
-PredictShapes(const LagSums & own, double codesDn2);
+PredictShapes(const LagSums & own, double unfilteredDn2);
 
 /** A shape that was fitted to what the bins share. */
 struct FittedShape

@@ -144,14 +144,13 @@ Chi2OfSums(const CorrelationSums & sums, const TileSums & all, const Eigen::Vect
   return chi2.cwiseMin(chi2.minCoeff() + MostEvidenceOfBend);
 }
 
-/** Coefficients of the shapes, then their chi-squares. */
+/** Coefficients of the shapes, then their chi-squares; \a unfilteredDn2 of the variance is that of codes and lines. */
 JackknifeEstimate
-FitAllShapes(const CorrelationSums & sums, const CorrelationSums::Lags & lags)
+FitAllShapes(const CorrelationSums & sums, const CorrelationSums::Lags & lags, double unfilteredDn2)
 {
   const Eigen::VectorXd errors = sums.ErrorsInBins(lags);
   return Jackknife(sums.GetTiles(), [&](const TileSums & tiles) {
-    const auto shapes =
-      FitShapes(PredictShapes(tiles.lags[0], sums.GetCodesDn2()), sums.SharedInBins(tiles, lags), errors);
+    const auto shapes = FitShapes(PredictShapes(tiles.lags[0], unfilteredDn2), sums.SharedInBins(tiles, lags), errors);
     Eigen::VectorXd figures(2 * NumberOfShapes);
     for (std::size_t k = 0; k < NumberOfShapes; ++k)
     {
@@ -251,7 +250,7 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
     largest = std::max(largest, std::abs(sums.CoefficientOf(all, common, k)));
   }
   const bool              mayBeCharge = largest < LargestCrosstalk && reach <= ReachOfCharge;
-  const JackknifeEstimate fits = FitAllShapes(sums, lags);
+  const JackknifeEstimate fits = FitAllShapes(sums, lags, sums.GetCodesDn2() + found.LineNoise().value);
   const Eigen::VectorXd   chi2 = fits.value.tail(NumberOfShapes);
   const Eigen::VectorXd   withBend = chi2 + Chi2OfSums(sums, all, fits.value.head(NumberOfShapes));
   const auto              probabilities = ProbabilitiesOf(withBend, mayBeCharge);

@@ -44,8 +44,8 @@ public:
   SensorOf(double varianceDn2, double levelDn) const
   {
     const double light = levelDn - m_BlackDn;
-    const double noise = varianceDn2 - m_CodesDn2;
-    return m_Time * (noise * (1.0 + m_OfVariance) + light * (m_OfLight + light * m_OfSquare)) + m_CodesDn2 - m_LinesDn2;
+    const double noise = varianceDn2 - m_CodesDn2 - m_LinesDn2;
+    return m_Time * (noise * (1.0 + m_OfVariance) + light * (m_OfLight + light * m_OfSquare)) + m_CodesDn2;
   }
   /** How much the sensor's variance changes with that of a pixel. */
   double
@@ -60,7 +60,7 @@ public:
     VarianceLine sensor = line;
     const double factor = this->Factor();
     sensor.gain = factor * line.gain + m_Time * (m_OfLight + m_OfSquare * lineOfSquare(0));
-    sensor.intercept = m_CodesDn2 - m_LinesDn2 + factor * (line.intercept - m_CodesDn2) +
+    sensor.intercept = m_CodesDn2 + factor * (line.intercept - m_CodesDn2 - m_LinesDn2) +
                        m_Time * (m_OfSquare * lineOfSquare(1) - m_OfLight * m_BlackDn);
     sensor.lowestDn2 = line.lowestDn2 * factor;
     sensor.covariance = line.covariance * (factor * factor);
