@@ -92,3 +92,55 @@ TEST(SensorNoiseReportTable, FitIsShownAsFarAsItIsKnown)
   EXPECT_EQ(LineOf(report, "fit:"),
             "fit: reduced chi2 1.02 (1: only sampling noise is left), offset line 0.98 (1: one flicker for all)");
 }
+
+TEST(SensorNoiseReportTable, NoiseIsNamedWhereItWasLookedAt)
+{
+  Report report;
+  EXPECT_EQ(LineOf(report, "noise"), "");
+  NoiseCorrelationRecord & noise = report.noiseCorrelation.emplace();
+  noise.kind = "white";
+  noise.space = { { 1, 0, 0, 0.0004, 0.0005 } };
+  EXPECT_EQ(LineOf(report, "noise"), "noise: white (neighbours and frames share none of it)");
+  noise.kind = "not-linear";
+  EXPECT_EQ(LineOf(report, "noise"),
+            "noise: not-linear (not as a sensor's or a linear filter's: what gain it had cannot be told)");
+}
+
+TEST(SensorNoiseReportTable, WhatNeighboursOrFramesShareIsThatOfTheLagThatSharesMost)
+{
+  Report                   report;
+  NoiseCorrelationRecord & noise = report.noiseCorrelation.emplace();
+  noise.kind = "filtered";
+  noise.space = { { 1, 0, 0, 0.1, 0.001 }, { 0, 1, 0, -0.442, 0.001 }, { 1, 1, 0, 0.2, 0.001 } };
+  noise.time = { { 0, 0, 1, 0.251, 0.001 } };
+  EXPECT_EQ(LineOf(report, "noise"), "noise: filtered, neighbours share up to -44 % of it");
+  report.gain = Quantity::Identified(1.0, "DN/e-");
+  EXPECT_EQ(LineOf(report, "noise"),
+            "noise: filtered, neighbours share up to -44 % of it; the gain is from the sum over all lags");
+  noise.kind = "temporal";
+  EXPECT_EQ(LineOf(report, "noise"),
+            "noise: temporal, frames share up to 25 % of it; the gain is from the sum over all lags");
+}
+
+TEST(SensorNoiseReportTable, RowsAndColumnsHaveALineWhereTheirNoiseIsTold)
+{
+  Report                   report;
+  NoiseCorrelationRecord & noise = report.noiseCorrelation.emplace();
+  noise.kind = "white";
+  noise.rowNoise = Quantity::Without(EstimateStatus::UpperLimit, "DN");
+  noise.rowNoise.bracket = Interval{ 0.0, 0.3 };
+  noise.columnNoise = Quantity::Identified(2.5, "DN");
+  EXPECT_EQ(LineOf(report, "row noise"), "");
+  EXPECT_EQ(LineOf(report, "column noise"), "column noise                        2.5  DN       identified        ");
+}
+
+TEST(SensorNoiseReportTable, VarianceSlopeHasALineWhereItIsNotTheGain)
+{
+  Report report;
+  report.gain = report.varianceSlope = Quantity::Identified(1.000001, "DN/e-");
+  EXPECT_EQ(LineOf(report, "variance slope"), "");
+  report.varianceSlope.value = 0.245;
+  EXPECT_EQ(LineOf(report, "variance slope"), "variance slope                    0.245  DN/e-    identified        ");
+  report.gain = Quantity::Without(EstimateStatus::Failed, "DN/e-");
+  EXPECT_EQ(LineOf(report, "variance slope"), "variance slope                    0.245  DN/e-    identified        ");
+}

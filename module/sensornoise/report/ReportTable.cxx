@@ -20,6 +20,7 @@
 #include "sensornoise/report/ReportJson.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <utility>
@@ -95,6 +96,69 @@ DescribeCodes(const Report & report)
   }
   return text;
 }
+
+using Row = std::pair<const char *, const Quantity *>;
+
+/** What every report shows, and what only some have. */
+std::vector<Row>
+RowsOf(const Report & report)
+{
+  const auto isIdentified = [](const Quantity & quantity) { return quantity.status == EstimateStatus::Identified; };
+  std::vector<Row> rows{ { "gain g", &report.gain },
+                         { "offset mu", &report.offset },
+                         { "read noise sigma", &report.readNoise } };
+  if (report.readNoiseMedian.value)
+  {
+    rows.emplace_back("read noise, median pixel", &report.readNoiseMedian);
+  }
+  rows.emplace_back("read noise sigma / g", &report.readNoiseElectrons);
+  const auto & correlation = report.noiseCorrelation;
+  if (correlation && isIdentified(correlation->rowNoise))
+  {
+    rows.emplace_back("row noise", &correlation->rowNoise);
+  }
+  if (correlation && isIdentified(correlation->columnNoise))
+  {
+    rows.emplace_back("column noise", &correlation->columnNoise);
+  }
+  rows.emplace_back("intercept sigma^2 - g mu", &report.intercept);
+  // Of a pixel's variance, not of the sensor: a number of its own only where frames are not raw.
+  if (report.varianceSlope.value && Number(report.varianceSlope.value) != Number(report.gain.value))
+  {
+    rows.emplace_back("variance slope", &report.varianceSlope);
+  }
+  rows.emplace_back("flicker sd", &report.flickerSd);
+  rows.emplace_back("vibration sd x", &report.vibrationSdX);
+  rows.emplace_back("vibration sd y", &report.vibrationSdY);
+  return rows;
+}
+
+/** "share 44 %" of the lag that shares most. */
+std::string
+MostShared(const std::vector<NoiseCorrelationRecord::Lag> & lags)
+{
+  const auto most = std::max_element(
+    lags.begin(), lags.end(), [](const auto & a, const auto & b) { return std::abs(a.value) < std::abs(b.value); });
+  return most == lags.end() ? "share some of it" : Format("share up to %.2g %% of it", 100.0 * most->value);
+}
+
+std::string
+DescribeNoise(const Report & report)
+{
+  const NoiseCorrelationRecord & noise = *report.noiseCorrelation;
+  if (noise.kind == "white")
+  {
+    return "noise: white (neighbours and frames share none of it)\n";
+  }
+  if (noise.kind == "not-linear")
+  {
+    return "noise: not-linear (not as a sensor's or a linear filter's: what gain it had cannot be told)\n";
+  }
+  const std::string text =
+    "noise: " + noise.kind +
+    (noise.kind == "temporal" ? ", frames " + MostShared(noise.time) : ", neighbours " + MostShared(noise.space));
+  return text + (report.gain.value ? "; the gain is from the sum over all lags\n" : "\n");
+}
 } // namespace
 
 std::string
@@ -111,20 +175,8 @@ MakeTable(const Report & report)
                   report.pixels.clipped,
                   report.pixels.notFinite);
   table += "method: " + report.method + "\n\n";
-  using Row = std::pair<const char *, const Quantity *>;
-  std::vector<Row> rows{ { "gain g", &report.gain },
-                         { "offset mu", &report.offset },
-                         { "read noise sigma", &report.readNoise },
-                         { "read noise sigma / g", &report.readNoiseElectrons },
-                         { "intercept sigma^2 - g mu", &report.intercept },
-                         { "flicker sd", &report.flickerSd },
-                         { "vibration sd x", &report.vibrationSdX },
-                         { "vibration sd y", &report.vibrationSdY } };
-  if (report.readNoiseMedian.value)
-  {
-    rows.insert(rows.begin() + 3, { "read noise, median pixel", &report.readNoiseMedian });
-  }
-  const bool hasErrors =
+  const std::vector<Row> rows = RowsOf(report);
+  const bool             hasErrors =
     std::any_of(rows.begin(), rows.end(), [](const Row & row) { return row.second->standardError.has_value(); });
   table += Format("%-24s %12s  ", "quantity", "value") + (hasErrors ? Format("%-12s  ", "error") : "");
   table += Format("%-8s %-17s %s\n", "unit", "status", hasErrors ? "95 % interval or limits" : "limits");
@@ -152,6 +204,7 @@ MakeTable(const Report & report)
                         100.0 * *report.fit.nonlinearity)
                : "response: the variance departs from its line by no more than noise\n";
   }
+  table += report.noiseCorrelation ? DescribeNoise(report) : "";
   return table;
 }
 
