@@ -131,7 +131,8 @@ TEST(SensorNoiseReportTable, RowsAndColumnsHaveALineWhereTheirNoiseIsTold)
   noise.rowNoise.bracket = Interval{ 0.0, 0.3 };
   noise.columnNoise = Quantity::Identified(2.5, "DN");
   EXPECT_EQ(LineOf(report, "row noise"), "");
-  EXPECT_EQ(LineOf(report, "column noise"), "column noise                        2.5  DN       identified        ");
+  EXPECT_EQ(LineOf(report, "column noise"), "column noise                      2.5  DN       identified        ");
+  EXPECT_EQ(LineOf(report, "noise"), "noise: white, but for rows and columns");
 }
 
 TEST(SensorNoiseReportTable, VarianceSlopeHasALineWhereItIsNotTheGain)
@@ -140,7 +141,7 @@ TEST(SensorNoiseReportTable, VarianceSlopeHasALineWhereItIsNotTheGain)
   report.gain = report.varianceSlope = Quantity::Identified(1.000001, "DN/e-");
   EXPECT_EQ(LineOf(report, "variance slope"), "");
   report.varianceSlope.value = 0.245;
-  EXPECT_EQ(LineOf(report, "variance slope"), "variance slope                    0.245  DN/e-    identified        ");
+  EXPECT_EQ(LineOf(report, "variance slope"), "variance slope                  0.245  DN/e-    identified        ");
   report.gain = Quantity::Without(EstimateStatus::Failed, "DN/e-");
-  EXPECT_EQ(LineOf(report, "variance slope"), "variance slope                    0.245  DN/e-    identified        ");
+  EXPECT_EQ(LineOf(report, "variance slope"), "variance slope                  0.245  DN/e-    identified        ");
 }

@@ -97,13 +97,18 @@ DescribeCodes(const Report & report)
   return text;
 }
 
+bool
+IsIdentified(const Quantity & quantity)
+{
+  return quantity.status == EstimateStatus::Identified;
+}
+
 using Row = std::pair<const char *, const Quantity *>;
 
 /** What every report shows, and what only some have. */
 std::vector<Row>
 RowsOf(const Report & report)
 {
-  const auto isIdentified = [](const Quantity & quantity) { return quantity.status == EstimateStatus::Identified; };
   std::vector<Row> rows{ { "gain g", &report.gain },
                          { "offset mu", &report.offset },
                          { "read noise sigma", &report.readNoise } };
@@ -113,11 +118,11 @@ RowsOf(const Report & report)
   }
   rows.emplace_back("read noise sigma / g", &report.readNoiseElectrons);
   const auto & correlation = report.noiseCorrelation;
-  if (correlation && isIdentified(correlation->rowNoise))
+  if (correlation && IsIdentified(correlation->rowNoise))
   {
     rows.emplace_back("row noise", &correlation->rowNoise);
   }
-  if (correlation && isIdentified(correlation->columnNoise))
+  if (correlation && IsIdentified(correlation->columnNoise))
   {
     rows.emplace_back("column noise", &correlation->columnNoise);
   }
@@ -148,7 +153,9 @@ DescribeNoise(const Report & report)
   const NoiseCorrelationRecord & noise = *report.noiseCorrelation;
   if (noise.kind == "white")
   {
-    return "noise: white (neighbours and frames share none of it)\n";
+    const bool hasLines = IsIdentified(noise.rowNoise) || IsIdentified(noise.columnNoise);
+    return hasLines ? "noise: white, but for rows and columns\n"
+                    : "noise: white (neighbours and frames share none of it)\n";
   }
   if (noise.kind == "not-linear")
   {
@@ -204,7 +211,10 @@ MakeTable(const Report & report)
                         100.0 * *report.fit.nonlinearity)
                : "response: the variance departs from its line by no more than noise\n";
   }
-  table += report.noiseCorrelation ? DescribeNoise(report) : "";
+  if (report.noiseCorrelation)
+  {
+    table += (report.fit.reducedChi2 ? "" : "\n") + DescribeNoise(report);
+  }
   return table;
 }
 
