@@ -35,8 +35,8 @@ namespace sensornoise
  * the jackknife. */
 struct SensorNoise_EXPORT SampleTiles
 {
-  /** Pixels of all tiles: coefficients of 100 frames come out to 0.0004. Set by hand: half and twice change errors and
-   * cost, as the square root and in proportion. */
+  /** Pixels of all tiles (estimator.md, 3.12): coefficients of 100 frames come out to 0.0004. Set by hand: half and
+   * twice change errors and cost, as the square root and in proportion. */
   static constexpr std::size_t MostPixels = std::size_t{ 1 } << 17;
   /** Values of all tiles, of 4 bytes: 32 MiB. */
   static constexpr std::size_t MostValues = std::size_t{ 1 } << 23;

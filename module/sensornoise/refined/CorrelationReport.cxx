@@ -52,17 +52,26 @@ LargestOf(const std::vector<LagCoefficient> & lags)
   return largest == lags.end() ? nullptr : &*largest;
 }
 
+/** With as many digits as the error has. */
 std::string
 PercentOf(const MeasuredNumber & number)
 {
-  return Text(100.0 * number.value) + " +- " + Text(100.0 * number.standardError) + " %";
+  const double percent = 100.0 * number.standardError;
+  const double unit = percent > 0.0 ? std::pow(10.0, std::floor(std::log10(percent))) : 1e-3;
+  const auto   rounded = [unit](double value) { return Text(std::round(value / unit) * unit); };
+  return rounded(100.0 * number.value) + " +- " + rounded(percent) + " %";
 }
 
 std::string
 NeighbourAt(const Lag & lag)
 {
-  return "pixels " + std::to_string(std::abs(lag.x)) + " columns and " + std::to_string(std::abs(lag.y)) +
-         " rows apart share ";
+  const auto count = [](int apart, const char * what) {
+    return std::to_string(std::abs(apart)) + " " + what + (std::abs(apart) == 1 ? "" : "s");
+  };
+  const std::string distance = lag.y == 0   ? count(lag.x, "column")
+                               : lag.x == 0 ? count(lag.y, "row")
+                                            : count(lag.x, "column") + " and " + count(lag.y, "row");
+  return "pixels " + distance + " apart share ";
 }
 
 /** What the user is told of the gain. */
@@ -73,7 +82,8 @@ Consequence(const Report & report)
   {
     return "";
   }
-  return ": the variance of a pixel shows " + Text(100.0 * *report.varianceSlope.value / *report.gain.value) +
+  return ": the variance of a pixel shows " +
+         Text(std::round(100.0 * *report.varianceSlope.value / *report.gain.value)) +
          " % of the gain, which is from the sum over all lags; variance_slope is that of the variance";
 }
 } // namespace

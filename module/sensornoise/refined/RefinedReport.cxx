@@ -199,6 +199,10 @@ FillVariance(Report & report, const RefinedResults & found, const GainEstimate &
   FillGain(own, found, ofVariance, 0.0, StudentOf(found));
   report.varianceSlope = own.varianceSlope;
   report.totalIntercept = own.totalIntercept;
+  if (!report.fit.line)
+  {
+    report.fit = own.fit;
+  }
 }
 } // namespace
 

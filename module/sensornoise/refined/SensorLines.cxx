@@ -157,7 +157,13 @@ ErrorOf(const NoiseCorrelation & correlation,
   {
     mean += shapes[k].probability * shapes[k].coefficient.value * time * units[k];
   }
-  Eigen::Matrix2d error = Eigen::Matrix2d::Zero();
+  // That it is a constant, or that nothing of it grows with the light, is left.
+  double constant = 1.0;
+  for (const SharedShape & shape : shapes)
+  {
+    constant -= shape.probability;
+  }
+  Eigen::Matrix2d error = std::max(0.0, constant) * mean * mean.transpose();
   for (int k = 0; k < 3; ++k)
   {
     const Eigen::Vector2d own = shapes[k].coefficient.value * time * units[k] - mean;
