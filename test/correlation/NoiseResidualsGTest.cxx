@@ -1,0 +1,213 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/correlation/NoiseResiduals.h"
+#include "helpers/CorrelationTestHelper.h"
+#include "helpers/StackTestHelper.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <gtest/gtest.h>
+#include <vector>
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+using namespace sensornoise::test::correlation;
+
+namespace
+{
+constexpr FrameGeometry Geometry{ 128, 128, 1 };
+constexpr std::size_t   Frames = 30;
+
+/** A drift, a wave, and their sum, which adds nothing. */
+Eigen::MatrixXd
+Series()
+{
+  Eigen::MatrixXd series(Frames, 3);
+  for (Eigen::Index t = 0; t < series.rows(); ++t)
+  {
+    const auto time = static_cast<double>(t);
+    series.row(t) << time, std::sin(0.7 * time), time + std::sin(0.7 * time);
+  }
+  return series;
+}
+
+/** Each pixel has a level and a part of each series of its own. */
+DoubleFrame
+SceneFrame(std::size_t t)
+{
+  const Eigen::MatrixXd series = Series();
+  DoubleFrame           frame(Geometry.width, Geometry.height);
+  for (std::size_t p = 0; p < frame.values.size(); ++p)
+  {
+    const auto place = static_cast<double>(p);
+    const auto row = static_cast<Eigen::Index>(t);
+    frame.values[p] = 5.0 + std::cos(place) * series(row, 0) + std::sin(3.0 * place) * series(row, 1);
+  }
+  return frame;
+}
+
+/** White noise whose variance is 10 DN^2 at 0 and 50 DN^2 at the brightest, 200 DN. */
+double
+VarianceAt(double lightDn)
+{
+  return 10.0 + 0.2 * lightDn;
+}
+
+DoubleFrame
+ShotNoiseFrame(std::size_t t)
+{
+  const std::vector<double> light = Ramp(Geometry, 0.0, 200.0);
+  DoubleFrame               frame = NormalFrame(Geometry.width, Geometry.height, 300 + t);
+  for (std::size_t p = 0; p < light.size(); ++p)
+  {
+    frame.values[p] *= std::sqrt(VarianceAt(light[p]));
+  }
+  return frame;
+}
+
+std::size_t
+ValuesOf(const NoiseResiduals & residuals)
+{
+  return residuals.GetTiles().frames * residuals.GetTiles().Pixels();
+}
+} // namespace
+
+TEST(SensorNoiseNoiseResiduals, BasisHoldsTheConstantAndWhatTheSeriesAdd)
+{
+  const auto residuals = ResidualsOf(Geometry, Frames, Ramp(Geometry, 0.0, 200.0), WhiteNoise(Geometry, 1), Series());
+  const Eigen::MatrixXd & basis = residuals.GetBasis();
+  ASSERT_EQ(basis.cols(), 3); // the third series is the sum of the others
+  EXPECT_LT((basis.transpose() * basis - Eigen::MatrixXd::Identity(3, 3)).norm(), 1e-12);
+  EXPECT_EQ(residuals.GetFreedom(), Frames - 3.0);
+  EXPECT_LT((basis * (basis.transpose() * Series()) - Series()).norm(), 1e-10 * Series().norm());
+  EXPECT_EQ(residuals.GetNumberOfPixels(), Geometry.Pixels());
+}
+
+TEST(SensorNoiseNoiseResiduals, AreOrthogonalToTheSeries)
+{
+  const auto residuals = ResidualsOf(Geometry, Frames, Ramp(Geometry, 0.0, 200.0), WhiteNoise(Geometry, 1), Series());
+  const std::size_t pixels = residuals.GetTiles().Pixels();
+  for (std::size_t i = 0; i < residuals.GetTiles().origins.size(); ++i)
+  {
+    const Eigen::Map<const Eigen::MatrixXf> tile(
+      residuals.OfTile(i), static_cast<Eigen::Index>(pixels), static_cast<Eigen::Index>(Frames));
+    // Noise of 1 DN in 4 bytes: some 30 roundings of 6e-8.
+    EXPECT_LT((tile.cast<double>() * residuals.GetBasis()).cwiseAbs().maxCoeff(), 1e-5) << i;
+  }
+}
+
+TEST(SensorNoiseNoiseResiduals, NothingIsLeftOfASceneWithoutNoise)
+{
+  const auto residuals = ResidualsOf(Geometry, Frames, Ramp(Geometry, 0.0, 200.0), SceneFrame, Series());
+  for (std::size_t i = 0; i < residuals.GetTiles().origins.size(); ++i)
+  {
+    for (std::size_t k = 0; k < ValuesOf(residuals); ++k)
+    {
+      ASSERT_NEAR(residuals.OfTile(i)[k], 0.0, 1e-4); // values of up to 35 DN in 4 bytes
+    }
+  }
+}
+
+TEST(SensorNoiseNoiseResiduals, WeightsAreTheInverseVarianceAtThePixelsLight)
+{
+  const auto light = Ramp(Geometry, 50.0, 250.0);
+  const auto take = std::vector<std::uint8_t>(Geometry.Pixels(), 1);
+  // Measured from black, 50 DN.
+  const NoiseResiduals residuals(
+    SampleOf(Geometry, Frames, ShotNoiseFrame), Eigen::MatrixXd(), { light, take, 50.0 }, SerialFor);
+  for (std::size_t i = 0; i < residuals.GetTiles().origins.size(); ++i)
+  {
+    for (std::size_t p = 0; p < residuals.GetTiles().Pixels(); ++p)
+    {
+      const double zDn = residuals.LightOf(i)[p];
+      const auto   x = static_cast<double>(residuals.GetTiles().origins[i].x + p % residuals.GetTiles().side);
+      ASSERT_NEAR(zDn, 200.0 * x / 127.0, 1e-4);
+      // Bins of 512 pixels: 5 sqrt(2 / (512 x 29)) = 0.06; half a bin at the ends is 3 DN of light, 0.06 of 10 DN^2.
+      ASSERT_NEAR(residuals.WeightOf(i)[p] * VarianceAt(zDn), 1.0, 0.06 + (zDn < 4.0 ? 0.06 : 0.0)) << zDn;
+    }
+  }
+}
+
+TEST(SensorNoiseNoiseResiduals, BinsOfTheLightGrowWithItAndHoldAsMany)
+{
+  const auto residuals = ResidualsOf(Geometry, Frames, Ramp(Geometry, 0.0, 200.0), ShotNoiseFrame);
+  std::array<std::size_t, NoiseResiduals::LightBins> counts{};
+  std::array<float, NoiseResiduals::LightBins>       lowest;
+  std::array<float, NoiseResiduals::LightBins>       highest;
+  lowest.fill(1e9F);
+  highest.fill(-1e9F);
+  for (std::size_t i = 0; i < residuals.GetTiles().origins.size(); ++i)
+  {
+    for (std::size_t p = 0; p < residuals.GetTiles().Pixels(); ++p)
+    {
+      const std::size_t bin = residuals.BinOf(i)[p];
+      ++counts.at(bin);
+      lowest.at(bin) = std::min(lowest.at(bin), residuals.LightOf(i)[p]);
+      highest.at(bin) = std::max(highest.at(bin), residuals.LightOf(i)[p]);
+    }
+  }
+  for (std::size_t b = 0; b < counts.size(); ++b)
+  {
+    EXPECT_EQ(counts[b], Geometry.Pixels() / NoiseResiduals::LightBins);
+    EXPECT_LE(b > 0 ? highest[b - 1] : 0.0F, lowest[b]);
+  }
+}
+
+TEST(SensorNoiseNoiseResiduals, PixelsThatAreNotTakenHaveNoWeight)
+{
+  auto                      residuals = ResidualsOf(Geometry, Frames, Ramp(Geometry, 0.0, 200.0), ShotNoiseFrame);
+  std::vector<std::uint8_t> left(Geometry.Pixels());
+  for (std::size_t p = 0; p < left.size(); ++p)
+  {
+    left[p] = p % Geometry.width < 64 ? 1 : 0;
+  }
+  residuals.Take(left, SerialFor);
+  EXPECT_EQ(residuals.GetNumberOfPixels(), Geometry.Pixels() / 2);
+  const auto & tiles = residuals.GetTiles();
+  for (std::size_t i = 0; i < tiles.origins.size(); ++i)
+  {
+    for (std::size_t p = 0; p < tiles.Pixels(); ++p)
+    {
+      ASSERT_EQ(residuals.WeightOf(i)[p] > 0.0F, tiles.origins[i].x + p % tiles.side < 64);
+    }
+  }
+  residuals.Take(std::vector<std::uint8_t>(Geometry.Pixels(), 0), SerialFor);
+  EXPECT_EQ(residuals.GetNumberOfPixels(), 0U);
+}
+
+TEST(SensorNoiseNoiseResiduals, WithoutTheFirstFramesTheyAreThoseOfTheRest)
+{
+  constexpr std::size_t dropped = 7;
+  const auto            light = Ramp(Geometry, 0.0, 200.0);
+  const auto            noise = WhiteNoise(Geometry, 3);
+  auto                  residuals = ResidualsOf(Geometry, Frames, light, noise, Series());
+  residuals.DropFirst(dropped, Threads(3));
+  const auto rest = ResidualsOf(
+    Geometry, Frames - dropped, light, [&](std::size_t t) { return noise(t + dropped); }, Series().bottomRows(23));
+  ASSERT_EQ(residuals.GetFreedom(), rest.GetFreedom());
+  for (std::size_t i = 0; i < rest.GetTiles().origins.size(); ++i)
+  {
+    for (std::size_t k = 0; k < ValuesOf(rest); ++k)
+    {
+      ASSERT_NEAR(residuals.OfTile(i)[k], rest.OfTile(i)[k], 1e-5);
+    }
+  }
+}

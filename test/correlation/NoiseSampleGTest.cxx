@@ -1,0 +1,214 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/correlation/NoiseSample.h"
+#include "sensornoise/simulation/Random.h"
+#include "helpers/StackTestHelper.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <gtest/gtest.h>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+
+namespace
+{
+constexpr std::size_t   Frames = 9;
+constexpr FrameGeometry Geometry{ 70, 45, 1 };
+
+Stack<std::uint16_t>
+RandomStack(std::size_t frames = Frames)
+{
+  CounterSeededRandom  random(4);
+  Stack<std::uint16_t> stack{ Geometry.width, Geometry.height, frames, {} };
+  stack.pixels.resize(Geometry.Pixels() * frames);
+  std::generate(
+    stack.pixels.begin(), stack.pixels.end(), [&] { return static_cast<std::uint16_t>(random.Bits() % 4096); });
+  return stack;
+}
+
+/** A mean that no sum of integers is. */
+std::vector<double>
+SomeMean()
+{
+  CounterSeededRandom random(8);
+  std::vector<double> mean(Geometry.Pixels());
+  std::generate(mean.begin(), mean.end(), [&] { return 4096.0 * random.Uniform(); });
+  return mean;
+}
+
+template <typename TPixel>
+NoiseSample
+SampleOfStack(const Stack<TPixel> & stack, std::size_t chunk = 1000, const ParallelFor & parallelFor = SerialFor)
+{
+  NoiseSample sample(Geometry, stack.frames);
+  for (std::size_t t = 0; t < stack.frames; t += chunk)
+  {
+    sample.AddFrames(stack.Frame(t), t, std::min(chunk, stack.frames - t), SomeMean(), parallelFor);
+  }
+  return sample;
+}
+
+/** All values, tile after tile. */
+std::vector<float>
+ValuesOf(const NoiseSample & sample)
+{
+  const auto & tiles = sample.GetTiles();
+  return { sample.OfTile(0), sample.OfTile(tiles.origins.size()) };
+}
+
+NoiseSample
+SampleOfFrames(const Stack<std::uint16_t> & stack, const std::vector<std::size_t> & frames)
+{
+  NoiseSample sample(Geometry, stack.frames);
+  for (const std::size_t t : frames)
+  {
+    sample.AddFrames(stack.Frame(t), t, 1, SomeMean());
+  }
+  return sample;
+}
+
+std::string
+Saved(const NoiseSample & sample)
+{
+  std::ostringstream out;
+  sample.Save(out);
+  return out.str();
+}
+} // namespace
+
+TEST(SensorNoiseNoiseSample, HoldsTheSeriesOfItsPixelsAboveTheirMean)
+{
+  const auto  stack = RandomStack();
+  const auto  mean = SomeMean();
+  const auto  sample = SampleOfStack(stack);
+  const auto  tiles = sample.GetTiles();
+  std::size_t values = 0;
+  ASSERT_EQ(tiles.origins.size(), 8U); // four by two of 16
+  for (std::size_t i = 0; i < tiles.origins.size(); ++i)
+  {
+    for (std::size_t p = 0; p < tiles.Pixels(); ++p)
+    {
+      const std::size_t x = tiles.origins[i].x + p % 16;
+      const std::size_t y = tiles.origins[i].y + p / 16;
+      ASSERT_EQ(sample.PixelOf(i, p), y * Geometry.width + x);
+      for (std::size_t t = 0; t < Frames; ++t)
+      {
+        const std::size_t pixel = sample.PixelOf(i, p);
+        ASSERT_EQ(sample.OfTile(i)[t * tiles.Pixels() + p], static_cast<float>(stack.Frame(t)[pixel] - mean[pixel]));
+        ++values;
+      }
+    }
+  }
+  EXPECT_EQ(values, ValuesOf(sample).size());
+}
+
+TEST(SensorNoiseNoiseSample, SameBitsForAnyChunksThreadsAndTypes)
+{
+  const auto stack = RandomStack();
+  const auto expected = ValuesOf(SampleOfStack(stack));
+  for (const std::size_t chunk : { 1, 2, 4, 8 })
+  {
+    EXPECT_TRUE(HaveSameBits(ValuesOf(SampleOfStack(stack, chunk)), expected)) << chunk;
+  }
+  EXPECT_TRUE(HaveSameBits(ValuesOf(SampleOfStack(stack, 3, Threads(3))), expected));
+  const auto same = [](std::uint16_t u) { return u; };
+  EXPECT_TRUE(HaveSameBits(ValuesOf(SampleOfStack(stack.Map<float>(same))), expected));
+  EXPECT_TRUE(HaveSameBits(ValuesOf(SampleOfStack(stack.Map<double>(same))), expected));
+  EXPECT_TRUE(HaveSameBits(ValuesOf(SampleOfStack(stack.Map<short>(same))), expected));
+}
+
+TEST(SensorNoiseNoiseSample, SameBitsForFramesAndPartsInAnyOrder)
+{
+  const auto stack = RandomStack();
+  const auto expected = ValuesOf(SampleOfStack(stack));
+  EXPECT_TRUE(HaveSameBits(ValuesOf(SampleOfFrames(stack, { 3, 8, 0, 7, 1, 6, 2, 5, 4 })), expected));
+  for (const bool isForwards : { false, true })
+  {
+    auto parts = std::vector<NoiseSample>{ SampleOfFrames(stack, { 0, 4, 8 }),
+                                           SampleOfFrames(stack, { 1, 2 }),
+                                           SampleOfFrames(stack, {}),
+                                           SampleOfFrames(stack, { 3, 5, 6, 7 }) };
+    if (!isForwards)
+    {
+      std::reverse(parts.begin(), parts.end());
+    }
+    for (std::size_t k = 1; k < parts.size(); ++k)
+    {
+      parts[0].Merge(parts[k]);
+    }
+    EXPECT_TRUE(HaveSameBits(ValuesOf(parts[0]), expected)) << isForwards;
+  }
+}
+
+TEST(SensorNoiseNoiseSample, SavedSampleIsRestoredBitByBit)
+{
+  const auto         sample = SampleOfStack(RandomStack());
+  NoiseSample        restored(Geometry, Frames);
+  std::istringstream in(Saved(sample));
+  restored.Restore(in);
+  EXPECT_TRUE(HaveSameBits(ValuesOf(restored), ValuesOf(sample)));
+}
+
+TEST(SensorNoiseNoiseSample, OtherAndCutSamplesAreRefusedAndChangeNothing)
+{
+  auto              sample = SampleOfStack(RandomStack());
+  const auto        expected = ValuesOf(sample);
+  const std::string saved = Saved(sample);
+  for (const std::string & bad : { saved.substr(0, saved.size() - 4),
+                                   saved.substr(0, 5),
+                                   std::string("no sums at all, but long enough to be some"),
+                                   Saved(NoiseSample(Geometry, Frames + 1)),
+                                   Saved(NoiseSample({ 70, 46, 1 }, Frames)) })
+  {
+    std::istringstream in(bad);
+    EXPECT_THROW(sample.Restore(in), std::runtime_error);
+    EXPECT_TRUE(HaveSameBits(ValuesOf(sample), expected));
+  }
+  EXPECT_THROW(sample.Merge(NoiseSample(Geometry, Frames + 1)), std::invalid_argument);
+  EXPECT_THROW(sample.Merge(NoiseSample({ 70, 46, 1 }, Frames)), std::invalid_argument);
+  EXPECT_TRUE(HaveSameBits(ValuesOf(sample), expected));
+}
+
+TEST(SensorNoiseNoiseSample, LongStacksLeaveTheirFirstFrames)
+{
+  const auto           stack = RandomStack(SampleTiles::MostFrames + 5);
+  const auto           expected = ValuesOf(SampleOfStack(stack, 7));
+  Stack<std::uint16_t> first = stack;
+  first.frames = SampleTiles::MostFrames;
+  EXPECT_TRUE(HaveSameBits(ValuesOf(SampleOfStack(first)), expected));
+}
+
+TEST(SensorNoiseNoiseSample, FirstFramesCanBeLeftOut)
+{
+  auto       sample = SampleOfStack(RandomStack());
+  const auto whole = sample;
+  sample.DropFirst(4);
+  const std::size_t pixels = sample.GetTiles().Pixels();
+  ASSERT_EQ(sample.GetTiles().frames, Frames - 4);
+  ASSERT_EQ(ValuesOf(sample).size(), 8 * 5 * pixels);
+  for (std::size_t i = 0; i < sample.GetTiles().origins.size(); ++i)
+  {
+    EXPECT_TRUE(std::equal(sample.OfTile(i), sample.OfTile(i) + 5 * pixels, whole.OfTile(i) + 4 * pixels)) << i;
+  }
+}

@@ -1,0 +1,120 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/correlation/SampleTiles.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <gtest/gtest.h>
+#include <vector>
+
+using namespace sensornoise;
+
+namespace
+{
+constexpr std::size_t FewFrames = 10;
+
+/** Every pixel lies in at most one tile, and every tile in the frame. */
+void
+ExpectInsideAndApart(const SampleTiles & tiles, const FrameGeometry & geometry)
+{
+  std::vector<int> covered(geometry.Pixels(), 0);
+  for (const auto & origin : tiles.origins)
+  {
+    ASSERT_LE(origin.x + tiles.side, geometry.width);
+    ASSERT_LE(origin.y + tiles.side, geometry.height);
+    for (std::size_t y = origin.y; y < origin.y + tiles.side; ++y)
+    {
+      for (std::size_t x = origin.x; x < origin.x + tiles.side; ++x)
+      {
+        ++covered[y * geometry.width + x];
+      }
+    }
+  }
+  EXPECT_LE(*std::max_element(covered.begin(), covered.end()), 1);
+}
+} // namespace
+
+TEST(SensorNoiseSampleTiles, LieInsideTheFrameAndDoNotOverlap)
+{
+  for (const std::size_t width : { 15, 16, 31, 32, 33, 256, 1000 })
+  {
+    for (const std::size_t height : { 15, 16, 47, 100, 701 })
+    {
+      const FrameGeometry geometry{ width, height, 1 };
+      for (const std::size_t frames : { 2, 60, 5000 })
+      {
+        ExpectInsideAndApart(MakeSampleTiles(geometry, frames), geometry);
+      }
+    }
+  }
+}
+
+TEST(SensorNoiseSampleTiles, SmallFramesHaveSmallTilesAndSmallerOnesNone)
+{
+  EXPECT_TRUE(MakeSampleTiles({ 15, 400, 1 }, FewFrames).origins.empty());
+  EXPECT_TRUE(MakeSampleTiles({ 400, 15, 1 }, FewFrames).origins.empty());
+  const auto count = [](std::size_t size) { return MakeSampleTiles({ size, size, 1 }, FewFrames).origins.size(); };
+  EXPECT_EQ(count(16), 1U);
+  EXPECT_EQ(count(31), 1U);
+  EXPECT_EQ(count(32), 4U);
+  EXPECT_EQ(MakeSampleTiles({ 127, 128, 1 }, FewFrames).side, 16U); // three by four of 32
+  EXPECT_EQ(MakeSampleTiles({ 128, 128, 1 }, FewFrames).side, 32U);
+  EXPECT_EQ(count(128), 16U);
+}
+
+TEST(SensorNoiseSampleTiles, OneLiesInTheMiddleAndManyAreSpreadEvenly)
+{
+  const auto one = MakeSampleTiles({ 31, 24, 1 }, FewFrames);
+  ASSERT_EQ(one.origins.size(), 1U);
+  EXPECT_EQ(one.origins[0].x, 7U);
+  EXPECT_EQ(one.origins[0].y, 4U);
+
+  const auto tiles = MakeSampleTiles({ 4096, 4096, 1 }, 60);
+  EXPECT_EQ(tiles.side, 32U);
+  EXPECT_EQ(tiles.origins.size(), 121U); // 11 x 11: 128 would be 2^17 pixels
+  // Neighbours are as far apart as all others, and the border is half as far from the middle of a tile.
+  constexpr double step = 4096.0 / 11.0;
+  for (std::size_t i = 0; i < 11; ++i)
+  {
+    const double middle = static_cast<double>(tiles.origins[i].x) + 16.0;
+    EXPECT_NEAR(middle, (static_cast<double>(i) + 0.5) * step, 1.0);
+    EXPECT_EQ(tiles.origins[11 * i].y, tiles.origins[i].x);
+  }
+}
+
+TEST(SensorNoiseSampleTiles, KeepToTheirBudgets)
+{
+  for (const auto & geometry : { FrameGeometry{ 4096, 4096, 1 },
+                                 FrameGeometry{ 256, 256, 1 },
+                                 FrameGeometry{ 65536, 16, 1 },
+                                 FrameGeometry{ 16, 65536, 1 },
+                                 FrameGeometry{ 2000, 40, 1 } })
+  {
+    for (const std::size_t frames : { 1, 8, 64, 100, 256, 100000 })
+    {
+      const auto        tiles = MakeSampleTiles(geometry, frames);
+      const std::size_t pixels = tiles.origins.size() * tiles.Pixels();
+      EXPECT_EQ(tiles.frames, std::min(frames, SampleTiles::MostFrames));
+      EXPECT_LE(pixels, SampleTiles::MostPixels);
+      EXPECT_LE(pixels * tiles.frames, SampleTiles::MostValues);
+      // Whole columns and rows of tiles leave a third unused at most, where the frame has as many pixels.
+      const std::size_t most = std::min(SampleTiles::MostPixels, SampleTiles::MostValues / tiles.frames);
+      EXPECT_GE(3 * pixels, 2 * std::min(most, geometry.Pixels() / 2)) << geometry.width << " " << frames;
+    }
+  }
+}

@@ -1,0 +1,148 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/correlation/TemporalMixing.h"
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/simulation/Random.h"
+
+#include <cmath>
+#include <cstddef>
+#include <gtest/gtest.h>
+
+using namespace sensornoise;
+
+namespace
+{
+Eigen::MatrixXd
+NormalMatrix(Eigen::Index rows, Eigen::Index columns, std::uint64_t seed)
+{
+  CounterSeededRandom random(seed);
+  Eigen::MatrixXd     matrix(rows, columns);
+  for (Eigen::Index i = 0; i < matrix.size(); ++i)
+  {
+    matrix(i) = random.Normal();
+  }
+  return matrix;
+}
+
+/** The constant and \a series random ones. */
+Eigen::MatrixXd
+BasisWithConstant(Eigen::Index frames, Eigen::Index series)
+{
+  Eigen::MatrixXd columns(frames, series + 1);
+  columns << Eigen::VectorXd::Ones(frames), NormalMatrix(frames, series, 5);
+  return Eigen::HouseholderQR<Eigen::MatrixXd>(columns).householderQ() * Eigen::MatrixXd::Identity(frames, series + 1);
+}
+
+Eigen::MatrixXd
+ProjectorOf(const Eigen::MatrixXd & basis)
+{
+  return Eigen::MatrixXd::Identity(basis.rows(), basis.rows()) - basis * basis.transpose();
+}
+
+/** Shift by k frames both ways. */
+Eigen::MatrixXd
+BothWays(Eigen::Index frames, Eigen::Index k)
+{
+  return Eigen::MatrixXd::NullaryExpr(
+    frames, frames, [k](Eigen::Index s, Eigen::Index t) { return std::abs(s - t) == k ? 1.0 : 0.0; });
+}
+
+/** Sums of a matrix along its diagonals 0 ... lags. */
+Eigen::VectorXd
+DiagonalSums(const Eigen::MatrixXd & matrix, Eigen::Index lags)
+{
+  return Eigen::VectorXd::NullaryExpr(lags + 1, [&](Eigen::Index d) { return matrix.diagonal(d).sum(); });
+}
+} // namespace
+
+TEST(SensorNoiseTemporalMixing, IsTheSumAlongTheDiagonalsOfTheProjectedShift)
+{
+  constexpr Eigen::Index lags = 7;
+  const Eigen::MatrixXd  basis = BasisWithConstant(17, 3);
+  const Eigen::MatrixXd  projector = ProjectorOf(basis);
+  const Eigen::MatrixXd  mixing = TemporalMixing(basis, lags);
+  ASSERT_EQ(mixing.rows(), lags + 1);
+  ASSERT_EQ(mixing.cols(), lags + 1);
+  for (Eigen::Index k = 0; k <= lags; ++k)
+  {
+    const Eigen::VectorXd dense = DiagonalSums(projector * BothWays(17, k) * projector, lags);
+    EXPECT_LT((mixing.col(k) - dense).norm(), 1e-12) << k;
+  }
+}
+
+TEST(SensorNoiseTemporalMixing, WhiteNoiseMakesTheTracesOfTheProjector)
+{
+  const Eigen::MatrixXd basis = BasisWithConstant(20, 4);
+  const Eigen::VectorXd column = TemporalMixing(basis, 6).col(0);
+  EXPECT_NEAR(column(0), 20.0 - 5.0, 1e-12);
+  EXPECT_LT((column - DiagonalSums(ProjectorOf(basis), 6)).norm(), 1e-12);
+}
+
+TEST(SensorNoiseTemporalMixing, WithoutSeriesLagsDoNotMix)
+{
+  const Eigen::MatrixXd mixing = TemporalMixing(Eigen::MatrixXd(9, 0), 4);
+  for (Eigen::Index d = 0; d <= 4; ++d)
+  {
+    for (Eigen::Index k = 0; k <= 4; ++k)
+    {
+      EXPECT_EQ(mixing(d, k), d == k ? 9.0 - static_cast<double>(d) : 0.0);
+    }
+  }
+}
+
+TEST(SensorNoiseTemporalMixing, AutocovariancesOfAShortFilterAreRecoveredExactly)
+{
+  // R = (14, 8, 3) of the weights (3, 2, 1): no lag is left out.
+  const Eigen::MatrixXd basis = BasisWithConstant(24, 5);
+  const Eigen::MatrixXd projector = ProjectorOf(basis);
+  const Eigen::MatrixXd covariance = 14.0 * BothWays(24, 0) + 8.0 * BothWays(24, 1) + 3.0 * BothWays(24, 2);
+  const Eigen::VectorXd found =
+    TemporalMixing(basis, 4).fullPivLu().solve(DiagonalSums(projector * covariance * projector, 4));
+  const Eigen::VectorXd expected = (Eigen::VectorXd(5) << 14.0, 8.0, 3.0, 0.0, 0.0).finished();
+  EXPECT_LT((found - expected).norm(), 1e-10);
+}
+
+TEST(SensorNoiseTemporalMixing, AutocovariancesOfARecursiveFilterAreRecoveredFromItsSeries)
+{
+  constexpr double       a = 0.5;
+  constexpr Eigen::Index frames = 40;
+  constexpr Eigen::Index lags = 12; // beyond, 0.5^13 = 1e-4 of the variance is left
+  constexpr Eigen::Index batches = 40;
+  const Eigen::MatrixXd  basis = BasisWithConstant(frames, 3);
+  const auto             mixing = TemporalMixing(basis, lags).fullPivLu();
+  Eigen::MatrixXd        found(4, batches);
+  for (Eigen::Index batch = 0; batch < batches; ++batch)
+  {
+    constexpr Eigen::Index count = 400;
+    Eigen::MatrixXd        series = NormalMatrix(frames, count, 100 + static_cast<std::uint64_t>(batch));
+    for (Eigen::Index t = 1; t < frames; ++t) // stationary from the first on, with variance 1
+    {
+      series.row(t) = a * series.row(t - 1) + std::sqrt(1.0 - a * a) * series.row(t);
+    }
+    const Eigen::MatrixXd left = series - basis * (basis.transpose() * series);
+    const Eigen::MatrixXd products = left * left.transpose() / static_cast<double>(count);
+    found.col(batch) = mixing.solve(DiagonalSums(products, lags)).head(4);
+  }
+  for (Eigen::Index k = 0; k < 4; ++k)
+  {
+    const double mean = found.row(k).mean();
+    const double error = std::sqrt((found.row(k).array() - mean).square().sum() / (batches * (batches - 1.0)));
+    EXPECT_NEAR(mean, std::pow(a, k), 4.5 * error + 1e-3) << k;
+    EXPECT_LT(error, 0.01) << k;
+  }
+}

@@ -1,0 +1,101 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_test_CorrelationTestHelper_h
+#define sensornoise_test_CorrelationTestHelper_h
+
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/correlation/Jackknife.h"
+#include "sensornoise/correlation/NoiseResiduals.h"
+#include "sensornoise/correlation/NoiseSample.h"
+#include "sensornoise/simulation/DoubleFrame.h"
+#include "helpers/FrameNoiseTestHelper.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <gtest/gtest.h>
+#include <utility>
+#include <vector>
+
+/** \file
+ * Noise of a few frames, without a scene, and what is left of it. */
+
+namespace sensornoise::test::correlation
+{
+
+/** The noise of a frame. */
+using FrameOf = std::function<DoubleFrame(std::size_t t)>;
+
+/** Light that grows from left to right, the same in every row [DN]. */
+inline std::vector<double>
+Ramp(const FrameGeometry & geometry, double low, double high)
+{
+  std::vector<double> light(geometry.Pixels());
+  for (std::size_t p = 0; p < light.size(); ++p)
+  {
+    const auto x = static_cast<double>(p % geometry.width) / static_cast<double>(geometry.width - 1);
+    light[p] = low + (high - low) * x;
+  }
+  return light;
+}
+
+inline NoiseSample
+SampleOf(const FrameGeometry & geometry, std::size_t frames, const FrameOf & frameOf)
+{
+  const std::vector<double> none(geometry.Pixels(), 0.0);
+  NoiseSample               sample(geometry, frames);
+  for (std::size_t t = 0; t < frames; ++t)
+  {
+    sample.AddFrames(frameOf(t).values.data(), t, 1, none);
+  }
+  return sample;
+}
+
+/** Of all pixels; black is 0. */
+inline NoiseResiduals
+ResidualsOf(const FrameGeometry &       geometry,
+            std::size_t                 frames,
+            const std::vector<double> & light,
+            const FrameOf &             frameOf,
+            const Eigen::MatrixXd &     series = {})
+{
+  const std::vector<std::uint8_t> all(geometry.Pixels(), 1);
+  return { SampleOf(geometry, frames, frameOf), series, { light, all, 0.0 }, SerialFor };
+}
+
+/** White normal noise, 1 DN. */
+inline FrameOf
+WhiteNoise(const FrameGeometry & geometry, std::uint64_t seed)
+{
+  return [=](std::size_t t) { return NormalFrame(geometry.width, geometry.height, 1000 * seed + t); };
+}
+
+/** Expects figure \a k to be right within 4.5 of its standard errors, which may be at most \a largestError. */
+inline void
+ExpectFigure(const JackknifeEstimate & estimate, Eigen::Index k, double expected, double largestError)
+{
+  EXPECT_NEAR(estimate.value(k), expected, 4.5 * estimate.StandardError(k)) << "figure " << k;
+  EXPECT_GT(estimate.StandardError(k), 0.0) << "figure " << k;
+  EXPECT_LT(estimate.StandardError(k), largestError) << "figure " << k;
+}
+
+} // namespace sensornoise::test::correlation
+
+#endif
