@@ -1,0 +1,216 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/correlation/CommonNoise.h"
+#include "sensornoise/correlation/SharedLight.h"
+#include "sensornoise/simulation/Random.h"
+#include "helpers/CorrelationTestHelper.h"
+#include "helpers/StackTestHelper.h"
+
+#include <cmath>
+#include <cstddef>
+#include <gtest/gtest.h>
+#include <vector>
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+using namespace sensornoise::test::correlation;
+
+namespace
+{
+constexpr FrameGeometry Geometry{ 128, 128, 1 };
+constexpr std::size_t   Frames = 40;
+constexpr double        NoiseDn = 4.0;
+constexpr double        BrightestDn = 200.0;
+
+/** Standard deviations of what all pixels, or those of a row or column, have in common, beside white noise of 4 DN. */
+struct Common
+{
+  double light{ 0.0 }; ///< relative to the light [1]
+  double rowDn{ 0.0 };
+  double columnDn{ 0.0 };
+};
+
+std::vector<double>
+Light()
+{
+  return Ramp(Geometry, 0.0, BrightestDn);
+}
+
+FrameOf
+NoiseWith(const Common & common)
+{
+  return [=](std::size_t t) {
+    DoubleFrame               frame = NormalFrame(Geometry.width, Geometry.height, 900 + t);
+    const std::vector<double> light = Light();
+    CounterSeededRandom       random(17, 3, t);
+    const double              flicker = common.light * random.Normal();
+    std::vector<double>       rows(Geometry.height);
+    std::vector<double>       columns(Geometry.width);
+    for (double & row : rows)
+    {
+      row = common.rowDn * random.Normal();
+    }
+    for (double & column : columns)
+    {
+      column = common.columnDn * random.Normal();
+    }
+    for (std::size_t p = 0; p < light.size(); ++p)
+    {
+      frame.values[p] =
+        NoiseDn * frame.values[p] + flicker * light[p] + rows[p / Geometry.width] + columns[p % Geometry.width];
+    }
+    return frame;
+  };
+}
+
+/** Light, rows 0 ... 6 apart, columns 0 ... 6 apart. */
+JackknifeEstimate
+Measure(const FrameOf & noise)
+{
+  const auto residuals = ResidualsOf(Geometry, Frames, Light(), noise);
+  return Jackknife(SumSharedLight(residuals, SerialFor), [](const SharedLight & sums) {
+    const CommonNoise common = FindCommonNoise(sums);
+    Eigen::VectorXd   figures(1 + 2 * SharedLight::Lines);
+    figures(0) = common.light;
+    for (std::size_t d = 0; d < SharedLight::Lines; ++d)
+    {
+      figures(static_cast<Eigen::Index>(1 + d)) = common.rows[d];
+      figures(static_cast<Eigen::Index>(1 + SharedLight::Lines + d)) = common.columns[d];
+    }
+    return figures;
+  });
+}
+
+constexpr Eigen::Index Lines = SharedLight::Lines;
+} // namespace
+
+TEST(SensorNoiseCommonNoise, WhiteNoiseHasNothingInCommon)
+{
+  const auto found = Measure(NoiseWith({}));
+  ExpectFigure(found, 0, 0.0, 1e-5);
+  for (Eigen::Index d = 0; d < 2 * Lines; ++d)
+  {
+    // Six pairs of segments of 8 pixels in each of 32 rows of 16 tiles: 16 DN^2 / sqrt(6 x 64 x 512 x 39) = 0.006 DN^2.
+    ExpectFigure(found, 1 + d, 0.0, 0.02);
+  }
+}
+
+TEST(SensorNoiseCommonNoise, RowNoiseIsThatOfOneRowAndOfNoColumn)
+{
+  const auto found = Measure(NoiseWith({ 0.0, 1.0, 0.0 }));
+  // 128 rows, 39 degrees of freedom: 4.5 sqrt(2 / (128 x 39)) = 0.09 of the variance.
+  EXPECT_NEAR(found.value(1), 1.0, 0.1);
+  for (Eigen::Index d = 1; d < 2 * Lines; ++d)
+  {
+    EXPECT_NEAR(found.value(1 + d), 0.0, 0.07) << d; // half of it, as products of different numbers scatter
+  }
+  EXPECT_NEAR(found.value(0), 0.0, 1e-5);
+}
+
+TEST(SensorNoiseCommonNoise, ColumnNoiseIsThatOfOneColumnAndOfNoRow)
+{
+  const auto found = Measure(NoiseWith({ 0.0, 0.0, 1.0 }));
+  EXPECT_NEAR(found.value(1 + Lines), 1.0, 0.1);
+  for (Eigen::Index d = 0; d < 2 * Lines; ++d)
+  {
+    EXPECT_NEAR(d == Lines ? 0.0 : found.value(1 + d), 0.0, 0.07) << d;
+  }
+}
+
+TEST(SensorNoiseCommonNoise, LightThatIsLeftGrowsWithTheSquareOfTheLightAndIsNotOfLines)
+{
+  // 1 % of 100 DN on the average: 1 DN, as much as the rows have above.
+  const auto            white = NoiseWith({});
+  const auto            light = Light();
+  const Eigen::VectorXd wave = Eigen::VectorXd::NullaryExpr(
+    Frames, [](Eigen::Index t) { return 0.01 * std::sqrt(2.0) * std::cos(2.1 * static_cast<double>(t)); });
+  const auto   found = Measure([&](std::size_t t) {
+    DoubleFrame frame = white(t);
+    for (std::size_t p = 0; p < light.size(); ++p)
+    {
+      frame.values[p] += wave(static_cast<Eigen::Index>(t)) * light[p];
+    }
+    return frame;
+  });
+  const double variance = (wave.array() - wave.mean()).square().sum() / (Frames - 1.0); // of this very series
+  ExpectFigure(found, 0, variance, 0.03 * variance);
+  for (Eigen::Index d = 0; d < 2 * Lines; ++d)
+  {
+    ExpectFigure(found, 1 + d, 0.0, 0.05);
+  }
+}
+
+TEST(SensorNoiseCommonNoise, BandsAreSharedByRowsNextToEachOther)
+{
+  constexpr double turn = 6.283185307179586;
+  constexpr double wavenumber = turn / 24.0; // period 24 rows
+  const auto       white = NoiseWith({});
+  const auto       found = Measure([&](std::size_t t) {
+    const double phase = turn * 7.0 * static_cast<double>(t) / Frames; // spread evenly: no chance
+    DoubleFrame  frame = white(t);
+    for (std::size_t p = 0; p < frame.values.size(); ++p)
+    {
+      frame.values[p] += std::sqrt(2.0) * std::sin(wavenumber * static_cast<double>(p / frame.width) + phase);
+    }
+    return frame;
+  });
+  for (Eigen::Index d = 0; d < Lines; ++d)
+  {
+    // Its mean over the frames is 0, but one degree of freedom is taken to be used up.
+    const double expected = std::cos(wavenumber * static_cast<double>(d)) * Frames / (Frames - 1.0);
+    EXPECT_NEAR(found.value(1 + d), expected, 4.5 * 0.01) << d; // white noise leaves 0.006 DN^2, with the band 0.01
+    // Pixels of a column that are far apart are as often in phase as not: 16 rows at -1/2 twice, 24 rows at 1 once.
+    EXPECT_NEAR(found.value(1 + Lines + d), 0.0, 4.5 * 0.01) << d;
+  }
+}
+
+TEST(SensorNoiseCommonNoise, IsTakenOffTheSumsOfItsLag)
+{
+  CommonNoise common;
+  common.light = 0.5;
+  common.rows = { 3.0, 2.0 };
+  common.columns = { 7.0, 0.0, 5.0 };
+  LagSums sums;
+  for (std::size_t b = 0; b < sums.bins.size(); ++b)
+  {
+    sums.bins[b] = { 100.0, 40.0, 10.0 + static_cast<double>(b), 20.0, 30.0 };
+  }
+  const auto taken = [&](const Lag & lag, std::size_t bin) {
+    return sums.bins[bin].covariance - common.TakeOff(sums, lag).bins[bin].covariance;
+  };
+  EXPECT_DOUBLE_EQ(taken({ 0, 0, 0 }, 0), 10.0 * (3.0 + 7.0) + 0.5 * 30.0);
+  EXPECT_DOUBLE_EQ(taken({ -2, 1, 0 }, 0), 10.0 * (2.0 + 5.0) + 0.5 * 30.0);
+  EXPECT_DOUBLE_EQ(taken({ -2, 1, 0 }, 3), 13.0 * (2.0 + 5.0) + 0.5 * 30.0);
+  EXPECT_DOUBLE_EQ(taken({ 9, 9, 0 }, 0), 0.5 * 30.0); // lines that far apart are not looked at
+  EXPECT_EQ(common.TakeOff(sums, { 1, 1, 0 }).bins[1].pairs, 100.0);
+  EXPECT_EQ(common.TakeOff(sums, { 1, 1, 0 }).bins[1].square, 30.0);
+}
+
+TEST(SensorNoiseCommonNoise, SameBitsForAnyNumberOfThreads)
+{
+  const auto residuals = ResidualsOf(Geometry, Frames, Light(), NoiseWith({ 0.01, 1.0, 1.0 }));
+  const auto serial = SumSharedLight(residuals, SerialFor);
+  const auto threads = SumSharedLight(residuals, Threads(3));
+  ASSERT_EQ(serial.size(), threads.size());
+  for (std::size_t i = 0; i < serial.size(); ++i)
+  {
+    EXPECT_EQ(serial[i].far.lightCovariance, threads[i].far.lightCovariance);
+    EXPECT_EQ(serial[i].rows[2].covariance, threads[i].rows[2].covariance);
+    EXPECT_EQ(serial[i].columns[0].covariance, threads[i].columns[0].covariance);
+  }
+}

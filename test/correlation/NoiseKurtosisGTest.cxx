@@ -1,0 +1,202 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/correlation/NoiseKurtosis.h"
+#include "sensornoise/simulation/Random.h"
+#include "helpers/CorrelationTestHelper.h"
+#include "helpers/StackTestHelper.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <gtest/gtest.h>
+#include <vector>
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+using namespace sensornoise::test::correlation;
+
+namespace
+{
+constexpr FrameGeometry Geometry{ 128, 128, 1 };
+/** How many values are added with alternating signs: the excess of a sum of n is a nth of theirs. */
+constexpr std::array<double, KurtosisSums::Kinds> Added{ 1.0, 2.0, 2.0, 4.0, 8.0, 8.0 };
+
+JackknifeEstimate
+Measure(const NoiseResiduals & residuals)
+{
+  return Jackknife(SumKurtosis(residuals, SerialFor), [](const KurtosisSums & sums) {
+    return Eigen::VectorXd(
+      Eigen::VectorXd::NullaryExpr(KurtosisSums::Kinds, [&](Eigen::Index k) { return sums.Excess(k); }));
+  });
+}
+
+JackknifeEstimate
+Measure(std::size_t frames, const FrameOf & noise, const Eigen::MatrixXd & series = {})
+{
+  return Measure(ResidualsOf(Geometry, frames, Ramp(Geometry, 10.0, 200.0), noise, series));
+}
+
+template <typename TDraw>
+FrameOf
+Independent(TDraw draw)
+{
+  return [=](std::size_t t) {
+    CounterSeededRandom random(6, 5, t);
+    DoubleFrame         frame(Geometry.width, Geometry.height);
+    for (double & value : frame.values)
+    {
+      value = draw(random);
+    }
+    return frame;
+  };
+}
+
+constexpr std::size_t ManyFrames = 200;
+
+/** Cumulants of a distribution of variance 1. */
+struct Cumulants
+{
+  double fourth;
+  double squareOfThird;
+  double sixth;
+};
+
+void
+ExpectExcess(const JackknifeEstimate & found, const Cumulants & of)
+{
+  constexpr double T = ManyFrames;
+  for (std::size_t k = 0; k < Added.size(); ++k)
+  {
+    const double n = Added[k];
+    const double excess = of.fourth / n;
+    const double skewness = n > 1.0 ? 0.0 : of.squareOfThird; // signs alternate
+    // To first order in 1 / T: the ratio of moments of T values, over that of normal noise, and the mean taken off.
+    const double fourth = 3.0 + excess;
+    const double sixth = 15.0 + 15.0 * excess + 10.0 * skewness + of.sixth / (n * n);
+    const double bias = (3.0 * fourth * fourth - fourth - 2.0 * sixth + 2.0 * fourth - 2.0 * excess) / T;
+    const auto   index = static_cast<Eigen::Index>(k);
+    EXPECT_NEAR(found.value(index), excess + bias, 4.5 * found.StandardError(index) + 200.0 / (T * T) / n) << k;
+    EXPECT_LT(found.StandardError(index), 0.02) << k;
+  }
+}
+} // namespace
+
+TEST(SensorNoiseNoiseKurtosis, NormalNoiseHasNoneHoweverFewTheFrames)
+{
+  for (const std::size_t frames : { 5, 8, 60 })
+  {
+    const auto found = Measure(frames, WhiteNoise(Geometry, 40 + frames));
+    for (Eigen::Index k = 0; k < found.value.size(); ++k)
+    {
+      ExpectFigure(found, k, 0.0, 0.04);
+    }
+  }
+}
+
+TEST(SensorNoiseNoiseKurtosis, NormalNoiseHasNoneAfterSeriesThatAreNotEven)
+{
+  // A series of a single frame takes all that this frame knows; one of a step is spread over half of them.
+  Eigen::MatrixXd series = Eigen::MatrixXd::Zero(10, 2);
+  series(3, 0) = 1.0;
+  series.col(1).head(4).setOnes();
+  const auto found = Measure(10, WhiteNoise(Geometry, 51), series);
+  for (Eigen::Index k = 0; k < found.value.size(); ++k)
+  {
+    ExpectFigure(found, k, 0.0, 0.04);
+  }
+}
+
+TEST(SensorNoiseNoiseKurtosis, NormalNoiseHasNoneWhateverPixelsAndFilter)
+{
+  // Pixels of very different noise, of which each takes half of its right neighbour.
+  const auto white = WhiteNoise(Geometry, 3);
+  const auto found = Measure(30, [&](std::size_t t) {
+    DoubleFrame frame = white(t);
+    for (std::size_t p = 0; p + 1 < frame.values.size(); ++p)
+    {
+      frame.values[p] = (1.0 + static_cast<double>(p % 7)) * (frame.values[p] + 0.5 * frame.values[p + 1]);
+    }
+    return frame;
+  });
+  for (Eigen::Index k = 0; k < found.value.size(); ++k)
+  {
+    ExpectFigure(found, k, 0.0, 0.04);
+  }
+}
+
+TEST(SensorNoiseNoiseKurtosis, UniformNoiseHasMinusSixFifthsAndSumsANthOfIt)
+{
+  const auto draw = [](CounterSeededRandom & random) { return random.Uniform(); };
+  ExpectExcess(Measure(ManyFrames, Independent(draw)), { -1.2, 0.0, 48.0 / 7.0 });
+}
+
+TEST(SensorNoiseNoiseKurtosis, PoissonNoiseHasOneOverItsMeanAndSumsANthOfIt)
+{
+  constexpr double mean = 5.0;
+  const auto       draw = [](CounterSeededRandom & random) { return static_cast<double>(random.Poisson(mean)); };
+  ExpectExcess(Measure(ManyFrames, Independent(draw)), { 1.0 / mean, 1.0 / mean, 1.0 / (mean * mean) });
+}
+
+TEST(SensorNoiseNoiseKurtosis, CopiesOfAPixelAndPixelsLeftOutHaveNoSeries)
+{
+  // Rows of equal values: what is left of a pixel less its lower neighbour is rounding.
+  const auto copies = [](std::size_t t) {
+    DoubleFrame       frame(Geometry.width, Geometry.height);
+    const DoubleFrame white = NormalFrame(Geometry.width, 1, 60 + t);
+    for (std::size_t p = 0; p < frame.values.size(); ++p)
+    {
+      frame.values[p] = white.values[p % Geometry.width];
+    }
+    return frame;
+  };
+  auto       residuals = ResidualsOf(Geometry, 20, Ramp(Geometry, 10.0, 200.0), copies);
+  const auto seriesOf = [&](std::size_t kind) {
+    double series = 0.0;
+    for (const auto & tile : SumKurtosis(residuals, SerialFor))
+    {
+      series += tile.series[kind];
+    }
+    return series;
+  };
+  const auto tiles = static_cast<double>(residuals.GetTiles().origins.size());
+  EXPECT_EQ(seriesOf(0), tiles * 32.0 * 32.0);
+  EXPECT_EQ(seriesOf(1), tiles * 31.0 * 32.0);
+  EXPECT_EQ(seriesOf(2), 0.0);
+  EXPECT_EQ(seriesOf(3), 0.0);
+  EXPECT_EQ(seriesOf(4), tiles * 25.0 * 32.0);
+
+  std::vector<std::uint8_t> take(Geometry.Pixels(), 1);
+  take[Geometry.width * 10 + 10] = 0; // inside of the first tile
+  residuals.Take(take, SerialFor);
+  EXPECT_EQ(seriesOf(0), tiles * 32.0 * 32.0 - 1.0);
+  EXPECT_EQ(seriesOf(1), tiles * 31.0 * 32.0 - 2.0);
+  EXPECT_EQ(seriesOf(4), tiles * 25.0 * 32.0 - 8.0);
+}
+
+TEST(SensorNoiseNoiseKurtosis, SameBitsForAnyNumberOfThreads)
+{
+  const auto residuals = ResidualsOf(Geometry, 12, Ramp(Geometry, 10.0, 200.0), WhiteNoise(Geometry, 9));
+  const auto serial = SumKurtosis(residuals, SerialFor);
+  const auto threads = SumKurtosis(residuals, Threads(3));
+  for (std::size_t i = 0; i < serial.size(); ++i)
+  {
+    EXPECT_EQ(serial[i].ratio, threads[i].ratio);
+    EXPECT_EQ(serial[i].series, threads[i].series);
+  }
+}
