@@ -93,6 +93,7 @@ TEST_P(EstimateToolWith, TheReportHasTheDocumentedNamesAndUnits)
                                     "intercept",
                                     "total_intercept",
                                     "covariance",
+                                    "noise_correlation",
                                     "flicker_sd",
                                     "vibration",
                                     "flicker",

@@ -1,0 +1,169 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/refined/CorrelationReport.h"
+#include "sensornoise/report/Quantities.h"
+#include "helpers/ReportTestHelper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <gtest/gtest.h>
+#include <string>
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+
+namespace
+{
+/** The nearest neighbours share 1 % along a row and \a below along a column; the next frame 20 %. */
+NoiseCorrelation
+CorrelationOf(NoiseKind kind, double below = 0.05)
+{
+  NoiseCorrelation correlation;
+  correlation.kind = kind;
+  correlation.space = { { { 1, 0, 0 }, { 0.01, 0.002 } },
+                        { { 0, 1, 0 }, { below, 0.003 } },
+                        { { -1, 1, 0 }, { 0.004, 0.001 } } };
+  correlation.time = { { { 0, 0, 1 }, { 0.2, 0.01 } }, { { 0, 0, 2 }, { 0.04, 0.01 } } };
+  correlation.kurtosis[0] = { -0.125, 0.01 };
+  correlation.kurtosis[3] = { 0.5, 0.01 };
+  return correlation;
+}
+
+/** The one warning of a kind, as "code: message"; the gain is twice the variance's slope. */
+std::string
+WarningOf(const NoiseCorrelation & correlation, bool hasGain = true)
+{
+  Report report;
+  report.varianceSlope = WithError(0.25, 0.01, "DN/e-");
+  if (hasGain)
+  {
+    report.gain = WithError(0.5, 0.01, "DN/e-");
+  }
+  WarnOfCorrelation(report, correlation);
+  if (report.warnings.empty())
+  {
+    return "";
+  }
+  EXPECT_EQ(report.warnings.size(), 1U);
+  return report.warnings[0].code + ": " + report.warnings[0].message;
+}
+
+bool
+Has(const std::string & text, const std::string & part)
+{
+  return text.find(part) != std::string::npos;
+}
+} // namespace
+
+TEST(SensorNoiseCorrelationReport, WhiteNoiseIsNotWarnedOf)
+{
+  EXPECT_EQ(WarningOf(CorrelationOf(NoiseKind::White)), "");
+  EXPECT_EQ(WarningOf(CorrelationOf(NoiseKind::NotMeasured)), "");
+}
+
+TEST(SensorNoiseCorrelationReport, FilteredFramesAreNamedWithTheLargestCoefficientAndTheConsequence)
+{
+  for (const double below : { 0.05, -0.05 }) // sharpening takes
+  {
+    const std::string warning = WarningOf(CorrelationOf(NoiseKind::Filtered, below));
+    EXPECT_EQ(warning.rfind("noise-correlated: the camera smooths, resamples or sharpens its frames", 0), 0U)
+      << warning;
+    EXPECT_TRUE(Has(warning, "pixels 0 columns and 1 rows apart share " + std::string(below < 0.0 ? "-5" : "5")))
+      << warning;
+    EXPECT_TRUE(Has(warning, "+- 0.3 % of their noise")) << warning;
+    EXPECT_TRUE(Has(warning, "the variance of a pixel shows 50 % of the gain")) << warning;
+    EXPECT_TRUE(Has(warning, "variance_slope")) << warning;
+  }
+}
+
+TEST(SensorNoiseCorrelationReport, EachKindIsSaidInItsWords)
+{
+  const std::string crosstalk = WarningOf(CorrelationOf(NoiseKind::Crosstalk));
+  EXPECT_EQ(crosstalk.rfind("noise-correlated: neighbours are coupled, or slightly filtered", 0), 0U) << crosstalk;
+  EXPECT_TRUE(Has(crosstalk, "share 5 +- 0.3 %")) << crosstalk;
+
+  const std::string fatter = WarningOf(CorrelationOf(NoiseKind::BrighterFatter));
+  EXPECT_EQ(fatter.rfind("noise-correlated: charge repels charge", 0), 0U) << fatter;
+  EXPECT_TRUE(Has(fatter, "brighter-fatter")) << fatter;
+  EXPECT_TRUE(Has(fatter, "square of the light")) << fatter;
+
+  const std::string temporal = WarningOf(CorrelationOf(NoiseKind::Temporal));
+  EXPECT_EQ(temporal.rfind("noise-correlated: the camera mixes its frames", 0), 0U) << temporal;
+  EXPECT_TRUE(Has(temporal, "frames 1 apart share 20 +- 1 % of their noise")) << temporal;
+
+  const std::string bent = WarningOf(CorrelationOf(NoiseKind::NotLinear));
+  EXPECT_EQ(bent.rfind("noise-not-linear: ", 0), 0U) << bent;
+  EXPECT_TRUE(Has(bent, "excess kurtosis -0.125, of four neighbours in turn 0.5, expected 0")) << bent;
+  EXPECT_TRUE(Has(bent, "ask it for raw frames")) << bent;
+}
+
+TEST(SensorNoiseCorrelationReport, WithoutAGainNothingIsSaidOfIt)
+{
+  const std::string warning = WarningOf(CorrelationOf(NoiseKind::Filtered), false);
+  EXPECT_FALSE(Has(warning, "of the gain")) << warning;
+  EXPECT_TRUE(Has(warning, "share 5 +- 0.3 % of their noise")) << warning;
+}
+
+TEST(SensorNoiseCorrelationReport, RecordHoldsKindAndCoefficients)
+{
+  const NoiseCorrelationRecord record = RecordOf(CorrelationOf(NoiseKind::BrighterFatter));
+  EXPECT_EQ(record.kind, "brighter-fatter");
+  ASSERT_EQ(record.space.size(), 3U);
+  EXPECT_EQ(record.space[2].x, -1);
+  EXPECT_EQ(record.space[2].y, 1);
+  EXPECT_EQ(record.space[2].value, 0.004);
+  EXPECT_EQ(record.space[2].standardError, 0.001);
+  ASSERT_EQ(record.time.size(), 2U);
+  EXPECT_EQ(record.time[1].frames, 2);
+  EXPECT_EQ(ValueOf(record.excessKurtosis), -0.125);
+  EXPECT_EQ(*record.excessKurtosis.standardError, 0.01);
+}
+
+TEST(SensorNoiseCorrelationReport, NoiseOfRowsIsTheRootWithItsIntervalOrAnUpperLimit)
+{
+  NoiseCorrelation correlation = CorrelationOf(NoiseKind::White);
+  correlation.rowsDn2 = { 9.0, 0.6 };
+  correlation.columnsDn2 = { 1.2, 0.6 }; // two standard errors
+  const NoiseCorrelationRecord record = RecordOf(correlation);
+  EXPECT_EQ(record.rowNoise.status, EstimateStatus::Identified);
+  EXPECT_EQ(ValueOf(record.rowNoise), 3.0);
+  EXPECT_NEAR(*record.rowNoise.standardError, 0.6 / 6.0, 1e-12);
+  EXPECT_EQ(record.rowNoise.unit, "DN");
+  EXPECT_EQ(record.columnNoise.status, EstimateStatus::UpperLimit);
+  EXPECT_FALSE(record.columnNoise.value);
+  ASSERT_TRUE(record.columnNoise.interval95);
+  EXPECT_EQ(record.columnNoise.interval95->low, 0.0);
+  EXPECT_NEAR(record.columnNoise.interval95->high.value(), std::sqrt(1.2 + 2.0 * 0.6), 1e-12);
+
+  // Chance may carry it below 0; that does not lower the limit.
+  correlation.columnsDn2 = { -3.0, 0.6 };
+  const Quantity limit = RecordOf(correlation).columnNoise;
+  EXPECT_EQ(limit.status, EstimateStatus::UpperLimit);
+  EXPECT_NEAR(limit.interval95->high.value(), std::sqrt(2.0 * 0.6), 1e-12);
+}
+
+TEST(SensorNoiseCorrelationReport, EveryKindHasANameOfItsOwn)
+{
+  EXPECT_STREQ(NameOf(NoiseKind::White), "white");
+  EXPECT_STREQ(NameOf(NoiseKind::Crosstalk), "crosstalk");
+  EXPECT_STREQ(NameOf(NoiseKind::Filtered), "filtered");
+  EXPECT_STREQ(NameOf(NoiseKind::Temporal), "temporal");
+  EXPECT_STREQ(NameOf(NoiseKind::BrighterFatter), "brighter-fatter");
+  EXPECT_STREQ(NameOf(NoiseKind::NotLinear), "not-linear");
+}

@@ -1,0 +1,233 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/refined/SensorLines.h"
+
+#include <cmath>
+#include <cstddef>
+#include <gtest/gtest.h>
+
+using namespace sensornoise;
+
+namespace
+{
+constexpr double BlackDn = 100.0;
+constexpr double CodesDn2 = 0.5;
+constexpr double Gain = 0.4;
+constexpr double InterceptDn2 = 30.0;
+
+VarianceLine
+Line(double gain, double interceptDn2, double pivotDn)
+{
+  VarianceLine line;
+  line.gain = gain;
+  line.intercept = interceptDn2;
+  line.lowestDn2 = 5.0;
+  line.covariance << 1e-6, -2e-4, -2e-4, 0.25;
+  line.pivotDn = pivotDn;
+  line.weightSum = 7.0;
+  line.curvature = 1e-5;
+  line.curvatureSd = 2e-5;
+  line.noiseSpreadDn4 = 3.0;
+  line.isDetermined = true;
+  return line;
+}
+
+/** Levels from 110 to 2000 DN, of weights that differ; the variance is \a varianceAt(level). */
+template <typename TFunction>
+SensorLines
+LinesThrough(TFunction varianceAt)
+{
+  SensorLines lines;
+  lines.all = Line(Gain, InterceptDn2, 900.0);
+  lines.fromLight = Line(1.1 * Gain, 0.9 * InterceptDn2, 800.0);
+  lines.fromFlat = Line(0.9 * Gain, 1.1 * InterceptDn2, 700.0);
+  lines.curve.line = lines.all;
+  for (std::size_t b = 0; b < VarianceCurve::Bins; ++b)
+  {
+    const double level = 110.0 + 30.0 * static_cast<double>(b);
+    CurveBin     bin;
+    bin.pixels = 100.0;
+    bin.weight = 100.0 / (50.0 + static_cast<double>(b));
+    bin.x = bin.weight * (level - lines.all.pivotDn);
+    bin.excess = bin.weight * (varianceAt(level) - lines.all.intercept - lines.all.gain * level);
+    lines.curve.bins.push_back(bin);
+  }
+  return lines;
+}
+
+SensorLines
+StraightLines()
+{
+  return LinesThrough([](double level) { return InterceptDn2 + Gain * level; });
+}
+
+/** The variance of a bin, of its line and excess. */
+double
+VarianceOf(const VarianceCurve & curve, std::size_t b)
+{
+  const CurveBin & bin = curve.bins[b];
+  return curve.line.intercept + curve.line.gain * curve.LevelOf(bin) + bin.excess / bin.weight;
+}
+
+/** What is shared, all of one shape. */
+NoiseCorrelation
+Sharing(SharedShape NoiseCorrelation::* shape, double coefficient, double standardError = 0.0)
+{
+  NoiseCorrelation correlation;
+  correlation.*shape = { { coefficient, standardError }, 1.0 };
+  return correlation;
+}
+} // namespace
+
+TEST(SensorNoiseSensorLines, WithoutSharingTheyAreThoseOfThePixels)
+{
+  const SensorLines lines = StraightLines();
+  const SensorLines sensor = WithSharedNoise(lines, {}, BlackDn, CodesDn2);
+  EXPECT_DOUBLE_EQ(sensor.all.gain, lines.all.gain);
+  EXPECT_DOUBLE_EQ(sensor.all.intercept, lines.all.intercept);
+  EXPECT_DOUBLE_EQ(sensor.fromLight.gain, lines.fromLight.gain);
+  EXPECT_DOUBLE_EQ(sensor.fromFlat.intercept, lines.fromFlat.intercept);
+  EXPECT_EQ(sensor.all.covariance, lines.all.covariance);
+  EXPECT_EQ(sensor.errorOfShared.norm(), 0.0);
+  for (std::size_t b = 0; b < VarianceCurve::Bins; ++b)
+  {
+    EXPECT_NEAR(VarianceOf(sensor.curve, b), VarianceOf(lines.curve, b), 1e-9);
+    EXPECT_DOUBLE_EQ(sensor.curve.bins[b].weight, lines.curve.bins[b].weight);
+  }
+  EXPECT_EQ(FilterFactor({}), 1.0);
+}
+
+TEST(SensorNoiseSensorLines, AFilterScalesTheVarianceWithoutTheCodesNoise)
+{
+  constexpr double  shared = 1.5;
+  const SensorLines lines = StraightLines();
+  const auto        correlation = Sharing(&NoiseCorrelation::ofVariance, shared);
+  const SensorLines sensor = WithSharedNoise(lines, correlation, BlackDn, CodesDn2);
+  constexpr double  factor = 1.0 + shared;
+  EXPECT_DOUBLE_EQ(FilterFactor(correlation), factor);
+  EXPECT_NEAR(sensor.all.gain, factor * Gain, 1e-12);
+  EXPECT_NEAR(sensor.all.intercept, factor * (InterceptDn2 - CodesDn2) + CodesDn2, 1e-12);
+  EXPECT_NEAR(sensor.all.intercept, VarianceOfSensor(InterceptDn2, factor, CodesDn2), 1e-12);
+  EXPECT_LT((sensor.all.covariance - factor * factor * lines.all.covariance).norm(), 1e-12);
+  EXPECT_NEAR(sensor.fromLight.gain, factor * lines.fromLight.gain, 1e-12);
+  for (std::size_t b = 0; b < VarianceCurve::Bins; ++b)
+  {
+    const double variance = VarianceOf(lines.curve, b);
+    EXPECT_NEAR(VarianceOf(sensor.curve, b), factor * (variance - CodesDn2) + CodesDn2, 1e-9);
+    EXPECT_NEAR(sensor.curve.LevelOf(sensor.curve.bins[b]), lines.curve.LevelOf(lines.curve.bins[b]), 1e-9);
+    EXPECT_NEAR(sensor.curve.bins[b].weight * factor * factor, lines.curve.bins[b].weight, 1e-12);
+  }
+}
+
+TEST(SensorNoiseSensorLines, FramesThatAreMixedScaleItToo)
+{
+  auto correlation = Sharing(&NoiseCorrelation::ofVariance, 0.5);
+  correlation.timeFactor = { 3.0, 0.0 };
+  EXPECT_DOUBLE_EQ(FilterFactor(correlation), 4.5);
+  const SensorLines sensor = WithSharedNoise(StraightLines(), correlation, BlackDn, CodesDn2);
+  EXPECT_NEAR(sensor.all.gain, 4.5 * Gain, 1e-12);
+  EXPECT_NEAR(sensor.all.intercept, 4.5 * (InterceptDn2 - CodesDn2) + CodesDn2, 1e-12);
+}
+
+TEST(SensorNoiseSensorLines, CoupledChargeAddsASlopeAboutBlack)
+{
+  constexpr double  shared = 0.05;
+  const SensorLines lines = StraightLines();
+  const SensorLines sensor = WithSharedNoise(lines, Sharing(&NoiseCorrelation::ofLight, shared), BlackDn, CodesDn2);
+  EXPECT_NEAR(sensor.all.gain, Gain + shared, 1e-12);
+  EXPECT_NEAR(
+    sensor.all.intercept + sensor.all.gain * BlackDn, InterceptDn2 + Gain * BlackDn, 1e-9); // read noise stays
+  EXPECT_LT((sensor.all.covariance - lines.all.covariance).norm(), 1e-15);
+  for (std::size_t b = 0; b < VarianceCurve::Bins; ++b)
+  {
+    const double level = lines.curve.LevelOf(lines.curve.bins[b]);
+    EXPECT_NEAR(VarianceOf(sensor.curve, b), VarianceOf(lines.curve, b) + shared * (level - BlackDn), 1e-9);
+  }
+}
+
+TEST(SensorNoiseSensorLines, ChargeThatRepelsChargeLeavesALineBehind)
+{
+  // A sensor with V = 30 + 0.4 z whose bright pixels have lost 2e-5 z^2; the line of what is left is any line.
+  constexpr double  shared = 2e-5;
+  const SensorLines lines = LinesThrough([](double level) {
+    const double z = level - BlackDn;
+    return 30.0 + 0.4 * z - shared * z * z;
+  });
+  const SensorLines sensor = WithSharedNoise(lines, Sharing(&NoiseCorrelation::ofSquare, shared), BlackDn, CodesDn2);
+  for (std::size_t b = 0; b < VarianceCurve::Bins; ++b)
+  {
+    const double z = lines.curve.LevelOf(lines.curve.bins[b]) - BlackDn;
+    EXPECT_NEAR(VarianceOf(sensor.curve, b), 30.0 + 0.4 * z, 1e-9);
+  }
+  EXPECT_NEAR(sensor.all.curvature, lines.all.curvature + shared, 1e-15);
+}
+
+TEST(SensorNoiseSensorLines, TheLineThroughALossIsMadeTheSensorsOwn)
+{
+  // The least-squares line, with the curve's weights, of what is left: the sensor's line must come out.
+  constexpr double shared = 2e-5;
+  const auto       left = [](double level) {
+    const double z = level - BlackDn;
+    return 30.0 + 0.4 * z - shared * z * z;
+  };
+  SensorLines     lines = LinesThrough(left);
+  Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d product = Eigen::Vector2d::Zero();
+  for (const CurveBin & bin : lines.curve.bins)
+  {
+    const Eigen::Vector2d row(lines.curve.LevelOf(bin), 1.0);
+    square += bin.weight * row * row.transpose();
+    product += bin.weight * left(row(0)) * row;
+  }
+  const Eigen::Vector2d fitted = square.inverse() * product;
+  lines.all.gain = fitted(0);
+  lines.all.intercept = fitted(1);
+  const SensorLines sensor = WithSharedNoise(lines, Sharing(&NoiseCorrelation::ofSquare, shared), BlackDn, CodesDn2);
+  EXPECT_NEAR(sensor.all.gain, 0.4, 1e-9);
+  EXPECT_NEAR(sensor.all.intercept + sensor.all.gain * BlackDn, 30.0, 1e-6);
+}
+
+TEST(SensorNoiseSensorLines, WhatIsNotKnownOfTheSharingIsAnErrorOfGainAndIntercept)
+{
+  const SensorLines lines = StraightLines();
+  const auto        filtered =
+    WithSharedNoise(lines, Sharing(&NoiseCorrelation::ofVariance, 1.5, 0.02), BlackDn, CodesDn2).errorOfShared;
+  EXPECT_NEAR(std::sqrt(filtered(0, 0)), 0.02 * Gain, 1e-12);
+  EXPECT_NEAR(std::sqrt(filtered(1, 1)), 0.02 * (InterceptDn2 - CodesDn2), 1e-12);
+  EXPECT_NEAR(filtered(0, 1), 4e-4 * Gain * (InterceptDn2 - CodesDn2), 1e-12);
+  const auto coupled =
+    WithSharedNoise(lines, Sharing(&NoiseCorrelation::ofLight, 0.05, 0.002), BlackDn, CodesDn2).errorOfShared;
+  EXPECT_NEAR(std::sqrt(coupled(0, 0)), 0.002, 1e-12);
+  EXPECT_NEAR(coupled(0, 1), -4e-6 * BlackDn, 1e-12);
+
+  // Two shapes, as likely: the gain may be either.
+  NoiseCorrelation both;
+  both.ofVariance = { { 0.2, 0.0 }, 0.5 };
+  both.ofLight = { { 0.06, 0.0 }, 0.5 };
+  const SensorLines sensor = WithSharedNoise(lines, both, BlackDn, CodesDn2);
+  EXPECT_NEAR(sensor.all.gain, Gain + 0.5 * (0.2 * Gain + 0.06), 1e-12);
+  EXPECT_NEAR(std::sqrt(sensor.errorOfShared(0, 0)), 0.5 * (0.2 * Gain - 0.06), 1e-12);
+
+  NoiseCorrelation mixed;
+  mixed.timeFactor = { 3.0, 0.06 };
+  EXPECT_NEAR(
+    std::sqrt(WithSharedNoise(lines, mixed, BlackDn, CodesDn2).errorOfShared(0, 0)), 0.02 * 3.0 * Gain, 1e-12);
+  NoiseCorrelation wide;
+  wide.beyondReach = 0.01; // of the variance, not of the sum
+  EXPECT_NEAR(std::sqrt(WithSharedNoise(lines, wide, BlackDn, CodesDn2).errorOfShared(0, 0)), 0.01 * Gain, 1e-12);
+}
