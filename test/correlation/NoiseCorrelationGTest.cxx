@@ -1,0 +1,227 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/correlation/NoiseCorrelation.h"
+#include "sensornoise/correlation/NoiseResiduals.h"
+#include "sensornoise/correlation/NoiseSample.h"
+#include "sensornoise/simulation/Scenes.h"
+#include "sensornoise/simulation/SimulationSettings.h"
+#include "sensornoise/simulation/Simulator.h"
+#include "helpers/SimulatorTestHelper.h"
+#include "helpers/StackTestHelper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <gtest/gtest.h>
+#include <vector>
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+
+namespace
+{
+constexpr std::size_t Size = 256;
+constexpr std::size_t Frames = 30;
+
+/** A still scene, camera B, codes that are not rounded. */
+NoiseResiduals
+ResidualsOf(const SensorFlaws & flaws, std::size_t size = Size, std::size_t frames = Frames)
+{
+  SimulationSettings settings = simulator::StillSettings('B', frames);
+  settings.flaws = flaws;
+  const StackSimulator            simulator(MakeTextureScene(size, size), size, size, settings);
+  const std::size_t               pixels = size * size;
+  std::vector<double>             stack(pixels * frames);
+  std::vector<double>             mean(pixels, 0.0);
+  const std::vector<std::uint8_t> take(pixels, 1);
+  NoiseSample                     sample({ size, size, 1 }, frames);
+  for (std::size_t t = 0; t < frames; ++t)
+  {
+    simulator.RenderFrame(t, stack.data() + t * pixels);
+    for (std::size_t p = 0; p < pixels; ++p)
+    {
+      mean[p] += stack[t * pixels + p] / static_cast<double>(frames);
+    }
+  }
+  sample.AddFrames(stack.data(), 0, frames, mean);
+  return { std::move(sample), Eigen::MatrixXd(), { mean, take, settings.camera.offsetDn }, SerialFor };
+}
+
+/** Frames enough that the rings of lags are known to half a per cent, which ends the reach. */
+constexpr std::size_t ManyFrames = 100;
+
+NoiseCorrelation
+Measure(const SensorFlaws & flaws, std::size_t frames = Frames)
+{
+  return MeasureNoiseCorrelation(ResidualsOf(flaws, Size, frames), 0.0, SerialFor);
+}
+
+SensorFlaws
+With(void (*change)(SensorFlaws &))
+{
+  SensorFlaws flaws;
+  change(flaws);
+  return flaws;
+}
+
+MeasuredNumber
+CoefficientAt(const std::vector<LagCoefficient> & lags, const Lag & at)
+{
+  const auto found = std::find_if(lags.begin(), lags.end(), [&](const LagCoefficient & lag) {
+    return lag.lag.x == at.x && lag.lag.y == at.y && lag.lag.t == at.t;
+  });
+  return found == lags.end() ? MeasuredNumber{ std::nan(""), 0.0 } : found->coefficient;
+}
+
+/** Right within 4.5 standard errors, which are at most \a largestError. */
+void
+ExpectNumber(const MeasuredNumber & found, double expected, double largestError)
+{
+  EXPECT_NEAR(found.value, expected, 4.5 * found.standardError);
+  EXPECT_GT(found.standardError, 0.0);
+  EXPECT_LT(found.standardError, largestError);
+}
+} // namespace
+
+TEST(SensorNoiseNoiseCorrelation, PlainNoiseIsWhite)
+{
+  const auto found = Measure({});
+  EXPECT_EQ(found.kind, NoiseKind::White);
+  EXPECT_FALSE(found.IsShared());
+  EXPECT_EQ(found.space.size(), 12U); // half of 5 x 5, less the pixel itself
+  EXPECT_EQ(found.time.size(), 3U);
+  for (const auto & lags : { found.space, found.time })
+  {
+    for (const LagCoefficient & lag : lags)
+    {
+      ExpectNumber(
+        lag.coefficient, 0.0, 0.002); // 1 / sqrt(65536 x 29) = 0.0007, for the weights at the tiles' borders 0.001
+    }
+  }
+  ExpectNumber(found.rowsDn2, 0.0, 1.0);
+  ExpectNumber(found.columnsDn2, 0.0, 1.0);
+  EXPECT_NEAR(found.SharedSquares(), 1.0, 1e-4);
+  EXPECT_EQ(found.timeFactor.value, 1.0);
+}
+
+TEST(SensorNoiseNoiseCorrelation, SmoothedFramesAreFilteredAndTheSumIsThatOfTheWeights)
+{
+  const auto found = Measure(With([](SensorFlaws & flaws) { flaws.smoothing.sdPixels = 0.6; }));
+  EXPECT_EQ(found.kind, NoiseKind::Filtered);
+  // The sampled kernel; its part of white noise's variance is the sum of its squares, along each axis.
+  double     weight = 0.0;
+  double     square = 0.0;
+  double     product = 0.0;
+  const auto kernel = [](int x) { return std::exp(-0.5 * x * x / 0.36); };
+  for (int x = -4; x <= 4; ++x)
+  {
+    weight += kernel(x);
+    square += kernel(x) * kernel(x);
+    product += kernel(x) * kernel(x + 1);
+  }
+  ExpectNumber(CoefficientAt(found.space, { 1, 0, 0 }), product / square, 0.003);
+  ExpectNumber(CoefficientAt(found.space, { -1, 1, 0 }), product * product / (square * square), 0.003);
+  const double left = square * square / std::pow(weight, 4.0);
+  EXPECT_NEAR(found.ofVariance.probability, 1.0, 0.1);
+  ExpectNumber(found.ofVariance.coefficient, 1.0 / left - 1.0, 0.05);
+  EXPECT_NEAR(
+    found.SharedSquares(), 1.0 + 4.0 * std::pow(product / square, 2.0) + 4.0 * std::pow(product / square, 4.0), 0.1);
+}
+
+TEST(SensorNoiseNoiseCorrelation, CoupledChargeIsCrosstalkInProportionToTheLight)
+{
+  constexpr double c = 0.015;
+  const auto       found = Measure(With([](SensorFlaws & flaws) { flaws.coupling.fraction = c; }), ManyFrames);
+  EXPECT_EQ(found.kind, NoiseKind::Crosstalk);
+  // All neighbours together have what the pixel's shot noise, 1 DN/e-, has lost.
+  const double lost = 1.0 - std::pow(1.0 - 4.0 * c, 2.0) - 4.0 * c * c;
+  ExpectNumber(found.ofLight.coefficient, lost, 0.02);
+  EXPECT_NEAR(found.ofVariance.probability + found.ofLight.probability + found.ofSquare.probability, 1.0, 0.05);
+}
+
+TEST(SensorNoiseNoiseCorrelation, ChargeThatRepelsChargeGrowsWithTheSquareOfTheLight)
+{
+  constexpr double k = 2e-6; // of 3000 e- at the brightest 8 k Q = 5 % of the variance
+  const auto       found = Measure(With([](SensorFlaws & flaws) { flaws.brighterFatter.perElectron = k; }), ManyFrames);
+  EXPECT_EQ(found.kind, NoiseKind::BrighterFatter);
+  EXPECT_GT(found.ofSquare.probability, 0.5);
+  ExpectNumber(found.ofSquare.coefficient, 8.0 * k, 0.2 * 8.0 * k); // to first order, which is 2 % too much
+}
+
+TEST(SensorNoiseNoiseCorrelation, MixedFramesAreTemporalAndTheSumIsThatOfTheFilter)
+{
+  constexpr double a = 0.5;
+  auto             residuals = ResidualsOf(With([](SensorFlaws & flaws) { flaws.temporalFilter.weight = a; }), 128, 60);
+  residuals.DropFirst(8, SerialFor); // the first frame is not filtered
+  const auto found = MeasureNoiseCorrelation(residuals, 0.0, SerialFor);
+  EXPECT_EQ(found.kind, NoiseKind::Temporal);
+  for (int k = 1; k <= 3; ++k)
+  {
+    ExpectNumber(CoefficientAt(found.time, { 0, 0, k }), std::pow(a, k), 0.01);
+  }
+  ExpectNumber(found.timeFactor, (1.0 + a) / (1.0 - a), 0.15);
+  EXPECT_NEAR(CoefficientAt(found.space, { 1, 0, 0 }).value, 0.0, 0.01);
+}
+
+TEST(SensorNoiseNoiseCorrelation, CorrectedDefectsAndMediansAreNotLinear)
+{
+  EXPECT_EQ(Measure(With([](SensorFlaws & flaws) { flaws.defectCorrection.thresholdSd = 1.5; })).kind,
+            NoiseKind::NotLinear);
+  EXPECT_EQ(Measure(With([](SensorFlaws & flaws) { flaws.median.radiusPixels = 1; })).kind, NoiseKind::NotLinear);
+}
+
+TEST(SensorNoiseNoiseCorrelation, NoiseOfRowsAndColumnsIsTakenOffWhatNeighboursShare)
+{
+  const auto found = Measure(With([](SensorFlaws & flaws) {
+    flaws.lineNoise.rowNoiseSdDn = 6.0;
+    flaws.lineNoise.columnNoiseSdDn = 3.0;
+  }));
+  EXPECT_EQ(found.kind, NoiseKind::White);
+  // 256 lines, 29 degrees of freedom: 4.5 sqrt(2 / (256 x 29)) = 0.07 of the variance.
+  EXPECT_NEAR(found.rowsDn2.value, 36.0, 0.08 * 36.0);
+  EXPECT_NEAR(found.columnsDn2.value, 9.0, 0.08 * 9.0 + 4.5 * 0.2); // and the white noise
+  for (const LagCoefficient & lag : found.space)
+  {
+    EXPECT_NEAR(lag.coefficient.value, 0.0, 0.005) << lag.lag.x << " " << lag.lag.y;
+  }
+}
+
+TEST(SensorNoiseNoiseCorrelation, SmallFramesAndShortStacksAreNotMeasured)
+{
+  EXPECT_EQ(MeasureNoiseCorrelation(ResidualsOf({}, 24), 0.0, SerialFor).kind, NoiseKind::NotMeasured);
+  EXPECT_EQ(MeasureNoiseCorrelation(ResidualsOf({}, 64, 3), 0.0, SerialFor).kind, NoiseKind::NotMeasured);
+  auto residuals = ResidualsOf({}, 64);
+  residuals.Take(std::vector<std::uint8_t>(64 * 64, 0), SerialFor);
+  EXPECT_EQ(MeasureNoiseCorrelation(residuals, 0.0, SerialFor).kind, NoiseKind::NotMeasured);
+}
+
+TEST(SensorNoiseNoiseCorrelation, SameBitsForAnyNumberOfThreads)
+{
+  const auto residuals = ResidualsOf(With([](SensorFlaws & flaws) { flaws.smoothing.sdPixels = 0.5; }), 128, 12);
+  const auto serial = MeasureNoiseCorrelation(residuals, 0.0, SerialFor);
+  const auto threads = MeasureNoiseCorrelation(residuals, 0.0, Threads(3));
+  ASSERT_EQ(serial.space.size(), threads.space.size());
+  for (std::size_t k = 0; k < serial.space.size(); ++k)
+  {
+    EXPECT_EQ(serial.space[k].coefficient.value, threads.space[k].coefficient.value);
+    EXPECT_EQ(serial.space[k].coefficient.standardError, threads.space[k].coefficient.standardError);
+  }
+  EXPECT_EQ(serial.ofVariance.coefficient.value, threads.ofVariance.coefficient.value);
+  EXPECT_EQ(serial.kurtosis[3].value, threads.kurtosis[3].value);
+}
