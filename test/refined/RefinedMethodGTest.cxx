@@ -81,6 +81,7 @@ TYPED_TEST(SensorNoiseRefinedMethodBits, AnyChunksAndThreadsGiveTheSameBits)
   const auto & stack = TexturedStack<TypeParam>();
   const auto   expected = Measure(stack);
   ASSERT_EQ(expected.GetReport().gain.status, EstimateStatus::Identified);
+  ASSERT_TRUE(expected.GetReport().noiseCorrelation); // of which every digit is compared
   for (const std::size_t threads : { 1, 2, 7 })
   {
     for (const std::size_t chunk : { std::size_t{ 1 }, std::size_t{ 3 }, stack.frames })

@@ -95,6 +95,7 @@ TEST(SensorNoiseRefinedMethodMerge, PartsOfIntegerFramesGiveTheWholesBits)
   const auto & stack = SmallStack<Codes>();
   const auto   whole = Measure(stack);
   ASSERT_EQ(whole.GetReport().gain.status, EstimateStatus::Identified);
+  ASSERT_TRUE(whole.GetReport().noiseCorrelation); // of which every digit is compared
   for (const Reader reader : { InRuns, InTurn })
   {
     for (const std::size_t processes : { 2, 3 })
