@@ -246,6 +246,23 @@ public:
     return sensornoise::MakeText(this->GetReport());
   }
 
+  /** What neighbours and frames share of their noise: kind, coefficients by lag, noise of rows and columns. Null where
+   * it was not measured (method Published, few pixels or frames). Stands until the next Update(). \see
+   * NoiseCorrelationEstimator */
+  const sensornoise::NoiseCorrelationRecord *
+  GetNoiseCorrelation() const
+  {
+    const auto & correlation = this->GetReport().noiseCorrelation;
+    return correlation ? &*correlation : nullptr;
+  }
+  /** Its kind: "white", "filtered" ...; "not-measured". */
+  std::string
+  GetNoiseKind() const
+  {
+    const auto * correlation = this->GetNoiseCorrelation();
+    return correlation != nullptr ? correlation->kind : "not-measured";
+  }
+
   FrameImageType *
   GetMean()
   {

@@ -24,6 +24,7 @@ import pytest
 
 NAMES = [
     "estimate_sensor_noise",
+    "noise_correlation_estimator",
     "noise_regression_estimator",
     "sensor_noise_estimator",
     "simulate_sensor_noise",

@@ -25,15 +25,22 @@ namespace sensornoise
 
 namespace
 {
+/** Part of the square of the products of the lights that is their spread, from which levels tell what grows with the
+ * light from what does not [1]: below, the error of both would be seven times that of their sum. Set by hand. */
+constexpr double LeastSpread = 0.05;
+
 /** The part of the light's square, of what is far apart along both axes; what does not depend on the light is another
- * part. 0 where the levels cannot tell them apart. */
+ * part. Where the levels cannot tell them apart, as in a flat field, all is the light's. */
 double
 LightOf(const DistantSums & far)
 {
-  const double determinant = far.constant * far.lightSquare - far.light * far.light;
-  return determinant > 1e-6 * far.constant * far.lightSquare
-           ? (far.constant * far.lightCovariance - far.light * far.covariance) / determinant
-           : 0.0;
+  const double squares = far.constant * far.lightSquare;
+  const double determinant = squares - far.light * far.light;
+  if (determinant > LeastSpread * squares)
+  {
+    return (far.constant * far.lightCovariance - far.light * far.covariance) / determinant;
+  }
+  return far.light > 0.0 ? far.covariance / far.light : 0.0;
 }
 
 double

@@ -43,6 +43,9 @@ constexpr int FirstTimeLags = 3;
 /** Rings that there may be at most [pixels]. */
 constexpr int AllRings = 16;
 
+/** Frames after which a recursive filter has forgotten how it began: its first frame is not filtered. */
+constexpr std::size_t FirstFrames = 8;
+
 /** Excess kurtosis that no linear filter leaves [1]. Set by hand: the correction of defects at 3 standard deviations
  * makes -0.06 to -0.08 of the noise and 0.1 to 0.25 of four neighbours in turn, white and filtered noise 0.01. */
 constexpr double LargestExcess = 0.04;
@@ -53,6 +56,7 @@ void
 FindCoefficients(const CorrelationSums & sums, NoiseCorrelation & found)
 {
   const CorrelationSums::Lags space = sums.Ring(1, AllRings);
+  const CorrelationSums::Lags within = sums.Ring(1, found.reach);
   const CorrelationSums::Lags time = sums.TimeLags();
   const Eigen::MatrixXd       mixing = TemporalMixing(sums.GetResiduals().GetBasis(), time.size());
   const JackknifeEstimate     estimate = Jackknife(sums.GetTiles(), [&](const TileSums & tiles) {
@@ -62,6 +66,14 @@ FindCoefficients(const CorrelationSums & sums, NoiseCorrelation & found)
     {
       figures.push_back(tiles.kurtosis.Excess(k));
     }
+    double total = 1.0;
+    for (const std::size_t k : within)
+    {
+      total += 2.0 * sums.CoefficientOf(tiles, common, k);
+    }
+    figures.push_back(total);
+    const Eigen::VectorXd inBins = sums.SharedInBins(tiles, within);
+    figures.insert(figures.end(), inBins.data(), inBins.data() + inBins.size());
     for (const std::size_t k : space)
     {
       figures.push_back(sums.CoefficientOf(tiles, common, k));
@@ -82,6 +94,12 @@ FindCoefficients(const CorrelationSums & sums, NoiseCorrelation & found)
   found.rowsDn2 = next();
   found.columnsDn2 = next();
   std::generate(found.kurtosis.begin(), found.kurtosis.end(), next);
+  found.spaceFactor = next();
+  for (MeasuredNumber & factor : found.spaceFactorOfBins)
+  {
+    factor = next();
+    factor.value += 1.0;
+  }
   found.space.clear();
   found.time.clear();
   for (const std::size_t lag : space)
@@ -91,6 +109,31 @@ FindCoefficients(const CorrelationSums & sums, NoiseCorrelation & found)
   for (const std::size_t lag : time)
   {
     found.time.push_back({ sums.GetLag(lag), next() });
+  }
+}
+
+/** The kurtosis of a series is relative to its own variance, whose scatter depends on what its frames share: of normal
+ * noise of the covariance S = P R P, E[sum r^4] = 3 sum_t S_tt^2 and E[(sum r^2)^2] = (tr S)^2 + 2 tr S^2. */
+void
+AllowForSharedFrames(const Eigen::MatrixXd & basis, NoiseCorrelation & found)
+{
+  const Eigen::Index frames = basis.rows();
+  Eigen::MatrixXd    shared = Eigen::MatrixXd::Identity(frames, frames);
+  for (const LagCoefficient & lag : found.time)
+  {
+    shared.diagonal(lag.lag.t).setConstant(lag.coefficient.value);
+    shared.diagonal(-lag.lag.t).setConstant(lag.coefficient.value);
+  }
+  const Eigen::MatrixXd projection = Eigen::MatrixXd::Identity(frames, frames) - basis * basis.transpose();
+  const auto            kurtosisOf = [](const Eigen::MatrixXd & covariance) {
+    const double trace = covariance.trace();
+    return covariance.diagonal().squaredNorm() / (trace * trace + 2.0 * covariance.squaredNorm());
+  };
+  const double factor = kurtosisOf(projection) / kurtosisOf(projection * shared * projection);
+  for (MeasuredNumber & kurtosis : found.kurtosis)
+  {
+    kurtosis.value = factor * (kurtosis.value + 3.0) - 3.0;
+    kurtosis.standardError *= factor;
   }
 }
 
@@ -207,11 +250,28 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const
   {
     FindCoefficients(sums, found); // at all lags that were added
   }
+  if (inTime)
+  {
+    AllowForSharedFrames(residuals.GetBasis(), found);
+  }
   if (!IsLinear(sums, found))
   {
     found.kind = NoiseKind::NotLinear;
   }
   return found;
+}
+
+void
+MeasureSettledFrames(NoiseCorrelation &  correlation,
+                     NoiseResiduals &    residuals,
+                     double              codesDn2,
+                     const ParallelFor & parallelFor)
+{
+  if (correlation.kind == NoiseKind::Temporal)
+  {
+    residuals.DropFirst(std::min(FirstFrames, residuals.GetTiles().frames / 5), parallelFor);
+    correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
+  }
 }
 
 } // namespace sensornoise

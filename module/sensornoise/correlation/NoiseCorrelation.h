@@ -99,6 +99,12 @@ struct SensorNoise_EXPORT NoiseCorrelation
   MeasuredNumber timeFactor{ 1.0, 0.0 };
   /** What the lags beyond the last may add, relative to the variance [1]. */
   double beyondReach{ 0.0 };
+  /** Of the lags in space that are summed [pixels]. */
+  int reach{ 1 };
+  /** The sum of the coefficients over all lags in space within reach, that of lag 0 with it [1]: what the variance has
+   * to be multiplied by, whatever its shape along the light. Of all pixels, and of the bins of the light. */
+  MeasuredNumber                                        spaceFactor{ 1.0, 0.0 };
+  std::array<MeasuredNumber, NoiseResiduals::LightBins> spaceFactorOfBins{};
   /** Sum over all lags in space of the squared coefficients: by how much more mean variances scatter [1]. */
   double
   SharedSquares() const;
@@ -118,6 +124,13 @@ struct SensorNoise_EXPORT NoiseCorrelation
 /** Measures it. \a codesDn2 is the noise of the codes' steps, which no filter has seen. */
 SensorNoise_EXPORT NoiseCorrelation
 MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const ParallelFor & parallelFor);
+
+/** Where frames were mixed, measures it again without the first frames, in which a recursive filter has not settled. */
+SensorNoise_EXPORT void
+MeasureSettledFrames(NoiseCorrelation &  correlation,
+                     NoiseResiduals &    residuals,
+                     double              codesDn2,
+                     const ParallelFor & parallelFor);
 
 } // namespace sensornoise
 

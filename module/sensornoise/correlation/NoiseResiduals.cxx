@@ -96,7 +96,8 @@ NoiseResiduals::NoiseResiduals(NoiseSample             sample,
   parallelFor(tiles.origins.size(), [&](std::size_t i) {
     for (std::size_t p = 0; p < size; ++p)
     {
-      m_Light[i * size + p] = static_cast<float>(pixels.mean[m_Sample.PixelOf(i, p)] - pixels.blackDn);
+      const double light = pixels.mean[m_Sample.PixelOf(i, p)] - pixels.blackDn;
+      m_Light[i * size + p] = std::isfinite(light) ? static_cast<float>(light) : 0.0F;
     }
     this->ProjectTile(i);
     for (std::size_t t = 0; t < tiles.frames; ++t)

@@ -20,7 +20,9 @@
 #include "sensornoise/base/BinaryStream.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -62,7 +64,8 @@ NoiseSample::AddFrames(const TPixel *              frames,
         const std::size_t first = this->PixelOf(i, row * m_Tiles.side);
         for (std::size_t x = 0; x < m_Tiles.side; ++x)
         {
-          *values++ = static_cast<float>(static_cast<double>(frame[first + x]) - mean[first + x]);
+          const double value = static_cast<double>(frame[first + x]) - mean[first + x];
+          *values++ = std::isfinite(value) ? static_cast<float>(value) : 0.0F;
         }
       }
     }
@@ -82,15 +85,25 @@ SensorNoise_INSTANTIATE(double);
 void
 NoiseSample::DropFirst(std::size_t frames)
 {
+  std::vector<std::size_t> left(m_Tiles.frames - frames);
+  std::iota(left.begin(), left.end(), frames);
+  this->KeepFrames(left);
+}
+
+void
+NoiseSample::KeepFrames(const std::vector<std::size_t> & frames)
+{
   const std::size_t size = m_Tiles.Pixels();
-  const std::size_t left = m_Tiles.frames - frames;
+  auto              to = m_Values.begin();
   for (std::size_t i = 0; i < m_Tiles.origins.size(); ++i)
   {
-    const auto from = m_Values.begin() + static_cast<std::ptrdiff_t>((i * m_Tiles.frames + frames) * size);
-    std::copy_n(from, left * size, m_Values.begin() + static_cast<std::ptrdiff_t>(i * left * size));
+    for (const std::size_t t : frames)
+    {
+      to = std::copy_n(m_Values.begin() + static_cast<std::ptrdiff_t>((i * m_Tiles.frames + t) * size), size, to);
+    }
   }
-  m_Tiles.frames = left;
-  m_Values.resize(m_Tiles.origins.size() * left * size);
+  m_Tiles.frames = frames.size();
+  m_Values.resize(m_Tiles.origins.size() * frames.size() * size);
 }
 
 void

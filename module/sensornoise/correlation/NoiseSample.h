@@ -34,8 +34,8 @@ namespace sensornoise
 /** \class NoiseSample
  * \brief The whole series of some pixels, gathered in the third pass: what frames and neighbours share needs them.
  *
- * Values are held above the pixel's mean, in 4 bytes. Frames may be added in any order and parts merged in any order,
- * with the same bits. Memory: at most 32 MiB. */
+ * Values are held above the pixel's mean, in 4 bytes; what is not finite is held as 0. Frames may be added in any order
+ * and parts merged in any order, with the same bits. Memory: at most 32 MiB. */
 class SensorNoise_EXPORT NoiseSample
 {
 public:
@@ -54,6 +54,10 @@ public:
   /** Leaves out the first frames. */
   void
   DropFirst(std::size_t frames);
+
+  /** Leaves out all frames but these, which grow. */
+  void
+  KeepFrames(const std::vector<std::size_t> & frames);
 
   /** Adds the sample of other frames of the same stack. */
   void

@@ -244,7 +244,8 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
   const CorrelationSums::Lags lags = sums.Ring(1, reach);
   const TileSums              all = sums.Total();
   const CommonNoise           common = FindCommonNoise(all.shared);
-  double                      largest = 0.0;
+  found.reach = reach;
+  double largest = 0.0;
   for (const std::size_t k : lags)
   {
     largest = std::max(largest, std::abs(sums.CoefficientOf(all, common, k)));

@@ -18,7 +18,6 @@
 #include "sensornoise/refined/CorrelationReport.h"
 
 #include "sensornoise/base/Text.h"
-#include "sensornoise/report/Quantities.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,20 +28,6 @@ namespace sensornoise
 
 namespace
 {
-/** Part of the lines' variance that the series of the scene may take for light [1]. Set by hand: a row noise as large
- * as the read noise loses 3 to 8 %. */
-constexpr double LostToSeries = 0.04;
-
-Quantity
-LineNoise(const MeasuredNumber & variance)
-{
-  if (variance.value < LeastLineNoiseZ * variance.standardError)
-  {
-    return UpperLimit(std::sqrt(std::max(0.0, variance.value) + 2.0 * variance.standardError), "DN");
-  }
-  return RootOf(variance.value, std::hypot(variance.standardError, LostToSeries * variance.value), "DN", 2.0);
-}
-
 const LagCoefficient *
 LargestOf(const std::vector<LagCoefficient> & lags)
 {
@@ -87,25 +72,6 @@ Consequence(const Report & report)
          " % of the gain, which is from the sum over all lags; variance_slope is that of the variance";
 }
 } // namespace
-
-NoiseCorrelationRecord
-RecordOf(const NoiseCorrelation & correlation)
-{
-  NoiseCorrelationRecord record;
-  record.kind = NameOf(correlation.kind);
-  const auto lagOf = [](const LagCoefficient & lag) {
-    return NoiseCorrelationRecord::Lag{
-      lag.lag.x, lag.lag.y, lag.lag.t, lag.coefficient.value, lag.coefficient.standardError
-    };
-  };
-  std::transform(correlation.space.begin(), correlation.space.end(), std::back_inserter(record.space), lagOf);
-  std::transform(correlation.time.begin(), correlation.time.end(), std::back_inserter(record.time), lagOf);
-  record.rowNoise = LineNoise(correlation.rowsDn2);
-  record.columnNoise = LineNoise(correlation.columnsDn2);
-  record.excessKurtosis =
-    WithError(correlation.kurtosis.front().value, correlation.kurtosis.front().standardError, "1", 2.0);
-  return record;
-}
 
 void
 WarnOfCorrelation(Report & report, const NoiseCorrelation & correlation)

@@ -25,10 +25,6 @@
 namespace sensornoise
 {
 
-/** The record of what neighbours and frames share. \pre it was measured */
-SensorNoise_EXPORT NoiseCorrelationRecord
-RecordOf(const NoiseCorrelation & correlation);
-
 /** Says in plain words that the frames are not raw. \a gain and \a variance_slope must be filed. */
 SensorNoise_EXPORT void
 WarnOfCorrelation(Report & report, const NoiseCorrelation & correlation);

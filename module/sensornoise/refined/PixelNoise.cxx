@@ -44,8 +44,6 @@ UsedPixels(const StaticVariance & variance)
   });
   return used;
 }
-/** Frames after which a recursive filter has forgotten how it began: its first frame is not filtered. */
-constexpr std::size_t FirstFrames = 8;
 
 /** Part of the levels' range above black up to which the darkest may lie to be the zero of the light [1]: flat fields
  * have none that is near it. */
@@ -98,11 +96,7 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
     residuals.Take(used, parallelFor);
     noise.correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
   }
-  if (noise.correlation.kind == NoiseKind::Temporal)
-  {
-    residuals.DropFirst(std::min(FirstFrames, residuals.GetTiles().frames / 5), parallelFor);
-    noise.correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
-  }
+  MeasureSettledFrames(noise.correlation, residuals, codesDn2, parallelFor);
   return noise;
 }
 

@@ -22,6 +22,7 @@
 #include "sensornoise/base/RollingShutter.h"
 #include "sensornoise/base/Text.h"
 #include "sensornoise/pixels/VarianceLine.h"
+#include "sensornoise/correlation/CorrelationRecord.h"
 #include "sensornoise/refined/CorrelationReport.h"
 #include "sensornoise/refined/GainEstimate.h"
 #include "sensornoise/refined/GainReport.h"

@@ -88,7 +88,7 @@ struct NoiseCorrelationRecord
     double value{ 0.0 }; ///< correlation coefficient [1]
     double standardError{ 0.0 };
   };
-  std::string      kind; ///< white, crosstalk, filtered, temporal, brighter-fatter, not-linear
+  std::string      kind; ///< white, crosstalk, filtered, temporal, brighter-fatter, not-linear, not-measured
   std::vector<Lag> space;
   std::vector<Lag> time;
   Quantity         rowNoise{ Quantity::Without(EstimateStatus::Failed, "DN") };    ///< common to a row of one frame

@@ -85,6 +85,17 @@ WriteJson(JsonWriter & json, const NoiseCorrelationRecord::Lag & lag)
   });
 }
 
+void
+WriteJson(JsonWriter & json, const NoiseCorrelationRecord & correlation)
+{
+  json.Object([&] {
+    json.Member("kind", correlation.kind);
+    json.Member("space", correlation.space).Member("time", correlation.time);
+    json.Member("row_noise", correlation.rowNoise).Member("column_noise", correlation.columnNoise);
+    json.Member("excess_kurtosis", correlation.excessKurtosis);
+  });
+}
+
 namespace
 {
 void
@@ -136,23 +147,6 @@ WriteSensor(JsonWriter & json, const Report & report)
   });
 }
 
-/** What neighbours and frames share. */
-void
-WriteCorrelation(JsonWriter & json, const std::optional<NoiseCorrelationRecord> & correlation)
-{
-  if (!correlation)
-  {
-    json.Member("noise_correlation", std::optional<double>());
-    return;
-  }
-  json.ObjectMember("noise_correlation", [&] {
-    json.Member("kind", correlation->kind);
-    json.Member("space", correlation->space).Member("time", correlation->time);
-    json.Member("row_noise", correlation->rowNoise).Member("column_noise", correlation->columnNoise);
-    json.Member("excess_kurtosis", correlation->excessKurtosis);
-  });
-}
-
 /** The light and the floor, as a spread and frame by frame. */
 void
 WriteConditions(JsonWriter & json, const Report & report)
@@ -199,7 +193,7 @@ ToJson(const Report & report)
     WriteStack(json, report);
     WriteSensor(json, report);
     WriteConditions(json, report);
-    WriteCorrelation(json, report.noiseCorrelation);
+    json.Member("noise_correlation", report.noiseCorrelation);
     WriteFit(json, report);
     json.Member("warnings", report.warnings);
     json.ObjectMember("scatter", [&] {

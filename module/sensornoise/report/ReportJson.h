@@ -42,6 +42,8 @@ SensorNoise_EXPORT void
 WriteJson(JsonWriter & json, const Warning & warning);
 SensorNoise_EXPORT void
 WriteJson(JsonWriter & json, const Quantity & quantity);
+SensorNoise_EXPORT void
+WriteJson(JsonWriter & json, const NoiseCorrelationRecord & correlation);
 
 /** The record as JSON, schema "itk-sensornoise-report/1": one object, units in each quantity, null for what is unknown.
  */

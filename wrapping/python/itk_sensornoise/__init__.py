@@ -28,14 +28,17 @@ noise sigma [DN], flicker gamma_t [1] and vibration (alpha_t, beta_t) [pixel] ar
 Imaging Sci. 8(1), 2015, https://doi.org/10.1137/140977035.
 """
 
+from ._correlation import NoiseCorrelation, noise_correlation_estimator
 from ._estimate import estimate_sensor_noise
 from ._estimators import noise_regression_estimator, sensor_noise_estimator, vibration_covariance_estimator
 from ._report import Report
 from ._simulate import simulate_sensor_noise
 
 __all__ = [
+    "NoiseCorrelation",
     "Report",
     "estimate_sensor_noise",
+    "noise_correlation_estimator",
     "noise_regression_estimator",
     "sensor_noise_estimator",
     "simulate_sensor_noise",

@@ -21,7 +21,12 @@ import sys
 
 _NEW = ("estimate_sensor_noise", "simulate_sensor_noise")
 # ITK generates functions of these names too; what they return holds a C++ struct that Python cannot open.
-_REPLACED = ("noise_regression_estimator", "sensor_noise_estimator", "vibration_covariance_estimator")
+_REPLACED = (
+    "noise_correlation_estimator",
+    "noise_regression_estimator",
+    "sensor_noise_estimator",
+    "vibration_covariance_estimator",
+)
 _MODULE = "SensorNoise"
 
 

@@ -1,0 +1,215 @@
+# ==========================================================================
+#
+#   Copyright the ITKSensorNoise contributors
+#
+#   Licensed under the Apache License, Version 2.0 (the "License");
+#   you may not use this file except in compliance with the License.
+#   You may obtain a copy of the License at
+#
+#          https://www.apache.org/licenses/LICENSE-2.0.txt
+#
+#   Unless required by applicable law or agreed to in writing, software
+#   distributed under the License is distributed on an "AS IS" BASIS,
+#   WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+#   See the License for the specific language governing permissions and
+#   limitations under the License.
+#
+# ==========================================================================*/
+"""Whether the noise is that of raw frames: what neighbours and frames share of it."""
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from . import _options
+from ._arrays import as_frame, as_mask
+from ._errors import itk_errors
+from ._frames import Stack, frame_image, open_frames
+
+
+class NoiseCorrelation(Mapping[str, Any]):
+    """What noise_correlation_estimator() measured: the record "itk-sensornoise-correlation/1", the names of its JSON.
+
+        found["noise_correlation"]    kind, space, time, row_noise, column_noise, excess_kurtosis: as in the report of
+                                      estimate_sensor_noise()
+        found["sum_over_lags"]        value, standard_error, interval95, status [1]
+        found["lights"]               quarters of the pixels, dark to bright: light [DN], variance [DN^2] and its
+                                      variance_standard_error, sum_over_lags
+        found["frames_used"], found["pixels_used"]
+
+    `kind`, `sum_over_lags` and `standard_error` are the most wanted of it. print() shows it as a table. Equal to any
+    mapping with the same content; can be pickled.
+    """
+
+    def __init__(self, text: str) -> None:
+        """`text`: the record as JSON, as C++ writes it."""
+        self._text = text
+        self._record: dict[str, Any] = json.loads(text)
+
+    @property
+    def kind(self) -> str:
+        """"white", "crosstalk", "filtered", "temporal", "brighter-fatter", "not-linear" or "not-measured"."""
+        return self["noise_correlation"]["kind"]
+
+    @property
+    def sum_over_lags(self) -> float | None:
+        """What variance, or gain, has to be multiplied by where the kind is not "white" [1]; None: not known."""
+        return self["sum_over_lags"]["value"]
+
+    @property
+    def standard_error(self) -> float | None:
+        """Standard error of `sum_over_lags` [1]."""
+        return self["sum_over_lags"]["standard_error"]
+
+    def coefficient(self, x: int = 0, y: int = 0, *, frames: int = 0) -> tuple[float, float]:
+        """Correlation coefficient and its standard error [1] of pixels `x` columns and `y` rows apart, or of one pixel
+        `frames` frames later. Raises KeyError where that lag was not measured."""
+        if frames:
+            found = [lag for lag in self["noise_correlation"]["time"] if lag["lag"] == abs(frames) and x == y == 0]
+        else:
+            found = [lag for lag in self["noise_correlation"]["space"] if lag["lag"] in ([x, y], [-x, -y])]
+        if not found:
+            raise KeyError(f"the lag of {x} columns, {y} rows and {frames} frames was not measured")
+        return found[0]["value"], found[0]["standard_error"]
+
+    def __getitem__(self, name: str) -> Any:
+        return self._record[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._record)
+
+    def __len__(self) -> int:
+        return len(self._record)
+
+    __hash__ = None  # type: ignore[assignment]  # what it holds can be changed
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return NoiseCorrelation, (self._text,)
+
+    def __repr__(self) -> str:
+        return f"<NoiseCorrelation: {self.kind}, sum over lags {_number(self['sum_over_lags'])}>"
+
+    def __str__(self) -> str:
+        correlation = self["noise_correlation"]
+        rows = [("kind", self.kind), ("sum over lags", _number(self["sum_over_lags"]))]
+        rows += [(f"{light['light']:.4g} DN of light", _light(light)) for light in self["lights"]]
+        rows += [(f"{lag['lag'][0]} columns, {lag['lag'][1]} rows", _lag(lag)) for lag in correlation["space"]]
+        rows += [(f"{lag['lag']} frames", _lag(lag)) for lag in correlation["time"]]
+        rows += [(f"{line} noise", _number(correlation[f"{line}_noise"])) for line in ("row", "column")]
+        return "\n".join(f"{name:22} {value}" for name, value in rows)
+
+    def to_json(self) -> str:
+        """The record as C++ writes it."""
+        return self._text
+
+
+def _number(quantity: dict[str, Any]) -> str:
+    if quantity["value"] is None:
+        limit = quantity["interval95"]
+        return quantity["status"] if limit is None else f"below {limit[1]:.3g} {quantity['unit']}"
+    unit = "" if quantity["unit"] == "1" else f" {quantity['unit']}"
+    return f"{quantity['value']:.5g} +- {quantity['standard_error']:.2g}{unit}"
+
+
+def _lag(lag: dict[str, Any]) -> str:
+    return f"{lag['value']:+.4f} +- {lag['standard_error']:.4f}"
+
+
+def _light(light: dict[str, Any]) -> str:
+    variance = f"{light['variance']:.5g} +- {light['variance_standard_error']:.2g} DN^2"
+    return f"variance {variance}, sum over lags {_number(light['sum_over_lags'])}"
+
+
+def noise_correlation_estimator(
+    stack: Any,
+    *,
+    mean: Any = None,
+    mask: Any = None,
+    series: Any = None,
+    remove_frame_means: bool = True,
+    offset: float | None = None,
+    quantisation_step: float | None = None,
+) -> NoiseCorrelation:
+    """What neighbours and frames share of their noise, and what a variance has to be multiplied by for it.
+
+    Raw frames have white noise. A camera that smooths, resamples or mixes its frames lowers their variance: the gain of
+    a photon transfer (variance against mean) is then too small. `sum_over_lags` of the result is what it has to be
+    multiplied by, for any linear processing whose weights sum to 1.
+
+    Parameters
+    ----------
+    stack
+        Frames of a scene that stands still, flat fields for instance, as `frames` of estimate_sensor_noise().
+    mean
+        The stack's mean [DN], an array (y, x) or an image; NaN: the pixel is left out. Default: found.
+    mask
+        Pixels of value 0 are left out, an array (y, x) or an image. Default: all that are finite and never clipped.
+        With `mean` and `mask` the stack is read once, else twice.
+    series
+        What changes from frame to frame (flicker, motion), of any unit: an array (frames,) or (frames, k). What is in
+        proportion to it is taken out of every pixel, each by its own factor. Default: none.
+    remove_frame_means
+        Takes out the means of the frames, too, plain and weighted with the light: flicker and a drifting offset.
+        Without, a fluctuating light is seen as noise that is shared.
+    offset
+        The level without light [DN]. Default: the darkest level if that is below 0.3 of the brightest, else 0.
+    quantisation_step
+        Spacing of the codes [DN]. Default: found; with `mean` and `mask`, 1 for integers.
+
+    Returns
+    -------
+    NoiseCorrelation
+        A mapping with `kind`, `sum_over_lags`, `standard_error` and coefficient(). Kind "not-measured": fewer than 1024
+        pixels in 4 tiles, or few frames.
+
+    Raises
+    ------
+    ValueError
+        Wrong use; says what was found and what was expected.
+    RuntimeError
+        What ITK threw: first line the cause, then ITK's text.
+    """
+    import itk
+
+    opened = open_frames(stack)
+    estimator = opened.estimator(itk.NoiseCorrelationEstimator)
+    if mean is not None:
+        mean_array = _of_frame(as_frame(mean, "mean", np.float64), "mean", opened)
+        estimator.SetMean(frame_image(mean_array, opened.image))
+    if mask is not None:
+        mask_array = _of_frame(as_mask(mask, "mask"), "mask", opened)
+        estimator.SetMask(frame_image(mask_array, opened.image))
+    for column in _columns(series, opened.size[2]):
+        estimator.AddSeries(column)
+    estimator.SetRemoveFrameMeans(bool(remove_frame_means))
+    if offset is not None:
+        estimator.SetOffset(_options.number("offset", offset))
+    if quantisation_step is not None:
+        expected = "a number above 0 [DN]"
+        estimator.SetQuantisationStep(_options.number("quantisation_step", quantisation_step, expected, above=0.0))
+    with itk_errors():
+        estimator.Update()
+    return NoiseCorrelation(estimator.GetResultAsJson())
+
+
+def _of_frame(array: np.ndarray, name: str, stack: Stack) -> np.ndarray:
+    if array.shape != stack.size[1::-1]:
+        raise ValueError(f"{name} has shape {array.shape}; expected {stack.size[1::-1]}, that of a frame")
+    return array
+
+
+def _columns(series: Any, frames: int) -> Sequence[list[float]]:
+    if series is None:
+        return []
+    expected = f"finite numbers, an array ({frames},) or ({frames}, k) for {frames} frames"
+    try:
+        array = np.asarray(series, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise ValueError(f"series is of type {type(series).__name__}; expected {expected}") from None
+    if array.ndim not in (1, 2) or len(array) != frames:
+        raise ValueError(f"series has shape {array.shape}; expected {expected}")
+    if not np.isfinite(array).all():
+        raise ValueError(f"series holds a number that is not finite; expected {expected}")
+    return array.reshape(frames, -1).T.tolist()
