@@ -143,7 +143,8 @@ TEST(SensorNoiseCorrelationReport, NoiseOfRowsIsTheRootWithItsIntervalOrAnUpperL
   const NoiseCorrelationRecord record = RecordOf(correlation);
   EXPECT_EQ(record.rowNoise.status, EstimateStatus::Identified);
   EXPECT_EQ(ValueOf(record.rowNoise), 3.0);
-  EXPECT_NEAR(*record.rowNoise.standardError, 0.6 / 6.0, 1e-12);
+  // Of the square, with 4 % of it that the series of the scene may have taken; of the root half the relative one.
+  EXPECT_NEAR(*record.rowNoise.standardError, std::hypot(0.6, 0.04 * 9.0) / (2.0 * 3.0), 1e-12);
   EXPECT_EQ(record.rowNoise.unit, "DN");
   EXPECT_EQ(record.columnNoise.status, EstimateStatus::UpperLimit);
   EXPECT_FALSE(record.columnNoise.value);

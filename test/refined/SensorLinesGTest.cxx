@@ -122,7 +122,7 @@ TEST(SensorNoiseSensorLines, AFilterScalesTheVarianceWithoutTheCodesNoise)
   EXPECT_DOUBLE_EQ(FilterFactor(correlation), factor);
   EXPECT_NEAR(sensor.all.gain, factor * Gain, 1e-12);
   EXPECT_NEAR(sensor.all.intercept, factor * (InterceptDn2 - CodesDn2) + CodesDn2, 1e-12);
-  EXPECT_NEAR(sensor.all.intercept, VarianceOfSensor(InterceptDn2, factor, CodesDn2), 1e-12);
+  EXPECT_NEAR(sensor.all.intercept, VarianceOfSensor(InterceptDn2, correlation, CodesDn2), 1e-12);
   EXPECT_LT((sensor.all.covariance - factor * factor * lines.all.covariance).norm(), 1e-12);
   EXPECT_NEAR(sensor.fromLight.gain, factor * lines.fromLight.gain, 1e-12);
   for (std::size_t b = 0; b < VarianceCurve::Bins; ++b)
@@ -230,4 +230,18 @@ TEST(SensorNoiseSensorLines, WhatIsNotKnownOfTheSharingIsAnErrorOfGainAndInterce
   NoiseCorrelation wide;
   wide.beyondReach = 0.01; // of the variance, not of the sum
   EXPECT_NEAR(std::sqrt(WithSharedNoise(lines, wide, BlackDn, CodesDn2).errorOfShared(0, 0)), 0.01 * Gain, 1e-12);
+}
+
+TEST(SensorNoiseSensorLines, NoiseOfWholeRowsIsNotThePixelsOwn)
+{
+  NoiseCorrelation correlation = Sharing(&NoiseCorrelation::ofVariance, 1.5);
+  correlation.rowsDn2 = { 4.0, 0.1 };
+  correlation.columnsDn2 = { 0.3, 0.1 }; // not seen
+  const SensorLines lines = StraightLines();
+  const SensorLines sensor = WithSharedNoise(lines, correlation, BlackDn, CodesDn2);
+  EXPECT_NEAR(sensor.all.gain, 2.5 * Gain, 1e-12);
+  EXPECT_NEAR(sensor.all.intercept, 2.5 * (InterceptDn2 - CodesDn2 - 4.0) + CodesDn2, 1e-12);
+  EXPECT_NEAR(VarianceOfSensor(InterceptDn2, correlation, CodesDn2), sensor.all.intercept, 1e-12);
+  EXPECT_NEAR(VarianceOf(sensor.curve, 5), 2.5 * (VarianceOf(lines.curve, 5) - CodesDn2 - 4.0) + CodesDn2, 1e-9);
+  EXPECT_NEAR(std::sqrt(sensor.errorOfShared(1, 1)), 2.5 * 0.1, 1e-12);
 }

@@ -158,7 +158,7 @@ SettingsOfSensor(const RefinedResults & found, double codesDn2)
     DarkVariance & dark = *settings.offset->variance;
     dark.valueDn2 = VarianceOfSensor(dark.valueDn2, found.correlation, codesDn2);
     dark.standardErrorDn2 =
-      std::hypot(dark.standardErrorDn2 * FilterFactor(found.correlation), found.correlation.LineNoise().standardError);
+      FilterFactor(found.correlation) * std::hypot(dark.standardErrorDn2, found.correlation.LineNoise().standardError);
     settings.offset->maps.reset();
     settings.offset->readNoiseMedian.reset();
   }

@@ -174,7 +174,9 @@ ErrorOf(const NoiseCorrelation & correlation,
   const double          relative = std::hypot(correlation.timeFactor.standardError / std::max(1e-9, time),
                                      correlation.beyondReach * line.gain * time / std::max(1e-9, sensor.gain));
   error += relative * relative * whole * whole.transpose();
-  error(1, 1) += correlation.LineNoise().standardError * correlation.LineNoise().standardError;
+  // Taken off before the filter's factor is applied.
+  const double ofLines = FilterFactor(correlation) * correlation.LineNoise().standardError;
+  error(1, 1) += ofLines * ofLines;
   return error;
 }
 } // namespace
