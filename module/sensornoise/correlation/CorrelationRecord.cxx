@@ -28,10 +28,6 @@ namespace sensornoise
 
 namespace
 {
-/** Part of the lines' variance that the series of the scene may take for light [1]. Set by hand: a row noise as large
- * as the read noise loses 3 to 8 %. */
-constexpr double LostToSeries = 0.04;
-
 Quantity
 LineNoise(const MeasuredNumber & variance)
 {
@@ -39,7 +35,7 @@ LineNoise(const MeasuredNumber & variance)
   {
     return UpperLimit(std::sqrt(std::max(0.0, variance.value) + 2.0 * variance.standardError), "DN");
   }
-  return RootOf(variance.value, std::hypot(variance.standardError, LostToSeries * variance.value), "DN", 2.0);
+  return RootOf(variance.value, variance.standardError, "DN", 2.0);
 }
 } // namespace
 

@@ -124,6 +124,7 @@ void
 NoiseSample::Save(std::ostream & out) const
 {
   WriteSumsHeader(out, SampleName, m_FramePixels, m_Tiles.frames);
+  WriteCount(out, m_Width);
   WriteNumbers(out, m_Values);
 }
 
@@ -132,6 +133,7 @@ NoiseSample::Restore(std::istream & in)
 {
   NoiseSample read = *this;
   RequireCount("sampled frames", ReadSumsHeader(in, SampleName, m_FramePixels), m_Tiles.frames);
+  RequireCount("columns", ReadCount(in), m_Width);
   ReadNumbers(in, read.m_Values);
   *this = std::move(read);
 }

@@ -66,9 +66,6 @@ constexpr double MostEvidenceOfBend = 20.0;
 /** Root mean square by which what nearest neighbours share may differ with the place in a block [1]. Set by hand: a
  * JPEG of quality 98 makes 0.01. */
 constexpr double LargestSpreadOfPhases = 0.003;
-/** What neighbours share in all that blocks can make [1]. Frames that were binned and have their old size again share
- * 3, by the place, too, and linearly. */
-constexpr double LargestSumOfBlocks = 0.5;
 
 MeasuredNumber
 NumberAt(const JackknifeEstimate & estimate, std::size_t k)
@@ -262,11 +259,12 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
   found.ofVariance = shapeOf(ShapeOfShared::Variance);
   found.ofLight = shapeOf(ShapeOfShared::Light);
   found.ofSquare = shapeOf(ShapeOfShared::Square);
-  // A filter that sharpens takes in proportion to the variance; what blocks of pixels are rounded to does not.
+  // A filter that sharpens takes in proportion to the variance, and alike everywhere; what blocks of pixels are rounded
+  // to does not.
   const double constant = probabilities[static_cast<std::size_t>(ShapeOfShared::Constant)];
   const double shared = found.ofVariance.coefficient.value;
-  const bool   isRounding = (shared < 0.0 && (constant > RoundingProbability || chi2.minCoeff() > LargestChi2)) ||
-                          (shared < LargestSumOfBlocks && SpreadOfPhases(sums.SumPhases()) > LargestSpreadOfPhases);
+  const bool   isRounding = shared < 0.0 && (constant > RoundingProbability || chi2.minCoeff() > LargestChi2 ||
+                                           SpreadOfPhases(sums.SumPhases()) > LargestSpreadOfPhases);
   if (isRounding)
   {
     found.kind = NoiseKind::NotLinear;
