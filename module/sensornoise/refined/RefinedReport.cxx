@@ -202,7 +202,12 @@ FillVariance(Report & report, const RefinedResults & found, const GainEstimate &
   report.totalIntercept = own.totalIntercept;
   if (!report.fit.line)
   {
+    // The noise is not linear: there may be more against the frames.
     report.fit = own.fit;
+    if (!own.gain.value)
+    {
+      report.warnings.insert(report.warnings.end(), own.warnings.begin(), own.warnings.end());
+    }
   }
 }
 } // namespace
