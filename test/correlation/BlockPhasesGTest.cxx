@@ -1,0 +1,139 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/correlation/BlockPhases.h"
+#include "sensornoise/correlation/NoiseCorrelation.h"
+#include "helpers/CorrelationTestHelper.h"
+
+#include <cmath>
+#include <cstddef>
+#include <gtest/gtest.h>
+#include <vector>
+
+using namespace sensornoise;
+using namespace sensornoise::test::correlation;
+
+namespace
+{
+const FrameGeometry   Frame{ 128, 128, 1 };
+constexpr std::size_t Frames = 40;
+
+NoiseResiduals
+Residuals(const FrameOf & frameOf)
+{
+  return ResidualsOf(Frame, Frames, std::vector<double>(Frame.Pixels(), 100.0), frameOf);
+}
+
+/** White noise less its mean over \a length pixels in a row, from column \a first on: a code that drops the mean. */
+FrameOf
+WithoutMeans(std::size_t length, std::size_t first)
+{
+  const FrameOf white = WhiteNoise(Frame, 5);
+  return [=](std::size_t t) {
+    DoubleFrame frame = white(t);
+    for (std::size_t y = 0; y < Frame.height; ++y)
+    {
+      for (std::size_t x = first; x + length <= Frame.width; x += length)
+      {
+        double * row = frame.values.data() + y * Frame.width + x;
+        double   mean = 0.0;
+        for (std::size_t k = 0; k < length; ++k)
+        {
+          mean += row[k] / static_cast<double>(length);
+        }
+        for (std::size_t k = 0; k < length; ++k)
+        {
+          row[k] -= mean;
+        }
+      }
+    }
+    return frame;
+  };
+}
+
+double
+Coefficient(const std::vector<BlockPhases> & tiles, std::size_t k)
+{
+  BlockPhases sum;
+  for (const BlockPhases & tile : tiles)
+  {
+    sum += tile;
+  }
+  return sum.covariance[k] / sum.pairs[k];
+}
+
+/** Of a coefficient: 128^2 pixels, an eighth of them, 39 degrees of freedom; five of its standard deviations. */
+const double Tolerance = 5.0 / std::sqrt(128.0 * 128.0 / 8.0 * 39.0);
+} // namespace
+
+TEST(SensorNoiseBlockPhases, WhiteNoiseHasNoPlace)
+{
+  const auto tiles = SumBlockPhases(Residuals(WhiteNoise(Frame, 3)), SerialFor);
+  for (std::size_t k = 0; k < 2 * BlockPhases::Period; ++k)
+  {
+    EXPECT_NEAR(Coefficient(tiles, k), 0.0, Tolerance) << k;
+  }
+  EXPECT_EQ(SpreadOfPhases(tiles), 0.0);
+}
+
+TEST(SensorNoiseBlockPhases, NeighboursOfABlockShareItsMeanAndThoseOfTwoDoNot)
+{
+  // The variance is 7/8, the covariance within a block -1/8.
+  for (const std::size_t first : { std::size_t{ 0 }, std::size_t{ 3 } })
+  {
+    const auto tiles = SumBlockPhases(Residuals(WithoutMeans(8, first)), SerialFor);
+    for (std::size_t k = 0; k < BlockPhases::Period; ++k)
+    {
+      const double expected = k == (first + 7) % 8 ? 0.0 : -1.0 / 7.0;
+      EXPECT_NEAR(Coefficient(tiles, k), expected, Tolerance + 0.01) << first << " " << k; // few pixels lie in no block
+      EXPECT_NEAR(Coefficient(tiles, BlockPhases::Period + k), 0.0, Tolerance) << first << " " << k;
+    }
+    // About the mean of the axis, -1/8: seven of 1/56 and one of 1/8, of sixteen phases. Chance is taken off, and up to
+    // a sixteenth of the pixels lies in no block.
+    EXPECT_NEAR(SpreadOfPhases(tiles), std::sqrt((7.0 / (56.0 * 56.0) + 1.0 / 64.0) / 16.0), 0.004) << first;
+  }
+}
+
+TEST(SensorNoiseBlockPhases, BlocksThatDropTheirMeanAreNotLinearWhateverTheirLength)
+{
+  for (const std::size_t length : { std::size_t{ 4 }, std::size_t{ 8 }, std::size_t{ 16 } })
+  {
+    const NoiseCorrelation found = MeasureNoiseCorrelation(Residuals(WithoutMeans(length, 0)), 0.0, SerialFor);
+    EXPECT_EQ(found.kind, NoiseKind::NotLinear) << length;
+  }
+}
+
+TEST(SensorNoiseBlockPhases, SharpenedFramesAreFiltered)
+{
+  const FrameOf white = WhiteNoise(Frame, 9);
+  const FrameOf sharpened = [=](std::size_t t) {
+    const DoubleFrame in = white(t);
+    DoubleFrame       out = in;
+    for (std::size_t p = 1; p + 1 < in.values.size(); ++p)
+    {
+      out.values[p] = 1.2 * in.values[p] - 0.1 * (in.values[p - 1] + in.values[p + 1]);
+    }
+    return out;
+  };
+  // Of a flat field neither the light nor the place tells rounding from a filter, and it stays one.
+  const auto tiles = SumBlockPhases(Residuals(sharpened), SerialFor);
+  EXPECT_EQ(SpreadOfPhases(tiles), 0.0);
+  for (std::size_t k = 0; k < BlockPhases::Period; ++k)
+  {
+    EXPECT_NEAR(Coefficient(tiles, k), -0.24 / 1.46, Tolerance) << k;
+  }
+}
