@@ -54,6 +54,8 @@ constexpr int LargestReach = 5;
 constexpr double LargestCrosstalk = 0.06;
 /** Distance up to which charge is coupled [pixels]. */
 constexpr int ReachOfCharge = 2;
+/** Standard errors by which what is farther must exceed SmallRing to be no chance [1]. */
+constexpr double FarZ = 3.0;
 /** Evidence that a rarer shape needs, as a difference of chi-squares [1]: one in e. */
 constexpr double EvidenceOfRareShape = 2.0;
 /** Probability from which what neighbours share, with the opposite sign, is taken for the rounding of blocks [1]. */
@@ -237,22 +239,27 @@ SharesInSpace(const CorrelationSums & sums, const std::vector<LagCoefficient> & 
 void
 SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
 {
-  const int                   reach = FindReach(sums, found.beyondReach);
-  const CorrelationSums::Lags lags = sums.Ring(1, reach);
-  const TileSums              all = sums.Total();
-  const CommonNoise           common = FindCommonNoise(all.shared);
-  found.reach = reach;
-  double largest = 0.0;
-  for (const std::size_t k : lags)
+  found.reach = FindReach(sums, found.beyondReach);
+  const TileSums    all = sums.Total();
+  const CommonNoise common = FindCommonNoise(all.shared);
+  double            largest = 0.0;
+  for (const std::size_t k : sums.Ring(1, found.reach))
   {
     largest = std::max(largest, std::abs(sums.CoefficientOf(all, common, k)));
   }
-  const bool              mayBeCharge = largest < LargestCrosstalk && reach <= ReachOfCharge;
-  const JackknifeEstimate fits = FitAllShapes(sums, lags, sums.GetCodesDn2() + found.LineNoise().value);
-  const Eigen::VectorXd   chi2 = fits.value.tail(NumberOfShapes);
-  const Eigen::VectorXd   withBend = chi2 + Chi2OfSums(sums, all, fits.value.head(NumberOfShapes));
-  const auto              probabilities = ProbabilitiesOf(withBend, mayBeCharge);
-  const auto              shapeOf = [&](ShapeOfShared shape) {
+  const MeasuredNumber far = SumOfCoefficients(sums, sums.Ring(ReachOfCharge + 1, found.reach));
+  const bool           mayBeCharge = largest < LargestCrosstalk && !far.Exceeds(SmallRing, FarZ);
+  if (mayBeCharge && found.reach > ReachOfCharge)
+  {
+    found.reach = ReachOfCharge; // the rest was chance
+    found.beyondReach = std::max(std::abs(far.value), 0.5 * far.standardError);
+  }
+  const CorrelationSums::Lags lags = sums.Ring(1, found.reach);
+  const JackknifeEstimate     fits = FitAllShapes(sums, lags, sums.GetCodesDn2() + found.LineNoise().value);
+  const Eigen::VectorXd       chi2 = fits.value.tail(NumberOfShapes);
+  const Eigen::VectorXd       withBend = chi2 + Chi2OfSums(sums, all, fits.value.head(NumberOfShapes));
+  const auto                  probabilities = ProbabilitiesOf(withBend, mayBeCharge);
+  const auto                  shapeOf = [&](ShapeOfShared shape) {
     const auto k = static_cast<std::size_t>(shape);
     return SharedShape{ NumberAt(fits, k), probabilities[k] };
   };
@@ -271,7 +278,8 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
   }
   else if (found.kind != NoiseKind::Temporal)
   {
-    const bool isCharge = mayBeCharge && (reach == 1 || found.ofLight.probability > found.ofVariance.probability);
+    const bool isNear = !SumOfCoefficients(sums, sums.Ring(2, found.reach)).Exceeds(SmallRing, FarZ);
+    const bool isCharge = mayBeCharge && (isNear || found.ofLight.probability > found.ofVariance.probability);
     found.kind = found.ofSquare.probability > 0.5 ? NoiseKind::BrighterFatter
                  : isCharge                       ? NoiseKind::Crosstalk
                                                   : NoiseKind::Filtered;
