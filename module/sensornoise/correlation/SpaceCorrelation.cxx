@@ -65,6 +65,8 @@ constexpr double LargestChi2 = 11.3;
 
 /** Chi-square that a bend of the variance may count at most [1]: the response may bend, too. */
 constexpr double MostEvidenceOfBend = 20.0;
+/** Part of that chi-square that may be left of a bend that charge makes [1]. */
+constexpr double LargestShareOfBend = 0.5;
 /** Root mean square by which what nearest neighbours share may differ with the place in a block [1]. Set by hand: a
  * JPEG of quality 98 makes 0.01. */
 constexpr double LargestSpreadOfPhases = 0.003;
@@ -139,7 +141,8 @@ Chi2OfSums(const CorrelationSums & sums, const TileSums & all, const Eigen::Vect
   const double                straight = Chi2OfLine(shapes, own, errors);
   Eigen::VectorXd             chi2 = Eigen::VectorXd::Constant(NumberOfShapes, straight);
   const auto                  square = static_cast<Eigen::Index>(ShapeOfShared::Square);
-  chi2(square) = Chi2OfLine(shapes, own + coefficients(square) * shapes.col(square), errors);
+  const double                left = Chi2OfLine(shapes, own + coefficients(square) * shapes.col(square), errors);
+  chi2(square) = left < LargestShareOfBend * straight ? left : straight; // else the response bends
   return chi2.cwiseMin(chi2.minCoeff() + MostEvidenceOfBend);
 }
 
