@@ -160,7 +160,15 @@ SettingsOfSensor(const RefinedResults & found, double codesDn2)
     dark.standardErrorDn2 =
       FilterFactor(found.correlation) * std::hypot(dark.standardErrorDn2, found.correlation.LineNoise().standardError);
     settings.offset->maps.reset();
-    settings.offset->readNoiseMedian.reset();
+    if (auto & median = settings.offset->readNoiseMedian; median && FilterFactor(found.correlation) == 1.0)
+    {
+      const double square = median->valueDn * median->valueDn - found.correlation.LineNoise().value;
+      median->valueDn = std::sqrt(std::max(0.0, square));
+    }
+    else
+    {
+      median.reset(); // of what the filter left nobody knows the median
+    }
   }
   return settings;
 }
