@@ -137,6 +137,19 @@ TEST(SensorNoiseRefinedReport, ToneCurveIsRefusedWithItsLine)
   }
 }
 
+TEST(SensorNoiseRefinedReport, ToneCurveOfTheCodesIsRefusedHoweverManyPixelsTellIt)
+{
+  // The more pixels, the more the classes of roughness differ beyond chance: that must not hide the curve.
+  Stack<Codes> stack = Simulate<Codes>(SimulationSettings(), 512, 512); // 100 frames
+  for (Codes & code : stack.pixels)
+  {
+    code = static_cast<Codes>(std::lround(4095.0 * std::pow(static_cast<double>(code) / 4095.0, 1.0 / 1.3)));
+  }
+  const Report report = Measure(stack, {}).GetReport();
+  EXPECT_EQ(report.gain.status, EstimateStatus::Failed);
+  EXPECT_TRUE(HasWarning(report, "variance-not-affine"));
+}
+
 TEST(SensorNoiseRefinedReport, FloatingPointFramesThatSaturateAreMeasuredAsTheirIntegers)
 {
   SimulationSettings settings = StillCamera(40);

@@ -188,6 +188,11 @@ UseMeanGain(GainEstimate & estimate, const VarianceCurve & curve, double blackDn
   estimate.covariance += SlopeCovariance(std::sqrt(dispersion * best.variance), estimate.line.pivotDn);
 }
 
+/** Scatter of the classes beyond sampling, as a factor of the variance, that chance is given where departures from a
+ * line are judged [1]. Set by hand: scenes and sensors that fit have 1 to 4; a tone curve has 50 and hides behind it.
+ */
+constexpr double LargestDispersion = 4.0;
+
 void
 FindModelError(GainEstimate & estimate, const VarianceCurve & curve, double blackDn, double dispersion)
 {
@@ -231,7 +236,8 @@ EstimateGain(const RefinedResults & found, const SensorLines & lines)
   estimate.reducedChi2 = lines.curve.ReducedChi2() / variance.sharedSquares;
   ChooseLine(estimate, lines, variance, found.scene.model);
   estimate.scale = estimate.line.At(estimate.line.pivotDn) / std::max(1e-9, estimate.line.pivotDn - found.blackDn);
-  FindModelError(estimate, lines.curve, found.blackDn, DispersionOfClasses(variance));
+  const double dispersion = std::min(DispersionOfClasses(variance), LargestDispersion * variance.sharedSquares);
+  FindModelError(estimate, lines.curve, found.blackDn, dispersion);
   if (found.settings.offset && found.settings.offset->variance)
   {
     UseDarkPoint(estimate, found);
