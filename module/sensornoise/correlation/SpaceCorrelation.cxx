@@ -60,6 +60,8 @@ constexpr double FarZ = 3.0;
 constexpr double EvidenceOfRareShape = 2.0;
 /** Probability from which what neighbours share, with the opposite sign, is taken for the rounding of blocks [1]. */
 constexpr double RoundingProbability = 0.05;
+/** Standard errors by which it must be below 0 [1]. */
+constexpr double RoundingZ = 2.0;
 /** Chi-square of the best shape from which nothing explains it: the 99 % quantile for four bins and one number [1]. */
 constexpr double LargestChi2 = 11.3;
 
@@ -273,8 +275,9 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
   // to does not.
   const double constant = probabilities[static_cast<std::size_t>(ShapeOfShared::Constant)];
   const double shared = found.ofVariance.coefficient.value;
-  const bool   isRounding = shared < 0.0 && (constant > RoundingProbability || chi2.minCoeff() > LargestChi2 ||
-                                           SpreadOfPhases(sums.SumPhases()) > LargestSpreadOfPhases);
+  const bool   isUnlikeFilter = constant > RoundingProbability || chi2.minCoeff() > LargestChi2;
+  const bool   isRounding = (shared < -RoundingZ * found.ofVariance.coefficient.standardError && isUnlikeFilter) ||
+                          (shared < 0.0 && SpreadOfPhases(sums.SumPhases()) > LargestSpreadOfPhases);
   if (isRounding)
   {
     found.kind = NoiseKind::NotLinear;
