@@ -116,7 +116,7 @@ TEST(SensorNoiseNoiseCorrelation, PlainNoiseIsWhite)
   }
   ExpectNumber(found.rowsDn2, 0.0, 1.0);
   ExpectNumber(found.columnsDn2, 0.0, 1.0);
-  EXPECT_NEAR(found.SharedSquares(), 1.0, 1e-4);
+  EXPECT_NEAR(SharedSquares(found.space), 1.0, 1e-4);
   EXPECT_EQ(found.timeFactor.value, 1.0);
 }
 
@@ -140,8 +140,9 @@ TEST(SensorNoiseNoiseCorrelation, SmoothedFramesAreFilteredAndTheSumIsThatOfTheW
   const double left = square * square / std::pow(weight, 4.0);
   EXPECT_NEAR(found.ofVariance.probability, 1.0, 0.1);
   ExpectNumber(found.ofVariance.coefficient, 1.0 / left - 1.0, 0.05);
-  EXPECT_NEAR(
-    found.SharedSquares(), 1.0 + 4.0 * std::pow(product / square, 2.0) + 4.0 * std::pow(product / square, 4.0), 0.1);
+  EXPECT_NEAR(SharedSquares(found.space),
+              1.0 + 4.0 * std::pow(product / square, 2.0) + 4.0 * std::pow(product / square, 4.0),
+              0.1);
 }
 
 TEST(SensorNoiseNoiseCorrelation, CoupledChargeIsCrosstalkInProportionToTheLight)

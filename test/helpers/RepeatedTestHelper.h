@@ -107,6 +107,18 @@ ExpectReportOfDistinct(Report report, const Report & expected, const Shown & sho
   EXPECT_EQ(ToJson(report), ToJson(expected));
 }
 
+/** The same of all results of a method, RefinedMethod or PublishedMethod. */
+template <typename TMethod>
+void
+ExpectResultOfDistinct(const TMethod & method, const TMethod & distinct, const Shown & shown)
+{
+  ExpectReportOfDistinct(method.GetReport(), distinct.GetReport(), shown);
+  EXPECT_TRUE(HaveSameBits(method.GetMean(), distinct.GetMean()));
+  EXPECT_TRUE(HaveSameBits(method.GetVariance(), distinct.GetVariance()));
+  EXPECT_TRUE(HaveSameBits(method.GetCorrectedVariance(), distinct.GetCorrectedVariance()));
+  EXPECT_TRUE(HaveSameBits(method.GetPixelUse(), distinct.GetPixelUse()));
+}
+
 } // namespace sensornoise::test
 
 #endif

@@ -29,22 +29,6 @@
 using namespace sensornoise;
 using namespace sensornoise::test;
 
-namespace
-{
-template <typename TPixel>
-void
-ExpectResultOfDistinct(const PublishedMethod<TPixel> & method,
-                       const PublishedMethod<TPixel> & distinct,
-                       const Shown &                   shown)
-{
-  ExpectReportOfDistinct(method.GetReport(), distinct.GetReport(), shown);
-  EXPECT_TRUE(HaveSameBits(method.GetMean(), distinct.GetMean()));
-  EXPECT_TRUE(HaveSameBits(method.GetVariance(), distinct.GetVariance()));
-  EXPECT_TRUE(HaveSameBits(method.GetCorrectedVariance(), distinct.GetCorrectedVariance()));
-  EXPECT_TRUE(HaveSameBits(method.GetPixelUse(), distinct.GetPixelUse()));
-}
-} // namespace
-
 TEST(SensorNoisePublishedRepeatedFrames, AnyWayGiveTheResultOfTheDistinctOnes)
 {
   const auto & stack = FlickeringStack();

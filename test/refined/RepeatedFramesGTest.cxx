@@ -38,19 +38,6 @@ namespace
 {
 using Codes = unsigned short;
 
-template <typename TPixel>
-void
-ExpectResultOfDistinct(const RefinedMethod<TPixel> & method,
-                       const RefinedMethod<TPixel> & distinct,
-                       const Shown &                 shown)
-{
-  ExpectReportOfDistinct(method.GetReport(), distinct.GetReport(), shown);
-  EXPECT_TRUE(HaveSameBits(method.GetMean(), distinct.GetMean()));
-  EXPECT_TRUE(HaveSameBits(method.GetVariance(), distinct.GetVariance()));
-  EXPECT_TRUE(HaveSameBits(method.GetCorrectedVariance(), distinct.GetCorrectedVariance()));
-  EXPECT_TRUE(HaveSameBits(method.GetPixelUse(), distinct.GetPixelUse()));
-}
-
 /** The small stack, each frame twice. */
 Stack<Codes>
 Doubled(Shown & shown)

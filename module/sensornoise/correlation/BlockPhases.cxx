@@ -19,6 +19,7 @@
 
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/correlation/Jackknife.h"
+#include "sensornoise/correlation/LagSums.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,15 +55,8 @@ AddAxis(const NoiseResiduals & residuals, std::size_t tile, std::size_t axis, Bl
   const std::size_t   size = tiles.Pixels();
   const std::size_t   shift = axis == 0 ? 1 : tiles.side;
   const float *       weight = residuals.WeightOf(tile);
-  std::vector<float>  products(size, 0.0F);
-  for (std::size_t t = 0; t < tiles.frames; ++t)
-  {
-    const float * values = residuals.OfTile(tile) + t * size;
-    for (std::size_t p = 0; p + shift < size; ++p)
-    {
-      products[p] += values[p] * values[p + shift];
-    }
-  }
+  std::vector<float>  products;
+  SumProducts(residuals, tile, axis == 0 ? Lag{ 1, 0, 0 } : Lag{ 0, 1, 0 }, products);
   const SampleTiles::Origin & origin = tiles.origins[tile];
   for (std::size_t p = 0; p + shift < size; ++p)
   {

@@ -43,14 +43,13 @@ namespace sensornoise
 
 namespace
 {
-/** Part of the brightest level below which the darkest is taken for the zero of the light [1]: flat fields have none.
- */
-constexpr double DarkShare = 0.3;
 constexpr double DarkestQuantile = 0.002;
 constexpr double BrightestQuantile = 0.998;
 
 double
-ZeroOfLight(const CorrelationSettings & settings, const std::vector<double> & mean, std::vector<std::uint8_t> & take)
+LevelWithoutLight(const CorrelationSettings &       settings,
+                  const std::vector<double> &       mean,
+                  const std::vector<std::uint8_t> & take)
 {
   if (!std::isnan(settings.offsetDn))
   {
@@ -66,7 +65,7 @@ ZeroOfLight(const CorrelationSettings & settings, const std::vector<double> & me
     return 0.0;
   }
   const double darkest = Quantile(levels, DarkestQuantile);
-  return darkest < DarkShare * Quantile(levels, BrightestQuantile) ? darkest : 0.0;
+  return ZeroOfLight(darkest, Quantile(levels, BrightestQuantile), 0.0);
 }
 
 /** The frames of a sample that are not equal to an earlier one. */
@@ -153,19 +152,6 @@ SumOverLags(const NoiseCorrelation & correlation, const MeasuredNumber & space)
   return WithError(space.value * time.value, std::hypot(error * time.value, space.value * time.standardError), "1");
 }
 
-/** Sum of the squared coefficients over lags in time [1]: by how much more variances scatter. */
-double
-SharedSquaresOfTime(const NoiseCorrelation & correlation)
-{
-  double sum = 1.0;
-  for (const LagCoefficient & lag : correlation.time)
-  {
-    const double value = lag.coefficient.value;
-    sum += 2.0 * std::max(0.0, value * value - lag.coefficient.standardError * lag.coefficient.standardError);
-  }
-  return sum;
-}
-
 std::vector<LightNoise>
 LightsOf(const NoiseResiduals & residuals, const NoiseCorrelation & correlation)
 {
@@ -192,7 +178,7 @@ LightsOf(const NoiseResiduals & residuals, const NoiseCorrelation & correlation)
     }
   }
   std::vector<LightNoise> lights;
-  const double            shared = correlation.SharedSquares() * SharedSquaresOfTime(correlation);
+  const double            shared = SharedSquares(correlation.space) * SharedSquares(correlation.time);
   for (std::size_t b = 0; b < bins.size(); ++b)
   {
     if (bins[b].pixels > 0.0)
@@ -251,7 +237,7 @@ EstimateCorrelation(NoiseSample                       sample,
     taken[p] = taken[p] != 0 && std::isfinite(mean[p]) ? 1 : 0;
   }
   CorrelationEstimate            estimate;
-  const double                   blackDn = ZeroOfLight(settings, mean, taken);
+  const double                   blackDn = LevelWithoutLight(settings, mean, taken);
   const std::vector<std::size_t> distinct = DistinctOf(sample);
   sample.KeepFrames(distinct);
   const Eigen::MatrixXd means = settings.frameMeans ? FrameMeansOf(sample, mean, taken, blackDn, parallelFor)

@@ -30,29 +30,6 @@ namespace sensornoise
 
 namespace
 {
-/** Sums over time of the products of a tile's values with those \a shift further on and \a frames later. */
-void
-SumProducts(const float *        values,
-            std::size_t          frames,
-            std::size_t          size,
-            std::ptrdiff_t       shift,
-            std::size_t          later,
-            std::vector<float> & sums)
-{
-  std::fill(sums.begin(), sums.end(), 0.0F);
-  const std::size_t first = shift < 0 ? static_cast<std::size_t>(-shift) : 0;
-  const std::size_t last = shift < 0 ? size : size - static_cast<std::size_t>(shift);
-  for (std::size_t t = 0; t + later < frames; ++t)
-  {
-    const float * here = values + t * size;
-    const float * there = values + (t + later) * size + shift;
-    for (std::size_t p = first; p < last; ++p)
-    {
-      sums[p] += here[p] * there[p];
-    }
-  }
-}
-
 /** Weights of \a count places in a row that fall off at both ends, so that places two, three or four apart sum up
  * alike wherever one begins: noise of binned or doubled pixels has such a period. */
 std::vector<double>
@@ -119,6 +96,28 @@ SumPairs(const NoiseResiduals & residuals, std::size_t tile, const Lag & lag, co
 }
 } // namespace
 
+void
+SumProducts(const NoiseResiduals & residuals, std::size_t tile, const Lag & lag, std::vector<float> & products)
+{
+  const SampleTiles &  tiles = residuals.GetTiles();
+  const std::size_t    size = tiles.Pixels();
+  const float *        values = residuals.OfTile(tile);
+  const auto           later = static_cast<std::size_t>(lag.t);
+  const std::ptrdiff_t shift = static_cast<std::ptrdiff_t>(lag.y) * static_cast<std::ptrdiff_t>(tiles.side) + lag.x;
+  const std::size_t    first = shift < 0 ? static_cast<std::size_t>(-shift) : 0;
+  const std::size_t    last = shift < 0 ? size : size - static_cast<std::size_t>(shift);
+  products.assign(size, 0.0F);
+  for (std::size_t t = 0; t + later < tiles.frames; ++t)
+  {
+    const float * here = values + t * size;
+    const float * there = values + (t + later) * size + shift;
+    for (std::size_t p = first; p < last; ++p)
+    {
+      products[p] += here[p] * there[p];
+    }
+  }
+}
+
 PairSums &
 PairSums::operator+=(const PairSums & other)
 {
@@ -155,20 +154,13 @@ std::vector<std::vector<LagSums>>
 SumLags(const NoiseResiduals & residuals, const std::vector<Lag> & lags, const ParallelFor & parallelFor)
 {
   const SampleTiles &               tiles = residuals.GetTiles();
-  const auto                        side = static_cast<std::ptrdiff_t>(tiles.side);
   std::vector<std::vector<LagSums>> sums(tiles.origins.size(), std::vector<LagSums>(lags.size()));
   parallelFor(tiles.origins.size(), [&](std::size_t i) {
-    std::vector<float> products(tiles.Pixels());
+    std::vector<float> products;
     for (std::size_t k = 0; k < lags.size(); ++k)
     {
-      const Lag & lag = lags[k];
-      SumProducts(residuals.OfTile(i),
-                  tiles.frames,
-                  tiles.Pixels(),
-                  lag.y * side + lag.x,
-                  static_cast<std::size_t>(lag.t),
-                  products);
-      sums[i][k] = SumPairs(residuals, i, lag, products);
+      SumProducts(residuals, i, lags[k], products);
+      sums[i][k] = SumPairs(residuals, i, lags[k], products);
     }
   });
   return sums;

@@ -62,6 +62,11 @@ struct LagSums
   Total() const;
 };
 
+/** Sums over time of the products of the residuals of tile \a tile with those \a lag away, of the pixels of the tile:
+ * products[p] is that of pixel p. Where the other pixel is in another row, the product has no meaning. */
+SensorNoise_EXPORT void
+SumProducts(const NoiseResiduals & residuals, std::size_t tile, const Lag & lag, std::vector<float> & products);
+
 /** The sums of every tile, for each lag: [tile][lag]. y is sum_t r_t(p) r_(t + lag.t)(q), over the freedom. */
 SensorNoise_EXPORT std::vector<std::vector<LagSums>>
 SumLags(const NoiseResiduals & residuals, const std::vector<Lag> & lags, const ParallelFor & parallelFor);

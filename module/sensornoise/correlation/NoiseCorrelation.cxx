@@ -239,10 +239,10 @@ NoiseCorrelation::LineNoise() const
 }
 
 double
-NoiseCorrelation::SharedSquares() const
+SharedSquares(const std::vector<LagCoefficient> & lags)
 {
   double sum = 1.0;
-  for (const LagCoefficient & lag : space)
+  for (const LagCoefficient & lag : lags)
   {
     const double chance = lag.coefficient.standardError * lag.coefficient.standardError;
     sum += 2.0 * std::max(0.0, lag.coefficient.value * lag.coefficient.value - chance);

@@ -69,6 +69,11 @@ struct LagCoefficient
   MeasuredNumber coefficient;
 };
 
+/** The sum of the squared coefficients over all lags, 0 among them, without what chance makes of it: by how much more a
+ * mean variance scatters [1]. \a lags are one half of those other than 0. */
+SensorNoise_EXPORT double
+SharedSquares(const std::vector<LagCoefficient> & lags);
+
 /** What neighbours share as a function of the light z: c(z) = coefficient shape(z), summed over all neighbours. */
 struct SharedShape
 {
@@ -105,10 +110,6 @@ struct SensorNoise_EXPORT NoiseCorrelation
    * to be multiplied by, whatever its shape along the light. Of all pixels, and of the bins of the light. */
   MeasuredNumber                                        spaceFactor{ 1.0, 0.0 };
   std::array<MeasuredNumber, NoiseResiduals::LightBins> spaceFactorOfBins{};
-  /** Sum over all lags in space of the squared coefficients: by how much more mean variances scatter [1]. */
-  double
-  SharedSquares() const;
-
   /** Variance of the noise of whole rows and columns, where it is seen [DN^2]. */
   MeasuredNumber
   LineNoise() const;

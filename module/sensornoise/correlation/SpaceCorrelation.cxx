@@ -69,8 +69,9 @@ constexpr double LargestChi2 = 11.3;
 constexpr double MostEvidenceOfBend = 20.0;
 /** Part of that chi-square that may be left of a bend that charge makes [1]. */
 constexpr double LargestShareOfBend = 0.5;
-/** Root mean square by which what nearest neighbours share may differ with the place in a block [1]. Set by hand: a
- * JPEG of quality 98 makes 0.01. */
+/** Root mean square by which a negative share of nearest neighbours may differ with the place in a block [1]. Set by
+ * hand: a JPEG of quality 98 makes 0.01. (A positive one may: frames that were binned, sensors read in groups of rows.)
+ */
 constexpr double LargestSpreadOfPhases = 0.003;
 
 MeasuredNumber

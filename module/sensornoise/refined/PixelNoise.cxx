@@ -17,9 +17,9 @@
  *=========================================================================*/
 #include "sensornoise/refined/PixelNoise.h"
 
-#include "sensornoise/base/PixelUse.h"
 #include "sensornoise/correlation/NoiseResiduals.h"
 #include "sensornoise/refined/PixelsOfVariance.h"
+#include "sensornoise/report/StackReport.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -34,30 +34,6 @@ namespace
 /** Sum of the squared coefficients from which areas are judged once more [1]. Set by hand: below, the scatter of their
  * means grows by less than a twentieth. */
 constexpr double LeastSharedSquares = 1.1;
-
-std::vector<std::uint8_t>
-UsedPixels(const StaticVariance & variance)
-{
-  std::vector<std::uint8_t> used(variance.pixelUse.size());
-  std::transform(variance.pixelUse.begin(), variance.pixelUse.end(), used.begin(), [](std::uint8_t use) {
-    return static_cast<std::uint8_t>(use == static_cast<std::uint8_t>(PixelUse::Used) ? 1 : 0);
-  });
-  return used;
-}
-
-/** Part of the levels' range above black up to which the darkest may lie to be the zero of the light [1]: flat fields
- * have none that is near it. */
-constexpr double DarkShare = 0.3;
-
-/** The level from which light is measured. Where nothing tells it, the darkest: what is shared in proportion to the
- * variance is in proportion to the light above a level that is below. */
-double
-ZeroOfLight(const RefinedSettings & settings, const StillScene & scene, const SceneSeries & series, double blackDn)
-{
-  const double dark = scene.model.darkestDn;
-  const bool   isTold = settings.offset.has_value() || series.isOffsetTold;
-  return !isTold && dark - blackDn < DarkShare * (scene.model.brightestDn - blackDn) ? dark : blackDn;
-}
 } // namespace
 
 PixelNoise
@@ -82,17 +58,17 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   {
     return noise;
   }
-  std::vector<std::uint8_t> used = UsedPixels(noise.variance);
-  NoiseResiduals            residuals(std::move(sample),
-                           series->basis.GetBasis(),
-                                      { scene.frame.mean, used, ZeroOfLight(settings, scene, *series, blackDn) },
-                           parallelFor);
+  std::vector<std::uint8_t> used = MaskOfUsed(noise.variance.pixelUse);
+  const bool                isTold = settings.offset.has_value() || series->isOffsetTold;
+  const double   zeroDn = isTold ? blackDn : ZeroOfLight(scene.model.darkestDn, scene.model.brightestDn, blackDn);
+  NoiseResiduals residuals(
+    std::move(sample), series->basis.GetBasis(), { scene.frame.mean, used, zeroDn }, parallelFor);
   noise.correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
-  const double sharedSquares = noise.correlation.SharedSquares();
+  const double sharedSquares = SharedSquares(noise.correlation.space);
   if (noise.correlation.IsShared() && sharedSquares > LeastSharedSquares)
   {
     noise.variance = fit(sharedSquares);
-    used = UsedPixels(noise.variance);
+    used = MaskOfUsed(noise.variance.pixelUse);
     residuals.Take(used, parallelFor);
     noise.correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
   }

@@ -140,6 +140,7 @@ FillCurves(Report & report, const RefinedResults & found)
   FillBaselines(report, { scene.mean.data(), scene.variance.data(), used.data(), used.size() });
   FillScatter(report, scene.mean, scene.variance, found.correctedVariance, pixelUse);
 }
+
 /** Degrees of freedom of the 95 % intervals. */
 double
 StudentOf(const RefinedResults & found)
@@ -183,20 +184,18 @@ FillSensor(Report & report, const RefinedResults & found, const GainEstimate & g
   FillFlicker(report, found, offset.valueDn - found.scene.model.centreDn, offset.errorDn, gain.RelativeModelError());
   FillMotion(report, found);
   WarnOfMotion(report, found);
-  if (found.correlation.kind == NoiseKind::NotLinear)
-  {
-    SetSensorParameters(report, EstimateStatus::Failed);
-    FillFromDarkFrames(report, found.settings, codesDn2);
-  }
-  else if (FillGain(report, found, gain, codesDn2, StudentOf(found)))
+  const bool isLinear = found.correlation.kind != NoiseKind::NotLinear;
+  if (isLinear && FillGain(report, found, gain, codesDn2, StudentOf(found)))
   {
     FillOffsetAndReadNoise(report, found, gain, limits, flicker, codesDn2, StudentOf(found));
     WarnOfNarrowRange(report, found, limits);
+    return;
   }
-  else
+  if (!isLinear)
   {
-    FillFromDarkFrames(report, found.settings, codesDn2);
+    SetSensorParameters(report, EstimateStatus::Failed);
   }
+  FillFromDarkFrames(report, found.settings, codesDn2);
 }
 
 /** Files what a denoiser needs: a pixel's variance as a function of its level, whatever the sensor's was. */
