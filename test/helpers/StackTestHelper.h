@@ -82,9 +82,9 @@ Simulate(const SimulationSettings &  settings,
 {
   const StackSimulator simulator(scene.empty() ? MakeTargetScene(width, height) : scene, width, height, settings);
   Stack<TPixel>        stack{ width, height, settings.frames, std::vector<TPixel>(width * height * settings.frames) };
-  for (std::size_t row = 0; row < settings.frames * height; ++row)
+  for (std::size_t frame = 0; frame < settings.frames; ++frame)
   {
-    simulator.RenderRow(row / height, row % height, stack.pixels.data() + row * width);
+    simulator.RenderFrame(frame, stack.pixels.data() + frame * width * height);
   }
   return stack;
 }

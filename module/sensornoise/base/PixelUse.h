@@ -38,7 +38,8 @@ enum class PixelUse : std::uint8_t
   NotStatic = 9,      ///< its variance does not fit, nor does that of its surroundings: something moved
   Outlier = 10,       ///< its variance is too far from the line, or dark frames show it defective
   CoarseCodes = 11,   ///< its noise is below half a code step
-  OutsideRange = 12   ///< its level is not one that the user wants
+  OutsideRange = 12,  ///< its level is not one that the user wants
+  Edge = 13           ///< frames were filtered, and neighbours of another level mixed their noise in
 };
 
 } // namespace sensornoise

@@ -49,6 +49,8 @@ constexpr double AnyZ = 4.0;
 constexpr double SmallRing = 0.005;
 /** Of the sum over lags [pixels]: smoothing by a Gaussian of 1 pixel reaches as far. */
 constexpr int LargestReach = 5;
+/** Of the size of the next, that all rings beyond LargestReach may add [1]: 1.3 for a Gaussian of 1.5 pixels, 1.7 of 2. */
+constexpr double RingsBeyondReach = 2.0;
 
 /** Coefficient up to which charge may be coupled [1]: sensors have a few hundredths. */
 constexpr double LargestCrosstalk = 0.06;
@@ -111,9 +113,10 @@ FindReach(CorrelationSums & sums, double & beyond)
     const MeasuredNumber next = SumOfCoefficients(sums, sums.Ring(reach + 1, reach + 1));
     const double         inside = 1.0 + SumOfCoefficients(sums, sums.Ring(1, reach)).value;
     const double         size = std::abs(next.value);
-    if (size < SmallRing * std::abs(inside) || size < next.standardError || reach == LargestReach)
+    const bool           isLast = size < SmallRing * std::abs(inside) || size < next.standardError;
+    if (isLast || reach == LargestReach)
     {
-      beyond = std::max(size, 0.5 * next.standardError);
+      beyond = std::max((isLast ? 1.0 : RingsBeyondReach) * size, 0.5 * next.standardError);
       return reach;
     }
   }

@@ -17,11 +17,13 @@
  *=========================================================================*/
 #include "sensornoise/refined/PixelNoise.h"
 
+#include "sensornoise/base/PixelUse.h"
 #include "sensornoise/correlation/NoiseResiduals.h"
 #include "sensornoise/refined/PixelsOfVariance.h"
 #include "sensornoise/report/StackReport.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -34,6 +36,17 @@ namespace
 /** Sum of the squared coefficients from which areas are judged once more [1]. Set by hand: below, the scatter of their
  * means grows by less than a twentieth. */
 constexpr double LeastSharedSquares = 1.1;
+/** The pixels in use, and the edges that were in use \a before: what neighbours share is a mean over both. */
+std::vector<std::uint8_t>
+UsedAndEdges(const std::vector<std::uint8_t> & pixelUse, const std::vector<std::uint8_t> & before)
+{
+  std::vector<std::uint8_t> used = MaskOfUsed(pixelUse);
+  for (std::size_t p = 0; p < used.size(); ++p)
+  {
+    used[p] |= pixelUse[p] == static_cast<std::uint8_t>(PixelUse::Edge) ? before[p] : 0;
+  }
+  return used;
+}
 } // namespace
 
 PixelNoise
@@ -45,11 +58,11 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
                   double                                   codesDn2,
                   const ParallelFor &                      parallelFor)
 {
-  const double                    blackDn = BlackLevel(settings, scene, series);
-  const double                    offsetDn = series->offset + scene.model.centreDn;
-  std::vector<std::uint8_t>       pixelUse = scene.pixelUse;
-  const std::vector<std::uint8_t> chosen = PixelsOfVariance(scene, settings, pixelUse);
-  const auto                      fit = [&](double sharedSquares) {
+  const double              blackDn = BlackLevel(settings, scene, series);
+  const double              offsetDn = series->offset + scene.model.centreDn;
+  std::vector<std::uint8_t> pixelUse = scene.pixelUse;
+  std::vector<std::uint8_t> chosen = PixelsOfVariance(scene, settings, pixelUse);
+  const auto                fit = [&](double sharedSquares) {
     return FitStaticVariance(
       projected, chosen, pixelUse, scene.model.slopeDn, offsetDn, blackDn, parallelFor, sharedSquares);
   };
@@ -67,8 +80,9 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   const double sharedSquares = SharedSquares(noise.correlation.space);
   if (noise.correlation.IsShared() && sharedSquares > LeastSharedSquares)
   {
+    LeaveOutEdges(scene.frame, noise.variance.line, chosen, pixelUse);
     noise.variance = fit(sharedSquares);
-    used = MaskOfUsed(noise.variance.pixelUse);
+    used = UsedAndEdges(noise.variance.pixelUse, used);
     residuals.Take(used, parallelFor);
     noise.correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
   }

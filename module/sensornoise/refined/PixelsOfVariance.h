@@ -19,6 +19,7 @@
 #define sensornoise_refined_PixelsOfVariance_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/pixels/VarianceLine.h"
 #include "sensornoise/refined/RefinedSettings.h"
 #include "sensornoise/scene/StillScene.h"
 #include "sensornoise/series/SceneSeries.h"
@@ -47,6 +48,15 @@ CodesVariance(const StillScene & scene)
  * in the dark is left out in the light. */
 SensorNoise_EXPORT std::vector<std::uint8_t>
 PixelsOfVariance(const StillScene & scene, const RefinedSettings & settings, std::vector<std::uint8_t> & pixelUse);
+
+/** Leaves out of \a chosen the pixels whose surroundings have another level than they have. Where frames were filtered,
+ * such a pixel's variance is a mean over other neighbours than its level is, and on no line. \a line is that of the
+ * frames as they are. */
+SensorNoise_EXPORT void
+LeaveOutEdges(const ReferenceFrame &      frame,
+              const VarianceLine &        line,
+              std::vector<std::uint8_t> & chosen,
+              std::vector<std::uint8_t> & pixelUse);
 
 } // namespace sensornoise
 

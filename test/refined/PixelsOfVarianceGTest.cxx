@@ -1,0 +1,98 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/base/PixelUse.h"
+#include "sensornoise/refined/PixelsOfVariance.h"
+#include "sensornoise/refined/RefinedMethod.h"
+#include "helpers/SensorTestHelper.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <gtest/gtest.h>
+#include <vector>
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+using namespace sensornoise::test::sensor;
+
+namespace
+{
+constexpr std::size_t Width = 16;
+constexpr std::size_t Height = 9;
+
+/** Pixel uses after LeaveOutEdges() of a frame whose level is a function of x, all chosen. The variance is 1 DN times
+ * the level. */
+template <typename TLevel>
+std::vector<std::uint8_t>
+UsesOf(const TLevel & level)
+{
+  ReferenceFrame frame;
+  frame.geometry = { Width, Height };
+  for (std::size_t p = 0; p < Width * Height; ++p)
+  {
+    frame.mean.push_back(level(p % Width));
+  }
+  VarianceLine line;
+  line.gain = 1.0;
+  std::vector<std::uint8_t> chosen(frame.mean.size(), 1);
+  std::vector<std::uint8_t> uses(frame.mean.size(), 0);
+  LeaveOutEdges(frame, line, chosen, uses);
+  for (std::size_t p = 0; p < uses.size(); ++p)
+  {
+    EXPECT_EQ(chosen[p] == 0, uses[p] == static_cast<std::uint8_t>(PixelUse::Edge)) << p;
+  }
+  return uses;
+}
+} // namespace
+
+TEST(SensorNoisePixelsOfVariance, PixelsBesideAStepAreEdges)
+{
+  // 5 x 5 pixels around x = 7 hold two columns of the other level, 40 % of them: a step of 10.1 % is just above 4 %.
+  const auto uses = UsesOf([](std::size_t x) { return x < 8 ? 1000.0 : 1101.0; });
+  for (std::size_t p = 0; p < uses.size(); ++p)
+  {
+    const std::size_t x = p % Width;
+    const std::size_t y = p / Width;
+    // from the brighter side the step is 9.2 %
+    EXPECT_EQ(uses[p] != 0, x == 7 && y >= 2 && y + 2 < Height) << x << ' ' << y;
+  }
+}
+
+TEST(SensorNoisePixelsOfVariance, ARampHasNoEdges)
+{
+  const auto uses = UsesOf([](std::size_t x) { return 100.0 + 50.0 * static_cast<double>(x); });
+  EXPECT_TRUE(std::all_of(uses.begin(), uses.end(), [](std::uint8_t use) { return use == 0; }));
+}
+
+TEST(SensorNoisePixelsOfVariance, SmoothedEdgesAreNoBendOfTheResponse)
+{
+  SimulationSettings settings = StillCamera(50);
+  const auto         edgesOf = [&settings] {
+    const auto stack = Simulate<Codes>(settings, 256, 256);
+    const auto method = Measure(stack, {});
+    EXPECT_FALSE(HasWarning(method.GetReport(), "response-not-straight"));
+    ExpectHolds(method.GetReport().gain, 1.0);
+    ExpectHolds(method.GetReport().readNoise, 8.0);
+    const auto & uses = method.GetPixelUse();
+    return std::count(uses.begin(), uses.end(), static_cast<std::uint8_t>(PixelUse::Edge));
+  };
+  EXPECT_EQ(edgesOf(), 0);
+  settings.flaws.smoothing.sdPixels = 1.0;
+  // 4 x 4 patches: their outlines are 6 lines of 256 pixels, of which at least two columns are edges
+  EXPECT_GT(edgesOf(), 6 * 2 * 200);
+}
