@@ -58,8 +58,8 @@ constexpr double LargestCrosstalk = 0.06;
 constexpr int ReachOfCharge = 2;
 /** Standard errors by which what is farther must exceed SmallRing to be no chance [1]. */
 constexpr double FarZ = 3.0;
-/** Evidence that a rarer shape needs, as a difference of chi-squares [1]: one in e. */
-constexpr double EvidenceOfRareShape = 2.0;
+/** Evidence that a constant needs, as a difference of chi-squares [1]: one in e. */
+constexpr double EvidenceOfConstant = 2.0;
 /** Probability from which what neighbours share, with the opposite sign, is taken for the rounding of blocks [1]. */
 constexpr double RoundingProbability = 0.05;
 /** Standard errors by which it must be below 0 [1]. */
@@ -179,8 +179,7 @@ ProbabilitiesOf(const Eigen::VectorXd & chi2, bool mayBeCharge)
   {
     const auto   shape = static_cast<ShapeOfShared>(k);
     const bool   isCharge = shape == ShapeOfShared::Light || shape == ShapeOfShared::Square;
-    const bool   isRare = shape == ShapeOfShared::Square || shape == ShapeOfShared::Constant;
-    const double evidence = isRare ? EvidenceOfRareShape : 0.0;
+    const double evidence = shape == ShapeOfShared::Constant ? EvidenceOfConstant : 0.0;
     probabilities[k] = isCharge && !mayBeCharge
                          ? 0.0
                          : std::exp(-0.5 * (chi2(static_cast<Eigen::Index>(k)) + evidence - chi2.minCoeff()));
