@@ -17,13 +17,11 @@
  *=========================================================================*/
 #include "sensornoise/refined/PixelNoise.h"
 
-#include "sensornoise/base/PixelUse.h"
 #include "sensornoise/correlation/NoiseResiduals.h"
 #include "sensornoise/refined/PixelsOfVariance.h"
 #include "sensornoise/report/StackReport.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -36,17 +34,6 @@ namespace
 /** Sum of the squared coefficients from which areas are judged once more [1]. Set by hand: below, the scatter of their
  * means grows by less than a twentieth. */
 constexpr double LeastSharedSquares = 1.1;
-/** The pixels in use, and the edges that were in use \a before: what neighbours share is a mean over both. */
-std::vector<std::uint8_t>
-UsedAndEdges(const std::vector<std::uint8_t> & pixelUse, const std::vector<std::uint8_t> & before)
-{
-  std::vector<std::uint8_t> used = MaskOfUsed(pixelUse);
-  for (std::size_t p = 0; p < used.size(); ++p)
-  {
-    used[p] |= pixelUse[p] == static_cast<std::uint8_t>(PixelUse::Edge) ? before[p] : 0;
-  }
-  return used;
-}
 } // namespace
 
 PixelNoise
@@ -80,11 +67,13 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   const double sharedSquares = SharedSquares(noise.correlation.space);
   if (noise.correlation.IsShared() && sharedSquares > LeastSharedSquares)
   {
-    LeaveOutEdges(scene.frame, noise.variance.line, chosen, pixelUse);
     noise.variance = fit(sharedSquares);
-    used = UsedAndEdges(noise.variance.pixelUse, used);
+    used = MaskOfUsed(noise.variance.pixelUse);
     residuals.Take(used, parallelFor);
     noise.correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
+    // What neighbours share is a mean over both sides of an edge, the line is not.
+    LeaveOutEdges(scene.frame, noise.variance.line, chosen, pixelUse);
+    noise.variance = fit(sharedSquares);
   }
   MeasureSettledFrames(noise.correlation, residuals, codesDn2, parallelFor);
   return noise;
