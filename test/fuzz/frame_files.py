@@ -1,0 +1,271 @@
+# ==========================================================================
+#
+#   Copyright the ITKSensorNoise contributors
+#
+#   Licensed under the Apache License, Version 2.0 (the "License");
+#   you may not use this file except in compliance with the License.
+#   You may obtain a copy of the License at
+#
+#          https://www.apache.org/licenses/LICENSE-2.0.txt
+#
+#   Unless required by applicable law or agreed to in writing, software
+#   distributed under the License is distributed on an "AS IS" BASIS,
+#   WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+#   See the License for the specific language governing permissions and
+#   limitations under the License.
+#
+# ==========================================================================*/
+"""Undamaged files of small 16-bit frames, in the formats that a user may have, made with the standard library alone."""
+
+import struct
+import zlib
+from dataclasses import dataclass, field
+
+WIDTH = 48  # pixels
+HEIGHT = 32  # pixels
+
+
+@dataclass
+class File:
+    """A file, and which of its bytes are pixels: `raw` if nothing tells that they changed, `checked` if a checksum
+    does. All others are header."""
+
+    name: str
+    data: bytes
+    raw: list[tuple[int, int]] = field(default_factory=list)
+    checked: list[tuple[int, int]] = field(default_factory=list)
+
+
+@dataclass
+class Case:
+    """Files, and those of them that are handed over, in time order."""
+
+    name: str
+    files: list[File]
+    frames: list[str]
+
+
+def _whole(name: str, data: bytes) -> File:
+    return File(name, data, raw=[(0, len(data))])
+
+
+def _parts(name: str, *parts: tuple[str, bytes]) -> File:
+    """A file of parts, each "header", "raw" or "checked"."""
+    made = File(name, b"")
+    for kind, data in parts:
+        if kind != "header":
+            getattr(made, kind).append((len(made.data), len(made.data) + len(data)))
+        made.data += data
+    return made
+
+
+def _meta_header(frames: int, data_file: str, extra: str = "") -> bytes:
+    return (
+        "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
+        f"{extra}ElementSpacing = 1 1 1\nDimSize = {WIDTH} {HEIGHT} {frames}\nElementType = MET_USHORT\n"
+        f"ElementDataFile = {data_file}\n"
+    ).encode()
+
+
+def meta_images(frames: list[bytes]) -> list[Case]:
+    pixels = b"".join(frames)
+    packed = zlib.compress(pixels)
+    count = len(frames)
+    compressed = f"CompressedData = True\nCompressedDataSize = {len(packed)}\n"
+    names = [f"frame {t}.raw" for t in range(count)]
+    listed = _meta_header(count, "LIST") + "".join(name + "\n" for name in names).encode()
+    return [
+        Case("mha", [_parts("s.mha", ("header", _meta_header(count, "LOCAL")), ("raw", pixels))], ["s.mha"]),
+        Case(
+            "mha zlib",
+            [_parts("s.mha", ("header", _meta_header(count, "LOCAL", compressed)), ("checked", packed))],
+            ["s.mha"],
+        ),
+        Case("mhd", [File("s.mhd", _meta_header(count, "s.raw")), _whole("s.raw", pixels)], ["s.mhd"]),
+        Case(
+            "mhd zlib",
+            [File("s.mhd", _meta_header(count, "s.zraw", compressed)), _parts("s.zraw", ("checked", packed))],
+            ["s.mhd"],
+        ),
+        Case("mhd list", [File("s.mhd", listed), *map(_whole, names, frames)], ["s.mhd"]),
+    ]
+
+
+def _nrrd_header(frames: int, encoding: str, extra: str = "") -> bytes:
+    return (
+        f"NRRD0004\n# frames of a camera\ntype: unsigned short\ndimension: 3\nsizes: {WIDTH} {HEIGHT} {frames}\n"
+        f"endian: little\nencoding: {encoding}\n{extra}"
+    ).encode()
+
+
+def _gzip(data: bytes) -> bytes:
+    packer = zlib.compressobj(6, zlib.DEFLATED, 31)
+    return packer.compress(data) + packer.flush()
+
+
+def nrrds(frames: list[bytes]) -> list[Case]:
+    pixels = b"".join(frames)
+    packed = _gzip(pixels)
+    count = len(frames)
+    return [
+        Case("nrrd", [_parts("s.nrrd", ("header", _nrrd_header(count, "raw") + b"\n"), ("raw", pixels))], ["s.nrrd"]),
+        Case(
+            "nrrd gzip",
+            # the ten bytes before the stream hold a time and the like
+            [_parts("s.nrrd", ("header", _nrrd_header(count, "gzip") + b"\n" + packed[:10]), ("checked", packed[10:]))],
+            ["s.nrrd"],
+        ),
+        Case(
+            "nhdr",
+            [File("s.nhdr", _nrrd_header(count, "raw", "data file: s.raw\n")), _whole("s.raw", pixels)],
+            ["s.nhdr"],
+        ),
+        Case(
+            "nhdr gzip",
+            [
+                File("s.nhdr", _nrrd_header(count, "gzip", "data file: s.raw.gz\n")),
+                _parts("s.raw.gz", ("header", packed[:10]), ("checked", packed[10:])),
+            ],
+            ["s.nhdr"],
+        ),
+    ]
+
+
+def _lzw(data: bytes) -> bytes:
+    """Without a dictionary: a code that clears it comes before codes would need a tenth bit."""
+    bits = []
+    for start in range(0, len(data), 250):
+        bits += [256, *data[start : start + 250]]
+    bits.append(257)
+    number = 0
+    for code in bits:
+        number = number << 9 | code
+    spare = -9 * len(bits) % 8
+    return (number << spare).to_bytes((9 * len(bits) + spare) // 8, "big")
+
+
+def _pack_bits(data: bytes) -> bytes:
+    """A run of bytes as they are for each row: none may go beyond its row."""
+    rows = (data[k : k + 2 * WIDTH] for k in range(0, len(data), 2 * WIDTH))
+    return b"".join(bytes([len(row) - 1]) + row for row in rows)
+
+
+# Name of a compression: its TIFF code, its function, whether a checksum protects the pixels.
+_TIFF = {
+    "none": (1, bytes, "raw"),
+    "lzw": (5, _lzw, "raw"),
+    "deflate": (8, zlib.compress, "checked"),
+    "packbits": (32773, _pack_bits, "raw"),
+}
+
+
+def _tiff(
+    name: str, frames: list[bytes], compression: str, order: str = "<", rows: int = HEIGHT, big: bool = False
+) -> File:
+    """Pages with their pixels before their directory; strips of `rows` rows."""
+    code, pack, kind = _TIFF[compression]
+    offset, count = ("Q", "Q") if big else ("I", "H")
+    made = File(name, b"")
+    first = struct.pack(order + "2sHHHQ", b"II" if order == "<" else b"MM", 43, 8, 0, 0) if big else None
+    made.data = first or struct.pack(order + "2sHI", b"II" if order == "<" else b"MM", 42, 0)
+    link = 8 if big else 4  # where the offset of the next directory goes
+    for frame in frames:
+        if order == ">":
+            frame = b"".join(frame[k + 1 : k + 2] + frame[k : k + 1] for k in range(0, len(frame), 2))
+        step = 2 * WIDTH * rows
+        strips = [pack(frame[k : k + step]) for k in range(0, len(frame), step)]
+        offsets = []
+        for strip in strips:
+            offsets.append(len(made.data))
+            getattr(made, kind).append((len(made.data), len(made.data) + len(strip)))
+            made.data += strip
+        tables = {}
+        for tag, values in ((273, offsets), (279, [len(strip) for strip in strips])):
+            tables[tag] = values
+            if len(values) > 1:
+                tables[tag] = [len(made.data)]
+                made.data += struct.pack(order + f"{len(values)}I", *values)
+        made.data += b"\0" * (len(made.data) % 2)
+        entries = [(256, 3, 1, WIDTH), (257, 3, 1, HEIGHT), (258, 3, 1, 16), (259, 3, 1, code), (262, 3, 1, 1)]
+        entries += [(273, 4, len(strips), tables[273][0]), (277, 3, 1, 1), (278, 3, 1, rows)]
+        entries += [(279, 4, len(strips), tables[279][0])]
+        directory = len(made.data)
+        made.data = (
+            made.data[:link] + struct.pack(order + offset, directory) + made.data[link + struct.calcsize(offset) :]
+        )
+        made.data += struct.pack(order + count, len(entries))
+        for tag, kind_of_value, values, value in entries:
+            short = kind_of_value == 3
+            made.data += struct.pack(order + "HH" + offset, tag, kind_of_value, values)
+            room = 8 if big else 4
+            made.data += struct.pack(order + ("H" if short else "I"), value).ljust(room, b"\0")
+        link = len(made.data)
+        made.data += struct.pack(order + offset, 0)
+    return made
+
+
+def tiffs(frames: list[bytes]) -> list[Case]:
+    stacks = [("tiff " + compression, dict(compression=compression)) for compression in _TIFF]
+    stacks += [
+        ("tiff big-endian", dict(compression="none", order=">")),
+        ("tiff strips", dict(compression="none", rows=5)),
+        ("tiff deflate strips", dict(compression="deflate", rows=5)),
+        ("bigtiff", dict(compression="none", big=True)),
+    ]
+    names = [f"f{t}.tif" for t in range(len(frames))]
+    return [Case(name, [_tiff("s.tif", frames, **how)], ["s.tif"]) for name, how in stacks] + [
+        Case("tiff list", [_tiff(name, [frame], "none") for name, frame in zip(names, frames, strict=True)], names)
+    ]
+
+
+def png_chunk(kind: bytes, data: bytes) -> bytes:
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+
+def _png(name: str, frame: bytes) -> File:
+    rows = b""
+    for y in range(HEIGHT):
+        row = frame[2 * WIDTH * y : 2 * WIDTH * (y + 1)]
+        rows += b"\0" + b"".join(row[k + 1 : k + 2] + row[k : k + 1] for k in range(0, len(row), 2))
+    header = b"\x89PNG\r\n\x1a\n" + png_chunk(b"IHDR", struct.pack(">IIBBBBB", WIDTH, HEIGHT, 16, 0, 0, 0, 0))
+    return _parts(
+        name,
+        ("header", header),
+        ("checked", png_chunk(b"IDAT", zlib.compress(rows))),
+        ("header", png_chunk(b"IEND", b"")),
+    )
+
+
+def pngs(frames: list[bytes]) -> list[Case]:
+    names = [f"f{t}.png" for t in range(len(frames))]
+    return [Case("png list", list(map(_png, names, frames)), names)]
+
+
+def others(frames: list[bytes]) -> list[Case]:
+    """Formats without a check of their own."""
+    pixels = b"".join(frames)
+    count = len(frames)
+    big_endian = b"".join(pixels[k + 1 : k + 2] + pixels[k : k + 1] for k in range(0, len(pixels), 2))
+    vtk = "# vtk DataFile Version 3.0\nframes\n{}\nDATASET STRUCTURED_POINTS\n" + (
+        f"DIMENSIONS {WIDTH} {HEIGHT} {count}\nSPACING 1 1 1\nORIGIN 0 0 0\nPOINT_DATA {len(pixels) // 2}\n"
+        "SCALARS scalars unsigned_short 1\nLOOKUP_TABLE default\n"
+    )
+    text = " ".join(map(str, struct.unpack(f"<{len(pixels) // 2}H", pixels))).encode() + b"\n"
+    sizes = struct.pack("<8h", 3, WIDTH, HEIGHT, count, 1, 1, 1, 1)
+    nifti = struct.pack("<i36x", 348) + sizes + struct.pack("<14xhhh", 512, 16, 0) + struct.pack("<8f", *[1.0] * 8)
+    nifti += struct.pack("<f", 352.0) + struct.pack("<f", 1.0)
+    nifti = nifti.ljust(344, b"\0") + b"n+1\0" + b"\0\0\0\0"
+    return [
+        Case("vtk", [_parts("s.vtk", ("header", vtk.format("BINARY").encode()), ("raw", big_endian))], ["s.vtk"]),
+        Case("vtk text", [_parts("s.vtk", ("header", vtk.format("ASCII").encode()), ("raw", text))], ["s.vtk"]),
+        Case("nifti", [_parts("s.nii", ("header", nifti), ("raw", pixels))], ["s.nii"]),
+        Case("nifti gzip", [_parts("s.nii.gz", ("checked", _gzip(nifti + pixels)))], ["s.nii.gz"]),
+    ]
+
+
+def all_cases(frames: list[bytes]) -> list[Case]:
+    """Every format, of the same frames: bytes of little-endian unsigned 16-bit pixels."""
+    made: list[Case] = []
+    for make in (meta_images, nrrds, tiffs, pngs, others):
+        made += make(frames)
+    return made

@@ -1,0 +1,51 @@
+# ==========================================================================
+#
+#   Copyright the ITKSensorNoise contributors
+#
+#   Licensed under the Apache License, Version 2.0 (the "License");
+#   you may not use this file except in compliance with the License.
+#   You may obtain a copy of the License at
+#
+#          https://www.apache.org/licenses/LICENSE-2.0.txt
+#
+#   Unless required by applicable law or agreed to in writing, software
+#   distributed under the License is distributed on an "AS IS" BASIS,
+#   WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+#   See the License for the specific language governing permissions and
+#   limitations under the License.
+#
+# ==========================================================================*/
+"""Answers requests of PythonTarget: a line of JSON in, a line of JSON out, and nothing else on standard output."""
+
+import json
+import os
+import sys
+
+import itk
+
+answers = os.fdopen(os.dup(1), "w")
+os.dup2(2, 1)  # what a library prints must not be taken for an answer
+
+
+def answer(request: dict) -> dict:
+    files = request["files"] if len(request["files"]) > 1 else request["files"][0]
+    first = request["files"][0]
+    try:
+        if request["role"] == "reference":
+            itk.simulate_sensor_noise(reference=first, frames=2)
+            return {"code": 0, "text": "", "error": ""}
+        options = {"mask": first} if request["role"] == "mask" else {"dark": files} if request["role"] == "dark" else {}
+        frames = files if request["role"] == "frames" else request["stack"]
+        report = itk.estimate_sensor_noise(frames, **options)
+    except (ValueError, RuntimeError) as error:
+        return {"code": 2, "text": "", "error": str(error)}
+    return {"code": 0, "text": json.dumps(dict(report)), "error": ""}
+
+
+for line in sys.stdin:
+    try:
+        made = answer(json.loads(line))
+    except Exception as error:  # another class than the two promised
+        made = {"code": 1, "text": "", "error": f"{type(error).__name__}: {error}"}
+    answers.write(json.dumps(made) + "\n")
+    answers.flush()

@@ -1,0 +1,138 @@
+# ==========================================================================
+#
+#   Copyright the ITKSensorNoise contributors
+#
+#   Licensed under the Apache License, Version 2.0 (the "License");
+#   you may not use this file except in compliance with the License.
+#   You may obtain a copy of the License at
+#
+#          https://www.apache.org/licenses/LICENSE-2.0.txt
+#
+#   Unless required by applicable law or agreed to in writing, software
+#   distributed under the License is distributed on an "AS IS" BASIS,
+#   WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+#   See the License for the specific language governing permissions and
+#   limitations under the License.
+#
+# ==========================================================================*/
+"""Who is asked about files: the command-line tools, or Python."""
+
+import json
+import os
+import queue
+import resource
+import select
+import subprocess
+import sys
+from dataclasses import dataclass
+
+from frame_files import Case
+
+SECONDS = 5.0  # that an answer may take
+MEMORY = 4 << 30  # bytes that a tool may ask for: what a header makes up is to be refused
+
+
+@dataclass
+class Answer:
+    """An exit code, the report's JSON, what was said, and how many samples the report is about."""
+
+    code: int = 0
+    text: str = ""
+    error: str = ""
+    hung: bool = False
+
+    @property
+    def crashed(self) -> bool:
+        return self.code not in (0, 2, 3)
+
+    @property
+    def samples(self) -> int:
+        report = json.loads(self.text) if self.text else {}
+        return report.get("frames", 0) * report.get("width", 0) * report.get("height", 0)
+
+
+def _limit() -> None:
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    if not any("san" in word for word in os.environ.get("SENSORNOISE_FUZZ", "").split()):
+        resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+
+
+class ToolTarget:
+    def __init__(self, tools: str) -> None:
+        self.tools = tools
+
+    def ask(self, folder: str, case: Case, role: str, good: str) -> Answer:
+        files = [os.path.join(folder, name) for name in case.frames]
+        tool = os.path.join(self.tools, "estimate-sensor-noise")
+        command = [tool, "--quiet", "--threads", "1", "--json", "-"]
+        stack = os.path.join(good, "s.mha")
+        if role == "frames":
+            command += files
+        elif role == "mask":
+            command += ["--mask", files[0], stack]
+        elif role == "dark":
+            command += [word for file in files for word in ("--dark", file)] + [stack]
+        else:
+            tool = os.path.join(self.tools, "simulate-sensor-noise")
+            command = [
+                tool,
+                "--reference",
+                files[0],
+                "--frames",
+                "2",
+                "--output",
+                os.path.join(folder, "simulated.mha"),
+            ]
+        try:
+            done = subprocess.run(
+                command,
+                capture_output=True,
+                timeout=SECONDS,
+                preexec_fn=_limit,
+                stdin=subprocess.DEVNULL,
+                check=False,
+            )
+        except subprocess.TimeoutExpired:
+            return Answer(hung=True)
+        text = done.stdout.decode(errors="replace") if role != "reference" else ""
+        return Answer(done.returncode, text, done.stderr.decode(errors="replace"))
+
+
+class PythonTarget:
+    """A few interpreters that live on from file to file; one that dies or hangs is replaced."""
+
+    def __init__(self, python: str, jobs: int) -> None:
+        self.command = [python, os.path.join(os.path.dirname(os.path.abspath(__file__)), "python_worker.py")]
+        self.idle: queue.Queue[subprocess.Popen[bytes] | None] = queue.Queue()
+        for _ in range(jobs):
+            self.idle.put(None)
+
+    def ask(self, folder: str, case: Case, role: str, good: str) -> Answer:
+        worker = self.idle.get()
+        fresh = worker is None or worker.poll() is not None
+        if fresh:
+            worker = subprocess.Popen(
+                self.command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=_no_core
+            )
+        files = [os.path.join(folder, name) for name in case.frames]
+        request = {"role": role, "files": files, "stack": os.path.join(good, "s.mha")}
+        worker.stdin.write(json.dumps(request).encode() + b"\n")
+        worker.stdin.flush()
+        ready, _, _ = select.select([worker.stdout], [], [], SECONDS + (60 if fresh else 0))
+        line = worker.stdout.readline() if ready else b""
+        if line:
+            self.idle.put(worker)
+            answer = json.loads(line)
+            return Answer(answer["code"], answer["text"], answer["error"])
+        worker.kill()
+        code = worker.wait()
+        self.idle.put(None)
+        return Answer(code if ready else 0, "", worker.stderr.read().decode(errors="replace"), hung=not ready)
+
+
+def _no_core() -> None:
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+
+if __name__ == "__main__":
+    sys.exit("run fuzz_files.py")
