@@ -15,233 +15,242 @@
  *  limitations under the License.
  *
  *=========================================================================*/
-#include "input/FrameReader.h"
+#ifndef itkSensorNoiseFrameListSource_hxx
+#define itkSensorNoiseFrameListSource_hxx
 
-#include "input/ErrorText.h"
-#include "input/FrameHeader.h"
-#include "input/InputError.h"
-#include "input/SilentTiff.h"
-#include "itkImageFileReader.h"
+#include "itkSensorNoiseFrameListSource.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <exception>
+#include <ostream>
 #include <string>
+#include <vector>
 
-namespace sensornoise::tools
+namespace itk
 {
 namespace
 {
-/** The header of a file. Throws InputError unless the file still is what OpenFrames() found. */
-itk::ImageIOBase::Pointer
-OpenUnchanged(const FrameInput & input, const std::string & file)
+/** Calls \a function for its value; an error about files becomes ITK's, with the same sentence and nothing before it.
+ */
+template <typename TFunction>
+auto
+WithFileErrors(TFunction function) -> decltype(function())
 {
-  const itk::ImageIOBase::Pointer io = OpenHeader(file);
-  const FrameInput                found = Describe(file, *io);
-  const std::size_t               frames = input.isStack ? input.frames : 1;
-  if (found.width != input.width || found.height != input.height || found.frames != frames ||
-      found.component != input.component)
-  {
-    throw InputError(file + ": has changed since it was opened; now " + SizeOf(found.width, found.height) +
-                     " pixels, frames: " + std::to_string(found.frames) + ", " + NameOf(found.component) +
-                     ", expected " + SizeOf(input.width, input.height) + " pixels, frames: " + std::to_string(frames) +
-                     ", " + NameOf(input.component));
-  }
-  return io;
-}
-
-void
-CheckStackIsUnchanged(const FrameInput & input)
-{
-  const SilentTiff silent;
-  OpenUnchanged(input, input.files.front());
-}
-
-/** Reads the file of a frame. `buffer` has room for width x height pixels. */
-void
-ReadFrame(const FrameInput & input, std::size_t frame, void * buffer)
-{
-  const SilentTiff                silent;
-  const std::string               file = input.files.at(frame);
-  const itk::ImageIOBase::Pointer io = OpenUnchanged(input, file);
-
-  itk::ImageIORegion region(io->GetNumberOfDimensions());
-  for (unsigned int i = 0; i < io->GetNumberOfDimensions(); ++i)
-  {
-    region.SetSize(i, io->GetDimensions(i));
-  }
-  io->SetIORegion(region);
   try
   {
-    io->Read(buffer);
+    return function();
   }
-  catch (const itk::ExceptionObject & exception)
+  catch (const ExceptionObject &)
   {
-    throw InputError(PixelErrorOf(file, exception));
+    throw;
+  }
+  catch (const std::exception & error)
+  {
+    throw ExceptionObject(__FILE__, __LINE__, error.what(), ITK_LOCATION);
   }
 }
 
-/** Frames from a list of files, one at a time, without conversion.
- *
- * Not ImageSeriesReader: that stacks images of height 1 along y instead of time, converts a file whose component type
- * has changed, and believes files that have been cut off since. Streams whole frames. */
-template <typename TPixel>
-class FrameListSource : public itk::ImageSource<itk::Image<TPixel, 3>>
+inline IOComponentEnum
+ComponentTypeOf(sensornoise::FramePixel pixel)
 {
-public:
-  ITK_DISALLOW_COPY_AND_MOVE(FrameListSource);
-
-  using Self = FrameListSource;
-  using Superclass = itk::ImageSource<itk::Image<TPixel, 3>>;
-  using Pointer = itk::SmartPointer<Self>;
-  using ConstPointer = itk::SmartPointer<const Self>;
-  using RegionType = typename itk::Image<TPixel, 3>::RegionType;
-
-  itkNewMacro(Self);
-
-  const char *
-  GetNameOfClass() const override
+  switch (pixel)
   {
-    return "FrameListSource";
+    case sensornoise::FramePixel::UnsignedChar:
+      return IOComponentEnum::UCHAR;
+    case sensornoise::FramePixel::UnsignedShort:
+      return IOComponentEnum::USHORT;
+    case sensornoise::FramePixel::Short:
+      return IOComponentEnum::SHORT;
+    case sensornoise::FramePixel::Float:
+      return IOComponentEnum::FLOAT;
+    default:
+      return IOComponentEnum::DOUBLE;
   }
-
-  void
-  SetFrameInput(const FrameInput & input)
-  {
-    m_FrameInput = input;
-    this->Modified();
-  }
-
-protected:
-  FrameListSource() = default;
-  ~FrameListSource() override = default;
-
-  void
-  GenerateOutputInformation() override
-  {
-    const typename RegionType::SizeType size{ { m_FrameInput.width, m_FrameInput.height, m_FrameInput.frames } };
-    this->GetOutput()->SetLargestPossibleRegion(RegionType(size));
-  }
-
-  void
-  EnlargeOutputRequestedRegion(itk::DataObject * output) override
-  {
-    auto * const image = itkDynamicCastInDebugMode<itk::Image<TPixel, 3> *>(output);
-    RegionType   region = image->GetLargestPossibleRegion();
-    region.SetIndex(2, image->GetRequestedRegion().GetIndex(2));
-    region.SetSize(2, image->GetRequestedRegion().GetSize(2));
-    image->SetRequestedRegion(region);
-  }
-
-  void
-  GenerateData() override
-  {
-    this->AllocateOutputs();
-    const RegionType region = this->GetOutput()->GetRequestedRegion();
-    TPixel *         buffer = this->GetOutput()->GetBufferPointer();
-    for (std::size_t i = 0; i < region.GetSize(2); ++i)
-    {
-      try
-      {
-        ReadFrame(m_FrameInput, region.GetIndex(2) + i, buffer);
-      }
-      catch (const InputError & error)
-      {
-        throw itk::ExceptionObject(__FILE__, __LINE__, error.what(), ITK_LOCATION);
-      }
-      buffer += m_FrameInput.width * m_FrameInput.height;
-    }
-  }
-
-private:
-  FrameInput m_FrameInput{};
-};
-
-/** Reads a stack file, and checks before each chunk that the file has not changed since OpenFrames(). */
-template <typename TPixel>
-class FrameStackReader : public itk::ImageFileReader<itk::Image<TPixel, 3>>
-{
-public:
-  ITK_DISALLOW_COPY_AND_MOVE(FrameStackReader);
-
-  using Self = FrameStackReader;
-  using Superclass = itk::ImageFileReader<itk::Image<TPixel, 3>>;
-  using Pointer = itk::SmartPointer<Self>;
-  using ConstPointer = itk::SmartPointer<const Self>;
-
-  itkNewMacro(Self);
-
-  const char *
-  GetNameOfClass() const override
-  {
-    return "FrameStackReader";
-  }
-
-  void
-  SetFrameInput(const FrameInput & input)
-  {
-    m_FrameInput = input;
-    this->SetFileName(input.files.front());
-    this->SetUseStreaming(input.streams);
-    this->Modified();
-  }
-
-protected:
-  FrameStackReader() = default;
-  ~FrameStackReader() override = default;
-
-  void
-  GenerateData() override
-  {
-    try
-    {
-      CheckStackIsUnchanged(m_FrameInput);
-      Superclass::GenerateData();
-    }
-    catch (const InputError & error)
-    {
-      throw itk::ExceptionObject(__FILE__, __LINE__, error.what(), ITK_LOCATION);
-    }
-    catch (const itk::ExceptionObject & exception)
-    {
-      throw itk::ExceptionObject(__FILE__, __LINE__, PixelErrorOf(m_FrameInput.files.front(), exception), ITK_LOCATION);
-    }
-  }
-
-private:
-  FrameInput m_FrameInput{};
-};
+}
 } // namespace
 
-template <typename TPixel>
-typename itk::ImageSource<itk::Image<TPixel, 3>>::Pointer
-MakeReader(const FrameInput & input)
+template <typename TOutputStack>
+void
+SensorNoiseFrameListSource<TOutputStack>::SetFileNames(const std::vector<std::string> & names)
 {
-  if (itk::ImageIOBase::MapPixelType<TPixel>::CType != input.component)
+  if (m_FileNames != names)
   {
-    throw InputError(input.files.front() + ": has component type " +
-                     itk::ImageIOBase::GetComponentTypeAsString(input.component) + ", but a reader for " +
-                     itk::ImageIOBase::GetComponentTypeAsString(itk::ImageIOBase::MapPixelType<TPixel>::CType) +
-                     " was asked for");
+    m_FileNames = names;
+    m_FrameList = {};
+    m_IsOpen = false;
+    this->Modified();
   }
-  if (input.isStack)
-  {
-    const typename FrameStackReader<TPixel>::Pointer reader = FrameStackReader<TPixel>::New();
-    reader->SetFrameInput(input);
-    return reader.GetPointer();
-  }
-  const typename FrameListSource<TPixel>::Pointer source = FrameListSource<TPixel>::New();
-  source->SetFrameInput(input);
-  return source.GetPointer();
 }
 
-template itk::ImageSource<itk::Image<unsigned char, 3>>::Pointer
-MakeReader<unsigned char>(const FrameInput &);
-template itk::ImageSource<itk::Image<unsigned short, 3>>::Pointer
-MakeReader<unsigned short>(const FrameInput &);
-template itk::ImageSource<itk::Image<short, 3>>::Pointer
-MakeReader<short>(const FrameInput &);
-template itk::ImageSource<itk::Image<float, 3>>::Pointer
-MakeReader<float>(const FrameInput &);
-template itk::ImageSource<itk::Image<double, 3>>::Pointer
-MakeReader<double>(const FrameInput &);
+template <typename TOutputStack>
+void
+SensorNoiseFrameListSource<TOutputStack>::AddFileName(const std::string & name)
+{
+  std::vector<std::string> names = m_FileNames;
+  names.push_back(name);
+  this->SetFileNames(names);
+}
 
-} // namespace sensornoise::tools
+template <typename TOutputStack>
+void
+SensorNoiseFrameListSource<TOutputStack>::SetFileName(const std::string & name)
+{
+  this->SetFileNames({ name });
+}
+
+template <typename TOutputStack>
+void
+SensorNoiseFrameListSource<TOutputStack>::SetFrameList(const sensornoise::FrameList & list)
+{
+  m_FileNames = list.Names();
+  m_FrameList = list;
+  m_IsOpen = true;
+  this->Modified();
+}
+
+template <typename TOutputStack>
+const sensornoise::FrameList &
+SensorNoiseFrameListSource<TOutputStack>::GetFrameList()
+{
+  if (!m_IsOpen)
+  {
+    m_FrameList = WithFileErrors([this] { return sensornoise::OpenFrames(m_FileNames); });
+    m_IsOpen = true;
+  }
+  return m_FrameList;
+}
+
+template <typename TOutputStack>
+IOComponentEnum
+SensorNoiseFrameListSource<TOutputStack>::GetComponentType()
+{
+  return ComponentTypeOf(this->GetFrameList().pixel);
+}
+
+template <typename TOutputStack>
+IOComponentEnum
+SensorNoiseFrameListSource<TOutputStack>::ReadComponentType(const std::vector<std::string> & names)
+{
+  return ComponentTypeOf(WithFileErrors([&] { return sensornoise::OpenFrames(names).pixel; }));
+}
+
+template <typename TOutputStack>
+bool
+SensorNoiseFrameListSource<TOutputStack>::CanStream()
+{
+  return this->GetFrameList().streams;
+}
+
+template <typename TOutputStack>
+void
+SensorNoiseFrameListSource<TOutputStack>::GenerateOutputInformation()
+{
+  const sensornoise::FrameList & list = this->GetFrameList();
+  const IOComponentEnum          expected = ImageIOBase::MapPixelType<OutputPixelType>::CType;
+  if (ComponentTypeOf(list.pixel) != expected)
+  {
+    std::string mine = ImageIOBase::GetComponentTypeAsString(expected);
+    std::replace(mine.begin(), mine.end(), '_', ' ');
+    const std::string sentence = list.files.front().name + ": component type " + sensornoise::NameOf(list.pixel) +
+                                 ", but the source's is " + mine + ", and nothing is converted; expected a source of " +
+                                 sensornoise::NameOf(list.pixel);
+    throw ExceptionObject(__FILE__, __LINE__, sentence, ITK_LOCATION);
+  }
+  typename OutputStackType::SpacingType   spacing;
+  typename OutputStackType::PointType     origin;
+  typename OutputStackType::DirectionType direction;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    spacing[axis] = list.geometry.spacing[axis];
+    origin[axis] = list.geometry.origin[axis];
+    for (unsigned int row = 0; row < 3; ++row)
+    {
+      direction[row][axis] = list.geometry.direction[row][axis];
+    }
+  }
+  OutputStackType * const output = this->GetOutput();
+  output->SetSpacing(spacing);
+  output->SetOrigin(origin);
+  output->SetDirection(direction);
+  const typename OutputRegionType::SizeType size{ { list.width, list.height, list.frames } };
+  output->SetLargestPossibleRegion(OutputRegionType(size));
+}
+
+template <typename TOutputStack>
+void
+SensorNoiseFrameListSource<TOutputStack>::EnlargeOutputRequestedRegion(DataObject * output)
+{
+  auto * const     stack = itkDynamicCastInDebugMode<OutputStackType *>(output);
+  OutputRegionType region = stack->GetLargestPossibleRegion();
+  if (m_FrameList.streams)
+  {
+    region.SetIndex(2, stack->GetRequestedRegion().GetIndex(2));
+    region.SetSize(2, stack->GetRequestedRegion().GetSize(2));
+  }
+  stack->SetRequestedRegion(region);
+}
+
+template <typename TOutputStack>
+void
+SensorNoiseFrameListSource<TOutputStack>::GenerateData()
+{
+  this->AllocateOutputs();
+  const OutputRegionType region = this->GetOutput()->GetRequestedRegion();
+  const auto             frames = static_cast<std::size_t>(region.GetSize(2));
+  const auto             first = static_cast<std::size_t>(region.GetIndex(2));
+  OutputPixelType *      buffer = this->GetOutput()->GetBufferPointer();
+  try
+  {
+    // of a list, frame by frame: each may be the last before an abort
+    const std::size_t step = m_FrameList.isStack ? std::max<std::size_t>(frames, 1) : 1;
+    for (std::size_t done = 0; done < frames; done += step)
+    {
+      if (this->GetAbortGenerateData())
+      {
+        throw ProcessAborted(__FILE__, __LINE__);
+      }
+      WithFileErrors([&] {
+        sensornoise::ReadFrames(
+          m_FrameList, first + done, step, buffer + done * m_FrameList.width * m_FrameList.height);
+      });
+      this->UpdateProgress(static_cast<float>(done + step) / static_cast<float>(frames));
+    }
+  }
+  catch (const ProcessAborted &)
+  {
+    throw;
+  }
+  catch (const ExceptionObject &)
+  {
+    m_IsOpen = false; // the next Update() looks at the files anew
+    this->Modified();
+    throw;
+  }
+}
+
+template <typename TOutputStack>
+void
+SensorNoiseFrameListSource<TOutputStack>::PrintSelf(std::ostream & os, Indent indent) const
+{
+  Superclass::PrintSelf(os, indent);
+  os << indent << "FileNames: " << m_FileNames.size() << std::endl;
+  for (const std::string & name : m_FileNames)
+  {
+    os << indent.GetNextIndent() << name << std::endl;
+  }
+  os << indent << "FrameList: ";
+  if (m_IsOpen)
+  {
+    os << sensornoise::DescribeFrame(m_FrameList) << ", frames: " << m_FrameList.frames
+       << (m_FrameList.streams ? ", streams" : ", read whole") << std::endl;
+  }
+  else
+  {
+    os << "not checked yet" << std::endl;
+  }
+}
+
+} // namespace itk
+
+#endif

@@ -15,36 +15,30 @@
  *  limitations under the License.
  *
  *=========================================================================*/
-#ifndef SilentTiff_h
-#define SilentTiff_h
+#ifndef itkSensorNoiseSilentTiff_h
+#define itkSensorNoiseSilentTiff_h
 
-#include <tiffio.h>
-
-namespace sensornoise::tools
+namespace sensornoise
 {
 
-/** libtiff writes to standard error, and what matters there is found by CheckFileIsComplete(). */
+/** As long as it lives, libtiff, ITK's or the system's, writes no lines to standard error, where the program can be
+ * asked for it (POSIX). What matters there is found by InspectFrameFile(), and the other lines are of tags it does not
+ * know. */
 class SilentTiff
 {
 public:
-  SilentTiff()
-    : m_Warning(TIFFSetWarningHandler(nullptr))
-    , m_Error(TIFFSetErrorHandler(nullptr))
-  {}
-  ~SilentTiff()
-  {
-    TIFFSetWarningHandler(m_Warning);
-    TIFFSetErrorHandler(m_Error);
-  }
+  SilentTiff();
+  ~SilentTiff();
   SilentTiff(const SilentTiff &) = delete;
   SilentTiff &
   operator=(const SilentTiff &) = delete;
 
 private:
-  TIFFErrorHandler m_Warning;
-  TIFFErrorHandler m_Error;
+  using Handler = void (*)(); // libtiff's: what is done with it is only to hand it back
+  Handler m_Warning{ nullptr };
+  Handler m_Error{ nullptr };
 };
 
-} // namespace sensornoise::tools
+} // namespace sensornoise
 
 #endif

@@ -15,7 +15,7 @@
  *  limitations under the License.
  *
  *=========================================================================*/
-#include "input/ErrorText.h"
+#include "tools/ErrorText.h"
 
 #include "itkMacro.h"
 
@@ -24,16 +24,6 @@
 
 namespace sensornoise::tools
 {
-namespace
-{
-/** The end of "itk::ERROR: Class(address): ". */
-std::size_t
-StartOfWords(const std::string & description)
-{
-  const std::size_t address = description.find("): ");
-  return address == std::string::npos ? 0 : address + 3;
-}
-} // namespace
 
 std::string
 TextOf(const std::exception & error)
@@ -44,25 +34,14 @@ TextOf(const std::exception & error)
     return error.what();
   }
   // what() would name the line of the source, too
-  std::string text = itkError->GetDescription();
-  text.erase(0, StartOfWords(text));
+  std::string       text = itkError->GetDescription();
+  const std::size_t address = text.find("): ");
+  if ((text.rfind("itk::ERROR: ", 0) == 0 || text.rfind("ITK ERROR: ", 0) == 0) && address != std::string::npos)
+  {
+    text.erase(0, address + 3);
+  }
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text;
-}
-
-std::string
-CauseOf(const itk::ExceptionObject & error)
-{
-  const std::string text = error.GetDescription();
-  const std::size_t nrrd = text.rfind("[nrrd]");
-  const std::size_t start = nrrd != std::string::npos ? nrrd : StartOfWords(text);
-  return text.substr(start, text.find('\n', start) - start);
-}
-
-std::string
-PixelErrorOf(const std::string & file, const itk::ExceptionObject & error)
-{
-  return file + ": its pixels cannot be read; " + CauseOf(error);
 }
 
 } // namespace sensornoise::tools

@@ -21,25 +21,12 @@
 #include <exception>
 #include <string>
 
-namespace itk
-{
-class ExceptionObject;
-}
-
 namespace sensornoise::tools
 {
 
 /** What an exception says; of an ITK exception on one line, without the class and address that ITK puts in front. */
 std::string
 TextOf(const std::exception & error);
-
-/** The cause alone: the first line of that, and where NRRD reports a chain of "trouble" the last link. */
-std::string
-CauseOf(const itk::ExceptionObject & error);
-
-/** One sentence about pixels that an ImageIO could not read. */
-std::string
-PixelErrorOf(const std::string & file, const itk::ExceptionObject & error);
 
 } // namespace sensornoise::tools
 

@@ -20,12 +20,12 @@
 #include "sensornoise/report/Report.h"
 #include "sensornoise/report/ReportJson.h"
 #include "sensornoise/report/ReportTable.h"
-#include "input/ErrorText.h"
-#include "input/FrameInput.h"
+#include "tools/ErrorText.h"
 #include "tools/EstimateOptions.h"
 #include "tools/MapFiles.h"
 #include "tools/PendingFile.h"
 #include "tools/StackEstimate.h"
+#include "itkSensorNoiseFrameFiles.h"
 #include "itkMultiThreaderBase.h"
 
 #include <algorithm>
@@ -57,13 +57,13 @@ SetThreads(unsigned int threads)
 }
 
 void
-TellWhetherHeldInMemory(const FrameInput & input)
+TellWhetherHeldInMemory(const sensornoise::FrameList & frames)
 {
   constexpr std::uint64_t gibibyte = std::uint64_t{ 1 } << 30;
-  if (!input.streams && input.bytes > gibibyte)
+  if (!frames.streams && frames.bytes > gibibyte)
   {
-    std::cerr << "note: " << input.files.front() << " cannot be read in parts; all of its " << (input.bytes >> 20)
-              << " MiB are held in memory (a .mha file, or a list of files, would not be)\n";
+    std::cerr << "note: " << frames.files.front().name << " cannot be read in parts; all of its "
+              << (frames.bytes >> 20) << " MiB are held in memory (a .mha file, or a list of files, would not be)\n";
   }
 }
 
@@ -117,7 +117,7 @@ Run(EstimateOptions & options)
 {
   SetThreads(options.threads);
   options.SelectFiles();
-  const FrameInput input = OpenFrames(options.files);
+  const sensornoise::FrameList frames = sensornoise::OpenFrames(options.files);
 
   // whether they can be written is found before the work begins
   std::optional<PendingFile> json;
@@ -132,9 +132,9 @@ Run(EstimateOptions & options)
     std::filesystem::create_directories(options.maps, ignored);
     maps.emplace(options.maps);
   }
-  TellWhetherHeldInMemory(input);
+  TellWhetherHeldInMemory(frames);
 
-  const sensornoise::Report report = EstimateStack(options, input, maps ? &*maps : nullptr);
+  const sensornoise::Report report = EstimateStack(options, frames, maps ? &*maps : nullptr);
   WriteReport(report, options, json);
   TellWarnings(report);
   return report.IsUsable() ? ExitDone : ExitNothingEstimated;

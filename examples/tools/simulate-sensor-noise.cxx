@@ -19,15 +19,16 @@
 //   simulate-sensor-noise --output stack.mha --truth truth.json --reference target --camera B --condition 3
 
 #include "sensornoise/simulation/SimulationSettings.h"
-#include "input/ErrorText.h"
+#include "sensornoise/files/FileError.h"
+#include "tools/ErrorText.h"
+#include "tools/ImageOnFile.h"
 #include "tools/PendingFile.h"
 #include "tools/SimulateOptions.h"
 #include "itkSensorNoiseChunks.h"
+#include "itkSensorNoiseFrameFiles.h"
 #include "itkSensorNoiseSceneSource.h"
 #include "itkSensorNoiseStackSource.h"
-#include "itkImageFileReader.h"
 #include "itkImageFileWriter.h"
-#include "itkImageIOFactory.h"
 
 #include <algorithm>
 #include <cctype>
@@ -52,36 +53,27 @@ using ReferenceType = itk::Image<double, 2>;
 using StackType = itk::Image<unsigned short, 3>;
 using SourceType = itk::SensorNoiseStackSource<StackType>;
 
-/** ITK's readers turn colour into grey and take the first slice of a volume without a word; the header tells. */
+/** A scene on a file: one image, checked as frames are. */
 ReferenceType::Pointer
 ReadReference(const std::string & name)
 {
-  if (!fs::is_regular_file(name))
+  if (!fs::exists(name))
   {
     throw std::runtime_error("the reference " + name + " is neither target, bars, texture or flat nor a file");
   }
-  const auto io = itk::ImageIOFactory::CreateImageIO(name.c_str(), itk::ImageIOFactory::IOFileModeEnum::ReadMode);
-  if (!io)
+  try
   {
-    throw std::runtime_error("the reference " + name + " is not an image of a format that ITK reads");
+    const sensornoise::FrameList list = sensornoise::OpenFrames({ name });
+    if (list.isStack)
+    {
+      throw sensornoise::FileError(name, "has " + std::to_string(list.frames) + " frames; expected one image");
+    }
+    return sensornoise::tools::ReadImage(list);
   }
-  io->SetFileName(name);
-  io->ReadImageInformation();
-  bool isFlat = true;
-  for (unsigned int axis = 2; axis < io->GetNumberOfDimensions(); ++axis)
+  catch (const sensornoise::FileError & error)
   {
-    isFlat = isFlat && io->GetDimensions(axis) == 1;
+    throw std::runtime_error(std::string("the reference ") + error.what());
   }
-  if (io->GetNumberOfComponents() != 1 || !isFlat)
-  {
-    throw std::runtime_error("the reference " + name + " has " + std::to_string(io->GetNumberOfComponents()) +
-                             " components and " + std::to_string(io->GetNumberOfDimensions()) +
-                             " dimensions; expected one grey image");
-  }
-  const auto reader = itk::ImageFileReader<ReferenceType>::New();
-  reader->SetFileName(name);
-  reader->Update();
-  return reader->GetOutput();
 }
 
 ReferenceType::Pointer

@@ -15,7 +15,7 @@
  *  limitations under the License.
  *
  *=========================================================================*/
-#include "helpers/FrameInputTestHelper.h"
+#include "helpers/FrameFilesTestHelper.h"
 #include "itkRGBPixel.h"
 
 #include <filesystem>
@@ -25,14 +25,14 @@ namespace
 {
 namespace fs = std::filesystem;
 using namespace sensornoise::test;
-using sensornoise::tools::FrameInput;
-using sensornoise::tools::OpenFrames;
+using sensornoise::FrameList;
+using sensornoise::OpenFrames;
 
 /** Files that are no frames, or not all of one kind. */
-class FrameRefusalTool : public FrameInputTest
+class SensorNoiseFrameFiles : public FrameFilesTest
 {};
 
-TEST_F(FrameRefusalTool, WhatIsNotAnImageIsRefused)
+TEST_F(SensorNoiseFrameFiles, WhatIsNotAnImageIsRefused)
 {
   const std::string good = WriteFrame<unsigned short>("good.tif");
   OpeningIsRefusedWith({}, { "no file was given" });
@@ -44,7 +44,7 @@ TEST_F(FrameRefusalTool, WhatIsNotAnImageIsRefused)
                        { "text.tif", "not an image in a format that ITK reads" });
 }
 
-TEST_F(FrameRefusalTool, ColoursAreRefused)
+TEST_F(SensorNoiseFrameFiles, ColoursAreRefused)
 {
   for (const std::string extension : { ".png", ".tif", ".mha", ".nrrd" })
   {
@@ -54,7 +54,7 @@ TEST_F(FrameRefusalTool, ColoursAreRefused)
   }
 }
 
-TEST_F(FrameRefusalTool, DifferentSizesAndComponentTypesAreRefused)
+TEST_F(SensorNoiseFrameFiles, DifferentSizesAndComponentTypesAreRefused)
 {
   for (const std::string extension : { ".tif", ".png", ".mha", ".nrrd" })
   {
@@ -67,13 +67,13 @@ TEST_F(FrameRefusalTool, DifferentSizesAndComponentTypesAreRefused)
   }
 }
 
-TEST_F(FrameRefusalTool, AStackAmongFramesIsRefused)
+TEST_F(SensorNoiseFrameFiles, AStackAmongFramesIsRefused)
 {
   OpeningIsRefusedWith({ WriteFrame<short>("frame.tif"), WriteStack<short>("stack.tif") },
                        { "stack.tif", "has 4 frames", "2 files" });
 }
 
-TEST_F(FrameRefusalTool, OtherComponentTypesAreRefusedByName)
+TEST_F(SensorNoiseFrameFiles, OtherComponentTypesAreRefusedByName)
 {
   const std::string expected = "expected unsigned char, unsigned short, short, float or double";
   for (const std::string extension : { ".mha", ".nrrd" })
@@ -86,7 +86,7 @@ TEST_F(FrameRefusalTool, OtherComponentTypesAreRefusedByName)
   }
 }
 
-TEST_F(FrameRefusalTool, AMetaImageThatCannotBeCheckedIsRefused)
+TEST_F(SensorNoiseFrameFiles, AMetaImageThatCannotBeCheckedIsRefused)
 {
   const std::string header = "NDims = 3\nDimSize = 1 1 2\nElementType = MET_UCHAR\n";
   OpeningIsRefusedWith({ WriteText("text.mha", header + "BinaryData = False\nElementDataFile = LOCAL\n1 2") },
@@ -97,9 +97,8 @@ TEST_F(FrameRefusalTool, AMetaImageThatCannotBeCheckedIsRefused)
                        { "pattern.mhd", "is the pattern part%03d" });
   OpeningIsRefusedWith({ WriteText("blank.mha", header + "Comment = x\n\nElementDataFile = LOCAL\na") },
                        { "blank.mha", "1 bytes of pixels, expected 2" });
-  const FrameInput input =
-    OpenFrames({ WriteText("skip.mha", header + "HeaderSize = -1\nElementDataFile = LOCAL\nab") });
-  EXPECT_EQ(input.frames, 2u);
+  const FrameList list = OpenFrames({ WriteText("skip.mha", header + "HeaderSize = -1\nElementDataFile = LOCAL\nab") });
+  EXPECT_EQ(list.frames, 2u);
 }
 
 } // namespace

@@ -15,7 +15,7 @@
  *  limitations under the License.
  *
  *=========================================================================*/
-#include "helpers/FrameInputTestHelper.h"
+#include "helpers/FrameFilesTestHelper.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -26,13 +26,11 @@ namespace
 {
 namespace fs = std::filesystem;
 using namespace sensornoise::test;
-using sensornoise::tools::FrameInput;
-using sensornoise::tools::InputError;
-using sensornoise::tools::MakeReader;
-using sensornoise::tools::OpenFrames;
+using sensornoise::FrameList;
+using sensornoise::OpenFrames;
 
 /** Files that were cut off, or that have changed since they were opened. */
-class FrameTruncationTool : public FrameInputTest
+class SensorNoiseFrameFilesTruncation : public FrameFilesTest
 {};
 
 /** Cuts `cut` off at every length; whatever can still be read must be all that was written. */
@@ -49,16 +47,10 @@ AnyTruncationIsNoticed(const std::vector<std::string> & files, const std::string
     fs::resize_file(cut, length);
     try
     {
-      const FrameInput                                               input = OpenFrames(files);
-      const itk::ImageSource<itk::Image<unsigned short, 3>>::Pointer reader = MakeReader<unsigned short>(input);
+      const auto reader = MakeSource<unsigned short>(files);
       reader->Update();
-      ASSERT_EQ(input.frames, frames) << length << " of " << size << " bytes";
+      ASSERT_EQ(reader->GetFrameList().frames, frames) << length << " of " << size << " bytes";
       ASSERT_EQ(WrongPixels<unsigned short>(reader->GetOutput()), 0u) << length << " of " << size << " bytes";
-    }
-    catch (const InputError & error)
-    {
-      ++refused;
-      ExpectParts(error.what(), { name });
     }
     catch (const itk::ExceptionObject & error)
     {
@@ -69,7 +61,7 @@ AnyTruncationIsNoticed(const std::vector<std::string> & files, const std::string
   EXPECT_GT(refused, size / 2);
 }
 
-TEST_F(FrameTruncationTool, AnyTruncationOfAStackIsNoticed)
+TEST_F(SensorNoiseFrameFilesTruncation, AnyTruncationOfAStackIsNoticed)
 {
   for (const bool compress : { false, true })
   {
@@ -83,7 +75,7 @@ TEST_F(FrameTruncationTool, AnyTruncationOfAStackIsNoticed)
   }
 }
 
-TEST_F(FrameTruncationTool, AnyTruncationOfAFrameOrAHeaderIsNoticed)
+TEST_F(SensorNoiseFrameFilesTruncation, AnyTruncationOfAFrameOrAHeaderIsNoticed)
 {
   for (const std::string extension : { ".tif", ".png", ".mha", ".nrrd" })
   {
@@ -94,7 +86,7 @@ TEST_F(FrameTruncationTool, AnyTruncationOfAFrameOrAHeaderIsNoticed)
   AnyTruncationIsNoticed({ header }, header);
 }
 
-TEST_F(FrameTruncationTool, ATruncatedStackIsRefusedBeforeItIsRead)
+TEST_F(SensorNoiseFrameFilesTruncation, ATruncatedStackIsRefusedBeforeItIsRead)
 {
   for (const std::string name : { "s.mha", "s.nrrd" })
   {
@@ -119,7 +111,7 @@ TEST_F(FrameTruncationTool, ATruncatedStackIsRefusedBeforeItIsRead)
                        { "s.tif", "truncated: 2 of its pages can be read, but the file says that more follow" });
 }
 
-TEST_F(FrameTruncationTool, ATruncatedFileAmongGoodOnesIsRefused)
+TEST_F(SensorNoiseFrameFilesTruncation, ATruncatedFileAmongGoodOnesIsRefused)
 {
   for (const std::string extension : { ".tif", ".png", ".mha", ".nrrd" })
   {
@@ -133,35 +125,37 @@ TEST_F(FrameTruncationTool, ATruncatedFileAmongGoodOnesIsRefused)
   OpeningIsRefusedWith({ other }, { "other.vtk", "5000 bytes, fewer than the 6144" });
 }
 
-TEST_F(FrameTruncationTool, AChangeAfterOpeningIsNoticed)
+TEST_F(SensorNoiseFrameFilesTruncation, AChangeAfterOpeningIsNoticed)
 {
   for (const std::string extension : { ".tif", ".png", ".mha", ".nrrd" })
   {
     const std::vector<std::string> files = WriteList<unsigned short>(extension);
-    const FrameInput               input = OpenFrames(files);
+    const FrameList                list = OpenFrames(files);
     const std::string              name = "frame_2" + extension;
+    EXPECT_EQ(ErrorOfReading<unsigned short>(list), "no error");
 
-    WriteFrame<unsigned short>(name, 2, { { width - 1, height } });
-    ExpectParts(MessageOf([&] { Read<unsigned short>(input); }), { name, "now 6 x 5", "expected 7 x 5" });
-    WriteFrame<unsigned char>(name, 2);
-    ExpectParts(MessageOf([&] { Read<unsigned short>(input); }),
-                { name, "unsigned char", "expected", "unsigned short" });
-    WriteFrame<unsigned short>(name, 2);
-    CutOff(files[2], extension == ".tif" ? 200 : 1);
-    ExpectParts(MessageOf([&] { Read<unsigned short>(input); }), { name });
+    // of the same size, other pixels
+    fs::copy_file(files[0], files[2], fs::copy_options::overwrite_existing);
+    MakeLater(files[2]);
+    ExpectParts(ErrorOfReading<unsigned short>(list), { name, "changed" });
+    CutOff(files[2], 1);
+    ExpectParts(ErrorOfReading<unsigned short>(list), { name, "changed" });
     fs::remove(files[2]);
-    ExpectParts(MessageOf([&] { Read<unsigned short>(input); }), { name, "does not exist" });
+    ExpectParts(ErrorOfReading<unsigned short>(list), { name });
   }
   for (const std::string name : { "s.mha", "s.nrrd", "s.tif" })
   {
     const std::string file = WriteStack<unsigned short>(name);
-    const FrameInput  input = OpenFrames({ file });
-    WriteStack<float>(name);
-    ExpectParts(MessageOf([&] { Read<unsigned short>(input); }), { name, "float", "expected", "unsigned short" });
-    WriteStack<unsigned short>(name);
-    fs::resize_file(file, fs::file_size(file) * 3 / 5);
-    ExpectParts(MessageOf([&] { Read<unsigned short>(input); }), { name, "truncated" });
+    const FrameList   list = OpenFrames({ file });
+    EXPECT_EQ(ErrorOfReading<unsigned short>(list), "no error");
+    WriteStack<short>(name);
+    ExpectParts(ErrorOfReading<unsigned short>(list), { name, "changed" });
   }
+  WriteStack<unsigned short>("s.mhd");
+  const FrameList list = OpenFrames({ Path("s.mhd") });
+  WriteStack<unsigned short>("other.mhd");
+  fs::rename(Path("other.raw"), Path("s.raw"));
+  ExpectParts(ErrorOfReading<unsigned short>(list), { "s.mhd", "changed" });
 }
 
 } // namespace

@@ -15,17 +15,18 @@
  *  limitations under the License.
  *
  *=========================================================================*/
-#ifndef sensornoise_test_FrameInputTestHelper_h
-#define sensornoise_test_FrameInputTestHelper_h
+#ifndef sensornoise_test_FrameFilesTestHelper_h
+#define sensornoise_test_FrameFilesTestHelper_h
 
-#include "input/FrameInput.h"
-#include "input/FrameReader.h"
-#include "input/InputError.h"
+#include "itkSensorNoiseFrameFiles.h"
+#include "itkSensorNoiseFrameListSource.h"
+#include "sensornoise/files/FileError.h"
 #include "itkImage.h"
 #include "itkImageFileWriter.h"
 #include "itkImageRegionConstIteratorWithIndex.h"
 #include "itkImageRegionIteratorWithIndex.h"
 
+#include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
@@ -56,7 +57,7 @@ ValueAt(std::size_t x, std::size_t y, std::size_t t)
 }
 
 /** Writes frames and stacks into an empty folder of its own. */
-class FrameInputTest : public ::testing::Test
+class FrameFilesTest : public ::testing::Test
 {
 protected:
   void
@@ -66,7 +67,7 @@ protected:
     const std::string test = ::testing::UnitTest::GetInstance()->current_test_info()->name();
     // two builds may be tested at the same time
     m_Folder =
-      std::filesystem::path(::testing::TempDir()) / ("FrameInputTest" + test + std::to_string(std::random_device{}()));
+      std::filesystem::path(::testing::TempDir()) / ("FrameFilesTest" + test + std::to_string(std::random_device{}()));
     std::filesystem::create_directories(m_Folder);
   }
   void
@@ -153,6 +154,13 @@ CutOff(const std::string & file, std::size_t bytes)
   std::filesystem::resize_file(file, std::filesystem::file_size(file) - bytes);
 }
 
+/** A clock of a file system that is coarser than the test is fast would take two writings for one. */
+inline void
+MakeLater(const std::string & file)
+{
+  std::filesystem::last_write_time(file, std::filesystem::last_write_time(file) + std::chrono::seconds(1));
+}
+
 inline std::string
 MessageOf(const std::function<void()> & action)
 {
@@ -160,13 +168,13 @@ MessageOf(const std::function<void()> & action)
   {
     action();
   }
-  catch (const tools::InputError & error)
-  {
-    return error.what();
-  }
   catch (const itk::ExceptionObject & error)
   {
     return error.GetDescription();
+  }
+  catch (const std::exception & error)
+  {
+    return error.what();
   }
   return "no error";
 }
@@ -184,14 +192,50 @@ ExpectParts(const std::string & message, const std::vector<std::string> & parts)
 inline void
 OpeningIsRefusedWith(const std::vector<std::string> & files, const std::vector<std::string> & parts)
 {
-  ExpectParts(MessageOf([&] { tools::OpenFrames(files); }), parts);
+  ExpectParts(MessageOf([&] { OpenFrames(files); }), parts);
 }
 
 template <typename TPixel>
-void
-Read(const tools::FrameInput & input)
+using SourceOf = itk::SensorNoiseFrameListSource<itk::Image<TPixel, 3>>;
+
+template <typename TPixel>
+typename SourceOf<TPixel>::Pointer
+MakeSource(const std::vector<std::string> & files)
 {
-  tools::MakeReader<TPixel>(input)->Update();
+  auto source = SourceOf<TPixel>::New();
+  source->SetFileNames(files);
+  return source;
+}
+
+template <typename TPixel>
+typename SourceOf<TPixel>::Pointer
+MakeSource(const FrameList & list)
+{
+  auto source = SourceOf<TPixel>::New();
+  source->SetFrameList(list);
+  return source;
+}
+
+/** What reading files says that were opened before. */
+template <typename TPixel>
+std::string
+ErrorOfReading(const FrameList & list)
+{
+  return MessageOf([&] { MakeSource<TPixel>(list)->Update(); });
+}
+
+/** The part of a source's output. */
+template <typename TPixel>
+const itk::Image<TPixel, 3> *
+ReadPart(SourceOf<TPixel> * source, std::size_t first, std::size_t count)
+{
+  source->UpdateOutputInformation();
+  itk::ImageRegion<3> region = source->GetOutput()->GetLargestPossibleRegion();
+  region.SetIndex(2, static_cast<itk::IndexValueType>(first));
+  region.SetSize(2, count);
+  source->GetOutput()->SetRequestedRegion(region);
+  source->GetOutput()->Update();
+  return source->GetOutput();
 }
 
 /** The number of pixels in the buffer that are not what was written. */
@@ -214,32 +258,27 @@ void
 ReadsWhatWasWritten(const std::vector<std::string> & files, bool isStack, bool streams)
 {
   SCOPED_TRACE(files.front());
-  const tools::FrameInput input = tools::OpenFrames(files);
-  EXPECT_EQ(input.files, files);
-  EXPECT_EQ(input.isStack, isStack);
-  EXPECT_EQ(input.streams, streams);
-  EXPECT_EQ(input.component, itk::ImageIOBase::MapPixelType<TPixel>::CType);
-  EXPECT_EQ(input.width, width);
-  EXPECT_EQ(input.height, height);
-  EXPECT_EQ(input.frames, frames);
-  EXPECT_EQ(input.bytes, width * height * frames * sizeof(TPixel));
+  const FrameList list = OpenFrames(files);
+  EXPECT_EQ(list.Names(), files);
+  EXPECT_EQ(list.isStack, isStack);
+  EXPECT_EQ(list.streams, streams);
+  EXPECT_EQ(SourceOf<TPixel>::ReadComponentType(files), itk::ImageIOBase::MapPixelType<TPixel>::CType);
+  EXPECT_EQ(list.width, width);
+  EXPECT_EQ(list.height, height);
+  EXPECT_EQ(list.frames, frames);
+  EXPECT_EQ(list.bytes, width * height * frames * sizeof(TPixel));
   for (const std::size_t chunks : { std::size_t{ 1 }, std::size_t{ 3 }, frames })
   {
-    const typename itk::ImageSource<itk::Image<TPixel, 3>>::Pointer reader = tools::MakeReader<TPixel>(input);
-    reader->UpdateOutputInformation();
-    itk::ImageRegion<3> region = reader->GetOutput()->GetLargestPossibleRegion();
-    ASSERT_EQ(region.GetSize(), (itk::Size<3>{ { width, height, frames } }));
+    const auto source = MakeSource<TPixel>(files);
     for (std::size_t chunk = 0; chunk < chunks; ++chunk)
     {
-      const std::size_t first = chunk * frames / chunks;
-      const std::size_t end = (chunk + 1) * frames / chunks;
-      region.SetIndex(2, first);
-      region.SetSize(2, end - first);
-      reader->GetOutput()->SetRequestedRegion(region);
-      reader->GetOutput()->Update();
-      ASSERT_TRUE(reader->GetOutput()->GetBufferedRegion().IsInside(region));
-      EXPECT_EQ(reader->GetOutput()->GetBufferedRegion().GetSize(2), streams ? end - first : frames);
-      EXPECT_EQ(WrongPixels<TPixel>(reader->GetOutput()), 0u);
+      const std::size_t  first = chunk * frames / chunks;
+      const std::size_t  end = (chunk + 1) * frames / chunks;
+      const auto * const image = ReadPart<TPixel>(source, first, end - first);
+      ASSERT_EQ(image->GetLargestPossibleRegion().GetSize(), (itk::Size<3>{ { width, height, frames } }));
+      ASSERT_TRUE(image->GetBufferedRegion().IsInside(image->GetRequestedRegion()));
+      EXPECT_EQ(image->GetBufferedRegion().GetSize(2), streams ? end - first : frames);
+      EXPECT_EQ(WrongPixels<TPixel>(image), 0u);
     }
   }
 }

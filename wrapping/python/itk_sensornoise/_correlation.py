@@ -169,7 +169,7 @@ def noise_correlation_estimator(
     ValueError
         Wrong use; says what was found and what was expected.
     RuntimeError
-        What ITK threw: first line the cause, then ITK's text.
+        What ITK threw, in one sentence.
     """
     import itk
 

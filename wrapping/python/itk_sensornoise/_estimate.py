@@ -25,11 +25,11 @@ import numpy as np
 from . import _options
 from ._arrays import as_mask
 from ._errors import itk_errors
-from ._files import read_frame, read_header
 from ._frames import Stack, crop, frame_image, is_name, open_frames
 from ._maps import maps_folder, write_maps
 from ._progress import shown_progress
 from ._report import Report
+from ._source import read_image
 
 
 def estimate_sensor_noise(
@@ -118,7 +118,7 @@ def estimate_sensor_noise(
     ValueError
         Wrong use; says what was found and what was expected.
     RuntimeError
-        What ITK threw: first line the cause, then ITK's text.
+        What ITK threw, in one sentence.
     """
     import itk
 
@@ -235,11 +235,7 @@ def _region(stack: Stack, roi: Any, span: tuple[int, int] | None) -> tuple[tuple
 def _mask_of(mask: Any, size: tuple[int, int]) -> np.ndarray:
     """The mask (y, x) of a stack whose frames have `size` (width, height)."""
     if is_name(mask):
-        header = read_header(os.fsdecode(mask))
-        if header.frames > 1:
-            raise ValueError(f"mask {header.name}: holds {header.frames} frames; expected one image")
-        with itk_errors(f"mask {header.name}: its pixels cannot be read; "):
-            mask = read_frame(header)
+        mask = read_image(mask, "the mask")
     array = as_mask(mask, "mask")
     if array.shape != size[::-1]:
         raise ValueError(f"mask has shape {array.shape}; expected {size[::-1]}, that of a frame")

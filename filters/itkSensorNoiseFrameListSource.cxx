@@ -15,20 +15,14 @@
  *  limitations under the License.
  *
  *=========================================================================*/
-#ifndef InputError_h
-#define InputError_h
+#include "itkSensorNoiseFrameListSource.h"
+#include "itkSensorNoiseFrameListSource.hxx"
 
-#include <stdexcept>
-
-namespace sensornoise::tools
+namespace itk
 {
-
-/** Wrong, damaged or unsuitable input files. The message is one sentence that starts with the name of the file. */
-struct InputError : std::runtime_error
-{
-  using std::runtime_error::runtime_error;
-};
-
-} // namespace sensornoise::tools
-
-#endif
+template class SensorNoiseFrameListSource<Image<unsigned char, 3>>;
+template class SensorNoiseFrameListSource<Image<unsigned short, 3>>;
+template class SensorNoiseFrameListSource<Image<short, 3>>;
+template class SensorNoiseFrameListSource<Image<float, 3>>;
+template class SensorNoiseFrameListSource<Image<double, 3>>;
+} // namespace itk

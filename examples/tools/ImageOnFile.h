@@ -15,35 +15,18 @@
  *  limitations under the License.
  *
  *=========================================================================*/
-#ifndef FrameHeader_h
-#define FrameHeader_h
+#ifndef ImageOnFile_h
+#define ImageOnFile_h
 
-#include "input/FrameInput.h"
-
-#include "itkImageIOBase.h"
-
-#include <cstddef>
-#include <string>
+#include "itkSensorNoiseFrameFiles.h"
+#include "itkImage.h"
 
 namespace sensornoise::tools
 {
 
-/** Opens a file and reads its header, no pixel. Throws InputError unless it is an image in a format that ITK reads. */
-itk::ImageIOBase::Pointer
-OpenHeader(const std::string & file);
-
-/** The header of one file, checked, as if it were the only one. Throws InputError unless it is a frame or a stack of
- * grey values of a type that is supported, and complete. */
-FrameInput
-Describe(const std::string & file, itk::ImageIOBase & io);
-
-/** "unsigned short" */
-std::string
-NameOf(itk::IOComponentEnum component);
-
-/** "640 x 480" */
-std::string
-SizeOf(std::size_t width, std::size_t height);
+/** The pixels of a list that holds one frame, of any type: a double holds them all. Throws FileError. */
+itk::Image<double, 2>::Pointer
+ReadImage(const FrameList & list);
 
 } // namespace sensornoise::tools
 
