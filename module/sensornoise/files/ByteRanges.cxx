@@ -1,0 +1,71 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/files/ByteRanges.h"
+
+#include <algorithm>
+
+namespace sensornoise
+{
+
+bool
+ByteRanges::Add(std::vector<Range> & ranges, std::uint64_t offset, std::uint64_t count)
+{
+  if (count == 0)
+  {
+    return true;
+  }
+  if (!ranges.empty() && ranges.back().second == offset)
+  {
+    ranges.back().second += count;
+    return true;
+  }
+  ranges.emplace_back(offset, offset + count);
+  return ranges.size() <= MaximumRanges;
+}
+
+std::optional<std::uint64_t>
+ByteRanges::FirstConflict()
+{
+  std::sort(m_Pixels.begin(), m_Pixels.end());
+  std::sort(m_Tables.begin(), m_Tables.end());
+  std::size_t   table = 0;
+  std::uint64_t tablesEnd = 0; // of those that begin before the pixels' range
+  for (std::size_t i = 0; i < m_Pixels.size(); ++i)
+  {
+    const Range & pixels = m_Pixels[i];
+    if (i > 0 && pixels.first < m_Pixels[i - 1].second)
+    {
+      return pixels.first;
+    }
+    for (; table < m_Tables.size() && m_Tables[table].first <= pixels.first; ++table)
+    {
+      tablesEnd = std::max(tablesEnd, m_Tables[table].second);
+    }
+    if (tablesEnd > pixels.first)
+    {
+      return pixels.first;
+    }
+    if (table < m_Tables.size() && m_Tables[table].first < pixels.second)
+    {
+      return m_Tables[table].first;
+    }
+  }
+  return std::nullopt;
+}
+
+} // namespace sensornoise
