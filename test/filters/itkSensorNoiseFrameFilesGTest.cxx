@@ -41,7 +41,7 @@ TEST_F(SensorNoiseFrameFiles, WhatIsNotAnImageIsRefused)
   OpeningIsRefusedWith({ good, Path("folder.tif") }, { "folder.tif", "is a folder" });
   OpeningIsRefusedWith({ good, WriteText("empty.tif", "") }, { "empty.tif", "has 0 bytes" });
   OpeningIsRefusedWith({ good, WriteText("text.tif", "Dear reader,\nthis is no image.\n") },
-                       { "text.tif", "not an image in a format that ITK reads" });
+                       { "text.tif", "no image in a format that can be checked" });
 }
 
 TEST_F(SensorNoiseFrameFiles, ColoursAreRefused)

@@ -40,7 +40,7 @@ AnyTruncationIsNoticed(const std::vector<std::string> & files, const std::string
   SCOPED_TRACE(cut);
   ReadsWhatWasWritten<unsigned short>(files, files.size() == 1, OpenFrames(files).streams);
   const std::size_t size = fs::file_size(cut);
-  const std::string name = (files.size() == 1 ? files.front() : cut) + ": ";
+  const std::string name = files.size() == 1 ? files.front() : cut;
   std::size_t       refused = 0;
   for (std::size_t length = size - 1; length > 0; --length)
   {
@@ -100,15 +100,14 @@ TEST_F(SensorNoiseFrameFilesTruncation, ATruncatedStackIsRefusedBeforeItIsRead)
     CutOff(Path("s.raw"), 3);
     OpeningIsRefusedWith({ file }, { name, "s.raw", "truncated: 277 bytes", "expected 280" });
     fs::remove(Path("s.raw"));
-    OpeningIsRefusedWith({ file }, { name, "s.raw", name == "s.mhd" ? "does not exist" : "couldn't open" });
+    OpeningIsRefusedWith({ file }, { name, "s.raw", "does not exist" });
   }
   const std::string compressed = WriteStack<unsigned short>("c.mha", true);
   CutOff(compressed, 1);
   OpeningIsRefusedWith({ compressed }, { "c.mha", "truncated", "expected" });
   const std::string tiff = WriteStack<unsigned short>("s.tif");
   fs::resize_file(tiff, fs::file_size(tiff) * 3 / 5);
-  OpeningIsRefusedWith({ tiff },
-                       { "s.tif", "truncated: 2 of its pages can be read, but the file says that more follow" });
+  OpeningIsRefusedWith({ tiff }, { "s.tif, page 2: truncated" });
 }
 
 TEST_F(SensorNoiseFrameFilesTruncation, ATruncatedFileAmongGoodOnesIsRefused)
@@ -119,10 +118,7 @@ TEST_F(SensorNoiseFrameFilesTruncation, ATruncatedFileAmongGoodOnesIsRefused)
     fs::resize_file(files[2], extension == ".tif" ? 70 : fs::file_size(files[2]) - 1);
     OpeningIsRefusedWith(files, { "frame_2" + extension });
   }
-  const std::string other = WriteFrame<unsigned short>("other.vtk", 0, { { 64, 48 } });
-  EXPECT_EQ(OpenFrames({ other }).width, 64u);
-  fs::resize_file(other, 5000);
-  OpeningIsRefusedWith({ other }, { "other.vtk", "5000 bytes, fewer than the 6144" });
+  OpeningIsRefusedWith({ WriteFrame<unsigned short>("other.vtk") }, { "other.vtk", "cannot be checked" });
 }
 
 TEST_F(SensorNoiseFrameFilesTruncation, AChangeAfterOpeningIsNoticed)

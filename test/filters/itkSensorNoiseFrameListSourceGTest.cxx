@@ -225,11 +225,11 @@ TEST_F(SensorNoiseFrameListSource, ASecondUpdateDoesNoWork)
   source->Update();
   EXPECT_EQ(starts, 1u);
   source->SetFileName(files[2]);
-  source->Update();
+  source->UpdateLargestPossibleRegion();
   EXPECT_EQ(starts, 2u);
   EXPECT_EQ(source->GetOutput()->GetBufferedRegion().GetSize(2), 1u);
   source->AddFileName(files[3]);
-  source->Update();
+  source->UpdateLargestPossibleRegion();
   EXPECT_EQ(starts, 3u);
   EXPECT_EQ(source->GetFileNames(), (std::vector<std::string>{ files[2], files[3] }));
   EXPECT_EQ(source->GetOutput()->GetPixel({ { 0, 0, 1 } }), ValueAt<unsigned short>(0, 0, 3));

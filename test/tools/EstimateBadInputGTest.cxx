@@ -143,9 +143,9 @@ TEST_F(EstimateBadInputTool, AMaskThatDoesNotFitIsRefused)
   using MaskType = itk::Image<unsigned char, 2>;
   const std::string stack = Write("s.mha", MakeBurst().GetPointer());
   Write("mask.png", Make<MaskType>({ { 64, 63 } }, 1).GetPointer());
-  IsRefused(stack + " --mask mask.png", { "the mask mask.png has 64 x 63 pixels", "the frames have 64 x 64" });
-  IsRefused(stack + " --mask mask.png --roi 0,0,64,63", { "the mask mask.png has 64 x 63 pixels" });
-  IsRefused(stack + " --mask s.mha", { "the mask s.mha has 24 frames", "expected one image" });
+  IsRefused(stack + " --mask mask.png", { "the mask mask.png: has 64 x 63 pixels", "the frames have 64 x 64" });
+  IsRefused(stack + " --mask mask.png --roi 0,0,64,63", { "the mask mask.png: has 64 x 63 pixels" });
+  IsRefused(stack + " --mask s.mha", { "the mask s.mha: has 24 frames", "expected one image" });
   IsRefused(stack + " --mask nowhere.png", { "nowhere.png", "does not exist" });
 }
 
