@@ -115,7 +115,7 @@ TEST_F(EstimateBadInputTool, AFolderATextAndAnEmptyFileAreRefused)
   IsRefused("folder.tif", { "folder.tif", "is a folder", "expected an image file" });
   IsRefused(".", { "is a folder" });
   IsRefused(WriteText("empty.mha", ""), { "empty.mha", "has 0 bytes" });
-  IsRefused(WriteText("text.tif", "Dear reader,\nthis is no image.\n"), { "text.tif", "not an image" });
+  IsRefused(WriteText("text.tif", "Dear reader,\nthis is no image.\n"), { "text.tif", "no image in a format" });
   IsRefused("nowhere.mha", { "nowhere.mha", "does not exist" });
 }
 
@@ -161,5 +161,5 @@ TEST_F(EstimateBadInputTool, CompressedPixelsThatAreDamagedAreRefused)
   file.seekp(-60000, std::ios::end);
   file << std::string(30000, 'x');
   file.close();
-  IsRefused("s.nrrd", { "s.nrrd", "its pixels cannot be read" });
+  IsRefused("s.nrrd", { "s.nrrd", "damaged: its compressed pixels" });
 }

@@ -296,7 +296,7 @@ TEST_F(SimulateTool, WrongUseIsRefusedInOneSentenceAndLeavesNothing)
   ExpectRefusal("--output s.mha --temporal-filter 1", "expected 0 to 0.99");
   ExpectRefusal("--output s.mha --banding 3", "--banding");
   std::ofstream(m_Folder / "out" / "not-an-image.txt") << "hello";
-  ExpectRefusal("--output s.mha --reference not-an-image.txt", "not an image");
+  ExpectRefusal("--output s.mha --reference not-an-image.txt", "no image in a format");
 }
 
 #ifndef _WIN32
