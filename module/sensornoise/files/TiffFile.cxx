@@ -70,6 +70,10 @@ RequireSamePage(const std::string & page, const TiffPage & found, const TiffPage
                     SamplesOf(found.pixel) + " samples, but the first page has " + SamplesOf(first.pixel) +
                       " ones; all pages must have the same");
   }
+  if (found.compression != first.compression || found.predictor != first.predictor)
+  {
+    throw FileError(page, "compressed in another way than the first page; all pages must be compressed in the same");
+  }
   if (found.orientation != first.orientation)
   {
     throw FileError(page,

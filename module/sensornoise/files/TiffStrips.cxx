@@ -124,7 +124,6 @@ TiffStrips::CheckPage(const std::string & page, const TiffPage & found)
   TiffBytes::Numbers  offsets(m_Tiff, found.offsets);
   TiffBytes::Numbers  counts(m_Tiff, found.byteCounts);
   const std::uint64_t size = m_Tiff.File().Size();
-  std::uint64_t       first = 0;
   for (std::uint64_t strip = 0; strip < found.offsets.count; ++strip)
   {
     const std::uint64_t offset = offsets.Next();
@@ -140,13 +139,6 @@ TiffStrips::CheckPage(const std::string & page, const TiffPage & found)
     if (m_PixelBytes > size || !m_Ranges.AddPixels(offset, count))
     {
       throw FileError(page, "damaged: its strips overlap, or lie in more places than can be checked");
-    }
-    first = strip == 0 ? count : first;
-    if (found.compression == TiffCompression::None && strip == 1 && found.offsets.count > 2 && count != first)
-    {
-      throw FileError(page,
-                      "damaged: " + name + "has " + std::to_string(count) + " bytes, but the one before has " +
-                        std::to_string(first) + ", so that libtiff would guess both; expected the same");
     }
     const std::uint64_t rows = std::min(found.rowsPerStrip, found.height - strip * found.rowsPerStrip);
     CheckStrip(page, found, strip, rows, offset, count);
@@ -165,12 +157,13 @@ TiffStrips::CheckStrip(const std::string & page,
   switch (found.compression)
   {
     case TiffCompression::None:
-      if (count < rows * rowBytes)
+      // some writers fill the last strip up
+      if (count != rows * rowBytes && count != found.rowsPerStrip * rowBytes)
       {
         RefuseStrip(page,
                     strip,
-                    "has " + std::to_string(count) + " bytes, so that libtiff would guess how many it has; expected " +
-                      std::to_string(rows * rowBytes));
+                    "has " + std::to_string(count) + " bytes, but its rows have " + std::to_string(rows * rowBytes) +
+                      "; expected as many");
       }
       return;
     case TiffCompression::Deflate:
