@@ -68,4 +68,21 @@ ByteRanges::FirstConflict()
   return std::nullopt;
 }
 
+std::uint64_t
+ByteRanges::LargestGap(std::uint64_t size)
+{
+  std::sort(m_Pixels.begin(), m_Pixels.end());
+  std::sort(m_Tables.begin(), m_Tables.end());
+  std::uint64_t largest = 0;
+  std::uint64_t end = 0;
+  for (std::size_t i = 0, k = 0; i < m_Pixels.size() || k < m_Tables.size();)
+  {
+    const bool    isTable = i == m_Pixels.size() || (k < m_Tables.size() && m_Tables[k] < m_Pixels[i]);
+    const Range & range = isTable ? m_Tables[k++] : m_Pixels[i++];
+    largest = std::max(largest, range.first - std::min(range.first, end));
+    end = std::max(end, range.second);
+  }
+  return std::max(largest, size - std::min(size, end));
+}
+
 } // namespace sensornoise

@@ -148,13 +148,13 @@ InspectTiff(FileBytes & bytes, FrameFile & file)
   {
     throw FileError(file.name, "damaged: a TIFF without a page; expected at least one");
   }
-  strips.RequireNoOverlap(file.name);
   RequireAllPagesAreFrames(file.name, pages, reduced, full);
   // ImageJ writes a stack above 4 GiB as one page and says in words how many follow
   if (!images.empty() && std::strtoull(images.c_str() + 7, nullptr, 10) != pages)
   {
     throw FileError(file.name, "pages: " + std::to_string(pages) + ", but ImageJ's description of it says " + images);
   }
+  strips.RequireAllBytes(file.name);
   file.format = FrameFormat::Tiff;
   file.pixel = first.pixel;
   SetFrameSizes(file, { first.width, first.height, pages });

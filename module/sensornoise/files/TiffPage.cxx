@@ -142,7 +142,7 @@ PixelOfTiff(const TiffTags & tags)
   {
     return FramePixel::UnsignedChar;
   }
-  if (bits == 16 && format <= 2)
+  if (bits == 16 && (format == 1 || format == 2))
   {
     return format == 2 ? FramePixel::Short : FramePixel::UnsignedShort;
   }
