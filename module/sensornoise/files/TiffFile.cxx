@@ -102,7 +102,7 @@ RequireAllPagesAreFrames(const std::string & file, std::uint64_t pages, std::uin
 } // namespace
 
 void
-InspectTiff(FileBytes & bytes, FrameFile & file)
+InspectTiff(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating)
 {
   TiffBytes                         tiff(file.name, bytes);
   TiffStrips                        strips(tiff);
@@ -136,9 +136,16 @@ InspectTiff(FileBytes & bytes, FrameFile & file)
     if (pages == 0)
     {
       first = found;
+      file.format = FrameFormat::Tiff;
+      file.pixel = found.pixel;
       images = ImagesOfImageJ(tiff, directory);
     }
     RequireSamePage(page, found, first);
+    SetFrameSizes(file, { first.width, first.height, pages + 1 });
+    if (found.compression != TiffCompression::None && beforeInflating)
+    {
+      beforeInflating(file);
+    }
     strips.CheckPage(page, found);
     reduced += found.isReduced ? 1 : 0;
     full += found.isFull ? 1 : 0;
@@ -155,9 +162,6 @@ InspectTiff(FileBytes & bytes, FrameFile & file)
     throw FileError(file.name, "pages: " + std::to_string(pages) + ", but ImageJ's description of it says " + images);
   }
   strips.RequireAllBytes(file.name);
-  file.format = FrameFormat::Tiff;
-  file.pixel = first.pixel;
-  SetFrameSizes(file, { first.width, first.height, pages });
 }
 
 } // namespace sensornoise
