@@ -22,8 +22,27 @@
 namespace sensornoise
 {
 
+void
+ByteRanges::Join(std::vector<Range> & ranges, bool mayShare)
+{
+  std::sort(ranges.begin(), ranges.end());
+  std::size_t last = 0;
+  for (std::size_t i = 1; i < ranges.size(); ++i)
+  {
+    if (ranges[i].first == ranges[last].second || (mayShare && ranges[i].first < ranges[last].second))
+    {
+      ranges[last].second = std::max(ranges[last].second, ranges[i].second);
+    }
+    else
+    {
+      ranges[++last] = ranges[i];
+    }
+  }
+  ranges.resize(std::min(ranges.size(), last + 1));
+}
+
 bool
-ByteRanges::Add(std::vector<Range> & ranges, std::uint64_t offset, std::uint64_t count)
+ByteRanges::Add(std::vector<Range> & ranges, std::uint64_t offset, std::uint64_t count, bool mayShare)
 {
   if (count == 0)
   {
@@ -34,15 +53,23 @@ ByteRanges::Add(std::vector<Range> & ranges, std::uint64_t offset, std::uint64_t
     ranges.back().second += count;
     return true;
   }
+  if (ranges.size() == MaximumRanges)
+  {
+    Join(ranges, mayShare);
+    if (ranges.size() > MaximumRanges / 2)
+    {
+      return false; // else it would soon be due again, and again
+    }
+  }
   ranges.emplace_back(offset, offset + count);
-  return ranges.size() <= MaximumRanges;
+  return true;
 }
 
 std::optional<std::uint64_t>
 ByteRanges::FirstConflict()
 {
-  std::sort(m_Pixels.begin(), m_Pixels.end());
-  std::sort(m_Tables.begin(), m_Tables.end());
+  Join(m_Pixels, false);
+  Join(m_Tables, true);
   std::size_t   table = 0;
   std::uint64_t tablesEnd = 0; // of those that begin before the pixels' range
   for (std::size_t i = 0; i < m_Pixels.size(); ++i)
@@ -66,6 +93,23 @@ ByteRanges::FirstConflict()
     }
   }
   return std::nullopt;
+}
+
+std::uint64_t
+ByteRanges::LargestGap(std::uint64_t size)
+{
+  Join(m_Pixels, false);
+  Join(m_Tables, true);
+  std::uint64_t largest = 0;
+  std::uint64_t end = 0;
+  for (std::size_t i = 0, k = 0; i < m_Pixels.size() || k < m_Tables.size();)
+  {
+    const bool    isTable = i == m_Pixels.size() || (k < m_Tables.size() && m_Tables[k] < m_Pixels[i]);
+    const Range & range = isTable ? m_Tables[k++] : m_Pixels[i++];
+    largest = std::max(largest, range.first - std::min(range.first, end));
+    end = std::max(end, range.second);
+  }
+  return std::max(largest, size - std::min(size, end));
 }
 
 } // namespace sensornoise

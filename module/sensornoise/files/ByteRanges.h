@@ -39,25 +39,33 @@ public:
   bool
   AddPixels(std::uint64_t offset, std::uint64_t count)
   {
-    return Add(m_Pixels, offset, count);
+    return Add(m_Pixels, offset, count, false);
   }
 
   /** Bytes that hold something else; these may be used several times. Returns false as AddPixels(). */
   bool
   AddTable(std::uint64_t offset, std::uint64_t count)
   {
-    return Add(m_Tables, offset, count);
+    return Add(m_Tables, offset, count, true);
   }
 
   /** A byte that holds pixels twice, or pixels and something else. */
   std::optional<std::uint64_t>
   FirstConflict();
 
+  /** The most bytes in a row, of a file of that size, that belong to neither. */
+  std::uint64_t
+  LargestGap(std::uint64_t size);
+
 private:
   static constexpr std::size_t MaximumRanges = std::size_t{ 1 } << 18;
 
+  /** Sorts them, and makes one of those that touch each other, or, if they may share bytes, overlap. */
+  static void
+  Join(std::vector<Range> & ranges, bool mayShare);
+
   static bool
-  Add(std::vector<Range> & ranges, std::uint64_t offset, std::uint64_t count);
+  Add(std::vector<Range> & ranges, std::uint64_t offset, std::uint64_t count, bool mayShare);
 
   std::vector<Range> m_Pixels;
   std::vector<Range> m_Tables;

@@ -61,11 +61,14 @@ AddDataFile(const std::string & file, const std::string & path, std::vector<File
   {
     throw FileError(file, "its data file " + path + " is the file itself; expected another one");
   }
-  const auto same = [&identity](const FileIdentity & other) { return AreSameFile(identity, other); };
-  if (std::none_of(identities.rbegin(), identities.rend(), same))
+  for (const FileIdentity & other : identities)
   {
-    identities.push_back(identity);
+    if (AreSameFile(identity, other))
+    {
+      throw FileError(file, "its data file " + path + " comes twice in its list; expected each once");
+    }
   }
+  identities.push_back(identity);
 }
 
 void

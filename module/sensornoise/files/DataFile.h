@@ -36,8 +36,8 @@ struct DataPlace
   bool attached{ true }; // in the file itself, behind its header
 };
 
-/** Notes the identity of \a path among \a identities, each file once. Throws FileError where there is no regular file,
- * and where it is the first of them: the file whose data it should be. */
+/** Notes the identity of \a path among \a identities. Throws FileError where there is no regular file, and where it is
+ * there already: the file whose data it should be, or that of another frame. */
 void
 AddDataFile(const std::string & file, const std::string & path, std::vector<FileIdentity> & identities);
 

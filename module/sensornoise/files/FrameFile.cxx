@@ -72,18 +72,18 @@ OtherFormat(const std::string & head, const std::string & name)
 }
 
 void
-InspectByContents(FileBytes & bytes, FrameFile & file)
+InspectByContents(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating)
 {
   std::array<unsigned char, 512> buffer{};
   const std::size_t              count = bytes.ReadSome(0, buffer.data(), buffer.size());
   const std::string              head(buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(count));
   if (head.rfind("\x89PNG\r\n\x1A\n", 0) == 0)
   {
-    InspectPng(bytes, file);
+    InspectPng(bytes, file, beforeInflating);
   }
   else if (TiffBytes::IsTiff(buffer.data(), count))
   {
-    InspectTiff(bytes, file);
+    InspectTiff(bytes, file, beforeInflating);
   }
   else if (head.rfind("NRRD", 0) == 0)
   {
@@ -92,12 +92,12 @@ InspectByContents(FileBytes & bytes, FrameFile & file)
     {
       throw FileError(file.name, "begins as a NRRD file; expected its name to end with .nrrd or .nhdr");
     }
-    InspectNrrd(bytes, file);
+    InspectNrrd(bytes, file, beforeInflating);
   }
   else if ((EndsWith(file.name, ".mha") || EndsWith(file.name, ".mhd")) &&
            head.find_first_of("=:") != std::string::npos)
   {
-    InspectMetaImage(bytes, file);
+    InspectMetaImage(bytes, file, beforeInflating);
   }
   else
   {
@@ -107,7 +107,7 @@ InspectByContents(FileBytes & bytes, FrameFile & file)
 } // namespace
 
 FrameFile
-InspectFrameFile(const std::string & name)
+InspectFrameFile(const std::string & name, const BeforeInflating & beforeInflating)
 {
   FrameFile file;
   file.name = name;
@@ -117,7 +117,7 @@ InspectFrameFile(const std::string & name)
     throw FileError(name, "has 0 bytes; expected an image file");
   }
   FileBytes bytes(name);
-  InspectByContents(bytes, file);
+  InspectByContents(bytes, file, beforeInflating);
   // what was inspected is what these identities stand for
   RequireUnchanged(file);
   return file;

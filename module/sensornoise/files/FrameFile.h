@@ -23,6 +23,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -76,12 +77,16 @@ SizeOf(FramePixel pixel);
 SensorNoise_EXPORT std::string
 NameOf(FramePixel pixel);
 
+/** Called with what a file says of itself before its compressed pixels are inflated; `frames` and `bytes` are those
+ * known so far, which grow page by page in a TIFF. May throw, where they are too many to go on. */
+using BeforeInflating = std::function<void(const FrameFile &)>;
+
 /** Reads with this library's own code what the file says of itself, and checks that it is whole, before any other
  * library opens it: the whole of its structure, all checksums that it has, and that there is exactly one value for each
  * pixel that it declares. Compressed pixels are inflated for that, and not kept; uncompressed ones are not read. Needs
  * a few MiB of memory at most. Throws FileError for all that cannot be read without conversion, or not be checked. */
 SensorNoise_EXPORT FrameFile
-InspectFrameFile(const std::string & name);
+InspectFrameFile(const std::string & name, const BeforeInflating & beforeInflating = {});
 
 /** Throws FileError unless the file and its data files are still those, in that state, that were inspected. */
 SensorNoise_EXPORT void

@@ -215,7 +215,7 @@ PlacesOf(const FrameFile & file, const MetaImageHeader & header, std::uint64_t s
 } // namespace
 
 void
-InspectMetaImage(FileBytes & bytes, FrameFile & file)
+InspectMetaImage(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating)
 {
   const MetaImageHeader header = ReadMetaImageHeader(file.name, bytes);
   CheckMetaImageMeaning(file.name, header);
@@ -234,6 +234,10 @@ InspectMetaImage(FileBytes & bytes, FrameFile & file)
   SetFrameSizes(file, sizes);
   const std::uint64_t          compressed = CompressedBytesOf(file.name, header);
   const std::vector<DataPlace> places = PlacesOf(file, header, bytes.Size());
+  if (compressed > 0 && beforeInflating)
+  {
+    beforeInflating(file);
+  }
   for (const DataPlace & place : places)
   {
     if (!place.attached)

@@ -27,7 +27,7 @@ namespace sensornoise
 /** Fills in what a MetaImage says of itself. \a file has its name and identity. Throws FileError unless all of its
  * pixels are there, in the file or in data files, and unless MetaIO reads them as they are. */
 void
-InspectMetaImage(FileBytes & bytes, FrameFile & file);
+InspectMetaImage(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
 
 } // namespace sensornoise
 

@@ -20,6 +20,7 @@
 #include "sensornoise/files/FileError.h"
 #include "sensornoise/files/TextHeader.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -95,6 +96,15 @@ RequireNumbers(const std::string &     file,
   }
 }
 
+/** MetaIO looks at the first letter alone. */
+bool
+IsTrueOrFalse(const std::string & value)
+{
+  static const std::array<std::string, 12> words{ "True",  "true",  "TRUE",  "T", "t", "1",
+                                                  "False", "false", "FALSE", "F", "f", "0" };
+  return std::find(words.begin(), words.end(), value) != words.end();
+}
+
 /** Throws unless MetaIO understands the value as it is meant. */
 void
 CheckMetaImageField(const std::string &     file,
@@ -112,7 +122,7 @@ CheckMetaImageField(const std::string &     file,
   }
   if ((key == "BinaryData" || key == "CompressedData" || key == "BinaryDataByteOrderMSB" ||
        key == "ElementByteOrderMSB") &&
-      std::string("Tt1Ff0").find(value[0]) == std::string::npos)
+      !IsTrueOrFalse(value))
   {
     throw FileError(file, key + " is " + value + "; expected True or False");
   }

@@ -208,7 +208,7 @@ IsGzip(const FrameFile & file, const NrrdHeader & header)
 } // namespace
 
 void
-InspectNrrd(FileBytes & bytes, FrameFile & file)
+InspectNrrd(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating)
 {
   const NrrdHeader header = ReadNrrdHeader(file.name, bytes);
   file.format = FrameFormat::Nrrd;
@@ -218,6 +218,10 @@ InspectNrrd(FileBytes & bytes, FrameFile & file)
   SetFrameSizes(file, sizes);
   const bool                   isGzip = IsGzip(file, header);
   const std::vector<DataPlace> places = PlacesOfNrrd(file, header);
+  if (isGzip && beforeInflating)
+  {
+    beforeInflating(file);
+  }
   for (const DataPlace & place : places)
   {
     if (!place.attached)

@@ -28,7 +28,7 @@ namespace sensornoise
  * pixels are there, raw or in a stream of gzip that is whole, in the file or in data files, and unless NrrdIO reads
  * them as they are. */
 void
-InspectNrrd(FileBytes & bytes, FrameFile & file);
+InspectNrrd(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
 
 } // namespace sensornoise
 

@@ -58,9 +58,10 @@ BigEndian(const unsigned char * bytes)
 class PngInspection
 {
 public:
-  PngInspection(FileBytes & bytes, FrameFile & file)
+  PngInspection(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating)
     : m_Bytes(bytes)
     , m_File(file)
+    , m_BeforeInflating(beforeInflating)
     , m_Buffer(65536)
   {}
 
@@ -198,6 +199,10 @@ private:
     m_Interlaced = header[12] == 1;
     m_File.pixel = depth == 8 ? FramePixel::UnsignedChar : FramePixel::UnsignedShort;
     SetFrameSizes(m_File, { width, height });
+    if (m_BeforeInflating)
+    {
+      m_BeforeInflating(m_File);
+    }
   }
 
   void
@@ -281,6 +286,7 @@ private:
 
   FileBytes &                m_Bytes;
   FrameFile &                m_File;
+  const BeforeInflating &    m_BeforeInflating;
   std::vector<unsigned char> m_Buffer;
   bool                       m_HasHeader{ false };
   bool                       m_Interlaced{ false };
@@ -293,10 +299,10 @@ private:
 } // namespace
 
 void
-InspectPng(FileBytes & bytes, FrameFile & file)
+InspectPng(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating)
 {
   file.format = FrameFormat::Png;
-  PngInspection(bytes, file).Run();
+  PngInspection(bytes, file, beforeInflating).Run();
 }
 
 } // namespace sensornoise

@@ -28,7 +28,7 @@ namespace sensornoise
  * chunks are there, in the right order and with the right checksums, and its pixels are grey values of 8 or 16 bits
  * that inflate to exactly as many as it declares. */
 void
-InspectPng(FileBytes & bytes, FrameFile & file);
+InspectPng(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
 
 } // namespace sensornoise
 

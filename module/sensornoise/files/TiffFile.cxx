@@ -70,6 +70,10 @@ RequireSamePage(const std::string & page, const TiffPage & found, const TiffPage
                     SamplesOf(found.pixel) + " samples, but the first page has " + SamplesOf(first.pixel) +
                       " ones; all pages must have the same");
   }
+  if (found.compression != first.compression || found.predictor != first.predictor)
+  {
+    throw FileError(page, "compressed in another way than the first page; all pages must be compressed in the same");
+  }
   if (found.orientation != first.orientation)
   {
     throw FileError(page,
@@ -98,7 +102,7 @@ RequireAllPagesAreFrames(const std::string & file, std::uint64_t pages, std::uin
 } // namespace
 
 void
-InspectTiff(FileBytes & bytes, FrameFile & file)
+InspectTiff(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating)
 {
   TiffBytes                         tiff(file.name, bytes);
   TiffStrips                        strips(tiff);
@@ -132,9 +136,16 @@ InspectTiff(FileBytes & bytes, FrameFile & file)
     if (pages == 0)
     {
       first = found;
+      file.format = FrameFormat::Tiff;
+      file.pixel = found.pixel;
       images = ImagesOfImageJ(tiff, directory);
     }
     RequireSamePage(page, found, first);
+    SetFrameSizes(file, { first.width, first.height, pages + 1 });
+    if (found.compression != TiffCompression::None && beforeInflating)
+    {
+      beforeInflating(file);
+    }
     strips.CheckPage(page, found);
     reduced += found.isReduced ? 1 : 0;
     full += found.isFull ? 1 : 0;
@@ -144,16 +155,13 @@ InspectTiff(FileBytes & bytes, FrameFile & file)
   {
     throw FileError(file.name, "damaged: a TIFF without a page; expected at least one");
   }
-  strips.RequireNoOverlap(file.name);
   RequireAllPagesAreFrames(file.name, pages, reduced, full);
   // ImageJ writes a stack above 4 GiB as one page and says in words how many follow
   if (!images.empty() && std::strtoull(images.c_str() + 7, nullptr, 10) != pages)
   {
     throw FileError(file.name, "pages: " + std::to_string(pages) + ", but ImageJ's description of it says " + images);
   }
-  file.format = FrameFormat::Tiff;
-  file.pixel = first.pixel;
-  SetFrameSizes(file, { first.width, first.height, pages });
+  strips.RequireAllBytes(file.name);
 }
 
 } // namespace sensornoise

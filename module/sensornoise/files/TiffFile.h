@@ -27,7 +27,7 @@ namespace sensornoise
 /** Fills in what a TIFF, or a BigTIFF, says of itself. \a file has its name and identity. Throws FileError unless its
  * pages are all there, of one size and kind, each a frame for ITK, and TiffStrips has nothing against them. */
 void
-InspectTiff(FileBytes & bytes, FrameFile & file);
+InspectTiff(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);
 
 } // namespace sensornoise
 

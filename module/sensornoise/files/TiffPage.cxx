@@ -136,13 +136,13 @@ RequirePlainStrips(const TiffTags & tags)
 FramePixel
 PixelOfTiff(const TiffTags & tags)
 {
-  const std::uint64_t bits = tags.Number(258, "BitsPerSample", 1);
+  const std::uint64_t bits = tags.Required(258, "BitsPerSample");
   const std::uint64_t format = tags.Number(339, "SampleFormat", 1);
   if (bits == 8 && format == 1)
   {
     return FramePixel::UnsignedChar;
   }
-  if (bits == 16 && format <= 2)
+  if (bits == 16 && (format == 1 || format == 2))
   {
     return format == 2 ? FramePixel::Short : FramePixel::UnsignedShort;
   }
@@ -167,7 +167,7 @@ PixelOfTiff(const TiffTags & tags)
 TiffCompression
 CompressionOf(const TiffTags & tags)
 {
-  const std::uint64_t compression = tags.Number(259, "Compression", 1);
+  const std::uint64_t compression = tags.Required(259, "Compression");
   std::string         name;
   switch (compression)
   {
@@ -203,7 +203,7 @@ CompressionOf(const TiffTags & tags)
 }
 
 void
-CheckPredictor(const TiffTags & tags, const TiffPage & page)
+ReadPredictor(const TiffTags & tags, TiffPage & page)
 {
   const std::uint64_t predictor = tags.Number(317, "Predictor", 1);
   const bool          isUsed = page.compression == TiffCompression::Lzw || page.compression == TiffCompression::Deflate;
@@ -212,6 +212,7 @@ CheckPredictor(const TiffTags & tags, const TiffPage & page)
   {
     tags.Refuse("Predictor is " + std::to_string(predictor) + "; expected 1 or " + (isFloat ? "3" : "2"));
   }
+  page.predictor = isUsed ? predictor : 1;
 }
 
 void
@@ -261,7 +262,7 @@ ReadTiffPage(const std::string & page, TiffBytes & tiff, const TiffDirectory & d
   found.height = tags.Required(257, "ImageLength");
   found.pixel = PixelOfTiff(tags);
   found.compression = CompressionOf(tags);
-  CheckPredictor(tags, found);
+  ReadPredictor(tags, found);
   ReadSubfileType(tags, found);
   found.orientation = tags.Number(274, "Orientation", 1);
   if (found.orientation != 1 && found.orientation != 4)

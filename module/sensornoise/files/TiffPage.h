@@ -43,6 +43,7 @@ struct TiffPage
   std::uint64_t   height{ 0 };
   FramePixel      pixel{ FramePixel::UnsignedChar };
   TiffCompression compression{ TiffCompression::None };
+  std::uint64_t   predictor{ 1 };
   std::uint64_t   rowsPerStrip{ 0 }; // at most the height
   std::uint64_t   orientation{ 1 };
   bool            isReduced{ false }; // a thumbnail or a mask, by NewSubfileType

@@ -26,6 +26,8 @@ namespace sensornoise
 {
 namespace
 {
+constexpr std::uint64_t MaximumUnusedBytes = 256;
+
 [[noreturn]] void
 RefuseStrip(const std::string & page, std::uint64_t strip, const std::string & what)
 {
@@ -107,6 +109,7 @@ void
 TiffStrips::AddDirectory(const std::string & page, const TiffDirectory & directory)
 {
   m_DirectoryBytes += directory.bytes;
+  m_HasSubDirectories = m_HasSubDirectories || directory.Find(330) != nullptr;
   bool isFew = m_DirectoryBytes <= m_Tiff.File().Size() && m_Ranges.AddTable(directory.offset, directory.bytes);
   for (const TiffEntry & entry : directory.entries)
   {
@@ -124,7 +127,7 @@ TiffStrips::CheckPage(const std::string & page, const TiffPage & found)
   TiffBytes::Numbers  offsets(m_Tiff, found.offsets);
   TiffBytes::Numbers  counts(m_Tiff, found.byteCounts);
   const std::uint64_t size = m_Tiff.File().Size();
-  std::uint64_t       first = 0;
+  const std::uint64_t before = m_PixelBytes;
   for (std::uint64_t strip = 0; strip < found.offsets.count; ++strip)
   {
     const std::uint64_t offset = offsets.Next();
@@ -141,16 +144,10 @@ TiffStrips::CheckPage(const std::string & page, const TiffPage & found)
     {
       throw FileError(page, "damaged: its strips overlap, or lie in more places than can be checked");
     }
-    first = strip == 0 ? count : first;
-    if (found.compression == TiffCompression::None && strip == 1 && found.offsets.count > 2 && count != first)
-    {
-      throw FileError(page,
-                      "damaged: " + name + "has " + std::to_string(count) + " bytes, but the one before has " +
-                        std::to_string(first) + ", so that libtiff would guess both; expected the same");
-    }
     const std::uint64_t rows = std::min(found.rowsPerStrip, found.height - strip * found.rowsPerStrip);
     CheckStrip(page, found, strip, rows, offset, count);
   }
+  m_SmallestPage = std::min(m_SmallestPage, m_PixelBytes - before);
 }
 
 void
@@ -165,12 +162,13 @@ TiffStrips::CheckStrip(const std::string & page,
   switch (found.compression)
   {
     case TiffCompression::None:
-      if (count < rows * rowBytes)
+      // some writers fill the last strip up
+      if (count != rows * rowBytes && count != found.rowsPerStrip * rowBytes)
       {
         RefuseStrip(page,
                     strip,
-                    "has " + std::to_string(count) + " bytes, so that libtiff would guess how many it has; expected " +
-                      std::to_string(rows * rowBytes));
+                    "has " + std::to_string(count) + " bytes, but its rows have " + std::to_string(rows * rowBytes) +
+                      "; expected as many");
       }
       return;
     case TiffCompression::Deflate:
@@ -185,7 +183,7 @@ TiffStrips::CheckStrip(const std::string & page,
 }
 
 void
-TiffStrips::RequireNoOverlap(const std::string & file)
+TiffStrips::RequireAllBytes(const std::string & file)
 {
   m_Ranges.AddTable(0, m_Tiff.HeadBytes());
   if (const std::optional<std::uint64_t> conflict = m_Ranges.FirstConflict())
@@ -194,6 +192,16 @@ TiffStrips::RequireNoOverlap(const std::string & file)
       file,
       "damaged: the byte " + std::to_string(*conflict) +
         " belongs to two of its strips, or to a strip and a directory; expected each byte to be read once");
+  }
+  // Less than half a page is what writers leave behind when they write a directory anew.
+  const std::uint64_t unused = m_Ranges.LargestGap(m_Tiff.File().Size());
+  if (!m_HasSubDirectories && unused > MaximumUnusedBytes && unused >= m_SmallestPage / 2)
+  {
+    throw FileError(
+      file,
+      std::to_string(unused) +
+        " bytes in a row belong to none of its pages, enough for another one; expected a TIFF whose pages "
+        "are all in its chain of directories");
   }
 }
 

@@ -46,9 +46,11 @@ public:
   void
   CheckPage(const std::string & page, const TiffPage & found);
 
-  /** Throws FileError if bytes of a strip belong to another one, or to a directory. */
+  /** Throws FileError if bytes of a strip belong to another one, or to a directory, and if so many bytes belong to none
+   * of the pages that another could be there: one that a damaged chain of pages, or the format of a program that keeps
+   * no such chain, has left out. */
   void
-  RequireNoOverlap(const std::string & file);
+  RequireAllBytes(const std::string & file);
 
 private:
   void
@@ -61,7 +63,9 @@ private:
 
   TiffBytes &   m_Tiff;
   ByteRanges    m_Ranges{};
-  std::uint64_t m_PixelBytes{ 0 };     // of all strips so far
+  std::uint64_t m_PixelBytes{ 0 };            // of all strips so far
+  std::uint64_t m_SmallestPage{ UINT64_MAX }; // bytes of the strips of a page
+  bool          m_HasSubDirectories{ false };
   std::uint64_t m_DirectoryBytes{ 0 }; // of all directories so far
 };
 
