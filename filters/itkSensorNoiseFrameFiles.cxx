@@ -174,7 +174,7 @@ FrameList::Names() const
 }
 
 FrameList
-OpenFrames(const std::vector<std::string> & names)
+OpenFrames(const std::vector<std::string> & names, const BeforeInflating & beforeInflating)
 {
   if (names.empty())
   {
@@ -184,14 +184,27 @@ OpenFrames(const std::vector<std::string> & names)
   list.files.reserve(names.size());
   for (const std::string & name : names)
   {
-    const FrameFile                 file = InspectFrameFile(name);
+    const auto requireFitting = [&](const FrameFile & file) {
+      if (file.frames > 1 && names.size() > 1)
+      {
+        throw FileError(name,
+                        "has " + std::to_string(file.frames) + " frames, and " + std::to_string(names.size()) +
+                          " files were given; expected one stack alone, or one frame a file");
+      }
+      if (!list.files.empty())
+      {
+        RequireAlike(file, list.files.front());
+      }
+    };
+    const FrameFile file = InspectFrameFile(name, [&](const FrameFile & known) {
+      requireFitting(known);
+      if (beforeInflating)
+      {
+        beforeInflating(known);
+      }
+    });
+    requireFitting(file);
     const itk::ImageIOBase::Pointer io = OpenImageIO(file);
-    if (file.frames > 1 && names.size() > 1)
-    {
-      throw FileError(name,
-                      "has " + std::to_string(file.frames) + " frames, and " + std::to_string(names.size()) +
-                        " files were given; expected one stack alone, or one frame a file");
-    }
     if (list.files.empty())
     {
       list.isStack = file.frames > 1;
@@ -200,10 +213,6 @@ OpenFrames(const std::vector<std::string> & names)
       list.height = file.height;
       list.streams = !list.isStack || io->CanStreamRead();
       list.geometry = list.isStack ? GeometryOf(*io) : WithoutTime(GeometryOf(*io));
-    }
-    else
-    {
-      RequireAlike(file, list.files.front());
     }
     list.bytes += file.bytes;
     list.frames += file.frames;

@@ -64,9 +64,10 @@ struct FrameList
  * Throws std::invalid_argument without a file, and FileError unless each file is a complete image of one grey value of
  * type unsigned char, unsigned short, short, float or double a pixel, and all have the same size and type. One 3-D file
  * is a stack; a list holds 2-D files, or 3-D files of one slice. Formats are TIFF, PNG, MetaImage and NRRD, as far as
- * the program has registered their ImageIO. */
+ * the program has registered their ImageIO. \a beforeInflating is asked about each compressed file before it is
+ * inflated. */
 SensorNoise_EXPORT FrameList
-OpenFrames(const std::vector<std::string> & names);
+OpenFrames(const std::vector<std::string> & names, const BeforeInflating & beforeInflating = {});
 
 /** Reads \a count frames from the frame \a first on, one after the other, without conversion: \a buffer has room for
  * width x height x count pixels of the list's type. Of a stack that does not stream only all frames can be read.

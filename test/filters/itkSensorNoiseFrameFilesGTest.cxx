@@ -24,9 +24,7 @@
 namespace
 {
 namespace fs = std::filesystem;
-using namespace sensornoise::test;
-using sensornoise::FrameList;
-using sensornoise::OpenFrames;
+using namespace sensornoisetest::files;
 
 /** Files that are no frames, or not all of one kind. */
 class SensorNoiseFrameFiles : public FrameFilesTest

@@ -25,9 +25,7 @@
 namespace
 {
 namespace fs = std::filesystem;
-using namespace sensornoise::test;
-using sensornoise::FrameList;
-using sensornoise::OpenFrames;
+using namespace sensornoisetest::files;
 
 /** Files that were cut off, or that have changed since they were opened. */
 class SensorNoiseFrameFilesTruncation : public FrameFilesTest

@@ -17,6 +17,7 @@
  *=========================================================================*/
 #include "itkSensorNoiseFrameListSource.h"
 #include "helpers/FrameFilesTestHelper.h"
+#include "helpers/PngTestHelper.h"
 #include "itkImageFileReader.h"
 #include "itkPipelineMonitorImageFilter.h"
 #include "itkTemporalStatisticsImageFilter.h"
@@ -31,9 +32,7 @@
 namespace
 {
 namespace fs = std::filesystem;
-using namespace sensornoise::test;
-using sensornoise::FrameList;
-using sensornoise::OpenFrames;
+using namespace sensornoisetest::files;
 using StackType = itk::Image<unsigned short, 3>;
 using SourceType = itk::SensorNoiseFrameListSource<StackType>;
 
@@ -273,6 +272,36 @@ TEST_F(SensorNoiseFrameListSource, GeometryIsThatOfTheFiles)
   EXPECT_EQ(list->GetOutput()->GetDirection()[0][1], 1.0);
   EXPECT_EQ(list->GetOutput()->GetDirection()[2][2], 1.0);
   EXPECT_EQ(list->GetOutput()->GetPixel({ { 0, 0, 1 } }), 'b');
+}
+
+// ITK shifts the codes of such a file down by 4 bits: a gain of 1.1 became 0.069.
+TEST_F(SensorNoiseFrameListSource, CodesOfAPngStandAsInTheFileHoweverFewBitsAreSignificant)
+{
+  sensornoise::test::PngOf png;
+  png.shift = 4;
+  const std::string plain = WriteText("plain.png", png.Bytes());
+  png.before = sensornoise::test::PngChunkOf("sBIT", "\x0C");
+  const std::string marked = WriteText("marked.png", png.Bytes());
+  const auto        source = MakeSource<unsigned short>({ plain, marked });
+  source->Update();
+  for (itk::IndexValueType x = 0; x < 13; ++x)
+  {
+    EXPECT_EQ(source->GetOutput()->GetPixel({ { x, 5, 0 } }), (7 * x + 100) << 4);
+    EXPECT_EQ(source->GetOutput()->GetPixel({ { x, 5, 1 } }), (7 * x + 100) << 4);
+  }
+}
+
+TEST_F(SensorNoiseFrameListSource, AFileThatIsNotAsTheFirstIsRefusedBeforeItIsInflated)
+{
+  sensornoise::test::PngOf png;
+  const std::string        first = WriteText("first.png", png.Bytes());
+  png.height = 5000;
+  png.rows = std::string(27 * 5000, 'x'); // no filter is 'x': that would be the error, were it looked at
+  const std::string other = WriteText("other.png", png.Bytes());
+  OpeningIsRefusedWith({ first, other }, { other + ": 13 x 5000 pixels, but ", "first.png has 13 x 9" });
+  std::vector<std::string> asked;
+  OpenFrames({ first, first }, [&](const sensornoise::FrameFile & file) { asked.push_back(file.name); });
+  EXPECT_EQ(asked, (std::vector<std::string>{ first, first }));
 }
 
 TEST_F(SensorNoiseFrameListSource, WithoutFilesItSaysWhatIsExpected)

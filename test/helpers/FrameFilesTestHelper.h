@@ -15,8 +15,8 @@
  *  limitations under the License.
  *
  *=========================================================================*/
-#ifndef sensornoise_test_FrameFilesTestHelper_h
-#define sensornoise_test_FrameFilesTestHelper_h
+#ifndef sensornoisetest_FrameFilesTestHelper_h
+#define sensornoisetest_FrameFilesTestHelper_h
 
 #include "itkSensorNoiseFrameFiles.h"
 #include "itkSensorNoiseFrameListSource.h"
@@ -40,8 +40,10 @@
 /** \file
  * Small frames and stacks on files, and what opening and reading them says. */
 
-namespace sensornoise::test
+namespace sensornoisetest::files
 {
+using sensornoise::FrameList;
+using sensornoise::OpenFrames;
 
 // All different, so that no axis can be taken for another.
 inline constexpr std::size_t width = 7;
@@ -283,6 +285,6 @@ ReadsWhatWasWritten(const std::vector<std::string> & files, bool isStack, bool s
   }
 }
 
-} // namespace sensornoise::test
+} // namespace sensornoisetest::files
 
 #endif
