@@ -30,18 +30,20 @@ namespace
 using TiffHandler = void (*)();
 using TiffSetter = TiffHandler (*)(TiffHandler);
 
-/** libtiff's function of this name, as ITK renames it or as it is; nothing where the program has none. */
+/** libtiff's function of this name, as ITK renames it (5.4, 5.2) or as it is; nothing where the program has none. */
 TiffSetter
 SetterNamed(const char * name)
 {
 #if defined(__unix__) || defined(__APPLE__)
   // Looked up, not linked: it is that of ITK's TIFF reader, wherever the program has that from.
-  void * function = dlsym(RTLD_DEFAULT, (std::string("itk_tiff_") + name).c_str());
-  if (function == nullptr)
+  for (const char * const prefix : { "itk_tiff_", "itk_", "" })
   {
-    function = dlsym(RTLD_DEFAULT, name);
+    if (void * const function = dlsym(RTLD_DEFAULT, (std::string(prefix) + name).c_str()))
+    {
+      return reinterpret_cast<TiffSetter>(function);
+    }
   }
-  return reinterpret_cast<TiffSetter>(function);
+  return nullptr;
 #else
   (void)name;
   return nullptr;

@@ -18,7 +18,7 @@
 #include "itkSensorNoiseFrameListSource.h"
 #include "helpers/FrameFilesTestHelper.h"
 #include "helpers/PngTestHelper.h"
-#include "itkImageFileReader.h"
+#include "helpers/TiffTestHelper.h"
 #include "itkPipelineMonitorImageFilter.h"
 #include "itkTemporalStatisticsImageFilter.h"
 
@@ -290,6 +290,19 @@ TEST_F(SensorNoiseFrameListSource, CodesOfAPngStandAsInTheFileHoweverFewBitsAreS
     EXPECT_EQ(source->GetOutput()->GetPixel({ { x, 5, 1 } }), (7 * x + 100) << 4);
   }
 }
+
+#ifdef __unix__
+// That of ITK 5.2 does.
+TEST_F(SensorNoiseFrameListSource, LibtiffPrintsNothingAboutTagsThatItDoesNotKnow)
+{
+  sensornoise::test::TiffOf tiff;
+  tiff.pages[1][65520] = { 4, { 7 } };
+  const std::string file = WriteText("tag.tif", tiff.Bytes());
+  ::testing::internal::CaptureStderr();
+  MakeSource<unsigned short>({ file })->Update();
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+#endif
 
 TEST_F(SensorNoiseFrameListSource, AFileThatIsNotAsTheFirstIsRefusedBeforeItIsInflated)
 {
