@@ -48,15 +48,7 @@ RequireNothingLeft(const std::string & file, const DataPlace & place, std::uint6
 void
 AddDataFile(const std::string & file, const std::string & path, std::vector<FileIdentity> & identities)
 {
-  FileIdentity identity;
-  try
-  {
-    identity = IdentityOf(path);
-  }
-  catch (const FileError & error)
-  {
-    throw FileError(file, "its data file " + std::string(error.what()));
-  }
+  const FileIdentity identity = IdentityOfDataFile(file, path);
   if (AreSameFile(identity, identities.front()))
   {
     throw FileError(file, "its data file " + path + " is the file itself; expected another one");
