@@ -176,6 +176,9 @@ TEST_F(NrrdFile, PixelsThatAreNotWhereTheHeaderSaysAreRefused)
   const std::string pixels = RandomBytes(StackBytes);
   IsRefused("a.nrrd", NrrdHeaderOf("raw") + pixels + "a", { "1 bytes are left over after its pixels" });
   IsRefused("a.nrrd", NrrdHeaderOf("raw") + pixels.substr(1), { "truncated: 279 bytes of pixels, expected 280" });
+  HeaderIsRefused(
+    Replaced(NrrdHeaderOf("raw", "byte skip: -1\n"), "7 5 4", "7 5 3"),
+    { "70 bytes before its pixels, enough for another frame; expected the number of bytes to skip, not -1" });
   LineIsRefused("byte skip: 99", "truncated: 181 bytes of pixels, expected 280");
   const auto isRefused = [this](const std::string & dataFile, const std::string & words) {
     IsRefused("a.nhdr", NrrdHeaderOf("raw", "data file: " + dataFile + "\n"), { words });

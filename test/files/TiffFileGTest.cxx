@@ -240,6 +240,10 @@ TEST_F(TiffFile, BytesThatAreReadTwiceAreRefused)
   lzw.compression = 5;
   lzw.moveStrip = 1;
   IsRefused("a.tif", lzw.Bytes(), { "damaged: the byte" });
+  const TiffTags many{ { 273, { 4, { 8, 8, 8 } } }, { 279, { 4, { 500, 500, 500 } } } };
+  TiffOf         deflated = TiffWith(many);
+  deflated.compression = 8;
+  IsRefused("a.tif", deflated.Bytes(), { "its strips overlap, or lie in more places than can be checked" });
   const TiffTags same{ { 273, { 4, { 8, 112, 216 } } } };
   IsRefused("a.tif", TiffWith(same).Bytes(), { "damaged: the byte 8 belongs to two" });
 }

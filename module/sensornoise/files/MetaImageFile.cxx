@@ -162,7 +162,7 @@ InspectMetaImage(FileBytes & bytes, FrameFile & file, const BeforeInflating & be
     }
     else
     {
-      RequireExactly(file.name, place, file.bytes / places.size());
+      RequireExactly(file.name, place, file.bytes / places.size(), file.bytes / file.frames);
     }
   }
 }
