@@ -178,6 +178,9 @@ TEST_F(MetaImageFile, PixelsThatAreNotWhereTheHeaderSaysAreRefused)
   IsRefused("a.mha",
             MetaImageHeaderOf("LOCAL", "HeaderSize = -1\n") + pixels.substr(1),
             { "truncated: 279 bytes of pixels, expected 280" });
+  IsRefused("a.mha",
+            Replaced(MetaImageHeaderOf("LOCAL", "HeaderSize = -1\n"), "7 5 4", "7 5 3") + pixels,
+            { "70 bytes before its pixels, enough for another frame" });
   IsRefused("a.mhd", MetaImageHeaderOf("a.raw"), { "its data file " + Path("a.raw") + ": does not exist" });
   IsRefused("a.mhd", MetaImageHeaderOf("a.mhd"), { "its data file " + Path("a.mhd") + " is the file itself" });
   IsRefused("a.mhd", MetaImageHeaderOf("."), { "is a folder" });

@@ -102,6 +102,7 @@ TEST_F(NrrdFile, WhatIsNoImageOfOneValueIsRefused)
   HeaderIsRefused(Replaced(good, "NRRD0004", "NRRD0006"), { "its first line is not NRRD0001 to NRRD0005" });
   HeaderIsRefused(Replaced(good, "NRRD0004", "NRRD00044"), { "its first line is not" });
   HeaderIsRefused(Replaced(good, "unsigned short", "unsigned int"), { "component type unsigned int is not supported" });
+  HeaderIsRefused(Replaced(good, "unsigned short", "int8"), { "component type char is not supported" });
   HeaderIsRefused(Replaced(good, "unsigned short", "block"), { "component type block is not supported" });
   HeaderIsRefused(Replaced(good, "kinds: domain", "kinds: RGB-color"), { "axis 0 is of kind rgb-color: 7 components" });
   HeaderIsRefused(Replaced(good, "domain domain domain", "domain domain list"), { "of kind list: 4 components" });
@@ -135,6 +136,18 @@ TEST_F(NrrdFile, LinesThatNrrdIODoesNotReadAreRefused)
   LineIsRefused("content: ", "gives no value for content");
   LineIsRefused(std::string("# a\0", 4), "has the character of code 0");
   LineIsRefused("# a\rb", "has a carriage return within it");
+  std::string many;
+  for (int i = 0; i < 100001; ++i)
+  {
+    many += "#\n";
+  }
+  LineIsRefused(many, "its header has more than 100000 lines, or more than 4 MiB");
+  many.clear();
+  for (int i = 0; i < 5000; ++i)
+  {
+    many += "# " + std::string(900, 'c') + "\n";
+  }
+  LineIsRefused(many, "its header has more than 100000 lines, or more than 4 MiB");
   HeaderIsRefused(Replaced(NrrdHeaderOf("raw"), "sizes:", "# sizes:"), { "sizes: 0, but its dimension is 3" });
   std::string cut = NrrdHeaderOf("raw");
   cut.pop_back();
@@ -163,6 +176,9 @@ TEST_F(NrrdFile, PixelsThatAreNotWhereTheHeaderSaysAreRefused)
   const std::string pixels = RandomBytes(StackBytes);
   IsRefused("a.nrrd", NrrdHeaderOf("raw") + pixels + "a", { "1 bytes are left over after its pixels" });
   IsRefused("a.nrrd", NrrdHeaderOf("raw") + pixels.substr(1), { "truncated: 279 bytes of pixels, expected 280" });
+  HeaderIsRefused(
+    Replaced(NrrdHeaderOf("raw", "byte skip: -1\n"), "7 5 4", "7 5 3"),
+    { "70 bytes before its pixels, enough for another frame; expected the number of bytes to skip, not -1" });
   LineIsRefused("byte skip: 99", "truncated: 181 bytes of pixels, expected 280");
   const auto isRefused = [this](const std::string & dataFile, const std::string & words) {
     IsRefused("a.nhdr", NrrdHeaderOf("raw", "data file: " + dataFile + "\n"), { words });

@@ -112,9 +112,16 @@ TEST_F(PngFile, ChunksThatAreMissingOrAtAWrongPlaceAreRefused)
   IsRefused("a.png", PngWith(PngChunkOf("a1CD", "abc")).Bytes(), { "no chunk of PNG at byte 33" });
   IsRefused("a.png", PngWith("", text + PngChunkOf("IDAT", "a")).Bytes(), { "IDAT chunks apart from each other" });
   IsRefused("a.png", PngWith("", PngChunkOf("IDAT", "a")).Bytes(), { "compressed pixels give 243 bytes after" });
-  PngOf png2;
-  png2.end = PngChunkOf("IEND", "a");
-  IsRefused("a.png", png2.Bytes(), { "IEND of 1 bytes" });
+  PngOf otherEnd;
+  otherEnd.end = PngChunkOf("IEND", "a");
+  IsRefused("a.png", otherEnd.Bytes(), { "IEND of 1 bytes" });
+  IsRefused("a.png",
+            PngWith(PngChunkOf("tEXt", std::string(8000001, 'a'))).Bytes(),
+            { "its chunk tEXt has 8000001 bytes; expected at most 8000000" });
+  PngOf otherInterlacing;
+  otherInterlacing.interlacing = 2;
+  IsRefused(
+    "a.png", otherInterlacing.Bytes(), { "compression 0, filters 0, interlacing 2; expected 0, 0, and 0 or 1" });
 }
 
 TEST_F(PngFile, AChunkWithAWrongChecksumOrBeyondTheEndIsRefused)

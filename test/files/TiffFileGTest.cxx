@@ -173,10 +173,30 @@ TEST_F(TiffFile, AChainOfPagesThatIsBrokenOrHasNoEndIsRefused)
   IsRefused("a.tif", damaged, { "a TIFF without a page" });
   damaged.replace(4, 4, tiff.Number(good.size() - 1, 4));
   IsRefused("a.tif", damaged, { "truncated: its directory is at byte" });
+  IsRefused("a.tif", good.substr(0, 6), { "truncated: ends after 6 bytes" });
+  const std::string directory = "II*" + std::string(1, '\0') + tiff.Number(8, 4);
+  IsRefused("a.tif", directory + tiff.Number(0, 2) + "abcdef", { "its directory at byte 8 has 0 entries; expected 1" });
+  IsRefused(
+    "a.tif", directory + tiff.Number(4097, 2) + std::string(60000, '\0'), { "has 4097 entries; expected 1 to 4096" });
+  IsRefused("a.tif", directory + tiff.Number(99, 2) + std::string(99, '\0'), { "has 99 entries and does not end in" });
+  IsRefused("a.tif",
+            "II+" + std::string(1, '\0') + tiff.Number(4, 2) + tiff.Number(0, 2) + tiff.Number(16, 8),
+            { "a BigTIFF whose offsets have 4 bytes; expected 8" });
   for (std::size_t size = 1; size < good.size(); ++size)
   {
     ASSERT_NE(SaidOf("a.tif", good.substr(0, size)), "") << size << " bytes";
   }
+}
+
+TEST_F(TiffFile, MorePagesThanITKCountsAreRefused)
+{
+  TiffOf tiff;
+  tiff.width = 1;
+  tiff.height = 1;
+  tiff.bits = 8;
+  tiff.pages.resize(65535);
+  const std::string bytes = tiff.Bytes();
+  IsRefused("a.tif", bytes, { "a.tif, page 65534: has more than 65534 pages; expected no more" });
 }
 
 TEST_F(TiffFile, TablesAndStripsOutsideOfTheFileAreRefused)
@@ -196,6 +216,10 @@ TEST_F(TiffFile, TablesAndStripsOutsideOfTheFileAreRefused)
   isRefused({ { 278, { 4, { 0 } } } }, "RowsPerStrip is 0");
   isRefused({ { 256, { 4, { 0 } } } }, "size 0 along axis 0");
   isRefused({ { 305, { 99, { 0 } } } }, "its tag 305 is of type 99");
+  const TiffOf tiff;
+  IsRefused("a.tif",
+            Replaced(tiff.Bytes(), tiff.Number(277, 2), tiff.Number(278, 2)),
+            { "its tag 278 comes twice; expected each once" });
   TiffOf            outside = TiffWith({ { 305, Text("a long name of a program") } });
   const std::string good = outside.Bytes();
   const std::string entry = outside.Number(305, 2) + outside.Number(2, 2) + outside.Number(24, 4);
@@ -216,6 +240,10 @@ TEST_F(TiffFile, BytesThatAreReadTwiceAreRefused)
   lzw.compression = 5;
   lzw.moveStrip = 1;
   IsRefused("a.tif", lzw.Bytes(), { "damaged: the byte" });
+  const TiffTags many{ { 273, { 4, { 8, 8, 8 } } }, { 279, { 4, { 500, 500, 500 } } } };
+  TiffOf         deflated = TiffWith(many);
+  deflated.compression = 8;
+  IsRefused("a.tif", deflated.Bytes(), { "its strips overlap, or lie in more places than can be checked" });
   const TiffTags same{ { 273, { 4, { 8, 112, 216 } } } };
   IsRefused("a.tif", TiffWith(same).Bytes(), { "damaged: the byte 8 belongs to two" });
 }

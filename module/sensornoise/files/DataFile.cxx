@@ -48,15 +48,7 @@ RequireNothingLeft(const std::string & file, const DataPlace & place, std::uint6
 void
 AddDataFile(const std::string & file, const std::string & path, std::vector<FileIdentity> & identities)
 {
-  FileIdentity identity;
-  try
-  {
-    identity = IdentityOf(path);
-  }
-  catch (const FileError & error)
-  {
-    throw FileError(file, "its data file " + std::string(error.what()));
-  }
+  const FileIdentity identity = IdentityOfDataFile(file, path);
   if (AreSameFile(identity, identities.front()))
   {
     throw FileError(file, "its data file " + path + " is the file itself; expected another one");
@@ -72,7 +64,7 @@ AddDataFile(const std::string & file, const std::string & path, std::vector<File
 }
 
 void
-RequireExactly(const std::string & file, const DataPlace & place, std::uint64_t expected)
+RequireExactly(const std::string & file, const DataPlace & place, std::uint64_t expected, std::uint64_t frameBytes)
 {
   const std::uint64_t size = FileBytes(file, place.path).Size();
   const std::uint64_t found = size > place.offset ? size - place.offset : 0;
@@ -82,7 +74,16 @@ RequireExactly(const std::string & file, const DataPlace & place, std::uint64_t 
                     "truncated: " + std::to_string(found) + " bytes of pixels" + InDataFile(file, place) +
                       ", expected " + std::to_string(expected));
   }
-  RequireNothingLeft(file, place, place.fromEnd ? 0 : found - expected);
+  if (!place.fromEnd)
+  {
+    RequireNothingLeft(file, place, found - expected);
+  }
+  else if (found - expected >= frameBytes)
+  {
+    throw FileError(file,
+                    std::to_string(found - expected) + " bytes" + InDataFile(file, place) +
+                      " before its pixels, enough for another frame; expected the number of bytes to skip, not -1");
+  }
 }
 
 void

@@ -41,9 +41,10 @@ struct DataPlace
 void
 AddDataFile(const std::string & file, const std::string & path, std::vector<FileIdentity> & identities);
 
-/** Throws FileError unless the file holds exactly \a expected bytes at that place, up to its end. */
+/** Throws FileError unless the file holds exactly \a expected bytes at that place, up to its end. Where only that end
+ * is known, fewer bytes than a frame has may be left over before: with more, the header may have lost frames. */
 void
-RequireExactly(const std::string & file, const DataPlace & place, std::uint64_t expected);
+RequireExactly(const std::string & file, const DataPlace & place, std::uint64_t expected, std::uint64_t frameBytes);
 
 /** Throws FileError unless the bytes there, \a compressed of them or, where that is 0, all up to the end of the file,
  * are one stream of gzip (or, if \a orZlib, of zlib) that gives exactly \a expected bytes, and the file ends with it.

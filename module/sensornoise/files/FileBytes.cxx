@@ -33,29 +33,12 @@ PlaceOf(const std::string & file, const std::string & path)
 {
   return file == path ? "" : "its data file " + path + " ";
 }
-
-std::uint64_t
-SizeOfRegularFile(const std::string & file, const std::string & path)
-{
-  try
-  {
-    return IdentityOf(path).size;
-  }
-  catch (const FileError & error)
-  {
-    if (file == path)
-    {
-      throw;
-    }
-    throw FileError(file, "its data file " + std::string(error.what()));
-  }
-}
 } // namespace
 
 FileBytes::FileBytes(const std::string & file, const std::string & path)
   : m_File(file)
   , m_Path(path)
-  , m_Size(SizeOfRegularFile(file, path))
+  , m_Size((file == path ? IdentityOf(path) : IdentityOfDataFile(file, path)).size)
   , m_Stream(path, std::ios::binary)
 {
   if (!m_Stream)

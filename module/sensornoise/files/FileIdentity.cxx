@@ -118,4 +118,17 @@ IdentityOf(const std::string & name)
 
 #endif
 
+FileIdentity
+IdentityOfDataFile(const std::string & file, const std::string & dataFile)
+{
+  try
+  {
+    return IdentityOf(dataFile);
+  }
+  catch (const FileError & error)
+  {
+    throw FileError(file, "its data file " + std::string(error.what()));
+  }
+}
+
 } // namespace sensornoise

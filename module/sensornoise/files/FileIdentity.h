@@ -56,6 +56,10 @@ AreSameFile(const FileIdentity & a, const FileIdentity & b);
 SensorNoise_EXPORT FileIdentity
 IdentityOf(const std::string & name);
 
+/** The same of a file whose name stands in another one, \a file, with which the errors then begin. */
+SensorNoise_EXPORT FileIdentity
+IdentityOfDataFile(const std::string & file, const std::string & dataFile);
+
 } // namespace sensornoise
 
 #endif

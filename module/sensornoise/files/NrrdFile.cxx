@@ -234,7 +234,7 @@ InspectNrrd(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeI
     }
     else
     {
-      RequireExactly(file.name, place, file.bytes / places.size());
+      RequireExactly(file.name, place, file.bytes / places.size(), file.bytes / file.frames);
     }
   }
 }

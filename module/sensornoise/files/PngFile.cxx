@@ -20,17 +20,15 @@
 #include "sensornoise/files/FileError.h"
 #include "sensornoise/files/FrameSizes.h"
 #include "sensornoise/files/Inflate.h"
+#include "sensornoise/files/PngChunks.h"
 #include "sensornoise/files/PngRows.h"
-#include "sensornoise/files/Zlib.h"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <vector>
 
 namespace sensornoise
 {
@@ -40,42 +38,25 @@ namespace
 constexpr std::uint64_t MaximumPngSide = 1000000;
 constexpr std::uint64_t MaximumPngChunk = 8000000;
 
-struct PngChunk
-{
-  std::string   type{};
-  std::uint64_t data{ 0 };   // where its data begins
-  std::uint64_t length{ 0 }; // of its data
-};
-
-std::uint32_t
-BigEndian(const unsigned char * bytes)
-{
-  return (std::uint32_t{ bytes[0] } << 24) | (std::uint32_t{ bytes[1] } << 16) | (std::uint32_t{ bytes[2] } << 8) |
-         bytes[3];
-}
-
 /** What is read from a PNG on the way through its chunks. */
 class PngInspection
 {
 public:
   PngInspection(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating)
     : m_Bytes(bytes)
+    , m_Chunks(file.name, bytes)
     , m_File(file)
     , m_BeforeInflating(beforeInflating)
-    , m_Buffer(65536)
   {}
 
   void
   Run()
   {
-    std::uint64_t offset = 8;
-    bool          ended = false;
-    while (!ended)
+    for (bool ended = false; !ended;)
     {
-      const PngChunk chunk = NextChunk(offset);
+      const PngChunk chunk = m_Chunks.Next();
+      CheckChunk(chunk);
       ReadChunk(chunk);
-      CheckChecksum(chunk);
-      offset = chunk.data + chunk.length + 4;
       ended = chunk.type == "IEND";
     }
     RequirePixels();
@@ -88,31 +69,9 @@ private:
     throw FileError(m_File.name, what);
   }
 
-  PngChunk
-  NextChunk(std::uint64_t offset)
-  {
-    std::array<unsigned char, 8> head{};
-    if (!m_Bytes.Holds(offset, head.size()))
-    {
-      Refuse("truncated: " + std::to_string(m_Bytes.Size()) + " bytes without the IEND chunk that ends a PNG file");
-    }
-    m_Bytes.Read(offset, head.data(), head.size());
-    const PngChunk chunk{ std::string(head.begin() + 4, head.end()), offset + 8, BigEndian(head.data()) };
-    if (!std::all_of(head.begin() + 4, head.end(), [](unsigned char c) { return c < 128 && std::isalpha(c) != 0; }))
-    {
-      Refuse("damaged: no chunk of PNG at byte " + std::to_string(offset) + "; expected a name of four letters there");
-    }
-    if (!m_Bytes.Holds(chunk.data, chunk.length + 4))
-    {
-      Refuse("truncated: its chunk " + chunk.type + " of " + std::to_string(chunk.length) + " bytes from byte " +
-             std::to_string(chunk.data) + " on does not end in the file of " + std::to_string(m_Bytes.Size()) +
-             " bytes");
-    }
-    return chunk;
-  }
-
+  /** Throws unless the chunk is at its place. */
   void
-  ReadChunk(const PngChunk & chunk)
+  CheckChunk(const PngChunk & chunk)
   {
     const bool isCritical = chunk.type[0] >= 'A' && chunk.type[0] <= 'Z';
     if ((chunk.type == "IHDR") == m_HasHeader)
@@ -171,9 +130,9 @@ private:
     m_HasHeader = true;
     const unsigned      depth = header[8];
     const unsigned      colour = header[9];
-    const std::uint64_t width = BigEndian(header.data());
-    const std::uint64_t height = BigEndian(header.data() + 4);
-    CheckChecksum(chunk); // before the header is believed
+    const std::uint64_t width = PngNumber(header.data());
+    const std::uint64_t height = PngNumber(header.data() + 4);
+    m_Chunks.Read(chunk); // before the header is believed
     if (colour != 0)
     {
       const std::uint64_t components = colour == 4 ? 2 : colour == 6 ? 4 : 3;
@@ -223,11 +182,15 @@ private:
     m_File.significantBits = bits < depth ? bits : 0;
   }
 
-  /** Reads the whole chunk; what is in an IDAT goes to the inflater. */
   void
-  CheckChecksum(const PngChunk & chunk)
+  ReadChunk(const PngChunk & chunk)
   {
-    if (chunk.type == "IDAT" && !m_Inflater)
+    if (chunk.type != "IDAT")
+    {
+      m_Chunks.Read(chunk);
+      return;
+    }
+    if (!m_Inflater)
     {
       m_Rows = std::make_unique<PngRows>(
         m_File.width, m_File.height, SizeOf(m_File.pixel), m_Interlaced, m_File.significantBits);
@@ -236,26 +199,8 @@ private:
           m_Rows->Add(bytes, count);
         });
     }
-    uLong sum = crc32(0, reinterpret_cast<const unsigned char *>(chunk.type.data()), 4);
-    for (std::uint64_t done = 0; done < chunk.length;)
-    {
-      const std::size_t count = static_cast<std::size_t>(std::min<std::uint64_t>(chunk.length - done, m_Buffer.size()));
-      m_Bytes.Read(chunk.data + done, m_Buffer.data(), count);
-      sum = crc32(sum, m_Buffer.data(), static_cast<uInt>(count));
-      if (chunk.type == "IDAT")
-      {
-        m_Inflater->Add(m_Buffer.data(), count);
-        m_PixelBytes += count;
-      }
-      done += count;
-    }
-    std::array<unsigned char, 4> stored{};
-    m_Bytes.Read(chunk.data + chunk.length, stored.data(), stored.size());
-    if (BigEndian(stored.data()) != sum)
-    {
-      Refuse("damaged: the checksum of its chunk " + chunk.type + " at byte " + std::to_string(chunk.data - 8) +
-             " is wrong");
-    }
+    m_Chunks.Read(chunk, [this](const unsigned char * bytes, std::size_t count) { m_Inflater->Add(bytes, count); });
+    m_PixelBytes += chunk.length;
   }
 
   void
@@ -284,17 +229,17 @@ private:
     }
   }
 
-  FileBytes &                m_Bytes;
-  FrameFile &                m_File;
-  const BeforeInflating &    m_BeforeInflating;
-  std::vector<unsigned char> m_Buffer;
-  bool                       m_HasHeader{ false };
-  bool                       m_Interlaced{ false };
-  bool                       m_HasSignificantBits{ false };
-  bool                       m_PixelsEnded{ false };
-  std::uint64_t              m_PixelBytes{ 0 };
-  std::unique_ptr<PngRows>   m_Rows;
-  std::unique_ptr<Inflater>  m_Inflater;
+  FileBytes &               m_Bytes;
+  PngChunks                 m_Chunks;
+  FrameFile &               m_File;
+  const BeforeInflating &   m_BeforeInflating;
+  bool                      m_HasHeader{ false };
+  bool                      m_Interlaced{ false };
+  bool                      m_HasSignificantBits{ false };
+  bool                      m_PixelsEnded{ false };
+  std::uint64_t             m_PixelBytes{ 0 };
+  std::unique_ptr<PngRows>  m_Rows;
+  std::unique_ptr<Inflater> m_Inflater;
 };
 } // namespace
 

@@ -29,6 +29,7 @@ namespace sensornoise
 namespace
 {
 constexpr std::uint64_t MaximumHeaderBytes = 4 << 20;
+constexpr std::size_t   MaximumHeaderLines = 100000;
 constexpr const char *  Blanks = " \t";
 
 bool
@@ -77,9 +78,11 @@ TextHeader::Next()
   {
     line.pop_back();
   }
-  if (m_Reader.Offset() > MaximumHeaderBytes)
+  if (m_Reader.Offset() > MaximumHeaderBytes || m_Line > MaximumHeaderLines)
   {
-    throw FileError(m_File, "its header does not end within 4 MiB; expected a MetaImage or NRRD file");
+    throw FileError(m_File,
+                    "its header has more than " + std::to_string(MaximumHeaderLines) +
+                      " lines, or more than 4 MiB; expected a MetaImage or NRRD file");
   }
   return line;
 }

@@ -30,11 +30,10 @@ namespace sensornoise
 {
 
 /** The lines at the head of a MetaImage or NRRD file. They are read as strictly as all readers of such files agree: a
- * line is not longer than a limit, and text without control characters. */
+ * line is not longer than a limit, and text without control characters; there are at most 100,000 lines, and 4 MiB. */
 class TextHeader
 {
 public:
-  /** Of the first \a maximumBytes of the file at most. */
   TextHeader(const std::string & file, FileBytes & bytes, std::size_t maximumLineBytes);
 
   /** The next line, without its end; nothing at the end of the file. Throws FileError. */

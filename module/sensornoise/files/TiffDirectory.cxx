@@ -80,10 +80,6 @@ TiffBytes::TiffBytes(const std::string & file, FileBytes & bytes)
 {
   std::array<unsigned char, 16> head{};
   bytes.Read(0, head.data(), 8);
-  if (!IsTiff(head.data(), 8))
-  {
-    throw FileError(file, "does not begin like a TIFF; expected II or MM, and 42 or 43");
-  }
   m_IsBigEndian = head[0] == 'M';
   m_IsBig = At(head.data() + 2, 2) == 43;
   m_First = At(head.data() + 4, 4);

@@ -60,7 +60,7 @@ SizeOfTiffType(unsigned type);
 class TiffBytes
 {
 public:
-  /** Throws FileError unless the file begins like a TIFF. */
+  /** Of a file that begins like a TIFF: IsTiff(). Throws FileError where it ends, or is damaged, right after that. */
   TiffBytes(const std::string & file, FileBytes & bytes);
 
   /** Whether the file begins like a TIFF, of any byte order and size. */

@@ -17,78 +17,16 @@
  *=========================================================================*/
 #include "sensornoise/files/TiffPage.h"
 
-#include "sensornoise/files/FileError.h"
 #include "sensornoise/files/FrameSizes.h"
+#include "sensornoise/files/TiffTags.h"
 
 #include <algorithm>
 #include <cstddef>
-#include <optional>
 
 namespace sensornoise
 {
 namespace
 {
-/** The tags of one directory. */
-class TiffTags
-{
-public:
-  TiffTags(const std::string & page, TiffBytes & tiff, const TiffDirectory & directory)
-    : m_Page(page)
-    , m_Tiff(tiff)
-    , m_Directory(directory)
-  {}
-
-  bool
-  Has(unsigned tag) const
-  {
-    return m_Directory.Find(tag) != nullptr;
-  }
-
-  std::uint64_t
-  Number(unsigned tag, const char * name, std::uint64_t otherwise) const
-  {
-    return m_Tiff.Number(m_Page, m_Directory, tag, name).value_or(otherwise);
-  }
-
-  std::uint64_t
-  Required(unsigned tag, const char * name) const
-  {
-    const std::optional<std::uint64_t> number = m_Tiff.Number(m_Page, m_Directory, tag, name);
-    if (!number)
-    {
-      Refuse("damaged: has no tag " + std::to_string(tag) + " (" + name + "); expected one");
-    }
-    return *number;
-  }
-
-  [[noreturn]] void
-  Refuse(const std::string & what) const
-  {
-    throw FileError(m_Page, what);
-  }
-
-private:
-  const std::string &   m_Page;
-  TiffBytes &           m_Tiff;
-  const TiffDirectory & m_Directory;
-};
-
-void
-RequireTagsOnce(const TiffTags & tags, const TiffDirectory & directory)
-{
-  std::vector<unsigned> numbers;
-  for (const TiffEntry & entry : directory.entries)
-  {
-    numbers.push_back(entry.tag);
-  }
-  std::sort(numbers.begin(), numbers.end());
-  const auto twice = std::adjacent_find(numbers.begin(), numbers.end());
-  if (twice != numbers.end())
-  {
-    tags.Refuse("damaged: its tag " + std::to_string(*twice) + " comes twice; expected each once");
-  }
-}
-
 void
 RequireGrey(const TiffTags & tags)
 {
@@ -223,22 +161,6 @@ ReadSubfileType(const TiffTags & tags, TiffPage & page)
   page.isFull = type == 0;
   page.isReduced = (type & 5) != 0 || oldType == 2;
 }
-
-/** One entry of strips, which has as many values as there are strips. */
-TiffEntry
-StripsOf(const TiffTags & tags, const TiffDirectory & directory, unsigned tag, const char * name, std::uint64_t strips)
-{
-  const TiffEntry * const entry = directory.Find(tag);
-  const bool              isNumbers = entry != nullptr && (entry->type == 3 || entry->type == 4 || entry->type == 16);
-  if (!isNumbers || entry->count != strips)
-  {
-    tags.Refuse("damaged: its tag " + std::to_string(tag) + " (" + name + ") has " +
-                std::to_string(entry == nullptr ? 0 : entry->count) + " values" +
-                (entry == nullptr || isNumbers ? "" : " of type " + std::to_string(entry->type)) + "; expected " +
-                std::to_string(strips) + ", one for each strip");
-  }
-  return *entry;
-}
 } // namespace
 
 std::string
@@ -254,7 +176,7 @@ TiffPage
 ReadTiffPage(const std::string & page, TiffBytes & tiff, const TiffDirectory & directory)
 {
   const TiffTags tags(page, tiff, directory);
-  RequireTagsOnce(tags, directory);
+  tags.RequireEachOnce();
   RequireGrey(tags);
   RequirePlainStrips(tags);
   TiffPage found;
@@ -281,8 +203,8 @@ ReadTiffPage(const std::string & page, TiffBytes & tiff, const TiffDirectory & d
   }
   found.rowsPerStrip = std::min(rows, found.height);
   const std::uint64_t strips = (found.height - 1) / found.rowsPerStrip + 1;
-  found.offsets = StripsOf(tags, directory, 273, "StripOffsets", strips);
-  found.byteCounts = StripsOf(tags, directory, 279, "StripByteCounts", strips);
+  found.offsets = tags.OfStrips(273, "StripOffsets", strips);
+  found.byteCounts = tags.OfStrips(279, "StripByteCounts", strips);
   return found;
 }
 
