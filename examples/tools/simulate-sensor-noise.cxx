@@ -19,9 +19,11 @@
 //   simulate-sensor-noise --output stack.mha --truth truth.json --reference target --camera B --condition 3
 
 #include "sensornoise/simulation/SimulationSettings.h"
-#include "input/ErrorText.h"
+#include "tools/ErrorSentence.h"
+#include "tools/FilesInUse.h"
 #include "tools/PendingFile.h"
 #include "tools/SimulateOptions.h"
+#include "tools/WriterErrors.h"
 #include "itkSensorNoiseChunks.h"
 #include "itkSensorNoiseSceneSource.h"
 #include "itkSensorNoiseStackSource.h"
@@ -45,9 +47,7 @@
 namespace
 {
 namespace fs = std::filesystem;
-using sensornoise::tools::PendingFile;
-using sensornoise::tools::SimulateOptions;
-using sensornoise::tools::TextOf;
+using namespace sensornoise::tools;
 using ReferenceType = itk::Image<double, 2>;
 using StackType = itk::Image<unsigned short, 3>;
 using SourceType = itk::SensorNoiseStackSource<StackType>;
@@ -84,12 +84,16 @@ ReadReference(const std::string & name)
   return reader->GetOutput();
 }
 
+bool
+IsScene(const std::string & reference)
+{
+  return reference == "target" || reference == "bars" || reference == "texture" || reference == "flat";
+}
+
 ReferenceType::Pointer
 MakeReference(const SimulateOptions & options)
 {
-  const bool isScene = options.reference == "target" || options.reference == "bars" || options.reference == "texture" ||
-                       options.reference == "flat";
-  if (!isScene)
+  if (!IsScene(options.reference))
   {
     if (!options.size.empty())
     {
@@ -167,8 +171,25 @@ WriteStack(SourceType & source, const PendingFile & file)
   writer->SetFileName(file.Temporary().string());
   writer->SetNumberOfStreamDivisions(
     static_cast<unsigned int>(1 + pixels * sizeof(StackType::PixelType) / itk::SensorNoiseChunkBytes));
-  writer->Update();
+  WriteNamed(file, [&] { writer->Update(); });
   file.RequireBytes(pixels * sizeof(StackType::PixelType)); // no format here compresses
+}
+
+/** To be called before anything is read. */
+void
+RequireOutputsApart(const SimulateOptions & options)
+{
+  FilesInUse files;
+  if (!IsScene(options.reference))
+  {
+    files.Read(options.reference, "the reference");
+  }
+  files.Write(options.output, "--output");
+  if (!options.truth.empty())
+  {
+    RequireReportName(options.truth, "--truth");
+    files.Write(options.truth, "--truth");
+  }
 }
 
 void
@@ -183,18 +204,17 @@ Run(const SimulateOptions & options)
     throw std::runtime_error("the output is " + options.output +
                              "; expected a name that ends in .mha, .nrrd, .tif or .tiff");
   }
-  if (!options.truth.empty() && fs::absolute(options.truth) == fs::absolute(options.output))
-  {
-    throw std::runtime_error("--output and --truth are the same file, " + options.output);
-  }
-  const auto source = MakeSource(options);
-  source->UpdateOutputInformation();
-
+  RequireOutputsApart(options);
   PendingFile                stack(options.output);
   std::optional<PendingFile> truth;
   if (!options.truth.empty())
   {
     truth.emplace(options.truth);
+  }
+  const auto source = MakeSource(options);
+  source->UpdateOutputInformation();
+  if (truth)
+  {
     truth->Write(TruthAsJson(options, *source).dump(1) + '\n');
   }
   WriteStack(*source, stack);
@@ -220,7 +240,7 @@ main(int argc, char * argv[])
   }
   catch (const std::exception & error)
   {
-    std::cerr << "simulate-sensor-noise: " << TextOf(error) << '\n';
+    std::cerr << "simulate-sensor-noise: " << SentenceOf(error) << '\n';
   }
   return 2;
 }
