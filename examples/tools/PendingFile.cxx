@@ -17,6 +17,8 @@
  *=========================================================================*/
 #include "tools/PendingFile.h"
 
+#include "sensornoise/base/FreeMemory.h"
+
 #include <array>
 #include <cerrno>
 #include <cstddef>
@@ -142,6 +144,18 @@ PendingFile::Write(const std::string & text) const
   if (file.Number() < 0 || !WriteAll(file.Number(), text.data(), text.size()) || !file.Close())
   {
     this->Fail(std::to_string(text.size()) + " bytes were not taken, " + SystemWords());
+  }
+}
+
+void
+PendingFile::RequireRoom(double bytes) const
+{
+  std::error_code      error;
+  const fs::space_info space = fs::space(m_Temporary.parent_path(), error);
+  if (!error && bytes > static_cast<double>(space.available))
+  {
+    this->Fail("it needs " + TextOfBytes(bytes) + ", but " + TextOfBytes(static_cast<double>(space.available)) +
+               " are free on the disk");
   }
 }
 

@@ -60,6 +60,11 @@ public:
   void
   Write(const std::string & text) const;
 
+  /** Throws std::runtime_error if the disk has no room for \a bytes. A double: a product of sizes may be beyond every
+   * integer. */
+  void
+  RequireRoom(double bytes) const;
+
   /** Throws std::runtime_error unless \a bytes, at least, have been written: some of ITK's writers do not look whether
    * the disk was full. */
   void

@@ -17,6 +17,7 @@
  *=========================================================================*/
 // Measures the noise of a camera from a burst of raw frames on files. See --help, and README.md.
 
+#include "sensornoise/base/FreeMemory.h"
 #include "sensornoise/report/Report.h"
 #include "sensornoise/report/ReportJson.h"
 #include "sensornoise/report/ReportTable.h"
@@ -60,6 +61,11 @@ void
 TellWhetherHeldInMemory(const FrameInput & input)
 {
   constexpr std::uint64_t gibibyte = std::uint64_t{ 1 } << 30;
+  if (!input.streams)
+  {
+    sensornoise::RequireMemory(static_cast<double>(input.bytes),
+                               input.files.front() + " cannot be read in parts: all of it");
+  }
   if (!input.streams && input.bytes > gibibyte)
   {
     std::cerr << "note: " << input.files.front() << " cannot be read in parts; all of its " << (input.bytes >> 20)

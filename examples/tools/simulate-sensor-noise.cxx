@@ -18,6 +18,7 @@
 // Simulates a burst of raw frames with known noise, and writes what an estimator should find beside it:
 //   simulate-sensor-noise --output stack.mha --truth truth.json --reference target --camera B --condition 3
 
+#include "sensornoise/base/FreeMemory.h"
 #include "sensornoise/simulation/SimulationSettings.h"
 #include "tools/ErrorSentence.h"
 #include "tools/FilesInUse.h"
@@ -82,6 +83,15 @@ ReadReference(const std::string & name)
   reader->SetFileName(name);
   reader->Update();
   return reader->GetOutput();
+}
+
+std::string
+LowerCaseExtension(const std::string & name)
+{
+  std::string extension = fs::path(name).extension().string();
+  std::transform(
+    extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  return extension;
 }
 
 bool
@@ -162,6 +172,20 @@ TruthAsJson(const SimulateOptions & options, const SourceType & source)
   return json;
 }
 
+/** Whether there is room for the stack on the disk, and in memory unless it is written in parts. */
+void
+RequireRoom(const SourceType & source, const PendingFile & file)
+{
+  const auto   size = source.GetOutput()->GetLargestPossibleRegion().GetSize();
+  const double bytes = sizeof(StackType::PixelType) * static_cast<double>(size[0]) * static_cast<double>(size[1]) *
+                       static_cast<double>(size[2]);
+  file.RequireRoom(bytes);
+  if (LowerCaseExtension(file.Target().name) != ".mha")
+  {
+    sensornoise::RequireMemory(bytes, "a stack that is not written in parts, as .mha is,");
+  }
+}
+
 void
 WriteStack(SourceType & source, const PendingFile & file)
 {
@@ -195,9 +219,7 @@ RequireOutputsApart(const SimulateOptions & options)
 void
 Run(const SimulateOptions & options)
 {
-  std::string extension = fs::path(options.output).extension().string();
-  std::transform(
-    extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string              extension = LowerCaseExtension(options.output);
   const std::vector<std::string> known{ ".mha", ".nrrd", ".tif", ".tiff" };
   if (std::find(known.begin(), known.end(), extension) == known.end())
   {
@@ -213,6 +235,7 @@ Run(const SimulateOptions & options)
   }
   const auto source = MakeSource(options);
   source->UpdateOutputInformation();
+  RequireRoom(*source, stack);
   if (truth)
   {
     truth->Write(TruthAsJson(options, *source).dump(1) + '\n');
