@@ -19,6 +19,7 @@
 
 #include "itkSensorNoiseImageIO.h"
 #include "itkSensorNoiseSilentTiff.h"
+#include "sensornoise/base/FreeMemory.h"
 #include "sensornoise/files/FileError.h"
 
 #include <algorithm>
@@ -52,6 +53,13 @@ RequireAlike(const FrameFile & found, const FrameFile & first)
                     "component type " + NameOf(found.pixel) + ", but " + first.name + " has " + NameOf(first.pixel) +
                       "; all frames must have the same component type");
   }
+}
+
+/** A stack that does not stream is held in memory. */
+void
+RequireMemoryFor(const FrameFile & stack)
+{
+  RequireMemory(static_cast<double>(stack.bytes), stack.name + " cannot be read in parts: all of it");
 }
 
 double
@@ -198,6 +206,10 @@ OpenFrames(const std::vector<std::string> & names, const BeforeInflating & befor
     };
     const FrameFile file = InspectFrameFile(name, [&](const FrameFile & known) {
       requireFitting(known);
+      if (known.frames > 1)
+      {
+        RequireMemoryFor(known); // ITK reads no compressed stack in parts
+      }
       if (beforeInflating)
       {
         beforeInflating(known);
@@ -213,6 +225,10 @@ OpenFrames(const std::vector<std::string> & names, const BeforeInflating & befor
       list.height = file.height;
       list.streams = !list.isStack || io->CanStreamRead();
       list.geometry = list.isStack ? GeometryOf(*io) : WithoutTime(GeometryOf(*io));
+      if (!list.streams)
+      {
+        RequireMemoryFor(file);
+      }
     }
     list.bytes += file.bytes;
     list.frames += file.frames;

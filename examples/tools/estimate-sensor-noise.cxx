@@ -20,8 +20,9 @@
 #include "sensornoise/report/Report.h"
 #include "sensornoise/report/ReportJson.h"
 #include "sensornoise/report/ReportTable.h"
-#include "tools/ErrorText.h"
+#include "tools/ErrorSentence.h"
 #include "tools/EstimateOptions.h"
+#include "tools/FilesInUse.h"
 #include "tools/MapFiles.h"
 #include "tools/PendingFile.h"
 #include "tools/StackEstimate.h"
@@ -31,12 +32,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <exception>
-#include <filesystem>
 #include <iostream>
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <system_error>
+#include <vector>
 
 namespace
 {
@@ -67,27 +67,66 @@ TellWhetherHeldInMemory(const sensornoise::FrameList & frames)
   }
 }
 
-/** The table, and JSON to the file or to standard output. */
+/** The report to its file first, which is there even if nobody takes the table; then the table, and JSON for standard
+ * output. */
 void
 WriteReport(const sensornoise::Report & report, const EstimateOptions & options, std::optional<PendingFile> & json)
 {
+  const std::string text = sensornoise::ToJson(report);
+  const bool        isFile = json && json->Target().kind == OutputTarget::Kind::File;
+  if (json)
+  {
+    json->Write(text);
+  }
+  if (isFile)
+  {
+    json->Commit();
+  }
   if (!options.quiet)
   {
     std::cout << MakeTable(report);
   }
-  const std::string text = sensornoise::ToJson(report);
-  if (json)
-  {
-    json->Write(text);
-    json->Commit();
-  }
-  else if (options.json == "-")
+  if (options.json == "-")
   {
     std::cout << text;
   }
   if (!std::cout.flush())
   {
     throw std::runtime_error("cannot write the result to standard output: it was not taken");
+  }
+  if (json && !isFile)
+  {
+    json->Commit();
+  }
+}
+
+/** To be called before anything is read, and when the folder of the maps is there. */
+void
+RequireOutputsApart(const EstimateOptions & options)
+{
+  FilesInUse files;
+  const auto read = [&files](const std::vector<std::string> & names, const char * role) {
+    for (const std::string & name : names)
+    {
+      files.Read(name, role);
+    }
+  };
+  read(options.files, "the frame");
+  read(options.dark, "the dark frame");
+  if (!options.mask.empty())
+  {
+    files.Read(options.mask, "the mask");
+  }
+  if (options.HasReportFile())
+  {
+    files.Write(options.json, "--json");
+  }
+  if (!options.maps.empty())
+  {
+    for (const std::string & map : MapFiles::NamesIn(options.maps, !options.dark.empty()))
+    {
+      files.Write(map, "--maps");
+    }
   }
 }
 
@@ -116,22 +155,21 @@ int
 Run(EstimateOptions & options)
 {
   SetThreads(options.threads);
-  options.SelectFiles();
-  const sensornoise::FrameList frames = sensornoise::OpenFrames(options.files);
-
   // whether they can be written is found before the work begins
   std::optional<PendingFile> json;
-  if (!options.json.empty() && options.json != "-")
+  if (options.HasReportFile())
   {
+    RequireReportName(options.json, "--json");
     json.emplace(options.json);
   }
   std::optional<MapFiles> maps;
   if (!options.maps.empty())
   {
-    std::error_code ignored;
-    std::filesystem::create_directories(options.maps, ignored);
-    maps.emplace(options.maps);
+    maps.emplace(options.maps, !options.dark.empty());
   }
+  RequireOutputsApart(options);
+  options.SelectFiles();
+  const sensornoise::FrameList frames = sensornoise::OpenFrames(options.files);
   TellWhetherHeldInMemory(frames);
 
   const sensornoise::Report report = EstimateStack(options, frames, maps ? &*maps : nullptr);
@@ -155,7 +193,7 @@ main(int argc, char * argv[])
   }
   catch (const std::exception & error)
   {
-    std::cerr << "error: " << TextOf(error) << '\n';
+    std::cerr << "error: " << SentenceOf(error) << '\n';
   }
   return ExitWrongUse;
 }

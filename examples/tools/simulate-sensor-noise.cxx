@@ -18,12 +18,15 @@
 // Simulates a burst of raw frames with known noise, and writes what an estimator should find beside it:
 //   simulate-sensor-noise --output stack.mha --truth truth.json --reference target --camera B --condition 3
 
+#include "sensornoise/base/FreeMemory.h"
 #include "sensornoise/simulation/SimulationSettings.h"
 #include "sensornoise/files/FileError.h"
-#include "tools/ErrorText.h"
+#include "tools/ErrorSentence.h"
+#include "tools/FilesInUse.h"
 #include "tools/ImageOnFile.h"
 #include "tools/PendingFile.h"
 #include "tools/SimulateOptions.h"
+#include "tools/WriterErrors.h"
 #include "itkSensorNoiseChunks.h"
 #include "itkSensorNoiseFrameFiles.h"
 #include "itkSensorNoiseSceneSource.h"
@@ -46,9 +49,7 @@
 namespace
 {
 namespace fs = std::filesystem;
-using sensornoise::tools::PendingFile;
-using sensornoise::tools::SimulateOptions;
-using sensornoise::tools::TextOf;
+using namespace sensornoise::tools;
 using ReferenceType = itk::Image<double, 2>;
 using StackType = itk::Image<unsigned short, 3>;
 using SourceType = itk::SensorNoiseStackSource<StackType>;
@@ -68,7 +69,7 @@ ReadReference(const std::string & name)
     {
       throw sensornoise::FileError(name, "has " + std::to_string(list.frames) + " frames; expected one image");
     }
-    return sensornoise::tools::ReadImage(list);
+    return ReadImage(list);
   }
   catch (const sensornoise::FileError & error)
   {
@@ -76,12 +77,25 @@ ReadReference(const std::string & name)
   }
 }
 
+std::string
+LowerCaseExtension(const std::string & name)
+{
+  std::string extension = fs::path(name).extension().string();
+  std::transform(
+    extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  return extension;
+}
+
+bool
+IsScene(const std::string & reference)
+{
+  return reference == "target" || reference == "bars" || reference == "texture" || reference == "flat";
+}
+
 ReferenceType::Pointer
 MakeReference(const SimulateOptions & options)
 {
-  const bool isScene = options.reference == "target" || options.reference == "bars" || options.reference == "texture" ||
-                       options.reference == "flat";
-  if (!isScene)
+  if (!IsScene(options.reference))
   {
     if (!options.size.empty())
     {
@@ -150,6 +164,20 @@ TruthAsJson(const SimulateOptions & options, const SourceType & source)
   return json;
 }
 
+/** Whether there is room for the stack on the disk, and in memory unless it is written in parts. */
+void
+RequireRoom(const SourceType & source, const PendingFile & file)
+{
+  const auto   size = source.GetOutput()->GetLargestPossibleRegion().GetSize();
+  const double bytes = sizeof(StackType::PixelType) * static_cast<double>(size[0]) * static_cast<double>(size[1]) *
+                       static_cast<double>(size[2]);
+  file.RequireRoom(bytes);
+  if (LowerCaseExtension(file.Target().name) != ".mha")
+  {
+    sensornoise::RequireMemory(bytes, "a stack that is not written in parts, as .mha is,");
+  }
+}
+
 void
 WriteStack(SourceType & source, const PendingFile & file)
 {
@@ -159,34 +187,49 @@ WriteStack(SourceType & source, const PendingFile & file)
   writer->SetFileName(file.Temporary().string());
   writer->SetNumberOfStreamDivisions(
     static_cast<unsigned int>(1 + pixels * sizeof(StackType::PixelType) / itk::SensorNoiseChunkBytes));
-  writer->Update();
+  WriteNamed(file, [&] { writer->Update(); });
   file.RequireBytes(pixels * sizeof(StackType::PixelType)); // no format here compresses
+}
+
+/** To be called before anything is read. */
+void
+RequireOutputsApart(const SimulateOptions & options)
+{
+  FilesInUse files;
+  if (!IsScene(options.reference))
+  {
+    files.Read(options.reference, "the reference");
+  }
+  files.Write(options.output, "--output");
+  if (!options.truth.empty())
+  {
+    RequireReportName(options.truth, "--truth");
+    files.Write(options.truth, "--truth");
+  }
 }
 
 void
 Run(const SimulateOptions & options)
 {
-  std::string extension = fs::path(options.output).extension().string();
-  std::transform(
-    extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string              extension = LowerCaseExtension(options.output);
   const std::vector<std::string> known{ ".mha", ".nrrd", ".tif", ".tiff" };
   if (std::find(known.begin(), known.end(), extension) == known.end())
   {
     throw std::runtime_error("the output is " + options.output +
                              "; expected a name that ends in .mha, .nrrd, .tif or .tiff");
   }
-  if (!options.truth.empty() && fs::absolute(options.truth) == fs::absolute(options.output))
-  {
-    throw std::runtime_error("--output and --truth are the same file, " + options.output);
-  }
-  const auto source = MakeSource(options);
-  source->UpdateOutputInformation();
-
+  RequireOutputsApart(options);
   PendingFile                stack(options.output);
   std::optional<PendingFile> truth;
   if (!options.truth.empty())
   {
     truth.emplace(options.truth);
+  }
+  const auto source = MakeSource(options);
+  source->UpdateOutputInformation();
+  RequireRoom(*source, stack);
+  if (truth)
+  {
     truth->Write(TruthAsJson(options, *source).dump(1) + '\n');
   }
   WriteStack(*source, stack);
@@ -212,7 +255,7 @@ main(int argc, char * argv[])
   }
   catch (const std::exception & error)
   {
-    std::cerr << "simulate-sensor-noise: " << TextOf(error) << '\n';
+    std::cerr << "simulate-sensor-noise: " << SentenceOf(error) << '\n';
   }
   return 2;
 }

@@ -317,6 +317,14 @@ TEST_F(SensorNoiseFrameListSource, AFileThatIsNotAsTheFirstIsRefusedBeforeItIsIn
   EXPECT_EQ(asked, (std::vector<std::string>{ first, first }));
 }
 
+TEST_F(SensorNoiseFrameListSource, AStackThatCannotBeHeldIsRefusedBeforeItIsRead)
+{
+  const std::string header = "NDims = 3\nDimSize = 1000000 1000000 1000000\nElementType = MET_USHORT\n"
+                             "CompressedData = True\nCompressedDataSize = 8\nElementDataFile = LOCAL\n";
+  OpeningIsRefusedWith({ WriteText("huge.mha", header + "xxxxxxxx") },
+                       { "huge.mha cannot be read in parts", "needs 2e+09 GB of memory", "are free" });
+}
+
 TEST_F(SensorNoiseFrameListSource, WithoutFilesItSaysWhatIsExpected)
 {
   const auto source = SourceType::New();

@@ -279,7 +279,7 @@ TEST_F(SimulateTool, WrongUseIsRefusedInOneSentenceAndLeavesNothing)
   ExpectRefusal("--output s.png", "expected a name that ends in .mha");
   ExpectRefusal("--output nowhere/s.mha", "there is no folder nowhere");
   ExpectRefusal("--output s.mha --truth nowhere/t.json --size 32x32", "there is no folder nowhere");
-  ExpectRefusal("--output s.mha --truth s.mha", "the same file");
+  ExpectRefusal("--output s.mha --truth s.mha", "the ending of an image");
   ExpectRefusal("--output s.mha --size 512", "expected WIDTHxHEIGHT");
   ExpectRefusal("--output s.mha --size 20x20", "needs at least 32 x 32");
   ExpectRefusal("--output s.mha --camera D", "expected A, B or C");

@@ -123,7 +123,7 @@ def test_all_nan_is_a_report_that_says_so():
         ({"reference": np.ones((20, 30)), "size": (9, 9)}, "size is (9, 9), but a reference that is an array"),
         ({"dtype": "int64"}, "dtype is int64; expected uint8"),
         ({"dtype": "moon"}, "dtype is 'moon'; expected uint8"),
-        ({"gain": 0}, "the simulation is not possible: the gain is 0.000000; expected a finite number above 0"),
+        ({"gain": 0}, "the simulation is not possible: the gain is 0; expected a number above 0, at most 1e9"),
     ],
 )
 def test_wrong_simulation_is_refused(parameters, expected):

@@ -26,8 +26,8 @@ from . import _options
 from ._arrays import as_mask
 from ._errors import itk_errors
 from ._frames import Stack, crop, frame_image, is_name, open_frames
-from ._maps import maps_folder, write_maps
-from ._progress import shown_progress
+from ._maps import maps_folder, require_apart, write_maps
+from ._progress import at_work
 from ._report import Report
 from ._source import read_image
 
@@ -115,6 +115,8 @@ def estimate_sensor_noise(
 
     Raises
     ------
+    KeyboardInterrupt
+        Ctrl-C, within the time that a chunk of 64 MiB takes; the next call starts afresh.
     ValueError
         Wrong use; says what was found and what was expected.
     RuntimeError
@@ -127,6 +129,8 @@ def estimate_sensor_noise(
     levels = None if level_range is None else _level_range(level_range, method)
     span = None if frame_range is None else _frame_range(frame_range)
     folder = None if maps is None else maps_folder(maps)
+    if folder is not None:
+        require_apart(folder, frames=frames, dark=dark, mask=mask)
     stack = open_frames(frames, span)
     corner, size = _region(stack, roi, None if _is_cut(frames) else span)
     mask_array = None if mask is None else _mask_of(mask, stack.size[:2])
@@ -151,7 +155,7 @@ def estimate_sensor_noise(
         count = _options.integer("threads", threads, 1, 1024)
         estimator.GetMultiThreader().SetMaximumNumberOfThreads(count)
         estimator.SetNumberOfWorkUnits(count)
-    with shown_progress(estimator, progress), itk_errors():
+    with at_work(estimator, progress), itk_errors():
         estimator.Update()
     if folder is not None:
         write_maps(estimator, folder)
