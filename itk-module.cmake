@@ -8,6 +8,8 @@ itk_module(SensorNoise
   DEPENDS
     ITKCommon
     ITKEigen3
+    ITKIOImageBase
+    ITKZLIB
   TEST_DEPENDS
     ITKTestKernel
     ITKGoogleTest

@@ -18,12 +18,13 @@ endif()
 
 # The whole of the distribution's ITK wants the development files of every library that it was built with;
 # these modules are all that the filters, the tools and the tests use.
-set(_modules ITKCommon ITKEigen3)
+set(_modules ITKCommon ITKEigen3 ITKIOImageBase)
 if(SensorNoise_BUILD_EXAMPLES OR BUILD_TESTING)
   list(APPEND _modules ITKImageIO ITKImageFilterBase ITKImageGrid ITKImageStatistics ITKTestKernel)
 endif()
 find_package(ITK 5.2.1 REQUIRED COMPONENTS ${_modules})
 include(${ITK_USE_FILE})
+find_package(ZLIB REQUIRED) # the same as ITK's: the module ITKZLIB of an installed ITK may stand for the system's
 
 add_subdirectory(module)
 # The files of a room are compiled together, six at a time to spare memory: half of the time to compile them one by one goes

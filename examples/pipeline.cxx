@@ -24,8 +24,8 @@
 
 #include "sensornoise/report/Report.h"
 #include "itkFlickerCorrectionImageFilter.h"
-#include "itkImageFileReader.h"
 #include "itkNoiseRegressionEstimator.h"
+#include "itkSensorNoiseFrameListSource.h"
 #include "itkTemporalStatisticsImageFilter.h"
 #include "itkVibrationMaskImageFilter.h"
 
@@ -37,16 +37,16 @@
 int
 main(int argc, char * argv[])
 {
-  if (argc != 2)
+  if (argc < 2)
   {
-    std::cerr << "usage: " << argv[0] << " STACK.mha   (a stack of 16-bit frames, time along the last axis)\n";
+    std::cerr << "usage: " << argv[0] << " STACK.mha   or   FRAME.tif ...   (16-bit frames in time order)\n";
     return 2;
   }
   try
   {
     using StackType = itk::Image<unsigned short, 3>;
-    auto reader = itk::ImageFileReader<StackType>::New();
-    reader->SetFileName(argv[1]);
+    auto reader = itk::SensorNoiseFrameListSource<StackType>::New();
+    reader->SetFileNames({ argv + 1, argv + argc });
 
     auto statistics = itk::TemporalStatisticsImageFilter<StackType>::New();
     statistics->SetInput(reader->GetOutput());

@@ -7,7 +7,7 @@ sensornoise_packages=(g++ cmake ninja-build python3 libinsighttoolkit5-dev libgd
 sensornoise_install() {
   local missing=()
   if ! command -v dpkg-query >/dev/null; then
-    echo "not a Debian system: expecting ITK >= 5.2.1, CLI11, nlohmann-json, libtiff, zlib, GoogleTest and Google Benchmark" >&2
+    echo "not a Debian system: expecting ITK >= 5.2.1, CLI11, nlohmann-json, zlib, GoogleTest and Google Benchmark" >&2
     return
   fi
   for package in "${sensornoise_packages[@]}"; do

@@ -205,6 +205,8 @@ protected:
   void
   EndPass(unsigned int pass) override;
   void
+  DropPasses() override;
+  void
   PrintSelf(std::ostream & os, Indent indent) const override;
 
 private:

@@ -212,6 +212,13 @@ NoiseCorrelationEstimator<TStack>::EndPass(unsigned int pass)
 
 template <typename TStack>
 void
+NoiseCorrelationEstimator<TStack>::DropPasses()
+{
+  m_Measurement.reset();
+}
+
+template <typename TStack>
+void
 NoiseCorrelationEstimator<TStack>::PrintSelf(std::ostream & os, Indent indent) const
 {
   Superclass::PrintSelf(os, indent);

@@ -21,6 +21,7 @@
 #include "itkSensorNoiseDarkSink.h"
 #include "itkSensorNoiseErrors.h"
 #include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/FreeMemory.h"
 #include "sensornoise/base/RollingShutter.h"
 #include "sensornoise/moments/Codes.h"
 #include "sensornoise/moments/DarkMaps.h"
@@ -141,6 +142,14 @@ template <typename TStack>
 void
 SensorNoiseEstimator<TStack>::VerifyInputInformation() const
 {
+  const auto   region = this->GetInput()->GetLargestPossibleRegion();
+  const double pixels = static_cast<double>(region.GetSize(0)) * static_cast<double>(region.GetSize(1));
+  const double bytesPerPixel = m_Method == MethodEnum::Refined ? 130.0 : 50.0; // measured, the least of all stacks
+  WithItkErrors(this, [&] {
+    sensornoise::RequireMemory(bytesPerPixel * pixels,
+                               "the estimate of frames of " + std::to_string(region.GetSize(0)) + " x " +
+                                 std::to_string(region.GetSize(1)) + " pixels");
+  });
   const MaskImageType * mask = this->GetMask();
   if (mask != nullptr && mask->GetLargestPossibleRegion() != this->GetFrameRegion())
   {
@@ -268,6 +277,11 @@ SensorNoiseEstimator<TStack>::MakeRefinedSettings(const std::vector<std::uint8_t
     sink->SetNumberOfStreamDivisions(this->GetNumberOfStreamDivisions());
     sink->SetNumberOfWorkUnits(this->GetNumberOfWorkUnits());
     sink->SetUsedPixels(mask);
+    auto * const reading = sink.GetPointer();
+    sink->AddObserver(ProgressEvent(), [this, reading](const EventObject &) {
+      this->InvokeEvent(ProgressEvent());
+      reading->SetAbortGenerateData(this->GetAbortGenerateData());
+    });
     sink->Update();
     settings.offset = sink->Measure(settings.codes);
   }
@@ -322,6 +336,13 @@ SensorNoiseEstimator<TStack>::EndPass(unsigned int pass)
     this->FillOutputs();
     m_Estimation.reset();
   }
+}
+
+template <typename TStack>
+void
+SensorNoiseEstimator<TStack>::DropPasses()
+{
+  m_Estimation.reset();
 }
 
 template <typename TStack>

@@ -93,7 +93,7 @@ protected:
   void
   GenerateData() override
   {
-    const std::vector<double> scene = WithItkErrors<std::invalid_argument>(this, [this] {
+    const std::vector<double> scene = WithItkErrors(this, [this] {
       return m_Scene == "target"    ? sensornoise::MakeTargetScene(m_Width, m_Height)
              : m_Scene == "bars"    ? sensornoise::MakeBarsScene(m_Width, m_Height)
              : m_Scene == "texture" ? sensornoise::MakeTextureScene(m_Width, m_Height)

@@ -23,7 +23,9 @@
 #include "itkImage.h"
 #include "itkImageSink.h"
 
+#include <chrono>
 #include <ostream>
+#include <thread>
 
 namespace itk
 {
@@ -35,7 +37,9 @@ namespace itk
  * memory already, else as many as keep a chunk under 64 MiB. Readers that cannot stream (NRRD, multi-page TIFF) give
  * the whole stack each time; still only the chunk asked for is handed on.
  *
- * An error, or an abort, resets the pipeline: the next Update() starts afresh, never from a partial result.
+ * An error, or an abort, resets the pipeline: the next Update() starts afresh, never from a partial result. An abort
+ * takes effect within the time of a chunk, also if the stack is in memory, and between the passes: observers of
+ * progress are asked before each piece of work, at most every 50 ms.
  *
  * A subclass implements NumberOfPasses(), StartPasses(), ProcessFrames() and EndPass().
  *
@@ -109,8 +113,12 @@ protected:
   /** Called after the last frame of a pass. */
   virtual void
   EndPass(unsigned int pass) = 0;
+  /** Called after an error or an abort: gives back the memory of the passes. */
+  virtual void
+  DropPasses()
+  {}
 
-  /** Spreads work over this filter's threads. */
+  /** Spreads work over this filter's threads. Throws ProcessAborted, before that, if an abort was asked for. */
   sensornoise::ParallelFor
   GetParallelFor();
 
@@ -149,10 +157,16 @@ protected:
 private:
   unsigned int
   ChooseNumberOfChunks() const;
+  /** Asks the observers of progress, unless they were asked a moment ago, and throws ProcessAborted if an abort is
+   * asked for. Does nothing on another thread than that of Update(). */
+  void
+  TakeBreath();
 
-  unsigned int    m_NumberOfStreamDivisions{ 0 };
-  unsigned int    m_Chunks{ 1 };
-  StackRegionType m_Chunk;
+  unsigned int                          m_NumberOfStreamDivisions{ 0 };
+  unsigned int                          m_Chunks{ 1 };
+  StackRegionType                       m_Chunk;
+  std::thread::id                       m_Thread; // of Update()
+  std::chrono::steady_clock::time_point m_LastBreath{};
 };
 
 // Instantiated once, in the library.

@@ -23,9 +23,11 @@
 #include "sensornoise/base/Parallel.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <ostream>
+#include <thread>
 
 namespace itk
 {
@@ -52,7 +54,15 @@ template <typename TStack>
 void
 SensorNoiseStackSink<TStack>::UpdateOutputData(DataObject * output)
 {
-  ResetAfterError(this, [&] { WithItkErrors(this, [&] { Superclass::UpdateOutputData(output); }); });
+  try
+  {
+    ResetAfterError(this, [&] { WithItkErrors(this, [&] { Superclass::UpdateOutputData(output); }); });
+  }
+  catch (...)
+  {
+    this->DropPasses();
+    throw;
+  }
 }
 
 template <typename TStack>
@@ -60,9 +70,33 @@ sensornoise::ParallelFor
 SensorNoiseStackSink<TStack>::GetParallelFor()
 {
   return [this](std::size_t count, const std::function<void(std::size_t)> & function) {
+    this->TakeBreath();
     this->GetMultiThreader()->SetNumberOfWorkUnits(this->GetNumberOfWorkUnits());
     this->GetMultiThreader()->ParallelizeArray(0, count, [&function](SizeValueType i) { function(i); }, nullptr);
   };
+}
+
+template <typename TStack>
+void
+SensorNoiseStackSink<TStack>::TakeBreath()
+{
+  if (std::this_thread::get_id() != m_Thread)
+  {
+    return;
+  }
+  const auto now = std::chrono::steady_clock::now();
+  if (now - m_LastBreath >= std::chrono::milliseconds(50))
+  {
+    m_LastBreath = now;
+    this->InvokeEvent(ProgressEvent());
+  }
+  if (this->GetAbortGenerateData())
+  {
+    ProcessAborted aborted(__FILE__, __LINE__);
+    aborted.SetLocation(ITK_LOCATION);
+    aborted.SetDescription("aborted before all frames were read");
+    throw aborted;
+  }
 }
 
 template <typename TStack>
@@ -133,6 +167,7 @@ void
 SensorNoiseStackSink<TStack>::BeforeStreamedGenerateData()
 {
   m_Chunks = this->ChooseNumberOfChunks();
+  m_Thread = std::this_thread::get_id();
   Superclass::BeforeStreamedGenerateData();
   this->StartPasses();
 }
@@ -167,8 +202,18 @@ SensorNoiseStackSink<TStack>::StreamedGenerateData(unsigned int number)
   const unsigned int  pass = number / m_Chunks;
   const SizeValueType first =
     static_cast<SizeValueType>(m_Chunk.GetIndex(2) - stack->GetLargestPossibleRegion().GetIndex(2));
-  this->ProcessFrames(
-    pass, stack->GetBufferPointer() + stack->ComputeOffset(m_Chunk.GetIndex()), first, m_Chunk.GetSize(2));
+  const SizeValueType framePixels = this->GetFrameRegion().GetNumberOfPixels();
+  const SizeValueType count = m_Chunk.GetSize(2);
+  const SizeValueType atOnce = SensorNoiseFramesPerChunk(framePixels * sizeof(PixelType)); // of a stack in memory
+  const PixelType *   frames = stack->GetBufferPointer() + stack->ComputeOffset(m_Chunk.GetIndex());
+  for (SizeValueType begin = 0; begin < count; begin += atOnce)
+  {
+    this->TakeBreath();
+    this->ProcessFrames(pass, frames + begin * framePixels, first + begin, std::min(atOnce, count - begin));
+    const auto done = static_cast<float>(std::min(begin + atOnce, count)) / static_cast<float>(count);
+    this->UpdateProgress((static_cast<float>(number) + 0.99F * done) /
+                         static_cast<float>(this->GetNumberOfInputRequestedRegions()));
+  }
   if (number % m_Chunks + 1 == m_Chunks)
   {
     this->EndPass(pass);
@@ -179,13 +224,7 @@ template <typename TStack>
 void
 SensorNoiseStackSink<TStack>::AfterStreamedGenerateData()
 {
-  if (this->GetAbortGenerateData())
-  {
-    ProcessAborted aborted(__FILE__, __LINE__);
-    aborted.SetLocation(ITK_LOCATION);
-    aborted.SetDescription("aborted before all frames were read");
-    throw aborted;
-  }
+  this->TakeBreath();
   Superclass::AfterStreamedGenerateData();
 }
 

@@ -19,6 +19,7 @@
 #define itkSensorNoiseStackSource_hxx
 
 #include "itkSensorNoiseErrors.h"
+#include "sensornoise/base/FreeMemory.h"
 #include "sensornoise/moments/Codes.h"
 #include "sensornoise/simulation/SimulationTruth.h"
 #include "sensornoise/simulation/SimulationSettings.h"
@@ -40,6 +41,9 @@ namespace itk
 
 namespace
 {
+/** What a simulation holds at least, measured: of every pixel, and its series of every frame. */
+constexpr double       BytesPerPixel = 24.0;
+constexpr double       BytesPerFrame = 40.0;
 constexpr const char * Impossible = "the simulation is not possible: ";
 } // namespace
 
@@ -163,10 +167,15 @@ SensorNoiseStackSource<TOutputStack>::GenerateOutputInformation()
   OutputStackType *          stack = this->GetOutput();
   const auto                 frame = reference->GetLargestPossibleRegion();
 
-  m_Truth = WithItkErrors<std::invalid_argument>(
+  m_Truth = WithItkErrors(
     this,
     [&] {
       const sensornoise::SimulationSettings settings = this->MakeSettings();
+      const double                          pixels = static_cast<double>(frame.GetNumberOfPixels());
+      sensornoise::RequireMemory(BytesPerPixel * pixels + BytesPerFrame * static_cast<double>(settings.frames),
+                                 "the simulation of " + std::to_string(settings.frames) + " frames of " +
+                                   std::to_string(frame.GetSize(0)) + " x " + std::to_string(frame.GetSize(1)) +
+                                   " pixels");
       sensornoise::SimulationTruth truth = sensornoise::DrawTruth(settings, frame.GetSize(0), frame.GetSize(1));
       sensornoise::StackSimulator::CodeRange<OutputPixelType>(settings);
       return truth;

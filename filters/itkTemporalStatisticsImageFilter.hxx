@@ -125,6 +125,13 @@ TemporalStatisticsImageFilter<TStack>::EndPass(unsigned int)
 
 template <typename TStack>
 void
+TemporalStatisticsImageFilter<TStack>::DropPasses()
+{
+  m_Moments = sensornoise::TemporalMoments<PixelType>();
+}
+
+template <typename TStack>
+void
 TemporalStatisticsImageFilter<TStack>::PrintSelf(std::ostream & os, Indent indent) const
 {
   Superclass::PrintSelf(os, indent);

@@ -30,6 +30,7 @@ flags=(-DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=OFF -DCMAKE_POSITION_INDEP
   -DBUILD_EXAMPLES=OFF -DITK_WRAP_PYTHON=ON -DITK_USE_SYSTEM_CASTXML=ON -DITK_USE_SYSTEM_SWIG=ON
   -DITK_BUILD_DEFAULT_MODULES=OFF -DITKGroup_Core=OFF -DModule_ITKMesh=ON -DModule_ITKImageFilterBase=ON
   -DModule_ITKStatistics=ON -DModule_ITKImageCompose=ON -DModule_ITKBridgeNumPy=ON -DModule_ITKEigen3=ON
+  -DModule_ITKIOImageBase=ON -DModule_ITKZLIB=ON
   # As the wheel: once a filter of the wheel has run, TBB threads everyone, and without it every filter of ours throws.
   -DModule_ITKTBB=ON
   # The wheel's pixel types.
@@ -37,7 +38,7 @@ flags=(-DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=OFF -DCMAKE_POSITION_INDEP
   -DITK_WRAP_float=ON -DITK_WRAP_double=ON -DITK_WRAP_rgb_unsigned_char=OFF -DITK_WRAP_rgba_unsigned_char=OFF
   -DITK_WRAP_complex_float=OFF)
 key="$( (echo "$version"; "${CXX:-c++}" --version; "$swig" -version; castxml --version; "$python" --version
-  echo "${flags[@]}" ${CFLAGS:+"$CFLAGS"} ${CXXFLAGS:+"$CXXFLAGS"}) | sha256sum | cut -c1-16)"
+  echo "${flags[@]} file-prefix-map" ${CFLAGS:+"$CFLAGS"} ${CXXFLAGS:+"$CXXFLAGS"}) | sha256sum | cut -c1-16)"
 tree="$cache/itk-$version-$key"
 
 stop() { echo "build-itk.sh: $*" >&2; exit 2; }
@@ -155,6 +156,8 @@ if [ ! -e "$tree/ready" ] || [ ! -d "$(configured_source)" ]; then
   [ "$(configured_source)" = "$source_folder" ] || rm -rf "$tree"
   echo "building ITK $version's libraries and interface files in $tree" >&2
   # Other programs' standard output goes to standard error: this one's is the build tree.
+  # An error names the file of the source that it comes from: not where that stood on this machine.
+  export CXXFLAGS="${CXXFLAGS:+$CXXFLAGS }-ffile-prefix-map=$source_folder=ITK"
   {
     "$venv/bin/cmake" -G Ninja -S "$source_folder" -B "$tree" "${flags[@]}" -DSWIG_EXECUTABLE="$swig" \
       -DPython3_EXECUTABLE="$python" -DCMAKE_MAKE_PROGRAM="$venv/bin/ninja"

@@ -47,11 +47,16 @@ if [ "$(cat "$view/of" 2>/dev/null)" != "$itk" ]; then
   echo "$itk" >"$view/of"
 fi
 
+# An error names the file of the source that it comes from: not where that stood on this machine.
+source_folder="$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "$itk/CMakeCache.txt")"
+maps="-ffile-prefix-map=$here=ITKSensorNoise -ffile-prefix-map=$source_folder=ITK -ffile-prefix-map=$itk=ITK"
+
 echo "building the wheel" >&2
 rm -rf "$work/raw" "$work/dist"
 CMAKE_GENERATOR=Ninja "$venv/bin/pip" -q --disable-pip-version-check wheel "$here" --no-deps --no-build-isolation \
   --wheel-dir "$work/raw" -C build-dir="$work/module" -C cmake.define.ITK_DIR="$view" \
-  -C cmake.define.SWIG_EXECUTABLE="$venv/bin/swig" -C cmake.define.Python3_EXECUTABLE="$venv/bin/python3" >&2
+  -C cmake.define.SWIG_EXECUTABLE="$venv/bin/swig" -C cmake.define.Python3_EXECUTABLE="$venv/bin/python3" \
+  -C cmake.define.CMAKE_CXX_FLAGS="${CXXFLAGS:+$CXXFLAGS }$maps" >&2
 
 # Brings libtbb into the wheel and gives it the tag of the oldest C library that it runs with.
 "$venv/bin/auditwheel" repair --wheel-dir "$work/dist" "$work"/raw/*.whl >&2

@@ -51,10 +51,11 @@ def measure(names: list[str]) -> tuple[dict[str, Any], list[int]]:
 
     Returns a report with gain, offset, read noise and intercept, and the number of frames of each read, in order.
     """
-    pixel = itk.template(itk.imread(names[0]))[1][0]
+    # A source has one pixel type; any will do to ask which one the files have.
+    component = itk.SensorNoiseFrameListSource[itk.Image[itk.US, 3]].ReadComponentType(names)
+    pixel = itk.ctype(itk.ImageIOBase.GetComponentTypeAsString(component).replace("_", " "))
     stack = itk.Image[pixel, 3]
-    reader = itk.ImageSeriesReader[stack].New(file_names=names)
-    reader.MetaDataDictionaryArrayUpdateOff()  # else the first chunk opens every file
+    reader = itk.SensorNoiseFrameListSource[stack].New(file_names=names)
 
     # A filter of ITK's own between reader and chain, which hands the image on and notes what was asked for.
     monitor = itk.PipelineMonitorImageFilter[stack].New(reader.GetOutput())

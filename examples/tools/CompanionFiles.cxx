@@ -17,12 +17,11 @@
  *=========================================================================*/
 #include "tools/CompanionFiles.h"
 
-#include "input/ErrorText.h"
-#include "input/FrameHeader.h"
-#include "input/InputError.h"
-#include "itkImageFileReader.h"
+#include "sensornoise/files/FileError.h"
+#include "tools/ImageOnFile.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -30,51 +29,44 @@ namespace sensornoise::tools
 {
 
 itk::Image<unsigned char, 2>::Pointer
-ReadMask(const std::string & file, const FrameInput & input)
+ReadMask(const std::string & file, const FrameList & frames)
+try
 {
-  const FrameInput header = OpenFrames({ file });
-  if (header.isStack)
+  const FrameList list = OpenFrames({ file });
+  if (list.isStack)
   {
-    throw InputError("the mask " + file + " has " + std::to_string(header.frames) + " frames; expected one image");
+    throw FileError(file, "has " + std::to_string(list.frames) + " frames; expected one image");
   }
-  if (header.width != input.width || header.height != input.height)
+  if (list.width != frames.width || list.height != frames.height)
   {
-    throw InputError("the mask " + file + " has " + std::to_string(header.width) + " x " +
-                     std::to_string(header.height) + " pixels, but the frames have " + std::to_string(input.width) +
-                     " x " + std::to_string(input.height));
+    throw FileError(file,
+                    "has " + std::to_string(list.width) + " x " + std::to_string(list.height) +
+                      " pixels, but the frames have " + std::to_string(frames.width) + " x " +
+                      std::to_string(frames.height));
   }
-  // Nonzero means use, whatever the type: a double holds them all.
-  auto reader = itk::ImageFileReader<itk::Image<double, 2>>::New();
-  reader->SetFileName(file);
-  try
-  {
-    reader->Update();
-  }
-  catch (const itk::ExceptionObject & error)
-  {
-    throw InputError("the mask " + PixelErrorOf(file, error));
-  }
-  auto mask = itk::Image<unsigned char, 2>::New();
-  mask->SetRegions(reader->GetOutput()->GetLargestPossibleRegion());
+  const itk::Image<double, 2>::Pointer image = ReadImage(list);
+  auto                                 mask = itk::Image<unsigned char, 2>::New();
+  mask->SetRegions(image->GetLargestPossibleRegion());
   mask->Allocate();
-  const double * values = reader->GetOutput()->GetBufferPointer();
-  std::transform(values, values + input.width * input.height, mask->GetBufferPointer(), [](double value) {
+  const double * values = image->GetBufferPointer();
+  std::transform(values, values + list.width * list.height, mask->GetBufferPointer(), [](double value) {
     return value != 0.0 ? 1 : 0;
   });
   return mask;
 }
-
-FrameInput
-OpenDark(const std::vector<std::string> & files, const FrameInput & input)
+catch (const FileError & error)
 {
-  const auto describe = [](const FrameInput & frames) {
-    return SizeOf(frames.width, frames.height) + " pixels of type " + NameOf(frames.component);
-  };
-  FrameInput dark = OpenFrames(files);
-  if (describe(dark) != describe(input))
+  throw std::runtime_error(std::string("the mask ") + error.what());
+}
+
+FrameList
+OpenDark(const std::vector<std::string> & files, const FrameList & frames)
+{
+  FrameList dark = OpenFrames(files);
+  if (DescribeFrame(dark) != DescribeFrame(frames))
   {
-    throw InputError("the dark frames have " + describe(dark) + " (" + files.front() + "), but the frames have " +
-                     describe(input));
+    throw std::runtime_error("the dark frames have " + DescribeFrame(dark) + " (" + files.front() +
+                             "), but the frames have " + DescribeFrame(frames));
   }
   return dark;
 }

@@ -18,8 +18,7 @@
 #ifndef CompanionFiles_h
 #define CompanionFiles_h
 
-#include "input/FrameInput.h"
-
+#include "itkSensorNoiseFrameFiles.h"
 #include "itkImage.h"
 
 #include <string>
@@ -28,13 +27,13 @@
 namespace sensornoise::tools
 {
 
-/** Reads a mask: 1 where the file, of any type but of the size of the frames, is not 0. Throws InputError. */
+/** Reads a mask: 1 where the file, of any type but of the size of the frames, is not 0. Throws std::runtime_error. */
 itk::Image<unsigned char, 2>::Pointer
-ReadMask(const std::string & file, const FrameInput & input);
+ReadMask(const std::string & file, const FrameList & frames);
 
-/** Opens the headers of dark frames, which must have the size and type of the others. Throws InputError. */
-FrameInput
-OpenDark(const std::vector<std::string> & files, const FrameInput & input);
+/** Opens the headers of dark frames, which must have the size and type of the others. Throws std::runtime_error. */
+FrameList
+OpenDark(const std::vector<std::string> & files, const FrameList & frames);
 
 } // namespace sensornoise::tools
 

@@ -19,12 +19,12 @@
 
 #include "sensornoise/base/RollingShutter.h"
 #include "sensornoise/report/Version.h"
-#include "input/InputError.h"
 
 #include <CLI/CLI.hpp>
 #include <cstddef>
 #include <optional>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -253,8 +253,8 @@ EstimateOptions::SelectFiles()
   }
   if (frames->second > files.size())
   {
-    throw InputError("--frames ends at " + std::to_string(frames->second) + ", but there are " +
-                     std::to_string(files.size()) + " files");
+    throw std::invalid_argument("--frames ends at " + std::to_string(frames->second) + ", but there are " +
+                                std::to_string(files.size()) + " files");
   }
   files = { files.begin() + static_cast<std::ptrdiff_t>(frames->first),
             files.begin() + static_cast<std::ptrdiff_t>(frames->second) };

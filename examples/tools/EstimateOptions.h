@@ -64,6 +64,13 @@ struct EstimateOptions
   void
   SelectFiles();
 
+  /** Whether the report goes to a file, not to standard output or nowhere. */
+  bool
+  HasReportFile() const
+  {
+    return !json.empty() && json != "-";
+  }
+
   /** What --roi and --frames ask for. */
   std::string
   DescribeRegion() const;

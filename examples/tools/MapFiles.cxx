@@ -17,16 +17,22 @@
  *=========================================================================*/
 #include "tools/MapFiles.h"
 
+#include "tools/WriterErrors.h"
 #include "itkImageFileWriter.h"
 
-#include <array>
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
+#include <string>
+#include <system_error>
+#include <vector>
 
 namespace sensornoise::tools
 {
 namespace
 {
+namespace fs = std::filesystem;
+
 template <typename TImage>
 void
 WriteMap(const TImage * image, const PendingFile & file)
@@ -34,31 +40,68 @@ WriteMap(const TImage * image, const PendingFile & file)
   auto writer = itk::ImageFileWriter<TImage>::New();
   writer->SetInput(image);
   writer->SetFileName(file.Temporary().string());
-  writer->Update();
+  WriteNamed(file, [&] { writer->Update(); });
   file.RequireBytes(image->GetLargestPossibleRegion().GetNumberOfPixels() * sizeof(typename TImage::PixelType));
 }
 } // namespace
 
-MapFiles::MapFiles(const std::filesystem::path & folder)
-  : m_Mean(folder / "mean.mha")
-  , m_Variance(folder / "variance.mha")
-  , m_CorrectedVariance(folder / "corrected_variance.mha")
-  , m_PixelUse(folder / "pixel_use.mha")
-  , m_Calibration{ PendingFile(folder / "pixel_offset.mha"),         PendingFile(folder / "pixel_offset_low.mha"),
-                   PendingFile(folder / "pixel_offset_high.mha"),    PendingFile(folder / "pixel_read_noise.mha"),
-                   PendingFile(folder / "pixel_read_noise_low.mha"), PendingFile(folder / "pixel_read_noise_high.mha") }
-{}
+std::vector<std::string>
+MapFiles::NamesIn(const fs::path & folder, bool hasDark)
+{
+  std::vector<std::string> names;
+  for (const char * map : { "mean", "variance", "corrected_variance", "pixel_use" })
+  {
+    names.push_back((folder / map).string() + ".mha");
+  }
+  for (const char * map : { "pixel_offset", "pixel_read_noise" })
+  {
+    for (const char * end : { "", "_low", "_high" })
+    {
+      if (hasDark)
+      {
+        names.push_back((folder / map).string() + end + ".mha");
+      }
+    }
+  }
+  return names;
+}
+
+MapFiles::MapFiles(const fs::path & folder, bool hasDark)
+{
+  std::error_code error;
+  for (fs::path path = folder; !path.empty() && !fs::exists(path, error); path = path.parent_path())
+  {
+    m_Made.insert(m_Made.begin(), path);
+  }
+  for (const fs::path & path : m_Made)
+  {
+    m_AtSignal.emplace_back(fs::absolute(path, error).string());
+    fs::create_directory(path, error);
+  }
+  for (const std::string & name : NamesIn(folder, hasDark))
+  {
+    m_Files.emplace_back(name);
+  }
+}
+
+MapFiles::~MapFiles()
+{
+  m_Files.clear();
+  for (auto path = m_Made.rbegin(); path != m_Made.rend(); ++path)
+  {
+    std::error_code stays; // where it holds a file
+    fs::remove(*path, stays);
+  }
+}
 
 void
 MapFiles::WriteCalibration(const IntervalMap & offset, const IntervalMap & readNoise)
 {
-  const std::array<const MapType *, 6> maps{ offset.value,    offset.low,    offset.high,
-                                             readNoise.value, readNoise.low, readNoise.high };
-  for (std::size_t i = 0; i < maps.size(); ++i)
+  m_Written = 4;
+  for (const MapType * map : { offset.value, offset.low, offset.high, readNoise.value, readNoise.low, readNoise.high })
   {
-    WriteMap(maps[i], m_Calibration[i]);
+    WriteMap(map, m_Files.at(m_Written++));
   }
-  m_HasCalibration = true;
 }
 
 void
@@ -67,20 +110,14 @@ MapFiles::Write(const MapType *      mean,
                 const MapType *      correctedVariance,
                 const PixelUseType * pixelUse)
 {
-  WriteMap(mean, m_Mean);
-  WriteMap(variance, m_Variance);
-  WriteMap(correctedVariance, m_CorrectedVariance);
-  WriteMap(pixelUse, m_PixelUse);
-  for (PendingFile * file : { &m_Mean, &m_Variance, &m_CorrectedVariance, &m_PixelUse })
+  WriteMap(mean, m_Files[0]);
+  WriteMap(variance, m_Files[1]);
+  WriteMap(correctedVariance, m_Files[2]);
+  WriteMap(pixelUse, m_Files[3]);
+  m_Written = std::max<std::size_t>(m_Written, 4);
+  for (std::size_t i = 0; i < m_Written; ++i)
   {
-    file->Commit();
-  }
-  if (m_HasCalibration)
-  {
-    for (PendingFile & file : m_Calibration)
-    {
-      file.Commit();
-    }
+    m_Files[i].Commit();
   }
 }
 

@@ -19,11 +19,15 @@
 #define MapFiles_h
 
 #include "tools/PendingFile.h"
+#include "tools/SignalCleanup.h"
 
 #include "itkImage.h"
 
-#include <array>
+#include <cstddef>
+#include <deque>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace sensornoise::tools
 {
@@ -43,7 +47,13 @@ public:
     const MapType * high;
   };
 
-  explicit MapFiles(const std::filesystem::path & folder);
+  /** The files that there will be; \a hasDark: those of the calibration, too. */
+  static std::vector<std::string>
+  NamesIn(const std::filesystem::path & folder, bool hasDark);
+
+  /** Makes the folder, if there is none; it goes again if nothing is written. */
+  MapFiles(const std::filesystem::path & folder, bool hasDark);
+  ~MapFiles();
 
   void
   Write(const MapType *      mean,
@@ -57,12 +67,10 @@ public:
   WriteCalibration(const IntervalMap & offset, const IntervalMap & readNoise);
 
 private:
-  PendingFile                m_Mean;
-  PendingFile                m_Variance;
-  PendingFile                m_CorrectedVariance;
-  PendingFile                m_PixelUse;
-  std::array<PendingFile, 6> m_Calibration; // offset, its low and high end, read noise, its low and high end
-  bool                       m_HasCalibration{ false };
+  std::vector<std::filesystem::path> m_Made; // folders, the outermost first
+  std::deque<SignalCleanup>          m_AtSignal;
+  std::deque<PendingFile>            m_Files; // in the order of NamesIn()
+  std::size_t                        m_Written{ 0 };
 };
 
 } // namespace sensornoise::tools

@@ -17,18 +17,17 @@
  *=========================================================================*/
 #include "tools/StackEstimate.h"
 
-#include "input/FrameInput.h"
-#include "input/FrameReader.h"
-#include "input/InputError.h"
 #include "tools/CompanionFiles.h"
 #include "tools/EstimateOptions.h"
 #include "tools/MapFiles.h"
 #include "itkCommand.h"
 #include "itkExtractImageFilter.h"
 #include "itkSensorNoiseEstimator.h"
+#include "itkSensorNoiseFrameListSource.h"
 
 #include <cstddef>
 #include <cstdio>
+#include <stdexcept>
 #include <string>
 #include <unistd.h>
 
@@ -71,7 +70,7 @@ Crop(TImage * image, const typename TImage::RegionType & region)
 
 /** The part of the stack that --roi and --frames ask for. */
 itk::ImageRegion<3>
-SelectRegion(const EstimateOptions & options, const FrameInput & input, const itk::ImageRegion<3> & whole)
+SelectRegion(const EstimateOptions & options, const FrameList & list, const itk::ImageRegion<3> & whole)
 {
   itk::ImageRegion<3> region = whole;
   if (options.roi)
@@ -82,25 +81,25 @@ SelectRegion(const EstimateOptions & options, const FrameInput & input, const it
       region.SetSize(d, static_cast<itk::SizeValueType>((*options.roi)[d + 2]));
     }
   }
-  if (input.isStack && options.frames)
+  if (list.isStack && options.frames)
   {
     region.SetIndex(2, static_cast<itk::IndexValueType>(options.frames->first));
     region.SetSize(2, options.frames->second - options.frames->first);
   }
   if (!whole.IsInside(region))
   {
-    throw InputError("--roi and --frames ask for " + options.DescribeRegion() + ", but the stack has " +
-                     std::to_string(input.width) + " x " + std::to_string(input.height) + " pixels and " +
-                     std::to_string(input.frames) + " frames");
+    throw std::invalid_argument("--roi and --frames ask for " + options.DescribeRegion() + ", but the stack has " +
+                                std::to_string(list.width) + " x " + std::to_string(list.height) + " pixels and " +
+                                std::to_string(list.frames) + " frames");
   }
   return region;
 }
 
 /** The mask of the pixels that lie in the region. */
 MaskType::Pointer
-SelectMask(const std::string & file, const FrameInput & input, const itk::ImageRegion<3> & region)
+SelectMask(const std::string & file, const FrameList & list, const itk::ImageRegion<3> & region)
 {
-  const MaskType::Pointer mask = ReadMask(file, input);
+  const MaskType::Pointer mask = ReadMask(file, list);
   MaskType::RegionType    frame = mask->GetLargestPossibleRegion();
   for (unsigned int d = 0; d < 2; ++d)
   {
@@ -112,16 +111,25 @@ SelectMask(const std::string & file, const FrameInput & input, const itk::ImageR
   return crop->GetOutput();
 }
 
+template <typename TStack>
+typename itk::SensorNoiseFrameListSource<TStack>::Pointer
+MakeReader(const FrameList & list)
+{
+  auto reader = itk::SensorNoiseFrameListSource<TStack>::New();
+  reader->SetFrameList(list);
+  return reader;
+}
+
 template <typename TPixel>
 Report
-Estimate(const EstimateOptions & options, const FrameInput & input, MapFiles * maps)
+Estimate(const EstimateOptions & options, const FrameList & list, MapFiles * maps)
 {
   using StackType = itk::Image<TPixel, 3>;
-  const auto reader = MakeReader<TPixel>(input);
+  const auto reader = MakeReader<StackType>(list);
   reader->UpdateOutputInformation();
   StackType * const         stack = reader->GetOutput();
   const itk::ImageRegion<3> whole = stack->GetLargestPossibleRegion();
-  const itk::ImageRegion<3> region = SelectRegion(options, input, whole);
+  const itk::ImageRegion<3> region = SelectRegion(options, list, whole);
   const auto                crop = Crop<StackType>(stack, region);
 
   const auto estimator = itk::SensorNoiseEstimator<StackType>::New();
@@ -129,14 +137,14 @@ Estimate(const EstimateOptions & options, const FrameInput & input, MapFiles * m
   options.ApplyTo(*estimator);
   if (!options.mask.empty())
   {
-    estimator->SetMask(SelectMask(options.mask, input, region));
+    estimator->SetMask(SelectMask(options.mask, list, region));
   }
   // an image does not keep alive the filter that makes it
-  typename itk::ImageSource<StackType>::Pointer                   darkReader;
+  typename itk::SensorNoiseFrameListSource<StackType>::Pointer    darkReader;
   typename itk::ExtractImageFilter<StackType, StackType>::Pointer darkCrop;
   if (!options.dark.empty())
   {
-    darkReader = MakeReader<TPixel>(OpenDark(options.dark, input));
+    darkReader = MakeReader<StackType>(OpenDark(options.dark, list));
     darkReader->UpdateOutputInformation();
     itk::ImageRegion<3> dark = region;
     dark.SetIndex(2, 0);
@@ -165,20 +173,20 @@ Estimate(const EstimateOptions & options, const FrameInput & input, MapFiles * m
 } // namespace
 
 Report
-EstimateStack(const EstimateOptions & options, const FrameInput & input, MapFiles * maps)
+EstimateStack(const EstimateOptions & options, const FrameList & list, MapFiles * maps)
 {
-  switch (input.component)
+  switch (list.pixel)
   {
-    case itk::IOComponentEnum::UCHAR:
-      return Estimate<unsigned char>(options, input, maps);
-    case itk::IOComponentEnum::USHORT:
-      return Estimate<unsigned short>(options, input, maps);
-    case itk::IOComponentEnum::SHORT:
-      return Estimate<short>(options, input, maps);
-    case itk::IOComponentEnum::FLOAT:
-      return Estimate<float>(options, input, maps);
+    case FramePixel::UnsignedChar:
+      return Estimate<unsigned char>(options, list, maps);
+    case FramePixel::UnsignedShort:
+      return Estimate<unsigned short>(options, list, maps);
+    case FramePixel::Short:
+      return Estimate<short>(options, list, maps);
+    case FramePixel::Float:
+      return Estimate<float>(options, list, maps);
     default:
-      return Estimate<double>(options, input, maps);
+      return Estimate<double>(options, list, maps);
   }
 }
 

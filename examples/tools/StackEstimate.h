@@ -20,15 +20,19 @@
 
 #include "sensornoise/report/Report.h"
 
+namespace sensornoise
+{
+struct FrameList;
+}
+
 namespace sensornoise::tools
 {
 class MapFiles;
 struct EstimateOptions;
-struct FrameInput;
 
 /** Reads the frames, in parts, and measures what the options select of them. Writes the maps unless \a maps is null. */
 Report
-EstimateStack(const EstimateOptions & options, const FrameInput & input, MapFiles * maps);
+EstimateStack(const EstimateOptions & options, const FrameList & frames, MapFiles * maps);
 
 } // namespace sensornoise::tools
 

@@ -20,23 +20,23 @@
 #include "sensornoise/report/Report.h"
 #include "sensornoise/report/ReportJson.h"
 #include "sensornoise/report/ReportTable.h"
-#include "input/ErrorText.h"
-#include "input/FrameInput.h"
+#include "tools/ErrorSentence.h"
 #include "tools/EstimateOptions.h"
+#include "tools/FilesInUse.h"
 #include "tools/MapFiles.h"
 #include "tools/PendingFile.h"
 #include "tools/StackEstimate.h"
+#include "itkSensorNoiseFrameFiles.h"
 #include "itkMultiThreaderBase.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <exception>
-#include <filesystem>
 #include <iostream>
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <system_error>
+#include <vector>
 
 namespace
 {
@@ -57,37 +57,76 @@ SetThreads(unsigned int threads)
 }
 
 void
-TellWhetherHeldInMemory(const FrameInput & input)
+TellWhetherHeldInMemory(const sensornoise::FrameList & frames)
 {
   constexpr std::uint64_t gibibyte = std::uint64_t{ 1 } << 30;
-  if (!input.streams && input.bytes > gibibyte)
+  if (!frames.streams && frames.bytes > gibibyte)
   {
-    std::cerr << "note: " << input.files.front() << " cannot be read in parts; all of its " << (input.bytes >> 20)
-              << " MiB are held in memory (a .mha file, or a list of files, would not be)\n";
+    std::cerr << "note: " << frames.files.front().name << " cannot be read in parts; all of its "
+              << (frames.bytes >> 20) << " MiB are held in memory (a .mha file, or a list of files, would not be)\n";
   }
 }
 
-/** The table, and JSON to the file or to standard output. */
+/** The report to its file first, which is there even if nobody takes the table; then the table, and JSON for standard
+ * output. */
 void
 WriteReport(const sensornoise::Report & report, const EstimateOptions & options, std::optional<PendingFile> & json)
 {
+  const std::string text = sensornoise::ToJson(report);
+  const bool        isFile = json && json->Target().kind == OutputTarget::Kind::File;
+  if (json)
+  {
+    json->Write(text);
+  }
+  if (isFile)
+  {
+    json->Commit();
+  }
   if (!options.quiet)
   {
     std::cout << MakeTable(report);
   }
-  const std::string text = sensornoise::ToJson(report);
-  if (json)
-  {
-    json->Write(text);
-    json->Commit();
-  }
-  else if (options.json == "-")
+  if (options.json == "-")
   {
     std::cout << text;
   }
   if (!std::cout.flush())
   {
     throw std::runtime_error("cannot write the result to standard output: it was not taken");
+  }
+  if (json && !isFile)
+  {
+    json->Commit();
+  }
+}
+
+/** To be called before anything is read, and when the folder of the maps is there. */
+void
+RequireOutputsApart(const EstimateOptions & options)
+{
+  FilesInUse files;
+  const auto read = [&files](const std::vector<std::string> & names, const char * role) {
+    for (const std::string & name : names)
+    {
+      files.Read(name, role);
+    }
+  };
+  read(options.files, "the frame");
+  read(options.dark, "the dark frame");
+  if (!options.mask.empty())
+  {
+    files.Read(options.mask, "the mask");
+  }
+  if (options.HasReportFile())
+  {
+    files.Write(options.json, "--json");
+  }
+  if (!options.maps.empty())
+  {
+    for (const std::string & map : MapFiles::NamesIn(options.maps, !options.dark.empty()))
+    {
+      files.Write(map, "--maps");
+    }
   }
 }
 
@@ -116,25 +155,24 @@ int
 Run(EstimateOptions & options)
 {
   SetThreads(options.threads);
-  options.SelectFiles();
-  const FrameInput input = OpenFrames(options.files);
-
   // whether they can be written is found before the work begins
   std::optional<PendingFile> json;
-  if (!options.json.empty() && options.json != "-")
+  if (options.HasReportFile())
   {
+    RequireReportName(options.json, "--json");
     json.emplace(options.json);
   }
   std::optional<MapFiles> maps;
   if (!options.maps.empty())
   {
-    std::error_code ignored;
-    std::filesystem::create_directories(options.maps, ignored);
-    maps.emplace(options.maps);
+    maps.emplace(options.maps, !options.dark.empty());
   }
-  TellWhetherHeldInMemory(input);
+  RequireOutputsApart(options);
+  options.SelectFiles();
+  const sensornoise::FrameList frames = sensornoise::OpenFrames(options.files);
+  TellWhetherHeldInMemory(frames);
 
-  const sensornoise::Report report = EstimateStack(options, input, maps ? &*maps : nullptr);
+  const sensornoise::Report report = EstimateStack(options, frames, maps ? &*maps : nullptr);
   WriteReport(report, options, json);
   TellWarnings(report);
   return report.IsUsable() ? ExitDone : ExitNothingEstimated;
@@ -155,7 +193,7 @@ main(int argc, char * argv[])
   }
   catch (const std::exception & error)
   {
-    std::cerr << "error: " << TextOf(error) << '\n';
+    std::cerr << "error: " << SentenceOf(error) << '\n';
   }
   return ExitWrongUse;
 }

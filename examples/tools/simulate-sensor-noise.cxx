@@ -18,16 +18,20 @@
 // Simulates a burst of raw frames with known noise, and writes what an estimator should find beside it:
 //   simulate-sensor-noise --output stack.mha --truth truth.json --reference target --camera B --condition 3
 
+#include "sensornoise/base/FreeMemory.h"
 #include "sensornoise/simulation/SimulationSettings.h"
-#include "input/ErrorText.h"
+#include "sensornoise/files/FileError.h"
+#include "tools/ErrorSentence.h"
+#include "tools/FilesInUse.h"
+#include "tools/ImageOnFile.h"
 #include "tools/PendingFile.h"
 #include "tools/SimulateOptions.h"
+#include "tools/WriterErrors.h"
 #include "itkSensorNoiseChunks.h"
+#include "itkSensorNoiseFrameFiles.h"
 #include "itkSensorNoiseSceneSource.h"
 #include "itkSensorNoiseStackSource.h"
-#include "itkImageFileReader.h"
 #include "itkImageFileWriter.h"
-#include "itkImageIOFactory.h"
 
 #include <algorithm>
 #include <cctype>
@@ -45,51 +49,53 @@
 namespace
 {
 namespace fs = std::filesystem;
-using sensornoise::tools::PendingFile;
-using sensornoise::tools::SimulateOptions;
-using sensornoise::tools::TextOf;
+using namespace sensornoise::tools;
 using ReferenceType = itk::Image<double, 2>;
 using StackType = itk::Image<unsigned short, 3>;
 using SourceType = itk::SensorNoiseStackSource<StackType>;
 
-/** ITK's readers turn colour into grey and take the first slice of a volume without a word; the header tells. */
+/** A scene on a file: one image, checked as frames are. */
 ReferenceType::Pointer
 ReadReference(const std::string & name)
 {
-  if (!fs::is_regular_file(name))
+  if (!fs::exists(name))
   {
     throw std::runtime_error("the reference " + name + " is neither target, bars, texture or flat nor a file");
   }
-  const auto io = itk::ImageIOFactory::CreateImageIO(name.c_str(), itk::ImageIOFactory::IOFileModeEnum::ReadMode);
-  if (!io)
+  try
   {
-    throw std::runtime_error("the reference " + name + " is not an image of a format that ITK reads");
+    const sensornoise::FrameList list = sensornoise::OpenFrames({ name });
+    if (list.isStack)
+    {
+      throw sensornoise::FileError(name, "has " + std::to_string(list.frames) + " frames; expected one image");
+    }
+    return ReadImage(list);
   }
-  io->SetFileName(name);
-  io->ReadImageInformation();
-  bool isFlat = true;
-  for (unsigned int axis = 2; axis < io->GetNumberOfDimensions(); ++axis)
+  catch (const sensornoise::FileError & error)
   {
-    isFlat = isFlat && io->GetDimensions(axis) == 1;
+    throw std::runtime_error(std::string("the reference ") + error.what());
   }
-  if (io->GetNumberOfComponents() != 1 || !isFlat)
-  {
-    throw std::runtime_error("the reference " + name + " has " + std::to_string(io->GetNumberOfComponents()) +
-                             " components and " + std::to_string(io->GetNumberOfDimensions()) +
-                             " dimensions; expected one grey image");
-  }
-  const auto reader = itk::ImageFileReader<ReferenceType>::New();
-  reader->SetFileName(name);
-  reader->Update();
-  return reader->GetOutput();
+}
+
+std::string
+LowerCaseExtension(const std::string & name)
+{
+  std::string extension = fs::path(name).extension().string();
+  std::transform(
+    extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  return extension;
+}
+
+bool
+IsScene(const std::string & reference)
+{
+  return reference == "target" || reference == "bars" || reference == "texture" || reference == "flat";
 }
 
 ReferenceType::Pointer
 MakeReference(const SimulateOptions & options)
 {
-  const bool isScene = options.reference == "target" || options.reference == "bars" || options.reference == "texture" ||
-                       options.reference == "flat";
-  if (!isScene)
+  if (!IsScene(options.reference))
   {
     if (!options.size.empty())
     {
@@ -158,6 +164,20 @@ TruthAsJson(const SimulateOptions & options, const SourceType & source)
   return json;
 }
 
+/** Whether there is room for the stack on the disk, and in memory unless it is written in parts. */
+void
+RequireRoom(const SourceType & source, const PendingFile & file)
+{
+  const auto   size = source.GetOutput()->GetLargestPossibleRegion().GetSize();
+  const double bytes = sizeof(StackType::PixelType) * static_cast<double>(size[0]) * static_cast<double>(size[1]) *
+                       static_cast<double>(size[2]);
+  file.RequireRoom(bytes);
+  if (LowerCaseExtension(file.Target().name) != ".mha")
+  {
+    sensornoise::RequireMemory(bytes, "a stack that is not written in parts, as .mha is,");
+  }
+}
+
 void
 WriteStack(SourceType & source, const PendingFile & file)
 {
@@ -167,34 +187,49 @@ WriteStack(SourceType & source, const PendingFile & file)
   writer->SetFileName(file.Temporary().string());
   writer->SetNumberOfStreamDivisions(
     static_cast<unsigned int>(1 + pixels * sizeof(StackType::PixelType) / itk::SensorNoiseChunkBytes));
-  writer->Update();
+  WriteNamed(file, [&] { writer->Update(); });
   file.RequireBytes(pixels * sizeof(StackType::PixelType)); // no format here compresses
+}
+
+/** To be called before anything is read. */
+void
+RequireOutputsApart(const SimulateOptions & options)
+{
+  FilesInUse files;
+  if (!IsScene(options.reference))
+  {
+    files.Read(options.reference, "the reference");
+  }
+  files.Write(options.output, "--output");
+  if (!options.truth.empty())
+  {
+    RequireReportName(options.truth, "--truth");
+    files.Write(options.truth, "--truth");
+  }
 }
 
 void
 Run(const SimulateOptions & options)
 {
-  std::string extension = fs::path(options.output).extension().string();
-  std::transform(
-    extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string              extension = LowerCaseExtension(options.output);
   const std::vector<std::string> known{ ".mha", ".nrrd", ".tif", ".tiff" };
   if (std::find(known.begin(), known.end(), extension) == known.end())
   {
     throw std::runtime_error("the output is " + options.output +
                              "; expected a name that ends in .mha, .nrrd, .tif or .tiff");
   }
-  if (!options.truth.empty() && fs::absolute(options.truth) == fs::absolute(options.output))
-  {
-    throw std::runtime_error("--output and --truth are the same file, " + options.output);
-  }
-  const auto source = MakeSource(options);
-  source->UpdateOutputInformation();
-
+  RequireOutputsApart(options);
   PendingFile                stack(options.output);
   std::optional<PendingFile> truth;
   if (!options.truth.empty())
   {
     truth.emplace(options.truth);
+  }
+  const auto source = MakeSource(options);
+  source->UpdateOutputInformation();
+  RequireRoom(*source, stack);
+  if (truth)
+  {
     truth->Write(TruthAsJson(options, *source).dump(1) + '\n');
   }
   WriteStack(*source, stack);
@@ -220,7 +255,7 @@ main(int argc, char * argv[])
   }
   catch (const std::exception & error)
   {
-    std::cerr << "simulate-sensor-noise: " << TextOf(error) << '\n';
+    std::cerr << "simulate-sensor-noise: " << SentenceOf(error) << '\n';
   }
   return 2;
 }

@@ -254,3 +254,30 @@ TEST(TemporalStatisticsImageFilterPipeline, AbortThrowsAndTheNextUpdateIsRight)
   expected->Update();
   ExpectTheSameStatistics(filter, expected, "after an abort");
 }
+
+TEST(TemporalStatisticsImageFilterPipeline, AStackInMemoryIsAbortedWithinTheTimeOfAChunkToo)
+{
+  using LongStack = itk::Image<unsigned char, 3>;
+  const auto stack = LongStack::New();
+  stack->SetRegions(LongStack::SizeType{ { 1024, 1024, 160 } }); // 2.5 chunks of 64 MiB
+  stack->Allocate();
+  stack->FillBuffer(7);
+  const auto filter = itk::TemporalStatisticsImageFilter<LongStack>::New();
+  filter->SetInput(stack);
+  std::vector<float> progress;
+  const auto         observer = filter->AddObserver(
+    itk::ProgressEvent(), [&](const itk::EventObject &) { progress.push_back(filter->GetProgress()); });
+  filter->Update();
+  EXPECT_GE(std::count_if(progress.begin(), progress.end(), [](float p) { return p > 0.1F && p < 0.9F; }), 2);
+  EXPECT_TRUE(std::is_sorted(progress.begin(), progress.end()));
+  filter->RemoveObserver(observer);
+
+  float reached = 0.0F;
+  filter->AddObserver(itk::ProgressEvent(), [&](const itk::EventObject &) {
+    reached = filter->GetProgress();
+    filter->SetAbortGenerateData(reached > 0.1F);
+  });
+  filter->Modified();
+  EXPECT_THROW(filter->Update(), itk::ProcessAborted);
+  EXPECT_LT(reached, 0.5F);
+}

@@ -214,3 +214,51 @@ TEST(SensorNoiseKnownOffset, OffsetThatIsNoNumberIsRefused)
     EXPECT_THROW(settings.Validate(), std::invalid_argument);
   }
 }
+
+TEST(KnownOffset, ThatIsFarOutsideTheLevelsIsRefused)
+{
+  const auto refusalOf = [](const RefinedSettings & settings, double limitDn) -> std::string {
+    try
+    {
+      settings.RequireOffsetWithin(limitDn, "the test's limit");
+    }
+    catch (const std::invalid_argument & error)
+    {
+      return error.what();
+    }
+    return "";
+  };
+  RefinedSettings settings;
+  EXPECT_EQ(refusalOf(settings, 0.0), "");
+  settings.offset = KnownOffset{ -65536.0, 0.5 };
+  EXPECT_EQ(refusalOf(settings, 65536.0), "");
+  settings.offset = KnownOffset{ 1e308, 0.0 };
+  EXPECT_EQ(
+    refusalOf(settings, 65536.0),
+    "the offset is 1e+308 DN with a standard error of 0 DN; expected both within 65536 DN of 0, the test's limit");
+  settings.offset = KnownOffset{ 100.0, 1e9 };
+  EXPECT_NE(refusalOf(settings, 65536.0), "");
+
+  // Integer pixels tell before a frame is read.
+  settings.offset = KnownOffset{ 70000.0, 0.0 };
+  EXPECT_THROW(RefinedMethod<unsigned short>(settings, { 16, 16, 1 }, 20), std::invalid_argument);
+  settings.offset = KnownOffset{ 300.0, 0.0 };
+  EXPECT_THROW(RefinedMethod<unsigned char>(settings, { 16, 16, 1 }, 20), std::invalid_argument);
+  EXPECT_NO_THROW(RefinedMethod<unsigned short>(settings, { 16, 16, 1 }, 20));
+}
+
+TEST(KnownOffset, CodesAndLevelsOfNoSenseAreRefused)
+{
+  const auto refuses = [](auto change) {
+    RefinedSettings settings;
+    change(settings);
+    EXPECT_THROW(settings.Validate(), std::invalid_argument);
+  };
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  refuses([](RefinedSettings & s) { s.codes.clipLowDn = -infinity; });
+  refuses([](RefinedSettings & s) { s.codes.clipHighDn = 1e308; });
+  refuses([](RefinedSettings & s) { s.codes.quantisationStepDn = 1e308; });
+  refuses([](RefinedSettings & s) { s.codes.quantisationStepDn = infinity; });
+  refuses([](RefinedSettings & s) { s.levelRangeDn = LevelRange{ 0.0, infinity }; });
+  refuses([](RefinedSettings & s) { s.levelRangeDn = LevelRange{ -1e308, 5.0 }; });
+}

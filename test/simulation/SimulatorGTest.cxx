@@ -231,21 +231,21 @@ TEST(SensorNoiseSimulator, ErrorsNameWhatWasFoundAndWhatWasExpected)
   using S = SimulationSettings;
   EXPECT_EQ(ErrorOf([](S & s) { s.bitDepth = 8; }), "no error");
   EXPECT_EQ(ErrorOf([](S & s) { s.bitDepth = 12; }), "the bit depth is 12; the pixel type holds at most 8 bits");
-  EXPECT_EQ(ErrorOf([](S & s) { s.frames = 0; }), "the number of frames is 0.000000; expected at least 1");
+  EXPECT_EQ(ErrorOf([](S & s) { s.frames = 0; }), "the number of frames is 0; expected at least 1");
   EXPECT_EQ(ErrorOf([](S & s) { s.camera.gainDnPerElectron = 0.0; }),
-            "the gain is 0.000000; expected a finite number above 0");
+            "the gain is 0; expected a number above 0, at most 1e9");
   EXPECT_EQ(ErrorOf([](S & s) { s.conditions.flickerSd = -1.0; }),
-            "the flicker standard deviation is -1.000000; expected a finite number, 0 or more");
+            "the flicker standard deviation is -1; expected 0 to 1e9");
   EXPECT_EQ(ErrorOf([](S & s) {
               s.clipLowDn = 5.0;
               s.clipHighDn = 5.0;
             }),
-            "the clip levels are 5.000000 and 5.000000; expected the low one below the high one");
+            "the clip levels are 5 and 5; expected the low one below the high one");
   EXPECT_EQ(ErrorOf([](S & s) {
               s.bitDepth = 8;
               s.clipLowDn = 300.0;
             }),
-            "the clip levels leave the codes from 300.000000 to 255.000000; expected at least two codes");
+            "the clip levels leave the codes from 300 to 255; expected at least two codes");
   for (const auto & change :
        std::vector<std::function<void(S &)>>{ [](S & s) { s.camera.electrons = 2e9; },
                                               [](S & s) { s.camera.offsetDn = NAN; },

@@ -115,7 +115,7 @@ TEST_F(EstimateBadInputTool, AFolderATextAndAnEmptyFileAreRefused)
   IsRefused("folder.tif", { "folder.tif", "is a folder", "expected an image file" });
   IsRefused(".", { "is a folder" });
   IsRefused(WriteText("empty.mha", ""), { "empty.mha", "has 0 bytes" });
-  IsRefused(WriteText("text.tif", "Dear reader,\nthis is no image.\n"), { "text.tif", "not an image" });
+  IsRefused(WriteText("text.tif", "Dear reader,\nthis is no image.\n"), { "text.tif", "no image in a format" });
   IsRefused("nowhere.mha", { "nowhere.mha", "does not exist" });
 }
 
@@ -143,9 +143,9 @@ TEST_F(EstimateBadInputTool, AMaskThatDoesNotFitIsRefused)
   using MaskType = itk::Image<unsigned char, 2>;
   const std::string stack = Write("s.mha", MakeBurst().GetPointer());
   Write("mask.png", Make<MaskType>({ { 64, 63 } }, 1).GetPointer());
-  IsRefused(stack + " --mask mask.png", { "the mask mask.png has 64 x 63 pixels", "the frames have 64 x 64" });
-  IsRefused(stack + " --mask mask.png --roi 0,0,64,63", { "the mask mask.png has 64 x 63 pixels" });
-  IsRefused(stack + " --mask s.mha", { "the mask s.mha has 24 frames", "expected one image" });
+  IsRefused(stack + " --mask mask.png", { "the mask mask.png: has 64 x 63 pixels", "the frames have 64 x 64" });
+  IsRefused(stack + " --mask mask.png --roi 0,0,64,63", { "the mask mask.png: has 64 x 63 pixels" });
+  IsRefused(stack + " --mask s.mha", { "the mask s.mha: has 24 frames", "expected one image" });
   IsRefused(stack + " --mask nowhere.png", { "nowhere.png", "does not exist" });
 }
 
@@ -161,5 +161,5 @@ TEST_F(EstimateBadInputTool, CompressedPixelsThatAreDamagedAreRefused)
   file.seekp(-60000, std::ios::end);
   file << std::string(30000, 'x');
   file.close();
-  IsRefused("s.nrrd", { "s.nrrd", "its pixels cannot be read" });
+  IsRefused("s.nrrd", { "s.nrrd", "damaged: its compressed pixels" });
 }

@@ -279,7 +279,7 @@ TEST_F(SimulateTool, WrongUseIsRefusedInOneSentenceAndLeavesNothing)
   ExpectRefusal("--output s.png", "expected a name that ends in .mha");
   ExpectRefusal("--output nowhere/s.mha", "there is no folder nowhere");
   ExpectRefusal("--output s.mha --truth nowhere/t.json --size 32x32", "there is no folder nowhere");
-  ExpectRefusal("--output s.mha --truth s.mha", "the same file");
+  ExpectRefusal("--output s.mha --truth s.mha", "the ending of an image");
   ExpectRefusal("--output s.mha --size 512", "expected WIDTHxHEIGHT");
   ExpectRefusal("--output s.mha --size 20x20", "needs at least 32 x 32");
   ExpectRefusal("--output s.mha --camera D", "expected A, B or C");
@@ -296,7 +296,7 @@ TEST_F(SimulateTool, WrongUseIsRefusedInOneSentenceAndLeavesNothing)
   ExpectRefusal("--output s.mha --temporal-filter 1", "expected 0 to 0.99");
   ExpectRefusal("--output s.mha --banding 3", "--banding");
   std::ofstream(m_Folder / "out" / "not-an-image.txt") << "hello";
-  ExpectRefusal("--output s.mha --reference not-an-image.txt", "not an image");
+  ExpectRefusal("--output s.mha --reference not-an-image.txt", "no image in a format");
 }
 
 #ifndef _WIN32

@@ -40,8 +40,8 @@ WRONG_FRAMES = {
     "generator": ((frame for frame in STACK), "frames is of type generator; expected an array (t, y, x)"),
     "number": (3, "frames is of type int; expected an array"),
     "None": (None, "frames is of type NoneType; expected an array"),
-    "no file": ("no-such.mha", "no-such.mha: does not exist; expected an image file"),
-    "no files": (["no-such.tif"] * 6, "no-such.tif: does not exist; expected an image file"),
+    "no file": ("no-such.mha", "no-such.mha: does not exist"),
+    "no files": (["no-such.tif"] * 6, "no-such.tif: does not exist"),
     "names and arrays": ([STACK[0], "a.tif"], "frames holds 1 file names and 1 others; expected one kind"),
     "lists of numbers": (STACK.tolist(), "frames[0] has dtype int64; expected uint8"),
     "ragged": ([STACK[0], STACK[0, :5]], "frames[1] has shape (5, 9) and dtype uint16, but frames[0] has (8, 9)"),
@@ -64,9 +64,8 @@ def test_what_is_no_stack_is_refused(case):
 def test_too_few_frames_are_what_itk_throws(count, make):
     with pytest.raises(RuntimeError) as error:
         itk.estimate_sensor_noise(make(STACK[:count]))
-    first, second = str(error.value).split("\n", 1)
-    assert first == f"the stack has {count} frames; expected at least 5"
-    assert "ITK ERROR" in second
+    assert str(error.value) == f"the stack has {count} frames; expected at least 5"
+    assert "ITK ERROR" in str(error.value.__cause__)
 
 
 WRONG_PARAMETERS = {
@@ -96,7 +95,7 @@ def test_what_is_no_parameter_is_refused(name):
 
 
 def test_parameter_out_of_range_is_what_itk_throws():
-    with pytest.raises(RuntimeError, match="^the clip levels are 5.* and 3.*; expected low < high\n"):
+    with pytest.raises(RuntimeError, match="^the clip levels are 5.* and 3.*; expected low < high$"):
         itk.estimate_sensor_noise(STACK, clip=(5, 3))
 
 
@@ -124,7 +123,7 @@ def test_all_nan_is_a_report_that_says_so():
         ({"reference": np.ones((20, 30)), "size": (9, 9)}, "size is (9, 9), but a reference that is an array"),
         ({"dtype": "int64"}, "dtype is int64; expected uint8"),
         ({"dtype": "moon"}, "dtype is 'moon'; expected uint8"),
-        ({"gain": 0}, "the simulation is not possible: the gain is 0.000000; expected a finite number above 0"),
+        ({"gain": 0}, "the simulation is not possible: the gain is 0; expected a number above 0, at most 1e9"),
     ],
 )
 def test_wrong_simulation_is_refused(parameters, expected):

@@ -27,6 +27,7 @@ NAMES = [
     "noise_correlation_estimator",
     "noise_regression_estimator",
     "sensor_noise_estimator",
+    "sensor_noise_frame_list_source",
     "simulate_sensor_noise",
     "vibration_covariance_estimator",
 ]
@@ -38,6 +39,7 @@ USE = {
     "class": "itk.SensorNoiseSceneSource.New(width=64, height=48).Update()\n",
     "filter": "itk.temporal_statistics_image_filter(np.ones((6, 5, 4), np.uint16))\n",
     "module": "itk.SensorNoise.NoiseRegressionEstimator\n",
+    "source": "itk.SensorNoiseFrameListSource[itk.Image[itk.US, 3]].New()\n",
     "template": "itk.FlickerCorrectionImageFilter\n",
 }
 
@@ -50,6 +52,7 @@ USE = {
         ("itk", "function", "wheel"),
         ("itk", "filter", "wheel"),
         ("itk", "module", "template"),
+        ("itk", "source", "wheel"),
         ("itk", "template", "module"),
         ("itk_sensornoise", "function", "filter"),
         ("itk_sensornoise", "module", "class"),

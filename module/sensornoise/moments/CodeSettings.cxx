@@ -17,6 +17,8 @@
  *=========================================================================*/
 #include "sensornoise/moments/CodeSettings.h"
 
+#include "sensornoise/base/Text.h"
+
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -54,15 +56,23 @@ ValidateCodeSettings(const CodeSettings & codes)
   {
     throw std::invalid_argument("the bit depth is " + std::to_string(*codes.bitDepth) + "; expected 1 to 16");
   }
+  for (const std::optional<double> & level : { codes.clipLowDn, codes.clipHighDn })
+  {
+    if (level && !(std::abs(*level) <= LargestLevelDn))
+    {
+      throw std::invalid_argument("a clip level is " + Text(*level) + " DN; expected a level within " +
+                                  Text(LargestLevelDn) + " DN of 0");
+    }
+  }
   if (codes.clipLowDn && codes.clipHighDn && !(*codes.clipLowDn < *codes.clipHighDn))
   {
-    throw std::invalid_argument("the clip levels are " + std::to_string(*codes.clipLowDn) + " and " +
-                                std::to_string(*codes.clipHighDn) + " DN; expected low < high");
+    throw std::invalid_argument("the clip levels are " + Text(*codes.clipLowDn) + " and " + Text(*codes.clipHighDn) +
+                                " DN; expected low < high");
   }
-  if (codes.quantisationStepDn && !(*codes.quantisationStepDn > 0.0))
+  if (codes.quantisationStepDn && !(*codes.quantisationStepDn > 0.0 && *codes.quantisationStepDn <= LargestStepDn))
   {
-    throw std::invalid_argument("the code step is " + std::to_string(*codes.quantisationStepDn) +
-                                " DN; expected a positive number");
+    throw std::invalid_argument("the code step is " + Text(*codes.quantisationStepDn) +
+                                " DN; expected a positive number, at most " + Text(LargestStepDn));
   }
 }
 

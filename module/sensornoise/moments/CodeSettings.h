@@ -25,6 +25,11 @@
 namespace sensornoise
 {
 
+/** The largest level that a setting may name, without its sign [DN]: its powers, up to the fourth, are finite. */
+inline constexpr double LargestLevelDn = 1e30;
+/** The largest spacing of codes that may be given [DN]: it fits into 32 bits. */
+inline constexpr double LargestStepDn = 1e9;
+
 /** What the user says about the codes of the data; what is not said is found. */
 struct CodeSettings
 {

@@ -17,6 +17,7 @@
  *=========================================================================*/
 #include "sensornoise/moments/Codes.h"
 
+#include "sensornoise/base/Text.h"
 #include "sensornoise/moments/CodeRange.h"
 #include "sensornoise/moments/CodeSettings.h"
 #include "sensornoise/moments/CodeSteps.h"
@@ -171,9 +172,8 @@ SetBitDepth(std::int32_t highest, double step, const CodeSettings & settings, Co
   if (highest > top)
   {
     throw std::invalid_argument("the data hold the level " + std::to_string(highest) + " DN, but " +
-                                std::to_string(*range.bitDepth) + " bits with a code step of " +
-                                std::to_string(static_cast<int>(step)) + " DN end at " +
-                                std::to_string(static_cast<int>(top)) + " DN; give a larger bit depth");
+                                std::to_string(*range.bitDepth) + " bits with a code step of " + Text(step) +
+                                " DN end at " + Text(top) + " DN; give a larger bit depth");
   }
   return top;
 }

@@ -17,6 +17,7 @@
  *=========================================================================*/
 #include "sensornoise/published/PublishedSettings.h"
 
+#include "sensornoise/base/Text.h"
 #include "sensornoise/published/VibrationMask.h"
 
 #include <stdexcept>
@@ -31,13 +32,13 @@ PublishedSettings::Validate() const
   ChiSquare2Quantile(level);
   if (!(darkQuantile >= 0.0 && darkQuantile < brightQuantile && brightQuantile <= 1.0))
   {
-    throw std::invalid_argument("the dark and bright quantiles are " + std::to_string(darkQuantile) + " and " +
-                                std::to_string(brightQuantile) + "; expected 0 <= dark < bright <= 1");
+    throw std::invalid_argument("the dark and bright quantiles are " + Text(darkQuantile) + " and " +
+                                Text(brightQuantile) + "; expected 0 <= dark < bright <= 1");
   }
-  if (rollingShutter == RollingShutter::Fixed && !(sigmaRows > 0.0))
+  if (rollingShutter == RollingShutter::Fixed && !(sigmaRows > 0.0 && sigmaRows <= 1e5))
   {
-    throw std::invalid_argument("sigma_y of the rolling shutter is " + std::to_string(sigmaRows) +
-                                " lines; expected a positive number");
+    throw std::invalid_argument("sigma_y of the rolling shutter is " + Text(sigmaRows) +
+                                " lines; expected a positive number, at most 100000");
   }
   if (shutterAxis > 1)
   {

@@ -33,10 +33,12 @@
 #include "sensornoise/series/ShiftInstruments.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace sensornoise
@@ -49,6 +51,18 @@ std::string
 StreamName()
 {
   return "RefinedMethod " + PixelName<TPixel>();
+}
+
+/** The largest of the levels, without its sign [DN]. */
+double
+LargestMeanDn(const std::vector<double> & mean)
+{
+  double largest = 0.0;
+  for (const double level : mean)
+  {
+    largest = std::isfinite(level) ? std::max(largest, std::abs(level)) : largest;
+  }
+  return largest;
 }
 
 /** The regressors of the second pass, of all usable pixels but those that one pass cannot explain. */
@@ -85,6 +99,11 @@ RefinedMethod<TPixel>::RefinedMethod(const RefinedSettings &           settings,
 {
   RequireStack(geometry, frames, mask.size());
   settings.Validate();
+  if constexpr (std::is_integral_v<TPixel>)
+  {
+    constexpr int bits = 8 * sizeof(TPixel);
+    settings.RequireOffsetWithin(std::exp2(bits), "the number of codes of " + std::to_string(bits) + " bits");
+  }
 }
 
 template <typename TPixel>
@@ -268,6 +287,10 @@ RefinedMethod<TPixel>::EndMoments()
   if (m_Scene->obstacle)
   {
     throw NothingToMeasure(*m_Scene->obstacle);
+  }
+  if (std::is_floating_point_v<TPixel>)
+  {
+    m_Settings.RequireOffsetWithin(1000.0 * LargestMeanDn(m_Scene->mean), "1000 times the largest level of the frames");
   }
   m_FrameSums = std::make_unique<FrameSums>(RegressorsOf(*m_Scene, m_ParallelFor), m_ParallelFor);
 }

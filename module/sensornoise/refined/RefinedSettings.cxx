@@ -17,6 +17,8 @@
  *=========================================================================*/
 #include "sensornoise/refined/RefinedSettings.h"
 
+#include "sensornoise/base/Text.h"
+
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -28,17 +30,30 @@ void
 RefinedSettings::Validate() const
 {
   ValidateCodeSettings(codes);
-  if (levelRangeDn && !(levelRangeDn->lowDn < levelRangeDn->highDn))
+  if (levelRangeDn && !(levelRangeDn->lowDn < levelRangeDn->highDn && std::abs(levelRangeDn->lowDn) <= LargestLevelDn &&
+                        std::abs(levelRangeDn->highDn) <= LargestLevelDn))
   {
-    throw std::invalid_argument("the range of levels is from " + std::to_string(levelRangeDn->lowDn) + " to " +
-                                std::to_string(levelRangeDn->highDn) + " DN; expected the lower level first");
+    throw std::invalid_argument("the range of levels is from " + Text(levelRangeDn->lowDn) + " to " +
+                                Text(levelRangeDn->highDn) + " DN; expected the lower level first, both within " +
+                                Text(LargestLevelDn) + " DN of 0");
   }
   if (offset &&
       !(std::isfinite(offset->valueDn) && std::isfinite(offset->standardErrorDn) && offset->standardErrorDn >= 0.0))
   {
-    throw std::invalid_argument("the offset is " + std::to_string(offset->valueDn) + " DN with a standard error of " +
-                                std::to_string(offset->standardErrorDn) +
+    throw std::invalid_argument("the offset is " + Text(offset->valueDn) + " DN with a standard error of " +
+                                Text(offset->standardErrorDn) +
                                 " DN; expected a finite number and a standard error of 0 or more");
+  }
+}
+
+void
+RefinedSettings::RequireOffsetWithin(double limitDn, const std::string & whatOf) const
+{
+  if (offset && !(std::abs(offset->valueDn) <= limitDn && offset->standardErrorDn <= limitDn))
+  {
+    throw std::invalid_argument("the offset is " + Text(offset->valueDn) + " DN with a standard error of " +
+                                Text(offset->standardErrorDn) + " DN; expected both within " + Text(limitDn) +
+                                " DN of 0, " + whatOf);
   }
 }
 

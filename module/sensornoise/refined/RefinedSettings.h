@@ -24,6 +24,7 @@
 #include "sensornoise/moments/KnownOffset.h"
 
 #include <optional>
+#include <string>
 
 namespace sensornoise
 {
@@ -52,6 +53,12 @@ struct SensorNoise_EXPORT RefinedSettings
   /** Throws std::invalid_argument if a parameter is out of its range. */
   void
   Validate() const;
+
+  /** Throws std::invalid_argument if the offset, or its standard error, is further from 0 than \a limitDn [DN], which
+   * is
+   * \a whatOf the data. */
+  void
+  RequireOffsetWithin(double limitDn, const std::string & whatOf) const;
 };
 
 } // namespace sensornoise

@@ -32,10 +32,10 @@ CheckSettings(const LineNoiseSettings & settings)
   RequireNotNegative(settings.rowNoiseSdDn, "row noise");
   RequireNotNegative(settings.columnNoiseSdDn, "column noise");
   RequireNotNegative(settings.bandingAmplitudeDn, "amplitude of the banding");
-  RequireSetting(std::isfinite(settings.bandingPeriodRows) && settings.bandingPeriodRows > 0.0,
+  RequireSetting(settings.bandingPeriodRows > 0.0 && settings.bandingPeriodRows <= 1e9,
                  "period of the banding",
                  settings.bandingPeriodRows,
-                 "a finite number of rows above 0");
+                 "a number of rows above 0, at most 1e9");
 }
 
 LineNoise::LineNoise(const LineNoiseSettings & settings, std::uint64_t seed, bool isDark)

@@ -17,6 +17,7 @@
  *=========================================================================*/
 #include "sensornoise/simulation/Scenes.h"
 
+#include "sensornoise/base/FreeMemory.h"
 #include "sensornoise/base/MixBits.h"
 #include "sensornoise/simulation/Random.h"
 
@@ -44,6 +45,9 @@ CheckSceneSize(const char * scene,
                                 " x " + std::to_string(height) + " pixels; it needs at least " +
                                 std::to_string(leastWidth) + " x " + std::to_string(leastHeight));
   }
+  RequireMemory(16.0 * static_cast<double>(width) * static_cast<double>(height), // itself, and a copy of it
+                std::string("the ") + scene + " scene of " + std::to_string(width) + " x " + std::to_string(height) +
+                  " pixels");
 }
 
 /** The levels 0, 1/15, ..., 1 in an order drawn from the seed (Fisher-Yates). */

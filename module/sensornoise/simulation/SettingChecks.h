@@ -18,7 +18,8 @@
 #ifndef sensornoise_simulation_SettingChecks_h
 #define sensornoise_simulation_SettingChecks_h
 
-#include <cmath>
+#include "sensornoise/base/Text.h"
+
 #include <stdexcept>
 #include <string>
 
@@ -34,15 +35,16 @@ RequireSetting(bool isGood, const char * name, double found, const char * expect
 {
   if (!isGood)
   {
-    throw std::invalid_argument(std::string("the ") + name + " is " + std::to_string(found) + "; expected " + expected);
+    throw std::invalid_argument(std::string("the ") + name + " is " + Text(found) + "; expected " + expected);
   }
 }
 
-/** \throws std::invalid_argument unless \a value is finite and 0 or more. */
+/** \throws std::invalid_argument unless \a value is from 0 to 1e9: more is nonsense in any unit, and its square, or a
+ * product of two, would soon not be finite. */
 inline void
 RequireNotNegative(double value, const char * name)
 {
-  RequireSetting(std::isfinite(value) && value >= 0.0, name, value, "a finite number, 0 or more");
+  RequireSetting(value >= 0.0 && value <= 1e9, name, value, "0 to 1e9");
 }
 
 /** \throws std::invalid_argument unless \a value is from 0 to 1. */

@@ -17,6 +17,7 @@
  *=========================================================================*/
 #include "sensornoise/simulation/SimulationSettings.h"
 
+#include "sensornoise/base/Text.h"
 #include "sensornoise/simulation/SettingChecks.h"
 
 #include <cmath>
@@ -64,11 +65,11 @@ CheckSettings(const SimulationSettings & settings)
   const CameraModel & camera = settings.camera;
   RequireSetting(
     camera.electrons > 0.0 && camera.electrons <= 1e9, "number of electrons", camera.electrons, "0 < A <= 1e9");
-  RequireSetting(std::isfinite(camera.gainDnPerElectron) && camera.gainDnPerElectron > 0.0,
+  RequireSetting(camera.gainDnPerElectron > 0.0 && camera.gainDnPerElectron <= 1e9,
                  "gain",
                  camera.gainDnPerElectron,
-                 "a finite number above 0");
-  RequireSetting(std::isfinite(camera.offsetDn), "offset", camera.offsetDn, "a finite number");
+                 "a number above 0, at most 1e9");
+  RequireSetting(std::abs(camera.offsetDn) <= 1e9, "offset", camera.offsetDn, "-1e9 to 1e9");
   RequireNotNegative(camera.readNoiseDn, "read noise");
   RequireNotNegative(settings.conditions.flickerSd, "flicker standard deviation");
   RequireNotNegative(settings.conditions.vibrationSdXPixels, "horizontal vibration standard deviation");
@@ -104,7 +105,7 @@ CheckSettings(const SimulationSettings & settings)
   const double     high = settings.clipHighDn.value_or(infinity);
   if (!(low < high))
   {
-    throw std::invalid_argument("the clip levels are " + std::to_string(low) + " and " + std::to_string(high) +
+    throw std::invalid_argument("the clip levels are " + Text(low) + " and " + Text(high) +
                                 "; expected the low one below the high one");
   }
 }

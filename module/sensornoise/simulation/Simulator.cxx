@@ -17,6 +17,7 @@
  *=========================================================================*/
 #include "sensornoise/simulation/Simulator.h"
 
+#include "sensornoise/base/Text.h"
 #include "sensornoise/simulation/Random.h"
 #include "sensornoise/simulation/RandomStreams.h"
 
@@ -93,8 +94,8 @@ StackSimulator::CodeRange(const SimulationSettings & settings)
     high = std::min(std::floor(high), bits == 0 ? static_cast<double>(Limits::max()) : std::ldexp(1.0, bits) - 1.0);
     if (!(low < high))
     {
-      throw std::invalid_argument("the clip levels leave the codes from " + std::to_string(low) + " to " +
-                                  std::to_string(high) + "; expected at least two codes");
+      throw std::invalid_argument("the clip levels leave the codes from " + Text(low) + " to " + Text(high) +
+                                  "; expected at least two codes");
     }
   }
   return { low, high };

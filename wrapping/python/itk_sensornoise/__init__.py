@@ -33,6 +33,7 @@ from ._estimate import estimate_sensor_noise
 from ._estimators import noise_regression_estimator, sensor_noise_estimator, vibration_covariance_estimator
 from ._report import Report
 from ._simulate import simulate_sensor_noise
+from ._source import sensor_noise_frame_list_source
 
 __all__ = [
     "NoiseCorrelation",
@@ -41,6 +42,7 @@ __all__ = [
     "noise_correlation_estimator",
     "noise_regression_estimator",
     "sensor_noise_estimator",
+    "sensor_noise_frame_list_source",
     "simulate_sensor_noise",
     "vibration_covariance_estimator",
 ]

@@ -21,13 +21,13 @@ from typing import Any
 
 import numpy as np
 
-# The pixel types of the filters: NumPy's name, ITK's name in Python, ITK's name in headers of files.
+# The pixel types of the filters: NumPy's name, ITK's name in Python, ITK's name of a component type of files.
 PIXEL_TYPES = {
-    "uint8": ("UC", "unsigned_char"),
-    "uint16": ("US", "unsigned_short"),
-    "int16": ("SS", "short"),
-    "float32": ("F", "float"),
-    "float64": ("D", "double"),
+    "uint8": ("UC", "UCHAR"),
+    "uint16": ("US", "USHORT"),
+    "int16": ("SS", "SHORT"),
+    "float32": ("F", "FLOAT"),
+    "float64": ("D", "DOUBLE"),
 }
 PIXEL_NAMES = "uint8, uint16, int16, float32 or float64"
 

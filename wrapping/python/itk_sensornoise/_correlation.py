@@ -27,6 +27,7 @@ from . import _options
 from ._arrays import as_frame, as_mask
 from ._errors import itk_errors
 from ._frames import Stack, frame_image, open_frames
+from ._progress import at_work
 
 
 class NoiseCorrelation(Mapping[str, Any]):
@@ -169,7 +170,7 @@ def noise_correlation_estimator(
     ValueError
         Wrong use; says what was found and what was expected.
     RuntimeError
-        What ITK threw: first line the cause, then ITK's text.
+        What ITK threw, in one sentence.
     """
     import itk
 
@@ -189,7 +190,7 @@ def noise_correlation_estimator(
     if quantisation_step is not None:
         expected = "a number above 0 [DN]"
         estimator.SetQuantisationStep(_options.number("quantisation_step", quantisation_step, expected, above=0.0))
-    with itk_errors():
+    with at_work(estimator), itk_errors():
         estimator.Update()
     return NoiseCorrelation(estimator.GetResultAsJson())
 

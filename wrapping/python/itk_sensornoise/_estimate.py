@@ -25,11 +25,11 @@ import numpy as np
 from . import _options
 from ._arrays import as_mask
 from ._errors import itk_errors
-from ._files import read_frame, read_header
 from ._frames import Stack, crop, frame_image, is_name, open_frames
-from ._maps import maps_folder, write_maps
-from ._progress import shown_progress
+from ._maps import maps_folder, require_apart, write_maps
+from ._progress import at_work
 from ._report import Report
+from ._source import read_image
 
 
 def estimate_sensor_noise(
@@ -115,10 +115,12 @@ def estimate_sensor_noise(
 
     Raises
     ------
+    KeyboardInterrupt
+        Ctrl-C, within the time that a chunk of 64 MiB takes; the next call starts afresh.
     ValueError
         Wrong use; says what was found and what was expected.
     RuntimeError
-        What ITK threw: first line the cause, then ITK's text.
+        What ITK threw, in one sentence.
     """
     import itk
 
@@ -127,6 +129,8 @@ def estimate_sensor_noise(
     levels = None if level_range is None else _level_range(level_range, method)
     span = None if frame_range is None else _frame_range(frame_range)
     folder = None if maps is None else maps_folder(maps)
+    if folder is not None:
+        require_apart(folder, frames=frames, dark=dark, mask=mask)
     stack = open_frames(frames, span)
     corner, size = _region(stack, roi, None if _is_cut(frames) else span)
     mask_array = None if mask is None else _mask_of(mask, stack.size[:2])
@@ -151,7 +155,7 @@ def estimate_sensor_noise(
         count = _options.integer("threads", threads, 1, 1024)
         estimator.GetMultiThreader().SetMaximumNumberOfThreads(count)
         estimator.SetNumberOfWorkUnits(count)
-    with shown_progress(estimator, progress), itk_errors():
+    with at_work(estimator, progress), itk_errors():
         estimator.Update()
     if folder is not None:
         write_maps(estimator, folder)
@@ -235,11 +239,7 @@ def _region(stack: Stack, roi: Any, span: tuple[int, int] | None) -> tuple[tuple
 def _mask_of(mask: Any, size: tuple[int, int]) -> np.ndarray:
     """The mask (y, x) of a stack whose frames have `size` (width, height)."""
     if is_name(mask):
-        header = read_header(os.fsdecode(mask))
-        if header.frames > 1:
-            raise ValueError(f"mask {header.name}: holds {header.frames} frames; expected one image")
-        with itk_errors(f"mask {header.name}: its pixels cannot be read; "):
-            mask = read_frame(header)
+        mask = read_image(mask, "the mask")
     array = as_mask(mask, "mask")
     if array.shape != size[::-1]:
         raise ValueError(f"mask has shape {array.shape}; expected {size[::-1]}, that of a frame")

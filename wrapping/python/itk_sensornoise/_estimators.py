@@ -25,6 +25,7 @@ from . import _options
 from ._arrays import as_frame, as_mask, view
 from ._errors import itk_errors
 from ._frames import open_frames
+from ._progress import at_work
 from ._report import Report
 
 
@@ -66,7 +67,7 @@ def sensor_noise_estimator(stack: Any, *, mask: Any = None, dark: Any = None, **
         if dark_stack.pixel != opened.pixel:
             raise ValueError(f"dark has pixels of type {dark_stack.pixel}; expected {opened.pixel}, as the stack")
         estimator.SetDark(dark_stack.image)
-    with itk_errors():
+    with at_work(estimator), itk_errors():
         estimator.Update()
     return Report.of(estimator)
 

@@ -24,9 +24,9 @@ from typing import Any
 
 import numpy as np
 
-from . import _files
 from ._arrays import PIXEL_NAMES, PIXEL_TYPES, as_array, as_itk_order, require_pixel_type, require_shape, view
 from ._errors import itk_errors
+from ._source import open_files
 
 EXPECTED = (
     "expected an array (t, y, x), an itk.Image of 3 dimensions, a list of file names or of 2-D arrays, or a file name"
@@ -131,9 +131,8 @@ def _from_image(image: Any, name: str) -> Stack:
 def _from_files(names: Sequence[Any], frame_range: tuple[int, int] | None) -> Stack:
     if frame_range is not None and len(names) > 1:
         names = names[frame_range[0] : frame_range[1]]
-    headers = _files.check_headers([os.fsdecode(name) for name in names])
-    reader = _files.make_reader(headers)
-    return Stack(_with_information(reader), headers[0].pixel, [reader])
+    source, pixel = open_files(names)
+    return Stack(source.GetOutput(), pixel, [source])
 
 
 def _from_list(frames: Sequence[Any], frame_range: tuple[int, int] | None, name: str) -> Stack:

@@ -20,11 +20,13 @@
 import sys
 
 _NEW = ("estimate_sensor_noise", "simulate_sensor_noise")
-# ITK generates functions of these names too; what they return holds a C++ struct that Python cannot open.
+# ITK generates functions of these names too; what they return holds a C++ struct that Python cannot open, or they must
+# be told the pixel type.
 _REPLACED = (
     "noise_correlation_estimator",
     "noise_regression_estimator",
     "sensor_noise_estimator",
+    "sensor_noise_frame_list_source",
     "vibration_covariance_estimator",
 )
 _MODULE = "SensorNoise"

@@ -25,6 +25,20 @@ from . import _options
 from ._errors import itk_errors
 
 
+_NAMES = (
+    "mean",
+    "variance",
+    "corrected_variance",
+    "pixel_use",
+    "pixel_offset",
+    "pixel_offset_low",
+    "pixel_offset_high",
+    "pixel_read_noise",
+    "pixel_read_noise_low",
+    "pixel_read_noise_high",
+)
+
+
 def maps_folder(folder: Any) -> Path:
     """The folder, which is made if there is none."""
     if not isinstance(folder, (str, os.PathLike)) or not os.fspath(folder):
@@ -35,6 +49,21 @@ def maps_folder(folder: Any) -> Path:
     except OSError as error:
         raise ValueError(f"maps is {folder!r}; that folder cannot be made: {error}") from error
     return path
+
+
+def require_apart(folder: Path, **read: Any) -> None:
+    """Raises ValueError if a map would be written over a file that is read: names, or lists of them, by their role."""
+    targets = [folder / f"{name}.mha" for name in _NAMES]
+    for role, given in read.items():
+        for name in given if isinstance(given, (list, tuple)) else [given]:
+            if not isinstance(name, (str, os.PathLike)) or not os.path.exists(name):
+                continue
+            for target in targets:
+                if target.exists() and target.samefile(os.fsdecode(name)):
+                    raise ValueError(
+                        f"maps is {str(folder)!r}: {target} is the same file as {os.fsdecode(name)} of {role}, which is "
+                        "read; expected another folder"
+                    )
 
 
 def _images(estimator: Any) -> dict[str, Any]:
@@ -63,8 +92,8 @@ def write_maps(estimator: Any, folder: Path) -> None:
     written: dict[Path, Path] = {}
     try:
         for name, image in _images(estimator).items():
-            target = folder / f"{name}.mha"
-            temporary = folder / f".{name}.{os.getpid()}.mha"
+            target = Path(os.path.realpath(folder / f"{name}.mha"))  # of a link, what it leads to
+            temporary = target.parent / f".{name}.{os.getpid()}.mha"
             written[temporary] = target
             with itk_errors(f"{target}: cannot be written; "):
                 itk.imwrite(image, str(temporary))

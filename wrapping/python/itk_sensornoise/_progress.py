@@ -15,7 +15,7 @@
 #   limitations under the License.
 #
 # ==========================================================================*/
-"""Progress of an ITK filter, for a person."""
+"""ITK filters at work: their progress, for a person, and a person's Ctrl-C."""
 
 import sys
 from collections.abc import Iterator
@@ -46,24 +46,48 @@ def _make_bar() -> Any:
     return tqdm(total=100, unit="%", desc="estimate_sensor_noise")
 
 
+def _watch(instance: Any, bar: Any, caught: list[BaseException]) -> Iterator[None]:
+    """Each turn, which ITK asks for as the work goes on, runs Python: pending signals are handled, and the bar moves.
+
+    What they raise would end as a text in ITK's own exception: it is kept in `caught`, and `instance` is told to stop.
+    A generator waits inside its `try`: a function could be interrupted before it comes to one.
+    """
+    while True:
+        try:
+            yield
+            if bar is not None and not caught:
+                bar.update(max(int(100 * instance.GetProgress()) - int(bar.n), 0))
+        except GeneratorExit:
+            return
+        except BaseException as error:
+            caught.append(error)
+            instance.AbortGenerateDataOn()
+
+
 @contextmanager
-def shown_progress(instance: Any, wanted: bool) -> Iterator[None]:
-    """Shows the progress of `instance`, a process object, while the context lasts: with tqdm if that is installed."""
-    if not wanted:
-        yield
-        return
+def at_work(instance: Any, progress: bool = False) -> Iterator[None]:
+    """While the context lasts, Ctrl-C stops the update of `instance`, a filter that reads a stack, within the time of a
+    chunk and raises KeyboardInterrupt. With `progress` a bar is shown: tqdm's if that is installed.
+    """
     import itk
 
-    bar = _make_bar()
-
-    def show() -> None:
-        bar.update(max(int(100 * instance.GetProgress()) - int(bar.n), 0))
-
-    tag = instance.AddObserver(itk.ProgressEvent(), show)
+    bar = _make_bar() if progress else None
+    caught: list[BaseException] = []
+    watch = _watch(instance, bar, caught)
+    next(watch)
+    tag = instance.AddObserver(itk.ProgressEvent(), watch.__next__)
     try:
         yield
-        bar.update(100 - int(bar.n))
+        if bar is not None and not caught:
+            bar.update(100 - int(bar.n))
+    except Exception:
+        if not caught:
+            raise
     finally:
         # The observer holds the filter that holds it.
         instance.RemoveObserver(tag)
-        bar.close()
+        watch.close()
+        if bar is not None:
+            bar.close()
+    if caught:
+        raise caught[0] from None

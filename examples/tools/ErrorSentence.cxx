@@ -1,0 +1,59 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "tools/ErrorSentence.h"
+
+#include "tools/ErrorText.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <new>
+#include <stdexcept>
+
+namespace sensornoise::tools
+{
+namespace
+{
+/** Whether ITK, or the C++ library, could not allocate: both say so in words of their own only. */
+bool
+IsOutOfMemory(const std::exception & error, const std::string & text)
+{
+  const std::array<const char *, 5> words{ "Failed to allocate memory", "bad_alloc", "max_size()", "_M_", "bad array" };
+  return dynamic_cast<const std::bad_alloc *>(&error) != nullptr ||
+         std::any_of(
+           words.begin(), words.end(), [&text](const char * word) { return text.find(word) != std::string::npos; });
+}
+} // namespace
+
+std::string
+SentenceOf(const std::exception & error)
+{
+  if (const auto * const file = dynamic_cast<const std::filesystem::filesystem_error *>(&error))
+  {
+    return file->path1().string() + ": " + file->code().message();
+  }
+  const std::string text = TextOf(error);
+  if (IsOutOfMemory(error, text))
+  {
+    return "there is not enough memory for images of this size; expected smaller ones (--roi, --frames, --size), or "
+           "more memory";
+  }
+  return text;
+}
+
+} // namespace sensornoise::tools

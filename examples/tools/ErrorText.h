@@ -1,0 +1,33 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef ErrorText_h
+#define ErrorText_h
+
+#include <exception>
+#include <string>
+
+namespace sensornoise::tools
+{
+
+/** What an exception says; of an ITK exception on one line, without the class and address that ITK puts in front. */
+std::string
+TextOf(const std::exception & error);
+
+} // namespace sensornoise::tools
+
+#endif

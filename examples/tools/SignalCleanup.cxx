@@ -1,0 +1,90 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "tools/SignalCleanup.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <csignal>
+#include <stdexcept>
+#include <unistd.h>
+
+namespace sensornoise::tools
+{
+namespace
+{
+/** A name where a signal handler, which may not allocate, finds it. */
+struct Slot
+{
+  std::atomic<bool>      isUsed{ false };
+  std::array<char, 4096> path{}; // PATH_MAX of Linux
+};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may read no other atomic");
+
+std::array<Slot, 32> slots; // a report and ten maps need 12
+
+extern "C" void
+RemoveAndEnd(int signal)
+{
+  for (auto slot = slots.rbegin(); slot != slots.rend(); ++slot)
+  {
+    if (slot->isUsed.load(std::memory_order_acquire) && unlink(slot->path.data()) != 0)
+    {
+      rmdir(slot->path.data());
+    }
+  }
+  raise(signal); // blocked until the end of this function; its action is the default again
+}
+
+void
+InstallHandlers()
+{
+  for (const int signal :
+       { SIGHUP, SIGINT, SIGQUIT, SIGPIPE, SIGTERM, SIGXCPU, SIGXFSZ, SIGABRT, SIGBUS, SIGSEGV, SIGFPE, SIGILL })
+  {
+    struct sigaction action = {};
+    if (sigaction(signal, nullptr, &action) == 0 && (action.sa_flags & SA_SIGINFO) == 0 && action.sa_handler == SIG_DFL)
+    {
+      action.sa_handler = RemoveAndEnd;
+      action.sa_flags = static_cast<int>(SA_RESETHAND);
+      sigfillset(&action.sa_mask);
+      sigaction(signal, &action, nullptr);
+    }
+  }
+}
+} // namespace
+
+SignalCleanup::SignalCleanup(const std::string & path)
+{
+  [[maybe_unused]] static const bool installed = (InstallHandlers(), true);
+  const auto free = std::find_if(slots.begin(), slots.end(), [](const Slot & slot) { return !slot.isUsed.load(); });
+  if (free == slots.end() || path.size() >= free->path.size())
+  {
+    throw std::runtime_error("cannot write " + path + ": its name is too long, or too many files are being written");
+  }
+  std::copy(path.c_str(), path.c_str() + path.size() + 1, free->path.begin());
+  free->isUsed.store(true, std::memory_order_release);
+  m_Slot = static_cast<std::size_t>(free - slots.begin());
+}
+
+SignalCleanup::~SignalCleanup()
+{
+  slots[m_Slot].isUsed.store(false);
+}
+
+} // namespace sensornoise::tools

@@ -1,0 +1,261 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "itkSensorNoiseFrameFiles.h"
+
+#include "itkSensorNoiseImageIO.h"
+#include "itkSensorNoiseSilentTiff.h"
+#include "sensornoise/base/FreeMemory.h"
+#include "sensornoise/files/FileError.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <exception>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace sensornoise
+{
+namespace
+{
+void
+RequireAlike(const FrameFile & found, const FrameFile & first)
+{
+  if (found.width != first.width || found.height != first.height)
+  {
+    const auto size = [](const FrameFile & file) {
+      return std::to_string(file.width) + " x " + std::to_string(file.height);
+    };
+    throw FileError(found.name,
+                    "" + size(found) + " pixels, but " + first.name + " has " + size(first) +
+                      "; all frames must have the same size");
+  }
+  if (found.pixel != first.pixel)
+  {
+    throw FileError(found.name,
+                    "component type " + NameOf(found.pixel) + ", but " + first.name + " has " + NameOf(first.pixel) +
+                      "; all frames must have the same component type");
+  }
+}
+
+/** A stack that does not stream is held in memory. */
+void
+RequireMemoryFor(const FrameFile & stack)
+{
+  RequireMemory(static_cast<double>(stack.bytes), stack.name + " cannot be read in parts: all of it");
+}
+
+double
+DeterminantOf(const std::array<std::array<double, 3>, 3> & m)
+{
+  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+         m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+}
+
+/** As ImageFileReader does, but what an image cannot have is left as it is by default. */
+FrameListGeometry
+GeometryOf(const itk::ImageIOBase & io)
+{
+  FrameListGeometry  geometry;
+  FrameListGeometry  found;
+  const unsigned int axes = std::min(io.GetNumberOfDimensions(), 3u);
+  for (unsigned int axis = 0; axis < axes; ++axis)
+  {
+    const double              spacing = io.GetSpacing(axis);
+    const std::vector<double> cosines = io.GetDirection(axis);
+    if (std::isfinite(spacing) && spacing != 0.0)
+    {
+      geometry.spacing[axis] = std::abs(spacing);
+    }
+    if (std::isfinite(io.GetOrigin(axis)))
+    {
+      geometry.origin[axis] = io.GetOrigin(axis);
+    }
+    for (unsigned int row = 0; row < axes && row < cosines.size(); ++row)
+    {
+      found.direction[row][axis] = spacing < 0.0 ? -cosines[row] : cosines[row];
+    }
+  }
+  const double determinant = DeterminantOf(found.direction);
+  if (std::isfinite(determinant) && determinant != 0.0)
+  {
+    geometry.direction = found.direction;
+  }
+  return geometry;
+}
+
+/** Of one slice: what it says of x and y. */
+FrameListGeometry
+WithoutTime(FrameListGeometry geometry)
+{
+  geometry.spacing[2] = 1.0;
+  geometry.origin[2] = 0.0;
+  return geometry;
+}
+
+itk::ImageIORegion
+RegionOf(const itk::ImageIOBase & io, std::size_t first, std::size_t count)
+{
+  itk::ImageIORegion region(io.GetNumberOfDimensions());
+  for (unsigned int axis = 0; axis < io.GetNumberOfDimensions(); ++axis)
+  {
+    // a fourth axis, where there is one, has one element
+    const bool isTime = axis == 2 && io.GetDimensions(axis) > 1;
+    region.SetSize(axis, isTime ? count : io.GetDimensions(axis));
+    region.SetIndex(axis, isTime ? static_cast<itk::ImageIORegion::IndexValueType>(first) : 0);
+  }
+  return region;
+}
+
+template <typename TPixel>
+void
+ShiftUp(void * buffer, std::size_t count, unsigned int bits)
+{
+  auto * const pixels = static_cast<TPixel *>(buffer);
+  std::transform(pixels, pixels + count, pixels, [bits](TPixel pixel) { return static_cast<TPixel>(pixel << bits); });
+}
+
+/** Codes as they stand in the file: ITK shifts those of a PNG down by the bits that are not significant. */
+void
+RestoreCodes(const FrameFile & file, void * buffer, std::size_t count)
+{
+  if (file.significantBits == 0)
+  {
+    return;
+  }
+  const auto bits = static_cast<unsigned int>(8 * SizeOf(file.pixel)) - file.significantBits;
+  if (file.pixel == FramePixel::UnsignedChar)
+  {
+    ShiftUp<unsigned char>(buffer, count, bits);
+  }
+  else
+  {
+    ShiftUp<unsigned short>(buffer, count, bits);
+  }
+}
+
+void
+ReadFile(const FrameFile & file, std::size_t first, std::size_t count, void * buffer)
+{
+  const itk::ImageIOBase::Pointer io = OpenImageIO(file);
+  const SilentTiff                silent;
+  try
+  {
+    io->SetUseStreamedReading(count < file.frames);
+    io->SetIORegion(RegionOf(*io, first, count));
+    io->Read(buffer);
+  }
+  catch (const std::exception & error)
+  {
+    RequireUnchanged(file); // that would be the better reason
+    throw PixelErrorOf(file.name, error);
+  }
+  RequireUnchanged(file);
+  RestoreCodes(file, buffer, file.width * file.height * count);
+}
+} // namespace
+
+std::vector<std::string>
+FrameList::Names() const
+{
+  std::vector<std::string> names;
+  std::transform(
+    files.begin(), files.end(), std::back_inserter(names), [](const FrameFile & file) { return file.name; });
+  return names;
+}
+
+FrameList
+OpenFrames(const std::vector<std::string> & names, const BeforeInflating & beforeInflating)
+{
+  if (names.empty())
+  {
+    throw std::invalid_argument("no file was given; expected image files in time order, or one stack");
+  }
+  FrameList list;
+  list.files.reserve(names.size());
+  for (const std::string & name : names)
+  {
+    const auto requireFitting = [&](const FrameFile & file) {
+      if (file.frames > 1 && names.size() > 1)
+      {
+        throw FileError(name,
+                        "has " + std::to_string(file.frames) + " frames, and " + std::to_string(names.size()) +
+                          " files were given; expected one stack alone, or one frame a file");
+      }
+      if (!list.files.empty())
+      {
+        RequireAlike(file, list.files.front());
+      }
+    };
+    const FrameFile file = InspectFrameFile(name, [&](const FrameFile & known) {
+      requireFitting(known);
+      if (known.frames > 1)
+      {
+        RequireMemoryFor(known); // ITK reads no compressed stack in parts
+      }
+      if (beforeInflating)
+      {
+        beforeInflating(known);
+      }
+    });
+    requireFitting(file);
+    const itk::ImageIOBase::Pointer io = OpenImageIO(file);
+    if (list.files.empty())
+    {
+      list.isStack = file.frames > 1;
+      list.pixel = file.pixel;
+      list.width = file.width;
+      list.height = file.height;
+      list.streams = !list.isStack || io->CanStreamRead();
+      list.geometry = list.isStack ? GeometryOf(*io) : WithoutTime(GeometryOf(*io));
+      if (!list.streams)
+      {
+        RequireMemoryFor(file);
+      }
+    }
+    list.bytes += file.bytes;
+    list.frames += file.frames;
+    list.files.push_back(file);
+  }
+  return list;
+}
+
+void
+ReadFrames(const FrameList & list, std::size_t first, std::size_t count, void * buffer)
+{
+  if (list.isStack)
+  {
+    ReadFile(list.files.front(), first, count, buffer);
+    return;
+  }
+  const std::size_t frameBytes = list.bytes / list.frames;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    ReadFile(list.files.at(first + i), 0, 1, static_cast<char *>(buffer) + i * frameBytes);
+  }
+}
+
+std::string
+DescribeFrame(const FrameList & list)
+{
+  return std::to_string(list.width) + " x " + std::to_string(list.height) + " pixels of type " + NameOf(list.pixel);
+}
+
+} // namespace sensornoise

@@ -1,0 +1,256 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef itkSensorNoiseFrameListSource_hxx
+#define itkSensorNoiseFrameListSource_hxx
+
+#include "itkSensorNoiseFrameListSource.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <exception>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace itk
+{
+namespace
+{
+/** Calls \a function for its value; an error about files becomes ITK's, with the same sentence and nothing before it.
+ */
+template <typename TFunction>
+auto
+WithFileErrors(TFunction function) -> decltype(function())
+{
+  try
+  {
+    return function();
+  }
+  catch (const ExceptionObject &)
+  {
+    throw;
+  }
+  catch (const std::exception & error)
+  {
+    throw ExceptionObject(__FILE__, __LINE__, error.what(), ITK_LOCATION);
+  }
+}
+
+inline IOComponentEnum
+ComponentTypeOf(sensornoise::FramePixel pixel)
+{
+  switch (pixel)
+  {
+    case sensornoise::FramePixel::UnsignedChar:
+      return IOComponentEnum::UCHAR;
+    case sensornoise::FramePixel::UnsignedShort:
+      return IOComponentEnum::USHORT;
+    case sensornoise::FramePixel::Short:
+      return IOComponentEnum::SHORT;
+    case sensornoise::FramePixel::Float:
+      return IOComponentEnum::FLOAT;
+    default:
+      return IOComponentEnum::DOUBLE;
+  }
+}
+} // namespace
+
+template <typename TOutputStack>
+void
+SensorNoiseFrameListSource<TOutputStack>::SetFileNames(const std::vector<std::string> & names)
+{
+  if (m_FileNames != names)
+  {
+    m_FileNames = names;
+    m_FrameList = {};
+    m_IsOpen = false;
+    this->Modified();
+  }
+}
+
+template <typename TOutputStack>
+void
+SensorNoiseFrameListSource<TOutputStack>::AddFileName(const std::string & name)
+{
+  std::vector<std::string> names = m_FileNames;
+  names.push_back(name);
+  this->SetFileNames(names);
+}
+
+template <typename TOutputStack>
+void
+SensorNoiseFrameListSource<TOutputStack>::SetFileName(const std::string & name)
+{
+  this->SetFileNames({ name });
+}
+
+template <typename TOutputStack>
+void
+SensorNoiseFrameListSource<TOutputStack>::SetFrameList(const sensornoise::FrameList & list)
+{
+  m_FileNames = list.Names();
+  m_FrameList = list;
+  m_IsOpen = true;
+  this->Modified();
+}
+
+template <typename TOutputStack>
+const sensornoise::FrameList &
+SensorNoiseFrameListSource<TOutputStack>::GetFrameList()
+{
+  if (!m_IsOpen)
+  {
+    m_FrameList = WithFileErrors([this] { return sensornoise::OpenFrames(m_FileNames); });
+    m_IsOpen = true;
+  }
+  return m_FrameList;
+}
+
+template <typename TOutputStack>
+IOComponentEnum
+SensorNoiseFrameListSource<TOutputStack>::GetComponentType()
+{
+  return ComponentTypeOf(this->GetFrameList().pixel);
+}
+
+template <typename TOutputStack>
+IOComponentEnum
+SensorNoiseFrameListSource<TOutputStack>::ReadComponentType(const std::vector<std::string> & names)
+{
+  return ComponentTypeOf(WithFileErrors([&] { return sensornoise::OpenFrames(names).pixel; }));
+}
+
+template <typename TOutputStack>
+bool
+SensorNoiseFrameListSource<TOutputStack>::CanStream()
+{
+  return this->GetFrameList().streams;
+}
+
+template <typename TOutputStack>
+void
+SensorNoiseFrameListSource<TOutputStack>::GenerateOutputInformation()
+{
+  const sensornoise::FrameList & list = this->GetFrameList();
+  const IOComponentEnum          expected = ImageIOBase::MapPixelType<OutputPixelType>::CType;
+  if (ComponentTypeOf(list.pixel) != expected)
+  {
+    std::string mine = ImageIOBase::GetComponentTypeAsString(expected);
+    std::replace(mine.begin(), mine.end(), '_', ' ');
+    const std::string sentence = list.files.front().name + ": component type " + sensornoise::NameOf(list.pixel) +
+                                 ", but the source's is " + mine + ", and nothing is converted; expected a source of " +
+                                 sensornoise::NameOf(list.pixel);
+    throw ExceptionObject(__FILE__, __LINE__, sentence, ITK_LOCATION);
+  }
+  typename OutputStackType::SpacingType   spacing;
+  typename OutputStackType::PointType     origin;
+  typename OutputStackType::DirectionType direction;
+  for (unsigned int axis = 0; axis < 3; ++axis)
+  {
+    spacing[axis] = list.geometry.spacing[axis];
+    origin[axis] = list.geometry.origin[axis];
+    for (unsigned int row = 0; row < 3; ++row)
+    {
+      direction[row][axis] = list.geometry.direction[row][axis];
+    }
+  }
+  OutputStackType * const output = this->GetOutput();
+  output->SetSpacing(spacing);
+  output->SetOrigin(origin);
+  output->SetDirection(direction);
+  const typename OutputRegionType::SizeType size{ { list.width, list.height, list.frames } };
+  output->SetLargestPossibleRegion(OutputRegionType(size));
+}
+
+template <typename TOutputStack>
+void
+SensorNoiseFrameListSource<TOutputStack>::EnlargeOutputRequestedRegion(DataObject * output)
+{
+  auto * const     stack = itkDynamicCastInDebugMode<OutputStackType *>(output);
+  OutputRegionType region = stack->GetLargestPossibleRegion();
+  if (m_FrameList.streams)
+  {
+    region.SetIndex(2, stack->GetRequestedRegion().GetIndex(2));
+    region.SetSize(2, stack->GetRequestedRegion().GetSize(2));
+  }
+  stack->SetRequestedRegion(region);
+}
+
+template <typename TOutputStack>
+void
+SensorNoiseFrameListSource<TOutputStack>::GenerateData()
+{
+  this->AllocateOutputs();
+  const OutputRegionType region = this->GetOutput()->GetRequestedRegion();
+  const auto             frames = static_cast<std::size_t>(region.GetSize(2));
+  const auto             first = static_cast<std::size_t>(region.GetIndex(2));
+  OutputPixelType *      buffer = this->GetOutput()->GetBufferPointer();
+  try
+  {
+    // of a list, frame by frame: each may be the last before an abort
+    const std::size_t step = m_FrameList.isStack ? std::max<std::size_t>(frames, 1) : 1;
+    for (std::size_t done = 0; done < frames; done += step)
+    {
+      if (this->GetAbortGenerateData())
+      {
+        throw ProcessAborted(__FILE__, __LINE__);
+      }
+      WithFileErrors([&] {
+        sensornoise::ReadFrames(
+          m_FrameList, first + done, step, buffer + done * m_FrameList.width * m_FrameList.height);
+      });
+      this->UpdateProgress(static_cast<float>(done + step) / static_cast<float>(frames));
+    }
+  }
+  catch (const ProcessAborted &)
+  {
+    throw;
+  }
+  catch (const ExceptionObject &)
+  {
+    m_IsOpen = false; // the next Update() looks at the files anew
+    this->Modified();
+    throw;
+  }
+}
+
+template <typename TOutputStack>
+void
+SensorNoiseFrameListSource<TOutputStack>::PrintSelf(std::ostream & os, Indent indent) const
+{
+  Superclass::PrintSelf(os, indent);
+  os << indent << "FileNames: " << m_FileNames.size() << std::endl;
+  for (const std::string & name : m_FileNames)
+  {
+    os << indent.GetNextIndent() << name << std::endl;
+  }
+  os << indent << "FrameList: ";
+  if (m_IsOpen)
+  {
+    os << sensornoise::DescribeFrame(m_FrameList) << ", frames: " << m_FrameList.frames
+       << (m_FrameList.streams ? ", streams" : ", read whole") << std::endl;
+  }
+  else
+  {
+    os << "not checked yet" << std::endl;
+  }
+}
+
+} // namespace itk
+
+#endif

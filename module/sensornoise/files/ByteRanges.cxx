@@ -1,0 +1,115 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/files/ByteRanges.h"
+
+#include <algorithm>
+
+namespace sensornoise
+{
+
+void
+ByteRanges::Join(std::vector<Range> & ranges, bool mayShare)
+{
+  std::sort(ranges.begin(), ranges.end());
+  std::size_t last = 0;
+  for (std::size_t i = 1; i < ranges.size(); ++i)
+  {
+    if (ranges[i].first == ranges[last].second || (mayShare && ranges[i].first < ranges[last].second))
+    {
+      ranges[last].second = std::max(ranges[last].second, ranges[i].second);
+    }
+    else
+    {
+      ranges[++last] = ranges[i];
+    }
+  }
+  ranges.resize(std::min(ranges.size(), last + 1));
+}
+
+bool
+ByteRanges::Add(std::vector<Range> & ranges, std::uint64_t offset, std::uint64_t count, bool mayShare)
+{
+  if (count == 0)
+  {
+    return true;
+  }
+  if (!ranges.empty() && ranges.back().second == offset)
+  {
+    ranges.back().second += count;
+    return true;
+  }
+  if (ranges.size() == MaximumRanges)
+  {
+    Join(ranges, mayShare);
+    if (ranges.size() > MaximumRanges / 2)
+    {
+      return false; // else it would soon be due again, and again
+    }
+  }
+  ranges.emplace_back(offset, offset + count);
+  return true;
+}
+
+std::optional<std::uint64_t>
+ByteRanges::FirstConflict()
+{
+  Join(m_Pixels, false);
+  Join(m_Tables, true);
+  std::size_t   table = 0;
+  std::uint64_t tablesEnd = 0; // of those that begin before the pixels' range
+  for (std::size_t i = 0; i < m_Pixels.size(); ++i)
+  {
+    const Range & pixels = m_Pixels[i];
+    if (i > 0 && pixels.first < m_Pixels[i - 1].second)
+    {
+      return pixels.first;
+    }
+    for (; table < m_Tables.size() && m_Tables[table].first <= pixels.first; ++table)
+    {
+      tablesEnd = std::max(tablesEnd, m_Tables[table].second);
+    }
+    if (tablesEnd > pixels.first)
+    {
+      return pixels.first;
+    }
+    if (table < m_Tables.size() && m_Tables[table].first < pixels.second)
+    {
+      return m_Tables[table].first;
+    }
+  }
+  return std::nullopt;
+}
+
+std::uint64_t
+ByteRanges::LargestGap(std::uint64_t size)
+{
+  Join(m_Pixels, false);
+  Join(m_Tables, true);
+  std::uint64_t largest = 0;
+  std::uint64_t end = 0;
+  for (std::size_t i = 0, k = 0; i < m_Pixels.size() || k < m_Tables.size();)
+  {
+    const bool    isTable = i == m_Pixels.size() || (k < m_Tables.size() && m_Tables[k] < m_Pixels[i]);
+    const Range & range = isTable ? m_Tables[k++] : m_Pixels[i++];
+    largest = std::max(largest, range.first - std::min(range.first, end));
+    end = std::max(end, range.second);
+  }
+  return std::max(largest, size - std::min(size, end));
+}
+
+} // namespace sensornoise

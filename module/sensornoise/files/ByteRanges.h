@@ -1,0 +1,76 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_files_ByteRanges_h
+#define sensornoise_files_ByteRanges_h
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** Which bytes of a file hold pixels and which hold tables, to find bytes that would be read twice over. Neighbours
+ * that come one after the other are kept as one, and there is a limit to the number of others: at most 8 MiB are
+ * needed. */
+class ByteRanges
+{
+public:
+  using Range = std::pair<std::uint64_t, std::uint64_t>; // its first byte and that behind its last
+
+  /** Bytes that hold pixels. Returns false if there are too many ranges apart from each other. */
+  bool
+  AddPixels(std::uint64_t offset, std::uint64_t count)
+  {
+    return Add(m_Pixels, offset, count, false);
+  }
+
+  /** Bytes that hold something else; these may be used several times. Returns false as AddPixels(). */
+  bool
+  AddTable(std::uint64_t offset, std::uint64_t count)
+  {
+    return Add(m_Tables, offset, count, true);
+  }
+
+  /** A byte that holds pixels twice, or pixels and something else. */
+  std::optional<std::uint64_t>
+  FirstConflict();
+
+  /** The most bytes in a row, of a file of that size, that belong to neither. */
+  std::uint64_t
+  LargestGap(std::uint64_t size);
+
+private:
+  static constexpr std::size_t MaximumRanges = std::size_t{ 1 } << 18;
+
+  /** Sorts them, and makes one of those that touch each other, or, if they may share bytes, overlap. */
+  static void
+  Join(std::vector<Range> & ranges, bool mayShare);
+
+  static bool
+  Add(std::vector<Range> & ranges, std::uint64_t offset, std::uint64_t count, bool mayShare);
+
+  std::vector<Range> m_Pixels;
+  std::vector<Range> m_Tables;
+};
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,97 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_files_FrameFile_h
+#define sensornoise_files_FrameFile_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/files/FileIdentity.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** What a file is by its contents: the ImageIO of ITK that has to read it is that of this name, with "ImageIO" behind
+ * it (NrrdImageIO for Nrrd). */
+enum class FrameFormat
+{
+  MetaImage,
+  Nrrd,
+  Tiff,
+  Png,
+  Other // never told by InspectFrameFile(): what cannot be checked is refused
+};
+
+/** The component types that a stack may have. */
+enum class FramePixel
+{
+  UnsignedChar,
+  UnsignedShort,
+  Short,
+  Float,
+  Double
+};
+
+/** What a file of a frame or of a stack says of itself, after it was found to be whole. */
+struct FrameFile
+{
+  std::string   name{};
+  FrameFormat   format{ FrameFormat::Other };
+  std::size_t   width{ 0 };  // [pixels]
+  std::size_t   height{ 0 }; // [pixels]
+  std::size_t   frames{ 0 }; // 1 where the file is a single frame
+  FramePixel    pixel{ FramePixel::UnsignedChar };
+  std::uint64_t bytes{ 0 }; // of its pixels, uncompressed
+
+  /** Of a PNG whose sBIT chunk says that fewer bits than it has are significant: their number, else 0. ITK shifts such
+   * codes down by the others, which are 0 (or the file is refused): shifted up again they are what the file holds. */
+  unsigned significantBits{ 0 };
+
+  std::vector<FileIdentity> identities{}; // of the file, then of its data files, each once
+};
+
+/** The size in bytes of a pixel. */
+SensorNoise_EXPORT std::size_t
+SizeOf(FramePixel pixel);
+
+/** The pixel's type, as C++ calls it. */
+SensorNoise_EXPORT std::string
+NameOf(FramePixel pixel);
+
+/** Called with what a file says of itself before its compressed pixels are inflated; `frames` and `bytes` are those
+ * known so far, which grow page by page in a TIFF. May throw, where they are too many to go on. */
+using BeforeInflating = std::function<void(const FrameFile &)>;
+
+/** Reads with this library's own code what the file says of itself, and checks that it is whole, before any other
+ * library opens it: the whole of its structure, all checksums that it has, and that there is exactly one value for each
+ * pixel that it declares. Compressed pixels are inflated for that, and not kept; uncompressed ones are not read. Needs
+ * a few MiB of memory at most. Throws FileError for all that cannot be read without conversion, or not be checked. */
+SensorNoise_EXPORT FrameFile
+InspectFrameFile(const std::string & name, const BeforeInflating & beforeInflating = {});
+
+/** Throws FileError unless the file and its data files are still those, in that state, that were inspected. */
+SensorNoise_EXPORT void
+RequireUnchanged(const FrameFile & file);
+
+} // namespace sensornoise
+
+#endif

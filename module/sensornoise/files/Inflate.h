@@ -1,0 +1,93 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_files_Inflate_h
+#define sensornoise_files_Inflate_h
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace sensornoise
+{
+
+class FileBytes;
+
+/** What stands around compressed bytes, and holds their checksum. */
+enum class InflateContainer
+{
+  Zlib,
+  Gzip,
+  ZlibOrGzip
+};
+
+/** Inflates a stream whose bytes come in pieces, and tells whether it gives exactly the bytes that are expected, a
+ * clean end and the right checksum. Keeps nothing of them but 64 KiB. */
+class Inflater
+{
+public:
+  using Sink = std::function<void(const unsigned char * bytes, std::size_t count)>;
+
+  /** What it inflates goes to \a sink, where there is one. */
+  Inflater(InflateContainer container, std::uint64_t expectedBytes, Sink sink = {});
+  ~Inflater();
+  Inflater(const Inflater &) = delete;
+  Inflater &
+  operator=(const Inflater &) = delete;
+
+  /** The next compressed bytes. Returns whether more are wanted: not after the end, an error, or too many bytes. */
+  bool
+  Add(const unsigned char * bytes, std::size_t count);
+
+  /** Whether the stream has ended, with a right checksum and the expected number of bytes. */
+  bool
+  IsWhole() const;
+
+  /** Compressed bytes that belonged to the stream. */
+  std::uint64_t
+  UsedBytes() const
+  {
+    return m_Used;
+  }
+
+  /** What came, in words: "280 bytes and then an error (incorrect data check)". */
+  std::string
+  WhatCame() const;
+
+private:
+  struct Stream;
+
+  Sink                             m_Sink;
+  std::uint64_t                    m_Expected;
+  std::uint64_t                    m_Found{ 0 };
+  std::uint64_t                    m_Used{ 0 };
+  bool                             m_Ended{ false };
+  std::string                      m_Error;
+  std::unique_ptr<Stream>          m_Stream;
+  std::array<unsigned char, 65536> m_Out;
+};
+
+/** Adds the bytes [offset, offset + count) of the file. */
+void
+InflateFrom(FileBytes & bytes, std::uint64_t offset, std::uint64_t count, Inflater & inflater);
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,211 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/files/TiffPage.h"
+
+#include "sensornoise/files/FrameSizes.h"
+#include "sensornoise/files/TiffTags.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace sensornoise
+{
+namespace
+{
+void
+RequireGrey(const TiffTags & tags)
+{
+  const std::uint64_t samples = tags.Number(277, "SamplesPerPixel", 1);
+  const std::uint64_t photometric = tags.Number(262, "PhotometricInterpretation", 65536);
+  if (photometric == 3)
+  {
+    tags.Refuse("1 component a pixel with a palette of colours; expected 1 grey value");
+  }
+  if (samples != 1)
+  {
+    tags.Refuse(SeveralComponents(samples));
+  }
+  if (photometric > 1)
+  {
+    tags.Refuse(photometric == 65536
+                  ? "has no tag 262 (PhotometricInterpretation); expected grey values, 0 or 1"
+                  : "the photometric interpretation " + std::to_string(photometric) +
+                      (photometric == 32803 ? " (a mosaic of colour filters)" : "") + "; expected grey values, 0 or 1");
+  }
+}
+
+/** Throws for what ITK's reader, or libtiff, would not read as it is meant. */
+void
+RequirePlainStrips(const TiffTags & tags)
+{
+  if (tags.Has(322) || tags.Has(323) || tags.Has(324) || tags.Has(325))
+  {
+    tags.Refuse("a tiled TIFF, which ITK converts to 8-bit colours; expected a TIFF with strips");
+  }
+  if (const std::uint64_t order = tags.Number(266, "FillOrder", 1); order != 1)
+  {
+    tags.Refuse("FillOrder is " + std::to_string(order) + "; expected 1");
+  }
+  if (const std::uint64_t depth = tags.Number(32997, "ImageDepth", 1); depth != 1)
+  {
+    tags.Refuse("ImageDepth is " + std::to_string(depth) + "; expected 1, and a page for each frame");
+  }
+  if (tags.Has(336))
+  {
+    tags.Refuse("has the tag 336 (DotRange), which ITK's reader cannot take; expected none");
+  }
+}
+
+FramePixel
+PixelOfTiff(const TiffTags & tags)
+{
+  const std::uint64_t bits = tags.Required(258, "BitsPerSample");
+  const std::uint64_t format = tags.Number(339, "SampleFormat", 1);
+  if (bits == 8 && format == 1)
+  {
+    return FramePixel::UnsignedChar;
+  }
+  if (bits == 16 && (format == 1 || format == 2))
+  {
+    return format == 2 ? FramePixel::Short : FramePixel::UnsignedShort;
+  }
+  if (bits == 32 && format == 3)
+  {
+    return FramePixel::Float;
+  }
+  if ((bits == 32 || bits == 8) && (format == 1 || format == 2))
+  {
+    tags.Refuse(UnsupportedPixel(bits == 8 ? "char" : format == 1 ? "unsigned int" : "int"));
+  }
+  const std::string kind = format == 1   ? "unsigned"
+                           : format == 2 ? "signed"
+                           : format == 3 ? "floating-point"
+                                         : "format " + std::to_string(format);
+  tags.Refuse(
+    std::to_string(bits) + "-bit " + kind +
+    " samples, which ITK does not read as they are; expected 8-bit unsigned, 16-bit, or 32-bit floating-point "
+    "samples, the same on all pages");
+}
+
+TiffCompression
+CompressionOf(const TiffTags & tags)
+{
+  const std::uint64_t compression = tags.Required(259, "Compression");
+  std::string         name;
+  switch (compression)
+  {
+    case 1:
+      return TiffCompression::None;
+    case 5:
+      return TiffCompression::Lzw;
+    case 8:
+    case 32946:
+      return TiffCompression::Deflate;
+    case 32773:
+      return TiffCompression::PackBits;
+    case 6:
+    case 7:
+      name = "JPEG, which changes the noise";
+      break;
+    case 50001:
+      name = "WebP, which cannot be checked";
+      break;
+    case 34712:
+      name = "JPEG 2000, which cannot be checked";
+      break;
+    case 34925:
+      name = "LZMA, which cannot be checked";
+      break;
+    case 50000:
+      name = "Zstandard, which cannot be checked";
+      break;
+    default:
+      name = "method " + std::to_string(compression) + ", which cannot be checked";
+  }
+  tags.Refuse("compressed by " + name + "; expected no compression, deflate, LZW or PackBits");
+}
+
+void
+ReadPredictor(const TiffTags & tags, TiffPage & page)
+{
+  const std::uint64_t predictor = tags.Number(317, "Predictor", 1);
+  const bool          isUsed = page.compression == TiffCompression::Lzw || page.compression == TiffCompression::Deflate;
+  const bool          isFloat = page.pixel == FramePixel::Float;
+  if (isUsed && predictor != 1 && predictor != (isFloat ? 3U : 2U) && !(isFloat && predictor == 2))
+  {
+    tags.Refuse("Predictor is " + std::to_string(predictor) + "; expected 1 or " + (isFloat ? "3" : "2"));
+  }
+  page.predictor = isUsed ? predictor : 1;
+}
+
+void
+ReadSubfileType(const TiffTags & tags, TiffPage & page)
+{
+  const std::uint64_t type = tags.Number(254, "NewSubfileType", 2);
+  const std::uint64_t oldType = tags.Number(255, "SubfileType", 1);
+  page.isFull = type == 0;
+  page.isReduced = (type & 5) != 0 || oldType == 2;
+}
+} // namespace
+
+std::string
+SamplesOf(FramePixel pixel)
+{
+  return std::to_string(8 * SizeOf(pixel)) + "-bit " +
+         (pixel == FramePixel::Float   ? "floating-point"
+          : pixel == FramePixel::Short ? "signed"
+                                       : "unsigned");
+}
+
+TiffPage
+ReadTiffPage(const std::string & page, TiffBytes & tiff, const TiffDirectory & directory)
+{
+  const TiffTags tags(page, tiff, directory);
+  tags.RequireEachOnce();
+  RequireGrey(tags);
+  RequirePlainStrips(tags);
+  TiffPage found;
+  found.width = tags.Required(256, "ImageWidth");
+  found.height = tags.Required(257, "ImageLength");
+  found.pixel = PixelOfTiff(tags);
+  found.compression = CompressionOf(tags);
+  ReadPredictor(tags, found);
+  ReadSubfileType(tags, found);
+  found.orientation = tags.Number(274, "Orientation", 1);
+  if (found.orientation != 1 && found.orientation != 4)
+  {
+    tags.Refuse("Orientation is " + std::to_string(found.orientation) +
+                ", which ITK converts to 8-bit colours; expected 1 (or 4, upside down)");
+  }
+  FrameFile sizes;
+  sizes.name = page;
+  sizes.pixel = found.pixel;
+  SetFrameSizes(sizes, { found.width, found.height });
+  const std::uint64_t rows = tags.Number(278, "RowsPerStrip", UINT32_MAX);
+  if (rows == 0)
+  {
+    tags.Refuse("damaged: RowsPerStrip is 0; expected at least 1");
+  }
+  found.rowsPerStrip = std::min(rows, found.height);
+  const std::uint64_t strips = (found.height - 1) / found.rowsPerStrip + 1;
+  found.offsets = tags.OfStrips(273, "StripOffsets", strips);
+  found.byteCounts = tags.OfStrips(279, "StripByteCounts", strips);
+  return found;
+}
+
+} // namespace sensornoise

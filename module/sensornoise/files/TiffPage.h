@@ -1,0 +1,66 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_files_TiffPage_h
+#define sensornoise_files_TiffPage_h
+
+#include "sensornoise/files/FrameFile.h"
+#include "sensornoise/files/TiffDirectory.h"
+
+#include <cstdint>
+#include <string>
+
+namespace sensornoise
+{
+
+/** How the pixels of a TIFF's strips are compressed. */
+enum class TiffCompression
+{
+  None,
+  Lzw,
+  Deflate,
+  PackBits
+};
+
+/** What the directory of a page says of its pixels. */
+struct TiffPage
+{
+  std::uint64_t   width{ 0 };
+  std::uint64_t   height{ 0 };
+  FramePixel      pixel{ FramePixel::UnsignedChar };
+  TiffCompression compression{ TiffCompression::None };
+  std::uint64_t   predictor{ 1 };
+  std::uint64_t   rowsPerStrip{ 0 }; // at most the height
+  std::uint64_t   orientation{ 1 };
+  bool            isReduced{ false }; // a thumbnail or a mask, by NewSubfileType
+  bool            isFull{ false };    // NewSubfileType says so
+  TiffEntry       offsets{};          // of its strips
+  TiffEntry       byteCounts{};
+};
+
+/** Reads what a directory says. \a page begins the errors. Throws FileError unless the page consists of strips of one
+ * grey value a pixel, which ITK reads without conversion, and whose compression can be checked. */
+TiffPage
+ReadTiffPage(const std::string & page, TiffBytes & tiff, const TiffDirectory & directory);
+
+/** What ITK takes the samples for: "16-bit unsigned". */
+std::string
+SamplesOf(FramePixel pixel);
+
+} // namespace sensornoise
+
+#endif

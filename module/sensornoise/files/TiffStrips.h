@@ -1,0 +1,74 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_files_TiffStrips_h
+#define sensornoise_files_TiffStrips_h
+
+#include "sensornoise/files/ByteRanges.h"
+#include "sensornoise/files/TiffDirectory.h"
+#include "sensornoise/files/TiffPage.h"
+
+#include <cstdint>
+#include <string>
+
+namespace sensornoise
+{
+
+/** Checks the strips of all pages of a TIFF. */
+class TiffStrips
+{
+public:
+  explicit TiffStrips(TiffBytes & tiff)
+    : m_Tiff(tiff)
+  {}
+
+  /** The directory of a page, and values that are not in it, hold no pixels. \a page begins the errors. */
+  void
+  AddDirectory(const std::string & page, const TiffDirectory & directory);
+
+  /** Throws FileError unless all strips of the page lie within the file and give exactly the bytes of its rows: if they
+   * are not compressed by their number, deflated ones by their checksum, too. What LZW holds is not looked at: it has
+   * no checksum, and libtiff says itself if too little comes out. */
+  void
+  CheckPage(const std::string & page, const TiffPage & found);
+
+  /** Throws FileError if bytes of a strip belong to another one, or to a directory, and if so many bytes belong to none
+   * of the pages that another could be there: one that a damaged chain of pages, or the format of a program that keeps
+   * no such chain, has left out. */
+  void
+  RequireAllBytes(const std::string & file);
+
+private:
+  void
+  CheckStrip(const std::string & page,
+             const TiffPage &    found,
+             std::uint64_t       strip,
+             std::uint64_t       rows,
+             std::uint64_t       offset,
+             std::uint64_t       count);
+
+  TiffBytes &   m_Tiff;
+  ByteRanges    m_Ranges{};
+  std::uint64_t m_PixelBytes{ 0 };            // of all strips so far
+  std::uint64_t m_SmallestPage{ UINT64_MAX }; // bytes of the strips of a page
+  bool          m_HasSubDirectories{ false };
+  std::uint64_t m_DirectoryBytes{ 0 }; // of all directories so far
+};
+
+} // namespace sensornoise
+
+#endif

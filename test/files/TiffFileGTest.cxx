@@ -1,0 +1,298 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "helpers/FrameFileTestHelper.h"
+#include "helpers/TiffTestHelper.h"
+
+#include <string>
+#include <utility>
+
+namespace
+{
+using namespace sensornoise;
+using namespace sensornoise::test;
+
+class TiffFile : public FrameFileTest
+{};
+
+TEST_F(TiffFile, OfEveryKindThatITKReadsIsAccepted)
+{
+  for (const bool isBig : { false, true })
+  {
+    for (const bool isBigEndian : { false, true })
+    {
+      for (const unsigned compression : { 1u, 8u, 32946u, 32773u, 5u })
+      {
+        TiffOf tiff;
+        tiff.isBig = isBig;
+        tiff.isBigEndian = isBigEndian;
+        tiff.compression = compression;
+        const FrameFile file = IsFrames("a.tif", tiff.Bytes(), FramePixel::UnsignedShort, 13, 9, 3);
+        EXPECT_EQ(file.format, FrameFormat::Tiff);
+        tiff.pages.resize(1);
+        IsFrames("a.tif", tiff.Bytes(), FramePixel::UnsignedShort, 13, 9, 1);
+        tiff.bits = 8;
+        tiff.rowsPerStrip = 9;
+        IsFrames("a.tif", tiff.Bytes(), FramePixel::UnsignedChar, 13, 9, 1);
+      }
+    }
+  }
+  IsFrames("a.tif", TiffWith({ { 339, { 3, { 2 } } } }).Bytes(), FramePixel::Short, 13, 9, 3);
+  TiffOf real = TiffWith({ { 339, { 3, { 3 } } } });
+  real.bits = 32;
+  IsFrames("a.tif", real.Bytes(), FramePixel::Float, 13, 9, 3);
+}
+
+TEST_F(TiffFile, WhatWritersAddIsAccepted)
+{
+  const auto isAccepted = [this](const TiffOf & tiff) {
+    IsFrames("a.tif", tiff.Bytes(), FramePixel::UnsignedShort, 13, 9, 3);
+  };
+  isAccepted(TiffWith({ { 254, { 4, { 0 } } } })); // full images
+  isAccepted(TiffWith({ { 254, { 4, { 2 } } } })); // pages
+  isAccepted(TiffWith({ { 274, { 3, { 4 } } } })); // upside down
+  isAccepted(TiffWith({ { 262, { 3, { 0 } } } })); // 0 is white
+  isAccepted(TiffWith({ { 270, Text("ImageJ=1.53t\nimages=3\nslices=3\n") } }));
+  isAccepted(TiffWith({ { 305, Text("a program") }, { 50839, { 1, { 1, 2, 3, 4, 5, 6 } } } }));
+  for (const unsigned compression : { 1u, 8u })
+  {
+    TiffOf filledUp;
+    filledUp.compression = compression;
+    filledUp.fillUp = 3;
+    isAccepted(filledUp);
+  }
+  TiffOf apart;
+  apart.between = std::string(100, 'x');
+  isAccepted(apart);
+  TiffOf predicted = TiffWith({ { 317, { 3, { 2 } } } });
+  predicted.compression = 8;
+  isAccepted(predicted);
+}
+
+TEST_F(TiffFile, WhatITKWouldConvertIsRefused)
+{
+  const auto isRefused = [this](const TiffTags & tags, const std::string & words) {
+    IsRefused("a.tif", TiffWith(tags).Bytes(), { words });
+  };
+  isRefused({ { 258, { 3, { 32 } } } }, "component type unsigned int is not supported");
+  isRefused({ { 258, { 3, { 32 } } }, { 339, { 3, { 2 } } } }, "component type int is not supported");
+  isRefused({ { 258, { 3, { 8 } } }, { 339, { 3, { 2 } } } }, "component type char is not supported");
+  isRefused({ { 339, { 3, { 3 } } } }, "16-bit floating-point samples, which ITK does not read as they are");
+  isRefused({ { 339, { 3, { 0 } } } }, "16-bit format 0 samples");
+  isRefused({ { 258, { 3, { 64 } } }, { 339, { 3, { 3 } } } }, "64-bit floating-point");
+  isRefused({ { 258, { 3, { 12 } } } }, "12-bit unsigned");
+  isRefused({ { 277, { 3, { 3 } } } }, "3 components a pixel; expected 1");
+  isRefused({ { 262, { 3, { 3 } } } }, "palette of colours");
+  isRefused({ { 262, { 3, { 32803 } } } }, "the photometric interpretation 32803 (a mosaic of colour filters)");
+  isRefused({ { 262, {} } }, "has no tag 262");
+  isRefused({ { 322, { 3, { 16 } } }, { 323, { 3, { 16 } } } }, "a tiled TIFF");
+  isRefused({ { 274, { 3, { 3 } } } }, "Orientation is 3");
+  isRefused({ { 266, { 3, { 2 } } } }, "FillOrder is 2");
+  isRefused({ { 336, { 3, { 0, 255 } } } }, "the tag 336 (DotRange)");
+  isRefused({ { 32997, { 4, { 2 } } } }, "ImageDepth is 2");
+}
+
+TEST_F(TiffFile, OtherCompressionsAreRefusedByName)
+{
+  for (const auto & [compression, words] : { std::pair{ 7u, "compressed by JPEG, which changes the noise" },
+                                             std::pair{ 34712u, "JPEG 2000" },
+                                             std::pair{ 34925u, "LZMA" },
+                                             std::pair{ 50000u, "Zstandard" },
+                                             std::pair{ 50001u, "WebP" },
+                                             std::pair{ 4u, "method 4, which cannot be checked" } })
+  {
+    TiffOf tiff;
+    tiff.compression = compression;
+    IsRefused("a.tif", tiff.Bytes(), { words, "expected no compression, deflate, LZW or PackBits" });
+  }
+  TiffOf tiff = TiffWith({ { 317, { 3, { 3 } } } });
+  tiff.compression = 8;
+  IsRefused("a.tif", tiff.Bytes(), { "Predictor is 3; expected 1 or 2" });
+}
+
+TEST_F(TiffFile, PagesThatAreNotAlikeAreRefused)
+{
+  const auto isRefused = [this](const TiffTags & tags, const std::string & words) {
+    TiffOf tiff;
+    tiff.pages[1] = tags;
+    IsRefused("a.tif", tiff.Bytes(), { words });
+  };
+  isRefused({ { 256, { 4, { 4 } } } }, "a.tif, page 1: 4 x 9 pixels, but the first page has 13 x 9");
+  isRefused({ { 339, { 3, { 2 } } } }, "page 1: 16-bit signed samples, but the first page has 16-bit unsigned ones");
+  isRefused({ { 274, { 3, { 4 } } } }, "page 1: Orientation is 4, but 1 on the first page");
+  isRefused({ { 259, { 3, { 5 } } } }, "page 1: compressed in another way");
+  isRefused({ { 254, { 4, { 1 } } } }, "pages: 3, of which 1 are said to be thumbnails or masks");
+  isRefused({ { 255, { 3, { 2 } } } }, "pages: 3, of which 1 are said to be thumbnails");
+  isRefused({ { 254, { 4, { 0 } } } }, "pages: 3, but ITK reads 1 frames of them");
+  IsRefused("a.tif",
+            TiffWith({ { 270, Text("ImageJ=1.54\nimages=500\nslices=500\n") } }).Bytes(),
+            { "pages: 3, but ImageJ's description of it says images=500" });
+}
+
+TEST_F(TiffFile, AChainOfPagesThatIsBrokenOrHasNoEndIsRefused)
+{
+  const std::string good = TiffOf{}.Bytes();
+  const auto        linkOf = [&good](std::size_t page) {
+    std::size_t at = 4;
+    for (std::size_t i = 0; i < page; ++i)
+    {
+      std::size_t directory = 0;
+      for (std::size_t byte = 4; byte-- > 0;)
+      {
+        directory = directory * 256 + static_cast<unsigned char>(good[at + byte]);
+      }
+      at = directory + 2 + 12 * static_cast<unsigned char>(good[directory]);
+    }
+    return at;
+  };
+  const TiffOf tiff;
+  std::string  damaged = good;
+  damaged.replace(linkOf(3), 4, good.substr(4, 4));
+  IsRefused("a.tif", damaged, { "a.tif, page 3: damaged: its directory is that of a page before" });
+  damaged = good;
+  damaged.replace(linkOf(1), 4, tiff.Number(100000, 4));
+  IsRefused("a.tif", damaged, { "truncated: 1 of its pages can be read, but the file says that more follow" });
+  damaged.replace(linkOf(1), 4, tiff.Number(0, 4));
+  IsRefused("a.tif", damaged, { "bytes in a row belong to none of its pages, enough for another one" });
+  damaged = good;
+  damaged.replace(4, 4, tiff.Number(0, 4));
+  IsRefused("a.tif", damaged, { "a TIFF without a page" });
+  damaged.replace(4, 4, tiff.Number(good.size() - 1, 4));
+  IsRefused("a.tif", damaged, { "truncated: its directory is at byte" });
+  IsRefused("a.tif", good.substr(0, 6), { "truncated: ends after 6 bytes" });
+  const std::string directory = "II*" + std::string(1, '\0') + tiff.Number(8, 4);
+  IsRefused("a.tif", directory + tiff.Number(0, 2) + "abcdef", { "its directory at byte 8 has 0 entries; expected 1" });
+  IsRefused(
+    "a.tif", directory + tiff.Number(4097, 2) + std::string(60000, '\0'), { "has 4097 entries; expected 1 to 4096" });
+  IsRefused("a.tif", directory + tiff.Number(99, 2) + std::string(99, '\0'), { "has 99 entries and does not end in" });
+  IsRefused("a.tif",
+            "II+" + std::string(1, '\0') + tiff.Number(4, 2) + tiff.Number(0, 2) + tiff.Number(16, 8),
+            { "a BigTIFF whose offsets have 4 bytes; expected 8" });
+  for (std::size_t size = 1; size < good.size(); ++size)
+  {
+    ASSERT_NE(SaidOf("a.tif", good.substr(0, size)), "") << size << " bytes";
+  }
+}
+
+TEST_F(TiffFile, MorePagesThanITKCountsAreRefused)
+{
+  TiffOf tiff;
+  tiff.width = 1;
+  tiff.height = 1;
+  tiff.bits = 8;
+  tiff.pages.resize(65535);
+  const std::string bytes = tiff.Bytes();
+  IsRefused("a.tif", bytes, { "a.tif, page 65534: has more than 65534 pages; expected no more" });
+}
+
+TEST_F(TiffFile, TablesAndStripsOutsideOfTheFileAreRefused)
+{
+  const auto isRefused = [this](const TiffTags & tags, const std::string & words) {
+    IsRefused("a.tif", TiffWith(tags).Bytes(), { words });
+  };
+  isRefused({ { 257, { 4, { 40 } } } }, "its tag 273 (StripOffsets) has 3 values; expected 10, one for each strip");
+  isRefused({ { 279, {} } }, "its tag 279 (StripByteCounts) has 0 values; expected 3");
+  isRefused({ { 279, { 3, { 104, 0, 26 } } } }, "its strip 1 has 0 bytes");
+  isRefused({ { 273, { 4, { 8, 112, 100000 } } } }, "its strip 2 has 26 bytes from byte 100000 on, but the file has");
+  isRefused({ { 273, { 4, { 0, 112, 216 } } } }, "its strip 0 has 104 bytes from byte 0");
+  isRefused({ { 256, { 4, { 13, 13 } } } }, "its tag 256 (ImageWidth) has 2 values");
+  isRefused({ { 256, { 2, { 13 } } } }, "its tag 256 (ImageWidth) has 1 values of type 2");
+  isRefused({ { 256, {} } }, "has no tag 256 (ImageWidth)");
+  isRefused({ { 259, {} } }, "has no tag 259 (Compression)");
+  isRefused({ { 278, { 4, { 0 } } } }, "RowsPerStrip is 0");
+  isRefused({ { 256, { 4, { 0 } } } }, "size 0 along axis 0");
+  isRefused({ { 305, { 99, { 0 } } } }, "its tag 305 is of type 99");
+  const TiffOf tiff;
+  IsRefused("a.tif",
+            Replaced(tiff.Bytes(), tiff.Number(277, 2), tiff.Number(278, 2)),
+            { "its tag 278 comes twice; expected each once" });
+  TiffOf            outside = TiffWith({ { 305, Text("a long name of a program") } });
+  const std::string good = outside.Bytes();
+  const std::string entry = outside.Number(305, 2) + outside.Number(2, 2) + outside.Number(24, 4);
+  IsRefused("a.tif",
+            Replaced(good, entry, outside.Number(305, 2) + outside.Number(2, 2) + outside.Number(0xFFFFFFFF, 4)),
+            { "its tag 305 has 4294967295 values of 1 bytes" });
+}
+
+TEST_F(TiffFile, BytesThatAreReadTwiceAreRefused)
+{
+  for (const std::int64_t move : { -1, 1, -20, 20, -200 })
+  {
+    TiffOf tiff;
+    tiff.moveStrip = move;
+    IsRefused("a.tif", tiff.Bytes(), { "damaged: the byte", "expected each byte to be read once" });
+  }
+  TiffOf lzw;
+  lzw.compression = 5;
+  lzw.moveStrip = 1;
+  IsRefused("a.tif", lzw.Bytes(), { "damaged: the byte" });
+  const TiffTags many{ { 273, { 4, { 8, 8, 8 } } }, { 279, { 4, { 500, 500, 500 } } } };
+  TiffOf         deflated = TiffWith(many);
+  deflated.compression = 8;
+  IsRefused("a.tif", deflated.Bytes(), { "its strips overlap, or lie in more places than can be checked" });
+  const TiffTags same{ { 273, { 4, { 8, 112, 216 } } } };
+  IsRefused("a.tif", TiffWith(same).Bytes(), { "damaged: the byte 8 belongs to two" });
+}
+
+TEST_F(TiffFile, StripsThatDoNotGiveTheirBytesAreRefused)
+{
+  TiffOf            tiff;
+  const std::string first = tiff.StripOf(0, 0, 4);
+  const auto        isRefused = [this, &tiff](const std::string & strip, const std::string & words) {
+    tiff.strip = strip;
+    IsRefused("a.tif", tiff.Bytes(), { "damaged: its strip 0 ", words });
+  };
+  isRefused(first.substr(1), "has 103 bytes, but its rows have 104; expected as many");
+  isRefused(first + "a", "has 105 bytes, but its rows have 104");
+  tiff.compression = 8;
+  isRefused(ZlibStream(first.substr(1)), "gives 103 bytes, expected 104 bytes and the end of the stream");
+  isRefused(ZlibStream(first + "a"), "gives more than 104 bytes");
+  const std::string stream = ZlibStream(first);
+  isRefused(stream.substr(0, stream.size() - 4), "104 bytes and then an error (no end of the stream)");
+  isRefused(stream.substr(0, stream.size() - 1) + "a", "104 bytes and then an error (incorrect data check)");
+  isRefused("abc", "0 bytes and then an error (incorrect header check)");
+  tiff.compression = 32773;
+  isRefused(PackedBits(std::string(26, 'a')), "ends within row 1 of its PackBits; expected 26 bytes a row");
+  isRefused(PackedBits(std::string(104, 'a')), "has a run beyond the end of row 0 of its PackBits");
+  isRefused("\x05zz", "ends within row 0");
+}
+
+TEST_F(TiffFile, AnyChangedBitOfADeflatedPageIsRefusedOrDoesNotMatter)
+{
+  TiffOf tiff;
+  tiff.compression = 8;
+  tiff.pages.resize(2);
+  const std::string good = tiff.Bytes();
+  std::size_t       accepted = 0;
+  for (std::size_t bit = 0; bit < 8 * good.size(); ++bit)
+  {
+    std::string damaged = good;
+    damaged[bit / 8] = static_cast<char>(damaged[bit / 8] ^ (1 << bit % 8));
+    const std::string file = Write("a.tif", damaged);
+    try
+    {
+      const FrameFile found = InspectFrameFile(file);
+      ++accepted;
+      EXPECT_EQ(found.width * found.height * found.frames, 13u * 9 * 2) << "bit " << bit;
+    }
+    catch (const FileError &)
+    {}
+  }
+  EXPECT_LT(accepted, good.size());
+}
+
+} // namespace

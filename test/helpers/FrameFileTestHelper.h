@@ -1,0 +1,160 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_test_FrameFileTestHelper_h
+#define sensornoise_test_FrameFileTestHelper_h
+
+#include "sensornoise/files/FileError.h"
+#include "sensornoise/files/FrameFile.h"
+
+#include <cstddef>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <iterator>
+#include <random>
+#include <string>
+#include <vector>
+
+/** \file
+ * Files made byte by byte, and what is said of them. */
+
+namespace sensornoise::test
+{
+
+/** Writes into a folder of its own. */
+class FrameFileTest : public ::testing::Test
+{
+protected:
+  void
+  SetUp() override
+  {
+    const auto * const test = ::testing::UnitTest::GetInstance()->current_test_info();
+    // two builds may be tested at the same time
+    m_Folder = std::filesystem::path(::testing::TempDir()) /
+               (std::string("FrameFile") + test->name() + std::to_string(std::random_device{}()));
+    std::filesystem::create_directories(m_Folder);
+  }
+
+  void
+  TearDown() override
+  {
+    std::filesystem::remove_all(m_Folder);
+  }
+
+  std::string
+  Path(const std::string & name) const
+  {
+    return (m_Folder / name).string();
+  }
+
+  std::string
+  Write(const std::string & name, const std::string & bytes) const
+  {
+    // file systems write at once what replaces a file, which takes milliseconds; not what is new
+    std::filesystem::remove(Path(name));
+    std::ofstream(Path(name), std::ios::binary) << bytes;
+    return Path(name);
+  }
+
+  /** What inspecting a file of these bytes says: "" if it is accepted. */
+  std::string
+  SaidOf(const std::string & name, const std::string & bytes) const
+  {
+    const std::string file = Write(name, bytes);
+    try
+    {
+      InspectFrameFile(file);
+      return "";
+    }
+    catch (const FileError & error)
+    {
+      const std::string said = error.what();
+      EXPECT_EQ(said.rfind(file, 0), 0u) << said;
+      EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+      return said;
+    }
+  }
+
+  void
+  IsRefused(const std::string & name, const std::string & bytes, const std::vector<std::string> & parts) const
+  {
+    const std::string said = SaidOf(name, bytes);
+    EXPECT_NE(said, "") << name << " was accepted, expected: " << parts.front();
+    for (const std::string & part : parts)
+    {
+      EXPECT_NE(said.find(part), std::string::npos) << "\"" << part << "\" is not in: " << said;
+    }
+  }
+
+  /** It is accepted, and is of this size. */
+  FrameFile
+  IsFrames(const std::string & name,
+           const std::string & bytes,
+           FramePixel          pixel,
+           std::size_t         width,
+           std::size_t         height,
+           std::size_t         frames) const
+  {
+    FrameFile file;
+    EXPECT_EQ(SaidOf(name, bytes), "") << name;
+    try
+    {
+      file = InspectFrameFile(Path(name));
+    }
+    catch (const FileError & error)
+    {
+      ADD_FAILURE() << error.what();
+    }
+    EXPECT_EQ(file.name, Path(name));
+    EXPECT_EQ(file.width, width) << name;
+    EXPECT_EQ(file.height, height) << name;
+    EXPECT_EQ(file.frames, frames) << name;
+    EXPECT_EQ(NameOf(file.pixel), NameOf(pixel)) << name;
+    EXPECT_EQ(file.bytes, SizeOf(pixel) * width * height * frames) << name;
+    return file;
+  }
+
+  std::filesystem::path m_Folder;
+};
+
+/** The text with a part of it replaced, once. */
+inline std::string
+Replaced(std::string text, const std::string & part, const std::string & replacement)
+{
+  const std::size_t at = text.find(part);
+  EXPECT_NE(at, std::string::npos) << part;
+  return at == std::string::npos ? text : text.replace(at, part.size(), replacement);
+}
+
+/** Bytes without a pattern, the same each time. */
+inline std::string
+RandomBytes(std::size_t count, unsigned seed = 1)
+{
+  std::mt19937 random(seed);
+  std::string  bytes;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    bytes += static_cast<char>(random() >> 24);
+  }
+  return bytes;
+}
+
+} // namespace sensornoise::test
+
+#endif

@@ -1,0 +1,186 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef sensornoise_test_TiffTestHelper_h
+#define sensornoise_test_TiffTestHelper_h
+
+#include "helpers/CompressedBytesTestHelper.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace sensornoise::test
+{
+
+/** The values of a tag, all of one type; of type ASCII, a character each. */
+struct TiffTag
+{
+  unsigned                   type{ 4 };
+  std::vector<std::uint64_t> values{};
+};
+
+/** By their numbers. A tag without values is left out. */
+using TiffTags = std::map<unsigned, TiffTag>;
+
+/** A TIFF, of which everything can be otherwise. */
+struct TiffOf
+{
+  bool                  isBig{ false };
+  bool                  isBigEndian{ false };
+  std::size_t           width{ 13 };
+  std::size_t           height{ 9 };
+  std::size_t           rowsPerStrip{ 4 };
+  unsigned              bits{ 16 };
+  unsigned              compression{ 1 };
+  std::vector<TiffTags> pages = std::vector<TiffTags>(3); // what each says beyond that or otherwise
+  std::string           strip{};                          // instead of the first strip
+  std::size_t           fillUp{ 0 };                      // rows added to the last strip
+  std::int64_t          moveStrip{ 0 };                   // the first strip of the second page [bytes]
+  std::string           between{};                        // bytes before each directory
+
+  std::string
+  Number(std::uint64_t number, std::size_t bytes) const
+  {
+    std::string text;
+    AppendNumber(text, number, bytes, isBigEndian);
+    return text;
+  }
+
+  std::string
+  StripOf(std::size_t page, std::size_t firstRow, std::size_t rows) const
+  {
+    std::string packed;
+    std::string plain;
+    for (std::size_t y = firstRow; y < firstRow + rows; ++y)
+    {
+      std::string row;
+      for (std::size_t x = 0; x < width; ++x)
+      {
+        row += Number(100 + x * y + 3 * page, bits / 8);
+      }
+      plain += row;
+      packed += PackedBits(row);
+    }
+    return compression == 32773 ? packed : compression == 8 || compression == 32946 ? ZlibStream(plain) : plain;
+  }
+
+  static std::size_t
+  BytesOf(unsigned type)
+  {
+    return type == 3 ? 2 : type == 4 ? 4 : type == 5 || type == 16 ? 8 : 1;
+  }
+
+  std::string
+  Directory(const TiffTags & tags, std::size_t offset) const
+  {
+    const std::size_t word = isBig ? 8 : 4;
+    std::string       table = Number(tags.size(), isBig ? 8 : 2);
+    std::string       values;
+    const std::size_t end = offset + table.size() + tags.size() * (4 + 2 * word) + word;
+    for (const auto & [tag, content] : tags)
+    {
+      std::string text;
+      for (const std::uint64_t value : content.values)
+      {
+        text += Number(value, BytesOf(content.type));
+      }
+      table += Number(tag, 2) + Number(content.type, 2) + Number(content.values.size(), word);
+      if (text.size() <= word)
+      {
+        table += text + std::string(word - text.size(), '\0');
+      }
+      else
+      {
+        table += Number(end + values.size(), word);
+        values += text;
+      }
+    }
+    return table + std::string(word, '\0') + values;
+  }
+
+  std::string
+  Bytes() const
+  {
+    const std::size_t word = isBig ? 8 : 4;
+    std::string       tiff = std::string(isBigEndian ? "MM" : "II") + Number(isBig ? 43 : 42, 2);
+    tiff += isBig ? Number(8, 2) + Number(0, 2) : "";
+    std::size_t link = tiff.size();
+    tiff += Number(0, word);
+    for (std::size_t page = 0; page < pages.size(); ++page)
+    {
+      TiffTags tags{ { 256, { 4, { width } } },
+                     { 257, { 4, { height } } },
+                     { 258, { 3, { bits } } },
+                     { 259, { 3, { compression } } },
+                     { 262, { 3, { 1 } } },
+                     { 273, {} },
+                     { 277, { 3, { 1 } } },
+                     { 278, { 4, { rowsPerStrip } } },
+                     { 279, {} } };
+      for (std::size_t y = 0; y < height; y += rowsPerStrip)
+      {
+        const bool        isLast = y + rowsPerStrip >= height;
+        const std::size_t rows = isLast ? height - y + fillUp : rowsPerStrip;
+        const std::string bytes = page == 0 && y == 0 && !strip.empty() ? strip : StripOf(page, y, rows);
+        const bool        isMoved = page == 1 && y == 0;
+        tags[273].values.push_back(tiff.size() + static_cast<std::uint64_t>(isMoved ? moveStrip : 0));
+        tags[279].values.push_back(bytes.size());
+        tiff += bytes;
+      }
+      for (const auto & [tag, content] : pages[page])
+      {
+        tags[tag] = content;
+        if (content.values.empty())
+        {
+          tags.erase(tag);
+        }
+      }
+      tiff += between;
+      tiff.replace(link, word, Number(tiff.size(), word));
+      link = tiff.size() + (isBig ? 8 : 2) + tags.size() * (4 + 2 * word);
+      tiff += Directory(tags, tiff.size());
+    }
+    return tiff;
+  }
+};
+
+/** With the same tags on all three pages. */
+inline TiffOf
+TiffWith(const TiffTags & tags)
+{
+  TiffOf tiff;
+  tiff.pages.assign(3, tags);
+  return tiff;
+}
+
+inline TiffTag
+Text(const std::string & text)
+{
+  TiffTag tag{ 2, {} };
+  for (const char c : text)
+  {
+    tag.values.push_back(static_cast<unsigned char>(c));
+  }
+  return tag;
+}
+
+} // namespace sensornoise::test
+
+#endif

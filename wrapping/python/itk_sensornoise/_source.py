@@ -1,0 +1,105 @@
+# ==========================================================================
+#
+#   Copyright the ITKSensorNoise contributors
+#
+#   Licensed under the Apache License, Version 2.0 (the "License");
+#   you may not use this file except in compliance with the License.
+#   You may obtain a copy of the License at
+#
+#          https://www.apache.org/licenses/LICENSE-2.0.txt
+#
+#   Unless required by applicable law or agreed to in writing, software
+#   distributed under the License is distributed on an "AS IS" BASIS,
+#   WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+#   See the License for the specific language governing permissions and
+#   limitations under the License.
+#
+# ==========================================================================*/
+"""Frames from files, through itk.SensorNoiseFrameListSource, which checks them: the one door of C++ and Python."""
+
+import os
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ._arrays import PIXEL_TYPES
+from ._errors import itk_errors
+
+
+def _names_of(file_names: Any) -> list[str]:
+    """Names as C++ takes them."""
+    if isinstance(file_names, (str, os.PathLike)):
+        file_names = [file_names]
+    names = [os.fsdecode(name) for name in file_names]
+    for name in names:
+        try:
+            name.encode()
+        except UnicodeEncodeError:
+            raise ValueError(f"{name!a}: a name that is not UTF-8; expected one that is") from None
+    return names
+
+
+def _new(pixel: str) -> Any:
+    import itk
+
+    return itk.SensorNoiseFrameListSource[itk.Image[getattr(itk, PIXEL_TYPES[pixel][0]), 3]].New()
+
+
+def open_files(file_names: Sequence[Any]) -> tuple[Any, str]:
+    """The source of files in time order, and its pixel type, a key of PIXEL_TYPES. All headers are checked; no pixel is
+    kept. Raises ValueError, in the words of C++, where a file is not what it should be."""
+    import itk
+
+    # Any type will do to ask for the right one; what it found is handed on, so that nothing is checked twice.
+    asked = _new("uint16")
+    asked.SetFileNames(_names_of(file_names))
+    with itk_errors(kind=ValueError):
+        component = asked.GetComponentType()
+    pixel = next(
+        key for key, (_, name) in PIXEL_TYPES.items() if component == getattr(itk.CommonEnums, f"IOComponent_{name}")
+    )
+    source = _new(pixel)
+    source.SetFrameList(asked.GetFrameList())
+    with itk_errors(kind=ValueError):
+        source.UpdateOutputInformation()
+    return source, pixel
+
+
+def read_image(file_name: Any, what: str) -> np.ndarray:
+    """The pixels (y, x) of one image on a file, for what is called `what` in errors."""
+    import itk
+
+    try:
+        source, _ = open_files([file_name])
+        frames = int(source.GetOutput().GetLargestPossibleRegion().GetSize()[2])
+        if frames > 1:
+            raise ValueError(f"{os.fsdecode(file_name)}: has {frames} frames; expected one image")
+    except ValueError as error:
+        raise ValueError(f"{what} {error}") from error
+    with itk_errors(f"{what} "):
+        source.Update()
+    return itk.array_from_image(source.GetOutput())[0]
+
+
+def sensor_noise_frame_list_source(file_names: Any, *, ttype: Any = None) -> Any:
+    """itk.SensorNoiseFrameListSource in functional style: frames on files as an itk.Image (x, y, t), all read.
+
+    `file_names`: 2-D images in time order, TIFF, PNG, MetaImage or NRRD, or the name of one stack. `ttype`: the type of
+    the image, itk.Image[itk.US, 3] for instance; default: that of the files, and nothing is converted.
+
+    Raises ValueError for files that are not complete, not all alike or not of grey values, RuntimeError where their
+    pixels cannot be read. To read a few frames at a time, use the class, as an input of a filter.
+    """
+    import itk
+
+    if ttype is None:
+        source, _ = open_files([file_names] if isinstance(file_names, (str, os.PathLike)) else file_names)
+    else:
+        source = itk.SensorNoiseFrameListSource[ttype].New()
+        source.SetFileNames(_names_of(file_names))
+        with itk_errors(kind=ValueError):
+            source.UpdateOutputInformation()
+    with itk_errors():
+        source.Update()
+    return source.GetOutput()
