@@ -18,6 +18,8 @@
 """`import itk`, in any order, again, and without cost or a word."""
 
 import importlib
+import re
+from pathlib import Path
 
 import itk
 import pytest
@@ -100,3 +102,10 @@ def test_help_shows_every_parameter():
         assert len(function.__doc__) > 200
         hints = set(function.__annotations__) - {"return", "parameters"}
         assert hints and all(hint in function.__doc__ for hint in hints)
+
+
+def test_library_names_no_folder_of_the_machine_that_built_it():
+    library = next(Path(itk.__file__).parent.glob("_SensorNoisePython*.so"))
+    places = re.findall(rb"[^\0\n]*[.](?:hxx|cxx|h)\0", library.read_bytes())
+    assert any(b"itkSensorNoiseFrameListSource.hxx" in place for place in places)
+    assert [place for place in places if place.startswith(b"/")] == []
