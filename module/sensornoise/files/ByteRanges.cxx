@@ -21,6 +21,16 @@
 
 namespace sensornoise
 {
+namespace
+{
+/** Whether what begins at `offset` follows what ends at `end`. Writers fill strips up to words of four bytes, which
+ * leaves no room for a table between; between tables there may be a strip of a byte. */
+bool
+Follows(std::uint64_t end, std::uint64_t offset, bool areTables)
+{
+  return offset >= end && offset - end <= (areTables ? 0 : 3);
+}
+} // namespace
 
 void
 ByteRanges::Join(std::vector<Range> & ranges, bool mayShare)
@@ -29,7 +39,7 @@ ByteRanges::Join(std::vector<Range> & ranges, bool mayShare)
   std::size_t last = 0;
   for (std::size_t i = 1; i < ranges.size(); ++i)
   {
-    if (ranges[i].first == ranges[last].second || (mayShare && ranges[i].first < ranges[last].second))
+    if (Follows(ranges[last].second, ranges[i].first, mayShare) || (mayShare && ranges[i].first < ranges[last].second))
     {
       ranges[last].second = std::max(ranges[last].second, ranges[i].second);
     }
@@ -48,9 +58,9 @@ ByteRanges::Add(std::vector<Range> & ranges, std::uint64_t offset, std::uint64_t
   {
     return true;
   }
-  if (!ranges.empty() && ranges.back().second == offset)
+  if (!ranges.empty() && Follows(ranges.back().second, offset, mayShare))
   {
-    ranges.back().second += count;
+    ranges.back().second = offset + count;
     return true;
   }
   if (ranges.size() == MaximumRanges)
