@@ -20,6 +20,7 @@
 #include <cstdint>
 #include <gtest/gtest.h>
 #include <optional>
+#include <vector>
 
 namespace
 {
@@ -64,16 +65,16 @@ TEST(ByteRanges, AByteOfPixelsFitsBetweenTables)
   EXPECT_EQ(ranges.FirstConflict(), std::nullopt);
 }
 
-TEST(ByteRanges, TellsTheLargestGap)
+TEST(ByteRanges, TellsTheGaps)
 {
+  using Gaps = std::vector<ByteRanges::Range>;
   ByteRanges ranges;
-  EXPECT_EQ(ranges.LargestGap(100), 100u);
+  EXPECT_EQ(ranges.Gaps(100), (Gaps{ { 0, 100 } }));
   ranges.AddTable(0, 8);
   ranges.AddPixels(20, 30);
-  EXPECT_EQ(ranges.LargestGap(60), 12u);
-  EXPECT_EQ(ranges.LargestGap(100), 50u);
+  EXPECT_EQ(ranges.Gaps(60), (Gaps{ { 8, 20 }, { 50, 60 } }));
   ranges.AddTable(30, 70);
-  EXPECT_EQ(ranges.LargestGap(100), 12u);
+  EXPECT_EQ(ranges.Gaps(100), (Gaps{ { 8, 20 } }));
 }
 
 TEST(ByteRanges, AsManyAsYouLikeOneAfterTheOther)

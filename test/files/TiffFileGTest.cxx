@@ -78,6 +78,8 @@ TEST_F(TiffFile, WhatWritersAddIsAccepted)
   TiffOf apart;
   apart.between = std::string(100, 'x');
   isAccepted(apart);
+  apart.between = std::string(1000, 'x'); // what a program keeps there
+  isAccepted(apart);
   TiffOf predicted = TiffWith({ { 317, { 3, { 2 } } } });
   predicted.compression = 8;
   isAccepted(predicted);
@@ -141,6 +143,9 @@ TEST_F(TiffFile, PagesThatAreNotAlikeAreRefused)
   IsRefused("a.tif",
             TiffWith({ { 270, Text("ImageJ=1.54\nimages=500\nslices=500\n") } }).Bytes(),
             { "pages: 3, but ImageJ's description of it says images=500" });
+  IsRefused("a.tif",
+            TiffWith({ { 33629, { 4, { 1, 2, 3, 4, 5, 6, 7 } } } }).Bytes(),
+            { "pages: 3, but MetaMorph's description of it says 7 planes" });
 }
 
 TEST_F(TiffFile, AChainOfPagesThatIsBrokenOrHasNoEndIsRefused)
@@ -167,7 +172,7 @@ TEST_F(TiffFile, AChainOfPagesThatIsBrokenOrHasNoEndIsRefused)
   damaged.replace(linkOf(1), 4, tiff.Number(100000, 4));
   IsRefused("a.tif", damaged, { "truncated: 1 of its pages can be read, but the file says that more follow" });
   damaged.replace(linkOf(1), 4, tiff.Number(0, 4));
-  IsRefused("a.tif", damaged, { "bytes in a row belong to none of its pages, enough for another one" });
+  IsRefused("a.tif", damaged, { "bytes belong to none of its pages, and there is a directory among them" });
   damaged = good;
   damaged.replace(4, 4, tiff.Number(0, 4));
   IsRefused("a.tif", damaged, { "a TIFF without a page" });

@@ -105,21 +105,28 @@ ByteRanges::FirstConflict()
   return std::nullopt;
 }
 
-std::uint64_t
-ByteRanges::LargestGap(std::uint64_t size)
+std::vector<ByteRanges::Range>
+ByteRanges::Gaps(std::uint64_t size)
 {
   Join(m_Pixels, false);
   Join(m_Tables, true);
-  std::uint64_t largest = 0;
-  std::uint64_t end = 0;
+  std::vector<Range> gaps;
+  std::uint64_t      end = 0;
+  const auto         add = [&gaps, &end](std::uint64_t next) {
+    if (next > end)
+    {
+      gaps.emplace_back(end, next);
+    }
+  };
   for (std::size_t i = 0, k = 0; i < m_Pixels.size() || k < m_Tables.size();)
   {
     const bool    isTable = i == m_Pixels.size() || (k < m_Tables.size() && m_Tables[k] < m_Pixels[i]);
     const Range & range = isTable ? m_Tables[k++] : m_Pixels[i++];
-    largest = std::max(largest, range.first - std::min(range.first, end));
+    add(range.first);
     end = std::max(end, range.second);
   }
-  return std::max(largest, size - std::min(size, end));
+  add(size);
+  return gaps;
 }
 
 } // namespace sensornoise

@@ -26,8 +26,6 @@ namespace sensornoise
 {
 namespace
 {
-constexpr std::uint64_t MaximumUnusedBytes = 256;
-
 [[noreturn]] void
 RefuseStrip(const std::string & page, std::uint64_t strip, const std::string & what)
 {
@@ -147,6 +145,7 @@ TiffStrips::CheckPage(const std::string & page, const TiffPage & found)
     const std::uint64_t rows = std::min(found.rowsPerStrip, found.height - strip * found.rowsPerStrip);
     CheckStrip(page, found, strip, rows, offset, count);
   }
+  m_Width = found.width;
   m_SmallestPage = std::min(m_SmallestPage, m_PixelBytes - before);
 }
 
@@ -193,15 +192,25 @@ TiffStrips::RequireAllBytes(const std::string & file)
       "damaged: the byte " + std::to_string(*conflict) +
         " belongs to two of its strips, or to a strip and a directory; expected each byte to be read once");
   }
-  // Less than half a page is what writers leave behind when they write a directory anew.
-  const std::uint64_t unused = m_Ranges.LargestGap(m_Tiff.File().Size());
-  if (!m_HasSubDirectories && unused > MaximumUnusedBytes && unused >= m_SmallestPage / 2)
+  if (m_HasSubDirectories)
   {
-    throw FileError(
-      file,
-      std::to_string(unused) +
-        " bytes in a row belong to none of its pages, enough for another one; expected a TIFF whose pages "
-        "are all in its chain of directories");
+    return; // whose pages may be anywhere
+  }
+  std::uint64_t unused = 0;
+  bool          hasDirectory = false;
+  for (const ByteRanges::Range & gap : m_Ranges.Gaps(m_Tiff.File().Size()))
+  {
+    unused += gap.second - gap.first;
+    hasDirectory = hasDirectory || m_Tiff.HasEntry(gap.first, gap.second, 256, m_Width);
+  }
+  // Programs leave descriptions of their own, or a directory that they have written anew, but not both a directory and
+  // pixels.
+  if (hasDirectory && unused >= m_SmallestPage / 2)
+  {
+    throw FileError(file,
+                    std::to_string(unused) +
+                      " bytes belong to none of its pages, and there is a directory among them; expected a TIFF whose "
+                      "pages are all in its chain of directories");
   }
 }
 

@@ -46,9 +46,8 @@ public:
   void
   CheckPage(const std::string & page, const TiffPage & found);
 
-  /** Throws FileError if bytes of a strip belong to another one, or to a directory, and if so many bytes belong to none
-   * of the pages that another could be there: one that a damaged chain of pages, or the format of a program that keeps
-   * no such chain, has left out. */
+  /** Throws FileError if bytes of a strip belong to another one, or to a directory, and if there is the directory of a
+   * page that a damaged chain of pages has left out. */
   void
   RequireAllBytes(const std::string & file);
 
@@ -65,6 +64,7 @@ private:
   ByteRanges    m_Ranges{};
   std::uint64_t m_PixelBytes{ 0 };            // of all strips so far
   std::uint64_t m_SmallestPage{ UINT64_MAX }; // bytes of the strips of a page
+  std::uint64_t m_Width{ 0 };
   bool          m_HasSubDirectories{ false };
   std::uint64_t m_DirectoryBytes{ 0 }; // of all directories so far
 };
