@@ -65,10 +65,6 @@ TEST_F(TiffStrips, BytesThatAreReadTwiceAreRefused)
     tiff.moveStrip = move;
     IsRefused("a.tif", tiff.Bytes(), { "damaged: the byte", "expected each byte to be read once" });
   }
-  TiffOf lzw;
-  lzw.compression = 5;
-  lzw.moveStrip = 1;
-  IsRefused("a.tif", lzw.Bytes(), { "damaged: the byte" });
   const TiffTags many{ { 273, { 4, { 8, 8, 8 } } }, { 279, { 4, { 500, 500, 500 } } } };
   TiffOf         deflated = TiffWith(many);
   deflated.compression = 8;
@@ -98,6 +94,46 @@ TEST_F(TiffStrips, StripsThatDoNotGiveTheirBytesAreRefused)
   isRefused(PackedBits(std::string(26, 'a')), "ends within row 1 of its PackBits; expected 26 bytes a row");
   isRefused(PackedBits(std::string(104, 'a')), "has a run beyond the end of row 0 of its PackBits");
   isRefused("\x05zz", "ends within row 0");
+}
+
+TEST_F(TiffStrips, LzwThatDoesNotGiveItsBytesIsRefused)
+{
+  TiffOf tiff;
+  tiff.compression = 5;
+  const auto isRefused = [this, &tiff](const std::string & strip, const std::string & words) {
+    tiff.strip = strip;
+    IsRefused("a.tif", tiff.Bytes(), { "damaged: its strip 0 gives " + words });
+  };
+  isRefused(LzwStream(std::string(103, 'a')), "103 bytes of LZW, expected 104 bytes");
+  isRefused(LzwStream(std::string(105, 'a')), "105 bytes of LZW, expected 104 bytes");
+  isRefused(std::string(100, '\0'), "a code without a meaning after 0 bytes");
+  LzwWriter codes;
+  codes.Add(256, 9);
+  codes.Add('a', 9);
+  codes.Add('b', 9);
+  isRefused(codes.Bytes(), "2 bytes of LZW");
+  codes.Add(259, 9); // the string that begins with it: "bb"
+  codes.Add(261, 9); // not known before 260
+  isRefused(codes.Bytes(), "a code without a meaning after 4 bytes");
+}
+
+TEST_F(TiffStrips, LzwOfAnyLengthIsFollowed)
+{
+  TiffOf tiff;
+  tiff.compression = 5;
+  tiff.width = 100;
+  tiff.height = 100;
+  tiff.rowsPerStrip = 100;
+  const std::string random = RandomBytes(20000);
+  for (const std::string & plain : { random, std::string(20000, 'a'), std::string(10000, 'a') + random.substr(10000) })
+  {
+    tiff.strip = LzwStream(plain);
+    IsFrames("a.tif", tiff.Bytes(), FramePixel::UnsignedShort, 100, 100, 3);
+  }
+  tiff.fillUp = 50;
+  tiff.rowsPerStrip = 75;
+  tiff.strip.clear();
+  IsFrames("a.tif", tiff.Bytes(), FramePixel::UnsignedShort, 100, 100, 3);
 }
 
 TEST_F(TiffStrips, AnyChangedBitOfADeflatedPageIsRefusedOrDoesNotMatter)

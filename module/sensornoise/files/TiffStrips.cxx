@@ -19,6 +19,7 @@
 
 #include "sensornoise/files/FileError.h"
 #include "sensornoise/files/Inflate.h"
+#include "sensornoise/files/TiffLzw.h"
 
 #include <algorithm>
 
@@ -59,6 +60,25 @@ CheckDeflatedStrip(const std::string & page,
                 strip,
                 "gives " + inflater.WhatCame() + ", expected " + std::to_string(expected) +
                   " bytes and the end of the stream");
+  }
+}
+
+void
+CheckLzwStrip(const std::string & page,
+              std::uint64_t       strip,
+              FileBytes &         bytes,
+              std::uint64_t       offset,
+              std::uint64_t       count,
+              std::uint64_t       expected,
+              std::uint64_t       wholeStrip)
+{
+  const LzwLength found = LengthOfLzw(bytes, offset, count, expected, wholeStrip);
+  if (!found.error.empty() || (found.bytes != expected && found.bytes != wholeStrip))
+  {
+    RefuseStrip(page,
+                strip,
+                "gives " + (found.error.empty() ? std::to_string(found.bytes) + " bytes" : found.error) +
+                  " of LZW, expected " + std::to_string(expected) + " bytes");
   }
 }
 
@@ -176,7 +196,8 @@ TiffStrips::CheckStrip(const std::string & page,
     case TiffCompression::PackBits:
       CheckPackedStrip(page, strip, m_Tiff.File(), offset, count, rows, rowBytes);
       return;
-    default:
+    case TiffCompression::Lzw:
+      CheckLzwStrip(page, strip, m_Tiff.File(), offset, count, rows * rowBytes, found.rowsPerStrip * rowBytes);
       return;
   }
 }

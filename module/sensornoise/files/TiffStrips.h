@@ -40,9 +40,8 @@ public:
   void
   AddDirectory(const std::string & page, const TiffDirectory & directory);
 
-  /** Throws FileError unless all strips of the page lie within the file and give exactly the bytes of its rows: if they
-   * are not compressed by their number, deflated ones by their checksum, too. What LZW holds is not looked at: it has
-   * no checksum, and libtiff says itself if too little comes out. */
+  /** Throws FileError unless all strips of the page lie within the file and give exactly the bytes of its rows;
+   * deflated ones with the right checksum, which the others do not have. */
   void
   CheckPage(const std::string & page, const TiffPage & found);
 
