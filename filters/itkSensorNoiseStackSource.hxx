@@ -173,7 +173,7 @@ SensorNoiseStackSource<TOutputStack>::GenerateOutputInformation()
       const sensornoise::SimulationSettings settings = this->MakeSettings();
       const double                          pixels = static_cast<double>(frame.GetNumberOfPixels());
       sensornoise::RequireMemory(BytesPerPixel * pixels + BytesPerFrame * static_cast<double>(settings.frames),
-                                 "the simulation of " + std::to_string(settings.frames) + " frames of " +
+                                 "a stack of " + std::to_string(settings.frames) + " frames of " +
                                    std::to_string(frame.GetSize(0)) + " x " + std::to_string(frame.GetSize(1)) +
                                    " pixels");
       sensornoise::SimulationTruth truth = sensornoise::DrawTruth(settings, frame.GetSize(0), frame.GetSize(1));

@@ -240,7 +240,7 @@ TEST(SensorNoiseStackSourceFlaws, AChangedFlawIsDrawnAndARefusedOneSaysWhy)
   }
   catch (const itk::ExceptionObject & error)
   {
-    EXPECT_NE(std::string(error.GetDescription()).find("the coupling of charge is 0.500000; expected 0 to 0.2"),
+    EXPECT_NE(std::string(error.GetDescription()).find("the coupling of charge is 0.5; expected 0 to 0.2"),
               std::string::npos);
   }
   source->SetCouplingFraction(0.0);

@@ -254,7 +254,7 @@ TEST(KnownOffset, CodesAndLevelsOfNoSenseAreRefused)
     change(settings);
     EXPECT_THROW(settings.Validate(), std::invalid_argument);
   };
-  constexpr double infinity = std::numeric_limits<double>::infinity();
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
   refuses([](RefinedSettings & s) { s.codes.clipLowDn = -infinity; });
   refuses([](RefinedSettings & s) { s.codes.clipHighDn = 1e308; });
   refuses([](RefinedSettings & s) { s.codes.quantisationStepDn = 1e308; });

@@ -35,10 +35,13 @@ protected:
     SCOPED_TRACE(command);
     const int code = RunCommand(command);
     EXPECT_TRUE(code == 0 || code == 2 || code == 3) << code << m_Message;
-    EXPECT_EQ(m_Output.find("nan"), std::string::npos) << m_Output;
     const std::string & all = m_Message;
+    if (code != 2) // a refusal says what was found
+    {
+      EXPECT_EQ((m_Output + all).find("nan"), std::string::npos) << m_Output << all;
+    }
     for (const char * words :
-         { "bad_alloc", "max_size", "filesystem error", "std::", "-nan", " nan ", "inf DN", "00000000" })
+         { "bad_alloc", "max_size", "filesystem error", "std::", "inf DN", "00000000" })
     {
       EXPECT_EQ(all.find(words), std::string::npos) << all;
     }
@@ -147,7 +150,7 @@ TEST_F(ExtremeOptionsTool, WhatCannotBeHeldIsKnownBefore)
   isRefused(simulator + "--output o.mha --size 99999x99999",
             { "99999 x 99999 pixels needs 160 GB of memory", "are free" });
   isRefused(simulator + "--output o.mha --frames 4294967295", { "4294967295 frames", "needs", "of memory" });
-  isRefused(simulator + "--output o.mha --size 9999x999 --frames 99999999",
+  isRefused(simulator + "--output o.mha --size 9999x999 --frames 1000000",
             { "cannot write o.mha", "free on the disk" });
 #ifdef __linux__
   isRefused("ulimit -v 1000000; " + simulator + "--output o.nrrd --size 2048x2048 --frames 200",

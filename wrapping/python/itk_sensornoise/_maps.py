@@ -24,7 +24,6 @@ from typing import Any
 from . import _options
 from ._errors import itk_errors
 
-
 _NAMES = (
     "mean",
     "variance",

@@ -59,7 +59,7 @@ def _watch(instance: Any, bar: Any, caught: list[BaseException]) -> Iterator[Non
                 bar.update(max(int(100 * instance.GetProgress()) - int(bar.n), 0))
         except GeneratorExit:
             return
-        except BaseException as error:
+        except BaseException as error:  # noqa: BLE001 - raised again by at_work()
             caught.append(error)
             instance.AbortGenerateDataOn()
 
