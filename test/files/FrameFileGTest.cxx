@@ -86,6 +86,11 @@ TEST_F(FrameFileInspection, WhatIsNoRegularFileIsRefusedUnopened)
   {
     ASSERT_EQ(chmod(Write("closed.tif", "a").c_str(), 0), 0);
     isRefused(Path("closed.tif"), "cannot be opened; expected a file that may be read");
+    fs::create_directories(Path("closed"));
+    Write("closed/a.tif", "a");
+    ASSERT_EQ(chmod(Path("closed").c_str(), 0), 0);
+    isRefused(Path("closed/a.tif"), "cannot be looked up (Permission denied); expected an image file");
+    ASSERT_EQ(chmod(Path("closed").c_str(), 0700), 0);
   }
   const std::string pipeAsData = "NDims = 2\nDimSize = 1 1\nElementType = MET_UCHAR\nElementDataFile = pipe.tif\n";
   IsRefused("a.mhd", pipeAsData, { "its data file " + Path("pipe.tif") + ": is a pipe" });

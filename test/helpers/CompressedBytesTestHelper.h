@@ -21,6 +21,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 
 /** \file
@@ -114,6 +115,73 @@ GzipStream(const std::string & bytes)
   AppendNumber(stream, Crc32(bytes), 4, false);
   AppendNumber(stream, bytes.size(), 4, false);
   return stream;
+}
+
+/** Codes of a growing number of bits, as TIFF packs them. */
+class LzwWriter
+{
+public:
+  void
+  Add(unsigned code, unsigned bits)
+  {
+    m_Held = (m_Held << bits) | code;
+    for (m_Bits += bits; m_Bits >= 8; m_Bits -= 8)
+    {
+      m_Bytes += static_cast<char>((m_Held >> (m_Bits - 8)) & 255);
+    }
+  }
+
+  std::string
+  Bytes() const
+  {
+    return m_Bits == 0 ? m_Bytes : m_Bytes + static_cast<char>((m_Held << (8 - m_Bits)) & 255);
+  }
+
+private:
+  std::string   m_Bytes{};
+  std::uint64_t m_Held{ 0 };
+  unsigned      m_Bits{ 0 };
+};
+
+/** By the pseudo-code of TIFF 6.0, section 13. */
+inline std::string
+LzwStream(const std::string & bytes)
+{
+  LzwWriter                       writer;
+  std::map<std::string, unsigned> codes;
+  unsigned                        bits = 9;
+  const auto                      clear = [&] {
+    writer.Add(256, bits);
+    codes.clear();
+    for (unsigned byte = 0; byte < 256; ++byte)
+    {
+      codes[std::string(1, static_cast<char>(byte))] = byte;
+    }
+    bits = 9;
+  };
+  clear();
+  std::string text;
+  unsigned    next = 258;
+  for (const char c : bytes)
+  {
+    if (codes.count(text + c) != 0)
+    {
+      text += c;
+      continue;
+    }
+    writer.Add(codes[text], bits);
+    codes[text + c] = next;
+    text = c;
+    bits += next == 511 || next == 1023 || next == 2047 ? 1 : 0;
+    if (next++ == 4094)
+    {
+      clear();
+      next = 258;
+    }
+  }
+  writer.Add(codes[text], bits);
+  writer.Add(257, bits);
+  return writer.Bytes();
 }
 
 /** Runs where there are any, else bytes one by one. */

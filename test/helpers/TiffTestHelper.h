@@ -78,7 +78,10 @@ struct TiffOf
       plain += row;
       packed += PackedBits(row);
     }
-    return compression == 32773 ? packed : compression == 8 || compression == 32946 ? ZlibStream(plain) : plain;
+    return compression == 32773                       ? packed
+           : compression == 5                         ? LzwStream(plain)
+           : compression == 8 || compression == 32946 ? ZlibStream(plain)
+                                                      : plain;
   }
 
   static std::size_t

@@ -21,6 +21,16 @@
 
 namespace sensornoise
 {
+namespace
+{
+/** Whether what begins at `offset` follows what ends at `end`. Writers fill strips up to words of four bytes, which
+ * leaves no room for a table between; between tables there may be a strip of a byte. */
+bool
+Follows(std::uint64_t end, std::uint64_t offset, bool areTables)
+{
+  return offset >= end && offset - end <= (areTables ? 0 : 3);
+}
+} // namespace
 
 void
 ByteRanges::Join(std::vector<Range> & ranges, bool mayShare)
@@ -29,7 +39,7 @@ ByteRanges::Join(std::vector<Range> & ranges, bool mayShare)
   std::size_t last = 0;
   for (std::size_t i = 1; i < ranges.size(); ++i)
   {
-    if (ranges[i].first == ranges[last].second || (mayShare && ranges[i].first < ranges[last].second))
+    if (Follows(ranges[last].second, ranges[i].first, mayShare) || (mayShare && ranges[i].first < ranges[last].second))
     {
       ranges[last].second = std::max(ranges[last].second, ranges[i].second);
     }
@@ -48,9 +58,9 @@ ByteRanges::Add(std::vector<Range> & ranges, std::uint64_t offset, std::uint64_t
   {
     return true;
   }
-  if (!ranges.empty() && ranges.back().second == offset)
+  if (!ranges.empty() && Follows(ranges.back().second, offset, mayShare))
   {
-    ranges.back().second += count;
+    ranges.back().second = offset + count;
     return true;
   }
   if (ranges.size() == MaximumRanges)
@@ -95,21 +105,28 @@ ByteRanges::FirstConflict()
   return std::nullopt;
 }
 
-std::uint64_t
-ByteRanges::LargestGap(std::uint64_t size)
+std::vector<ByteRanges::Range>
+ByteRanges::Gaps(std::uint64_t size)
 {
   Join(m_Pixels, false);
   Join(m_Tables, true);
-  std::uint64_t largest = 0;
-  std::uint64_t end = 0;
+  std::vector<Range> gaps;
+  std::uint64_t      end = 0;
+  const auto         add = [&gaps, &end](std::uint64_t next) {
+    if (next > end)
+    {
+      gaps.emplace_back(end, next);
+    }
+  };
   for (std::size_t i = 0, k = 0; i < m_Pixels.size() || k < m_Tables.size();)
   {
     const bool    isTable = i == m_Pixels.size() || (k < m_Tables.size() && m_Tables[k] < m_Pixels[i]);
     const Range & range = isTable ? m_Tables[k++] : m_Pixels[i++];
-    largest = std::max(largest, range.first - std::min(range.first, end));
+    add(range.first);
     end = std::max(end, range.second);
   }
-  return std::max(largest, size - std::min(size, end));
+  add(size);
+  return gaps;
 }
 
 } // namespace sensornoise

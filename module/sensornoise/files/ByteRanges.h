@@ -53,9 +53,9 @@ public:
   std::optional<std::uint64_t>
   FirstConflict();
 
-  /** The most bytes in a row, of a file of that size, that belong to neither. */
-  std::uint64_t
-  LargestGap(std::uint64_t size);
+  /** The places, of a file of that size, that belong to neither. */
+  std::vector<Range>
+  Gaps(std::uint64_t size);
 
 private:
   static constexpr std::size_t MaximumRanges = std::size_t{ 1 } << 18;

@@ -27,13 +27,11 @@ namespace sensornoise
 {
 
 /** What is wrong with a file: one sentence that begins with the file's name and says what was found and what was
- * expected. */
+ * expected. It is one line of UTF-8, whatever is in the file: other characters are shown as "?". */
 class SensorNoise_EXPORT FileError : public std::runtime_error
 {
 public:
-  FileError(const std::string & file, const std::string & what)
-    : std::runtime_error(file + ": " + what)
-  {}
+  FileError(const std::string & file, const std::string & what);
 };
 
 } // namespace sensornoise

@@ -185,6 +185,40 @@ TiffBytes::Number(const std::string & page, const TiffDirectory & directory, uns
   return Numbers(*this, *entry).Next();
 }
 
+bool
+TiffBytes::HasEntry(std::uint64_t begin, std::uint64_t end, unsigned tag, std::uint64_t value)
+{
+  const auto text = [this](std::uint64_t number, std::size_t width) {
+    std::string bytes;
+    for (std::size_t i = 0; i < width; ++i)
+    {
+      bytes += static_cast<char>((number >> (8 * (m_IsBigEndian ? width - 1 - i : i))) & 255);
+    }
+    return bytes;
+  };
+  const std::size_t offsetWidth = m_IsBig ? 8 : 4;
+  const auto        entry = [&](unsigned type) {
+    return text(tag, 2) + text(type, 2) + text(1, offsetWidth) + text(value, SizeOfTiffType(type));
+  };
+  const std::string asShort = entry(3);
+  const std::string asLong = entry(4);
+  std::string       held;
+  std::string       piece(65536, '\0');
+  while (begin < end)
+  {
+    const std::size_t count = static_cast<std::size_t>(std::min<std::uint64_t>(end - begin, piece.size()));
+    m_Bytes.Read(begin, piece.data(), count);
+    begin += count;
+    held.append(piece, 0, count);
+    if (held.find(asLong) != std::string::npos || (value < 65536 && held.find(asShort) != std::string::npos))
+    {
+      return true;
+    }
+    held.erase(0, held.size() - std::min(held.size(), asLong.size()));
+  }
+  return false;
+}
+
 TiffBytes::Numbers::Numbers(TiffBytes & tiff, const TiffEntry & entry)
   : m_Reader(tiff.m_Bytes, entry.offset, entry.offset + entry.count * SizeOfTiffType(entry.type))
   , m_Width(SizeOfTiffType(entry.type))

@@ -91,6 +91,10 @@ public:
   std::optional<std::uint64_t>
   Number(const std::string & page, const TiffDirectory & directory, unsigned tag, const char * name);
 
+  /** Whether what could be the entry of a directory, of a whole number, is among these bytes. */
+  bool
+  HasEntry(std::uint64_t begin, std::uint64_t end, unsigned tag, std::uint64_t value);
+
   FileBytes &
   File()
   {

@@ -54,6 +54,14 @@ ImagesOfImageJ(TiffBytes & tiff, const TiffDirectory & directory)
            : text.substr(images + 1, text.find_first_of(std::string("\n\r\0", 3), images + 1) - images - 1);
 }
 
+/** How many planes MetaMorph says that there are, of which it lists one as a page; 0 where it says nothing. */
+std::uint64_t
+PlanesOfMetaMorph(const TiffDirectory & directory)
+{
+  const TiffEntry * const entry = directory.Find(33629);
+  return entry == nullptr ? 0 : entry->count;
+}
+
 void
 RequireSamePage(const std::string & page, const TiffPage & found, const TiffPage & first)
 {
@@ -82,86 +90,131 @@ RequireSamePage(const std::string & page, const TiffPage & found, const TiffPage
   }
 }
 
-/** Throws unless ITK makes as many frames of the pages as there are, which it counts by NewSubfileType. */
-void
-RequireAllPagesAreFrames(const std::string & file, std::uint64_t pages, std::uint64_t reduced, std::uint64_t full)
+/** What is read from a TIFF on the way along its chain of pages. */
+class TiffInspection
 {
-  if (pages > 1 && reduced > 0)
+public:
+  TiffInspection(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating)
+    : m_Bytes(bytes)
+    , m_File(file)
+    , m_BeforeInflating(beforeInflating)
+    , m_Tiff(file.name, bytes)
+    , m_Strips(m_Tiff)
+  {}
+
+  void
+  Run()
   {
-    throw FileError(file,
-                    "pages: " + std::to_string(pages) + ", of which " + std::to_string(reduced) +
-                      " are said to be thumbnails or masks (NewSubfileType); expected frames alone");
+    m_File.format = FrameFormat::Tiff;
+    std::uint64_t offset = m_Tiff.FirstDirectory();
+    for (; offset != 0; ++m_Pages)
+    {
+      const std::string page = m_Pages == 0 ? m_File.name : m_File.name + ", page " + std::to_string(m_Pages);
+      CheckOffset(page, offset);
+      offset = ReadPage(page, offset);
+    }
+    RequireAllPages();
+    m_Strips.RequireAllBytes(m_File.name);
   }
-  if (pages > 1 && full > 0 && full != pages)
+
+private:
+  void
+  CheckOffset(const std::string & page, std::uint64_t offset)
   {
-    throw FileError(file,
-                    "pages: " + std::to_string(pages) + ", but ITK reads " + std::to_string(full) +
-                      " frames of them, because NewSubfileType is not the same on all; expected the same");
+    if (!m_Seen.insert(offset).second)
+    {
+      throw FileError(page, "damaged: its directory is that of a page before, so that its pages have no end");
+    }
+    if (m_Pages == MaximumPages)
+    {
+      throw FileError(page, "has more than " + std::to_string(MaximumPages) + " pages; expected no more");
+    }
+    if (m_Pages > 0 && !m_Bytes.Holds(offset, 2))
+    {
+      throw FileError(m_File.name,
+                      "truncated: " + std::to_string(m_Pages) +
+                        " of its pages can be read, but the file says that more follow");
+    }
   }
-}
+
+  /** Returns where the next page's directory is. */
+  std::uint64_t
+  ReadPage(const std::string & page, std::uint64_t offset)
+  {
+    const TiffDirectory directory = m_Tiff.ReadDirectory(page, offset);
+    m_Strips.AddDirectory(page, directory);
+    const TiffPage found = ReadTiffPage(page, m_Tiff, directory);
+    if (m_Pages == 0)
+    {
+      m_First = found;
+      m_File.pixel = found.pixel;
+      m_Images = ImagesOfImageJ(m_Tiff, directory);
+      m_Planes = PlanesOfMetaMorph(directory);
+    }
+    RequireSamePage(page, found, m_First);
+    SetFrameSizes(m_File, { m_First.width, m_First.height, m_Pages + 1 });
+    if (found.compression != TiffCompression::None && m_BeforeInflating)
+    {
+      m_BeforeInflating(m_File);
+    }
+    m_Strips.CheckPage(page, found);
+    m_Reduced += found.isReduced ? 1 : 0;
+    m_Full += found.isFull ? 1 : 0;
+    return directory.next;
+  }
+
+  /** Throws unless ITK makes as many frames of the pages as there are, and no program says that there are more. */
+  void
+  RequireAllPages() const
+  {
+    const std::string pages = "pages: " + std::to_string(m_Pages) + ", ";
+    if (m_Pages == 0)
+    {
+      throw FileError(m_File.name, "damaged: a TIFF without a page; expected at least one");
+    }
+    if (m_Pages > 1 && m_Reduced > 0)
+    {
+      throw FileError(m_File.name,
+                      pages + "of which " + std::to_string(m_Reduced) +
+                        " are said to be thumbnails or masks (NewSubfileType); expected frames alone");
+    }
+    if (m_Pages > 1 && m_Full > 0 && m_Full != m_Pages)
+    {
+      throw FileError(m_File.name,
+                      pages + "but ITK reads " + std::to_string(m_Full) +
+                        " frames of them, because NewSubfileType is not the same on all; expected the same");
+    }
+    // ImageJ writes a stack above 4 GiB as one page and says in words how many follow
+    if (!m_Images.empty() && std::strtoull(m_Images.c_str() + 7, nullptr, 10) != m_Pages)
+    {
+      throw FileError(m_File.name, pages + "but ImageJ's description of it says " + m_Images);
+    }
+    if (m_Planes > m_Pages)
+    {
+      throw FileError(m_File.name,
+                      pages + "but MetaMorph's description of it says " + std::to_string(m_Planes) + " planes");
+    }
+  }
+
+  FileBytes &                       m_Bytes;
+  FrameFile &                       m_File;
+  const BeforeInflating &           m_BeforeInflating;
+  TiffBytes                         m_Tiff;
+  TiffStrips                        m_Strips;
+  std::unordered_set<std::uint64_t> m_Seen{};
+  TiffPage                          m_First{};
+  std::string                       m_Images{};
+  std::uint64_t                     m_Planes{ 0 };
+  std::uint64_t                     m_Pages{ 0 };
+  std::uint64_t                     m_Reduced{ 0 };
+  std::uint64_t                     m_Full{ 0 };
+};
 } // namespace
 
 void
 InspectTiff(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating)
 {
-  TiffBytes                         tiff(file.name, bytes);
-  TiffStrips                        strips(tiff);
-  std::unordered_set<std::uint64_t> seen;
-  TiffPage                          first;
-  std::string                       images;
-  std::uint64_t                     pages = 0;
-  std::uint64_t                     reduced = 0;
-  std::uint64_t                     full = 0;
-  for (std::uint64_t offset = tiff.FirstDirectory(); offset != 0; ++pages)
-  {
-    const std::string page = pages == 0 ? file.name : file.name + ", page " + std::to_string(pages);
-    if (!seen.insert(offset).second)
-    {
-      throw FileError(page, "damaged: its directory is that of a page before, so that its pages have no end");
-    }
-    if (pages == MaximumPages)
-    {
-      throw FileError(page, "has more than " + std::to_string(MaximumPages) + " pages; expected no more");
-    }
-    if (pages > 0 && !bytes.Holds(offset, 2))
-    {
-      throw FileError(file.name,
-                      "truncated: " + std::to_string(pages) +
-                        " of its pages can be read, but the file says that more "
-                        "follow");
-    }
-    const TiffDirectory directory = tiff.ReadDirectory(page, offset);
-    strips.AddDirectory(page, directory);
-    const TiffPage found = ReadTiffPage(page, tiff, directory);
-    if (pages == 0)
-    {
-      first = found;
-      file.format = FrameFormat::Tiff;
-      file.pixel = found.pixel;
-      images = ImagesOfImageJ(tiff, directory);
-    }
-    RequireSamePage(page, found, first);
-    SetFrameSizes(file, { first.width, first.height, pages + 1 });
-    if (found.compression != TiffCompression::None && beforeInflating)
-    {
-      beforeInflating(file);
-    }
-    strips.CheckPage(page, found);
-    reduced += found.isReduced ? 1 : 0;
-    full += found.isFull ? 1 : 0;
-    offset = directory.next;
-  }
-  if (pages == 0)
-  {
-    throw FileError(file.name, "damaged: a TIFF without a page; expected at least one");
-  }
-  RequireAllPagesAreFrames(file.name, pages, reduced, full);
-  // ImageJ writes a stack above 4 GiB as one page and says in words how many follow
-  if (!images.empty() && std::strtoull(images.c_str() + 7, nullptr, 10) != pages)
-  {
-    throw FileError(file.name, "pages: " + std::to_string(pages) + ", but ImageJ's description of it says " + images);
-  }
-  strips.RequireAllBytes(file.name);
+  TiffInspection(bytes, file, beforeInflating).Run();
 }
 
 } // namespace sensornoise

@@ -19,6 +19,7 @@
 
 #include "sensornoise/files/FileError.h"
 #include "sensornoise/files/Inflate.h"
+#include "sensornoise/files/TiffLzw.h"
 
 #include <algorithm>
 
@@ -26,8 +27,6 @@ namespace sensornoise
 {
 namespace
 {
-constexpr std::uint64_t MaximumUnusedBytes = 256;
-
 [[noreturn]] void
 RefuseStrip(const std::string & page, std::uint64_t strip, const std::string & what)
 {
@@ -61,6 +60,25 @@ CheckDeflatedStrip(const std::string & page,
                 strip,
                 "gives " + inflater.WhatCame() + ", expected " + std::to_string(expected) +
                   " bytes and the end of the stream");
+  }
+}
+
+void
+CheckLzwStrip(const std::string & page,
+              std::uint64_t       strip,
+              FileBytes &         bytes,
+              std::uint64_t       offset,
+              std::uint64_t       count,
+              std::uint64_t       expected,
+              std::uint64_t       wholeStrip)
+{
+  const LzwLength found = LengthOfLzw(bytes, offset, count, expected, wholeStrip);
+  if (!found.error.empty() || (found.bytes != expected && found.bytes != wholeStrip))
+  {
+    RefuseStrip(page,
+                strip,
+                "gives " + (found.error.empty() ? std::to_string(found.bytes) + " bytes" : found.error) +
+                  " of LZW, expected " + std::to_string(expected) + " bytes");
   }
 }
 
@@ -147,6 +165,7 @@ TiffStrips::CheckPage(const std::string & page, const TiffPage & found)
     const std::uint64_t rows = std::min(found.rowsPerStrip, found.height - strip * found.rowsPerStrip);
     CheckStrip(page, found, strip, rows, offset, count);
   }
+  m_Width = found.width;
   m_SmallestPage = std::min(m_SmallestPage, m_PixelBytes - before);
 }
 
@@ -177,7 +196,8 @@ TiffStrips::CheckStrip(const std::string & page,
     case TiffCompression::PackBits:
       CheckPackedStrip(page, strip, m_Tiff.File(), offset, count, rows, rowBytes);
       return;
-    default:
+    case TiffCompression::Lzw:
+      CheckLzwStrip(page, strip, m_Tiff.File(), offset, count, rows * rowBytes, found.rowsPerStrip * rowBytes);
       return;
   }
 }
@@ -193,15 +213,25 @@ TiffStrips::RequireAllBytes(const std::string & file)
       "damaged: the byte " + std::to_string(*conflict) +
         " belongs to two of its strips, or to a strip and a directory; expected each byte to be read once");
   }
-  // Less than half a page is what writers leave behind when they write a directory anew.
-  const std::uint64_t unused = m_Ranges.LargestGap(m_Tiff.File().Size());
-  if (!m_HasSubDirectories && unused > MaximumUnusedBytes && unused >= m_SmallestPage / 2)
+  if (m_HasSubDirectories)
   {
-    throw FileError(
-      file,
-      std::to_string(unused) +
-        " bytes in a row belong to none of its pages, enough for another one; expected a TIFF whose pages "
-        "are all in its chain of directories");
+    return; // whose pages may be anywhere
+  }
+  std::uint64_t unused = 0;
+  bool          hasDirectory = false;
+  for (const ByteRanges::Range & gap : m_Ranges.Gaps(m_Tiff.File().Size()))
+  {
+    unused += gap.second - gap.first;
+    hasDirectory = hasDirectory || m_Tiff.HasEntry(gap.first, gap.second, 256, m_Width);
+  }
+  // Programs leave descriptions of their own, or a directory that they have written anew, but not both a directory and
+  // pixels.
+  if (hasDirectory && unused >= m_SmallestPage / 2)
+  {
+    throw FileError(file,
+                    std::to_string(unused) +
+                      " bytes belong to none of its pages, and there is a directory among them; expected a TIFF whose "
+                      "pages are all in its chain of directories");
   }
 }
 

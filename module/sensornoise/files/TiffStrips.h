@@ -40,15 +40,13 @@ public:
   void
   AddDirectory(const std::string & page, const TiffDirectory & directory);
 
-  /** Throws FileError unless all strips of the page lie within the file and give exactly the bytes of its rows: if they
-   * are not compressed by their number, deflated ones by their checksum, too. What LZW holds is not looked at: it has
-   * no checksum, and libtiff says itself if too little comes out. */
+  /** Throws FileError unless all strips of the page lie within the file and give exactly the bytes of its rows;
+   * deflated ones with the right checksum, which the others do not have. */
   void
   CheckPage(const std::string & page, const TiffPage & found);
 
-  /** Throws FileError if bytes of a strip belong to another one, or to a directory, and if so many bytes belong to none
-   * of the pages that another could be there: one that a damaged chain of pages, or the format of a program that keeps
-   * no such chain, has left out. */
+  /** Throws FileError if bytes of a strip belong to another one, or to a directory, and if there is the directory of a
+   * page that a damaged chain of pages has left out. */
   void
   RequireAllBytes(const std::string & file);
 
@@ -65,6 +63,7 @@ private:
   ByteRanges    m_Ranges{};
   std::uint64_t m_PixelBytes{ 0 };            // of all strips so far
   std::uint64_t m_SmallestPage{ UINT64_MAX }; // bytes of the strips of a page
+  std::uint64_t m_Width{ 0 };
   bool          m_HasSubDirectories{ false };
   std::uint64_t m_DirectoryBytes{ 0 }; // of all directories so far
 };

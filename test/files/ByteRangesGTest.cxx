@@ -1,0 +1,108 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "sensornoise/files/ByteRanges.h"
+
+#include <cstdint>
+#include <gtest/gtest.h>
+#include <optional>
+#include <vector>
+
+namespace
+{
+using sensornoise::ByteRanges;
+
+TEST(ByteRanges, FindsBytesThatHoldPixelsTwice)
+{
+  ByteRanges ranges;
+  EXPECT_TRUE(ranges.AddPixels(100, 10));
+  EXPECT_TRUE(ranges.AddPixels(50, 10));
+  EXPECT_TRUE(ranges.AddPixels(60, 40));
+  EXPECT_EQ(ranges.FirstConflict(), std::nullopt);
+  EXPECT_TRUE(ranges.AddPixels(109, 1));
+  EXPECT_EQ(ranges.FirstConflict(), 109u);
+  EXPECT_TRUE(ranges.AddPixels(20, 31));
+  EXPECT_EQ(ranges.FirstConflict(), 50u);
+}
+
+TEST(ByteRanges, TablesMayShareTheirBytesButNotWithPixels)
+{
+  ByteRanges ranges;
+  EXPECT_TRUE(ranges.AddTable(0, 8));
+  EXPECT_TRUE(ranges.AddTable(100, 50));
+  EXPECT_TRUE(ranges.AddTable(110, 10));
+  EXPECT_TRUE(ranges.AddTable(100, 50));
+  EXPECT_TRUE(ranges.AddPixels(8, 92));
+  EXPECT_TRUE(ranges.AddPixels(150, 10));
+  EXPECT_EQ(ranges.FirstConflict(), std::nullopt);
+  ByteRanges before = ranges;
+  EXPECT_TRUE(before.AddPixels(149, 1));
+  EXPECT_EQ(before.FirstConflict(), 149u);
+  EXPECT_TRUE(ranges.AddTable(159, 10));
+  EXPECT_EQ(ranges.FirstConflict(), 159u);
+}
+
+TEST(ByteRanges, AByteOfPixelsFitsBetweenTables)
+{
+  ByteRanges ranges;
+  EXPECT_TRUE(ranges.AddTable(0, 8));
+  EXPECT_TRUE(ranges.AddTable(10, 100));
+  EXPECT_TRUE(ranges.AddPixels(8, 1));
+  EXPECT_EQ(ranges.FirstConflict(), std::nullopt);
+}
+
+TEST(ByteRanges, TellsTheGaps)
+{
+  using Gaps = std::vector<ByteRanges::Range>;
+  ByteRanges ranges;
+  EXPECT_EQ(ranges.Gaps(100), (Gaps{ { 0, 100 } }));
+  ranges.AddTable(0, 8);
+  ranges.AddPixels(20, 30);
+  EXPECT_EQ(ranges.Gaps(60), (Gaps{ { 8, 20 }, { 50, 60 } }));
+  ranges.AddTable(30, 70);
+  EXPECT_EQ(ranges.Gaps(100), (Gaps{ { 8, 20 } }));
+}
+
+TEST(ByteRanges, AsManyAsYouLikeOneAfterTheOther)
+{
+  constexpr std::uint64_t count = 1000000;
+  ByteRanges              ordered;
+  for (std::uint64_t i = 0; i < count; ++i)
+  {
+    ASSERT_TRUE(ordered.AddPixels(8 + 4 * i, 3)); // filled up to words
+  }
+  EXPECT_EQ(ordered.FirstConflict(), std::nullopt);
+  ByteRanges backwards;
+  for (std::uint64_t i = count; i-- > 0;)
+  {
+    ASSERT_TRUE(backwards.AddPixels(8 + 4 * i, 4));
+  }
+  EXPECT_EQ(backwards.FirstConflict(), std::nullopt);
+}
+
+TEST(ByteRanges, HasALimitForThoseApart)
+{
+  ByteRanges    ranges;
+  std::uint64_t count = 0;
+  while (ranges.AddPixels(100 * count, 1))
+  {
+    ++count;
+  }
+  EXPECT_EQ(count, std::uint64_t{ 1 } << 18);
+}
+
+} // namespace
