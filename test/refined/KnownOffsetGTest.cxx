@@ -260,5 +260,5 @@ TEST(KnownOffset, CodesAndLevelsOfNoSenseAreRefused)
   refuses([](RefinedSettings & s) { s.codes.quantisationStepDn = 1e308; });
   refuses([](RefinedSettings & s) { s.codes.quantisationStepDn = infinity; });
   refuses([](RefinedSettings & s) { s.levelRangeDn = LevelRange{ 0.0, infinity }; });
-  refuses([](RefinedSettings & s) { s.levelRangeDn = LevelRange{ -1e308, 5.0 }; });
+  refuses([](RefinedSettings & s) { s.levelRangeDn = LevelRange{ -std::numeric_limits<double>::infinity(), 5.0 }; });
 }

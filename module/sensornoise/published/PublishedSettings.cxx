@@ -38,7 +38,7 @@ PublishedSettings::Validate() const
   if (rollingShutter == RollingShutter::Fixed && !(sigmaRows > 0.0 && sigmaRows <= 1e5))
   {
     throw std::invalid_argument("sigma_y of the rolling shutter is " + Text(sigmaRows) +
-                                " lines; expected a positive number, at most 100000");
+                                " rows; expected a positive number, at most 100000");
   }
   if (shutterAxis > 1)
   {

@@ -30,12 +30,11 @@ void
 RefinedSettings::Validate() const
 {
   ValidateCodeSettings(codes);
-  if (levelRangeDn && !(levelRangeDn->lowDn < levelRangeDn->highDn && std::abs(levelRangeDn->lowDn) <= LargestLevelDn &&
-                        std::abs(levelRangeDn->highDn) <= LargestLevelDn))
+  if (levelRangeDn && !(levelRangeDn->lowDn < levelRangeDn->highDn && std::isfinite(levelRangeDn->lowDn) &&
+                        std::isfinite(levelRangeDn->highDn)))
   {
     throw std::invalid_argument("the range of levels is from " + Text(levelRangeDn->lowDn) + " to " +
-                                Text(levelRangeDn->highDn) + " DN; expected the lower level first, both within " +
-                                Text(LargestLevelDn) + " DN of 0");
+                                Text(levelRangeDn->highDn) + " DN; expected the lower level first, both finite");
   }
   if (offset &&
       !(std::isfinite(offset->valueDn) && std::isfinite(offset->standardErrorDn) && offset->standardErrorDn >= 0.0))
