@@ -29,6 +29,7 @@
 #include <iterator>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace sensornoise
@@ -44,7 +45,7 @@ RequireAlike(const FrameFile & found, const FrameFile & first)
       return std::to_string(file.width) + " x " + std::to_string(file.height);
     };
     throw FileError(found.name,
-                    "" + size(found) + " pixels, but " + first.name + " has " + size(first) +
+                    size(found) + " pixels, but " + first.name + " has " + size(first) +
                       "; all frames must have the same size");
   }
   if (found.pixel != first.pixel)
@@ -250,6 +251,23 @@ ReadFrames(const FrameList & list, std::size_t first, std::size_t count, void * 
   {
     ReadFile(list.files.at(first + i), 0, 1, static_cast<char *>(buffer) + i * frameBytes);
   }
+}
+
+std::string
+WarningOf(const FrameList & list)
+{
+  std::vector<const FileIdentity *> sorted;
+  for (const FrameFile & file : list.files)
+  {
+    sorted.push_back(&file.identities.front());
+  }
+  const auto place = [](const FileIdentity * file) { return std::tie(file->device, file->inode); };
+  std::stable_sort(sorted.begin(), sorted.end(), [&](const auto * a, const auto * b) { return place(a) < place(b); });
+  const auto twice = std::adjacent_find(
+    sorted.begin(), sorted.end(), [&](const auto * a, const auto * b) { return place(a) == place(b); });
+  return twice == sorted.end() ? ""
+                               : (*twice)->name + ": is given twice, the second time as " + (*(twice + 1))->name +
+                                   "; expected each frame once";
 }
 
 std::string

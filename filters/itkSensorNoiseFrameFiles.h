@@ -77,6 +77,10 @@ OpenFrames(const std::vector<std::string> & names, const BeforeInflating & befor
 SensorNoise_EXPORT void
 ReadFrames(const FrameList & list, std::size_t first, std::size_t count, void * buffer);
 
+/** What is odd about the files and no error, as a sentence, or nothing: that one is there twice, by whatever names. */
+SensorNoise_EXPORT std::string
+WarningOf(const FrameList & list);
+
 /** "640 x 480 pixels of type unsigned short" */
 SensorNoise_EXPORT std::string
 DescribeFrame(const FrameList & list);

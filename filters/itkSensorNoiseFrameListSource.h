@@ -114,6 +114,11 @@ public:
   static IOComponentEnum
   ReadComponentType(const std::vector<std::string> & names);
 
+  /** What is odd about the files and no error, as a sentence, or nothing: that one is there twice, for instance. Checks
+   * the files first if they are not yet. */
+  std::string
+  GetWarning();
+
   /** Whether fewer frames than all can be read. Checks the files first if they are not yet. */
   bool
   CanStream();

@@ -136,6 +136,13 @@ SensorNoiseFrameListSource<TOutputStack>::ReadComponentType(const std::vector<st
 }
 
 template <typename TOutputStack>
+std::string
+SensorNoiseFrameListSource<TOutputStack>::GetWarning()
+{
+  return sensornoise::WarningOf(this->GetFrameList());
+}
+
+template <typename TOutputStack>
 bool
 SensorNoiseFrameListSource<TOutputStack>::CanStream()
 {

@@ -1,17 +1,30 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds into build/ and runs every test: C++, then Python (examples and tests) with the wheel in a
-# fresh virtual environment. Options are handed on to ctest, for example -R Codes.
+# Installs what is missing, builds into build/ and runs every test: C++ with damaged files among them, then Python (examples,
+# tests, damaged files) with the wheel in a fresh virtual environment, then C++ once more with AddressSanitizer and
+# UndefinedBehaviorSanitizer, in build/sanitized. Says at its end what each part took. Options are handed on to ctest, for
+# example -R Codes.
 #
 # Python needs ITK's source (wrapping/build-itk.sh says where that comes from). Where it is not to be had, the last line says
 # so, and what was tested counts. SENSORNOISE_PYTHON=1: that is a failure, too; SENSORNOISE_PYTHON=0: Python is left out.
+# SENSORNOISE_SANITIZE=0: the sanitizers are left out.
 set -euo pipefail
 here="$(cd "$(dirname "$0")/.." && pwd)"
 source "$here/examples/setup.sh"
 
+failed=()
+times=()
+# took PART: notes the time since the last part ended.
+took() {
+  times+=("$1 $SECONDS s")
+  SECONDS=0
+}
+
+SECONDS=0
 sensornoise_install
 sensornoise_build "$here/build" -DBUILD_TESTING=ON -DSensorNoise_BUILD_STUDIES=ON
-failed=()
+took "build"
 ctest --test-dir "$here/build" --output-on-failure -j "$(nproc)" "$@" || failed+=(C++)
+took "C++ tests"
 
 # test_wheel WHEEL: the wheel as a user installs it. Run from build/, so that nothing of the checkout is imported.
 test_wheel() (
@@ -25,6 +38,8 @@ test_wheel() (
   "$venv/bin/python" "$here/examples/python/pipeline.py"
   "$venv/bin/python" "$here/examples/python/run_notebook.py" executed.ipynb
   "$venv/bin/python" -m pytest -p no:cacheprovider "$here/wrapping/test"
+  "$venv/bin/python" "$here/test/fuzz/fuzz_files.py" --bin "$SENSORNOISE_BIN" --python "$venv/bin/python" --count 1000 \
+    --seconds 120
 )
 untested=
 if [ "${SENSORNOISE_PYTHON:-}" != 0 ]; then
@@ -34,14 +49,29 @@ if [ "${SENSORNOISE_PYTHON:-}" != 0 ]; then
   # The wheel's path goes to a file: what the build says, and no more, goes on to the screen and to the log.
   bash "$here/wrapping/build-wheel.sh" 2>&1 >"$here/build/wheel.path" | tee "$log" >&2
   status="${PIPESTATUS[0]}"
+  took "wheel"
   if [ "$status" = 69 ] && [ "${SENSORNOISE_PYTHON:-}" != 1 ]; then
     untested="$(sed -n '$s/^build-itk.sh: //p' "$log")"
   elif [ "$status" = 0 ]; then
     test_wheel "$(cat "$here/build/wheel.path")"
     status=$?
+    took "Python tests"
   fi
   set -e
   [ "$status" = 0 ] || [ -n "$untested" ] || failed+=(Python)
 fi
+
+if [ "${SENSORNOISE_SANITIZE:-}" != 0 ]; then
+  cmake -S "$here" --preset sanitized >"$here/build/sanitized.log" 2>&1 ||
+    { cat "$here/build/sanitized.log" >&2; exit 1; }
+  cmake --build "$here/build/sanitized"
+  took "build with sanitizers"
+  # ITK keeps what it allocates once, and hands over vectors that it filled itself.
+  ASAN_OPTIONS=detect_leaks=0:detect_container_overflow=0 ctest --test-dir "$here/build/sanitized" --output-on-failure \
+    -j "$(nproc)" "$@" || failed+=("C++ with sanitizers")
+  took "C++ tests with sanitizers"
+fi
+
+printf 'took: %s\n' "${times[@]}"
 [ -z "$untested" ] || echo "Python: not tested, $untested" >&2
 [ ${#failed[@]} = 0 ] || { echo "failed: ${failed[*]}" >&2; exit 1; }

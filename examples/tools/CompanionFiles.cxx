@@ -21,6 +21,7 @@
 #include "tools/ImageOnFile.h"
 
 #include <algorithm>
+#include <iostream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -63,12 +64,23 @@ FrameList
 OpenDark(const std::vector<std::string> & files, const FrameList & frames)
 {
   FrameList dark = OpenFrames(files);
+  TellWarningOf(dark);
   if (DescribeFrame(dark) != DescribeFrame(frames))
   {
     throw std::runtime_error("the dark frames have " + DescribeFrame(dark) + " (" + files.front() +
                              "), but the frames have " + DescribeFrame(frames));
   }
   return dark;
+}
+
+void
+TellWarningOf(const FrameList & frames)
+{
+  const std::string warning = WarningOf(frames);
+  if (!warning.empty())
+  {
+    std::cerr << "warning: " << warning << std::endl;
+  }
 }
 
 } // namespace sensornoise::tools

@@ -35,6 +35,10 @@ ReadMask(const std::string & file, const FrameList & frames);
 FrameList
 OpenDark(const std::vector<std::string> & files, const FrameList & frames);
 
+/** Says on standard error what is odd about the files and no error. */
+void
+TellWarningOf(const FrameList & frames);
+
 } // namespace sensornoise::tools
 
 #endif

@@ -21,6 +21,7 @@
 #include "sensornoise/report/ReportJson.h"
 #include "sensornoise/report/ReportTable.h"
 #include "tools/ErrorSentence.h"
+#include "tools/CompanionFiles.h"
 #include "tools/EstimateOptions.h"
 #include "tools/FilesInUse.h"
 #include "tools/MapFiles.h"
@@ -170,6 +171,7 @@ Run(EstimateOptions & options)
   RequireOutputsApart(options);
   options.SelectFiles();
   const sensornoise::FrameList frames = sensornoise::OpenFrames(options.files);
+  TellWarningOf(frames);
   TellWhetherHeldInMemory(frames);
 
   const sensornoise::Report report = EstimateStack(options, frames, maps ? &*maps : nullptr);

@@ -325,6 +325,20 @@ TEST_F(SensorNoiseFrameListSource, AStackThatCannotBeHeldIsRefusedBeforeItIsRead
                        { "huge.mha cannot be read in parts", "needs ", " of memory, but ", "are free" });
 }
 
+TEST_F(SensorNoiseFrameListSource, AFileThatIsThereTwiceIsSaid)
+{
+  std::vector<std::string> files = WriteList<unsigned short>(".tif");
+  const auto               source = SourceType::New();
+  source->SetFileNames(files);
+  EXPECT_EQ(source->GetWarning(), "");
+  const std::string link = files.front() + ".link.tif";
+  fs::create_symlink(fs::absolute(files.front()), link);
+  files.push_back(link);
+  source->SetFileNames(files);
+  EXPECT_EQ(source->GetWarning(),
+            files.front() + ": is given twice, the second time as " + link + "; expected each frame once");
+}
+
 TEST_F(SensorNoiseFrameListSource, WithoutFilesItSaysWhatIsExpected)
 {
   const auto source = SourceType::New();

@@ -116,6 +116,11 @@ def test_lines_are_refused_as_those_of_an_array(tmp_path):
     assert message_of(RuntimeError, itk.estimate_sensor_noise, write(tmp_path, lines)) == expected
 
 
+def test_a_file_that_is_there_twice_is_warned_of(names):
+    with pytest.warns(UserWarning, match=f"{names[2]}: is given twice, the second time as {names[2]}; expected each"):
+        itk.estimate_sensor_noise([*names, names[2]])
+
+
 def test_truncated_pixels_are_refused_by_name(names):
     names[5].write_bytes(names[5].read_bytes()[:-1000])
     refused(names, f"{names[5]}: ")

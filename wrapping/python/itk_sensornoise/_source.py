@@ -18,6 +18,7 @@
 """Frames from files, through itk.SensorNoiseFrameListSource, which checks them: the one door of C++ and Python."""
 
 import os
+import warnings
 from collections.abc import Sequence
 from typing import Any
 
@@ -48,7 +49,7 @@ def _new(pixel: str) -> Any:
 
 def open_files(file_names: Sequence[Any]) -> tuple[Any, str]:
     """The source of files in time order, and its pixel type, a key of PIXEL_TYPES. All headers are checked; no pixel is
-    kept. Raises ValueError, in the words of C++, where a file is not what it should be."""
+    kept. Raises ValueError, in the words of C++, where a file is not what it should be; warns of one that is there twice."""
     import itk
 
     # Any type will do to ask for the right one; what it found is handed on, so that nothing is checked twice.
@@ -56,6 +57,8 @@ def open_files(file_names: Sequence[Any]) -> tuple[Any, str]:
     asked.SetFileNames(_names_of(file_names))
     with itk_errors(kind=ValueError):
         component = asked.GetComponentType()
+    if asked.GetWarning():
+        warnings.warn(asked.GetWarning(), stacklevel=2)
     pixel = next(
         key for key, (_, name) in PIXEL_TYPES.items() if component == getattr(itk.CommonEnums, f"IOComponent_{name}")
     )
