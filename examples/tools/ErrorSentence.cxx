@@ -17,18 +17,40 @@
  *=========================================================================*/
 #include "tools/ErrorSentence.h"
 
-#include "tools/ErrorText.h"
+#include "itkMacro.h"
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <new>
 #include <stdexcept>
+#include <string>
 
 namespace sensornoise::tools
 {
 namespace
 {
+/** What an exception says; of an ITK exception on one line, without the class and address that ITK puts in front. */
+std::string
+TextOf(const std::exception & error)
+{
+  const auto * const itkError = dynamic_cast<const itk::ExceptionObject *>(&error);
+  if (itkError == nullptr)
+  {
+    return error.what();
+  }
+  // what() would name the line of the source, too
+  std::string       text = itkError->GetDescription();
+  const std::size_t address = text.find("): ");
+  if ((text.rfind("itk::ERROR: ", 0) == 0 || text.rfind("ITK ERROR: ", 0) == 0) && address != std::string::npos)
+  {
+    text.erase(0, address + 3);
+  }
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
 /** Whether ITK, or the C++ library, could not allocate: both say so in words of their own only. */
 bool
 IsOutOfMemory(const std::exception & error, const std::string & text)
