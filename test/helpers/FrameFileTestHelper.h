@@ -20,6 +20,7 @@
 
 #include "sensornoise/files/FileError.h"
 #include "sensornoise/files/FrameFile.h"
+#include "helpers/FolderTestHelper.h"
 
 #include <cstddef>
 #include <exception>
@@ -38,31 +39,9 @@ namespace sensornoise::test
 {
 
 /** Writes into a folder of its own. */
-class FrameFileTest : public ::testing::Test
+class FrameFileTest : public FolderTest
 {
 protected:
-  void
-  SetUp() override
-  {
-    const auto * const test = ::testing::UnitTest::GetInstance()->current_test_info();
-    // two builds may be tested at the same time
-    m_Folder = std::filesystem::path(::testing::TempDir()) /
-               (std::string("FrameFile") + test->name() + std::to_string(std::random_device{}()));
-    std::filesystem::create_directories(m_Folder);
-  }
-
-  void
-  TearDown() override
-  {
-    std::filesystem::remove_all(m_Folder);
-  }
-
-  std::string
-  Path(const std::string & name) const
-  {
-    return (m_Folder / name).string();
-  }
-
   std::string
   Write(const std::string & name, const std::string & bytes) const
   {
@@ -129,8 +108,6 @@ protected:
     EXPECT_EQ(file.bytes, SizeOf(pixel) * width * height * frames) << name;
     return file;
   }
-
-  std::filesystem::path m_Folder;
 };
 
 /** The text with a part of it replaced, once. */

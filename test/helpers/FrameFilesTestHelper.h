@@ -21,6 +21,7 @@
 #include "itkSensorNoiseFrameFiles.h"
 #include "itkSensorNoiseFrameListSource.h"
 #include "sensornoise/files/FileError.h"
+#include "helpers/FolderTestHelper.h"
 #include "itkImage.h"
 #include "itkImageFileWriter.h"
 #include "itkImageRegionConstIteratorWithIndex.h"
@@ -32,7 +33,6 @@
 #include <fstream>
 #include <functional>
 #include <gtest/gtest.h>
-#include <random>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -59,29 +59,14 @@ ValueAt(std::size_t x, std::size_t y, std::size_t t)
 }
 
 /** Writes frames and stacks into an empty folder of its own. */
-class FrameFilesTest : public ::testing::Test
+class FrameFilesTest : public sensornoise::test::FolderTest
 {
 protected:
   void
   SetUp() override
   {
     itk::Object::GlobalWarningDisplayOff();
-    const std::string test = ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    // two builds may be tested at the same time
-    m_Folder =
-      std::filesystem::path(::testing::TempDir()) / ("FrameFilesTest" + test + std::to_string(std::random_device{}()));
-    std::filesystem::create_directories(m_Folder);
-  }
-  void
-  TearDown() override
-  {
-    std::filesystem::remove_all(m_Folder);
-  }
-
-  std::string
-  Path(const std::string & name) const
-  {
-    return (m_Folder / name).string();
+    FolderTest::SetUp();
   }
 
   template <typename TPixel, unsigned int VDimension>
@@ -146,8 +131,6 @@ protected:
     std::ofstream(Path(name), std::ios::binary) << text;
     return Path(name);
   }
-
-  std::filesystem::path m_Folder;
 };
 
 inline void
