@@ -1,17 +1,6 @@
 #!/usr/bin/env python3
-# Copyright the ITKSensorNoise contributors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-# https://www.apache.org/licenses/LICENSE-2.0.txt
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
 """Unpacks raw frames of a Photron camera (.mraw, 12 bits a pixel) into a MetaImage stack (.mha, unsigned short).
 
     mraw-to-mha.py ball_12bit.mraw ball.mha --size 384x384

@@ -156,8 +156,6 @@ TEST(SensorNoiseResponseCurve, BadSettingsAreRefused)
   EXPECT_EQ(ErrorOf({ ResponseShape::Straight, 77.0 }), "no error");
   EXPECT_EQ(ErrorOf({ ResponseShape::Quadratic, 1.0 }), "the bend of the response is 1; expected above -1 and below 1");
   EXPECT_EQ(ErrorOf({ ResponseShape::Gamma, 0.0 }), "the exponent of the response is 0; expected 0.1 to 10");
-  EXPECT_EQ(ErrorOf({ ResponseShape::SCurve, -0.1 }),
-            "the weight of the response's s-curve is -0.1; expected 0 to 1");
-  EXPECT_EQ(ErrorOf({ ResponseShape::Wave, 0.1, -3.0 }),
-            "the full scale of the response is -3; expected 0 to 1e9");
+  EXPECT_EQ(ErrorOf({ ResponseShape::SCurve, -0.1 }), "the weight of the response's s-curve is -0.1; expected 0 to 1");
+  EXPECT_EQ(ErrorOf({ ResponseShape::Wave, 0.1, -3.0 }), "the full scale of the response is -3; expected 0 to 1e9");
 }
