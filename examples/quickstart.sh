@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
 # Installs what is missing, builds into build/, and measures a camera.
 #
 #   bash examples/quickstart.sh                  a simulated burst: camera B, condition 3 of Sur & Grediac 2015

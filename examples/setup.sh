@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
 # Functions of the start scripts (examples/quickstart.sh, test/run.sh): install what is missing, build. For sourcing.
 
 # Debian's or Ubuntu's packages; on other systems, the same by their own means.

@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
 # Checks that comments which cite the derivation, as "Estimator.md, 3.5", name a section that module/estimator.md has,
 # and that the files which it names exist. Prints how often each section is cited.
 set -euo pipefail

@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
 # Checks that a room of the module includes only rooms that stand above it in the table of module/README.md. Prints the
 # arrows between the rooms, with the number of includes, and how many of the module's headers the headers pull in.
 set -euo pipefail

@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
 # Installs what is missing, builds into build/ and runs every test: C++ with damaged files among them, then Python (examples,
 # tests, damaged files) with the wheel in a fresh virtual environment, then C++ once more with AddressSanitizer and
 # UndefinedBehaviorSanitizer, in build/sanitized. Says at its end what each part took. Options are handed on to ctest, for

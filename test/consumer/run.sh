@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
 # Installs a build of the library, then configures, builds and runs the project of this folder against what was installed.
 #
 #   bash test/consumer/run.sh BUILD_DIR WORK_DIR [options for the consumer's cmake]
