@@ -82,7 +82,7 @@ RealSensorDemand
 ResponseUnchecked()
 {
   return { "response-unchecked, of those not refused", [](const Setting &, const Outcome & outcome) -> Verdict {
-            return outcome.IsRefused() ? std::nullopt : Verdict(outcome.HasWarning("response-unchecked"));
+            return outcome.IsRefused() ? std::nullopt : Verdict(outcome.HasWarning(WarningCode::ResponseUnchecked));
           } };
 }
 

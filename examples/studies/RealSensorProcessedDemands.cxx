@@ -38,9 +38,9 @@ KindNamed(double lowestShare)
 }
 
 RealSensorDemand
-Warned(const std::string & code)
+Warned(WarningCode code)
 {
-  return { "warning " + code,
+  return { std::string("warning ") + KindOf(code).name,
            [code](const Setting &, const Outcome & outcome) -> Verdict { return outcome.HasWarning(code); } };
 }
 
@@ -113,8 +113,9 @@ MakeProcessedDemands()
            { "blur", DemandsOnGain(0.02, "2 %", isNamed) },
            { "temporal", { WithinOrNone(0.05, "5 %"), Coverage(JudgedQuantity::Gain), KindNamed(MostStacks) } },
            { "repeated",
-             DemandsOnGain(0.02, "2 %", { Warned("repeated-frames"), AsFromDistinctFrames(), KindNamed(MostStacks) }) },
-           { "companded", DemandsOnGain(0.01, "1 %", { Warned("companded") }) },
+             DemandsOnGain(
+               0.02, "2 %", { Warned(WarningCode::RepeatedFrames), AsFromDistinctFrames(), KindNamed(MostStacks) }) },
+           { "companded", DemandsOnGain(0.01, "1 %", { Warned(WarningCode::Companded) }) },
            { "brighter-fatter", DemandsOnGain(0.01, "1 %", isNamed) },
            { "defects", DemandsOnNotLinear() },
            { "median", DemandsOnNotLinear() },

@@ -144,7 +144,7 @@ Compare(const Report & report, const PixelTruth & truth, double flickerSd, const
 } // namespace
 
 bool
-RealSensorOutcome::HasWarning(const std::string & code) const
+RealSensorOutcome::HasWarning(WarningCode code) const
 {
   return std::find(warnings.begin(), warnings.end(), code) != warnings.end();
 }

@@ -21,7 +21,7 @@ struct RealSensorOutcome
 {
   std::uint64_t                      seed{ 0 };
   std::array<Judged, NumberOfJudged> judged;
-  std::vector<std::string>           warnings; ///< codes, in the report's order
+  std::vector<WarningCode>           warnings; ///< in the report's order
   std::string                        kind;     ///< of the noise, as KindOf() has it
   /** Where frames are repeated: the gain of the stack without the repetitions; null: none. */
   std::optional<double> distinctGain;
@@ -42,7 +42,7 @@ struct RealSensorOutcome
     return Of(JudgedQuantity::Gain).estimate.status == EstimateStatus::Failed;
   }
   bool
-  HasWarning(const std::string & code) const;
+  HasWarning(WarningCode code) const;
 };
 
 /** Simulates a stack of size x size pixels, and dark frames where the setting has them, estimates with the refined

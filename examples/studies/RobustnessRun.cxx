@@ -76,8 +76,9 @@ FindFault(const Run & run)
   if (run.stressCase.expectation == StressExpectation::Refused)
   {
     const auto & warnings = run.report.warnings;
-    const bool   isNamed = std::any_of(
-      warnings.begin(), warnings.end(), [](const Warning & warning) { return warning.code == "variance-not-affine"; });
+    const bool   isNamed = std::any_of(warnings.begin(), warnings.end(), [](const Warning & warning) {
+      return warning.code == WarningCode::VarianceNotAffine;
+    });
     return run.report.gain.status != EstimateStatus::Failed ? "not refused" : isNamed ? "" : "no variance-not-affine";
   }
   if (!run.gainPercent.error)

@@ -38,7 +38,8 @@ JoinCodes(const std::vector<Warning> & warnings)
   std::string codes;
   for (const Warning & warning : warnings)
   {
-    codes += (codes.empty() ? "" : ",") + warning.code;
+    codes += (codes.empty() ? "" : ",");
+    codes += KindOf(warning.code).name;
   }
   return codes.empty() ? "-" : codes;
 }

@@ -116,24 +116,12 @@ RequireOutputsApart(const EstimateOptions & options)
   }
 }
 
-bool
-IsWhyNothingIsEstimated(const sensornoise::Warning & warning)
-{
-  const auto codes = { "nothing-to-measure",
-                       "too-little-to-measure",
-                       "intensity-range-too-small",
-                       "variance-not-affine",
-                       "codes-too-coarse" };
-  return std::find(codes.begin(), codes.end(), warning.code) != codes.end();
-}
-
 void
 TellWarnings(const sensornoise::Report & report)
 {
   for (const sensornoise::Warning & warning : report.warnings)
   {
-    std::cerr << (IsWhyNothingIsEstimated(warning) ? "error: " : "warning: ") << warning.message << " [" << warning.code
-              << "]\n";
+    std::cerr << sensornoise::TextOf(warning);
   }
 }
 

@@ -77,7 +77,7 @@ IsRefusedByItsType()
   catch (const sensornoise::NothingToMeasure & error)
   {
     std::cout << "nothing to measure: " << error.what() << '\n';
-    return error.GetCode() == "nothing-to-measure";
+    return error.GetCode() == sensornoise::WarningCode::NothingToMeasure;
   }
   return false;
 }
@@ -104,8 +104,7 @@ try
   const sensornoise::Quantity filter = GainByFilter(stack);
   const double                gain = core.value.value_or(std::nan(""));
   const double                error = core.standardError.value_or(std::nan(""));
-  std::cout << "SensorNoise " << sensornoise::GetModuleVersion() << ": gain " << gain << " +- " << error << ' '
-            << core.unit << '\n';
+  std::cout << "SensorNoise " << sensornoise::GetModuleVersion() << ": gain " << gain << " +- " << error << " DN/e-\n";
 
   bool isGood = Expect(std::abs(gain - settings.camera.gainDnPerElectron) < 5.0 * error, "the gain is the camera's");
   isGood &= Expect(filter.value == core.value && filter.standardError == core.standardError,

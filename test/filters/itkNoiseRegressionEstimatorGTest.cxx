@@ -122,7 +122,7 @@ TEST(NoiseRegressionEstimator, DataThatContradictTheModelFail)
     EXPECT_EQ(report.gain.status, EstimateStatus::Failed);
     EXPECT_EQ(report.readNoise.status, EstimateStatus::Failed);
     ASSERT_EQ(report.warnings.size(), 1u);
-    EXPECT_EQ(report.warnings[0].code, "variance-not-affine");
+    EXPECT_EQ(report.warnings[0].code, sensornoise::WarningCode::VarianceNotAffine);
     EXPECT_SAYS(report.warnings[0].message, part);
   };
   estimator->SetVariance(
@@ -140,7 +140,7 @@ TEST(NoiseRegressionEstimator, ReadNoiseBelowItsErrorsIsNotIdentifiable)
   EXPECT_EQ(estimator->GetReport().offset.status, EstimateStatus::Identified);
   EXPECT_EQ(estimator->GetReport().readNoise.status, EstimateStatus::NotIdentifiable);
   ASSERT_EQ(estimator->GetReport().warnings.size(), 1u);
-  EXPECT_EQ(estimator->GetReport().warnings[0].code, "read-noise-not-identifiable");
+  EXPECT_EQ(estimator->GetReport().warnings[0].code, sensornoise::WarningCode::ReadNoiseNotIdentifiable);
 }
 
 // A sample variance of T frames is V chi^2_n / n with n = T-1. (v - V)^2 / (2 V^2 / n) has the mean 1 and the variance

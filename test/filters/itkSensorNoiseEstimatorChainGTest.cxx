@@ -137,7 +137,7 @@ TEST(SensorNoiseEstimatorChain, EqualsTheChainMadeByHand)
     chain.regression->Update();
     ExpectTheSameAsTheChain(estimator, chain);
     EXPECT_EQ(estimator->GetReport().flickerRows.empty(), !byLine);
-    EXPECT_EQ(WarnsOf(estimator->GetReport(), "rolling-shutter"), byLine);
+    EXPECT_EQ(WarnsOf(estimator->GetReport(), sensornoise::WarningCode::RollingShutter), byLine);
   }
 }
 

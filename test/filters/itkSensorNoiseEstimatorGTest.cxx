@@ -114,7 +114,7 @@ TEST(SensorNoiseEstimator, PixelsThatAreNaNAreLeftOutAndReported)
   estimator->Update();
   const sensornoise::Report & report = estimator->GetReport();
   EXPECT_EQ(report.pixels.notFinite, 10u);
-  EXPECT_TRUE(WarnsOf(report, "not-finite-pixels"));
+  EXPECT_TRUE(WarnsOf(report, sensornoise::WarningCode::NotFinitePixels));
   EXPECT_EQ(report.gain.status, EstimateStatus::Identified);
   EXPECT_NEAR(*report.gain.value, 1.0, 0.2); // as above
   EXPECT_TRUE(report.vibrationCovariance.value && std::isfinite(*report.vibrationCovariance.value));
@@ -176,7 +176,7 @@ TEST(SensorNoiseEstimator, StackThatCannotBeMeasuredGivesAReportThatSaysWhy)
       EXPECT_FALSE(quantity->value);
     }
     EXPECT_FALSE(report.IsUsable());
-    EXPECT_TRUE(WarnsOf(report, "nothing-to-measure"));
+    EXPECT_TRUE(WarnsOf(report, sensornoise::WarningCode::NothingToMeasure));
     EXPECT_EQ(report.pixels.clipped == 1200u, clipped);
     EXPECT_EQ(report.pixels.used, 0u);
     EXPECT_TRUE(std::isnan(estimator->GetCorrectedVariance()->GetPixel({ { 20, 20 } })));

@@ -98,7 +98,7 @@ def judge(answer: Answer, expected: str, touched: str) -> str:
     if answer.code == 0 and answer.text == expected:
         return "as undamaged"
     if answer.code in (2, 3):
-        lines = [line for line in answer.error.splitlines() if not line.startswith("warning: ")]
+        lines = [line for line in answer.error.splitlines() if not line.startswith(("warning: ", "note: "))]
         if len(lines) != 1 or any(word in lines[0] for word in NO_SENTENCES):
             return "NO SENTENCE"
         if answer.code == 2:

@@ -213,7 +213,7 @@ protected:
     std::string        sentence;
     for (std::string line; std::getline(lines, line);)
     {
-      if (line.rfind("warning: ", 0) != 0)
+      if (line.rfind("warning: ", 0) != 0 && line.rfind("note: ", 0) != 0)
       {
         EXPECT_EQ(line.rfind("error: ", 0), 0u) << m_Message;
         EXPECT_EQ(sentence, "") << m_Message;

@@ -87,7 +87,7 @@ Measure(const Stack<TPixel> &             stack,
 }
 
 inline void
-ExpectNothingMeasured(const Report & report, const std::string & code)
+ExpectNothingMeasured(const Report & report, WarningCode code)
 {
   for (const Quantity & quantity : { report.gain, report.offset, report.readNoise, report.intercept })
   {

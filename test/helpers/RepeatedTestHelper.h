@@ -83,7 +83,7 @@ ExpectReportOfDistinct(Report report, const Report & expected, const Shown & sho
   EXPECT_EQ(report.flicker.size(), expected.flicker.empty() ? 0 : shown.size());
   EXPECT_EQ(report.motion.size(), expected.motion.empty() ? 0 : shown.size());
   ASSERT_FALSE(report.warnings.empty());
-  EXPECT_EQ(report.warnings.front().code, "repeated-frames");
+  EXPECT_EQ(report.warnings.front().code, WarningCode::RepeatedFrames);
   report.warnings.erase(report.warnings.begin());
   report.frames = expected.frames;
   report.flicker = OfDistinct(report.flicker, shown, expected.frames);

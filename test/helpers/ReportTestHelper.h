@@ -19,12 +19,12 @@ namespace sensornoise::test
 inline double
 ValueOf(const Quantity & quantity)
 {
-  EXPECT_EQ(quantity.status, EstimateStatus::Identified) << quantity.unit;
+  EXPECT_EQ(quantity.status, EstimateStatus::Identified);
   return quantity.value.value_or(std::nan(""));
 }
 
 inline bool
-HasWarning(const Report & report, const std::string & code)
+HasWarning(const Report & report, WarningCode code)
 {
   return std::any_of(report.warnings.begin(), report.warnings.end(), [&](const Warning & w) { return w.code == code; });
 }

@@ -60,7 +60,7 @@ ExpectTheSameMaps(const TEstimator & a, const TEstimator & b)
 }
 
 inline bool
-WarnsOf(const sensornoise::Report & report, const std::string & code)
+WarnsOf(const sensornoise::Report & report, sensornoise::WarningCode code)
 {
   return std::any_of(
     report.warnings.begin(), report.warnings.end(), [&code](const auto & warning) { return warning.code == code; });

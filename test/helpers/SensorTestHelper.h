@@ -74,10 +74,10 @@ WithDarkFrames(const Stack<Codes> & dark)
 inline void
 ExpectHolds(const Quantity & quantity, double truth)
 {
-  ASSERT_EQ(quantity.status, EstimateStatus::Identified) << quantity.unit;
+  ASSERT_EQ(quantity.status, EstimateStatus::Identified);
   ASSERT_TRUE(quantity.interval95 && quantity.interval95->low && quantity.interval95->high);
-  EXPECT_LE(*quantity.interval95->low, truth) << quantity.unit;
-  EXPECT_GE(*quantity.interval95->high, truth) << quantity.unit;
+  EXPECT_LE(*quantity.interval95->low, truth);
+  EXPECT_GE(*quantity.interval95->high, truth);
 }
 
 /** Mean of the local gain over the frame [DN/e-]. */

@@ -41,17 +41,6 @@ ParametersOf(const Report & report)
 }
 
 void
-ExpectUnitsOfTheSchema(const Report & report)
-{
-  EXPECT_EQ(report.gain.unit, "DN/e-");
-  EXPECT_EQ(report.offset.unit, "DN");
-  EXPECT_EQ(report.readNoise.unit, "DN");
-  EXPECT_EQ(report.readNoiseElectrons.unit, "e-");
-  EXPECT_EQ(report.intercept.unit, "DN^2");
-  EXPECT_EQ(report.totalIntercept.unit, "DN^2");
-}
-
-void
 ExpectInterval(const std::optional<Interval> & interval, double low, double high)
 {
   ASSERT_TRUE(interval.has_value());
@@ -67,7 +56,7 @@ TEST(SensorNoiseNoiseParameters, CameraIsRecoveredFromItsLineAndOffset)
   FillNoiseParameters(report, LineOfCamera(0.3, 40.0, 3.0), 40.0, 60.0);
   for (const Quantity & quantity : ParametersOf(report))
   {
-    EXPECT_EQ(quantity.status, EstimateStatus::Identified) << quantity.unit;
+    EXPECT_EQ(quantity.status, EstimateStatus::Identified);
     EXPECT_FALSE(quantity.standardError || quantity.interval95); // the paper has none
   }
   EXPECT_DOUBLE_EQ(*report.gain.value, 0.3);
@@ -78,7 +67,6 @@ TEST(SensorNoiseNoiseParameters, CameraIsRecoveredFromItsLineAndOffset)
   EXPECT_EQ(report.totalIntercept.value, report.intercept.value); // nothing is removed for the codes
   EXPECT_TRUE(report.warnings.empty());
   EXPECT_TRUE(report.IsUsable());
-  ExpectUnitsOfTheSchema(report);
 }
 
 TEST(SensorNoiseNoiseParameters, WithoutOffsetTheBracketsStand)
@@ -89,14 +77,13 @@ TEST(SensorNoiseNoiseParameters, WithoutOffsetTheBracketsStand)
   EXPECT_EQ(report.intercept.status, EstimateStatus::Identified);
   for (const Quantity * quantity : { &report.offset, &report.readNoise, &report.readNoiseElectrons })
   {
-    EXPECT_EQ(quantity->status, EstimateStatus::NotIdentifiable) << quantity->unit;
-    EXPECT_FALSE(quantity->value) << quantity->unit;
+    EXPECT_EQ(quantity->status, EstimateStatus::NotIdentifiable);
+    EXPECT_FALSE(quantity->value);
   }
   // sigma^2 = 0 at mu = 40 - 9/0.5 = 22; at mu = 60, sigma^2 = 9 + 0.5 (60 - 40) = 19: both ends hold the camera's.
   ExpectInterval(report.offset.bracket, 22.0, 60.0);
   ExpectInterval(report.readNoise.bracket, 0.0, std::sqrt(19.0));
   ExpectInterval(report.readNoiseElectrons.bracket, 0.0, std::sqrt(19.0) / 0.5);
-  ExpectUnitsOfTheSchema(report);
 }
 
 TEST(SensorNoiseNoiseParameters, WithoutDarkestMeanThereIsNoBracket)
@@ -119,7 +106,7 @@ TEST(SensorNoiseNoiseParameters, NegativeSquareOfTheReadNoiseIsNotIdentifiable)
   EXPECT_FALSE(report.readNoise.value);
   ExpectInterval(report.readNoise.bracket, 0.0, std::sqrt(15.0));
   ASSERT_EQ(report.warnings.size(), 1u);
-  EXPECT_EQ(report.warnings[0].code, "read-noise-not-identifiable");
+  EXPECT_EQ(report.warnings[0].code, WarningCode::ReadNoiseNotIdentifiable);
   EXPECT_NE(report.warnings[0].message.find("-5.0"), std::string::npos) << report.warnings[0].message;
 }
 
@@ -133,13 +120,12 @@ TEST(SensorNoiseNoiseParameters, GainThatIsNotPositiveFailsEverything)
     FillNoiseParameters(report, line, 40.0, 60.0);
     for (const Quantity & quantity : ParametersOf(report))
     {
-      EXPECT_EQ(quantity.status, EstimateStatus::Failed) << quantity.unit;
-      EXPECT_FALSE(quantity.value || quantity.bracket) << quantity.unit;
+      EXPECT_EQ(quantity.status, EstimateStatus::Failed);
+      EXPECT_FALSE(quantity.value || quantity.bracket);
     }
     ASSERT_EQ(report.warnings.size(), 1u);
-    EXPECT_EQ(report.warnings[0].code, "variance-not-affine");
+    EXPECT_EQ(report.warnings[0].code, WarningCode::VarianceNotAffine);
     EXPECT_FALSE(report.IsUsable());
-    ExpectUnitsOfTheSchema(report);
     EXPECT_EQ(report.warnings[0].message.find("77 pixels") != std::string::npos, !line.isDetermined);
   }
 }
@@ -154,5 +140,4 @@ TEST(SensorNoiseNoiseParameters, OneStatusCanBeSetForAllParameters)
     EXPECT_EQ(quantity.status, EstimateStatus::NotIdentifiable);
     EXPECT_FALSE(quantity.value || quantity.bracket);
   }
-  ExpectUnitsOfTheSchema(report);
 }

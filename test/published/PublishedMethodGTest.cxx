@@ -61,7 +61,7 @@ TEST(SensorNoisePublishedMethod, RecoversTheCamera)
     // Each pixel's term has variance 2 + 12/59; the noise of gamma_t, common to all pixels, adds 5 % at most.
     EXPECT_NEAR(*report.fit.reducedChi2, 1.0, 5.0 * std::sqrt(2.2 / pixels) + 0.05) << camera;
     EXPECT_EQ(report.bitDepth, 12) << camera;
-    EXPECT_FALSE(HasWarning(report, "corrected-variance-curved")) << camera;
+    EXPECT_FALSE(HasWarning(report, WarningCode::CorrectedVarianceCurved)) << camera;
   }
 }
 
@@ -73,7 +73,7 @@ TEST(SensorNoisePublishedMethod, WithoutFlickerOffsetAndReadNoiseAreNotIdentifia
   EXPECT_EQ(report.offset.status, EstimateStatus::NotIdentifiable);
   EXPECT_EQ(report.readNoise.status, EstimateStatus::NotIdentifiable);
   EXPECT_FALSE(report.offset.value || report.readNoise.value);
-  EXPECT_TRUE(HasWarning(report, "offset-not-identifiable"));
+  EXPECT_TRUE(HasWarning(report, WarningCode::OffsetNotIdentifiable));
   ASSERT_TRUE(report.offset.bracket && report.offset.bracket->high);
   EXPECT_GT(*report.offset.bracket->high, 100.0);
 }
@@ -94,7 +94,7 @@ TEST(SensorNoisePublishedMethod, SaturatedPixelsAreFoundAndLeftOut)
   const auto     method = Measure(FlickeringStack().Map<Codes>([](int u) { return std::min(u, 2900); }));
   const Report & report = method.GetReport();
   EXPECT_EQ(report.clipHighDn, 2900.0);
-  EXPECT_TRUE(HasWarning(report, "clip-level-found"));
+  EXPECT_TRUE(HasWarning(report, WarningCode::ClipLevelFound));
   EXPECT_GT(report.pixels.clipped, 0u);
   EXPECT_NEAR(ValueOf(report.gain), 1.0, 0.05);
 }
@@ -102,7 +102,7 @@ TEST(SensorNoisePublishedMethod, SaturatedPixelsAreFoundAndLeftOut)
 TEST(SensorNoisePublishedMethod, StacksWithoutInformationFailWithAReason)
 {
   const auto clipped = Measure(ConstantStack<unsigned char>(255));
-  ExpectNothingMeasured(clipped.GetReport(), "nothing-to-measure");
+  ExpectNothingMeasured(clipped.GetReport(), WarningCode::NothingToMeasure);
   EXPECT_EQ(clipped.GetReport().pixels.clipped, 320u);
   auto still = ConstantStack<Codes>(700);
   for (std::size_t t = 0; t < still.frames; ++t)
@@ -110,11 +110,11 @@ TEST(SensorNoisePublishedMethod, StacksWithoutInformationFailWithAReason)
     still.pixels[t * 20 * 16] = static_cast<Codes>(700 + t); // else they would be one frame
   }
   const auto constant = Measure(still);
-  ExpectNothingMeasured(constant.GetReport(), "nothing-to-measure");
+  ExpectNothingMeasured(constant.GetReport(), WarningCode::NothingToMeasure);
   EXPECT_EQ(constant.GetPixelUse()[30], static_cast<std::uint8_t>(PixelUse::Constant));
   EXPECT_EQ(constant.GetPixelUse()[5], static_cast<std::uint8_t>(PixelUse::Border));
   const auto nan = Measure(ConstantStack<float>(std::numeric_limits<float>::quiet_NaN()));
-  ExpectNothingMeasured(nan.GetReport(), "nothing-to-measure");
+  ExpectNothingMeasured(nan.GetReport(), WarningCode::NothingToMeasure);
   EXPECT_EQ(nan.GetReport().pixels.notFinite, 320u);
   EXPECT_TRUE(nan.GetCorrectedVariance().empty());
   auto              repeated = FlickeringStack();
@@ -123,7 +123,7 @@ TEST(SensorNoisePublishedMethod, StacksWithoutInformationFailWithAReason)
   {
     repeated.pixels[i] = i % pixels == 0 ? static_cast<Codes>(i / pixels) : repeated.pixels[i % pixels];
   }
-  ExpectNothingMeasured(Measure(repeated).GetReport(), "nothing-to-measure");
+  ExpectNothingMeasured(Measure(repeated).GetReport(), WarningCode::NothingToMeasure);
 }
 
 TEST(SensorNoisePublishedMethod, OneIntensityIsTooSmallARange)
@@ -134,7 +134,7 @@ TEST(SensorNoisePublishedMethod, OneIntensityIsTooSmallARange)
     stack.pixels.begin(), stack.pixels.end(), [&] { return static_cast<float>(500.0 + 20.0 * random.Normal()); });
   const auto method = Measure(stack);
   EXPECT_EQ(method.GetReport().gain.status, EstimateStatus::NotIdentifiable);
-  EXPECT_TRUE(HasWarning(method.GetReport(), "intensity-range-too-small"));
+  EXPECT_TRUE(HasWarning(method.GetReport(), WarningCode::IntensityRangeTooSmall));
 }
 
 TEST(SensorNoisePublishedMethod, WrongUseIsRefused)

@@ -47,7 +47,7 @@ TEST(SensorNoisePublishedRepeatedFrames, TooFewDistinctOnesAreRefused)
   const Report report = Measure(Show(FlickeringStack(), Shown{ 0, 1, 2, 3, 0, 1, 2, 3 })).GetReport();
   EXPECT_FALSE(report.IsUsable());
   EXPECT_EQ(report.framesDistinct, 4U);
-  EXPECT_TRUE(HasWarning(report, "repeated-frames"));
+  EXPECT_TRUE(HasWarning(report, WarningCode::RepeatedFrames));
   EXPECT_EQ(report.warnings.back().message,
             "equal frames are counted once, and only 4 different frames are left; expected at least 5");
 }

@@ -48,7 +48,7 @@ TEST(SensorNoiseCompandedCodes, GainIsTheSensorsAndTheSlopeHoldsTheCodes)
     const double gain = bits == 8 ? 1.0 : 0.1;
     const Report report = Measure(SimulateCompanded(bits, gain), {}).GetReport();
     ASSERT_TRUE(report.gain.value) << ToJson(report);
-    EXPECT_TRUE(HasWarning(report, "companded"));
+    EXPECT_TRUE(HasWarning(report, WarningCode::Companded));
     const double error = *report.gain.standardError;
     EXPECT_LT(error, 0.005 * gain);
     EXPECT_NEAR(*report.gain.value, gain, 3.0 * error) << bits;
@@ -64,7 +64,7 @@ TEST(SensorNoiseCompandedCodes, GainIsTheSensorsAndTheSlopeHoldsTheCodes)
 TEST(SensorNoiseCompandedCodes, EvenCodesHaveOneSlope)
 {
   const Report report = Measure(SimulateCompanded(0, 1.0), {}).GetReport();
-  EXPECT_FALSE(HasWarning(report, "companded"));
+  EXPECT_FALSE(HasWarning(report, WarningCode::Companded));
   EXPECT_EQ(report.varianceSlope.value, report.gain.value);
   EXPECT_EQ(report.varianceSlope.standardError, report.gain.standardError);
   EXPECT_EQ(*report.totalIntercept.value - 1.0 / 12.0, *report.intercept.value);
@@ -90,7 +90,7 @@ TEST(SensorNoiseCompandedCodes, SameBitsForAnyChunksAndParts)
     parts[0].EndPass();
     parts[1].EndPass();
   }
-  ASSERT_TRUE(HasWarning(whole.GetReport(), "companded"));
+  ASSERT_TRUE(HasWarning(whole.GetReport(), WarningCode::Companded));
   for (const auto * method : { &chunks,
                                static_cast<const RefinedMethod<unsigned short> *>(&parts[0]),
                                static_cast<const RefinedMethod<unsigned short> *>(&parts[1]) })
@@ -103,7 +103,7 @@ TEST(SensorNoiseCompandedCodes, TooCoarseInTheDarkIsRefused)
 {
   const Report report = Measure(SimulateCompanded(6, 0.2), {}).GetReport();
   EXPECT_FALSE(report.gain.value);
-  EXPECT_TRUE(HasWarning(report, "codes-too-coarse")) << ToJson(report);
+  EXPECT_TRUE(HasWarning(report, WarningCode::CodesTooCoarse)) << ToJson(report);
 }
 
 TEST(SensorNoiseCompandedCodes, TooCoarseInTheLightIsLeftOut)
@@ -111,7 +111,7 @@ TEST(SensorNoiseCompandedCodes, TooCoarseInTheLightIsLeftOut)
   const auto   stack = SimulateCompanded(7, 0.05, 15.0);
   const auto   method = Measure(stack, {});
   const Report report = method.GetReport();
-  EXPECT_FALSE(HasWarning(report, "codes-too-coarse")) << ToJson(report);
+  EXPECT_FALSE(HasWarning(report, WarningCode::CodesTooCoarse)) << ToJson(report);
   std::size_t coarse = 0;
   std::size_t usedInLight = 0;
   for (std::size_t p = 0; p < Size * Size; ++p)

@@ -83,9 +83,9 @@ TEST(SensorNoiseDarkPoint, FlatAndDarkFramesArePhotonTransfer)
   EXPECT_LT(*report.gain.standardError, 0.005);
   EXPECT_NEAR(ValueOf(report.offset), black.mean, 0.01);
   EXPECT_NEAR(ValueOf(report.readNoise), std::sqrt(black.variance - 1.0 / 12.0), 0.01);
-  EXPECT_FALSE(HasWarning(report, "dark-frames-differ"));
-  EXPECT_FALSE(HasWarning(report, "not-static"));
-  EXPECT_FALSE(HasWarning(report, "intensity-range-too-small"));
+  EXPECT_FALSE(HasWarning(report, WarningCode::DarkFramesDiffer));
+  EXPECT_FALSE(HasWarning(report, WarningCode::NotStatic));
+  EXPECT_FALSE(HasWarning(report, WarningCode::IntensityRangeTooSmall));
 }
 
 TEST(SensorNoiseDarkPoint, PixelsThatDifferDoNotBiasAFlat)
@@ -118,10 +118,10 @@ TEST(SensorNoiseDarkPoint, DarkFramesOfAnotherCameraAreNoticed)
     settings.offset = KnownOffset{ 100.0, 0.02, 20, DarkVariance{ varianceDn2, 0.3 } };
     return Measure(stack, settings).GetReport();
   };
-  EXPECT_FALSE(HasWarning(reportOf(64.0 + 1.0 / 12.0), "dark-frames-differ"));
+  EXPECT_FALSE(HasWarning(reportOf(64.0 + 1.0 / 12.0), WarningCode::DarkFramesDiffer));
   for (const double varianceDn2 : { 40.0, 90.0 })
   {
-    EXPECT_TRUE(HasWarning(reportOf(varianceDn2), "dark-frames-differ")) << varianceDn2;
+    EXPECT_TRUE(HasWarning(reportOf(varianceDn2), WarningCode::DarkFramesDiffer)) << varianceDn2;
   }
 }
 
@@ -134,7 +134,7 @@ TEST(SensorNoiseDarkPoint, NarrowRangeIsTiedToTheDarkFrames)
   const Report             report = Measure(stack, WithDarkFrames(DarkFramesOf(settings, Size))).GetReport();
   EXPECT_NEAR(ValueOf(report.gain), 1.0, 5.0 * *report.gain.standardError);
   EXPECT_LT(*report.gain.standardError, 0.005);
-  EXPECT_FALSE(HasWarning(report, "response-unchecked"));
+  EXPECT_FALSE(HasWarning(report, WarningCode::ResponseUnchecked));
 }
 
 TEST(SensorNoiseDarkPoint, RefusedStackStillHasWhatTheDarkFramesTell)

@@ -78,12 +78,6 @@ DarkOf(double varianceDn2, double errorDn2)
   return { 100.0, 0.02, 20, DarkVariance{ varianceDn2, errorDn2 } };
 }
 
-bool
-Warns(const Report & report, const std::string & code)
-{
-  return std::any_of(report.warnings.begin(), report.warnings.end(), [&](const Warning & w) { return w.code == code; });
-}
-
 /** Identified, and within 4 standard errors of the truth. */
 void
 ExpectTruth(const Quantity & quantity, double truth)
@@ -98,7 +92,7 @@ TEST(SensorNoiseKnownOffset, SteadyLightIsToldFromTheOffset)
   const Stack<Codes> stack = SimulateVeil(0.05, 200.0);
   const Report       blind = ReportOf(stack);
   ExpectTruth(blind.offset, 300.0); // the level that does not flicker
-  EXPECT_FALSE(Warns(blind, "steady-light"));
+  EXPECT_FALSE(HasWarning(blind, WarningCode::SteadyLight));
 
   const Report report = ReportOf(stack, KnownOffset{ 100.0, 0.1 });
   EXPECT_EQ(report.offset.value, 100.0);
@@ -106,15 +100,15 @@ TEST(SensorNoiseKnownOffset, SteadyLightIsToldFromTheOffset)
   ExpectTruth(report.gain, 1.0);
   ExpectTruth(report.readNoise, 8.0);
   ExpectTruth(report.readNoiseElectrons, 8.0);
-  EXPECT_TRUE(Warns(report, "steady-light"));
-  EXPECT_FALSE(Warns(report, "offset-out-of-range"));
+  EXPECT_TRUE(HasWarning(report, WarningCode::SteadyLight));
+  EXPECT_FALSE(HasWarning(report, WarningCode::OffsetOutOfRange));
 }
 
 TEST(SensorNoiseKnownOffset, WithoutSteadyLightThereIsNoWarning)
 {
   const Report report = ReportOf(SimulateVeil(0.05, 0.0), KnownOffset{ 100.0, 0.1 });
   ExpectTruth(report.readNoise, 8.0);
-  EXPECT_TRUE(report.warnings.empty()) << report.warnings.front().code;
+  EXPECT_TRUE(report.warnings.empty()) << report.warnings.front().message;
 }
 
 TEST(SensorNoiseKnownOffset, NoFlickerIsNeeded)
@@ -123,14 +117,14 @@ TEST(SensorNoiseKnownOffset, NoFlickerIsNeeded)
   const Report       blind = ReportOf(stack);
   EXPECT_EQ(blind.offset.status, EstimateStatus::NotIdentifiable);
   EXPECT_EQ(blind.readNoise.status, EstimateStatus::NotIdentifiable);
-  EXPECT_TRUE(Warns(blind, "offset-not-identifiable"));
+  EXPECT_TRUE(HasWarning(blind, WarningCode::OffsetNotIdentifiable));
 
   const Report report = ReportOf(stack, KnownOffset{ 100.0, 0.5 });
   EXPECT_EQ(report.offset.value, 100.0);
   ExpectTruth(report.readNoise, 8.0);
   ASSERT_TRUE(report.covariance);
   EXPECT_EQ((*report.covariance)[2][2], 0.25);
-  EXPECT_TRUE(report.warnings.empty()) << report.warnings.front().code;
+  EXPECT_TRUE(report.warnings.empty()) << report.warnings.front().message;
   // The offset's error alone makes g 0.5 DN / (2 sigma) = 0.031 DN of that of the read noise.
   EXPECT_GT(*report.readNoise.standardError, 0.031);
 }
@@ -146,7 +140,7 @@ TEST(SensorNoiseKnownOffset, DarkFramesTellTheReadNoise)
   EXPECT_NEAR(*report.readNoise.interval95->low, std::sqrt(64.0 - StudentQuantile * 0.32), 1e-9);
   EXPECT_NEAR(ValueOf(report.readNoiseElectrons), 8.0 / *report.gain.value, 1e-9);
   EXPECT_GT(*report.readNoiseElectrons.standardError, *report.readNoise.standardError);
-  EXPECT_TRUE(report.warnings.empty()) << report.warnings.front().code;
+  EXPECT_TRUE(report.warnings.empty()) << report.warnings.front().message;
 
   using Setting = std::pair<std::string, Report::SettingValue>;
   for (const Setting & expected : { Setting("offset", 100.0),
@@ -162,7 +156,7 @@ TEST(SensorNoiseKnownOffset, DarkFramesTellTheReadNoise)
 TEST(SensorNoiseKnownOffset, DarkFramesOfAnotherCameraAreNoticed)
 {
   const Stack<Codes> stack = Simulate<Codes>(WithFlicker(0.05), Size, Size);
-  EXPECT_TRUE(Warns(ReportOf(stack, DarkOf(81.0, 0.32)), "dark-frames-differ"));
+  EXPECT_TRUE(HasWarning(ReportOf(stack, DarkOf(81.0, 0.32)), WarningCode::DarkFramesDiffer));
 }
 
 TEST(SensorNoiseKnownOffset, ReadNoiseThatTheDarkFramesDoNotShowIsAnUpperLimit)
@@ -172,7 +166,7 @@ TEST(SensorNoiseKnownOffset, ReadNoiseThatTheDarkFramesDoNotShowIsAnUpperLimit)
   EXPECT_EQ(noisy.readNoise.status, EstimateStatus::UpperLimit);
   EXPECT_FALSE(noisy.readNoise.value);
   EXPECT_NEAR(*noisy.readNoise.bracket->high, std::sqrt(64.0 - 1.0 / 12.0 + StudentQuantile * 40.0), 1e-9);
-  EXPECT_TRUE(Warns(noisy, "read-noise-upper-limit"));
+  EXPECT_TRUE(HasWarning(noisy, WarningCode::ReadNoiseUpperLimit));
   const Report coarse = ReportOf(stack, DarkOf(0.2, 0.001)); // of codes with a step of 1 DN
   EXPECT_EQ(coarse.readNoise.status, EstimateStatus::UpperLimit);
   EXPECT_NEAR(*coarse.readNoise.bracket->high, 0.5, 1e-12);
@@ -182,11 +176,11 @@ TEST(SensorNoiseKnownOffset, OffsetThatTheDataContradictIsNoticed)
 {
   const Stack<Codes> stack = Simulate<Codes>(WithFlicker(0.05), Size, Size);
   const Report       low = ReportOf(stack, KnownOffset{ 10.0, 0.1 }); // sigma^2 = -36 + 10 < 0
-  EXPECT_TRUE(Warns(low, "offset-out-of-range"));
+  EXPECT_TRUE(HasWarning(low, WarningCode::OffsetOutOfRange));
   EXPECT_EQ(low.readNoise.status, EstimateStatus::Failed);
   EXPECT_EQ(low.readNoiseElectrons.status, EstimateStatus::Failed);
-  EXPECT_TRUE(Warns(ReportOf(stack, KnownOffset{ 900.0, 0.1 }), "offset-out-of-range"));
-  EXPECT_FALSE(Warns(ReportOf(stack, KnownOffset{ 100.0, 0.1 }), "offset-out-of-range"));
+  EXPECT_TRUE(HasWarning(ReportOf(stack, KnownOffset{ 900.0, 0.1 }), WarningCode::OffsetOutOfRange));
+  EXPECT_FALSE(HasWarning(ReportOf(stack, KnownOffset{ 100.0, 0.1 }), WarningCode::OffsetOutOfRange));
 }
 
 TEST(SensorNoiseKnownOffset, OffsetThatIsNoNumberIsRefused)

@@ -71,8 +71,8 @@ TEST(SensorNoiseLevelRange, StraightPartOfABentResponseHasItsOwnGain)
   const Stack<Codes> stack = Simulate<Codes>(settings, Size, Size);
   const Report       all = Measure(stack, {}).GetReport();
   const Report       part = Measure(stack, WithRange(0.0, 100.0 + 0.55 * settings.camera.electrons)).GetReport();
-  EXPECT_TRUE(HasWarning(all, "response-not-straight"));
-  EXPECT_FALSE(HasWarning(part, "response-not-straight"));
+  EXPECT_TRUE(HasWarning(all, WarningCode::ResponseNotStraight));
+  EXPECT_FALSE(HasWarning(part, WarningCode::ResponseNotStraight));
   EXPECT_NEAR(ValueOf(part.gain), 1.04, 5.0 * *part.gain.standardError);
 }
 

@@ -70,7 +70,7 @@ TEST(SensorNoisePixelsOfVariance, SmoothedEdgesAreNoBendOfTheResponse)
   const auto         edgesOf = [&settings] {
     const auto stack = Simulate<Codes>(settings, 256, 256);
     const auto method = Measure(stack, {});
-    EXPECT_FALSE(HasWarning(method.GetReport(), "response-not-straight"));
+    EXPECT_FALSE(HasWarning(method.GetReport(), WarningCode::ResponseNotStraight));
     ExpectHolds(method.GetReport().gain, 1.0);
     ExpectHolds(method.GetReport().readNoise, 8.0);
     const auto & uses = method.GetPixelUse();

@@ -99,7 +99,7 @@ TEST(SensorNoiseRampAlongAnAxis, FlickerIsToldAndMotionIsNot)
     EXPECT_TRUE(std::any_of(report.warnings.begin(),
                             report.warnings.end(),
                             [](const Warning & warning) {
-                              return warning.code == "offset-not-identifiable" &&
+                              return warning.code == WarningCode::OffsetNotIdentifiable &&
                                      warning.message.find("ramp") != std::string::npos;
                             }))
       << direction;

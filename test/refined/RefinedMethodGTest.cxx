@@ -51,7 +51,7 @@ ExpectNothingMeasured(const Report & report)
     EXPECT_EQ(quantity.status, EstimateStatus::Failed);
     EXPECT_FALSE(quantity.value);
   }
-  EXPECT_TRUE(HasWarning(report, "nothing-to-measure")) << ToJson(report);
+  EXPECT_TRUE(HasWarning(report, WarningCode::NothingToMeasure)) << ToJson(report);
 }
 } // namespace
 
@@ -88,8 +88,8 @@ TEST(SensorNoiseRefinedMethod, RecoversTheCameraWithinItsErrors)
   const auto     method = Measure(TexturedStack<Codes>());
   const Report & report = method.GetReport();
   const auto     expectNear = [](const Quantity & quantity, double truth) {
-    ASSERT_TRUE(quantity.value && quantity.standardError) << quantity.unit;
-    EXPECT_NEAR(*quantity.value, truth, 5.0 * *quantity.standardError) << quantity.unit; // one seed: 6e-7 by chance
+    ASSERT_TRUE(quantity.value && quantity.standardError);
+    EXPECT_NEAR(*quantity.value, truth, 5.0 * *quantity.standardError); // one seed: 6e-7 by chance
   };
   expectNear(report.gain, settings.camera.gainDnPerElectron);
   expectNear(report.offset, settings.camera.offsetDn);
@@ -117,7 +117,7 @@ TEST(SensorNoiseRefinedMethod, WithoutFlickerOffsetAndReadNoiseAreNotIdentifiabl
   EXPECT_EQ(report.offset.status, EstimateStatus::NotIdentifiable);
   EXPECT_EQ(report.readNoise.status, EstimateStatus::NotIdentifiable);
   EXPECT_FALSE(report.offset.value || report.readNoise.value);
-  EXPECT_TRUE(HasWarning(report, "offset-not-identifiable"));
+  EXPECT_TRUE(HasWarning(report, WarningCode::OffsetNotIdentifiable));
   ASSERT_TRUE(report.readNoise.bracket && report.readNoise.bracket->high);
   EXPECT_GT(*report.readNoise.bracket->high, 0.0);
 }

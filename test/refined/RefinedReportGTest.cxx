@@ -54,9 +54,9 @@ TEST(SensorNoiseRefinedReport, FlatIsOneIntensityAndNotAThingThatMoves)
     EXPECT_EQ(report.gain.status, EstimateStatus::NotIdentifiable);
     EXPECT_EQ(report.offset.status, EstimateStatus::NotIdentifiable);
     EXPECT_EQ(report.readNoise.status, EstimateStatus::NotIdentifiable);
-    EXPECT_TRUE(HasWarning(report, "intensity-range-too-small")) << ToJson(report);
-    EXPECT_FALSE(HasWarning(report, "not-static"));
-    EXPECT_FALSE(HasWarning(report, "variance-not-affine"));
+    EXPECT_TRUE(HasWarning(report, WarningCode::IntensityRangeTooSmall)) << ToJson(report);
+    EXPECT_FALSE(HasWarning(report, WarningCode::NotStatic));
+    EXPECT_FALSE(HasWarning(report, WarningCode::VarianceNotAffine));
     ASSERT_TRUE(report.fit.line);
   }
 }
@@ -64,10 +64,10 @@ TEST(SensorNoiseRefinedReport, FlatIsOneIntensityAndNotAThingThatMoves)
 TEST(SensorNoiseRefinedReport, NarrowRangeLeavesTheResponseUnchecked)
 {
   const Report narrow = Measure(SimulateLevels(0.3), {}).GetReport();
-  EXPECT_TRUE(HasWarning(narrow, "response-unchecked")) << ToJson(narrow);
+  EXPECT_TRUE(HasWarning(narrow, WarningCode::ResponseUnchecked)) << ToJson(narrow);
   EXPECT_NEAR(ValueOf(narrow.gain), 1.0, 5.0 * *narrow.gain.standardError);
   const Report full = Measure(SimulateLevels(0.0), {}).GetReport();
-  EXPECT_FALSE(HasWarning(full, "response-unchecked"));
+  EXPECT_FALSE(HasWarning(full, WarningCode::ResponseUnchecked));
 }
 
 TEST(SensorNoiseRefinedReport, BentResponseHasTheMeanGainInItsInterval)
@@ -78,9 +78,9 @@ TEST(SensorNoiseRefinedReport, BentResponseHasTheMeanGainInItsInterval)
     const SimulationSettings settings = BentCamera(ResponseShape::Quadratic, bend, 40);
     const StackSimulator     simulator(MakeTargetScene(size, size), size, size, settings);
     const Report             report = Measure(Simulate<Codes>(settings, size, size), {}).GetReport();
-    EXPECT_TRUE(HasWarning(report, "response-not-straight")) << bend;
-    EXPECT_FALSE(HasWarning(report, "variance-not-affine")) << bend;
-    EXPECT_FALSE(HasWarning(report, "not-static")) << bend;
+    EXPECT_TRUE(HasWarning(report, WarningCode::ResponseNotStraight)) << bend;
+    EXPECT_FALSE(HasWarning(report, WarningCode::VarianceNotAffine)) << bend;
+    EXPECT_FALSE(HasWarning(report, WarningCode::NotStatic)) << bend;
     ExpectHolds(report.gain, MeanLocalGain(simulator));
     EXPECT_LT(*report.gain.standardError, 0.04);
     // The matrix holds the same errors, the model's among them.
@@ -101,8 +101,8 @@ TEST(SensorNoiseRefinedReport, VerdictOnABendDoesNotDependOnTheSizeOfTheFrame)
   const StackSimulator     simulator(MakeTargetScene(512, 512), 512, 512, settings);
   const Report             large = Measure(Simulate<Codes>(settings, 512, 512), {}).GetReport();
   EXPECT_EQ(small.gain.status, large.gain.status);
-  EXPECT_TRUE(HasWarning(small, "response-not-straight"));
-  EXPECT_TRUE(HasWarning(large, "response-not-straight"));
+  EXPECT_TRUE(HasWarning(small, WarningCode::ResponseNotStraight));
+  EXPECT_TRUE(HasWarning(large, WarningCode::ResponseNotStraight));
   ExpectHolds(large.gain, MeanLocalGain(simulator));
   // Of the small frame chance takes off two of its errors, 1 % each in a sixteenth of the pixels.
   EXPECT_NEAR(*small.fit.nonlinearity, *large.fit.nonlinearity, 0.03);
@@ -115,7 +115,7 @@ TEST(SensorNoiseRefinedReport, ToneCurveIsRefusedWithItsLine)
     const Report report = Measure(Simulate<Codes>(BentCamera(shape, size, 40), Size, Size), {}).GetReport();
     EXPECT_EQ(report.gain.status, EstimateStatus::Failed) << size;
     EXPECT_FALSE(report.gain.value || report.offset.value || report.readNoise.value) << size;
-    EXPECT_TRUE(HasWarning(report, "variance-not-affine")) << size;
+    EXPECT_TRUE(HasWarning(report, WarningCode::VarianceNotAffine)) << size;
     ASSERT_TRUE(report.fit.line) << size;
     EXPECT_TRUE(std::isfinite(report.fit.line->gain) && std::isfinite(report.fit.line->intercept)) << size;
     EXPECT_NE(ToJson(report).find("\"line\""), std::string::npos);
@@ -132,7 +132,7 @@ TEST(SensorNoiseRefinedReport, ToneCurveOfTheCodesIsRefusedHoweverManyPixelsTell
   }
   const Report report = Measure(stack, {}).GetReport();
   EXPECT_EQ(report.gain.status, EstimateStatus::Failed);
-  EXPECT_TRUE(HasWarning(report, "variance-not-affine"));
+  EXPECT_TRUE(HasWarning(report, WarningCode::VarianceNotAffine));
 }
 
 TEST(SensorNoiseRefinedReport, FloatingPointFramesThatSaturateAreMeasuredAsTheirIntegers)
@@ -142,7 +142,7 @@ TEST(SensorNoiseRefinedReport, FloatingPointFramesThatSaturateAreMeasuredAsTheir
   const Stack<Codes> codes = Simulate<Codes>(settings, Size, Size);
   const Report       integer = Measure(codes, {}).GetReport();
   const Report       floating = Measure(codes.Map<float>([](Codes u) { return u; }), {}).GetReport();
-  EXPECT_TRUE(HasWarning(floating, "clip-level-found"));
+  EXPECT_TRUE(HasWarning(floating, WarningCode::ClipLevelFound));
   EXPECT_NEAR(ValueOf(integer.gain), 1.0, 5.0 * *integer.gain.standardError);
   EXPECT_NEAR(ValueOf(floating.gain), ValueOf(integer.gain), 0.5 * *integer.gain.standardError);
   EXPECT_EQ(floating.clipHighDn, integer.clipHighDn);

@@ -113,7 +113,7 @@ TEST(SensorNoiseRepeatedFrames, AreNamedInOneWarning)
   EXPECT_EQ(
     last.GetReport().warnings.front().message,
     "1 of 25 frames is equal to an earlier one (frame 24 equals frame 0; the first is 0): each is counted once");
-  EXPECT_FALSE(HasWarning(Measure(SmallStack<Codes>()).GetReport(), "repeated-frames"));
+  EXPECT_FALSE(HasWarning(Measure(SmallStack<Codes>()).GetReport(), WarningCode::RepeatedFrames));
 }
 
 TEST(SensorNoiseRepeatedFrames, ThatOneProcessReadsAreCountedOnceByAll)
@@ -194,8 +194,8 @@ TEST(SensorNoiseRepeatedFrames, TooFewDistinctOnesAreRefused)
     EXPECT_FALSE(report.IsUsable());
     EXPECT_EQ(report.frames, 40U);
     EXPECT_EQ(report.framesDistinct, distinct);
-    EXPECT_TRUE(HasWarning(report, "repeated-frames"));
-    EXPECT_EQ(report.warnings.back().code, "nothing-to-measure");
+    EXPECT_TRUE(HasWarning(report, WarningCode::RepeatedFrames));
+    EXPECT_EQ(report.warnings.back().code, WarningCode::NothingToMeasure);
     const std::string found = "only " + std::to_string(distinct) + (distinct == 1 ? " frame is" : " different frames");
     EXPECT_NE(report.warnings.back().message.find(found), std::string::npos) << report.warnings.back().message;
     EXPECT_NE(report.warnings.back().message.find("expected at least 5"), std::string::npos);

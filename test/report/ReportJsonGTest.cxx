@@ -199,12 +199,12 @@ FullReport()
   report.clipLowDn = 0.0;
   report.clipHighDn = 4095.0;
   report.pixels = { 12, 11, 10, 1, 0 };
-  report.gain = Quantity::Identified(0.3, "DN/e-");
+  report.gain = Quantity::Identified(0.3);
   report.gain.standardError = 0.01;
   report.gain.interval95 = Interval{ 0.28, 0.32 };
-  report.offset = Quantity::Without(EstimateStatus::NotIdentifiable, "DN");
+  report.offset = Quantity::Without(EstimateStatus::NotIdentifiable);
   report.offset.bracket = Interval{ 22.0, std::nullopt };
-  report.flickerSd = Quantity::Without(EstimateStatus::UpperLimit, "1");
+  report.flickerSd = Quantity::Without(EstimateStatus::UpperLimit);
   report.covariance = { { { 1.0, 2.0, 3.0 }, { 2.0, 4.0, 5.0 }, { 3.0, 5.0, 6.0 } } };
   report.flicker = { 0.01, -0.01 };
   report.flickerRows = { { 0.1, std::nan(""), -0.1 }, { 0.0, 0.0, 0.0 } };
@@ -212,8 +212,8 @@ FullReport()
   report.fit.reducedChi2 = 1.02;
   report.affineBaseline = Report::Baseline{ 0.0, 0.31, -3.0 };
   report.quadraticBaseline = Report::Baseline{ 0.25, 0.3, -2.0 };
-  report.Warn("code", "message");
-  report.Warn("second", "message");
+  report.Warn(WarningCode::NotStatic, "message");
+  report.Warn(WarningCode::VarianceNotAffine, "message");
   report.scatter = { { 1.0, 2.0 }, { 3.0, 4.0 }, { 5.0, 6.0 }, { 5, 5 } };
   return report;
 }
@@ -235,10 +235,9 @@ TEST(SensorNoiseReportJson, RecordIsValidAndHasAllNamesInOrder)
 {
   std::istringstream list(
     "schema version method settings frames frames_distinct width height channel bit_depth bit_depth_source "
-    "quantisation_step clip_low clip_high clip_source pixels gain variance_slope offset read_noise read_noise_median "
-    "read_noise_electrons intercept "
-    "total_intercept "
-    "covariance flicker_sd vibration flicker flicker_rows motion noise_correlation fit affine_baseline "
+    "quantisation_step clip_low clip_high clip_source pixels gain offset read_noise read_noise_median "
+    "read_noise_electrons intercept variance_slope total_intercept flicker_sd vibration covariance flicker "
+    "flicker_rows motion noise_correlation fit affine_baseline "
     "quadratic_baseline warnings "
     "scatter");
   const std::vector<std::string> names{ std::istream_iterator<std::string>(list), {} };
@@ -293,8 +292,9 @@ TEST(SensorNoiseReportJson, QuantitiesCarryAllTheirMembers)
   EXPECT_TRUE(Begins(TextAfter(json, "motion"), "[[0.5, -0.5], [0, 1e-09]]"));
   EXPECT_TRUE(Begins(TextAfter(json, "affine_baseline"), "{\"gain\": 0.31, \"intercept\": -3}"));
   EXPECT_TRUE(Begins(TextAfter(json, "quadratic_baseline"), "{\"curvature\": 0.25, \"gain\": 0.3, "));
-  EXPECT_TRUE(
-    Begins(TextAfter(json, "warnings"), "[{\"code\": \"code\", \"message\": \"message\"}, {\"code\": \"second\", "));
+  EXPECT_TRUE(Begins(TextAfter(json, "warnings"),
+                     "[{\"code\": \"not-static\", \"severity\": \"note\", \"message\": \"message\"}, "
+                     "{\"code\": \"variance-not-affine\", \"severity\": \"error\", "));
   EXPECT_TRUE(Begins(TextAfter(json, "count"), "[5, 5]"));
 }
 
@@ -314,7 +314,7 @@ TEST(SensorNoiseReportJson, DoublesReadBackAsTheSameBits)
                                -0.0 })
   {
     Report report;
-    report.gain = Quantity::Identified(number, "DN/e-");
+    report.gain = Quantity::Identified(number);
     const std::string json = ToJson(report);
     EXPECT_TRUE(JsonChecker(json).m_IsValid) << json;
     const double read = std::strtod(TextAfter(json, "value").c_str(), nullptr);
@@ -327,7 +327,7 @@ TEST(SensorNoiseReportJson, NumbersThatJsonDoesNotKnowAreNull)
   for (const double number : { std::nan(""), HUGE_VAL, -HUGE_VAL })
   {
     Report report;
-    report.gain = Quantity::Identified(number, "DN/e-");
+    report.gain = Quantity::Identified(number);
     report.flicker = { 1.0, number };
     report.affineBaseline = Report::Baseline{ 0.0, number, number };
     const std::string json = ToJson(report);
@@ -341,11 +341,10 @@ TEST(SensorNoiseReportJson, NumbersThatJsonDoesNotKnowAreNull)
 TEST(SensorNoiseReportJson, StringsAreEscaped)
 {
   Report report;
-  report.Warn("a\"b\\c",
-              "tab\there\nand\x01"
+  report.Warn(WarningCode::NotStatic,
+              "a\"b\\c, tab\there\nand\x01"
               "\x1f, \xc3\xa9"); // the last is an e with acute accent in UTF-8
   const std::string json = ToJson(report);
   EXPECT_TRUE(JsonChecker(json).m_IsValid) << json;
-  EXPECT_TRUE(Begins(TextAfter(json, "code"),
-                     "\"a\\\"b\\\\c\", \"message\": \"tab\\u0009here\\u000aand\\u0001\\u001f, \xc3\xa9\"}"));
+  EXPECT_TRUE(Begins(TextAfter(json, "message"), "\"a\\\"b\\\\c, tab\\u0009here\\u000aand\\u0001\\u001f, \xc3\xa9\"}"));
 }

@@ -25,7 +25,7 @@ LineOf(const Report & report, const std::string & words)
 TEST(SensorNoiseReportTable, ValuesHaveTheirErrorsAndIntervals)
 {
   Report report;
-  report.gain = Quantity::Identified(0.998765, "DN/e-");
+  report.gain = Quantity::Identified(0.998765);
   report.gain.standardError = 0.00123;
   report.gain.interval95 = Interval{ 0.9963, 1.0012 };
   report.gain.bracket = Interval{ 0.0, std::nullopt };
@@ -50,7 +50,7 @@ TEST(SensorNoiseReportTable, EqualFramesAreToldWhereThereAreAny)
 TEST(SensorNoiseReportTable, WithoutAnyErrorThereIsNoColumnForThem)
 {
   Report report;
-  report.offset = Quantity::Identified(99.7, "DN");
+  report.offset = Quantity::Identified(99.7);
   report.offset.bracket = Interval{ 35.8, std::nullopt };
   EXPECT_EQ(LineOf(report, "quantity"), "quantity                        value  unit     status            limits");
   EXPECT_EQ(LineOf(report, "offset mu"), "offset mu                        99.7  DN       identified        [35.8, -]");
@@ -59,9 +59,9 @@ TEST(SensorNoiseReportTable, WithoutAnyErrorThereIsNoColumnForThem)
 TEST(SensorNoiseReportTable, WhatIsNotDistinguishableFromZeroHasItsLimitForAValue)
 {
   Report report;
-  report.readNoise = Quantity::Without(EstimateStatus::UpperLimit, "DN");
+  report.readNoise = Quantity::Without(EstimateStatus::UpperLimit);
   report.readNoise.bracket = Interval{ 0.0, 1.25 };
-  report.flickerSd = Quantity::Without(EstimateStatus::UpperLimit, "1");
+  report.flickerSd = Quantity::Without(EstimateStatus::UpperLimit);
   EXPECT_EQ(LineOf(report, "read noise sigma  "),
             "read noise sigma               < 1.25  DN       upper-limit       [0, 1.25]");
   EXPECT_EQ(LineOf(report, "flicker sd"), "flicker sd                          -  1        upper-limit       ");
@@ -99,7 +99,7 @@ TEST(SensorNoiseReportTable, WhatNeighboursOrFramesShareIsThatOfTheLagThatShares
   noise.space = { { 1, 0, 0, 0.1, 0.001 }, { 0, 1, 0, -0.442, 0.001 }, { 1, 1, 0, 0.2, 0.001 } };
   noise.time = { { 0, 0, 1, 0.251, 0.001 } };
   EXPECT_EQ(LineOf(report, "noise"), "noise: filtered, neighbours share up to -44 % of it");
-  report.gain = Quantity::Identified(1.0, "DN/e-");
+  report.gain = Quantity::Identified(1.0);
   EXPECT_EQ(LineOf(report, "noise"),
             "noise: filtered, neighbours share up to -44 % of it; the gain is from the sum over all lags");
   noise.kind = "temporal";
@@ -112,9 +112,9 @@ TEST(SensorNoiseReportTable, RowsAndColumnsHaveALineWhereTheirNoiseIsTold)
   Report                   report;
   NoiseCorrelationRecord & noise = report.noiseCorrelation.emplace();
   noise.kind = "white";
-  noise.rowNoise = Quantity::Without(EstimateStatus::UpperLimit, "DN");
+  noise.rowNoise = Quantity::Without(EstimateStatus::UpperLimit);
   noise.rowNoise.bracket = Interval{ 0.0, 0.3 };
-  noise.columnNoise = Quantity::Identified(2.5, "DN");
+  noise.columnNoise = Quantity::Identified(2.5);
   EXPECT_EQ(LineOf(report, "row noise"), "");
   EXPECT_EQ(LineOf(report, "column noise"), "column noise                      2.5  DN       identified        ");
   EXPECT_EQ(LineOf(report, "noise"), "noise: white, but for rows and columns");
@@ -123,10 +123,10 @@ TEST(SensorNoiseReportTable, RowsAndColumnsHaveALineWhereTheirNoiseIsTold)
 TEST(SensorNoiseReportTable, VarianceSlopeHasALineWhereItIsNotTheGain)
 {
   Report report;
-  report.gain = report.varianceSlope = Quantity::Identified(1.000001, "DN/e-");
+  report.gain = report.varianceSlope = Quantity::Identified(1.000001);
   EXPECT_EQ(LineOf(report, "variance slope"), "");
   report.varianceSlope.value = 0.245;
   EXPECT_EQ(LineOf(report, "variance slope"), "variance slope                  0.245  DN/e-    identified        ");
-  report.gain = Quantity::Without(EstimateStatus::Failed, "DN/e-");
+  report.gain = Quantity::Without(EstimateStatus::Failed);
   EXPECT_EQ(LineOf(report, "variance slope"), "variance slope                  0.245  DN/e-    identified        ");
 }

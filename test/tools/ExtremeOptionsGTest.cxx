@@ -33,7 +33,7 @@ protected:
     std::size_t        sentences = 0;
     for (std::string line; std::getline(lines, line);)
     {
-      sentences += line.rfind("warning: ", 0) != 0 ? 1 : 0;
+      sentences += line.rfind("warning: ", 0) != 0 && line.rfind("note: ", 0) != 0 ? 1 : 0;
     }
     EXPECT_EQ(sentences, code == 0 ? 0u : 1u) << all;
   }

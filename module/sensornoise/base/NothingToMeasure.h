@@ -4,10 +4,10 @@
 #define sensornoise_base_NothingToMeasure_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/base/WarningCodes.h"
 
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 namespace sensornoise
 {
@@ -20,19 +20,19 @@ class SensorNoise_EXPORT NothingToMeasure : public std::runtime_error
 {
 public:
   /** \a code is that of the report's warning, \a message one sentence for people. */
-  explicit NothingToMeasure(const std::string & message, std::string code = "nothing-to-measure")
+  explicit NothingToMeasure(const std::string & message, WarningCode code = WarningCode::NothingToMeasure)
     : std::runtime_error(message)
-    , m_Code(std::move(code))
+    , m_Code(code)
   {}
 
-  const std::string &
+  WarningCode
   GetCode() const
   {
     return m_Code;
   }
 
 private:
-  std::string m_Code;
+  WarningCode m_Code;
 };
 
 } // namespace sensornoise

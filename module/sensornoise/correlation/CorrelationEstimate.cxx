@@ -130,11 +130,11 @@ SumOverLags(const NoiseCorrelation & correlation, const MeasuredNumber & space)
   const bool isKnown = correlation.kind != NoiseKind::NotMeasured && correlation.kind != NoiseKind::NotLinear;
   if (!isKnown)
   {
-    return Quantity::Without(EstimateStatus::Failed, "1");
+    return Quantity::Without(EstimateStatus::Failed);
   }
   const MeasuredNumber & time = correlation.timeFactor;
   const double           error = std::hypot(space.standardError, correlation.beyondReach);
-  return WithError(space.value * time.value, std::hypot(error * time.value, space.value * time.standardError), "1");
+  return WithError(space.value * time.value, std::hypot(error * time.value, space.value * time.standardError));
 }
 
 std::vector<LightNoise>
@@ -250,7 +250,8 @@ WriteJson(JsonWriter & json, const LightNoise & noise)
 {
   json.Object([&] {
     json.Member("light", noise.lightDn).Member("variance", noise.varianceDn2.value);
-    json.Member("variance_standard_error", noise.varianceDn2.standardError).Member("sum_over_lags", noise.sumOverLags);
+    json.Member("variance_standard_error", noise.varianceDn2.standardError);
+    WriteQuantity(json, "sum_over_lags", noise.sumOverLags, "1");
   });
 }
 
@@ -263,7 +264,8 @@ ToJson(const CorrelationEstimate & estimate)
     json.Member("schema", CorrelationSchema).Member("version", GetModuleVersion());
     json.Member("frames", estimate.frames).Member("width", estimate.width).Member("height", estimate.height);
     json.Member("frames_used", estimate.framesUsed).Member("pixels_used", estimate.pixelsUsed);
-    json.Member("noise_correlation", estimate.correlation).Member("sum_over_lags", estimate.sumOverLags);
+    json.Member("noise_correlation", estimate.correlation);
+    WriteQuantity(json, "sum_over_lags", estimate.sumOverLags, "1");
     json.Member("lights", estimate.lights);
   });
   text += '\n';

@@ -60,7 +60,7 @@ struct CorrelationEstimate
    * their own mean, which mixed frames make a little less than a value's own: by 1 - 2 (sum of coefficients) / T. 1
    * within its error where the noise is white: the variance is then better left alone. Its error is that of a block
    * jackknife, with what is beyond the last lag. `failed` where the noise is not linear or was not measured. */
-  Quantity                sumOverLags{ Quantity::Without(EstimateStatus::Failed, "1") };
+  Quantity                sumOverLags{ Quantity::Without(EstimateStatus::Failed) };
   std::vector<LightNoise> lights; ///< from dark to bright; empty: not measured
 };
 

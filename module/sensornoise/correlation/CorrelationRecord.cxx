@@ -18,9 +18,9 @@ LineNoise(const MeasuredNumber & variance)
 {
   if (variance.value < LeastLineNoiseZ * variance.standardError)
   {
-    return UpperLimit(std::sqrt(std::max(0.0, variance.value) + 2.0 * variance.standardError), "DN");
+    return UpperLimit(std::sqrt(std::max(0.0, variance.value) + 2.0 * variance.standardError));
   }
-  return RootOf(variance.value, variance.standardError, "DN", 2.0);
+  return RootOf(variance.value, variance.standardError, 2.0);
 }
 } // namespace
 
@@ -43,7 +43,7 @@ RecordOf(const NoiseCorrelation & correlation)
   record.rowNoise = LineNoise(correlation.rowsDn2);
   record.columnNoise = LineNoise(correlation.columnsDn2);
   record.excessKurtosis =
-    WithError(correlation.kurtosis.front().value, correlation.kurtosis.front().standardError, "1", 2.0);
+    WithError(correlation.kurtosis.front().value, correlation.kurtosis.front().standardError, 2.0);
   return record;
 }
 

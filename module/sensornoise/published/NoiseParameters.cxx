@@ -18,23 +18,23 @@ FillOffset(Report & report, const PolynomialFit & line, std::optional<double> of
 {
   if (!offsetDn)
   {
-    report.offset = Quantity::Without(EstimateStatus::NotIdentifiable, "DN");
-    report.readNoise = Quantity::Without(EstimateStatus::NotIdentifiable, "DN");
-    report.readNoiseElectrons = Quantity::Without(EstimateStatus::NotIdentifiable, "e-");
+    report.offset = Quantity::Without(EstimateStatus::NotIdentifiable);
+    report.readNoise = Quantity::Without(EstimateStatus::NotIdentifiable);
+    report.readNoiseElectrons = Quantity::Without(EstimateStatus::NotIdentifiable);
     return;
   }
-  report.offset = Quantity::Identified(*offsetDn, "DN");
+  report.offset = Quantity::Identified(*offsetDn);
   const double squared = line.intercept + line.slope * *offsetDn;
   if (squared > 0.0)
   {
-    report.readNoise = Quantity::Identified(std::sqrt(squared), "DN");
-    report.readNoiseElectrons = Quantity::Identified(std::sqrt(squared) / line.slope, "e-");
+    report.readNoise = Quantity::Identified(std::sqrt(squared));
+    report.readNoiseElectrons = Quantity::Identified(std::sqrt(squared) / line.slope);
   }
   else
   {
-    report.readNoise = Quantity::Without(EstimateStatus::NotIdentifiable, "DN");
-    report.readNoiseElectrons = Quantity::Without(EstimateStatus::NotIdentifiable, "e-");
-    report.Warn("read-noise-not-identifiable",
+    report.readNoise = Quantity::Without(EstimateStatus::NotIdentifiable);
+    report.readNoiseElectrons = Quantity::Without(EstimateStatus::NotIdentifiable);
+    report.Warn(WarningCode::ReadNoiseNotIdentifiable,
                 "gain, intercept and offset give a squared read noise of " + std::to_string(squared) +
                   " DN^2, expected above 0: it is smaller than their errors");
   }
@@ -50,16 +50,16 @@ FillNoiseParameters(Report &              report,
   if (!line.isDetermined || !(line.slope > 0.0))
   {
     SetSensorParameters(report, EstimateStatus::Failed);
-    report.Warn("variance-not-affine",
+    report.Warn(WarningCode::VarianceNotAffine,
                 line.isDetermined ? "the variance does not rise with the mean (slope " + std::to_string(line.slope) +
                                       " DN/e-, expected above 0): the data are not raw, or hold too little noise"
                                   : "the regression has " + std::to_string(line.pixels) +
                                       " pixels of one intensity; expected pixels of different intensities");
     return;
   }
-  report.gain = Quantity::Identified(line.slope, "DN/e-");
+  report.gain = Quantity::Identified(line.slope);
   report.varianceSlope = report.gain;
-  report.intercept = Quantity::Identified(line.intercept, "DN^2");
+  report.intercept = Quantity::Identified(line.intercept);
   report.totalIntercept = report.intercept;
 
   const double lowestOffsetDn = -line.intercept / line.slope; // sigma^2 = 0 there
@@ -72,7 +72,7 @@ FillNoiseParameters(Report &              report,
     report.readNoiseElectrons.bracket = Interval{ 0.0, highest / line.slope };
     if (offsetDn && *offsetDn > *darkestDn)
     {
-      report.Warn("offset-above-darkest",
+      report.Warn(WarningCode::OffsetAboveDarkest,
                   "the offset " + std::to_string(*offsetDn) + " DN is above the darkest level, " +
                     std::to_string(*darkestDn) + " DN, which is not possible: its error is larger than that; more " +
                     "frames or more flicker would help");
@@ -90,14 +90,14 @@ FillFit(Report & report, const FitQuality & quality)
   {
     SetSensorParameters(report, EstimateStatus::Failed);
     report.Warn(
-      "variance-not-affine",
+      WarningCode::VarianceNotAffine,
       "the corrected variance scatters about its line " + std::to_string(quality.reducedChi2) +
         " times as much as sampling noise does (expected 1, at most 10): the scene moves, the flicker differs "
         "within the frame, or the data are not raw");
   }
   else if (quality.reducedChi2 > 1.5)
   {
-    report.Warn("poor-fit",
+    report.Warn(WarningCode::PoorFit,
                 "the corrected variance scatters about its line " + std::to_string(quality.reducedChi2) +
                   " times as much as sampling noise does (expected 1): vibrations, flicker that differs within the "
                   "frame, or a scene that moves are left in it");

@@ -42,11 +42,11 @@ DescribeSettings(Report & report, const PublishedFindings & found)
 }
 
 void
-WarnOfWidening(Report & report, const char * name, const IsoIntensitySet & set)
+WarnOfWidening(Report & report, WarningCode code, const char * name, const IsoIntensitySet & set)
 {
   if (set.wideningSteps > 0)
   {
-    report.Warn(std::string(name) + "-set-widened",
+    report.Warn(code,
                 std::string("the ") + name + " set was too small and was taken at the quantile " + Text(set.quantile) +
                   " with " + std::to_string(set.pixels.size()) + " pixels (" + std::to_string(set.wideningSteps) +
                   " steps, Remark 3)");
@@ -58,20 +58,20 @@ WarnOfFlicker(Report & report, const FlickerEstimate & flicker)
 {
   if (flicker.sigmaRows > 0.0)
   {
-    report.Warn("rolling-shutter",
+    report.Warn(WarningCode::RollingShutter,
                 "the flicker differs from line to line; it is estimated with sigma_y = " + Text(flicker.sigmaRows) +
                   " lines");
     const auto unknown = std::count(flicker.rowKnown.begin(), flicker.rowKnown.end(), 0);
     if (unknown > 0)
     {
-      report.Warn("lines-without-flicker",
+      report.Warn(WarningCode::LinesWithoutFlicker,
                   "the brightest pixels do not reach " + std::to_string(unknown) + " of " +
                     std::to_string(flicker.rows) + " lines, whose flicker is not known: their pixels are left out");
     }
   }
   if (flicker.offsetLinePhi > 3.0)
   {
-    report.Warn("offset-line-misfit",
+    report.Warn(WarningCode::OffsetLineMisfit,
                 "dark pixels do not follow the bright ones' flicker (residual variance " + Text(flicker.offsetLinePhi) +
                   " times that of noise, expected 1): the offset is not reliable");
   }
@@ -95,10 +95,10 @@ FillFlicker(Report & report, const FlickerEstimate & flicker, bool isIdentified)
   }
   if (isIdentified)
   {
-    report.flickerSd = Quantity::Identified(flicker.flickerSd, "1");
+    report.flickerSd = Quantity::Identified(flicker.flickerSd);
     return;
   }
-  report.flickerSd = Quantity::Without(EstimateStatus::UpperLimit, "1");
+  report.flickerSd = Quantity::Without(EstimateStatus::UpperLimit);
   report.flickerSd.bracket = Interval{ 0.0, flicker.flickerSd };
 }
 
@@ -112,13 +112,13 @@ FillVibration(Report & report, const PublishedFindings & found)
                                                                found.geometry.height,
                                                                found.flicker.flickerSd);
   const auto                sd = [&vibration](double varianceOfAxis) {
-    return vibration.isDetermined && varianceOfAxis > 0.0 ? Quantity::Identified(std::sqrt(varianceOfAxis), "pixel")
-                                                                         : Quantity::Without(EstimateStatus::NotIdentifiable, "pixel");
+    return vibration.isDetermined && varianceOfAxis > 0.0 ? Quantity::Identified(std::sqrt(varianceOfAxis))
+                                                                         : Quantity::Without(EstimateStatus::NotIdentifiable);
   };
   report.vibrationSdX = sd(vibration.varianceXPixels2);
   report.vibrationSdY = sd(vibration.varianceYPixels2);
-  report.vibrationCovariance = vibration.isDetermined ? Quantity::Identified(vibration.covariancePixels2, "pixel^2")
-                                                      : Quantity::Without(EstimateStatus::NotIdentifiable, "pixel^2");
+  report.vibrationCovariance = vibration.isDetermined ? Quantity::Identified(vibration.covariancePixels2)
+                                                      : Quantity::Without(EstimateStatus::NotIdentifiable);
 }
 
 double
@@ -137,7 +137,7 @@ HasRange(Report & report, const PublishedScene & scene)
     return true;
   }
   SetSensorParameters(report, EstimateStatus::NotIdentifiable);
-  report.Warn("intensity-range-too-small",
+  report.Warn(WarningCode::IntensityRangeTooSmall,
               "the even areas span " + Text(ContrastDn(scene)) + " DN, expected more than " + Text(6.0 * spreadDn) +
                 " DN (6 standard deviations of their means): use a scene with dark " + "and bright areas");
   return false;
@@ -155,10 +155,8 @@ FillNoise(Report &                  report,
   const bool              isIdentified = flicker.flickerZ > RequiredFlickerZ;
   if (!isIdentified)
   {
-    report.Warn("offset-not-identifiable",
-                "the flicker (sd " + Text(flicker.flickerSd) + ") exceeds the noise of its estimate by " +
-                  Text(flicker.flickerZ) + " standard deviations, expected more than 6: use a lamp that " +
-                  "flickers more, or more frames, or dark frames");
+    report.Warn(WarningCode::OffsetNotIdentifiable,
+                TextOfFaintFlicker(flicker.flickerZ) + ": a lamp that flickers more, or more frames, would help");
   }
   // The darkest mean bounds the offset (flux >= 0); being a mean of noise it may lie below it by some of its errors.
   const IntensityIndex index(scene.mean.data(), scene.valid.data(), corrected.pixels);
@@ -182,7 +180,7 @@ FillQuality(Report &                  report,
   const double middleDn2 = line.intercept + line.slope * 0.5 * (scene.bright.levelDn + scene.dark.levelDn);
   if (std::abs(quality.curvatureZ) > 5.0 && std::abs(bendDn2) > 0.03 * middleDn2)
   {
-    report.Warn("corrected-variance-curved",
+    report.Warn(WarningCode::CorrectedVarianceCurved,
                 "the corrected variance bends by " + Text(100.0 * bendDn2 / middleDn2) +
                   " % of itself (expected under 3 %): vibrations, several lamps, or data that are not linear");
   }
@@ -203,8 +201,8 @@ MakePublishedReport(const PublishedFindings & found)
     report.Warn(scene.obstacle->GetCode(), scene.obstacle->what());
     return report;
   }
-  WarnOfWidening(report, "bright", scene.bright);
-  WarnOfWidening(report, "dark", scene.dark);
+  WarnOfWidening(report, WarningCode::BrightSetWidened, "bright", scene.bright);
+  WarnOfWidening(report, WarningCode::DarkSetWidened, "dark", scene.dark);
   WarnOfFlicker(report, found.flicker);
   FillFlicker(report, found.flicker, found.flicker.flickerZ > RequiredFlickerZ);
   FillVibration(report, found);

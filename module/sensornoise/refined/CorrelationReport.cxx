@@ -66,7 +66,7 @@ WarnOfCorrelation(Report & report, const NoiseCorrelation & correlation)
   switch (correlation.kind)
   {
     case NoiseKind::NotLinear:
-      report.Warn("noise-not-linear",
+      report.Warn(WarningCode::NoiseNotLinear,
                   "the noise is not distributed as a sensor's or a linear filter's (excess kurtosis " +
                     Text(correlation.kurtosis.front().value) + ", of four neighbours in turn " +
                     Text(correlation.kurtosis[3].value) +
@@ -74,22 +74,22 @@ WarnOfCorrelation(Report & report, const NoiseCorrelation & correlation)
                     "before cannot be told; ask it for raw frames");
       break;
     case NoiseKind::Temporal:
-      report.Warn("noise-correlated",
+      report.Warn(WarningCode::NoiseCorrelated,
                   "the camera mixes its frames: frames " + std::to_string(time->lag.t) + " apart share " +
                     PercentOf(time->coefficient) + " of their noise" + Consequence(report));
       break;
     case NoiseKind::Filtered:
-      report.Warn("noise-correlated",
+      report.Warn(WarningCode::NoiseCorrelated,
                   "the camera smooths, resamples or sharpens its frames: " + NeighbourAt(space->lag) +
                     PercentOf(space->coefficient) + " of their noise" + Consequence(report));
       break;
     case NoiseKind::Crosstalk:
-      report.Warn("noise-correlated",
+      report.Warn(WarningCode::NoiseCorrelated,
                   "neighbours are coupled, or slightly filtered: " + NeighbourAt(space->lag) +
                     PercentOf(space->coefficient) + " of their noise" + Consequence(report));
       break;
     case NoiseKind::BrighterFatter:
-      report.Warn("noise-correlated",
+      report.Warn(WarningCode::NoiseCorrelated,
                   "charge repels charge in bright pixels (brighter-fatter effect): " + NeighbourAt(space->lag) +
                     PercentOf(space->coefficient) + " of their noise, in proportion to the square of the light" +
                     Consequence(report));

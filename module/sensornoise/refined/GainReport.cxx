@@ -87,7 +87,7 @@ FillTooLittle(Report & report, const RefinedResults & found, const GainEstimate 
   const double error = gain.StandardError();
   if (static_cast<double>(report.pixels.used) < LeastUsedShare * found.scene.usable)
   {
-    report.Warn("too-little-to-measure",
+    report.Warn(WarningCode::TooLittleToMeasure,
                 Text(100.0 * static_cast<double>(report.pixels.used) / std::max(1.0, found.scene.usable)) +
                   " % of the pixels that are not clipped fit a static scene (expected at least " +
                   Text(100.0 * LeastUsedShare) + " %) and give a gain of " + Text(gain.line.gain) + " +- " +
@@ -97,7 +97,7 @@ FillTooLittle(Report & report, const RefinedResults & found, const GainEstimate 
   BoundGain(report, found, gain);
   const LevelPattern & pattern = found.variance.pattern;
   const double         levels = std::sqrt(std::max(0.0, pattern.lightDn2));
-  report.Warn("intensity-range-too-small",
+  report.Warn(WarningCode::IntensityRangeTooSmall,
               "the scene has one intensity: its levels differ by " + Text(levels) + " DN rms, " +
                 Text(100.0 * levels / std::max(1e-9, gain.line.pivotDn - found.blackDn)) +
                 " % of the light, of which the pixels' own pattern may be " +
@@ -115,7 +115,7 @@ FillGainAndIntercept(Report &             report,
                      double               student)
 {
   const double error = std::sqrt(gain.covariance(0, 0));
-  report.gain = WithError(gain.line.gain, gain.StandardError(), "DN/e-", student);
+  report.gain = WithError(gain.line.gain, gain.StandardError(), student);
   report.gain.interval95 =
     Interval{ gain.line.gain - gain.below - student * error, gain.line.gain + gain.above + student * error };
   report.varianceSlope = report.gain;
@@ -125,11 +125,11 @@ FillGainAndIntercept(Report &             report,
   // The value at the pivot is sure: the intercept moves against the gain.
   const double interceptError =
     std::hypot(std::sqrt(gain.covariance(1, 1)), 0.5 * (gain.below + gain.above) * gain.line.pivotDn);
-  report.totalIntercept = WithError(gain.line.intercept + codes.interceptDn2, interceptError, "DN^2", student);
-  report.intercept = WithError(gain.line.intercept - quantisationDn2, interceptError, "DN^2", student);
+  report.totalIntercept = WithError(gain.line.intercept + codes.interceptDn2, interceptError, student);
+  report.intercept = WithError(gain.line.intercept - quantisationDn2, interceptError, student);
   if (gain.nonlinearity > LeastNonlinearity && gain.IsBent())
   {
-    report.Warn("response-not-straight",
+    report.Warn(WarningCode::ResponseNotStraight,
                 "the variance departs from its line by up to " + Text(100.0 * gain.nonlinearity) +
                   " % of itself: the sensor's response bends, and gain is between " +
                   Text(gain.line.gain - gain.below) + " and " + Text(gain.line.gain + gain.above) +
@@ -159,7 +159,7 @@ FillGain(Report &               report,
   if (!contradiction.empty())
   {
     SetSensorParameters(report, EstimateStatus::Failed);
-    report.Warn("variance-not-affine", contradiction);
+    report.Warn(WarningCode::VarianceNotAffine, contradiction);
     return false;
   }
   FillGainAndIntercept(report, gain, found.variance.codeNoise, quantisationDn2, student);
@@ -176,7 +176,7 @@ WarnOfNarrowRange(Report & report, const RefinedResults & found, const OffsetLim
   const double          share = curve.DarkestShare(blackDn);
   if (!isDarkGiven && share > VarianceCurve::DarkEnough)
   {
-    report.Warn("response-unchecked",
+    report.Warn(WarningCode::ResponseUnchecked,
                 "the darkest levels have " + Text(100.0 * share) + " % of the brightest's light (expected at most " +
                   Text(100.0 * VarianceCurve::DarkEnough) +
                   " %): a bent response could not be seen there; dark frames would tell");

@@ -24,7 +24,7 @@ constexpr double LargestScaleError = 0.25;
 struct AxisMotion
 {
   std::vector<double> series; ///< of every frame, mean 0 [pixel]; empty: its derivative is not active
-  Quantity            sd{ Quantity::Without(EstimateStatus::NotIdentifiable, "pixel") };
+  Quantity            sd{ Quantity::Without(EstimateStatus::NotIdentifiable) };
 };
 
 /** What coefficients of a derivative, (1 + gamma_t) times the shift, say of the shifts. */
@@ -86,7 +86,7 @@ MotionAlong(Eigen::Index axis, std::size_t stencil, const PolishedSeries & polis
   const double error = std::hypot(2.0 * sd * std::sqrt(errorSquare / (frames - 1.0)),
                                   errorSquare * std::sqrt(2.0 / (frames - 1.0)),
                                   2.0 * sd * systematic);
-  result.sd = RootOf(spread.square, error, "pixel");
+  result.sd = RootOf(spread.square, error);
   result.series = std::move(spread.series);
   return result;
 }
@@ -109,13 +109,13 @@ FillFlicker(Report & report, const RefinedResults & found, double offset, double
   const double fromOffset = 2.0 * variance * std::hypot(line.sensitivity * offsetErrorDn, scaleError);
   const double ownError =
     2.0 * std::sqrt(std::max(0.0, variance) * noise / (frames - 1.0)) + noise * std::sqrt(2.0 / (frames - 1.0));
-  report.flickerSd = RootOf(variance, std::hypot(ownError, fromOffset), "1");
+  report.flickerSd = RootOf(variance, std::hypot(ownError, fromOffset));
   const double ofScale = std::abs(line.sensitivity) * offsetErrorDn;
   const auto & limit = report.flickerSd.interval95;
   if (ofScale > LargestScaleError || !(limit && limit->high.value_or(2.0) < 1.0))
   {
-    report.flickerSd = Quantity::Without(EstimateStatus::NotIdentifiable, "1");
-    report.Warn("flicker-not-identifiable",
+    report.flickerSd = Quantity::Without(EstimateStatus::NotIdentifiable);
+    report.Warn(WarningCode::FlickerNotIdentifiable,
                 "the light is known to " + Text(100.0 * ofScale) + " % only, and so is the flicker (expected " +
                   Text(100.0 * LargestScaleError) +
                   " % at most): a known offset would tell, or a scene with dark and bright areas");
@@ -126,7 +126,7 @@ FillFlicker(Report & report, const RefinedResults & found, double offset, double
     const double         sd = local.Sd(offset);
     const double         step = 1.0 + offsetErrorDn;
     const double         slope = (local.Sd(offset + step) - local.Sd(offset - step)) / (2.0 * step);
-    report.flickerSd = WithError(sd, std::hypot(slope * offsetErrorDn, sd * std::sqrt(noise), sd * scaleError), "1");
+    report.flickerSd = WithError(sd, std::hypot(slope * offsetErrorDn, sd * std::sqrt(noise), sd * scaleError));
   }
 }
 
@@ -137,15 +137,15 @@ FillMotion(Report & report, const RefinedResults & found)
   const auto             frames = static_cast<double>(report.flicker.size());
   if (polished.line.isLevelMotion)
   {
-    report.vibrationSdX = report.vibrationSdY = Quantity::Without(EstimateStatus::NotIdentifiable, "pixel");
-    report.vibrationCovariance = Quantity::Without(EstimateStatus::NotIdentifiable, "pixel^2");
+    report.vibrationSdX = report.vibrationSdY = Quantity::Without(EstimateStatus::NotIdentifiable);
+    report.vibrationCovariance = Quantity::Without(EstimateStatus::NotIdentifiable);
     return;
   }
   const AxisMotion x = MotionAlong(0, StencilX, polished, report.flicker);
   const AxisMotion y = MotionAlong(1, StencilY, polished, report.flicker);
   report.vibrationSdX = x.sd;
   report.vibrationSdY = y.sd;
-  report.vibrationCovariance = Quantity::Without(EstimateStatus::NotIdentifiable, "pixel^2");
+  report.vibrationCovariance = Quantity::Without(EstimateStatus::NotIdentifiable);
   if (x.series.empty() || y.series.empty())
   {
     return;
@@ -160,7 +160,7 @@ FillMotion(Report & report, const RefinedResults & found)
   {
     product -= polished.shifts->covariance(0, 1) * polished.motionPhi;
   }
-  report.vibrationCovariance = Quantity::Identified(product, "pixel^2");
+  report.vibrationCovariance = Quantity::Identified(product);
 }
 
 } // namespace sensornoise

@@ -35,7 +35,7 @@ CompareDarkVariance(Report &             report,
   if (gain.atOffset &&
       std::abs(varianceDn2 - gain.atOffset->valueDn2) > 4.0 * std::hypot(errorDn2, gain.atOffset->standardErrorDn2))
   {
-    report.Warn("dark-frames-differ",
+    report.Warn(WarningCode::DarkFramesDiffer,
                 "at the offset the noise is " + Text(gain.atOffset->valueDn2 - quantisationDn2) + " +- " +
                   Text(gain.atOffset->standardErrorDn2) + " DN^2, but the dark frames have " +
                   Text(varianceDn2 - quantisationDn2) + " +- " + Text(errorDn2) +
@@ -49,12 +49,12 @@ FillElectrons(Report & report, double squareDn2, double errorDn2, double gain, d
 {
   if (report.readNoise.status == EstimateStatus::UpperLimit)
   {
-    report.readNoiseElectrons = UpperLimit(*report.readNoise.bracket->high / gain, "e-");
+    report.readNoiseElectrons = UpperLimit(*report.readNoise.bracket->high / gain);
     return;
   }
   const double fromGain = 2.0 * squareDn2 / gain * gainError;
   report.readNoiseElectrons =
-    RootOf(squareDn2 / (gain * gain), std::hypot(errorDn2, fromGain) / (gain * gain), "e-", student);
+    RootOf(squareDn2 / (gain * gain), std::hypot(errorDn2, fromGain) / (gain * gain), student);
 }
 
 /** Warns if the known offset disagrees with the flicker's, or with the data. */
@@ -71,7 +71,7 @@ CompareKnownOffset(Report &               report,
   const double error = std::hypot(flicker.standardErrorDn, offsetErrorDn);
   if (flicker.obstacle.empty() && std::abs(difference) > 3.0 * error)
   {
-    report.Warn("steady-light",
+    report.Warn(WarningCode::SteadyLight,
                 "the level that does not flicker is " + Text(flicker.valueDn) + " +- " + Text(flicker.standardErrorDn) +
                   " DN, " + Text(difference) + " DN from the given offset: " +
                   (difference > 0.0 ? "light that does not flicker, or dark current, makes the difference"
@@ -82,7 +82,7 @@ CompareKnownOffset(Report &               report,
   const bool   isTooLow = limits.lowestDn && offsetDn < *limits.lowestDn - slackDn;
   if (isTooLow || offsetDn > limits.highestDn + slackDn + 0.01 * rangeDn)
   {
-    report.Warn("offset-out-of-range",
+    report.Warn(WarningCode::OffsetOutOfRange,
                 "the given offset, " + Text(offsetDn) + " DN, is not between " +
                   (limits.lowestDn ? Text(*limits.lowestDn) : std::string("-infinity")) + " and " +
                   Text(limits.highestDn) + " DN, where sigma^2 >= 0 and the darkest pixels put it");
@@ -94,11 +94,11 @@ void
 FillBrackets(Report & report, const OffsetLimits & limits, double gain)
 {
   const double largest = std::sqrt(limits.largestNoiseDn2);
-  report.offset = Quantity::Without(EstimateStatus::NotIdentifiable, "DN");
+  report.offset = Quantity::Without(EstimateStatus::NotIdentifiable);
   report.offset.bracket = Interval{ limits.lowestDn, limits.highestDn };
-  report.readNoise = Quantity::Without(EstimateStatus::NotIdentifiable, "DN");
+  report.readNoise = Quantity::Without(EstimateStatus::NotIdentifiable);
   report.readNoise.bracket = Interval{ 0.0, largest };
-  report.readNoiseElectrons = Quantity::Without(EstimateStatus::NotIdentifiable, "e-");
+  report.readNoiseElectrons = Quantity::Without(EstimateStatus::NotIdentifiable);
   report.readNoiseElectrons.bracket = Interval{ 0.0, largest / gain };
 }
 
@@ -129,17 +129,17 @@ FillReadNoise(Report &               report,
   }
   else if (square + 4.0 * error < 0.0)
   {
-    report.readNoise = Quantity::Without(EstimateStatus::Failed, "DN");
-    report.readNoiseElectrons = Quantity::Without(EstimateStatus::Failed, "e-");
+    report.readNoise = Quantity::Without(EstimateStatus::Failed);
+    report.readNoiseElectrons = Quantity::Without(EstimateStatus::Failed);
   }
   else
   {
-    report.readNoise = RootOf(square, error, "DN", student);
-    report.readNoiseElectrons = RootOf(square / (v.gain * v.gain), error / (v.gain * v.gain), "e-", student);
+    report.readNoise = RootOf(square, error, student);
+    report.readNoiseElectrons = RootOf(square / (v.gain * v.gain), error / (v.gain * v.gain), student);
   }
   if (report.readNoise.status == EstimateStatus::UpperLimit)
   {
-    report.Warn("read-noise-upper-limit",
+    report.Warn(WarningCode::ReadNoiseUpperLimit,
                 "the read noise is below " + Text(*report.readNoise.bracket->high) +
                   " DN and cannot be told from 0 or from the rounding to codes");
   }
@@ -170,7 +170,7 @@ FillFromDarkFrames(Report & report, const RefinedSettings & settings, double qua
     return;
   }
   const KnownOffset & known = *settings.offset;
-  report.offset = WithError(known.valueDn, known.standardErrorDn, "DN");
+  report.offset = WithError(known.valueDn, known.standardErrorDn);
   if (!known.variance)
   {
     return;
@@ -178,12 +178,11 @@ FillFromDarkFrames(Report & report, const RefinedSettings & settings, double qua
   const double student = StudentQuantile(0.975, std::max(1.0, static_cast<double>(known.darkFrames) - 1.0));
   const double square = known.variance->valueDn2 - quantisationDn2;
   const double halfStepDn2 = 3.0 * quantisationDn2; // below it the codes hide the noise
-  report.readNoise = square < halfStepDn2 ? UpperLimit(std::sqrt(halfStepDn2), "DN")
-                                          : RootOf(square, known.variance->standardErrorDn2, "DN", student);
+  report.readNoise = square < halfStepDn2 ? UpperLimit(std::sqrt(halfStepDn2))
+                                          : RootOf(square, known.variance->standardErrorDn2, student);
   if (known.readNoiseMedian)
   {
-    report.readNoiseMedian =
-      WithError(known.readNoiseMedian->valueDn, known.readNoiseMedian->standardErrorDn, "DN", student);
+    report.readNoiseMedian = WithError(known.readNoiseMedian->valueDn, known.readNoiseMedian->standardErrorDn, student);
   }
 }
 
@@ -234,8 +233,7 @@ EstimateOffset(const RefinedResults & found, const GainEstimate & gain, const Of
   }
   else if (!(line.flickerZ > RequiredFlickerZ) && !isLocal)
   {
-    estimate.obstacle =
-      "the flicker exceeds its own noise by " + Text(line.flickerZ) + " standard deviations (expected more than 6)";
+    estimate.obstacle = TextOfFaintFlicker(line.flickerZ);
   }
   else if (isLocal && !local)
   {
@@ -243,7 +241,7 @@ EstimateOffset(const RefinedResults & found, const GainEstimate & gain, const Of
   }
   else if (!std::isfinite(low) || !std::isfinite(high) || high - low > 0.25 * rangeDn)
   {
-    estimate.obstacle = "its interval, " + Text(low + model.centreDn) + " to " + Text(high + model.centreDn) +
+    estimate.obstacle = "the offset's interval, " + Text(low + model.centreDn) + " to " + Text(high + model.centreDn) +
                         " DN, is wider than a quarter of the range of the scene, " + Text(rangeDn) + " DN";
   }
   else if ((limits.lowestDn && estimate.valueDn < *limits.lowestDn - slackBelowDn) ||
@@ -272,7 +270,7 @@ FillOffsetAndReadNoise(Report &               report,
   report.fit.offsetLinePhi = flicker.phi;
   if (!found.settings.offset && !flicker.obstacle.empty())
   {
-    report.Warn("offset-not-identifiable",
+    report.Warn(WarningCode::OffsetNotIdentifiable,
                 flicker.obstacle + ": more flicker or more frames would help, or dark frames, or a known offset");
     FillBrackets(report, limits, gain.line.gain);
     return;
@@ -285,7 +283,7 @@ FillOffsetAndReadNoise(Report &               report,
     offsetErrorDn = found.settings.offset->standardErrorDn;
     CompareKnownOffset(report, found, gain, flicker, limits);
   }
-  report.offset = WithError(offsetDn, offsetErrorDn, "DN");
+  report.offset = WithError(offsetDn, offsetErrorDn);
   if (!found.settings.offset)
   {
     report.offset.interval95 = flicker.interval;

@@ -311,7 +311,7 @@ RefinedMethod<TPixel>::EndProjections()
   {
     m_Variance.emplace(std::move(noise.variance));
     throw NothingToMeasure("too few pixels, or pixels of one intensity only, are left to fit the variance",
-                           "intensity-range-too-small");
+                           WarningCode::IntensityRangeTooSmall);
   }
   m_Correlation = std::move(noise.correlation);
   m_Polished.emplace(PolishSceneSeries(*m_FrameSums, *m_Series, projected, noise.variance, m_ParallelFor));

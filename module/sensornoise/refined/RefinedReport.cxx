@@ -39,30 +39,31 @@ WarnOfScene(Report & report, const RefinedResults & found)
     const auto count = std::to_string(found.series.local.series.cols());
     if (found.polished.isOffsetDrift)
     {
-      report.Warn("offset-drift", "a level common to all pixels drifts over the burst, as a black level does");
+      report.Warn(WarningCode::OffsetDrift,
+                  "a level common to all pixels drifts over the burst, as a black level does");
     }
     else
     {
-      report.Warn("local-light",
+      report.Warn(WarningCode::LocalLight,
                   "the light changes in some places in another way than in others (" + count +
                     " further series): a rolling shutter, several lamps or bleaching; gain and intercept allow for it");
     }
   }
   if (static_cast<double>(found.variance.notStatic) > 0.01 * total)
   {
-    report.Warn("not-static",
+    report.Warn(WarningCode::NotStatic,
                 percent(found.variance.notStatic) +
                   " of the pixels lie where something moves or changes, and are left out");
   }
   if (static_cast<double>(found.scene.nearClip + found.scene.summary.clipped) > 0.01 * total)
   {
-    report.Warn("near-clip-level",
+    report.Warn(WarningCode::NearClipLevel,
                 percent(found.scene.nearClip + found.scene.summary.clipped) +
                   " of the pixels reach a clip level or could have, and are left out");
   }
   if (found.variance.line.trimmedFraction > 2e-3)
   {
-    report.Warn("noisy-pixels",
+    report.Warn(WarningCode::NoisyPixels,
                 Text(100.0 * found.variance.line.trimmedFraction) +
                   " % of the pixels are noisier or quieter than the sensor's noise explains, and are left out");
   }
@@ -81,7 +82,7 @@ WarnOfMotion(Report & report, const RefinedResults & found)
                                     alongAxis(report.vibrationSdY, found.scene.model.vibrationYPixels2));
   if (vibration > strongPixels)
   {
-    report.Warn("strong-vibration",
+    report.Warn(WarningCode::StrongVibration,
                 "the scene moves by " + Text(vibration) +
                   " pixels rms: register the frames to whole pixels first; rough areas are left out");
   }

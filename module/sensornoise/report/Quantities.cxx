@@ -4,39 +4,38 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace sensornoise
 {
 
 Quantity
-WithError(double value, double standardError, std::string unit, double student)
+WithError(double value, double standardError, double student)
 {
-  Quantity quantity = Quantity::Identified(value, std::move(unit));
+  Quantity quantity = Quantity::Identified(value);
   quantity.standardError = standardError;
   quantity.interval95 = Interval{ value - student * standardError, value + student * standardError };
   return quantity;
 }
 
 Quantity
-UpperLimit(double high, std::string unit)
+UpperLimit(double high)
 {
-  Quantity quantity = Quantity::Without(EstimateStatus::UpperLimit, std::move(unit));
+  Quantity quantity = Quantity::Without(EstimateStatus::UpperLimit);
   quantity.interval95 = Interval{ 0.0, high };
   quantity.bracket = quantity.interval95;
   return quantity;
 }
 
 Quantity
-RootOf(double square, double standardError, std::string unit, double student)
+RootOf(double square, double standardError, double student)
 {
   const double high = std::sqrt(std::max(0.0, square) + student * standardError);
   if (!(square - student * standardError > 0.0))
   {
-    return UpperLimit(high, std::move(unit));
+    return UpperLimit(high);
   }
   const double value = std::sqrt(square);
-  Quantity     quantity = WithError(value, standardError / (2.0 * value), std::move(unit));
+  Quantity     quantity = WithError(value, standardError / (2.0 * value));
   quantity.interval95 = Interval{ std::sqrt(square - student * standardError), high };
   return quantity;
 }
@@ -52,7 +51,7 @@ SetSensorParameters(Report & report, EstimateStatus status)
                                &report.intercept,
                                &report.totalIntercept })
   {
-    *quantity = Quantity::Without(status, quantity->unit);
+    *quantity = Quantity::Without(status);
   }
 }
 

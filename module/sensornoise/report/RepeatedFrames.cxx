@@ -54,7 +54,7 @@ ReportAllFrames(Report & report, const DistinctFrames & frames)
   Repeat(report.flicker, frames);
   Repeat(report.flickerRows, frames);
   Repeat(report.motion, frames);
-  const Warning warning{ "repeated-frames",
+  const Warning warning{ WarningCode::RepeatedFrames,
                          std::to_string(repeated) + " of " + std::to_string(frames.Given()) + " frames " +
                            (repeated == 1 ? "is" : "are") + " equal to an earlier one (" + TextOfRepeated(frames) +
                            "; the first is 0): each is counted once" };

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef sensornoise_report_Report_h
 #define sensornoise_report_Report_h
-
+#include "sensornoise/base/WarningCodes.h"
 
 #include <array>
 #include <cstddef>
@@ -32,31 +32,28 @@ struct Interval
   std::optional<double> high;
 };
 
-/** One estimated quantity: its value only where it is identified. */
+/** One estimated quantity: its value only where it is identified. Its unit is in QuantityList(). */
 struct Quantity
 {
   std::optional<double>   value;
   std::optional<double>   standardError; ///< null: the method has none
   std::optional<Interval> interval95;    ///< null: the method has none
   EstimateStatus          status{ EstimateStatus::Failed };
-  std::string             unit;
   std::optional<Interval> bracket; ///< physical limits (sigma^2 >= 0, flux >= 0), where they exist
 
   static Quantity
-  Identified(double number, std::string unit)
+  Identified(double number)
   {
     Quantity quantity;
     quantity.value = number;
     quantity.status = EstimateStatus::Identified;
-    quantity.unit = std::move(unit);
     return quantity;
   }
   static Quantity
-  Without(EstimateStatus status, std::string unit)
+  Without(EstimateStatus status)
   {
     Quantity quantity;
     quantity.status = status;
-    quantity.unit = std::move(unit);
     return quantity;
   }
 };
@@ -76,16 +73,16 @@ struct NoiseCorrelationRecord
   std::string      kind; ///< white, crosstalk, filtered, temporal, brighter-fatter, not-linear, not-measured
   std::vector<Lag> space;
   std::vector<Lag> time;
-  Quantity         rowNoise{ Quantity::Without(EstimateStatus::Failed, "DN") };    ///< common to a row of one frame
-  Quantity         columnNoise{ Quantity::Without(EstimateStatus::Failed, "DN") }; ///< common to a column
-  Quantity         excessKurtosis{ Quantity::Without(EstimateStatus::Failed, "1") };
+  Quantity         rowNoise;    ///< common to a row of one frame
+  Quantity         columnNoise; ///< common to a column
+  Quantity         excessKurtosis;
 };
 
 /** Something that the user should know. */
 struct Warning
 {
-  std::string code;    ///< stable, for programs
-  std::string message; ///< one sentence, for people
+  WarningCode code;
+  std::string message; ///< one sentence, for people, with the numbers found and expected
 };
 
 /** \class Report
@@ -121,23 +118,23 @@ struct Report
     std::size_t notFinite{ 0 };
   } pixels;
 
-  Quantity gain{ Quantity::Without(EstimateStatus::Failed, "DN/e-") };
+  Quantity gain;
   /** Of a pixel's variance against its level: with totalIntercept what a denoiser needs. The gain where the noise is
    * white and the codes are even. */
-  Quantity varianceSlope{ Quantity::Without(EstimateStatus::Failed, "DN/e-") };
-  Quantity offset{ Quantity::Without(EstimateStatus::Failed, "DN") };
-  Quantity readNoise{ Quantity::Without(EstimateStatus::Failed, "DN") };
+  Quantity varianceSlope;
+  Quantity offset;
+  Quantity readNoise;
   /** Of the median pixel, where pixels differ: only dark frames tell it. */
-  Quantity readNoiseMedian{ Quantity::Without(EstimateStatus::NotIdentifiable, "DN") };
-  Quantity readNoiseElectrons{ Quantity::Without(EstimateStatus::Failed, "e-") };
-  Quantity intercept{ Quantity::Without(EstimateStatus::Failed, "DN^2") };      ///< sigma^2 - g mu
-  Quantity totalIntercept{ Quantity::Without(EstimateStatus::Failed, "DN^2") }; ///< with the codes' noise
-  std::optional<std::array<std::array<double, 3>, 3>> covariance;               ///< of gain, intercept, offset
+  Quantity readNoiseMedian{ Quantity::Without(EstimateStatus::NotIdentifiable) };
+  Quantity readNoiseElectrons;
+  Quantity intercept;                                             ///< sigma^2 - g mu
+  Quantity totalIntercept;                                        ///< with the codes' noise
+  std::optional<std::array<std::array<double, 3>, 3>> covariance; ///< of gain, intercept, offset
 
-  Quantity flickerSd{ Quantity::Without(EstimateStatus::Failed, "1") };
-  Quantity vibrationSdX{ Quantity::Without(EstimateStatus::Failed, "pixel") };
-  Quantity vibrationSdY{ Quantity::Without(EstimateStatus::Failed, "pixel") };
-  Quantity vibrationCovariance{ Quantity::Without(EstimateStatus::Failed, "pixel^2") };
+  Quantity flickerSd;
+  Quantity vibrationSdX;
+  Quantity vibrationSdY;
+  Quantity vibrationCovariance;
 
   std::vector<double>                flicker;     ///< gamma_t of every frame [1]; of equal ones the same
   std::vector<std::vector<double>>   flickerRows; ///< gamma_t(y): frame by frame; empty: null in JSON
@@ -181,9 +178,9 @@ struct Report
   }
 
   void
-  Warn(std::string code, std::string message)
+  Warn(WarningCode code, std::string message)
   {
-    warnings.push_back({ std::move(code), std::move(message) });
+    warnings.push_back({ code, std::move(message) });
   }
 };
 

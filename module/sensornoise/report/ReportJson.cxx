@@ -3,10 +3,13 @@
 #include "sensornoise/report/ReportJson.h"
 
 #include "sensornoise/report/JsonWriter.h"
+#include "sensornoise/report/QuantityList.h"
 #include "sensornoise/report/Version.h"
 
 #include <array>
+#include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace sensornoise
@@ -37,21 +40,43 @@ WriteJson(JsonWriter & json, const Interval & interval)
 void
 WriteJson(JsonWriter & json, const Warning & warning)
 {
-  json.Object([&] { json.Member("code", warning.code).Member("message", warning.message); });
+  const WarningKind & kind = KindOf(warning.code);
+  json.Object([&] {
+    json.Member("code", kind.name).Member("severity", NameOf(kind.severity)).Member("message", warning.message);
+  });
 }
 
 void
-WriteJson(JsonWriter & json, const Quantity & quantity)
+WriteQuantity(JsonWriter & json, const char * name, const Quantity & quantity, const char * unit)
 {
-  json.Object([&] {
+  json.ObjectMember(name, [&] {
     json.Member("value", quantity.value)
       .Member("standard_error", quantity.standardError)
       .Member("interval95", quantity.interval95)
       .Member("status", NameOf(quantity.status))
-      .Member("unit", quantity.unit)
+      .Member("unit", unit)
       .Member("bracket", quantity.bracket);
   });
 }
+
+namespace
+{
+/** Those of \a report whose path is \a object and a name, for example "vibration."; "": those of the record itself. */
+void
+WriteQuantities(JsonWriter & json, const Report & report, const std::string & object)
+{
+  for (const QuantityEntry & entry : QuantityList())
+  {
+    const std::string path = entry.path;
+    const std::size_t dot = path.rfind('.') + 1; // 0: none
+    const Quantity *  quantity = entry.of(report);
+    if (quantity != nullptr && path.substr(0, dot) == object)
+    {
+      WriteQuantity(json, entry.path + dot, *quantity, entry.unit);
+    }
+  }
+}
+} // namespace
 
 /** A lag in space is [x, y], in pixels; one in time a number of frames. */
 void
@@ -76,8 +101,9 @@ WriteJson(JsonWriter & json, const NoiseCorrelationRecord & correlation)
   json.Object([&] {
     json.Member("kind", correlation.kind);
     json.Member("space", correlation.space).Member("time", correlation.time);
-    json.Member("row_noise", correlation.rowNoise).Member("column_noise", correlation.columnNoise);
-    json.Member("excess_kurtosis", correlation.excessKurtosis);
+    Report report;
+    report.noiseCorrelation = correlation;
+    WriteQuantities(json, report, "noise_correlation.");
   });
 }
 
@@ -117,30 +143,22 @@ WriteStack(JsonWriter & json, const Report & report)
   });
 }
 
-/** The sensor: gain, offset, read noise and what belongs to them. */
+/** Every quantity, and the errors that the sensor's share. */
 void
-WriteSensor(JsonWriter & json, const Report & report)
+WriteAllQuantities(JsonWriter & json, const Report & report)
 {
-  json.Member("gain", report.gain).Member("variance_slope", report.varianceSlope);
-  json.Member("offset", report.offset).Member("read_noise", report.readNoise);
-  json.Member("read_noise_median", report.readNoiseMedian);
-  json.Member("read_noise_electrons", report.readNoiseElectrons);
-  json.Member("intercept", report.intercept).Member("total_intercept", report.totalIntercept);
+  WriteQuantities(json, report, "");
+  json.ObjectMember("vibration", [&] { WriteQuantities(json, report, "vibration."); });
   json.ObjectMember("covariance", [&] {
     json.Member("of", std::array<const char *, 3>{ "gain", "intercept", "offset" });
     json.Member("matrix", report.covariance);
   });
 }
 
-/** The light and the floor, as a spread and frame by frame. */
+/** The light and the floor, frame by frame. */
 void
-WriteConditions(JsonWriter & json, const Report & report)
+WriteSeries(JsonWriter & json, const Report & report)
 {
-  json.Member("flicker_sd", report.flickerSd);
-  json.ObjectMember("vibration", [&] {
-    json.Member("sd_x", report.vibrationSdX).Member("sd_y", report.vibrationSdY);
-    json.Member("covariance", report.vibrationCovariance);
-  });
   json.Member("flicker", report.flicker);
   json.Member("flicker_rows",
               report.flickerRows.empty() ? std::optional<std::vector<std::vector<double>>>() : report.flickerRows);
@@ -176,8 +194,8 @@ ToJson(const Report & report)
       }
     });
     WriteStack(json, report);
-    WriteSensor(json, report);
-    WriteConditions(json, report);
+    WriteAllQuantities(json, report);
+    WriteSeries(json, report);
     json.Member("noise_correlation", report.noiseCorrelation);
     WriteFit(json, report);
     json.Member("warnings", report.warnings);

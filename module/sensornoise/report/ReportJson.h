@@ -25,8 +25,9 @@ SensorNoise_EXPORT void
 WriteJson(JsonWriter & json, const Interval & interval);
 SensorNoise_EXPORT void
 WriteJson(JsonWriter & json, const Warning & warning);
+/** A quantity as member \a name of an object. */
 SensorNoise_EXPORT void
-WriteJson(JsonWriter & json, const Quantity & quantity);
+WriteQuantity(JsonWriter & json, const char * name, const Quantity & quantity, const char * unit);
 SensorNoise_EXPORT void
 WriteJson(JsonWriter & json, const NoiseCorrelationRecord & correlation);
 

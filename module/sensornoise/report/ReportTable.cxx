@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/report/ReportTable.h"
 
+#include "sensornoise/report/QuantityList.h"
 #include "sensornoise/report/ReportJson.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <optional>
-#include <utility>
+#include <string>
 #include <vector>
 
 namespace sensornoise
@@ -48,16 +50,16 @@ Value(const Quantity & quantity)
 
 /** \a hasErrors: with a column for the standard error. */
 std::string
-Line(const char * name, const Quantity & quantity, bool hasErrors)
+Line(const QuantityEntry & entry, const Quantity & quantity, bool hasErrors)
 {
   const std::optional<Interval> & range = RangeOf(quantity);
-  std::string                     line = Format("%-24s %12s  ", name, Value(quantity).c_str());
+  std::string                     line = Format("%-24s %12s  ", entry.label, Value(quantity).c_str());
   if (hasErrors)
   {
     line += Format("%-12s  ", quantity.standardError ? Format("+- %.2g", *quantity.standardError).c_str() : "");
   }
   return line + Format("%-8s %-17s %s\n",
-                       quantity.unit.c_str(),
+                       entry.unit,
                        NameOf(quantity.status),
                        range ? ("[" + Number(range->low) + ", " + Number(range->high) + "]").c_str() : "");
 }
@@ -88,39 +90,23 @@ IsIdentified(const Quantity & quantity)
   return quantity.status == EstimateStatus::Identified;
 }
 
-using Row = std::pair<const char *, const Quantity *>;
-
-/** What every report shows, and what only some have. */
-std::vector<Row>
-RowsOf(const Report & report)
+/** Whether the table has a line for it. */
+bool
+IsShown(const QuantityEntry & entry, const Report & report)
 {
-  std::vector<Row> rows{ { "gain g", &report.gain },
-                         { "offset mu", &report.offset },
-                         { "read noise sigma", &report.readNoise } };
-  if (report.readNoiseMedian.value)
+  const Quantity * quantity = entry.of(report);
+  switch (entry.shown)
   {
-    rows.emplace_back("read noise, median pixel", &report.readNoiseMedian);
+    case ShownIn::EveryTable:
+      return quantity != nullptr;
+    case ShownIn::TableIfKnown:
+      return quantity != nullptr && quantity->value;
+    case ShownIn::TableIfNotTheGain:
+      return quantity != nullptr && quantity->value && Number(quantity->value) != Number(report.gain.value);
+    case ShownIn::Record:
+      break;
   }
-  rows.emplace_back("read noise sigma / g", &report.readNoiseElectrons);
-  const auto & correlation = report.noiseCorrelation;
-  if (correlation && IsIdentified(correlation->rowNoise))
-  {
-    rows.emplace_back("row noise", &correlation->rowNoise);
-  }
-  if (correlation && IsIdentified(correlation->columnNoise))
-  {
-    rows.emplace_back("column noise", &correlation->columnNoise);
-  }
-  rows.emplace_back("intercept sigma^2 - g mu", &report.intercept);
-  // Of a pixel's variance, not of the sensor: a number of its own only where frames are not raw.
-  if (report.varianceSlope.value && Number(report.varianceSlope.value) != Number(report.gain.value))
-  {
-    rows.emplace_back("variance slope", &report.varianceSlope);
-  }
-  rows.emplace_back("flicker sd", &report.flickerSd);
-  rows.emplace_back("vibration sd x", &report.vibrationSdX);
-  rows.emplace_back("vibration sd y", &report.vibrationSdY);
-  return rows;
+  return false;
 }
 
 /** "share 44 %" of the lag that shares most. */
@@ -167,14 +153,18 @@ MakeTable(const Report & report)
                   report.pixels.clipped,
                   report.pixels.notFinite);
   table += "method: " + report.method + "\n\n";
-  const std::vector<Row> rows = RowsOf(report);
-  const bool             hasErrors =
-    std::any_of(rows.begin(), rows.end(), [](const Row & row) { return row.second->standardError.has_value(); });
+  std::vector<QuantityEntry> rows;
+  std::copy_if(QuantityList().begin(),
+               QuantityList().end(),
+               std::back_inserter(rows),
+               [&](const QuantityEntry & entry) { return IsShown(entry, report); });
+  const bool hasErrors = std::any_of(
+    rows.begin(), rows.end(), [&](const QuantityEntry & entry) { return entry.of(report)->standardError.has_value(); });
   table += Format("%-24s %12s  ", "quantity", "value") + (hasErrors ? Format("%-12s  ", "error") : "");
   table += Format("%-8s %-17s %s\n", "unit", "status", hasErrors ? "95 % interval or limits" : "limits");
-  for (const auto & [name, quantity] : rows)
+  for (const QuantityEntry & entry : rows)
   {
-    table += Line(name, *quantity, hasErrors);
+    table += Line(entry, *entry.of(report), hasErrors);
   }
   if (report.fit.line && !report.gain.value)
   {
@@ -204,13 +194,19 @@ MakeTable(const Report & report)
 }
 
 std::string
+TextOf(const Warning & warning)
+{
+  const WarningKind & kind = KindOf(warning.code);
+  return std::string(NameOf(kind.severity)) + ": " + warning.message + " [" + kind.name + "]\n";
+}
+
+std::string
 MakeText(const Report & report)
 {
   std::string text = MakeTable(report);
   for (const Warning & warning : report.warnings)
   {
-    text += (&warning == &report.warnings.front() ? "\nwarning: " : "warning: ") + warning.message + " [" +
-            warning.code + "]\n";
+    text += (&warning == &report.warnings.front() ? "\n" : "") + TextOf(warning);
   }
   return text;
 }

@@ -15,6 +15,10 @@ namespace sensornoise
 SensorNoise_EXPORT std::string
 MakeTable(const Report & report);
 
+/** A warning as a line: "warning: message [code]", with "note" or "error" where its severity is that. */
+SensorNoise_EXPORT std::string
+TextOf(const Warning & warning);
+
 /** The table and, a line each, what the user should know: for those who see nothing else. */
 SensorNoise_EXPORT std::string
 MakeText(const Report & report);

@@ -66,13 +66,13 @@ WarnOfStack(Report & report, std::size_t frames, const StackSummary & summary)
   const CodeRange & codes = summary.codes;
   if (frames >= MinimumFrames && frames < 20)
   {
-    report.Warn("few-frames",
+    report.Warn(WarningCode::FewFrames,
                 "the stack has " + std::to_string(frames) +
                   " different frames: indicative only; 20 or more are usable");
   }
   if (codes.clipSource.find("pile-up") != std::string::npos)
   {
-    report.Warn("clip-level-found",
+    report.Warn(WarningCode::ClipLevelFound,
                 "the sensor attains only the levels " + TextOfLevels(codes) + " DN (" + codes.clipSource +
                   "); pixels that reach an end are left out");
   }
@@ -81,7 +81,7 @@ WarnOfStack(Report & report, std::size_t frames, const StackSummary & summary)
     const CodeSteps::Local & dark = codes.steps.GetTable().front();
     const CodeSteps::Local & bright = codes.steps.GetTable().back();
     report.Warn(
-      "companded",
+      WarningCode::Companded,
       "the grey levels lie " + Text(dark.stepDn) + " DN apart about " + Text(dark.levelDn) + " DN and " +
         Text(bright.stepDn) + " DN about " + Text(bright.levelDn) +
         " DN: a tone curve was applied to fewer bits and undone, and the noise of rounding differs from level "
@@ -89,13 +89,13 @@ WarnOfStack(Report & report, std::size_t frames, const StackSummary & summary)
   }
   if (!codes.isRegular)
   {
-    report.Warn("irregular-codes",
+    report.Warn(WarningCode::IrregularCodes,
                 "the spacing of the grey levels varies about " + Text(codes.quantisationStepDn) +
                   " DN: the data were rescaled and their quantisation noise is not known");
   }
   if (summary.notFinite > 0)
   {
-    report.Warn("not-finite-pixels",
+    report.Warn(WarningCode::NotFinitePixels,
                 std::to_string(summary.notFinite) + " pixels are NaN or infinite in a frame and left out");
   }
 }

@@ -118,7 +118,7 @@ RequireFineCodes(const UsablePixels & pixels, double stepDn)
     throw NothingToMeasure("the noise of " + Text(100.0 * coarse / all) +
                              " % of the pixels, the darkest, is below half a code step of " + Text(stepDn) +
                              " DN, where the codes hide it: use more bits, or a higher analogue gain",
-                           "codes-too-coarse");
+                           WarningCode::CodesTooCoarse);
   }
 }
 

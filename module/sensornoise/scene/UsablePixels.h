@@ -47,7 +47,7 @@ LeaveOutCoarseAndGuarded(const ReferenceFrame &      frame,
                          std::vector<std::uint8_t>   pixelUse,
                          const ParallelFor &         parallelFor);
 
-/** Throws NothingToMeasure, "codes-too-coarse", if codes of spacing \a stepDn hide the noise of more than 2 % of the
+/** Throws NothingToMeasure, CodesTooCoarse, if codes of spacing \a stepDn hide the noise of more than 2 % of the
  * pixels: the dark end goes with them. */
 SensorNoise_EXPORT void
 RequireFineCodes(const UsablePixels & pixels, double stepDn);

@@ -1,0 +1,269 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_base_WarningCodes_h
+#define sensornoise_base_WarningCodes_h
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace sensornoise
+{
+
+/** What a warning is about. */
+enum class WarningCode : std::uint8_t
+{
+  FewFrames,
+  RepeatedFrames,
+  IrregularCodes,
+  Companded,
+  ClipLevelFound,
+  NotFinitePixels,
+  NearClipLevel,
+  NotStatic,
+  NoisyPixels,
+  LocalLight,
+  RollingShutter,
+  LinesWithoutFlicker,
+  OffsetDrift,
+  StrongVibration,
+  NoiseCorrelated,
+  ResponseNotStraight,
+  ResponseUnchecked,
+  FlickerNotIdentifiable,
+  OffsetNotIdentifiable,
+  ReadNoiseUpperLimit,
+  ReadNoiseNotIdentifiable,
+  SteadyLight,
+  OffsetOutOfRange,
+  DarkFramesDiffer,
+  OffsetAboveDarkest,
+  OffsetLineMisfit,
+  PoorFit,
+  CorrectedVarianceCurved,
+  BrightSetWidened,
+  DarkSetWidened,
+  NothingToMeasure,
+  TooLittleToMeasure,
+  CodesTooCoarse,
+  IntensityRangeTooSmall,
+  NoiseNotLinear,
+  VarianceNotAffine
+};
+
+/** What a warning does to the measurement. */
+enum class Severity : std::uint8_t
+{
+  Note,    ///< allowed for: every number stands
+  Warning, ///< some number is missing, or rests on something that was not seen or does not fit
+  Error    ///< no gain
+};
+
+inline const char *
+NameOf(Severity severity)
+{
+  return severity == Severity::Note ? "note" : severity == Severity::Warning ? "warning" : "error";
+}
+
+/** A line of the table of warnings. */
+struct WarningKind
+{
+  WarningCode  code;
+  const char * name; ///< in the JSON record; stable, for programs
+  Severity     severity;
+  const char * sentence; ///< what it means, and what helps
+};
+
+/** All that a report can warn of, in the order of WarningCode. README and Python show this table; a warning's own
+ * message has the numbers. */
+inline constexpr std::array<WarningKind, 36> WarningTable{ {
+  { WarningCode::FewFrames, "few-frames", Severity::Warning, "Fewer than 20 different frames: indicative only." },
+  { WarningCode::RepeatedFrames,
+    "repeated-frames",
+    Severity::Note,
+    "Frames are equal to earlier ones, as where a recorder runs faster than its camera: each is counted once, and all "
+    "else is that of a stack without them." },
+  { WarningCode::IrregularCodes,
+    "irregular-codes",
+    Severity::Warning,
+    "The spacing of the codes varies: the frames were rescaled, and the noise of rounding is not known." },
+  { WarningCode::Companded,
+    "companded",
+    Severity::Note,
+    "Codes lie farther apart at bright levels than at dark ones: a tone curve to fewer bits, undone. `gain` is the "
+    "sensor's; `variance_slope` holds the noise of rounding, too (the published method's gain does). `--step` says "
+    "that "
+    "the codes are even." },
+  { WarningCode::ClipLevelFound,
+    "clip-level-found",
+    Severity::Note,
+    "The sensor saturates inside the code range, or the frames are floating-point: pixels that reach the level are "
+    "left "
+    "out." },
+  { WarningCode::NotFinitePixels,
+    "not-finite-pixels",
+    Severity::Note,
+    "Pixels are NaN or infinite in a frame: they are left out." },
+  { WarningCode::NearClipLevel,
+    "near-clip-level",
+    Severity::Note,
+    "More than 1 % of the pixels reach a clip level, or noise and flicker could carry them there: they are left out." },
+  { WarningCode::NotStatic,
+    "not-static",
+    Severity::Note,
+    "More than 1 % of the pixels lie where something moves or changes: they are left out." },
+  { WarningCode::NoisyPixels,
+    "noisy-pixels",
+    Severity::Note,
+    "More than 0.2 % of the pixels have another noise than the others: they are left out." },
+  { WarningCode::LocalLight,
+    "local-light",
+    Severity::Note,
+    "The light changes differently over the frame: a rolling shutter, several lamps, bleaching, a filter between "
+    "frames, "
+    "or strong noise of whole rows. Gain and intercept allow for it." },
+  { WarningCode::RollingShutter,
+    "rolling-shutter",
+    Severity::Note,
+    "The flicker differs from row to row, and is estimated so (published method)." },
+  { WarningCode::LinesWithoutFlicker,
+    "lines-without-flicker",
+    Severity::Note,
+    "Bright pixels do not reach some rows, whose flicker is not known: they are left out (published method)." },
+  { WarningCode::OffsetDrift, "offset-drift", Severity::Note, "A level common to all pixels drifts over the burst." },
+  { WarningCode::StrongVibration,
+    "strong-vibration",
+    Severity::Warning,
+    "The scene moves by more than 0.4 pixels rms, as far as the table's limits allow: register the frames to whole "
+    "pixels first." },
+  { WarningCode::NoiseCorrelated,
+    "noise-correlated",
+    Severity::Warning,
+    "Neighbours or frames share noise: `gain` is of the sensor, by the sum over lags, `variance_slope` of the frames. "
+    "Ask "
+    "the camera for raw frames." },
+  { WarningCode::ResponseNotStraight,
+    "response-not-straight",
+    Severity::Warning,
+    "The variance departs from its line by 1 to 12 %: the response bends. `gain` is the mean of the local gain, and "
+    "its "
+    "interval holds the gains of the parts of the levels." },
+  { WarningCode::ResponseUnchecked,
+    "response-unchecked",
+    Severity::Warning,
+    "The darkest levels have more than a tenth of the brightest's light, and there are no dark frames: a bend could "
+    "not "
+    "be seen." },
+  { WarningCode::FlickerNotIdentifiable,
+    "flicker-not-identifiable",
+    Severity::Warning,
+    "The light is not told from the offset, so the flicker relative to it is not known: a known offset would help, or "
+    "a "
+    "scene with dark and bright areas." },
+  { WarningCode::OffsetNotIdentifiable,
+    "offset-not-identifiable",
+    Severity::Warning,
+    "Too little flicker, light too complicated, or a ramp, whose motion looks like an offset: more flicker or frames, "
+    "dark frames or a known offset would help." },
+  { WarningCode::ReadNoiseUpperLimit,
+    "read-noise-upper-limit",
+    Severity::Warning,
+    "The read noise cannot be told from 0, or from the rounding to codes." },
+  { WarningCode::ReadNoiseNotIdentifiable,
+    "read-noise-not-identifiable",
+    Severity::Warning,
+    "Gain, intercept and offset give a read noise whose square is below 0 (published method)." },
+  { WarningCode::SteadyLight,
+    "steady-light",
+    Severity::Warning,
+    "The level that does not flicker is not the given offset: light that does not flicker, dark current, or another "
+    "offset." },
+  { WarningCode::OffsetOutOfRange,
+    "offset-out-of-range",
+    Severity::Warning,
+    "The given offset is above the darkest level, or where the read noise would be imaginary." },
+  { WarningCode::DarkFramesDiffer,
+    "dark-frames-differ",
+    Severity::Warning,
+    "The dark frames have another noise than the bright ones at the offset: another exposure, gain or temperature." },
+  { WarningCode::OffsetAboveDarkest,
+    "offset-above-darkest",
+    Severity::Warning,
+    "The offset is above the darkest level, so its error is larger than that: more frames or flicker would help "
+    "(published method)." },
+  { WarningCode::OffsetLineMisfit,
+    "offset-line-misfit",
+    Severity::Warning,
+    "Dark pixels do not follow the bright ones' flicker: the offset is doubtful (published method)." },
+  { WarningCode::PoorFit,
+    "poor-fit",
+    Severity::Warning,
+    "The corrected variance scatters about its line more than sampling noise does (published method)." },
+  { WarningCode::CorrectedVarianceCurved,
+    "corrected-variance-curved",
+    Severity::Warning,
+    "The corrected variance bends: vibrations, several lamps, or frames that are not linear (published method)." },
+  { WarningCode::BrightSetWidened,
+    "bright-set-widened",
+    Severity::Note,
+    "Too few pixels had the bright intensity, and more levels were taken (published method)." },
+  { WarningCode::DarkSetWidened,
+    "dark-set-widened",
+    Severity::Note,
+    "Too few pixels had the dark intensity, and more levels were taken (published method)." },
+  { WarningCode::NothingToMeasure,
+    "nothing-to-measure",
+    Severity::Error,
+    "Fewer than 5 different frames, or no pixels to measure." },
+  { WarningCode::TooLittleToMeasure,
+    "too-little-to-measure",
+    Severity::Error,
+    "Too few pixels fit a static scene: choose a static part of it." },
+  { WarningCode::CodesTooCoarse,
+    "codes-too-coarse",
+    Severity::Error,
+    "The noise is below half a code step: more gain, or more bits, would show it." },
+  { WarningCode::IntensityRangeTooSmall,
+    "intensity-range-too-small",
+    Severity::Error,
+    "The scene has one intensity: one with dark and bright areas would help, or dark frames." },
+  { WarningCode::NoiseNotLinear,
+    "noise-not-linear",
+    Severity::Error,
+    "The noise is not as a linear filter leaves it: the camera corrects defects, takes medians or compresses. Ask it "
+    "for "
+    "raw frames." },
+  { WarningCode::VarianceNotAffine,
+    "variance-not-affine",
+    Severity::Error,
+    "The variance departs from its line by more than 12 %, falls with the mean, or bends so that gain and read noise "
+    "cannot be told apart: not raw (gamma, compression), not linear, or saturated at a level that was not found." },
+} };
+
+/** The line of \a code. */
+constexpr const WarningKind &
+KindOf(WarningCode code)
+{
+  return WarningTable[static_cast<std::size_t>(code)];
+}
+
+namespace detail
+{
+constexpr bool
+IsInOrder()
+{
+  for (std::size_t i = 0; i < WarningTable.size(); ++i)
+  {
+    if (static_cast<std::size_t>(WarningTable[i].code) != i || WarningTable[i].sentence == nullptr)
+    {
+      return false;
+    }
+  }
+  return static_cast<std::size_t>(WarningCode::VarianceNotAffine) + 1 == WarningTable.size();
+}
+static_assert(IsInOrder(), "the table has a line for every code, in their order");
+} // namespace detail
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/report/QuantityList.h"
+
+namespace sensornoise
+{
+
+namespace
+{
+template <Quantity Report::* VMember>
+const Quantity *
+OfReport(const Report & report)
+{
+  return &(report.*VMember);
+}
+
+template <Quantity NoiseCorrelationRecord::* VMember>
+const Quantity *
+OfNoise(const Report & report)
+{
+  return report.noiseCorrelation ? &((*report.noiseCorrelation).*VMember) : nullptr;
+}
+} // namespace
+
+const std::vector<QuantityEntry> &
+QuantityList()
+{
+  using Noise = NoiseCorrelationRecord;
+  static const std::vector<QuantityEntry> list{
+    { "gain",
+      "gain g",
+      "DN/e-",
+      "Of the sensor: grey levels an electron.",
+      ShownIn::EveryTable,
+      OfReport<&Report::gain> },
+    { "offset",
+      "offset mu",
+      "DN",
+      "Level without light; of a burst alone, the level that does not flicker.",
+      ShownIn::EveryTable,
+      OfReport<&Report::offset> },
+    { "read_noise",
+      "read noise sigma",
+      "DN",
+      "Noise without light, rms over all pixels that are not defective; without rounding.",
+      ShownIn::EveryTable,
+      OfReport<&Report::readNoise> },
+    { "read_noise_median",
+      "read noise, median pixel",
+      "DN",
+      "Of the median pixel, where pixels differ; only dark frames tell it.",
+      ShownIn::TableIfKnown,
+      OfReport<&Report::readNoiseMedian> },
+    { "read_noise_electrons",
+      "read noise sigma / g",
+      "e-",
+      "Read noise over gain.",
+      ShownIn::EveryTable,
+      OfReport<&Report::readNoiseElectrons> },
+    { "intercept",
+      "intercept sigma^2 - g mu",
+      "DN^2",
+      "Of the sensor's variance at level 0, without rounding.",
+      ShownIn::EveryTable,
+      OfReport<&Report::intercept> },
+    { "variance_slope",
+      "variance slope",
+      "DN/e-",
+      "Of a pixel's variance against its level, in the frames as they are: for a denoiser. The gain where noise is "
+      "white "
+      "and codes are even.",
+      ShownIn::TableIfNotTheGain,
+      OfReport<&Report::varianceSlope> },
+    { "total_intercept",
+      "total intercept",
+      "DN^2",
+      "Of a pixel's variance at level 0, in the frames as they are, rounding included: for a denoiser.",
+      ShownIn::EveryTable,
+      OfReport<&Report::totalIntercept> },
+    { "flicker_sd",
+      "flicker sd",
+      "1",
+      "Standard deviation of the light from frame to frame, relative to it.",
+      ShownIn::EveryTable,
+      OfReport<&Report::flickerSd> },
+    { "vibration.sd_x",
+      "vibration sd x",
+      "pixel",
+      "Standard deviation of the motion along x.",
+      ShownIn::EveryTable,
+      OfReport<&Report::vibrationSdX> },
+    { "vibration.sd_y",
+      "vibration sd y",
+      "pixel",
+      "Standard deviation of the motion along y.",
+      ShownIn::EveryTable,
+      OfReport<&Report::vibrationSdY> },
+    { "vibration.covariance",
+      "vibration covariance",
+      "pixel^2",
+      "Of the motion along x and along y.",
+      ShownIn::Record,
+      OfReport<&Report::vibrationCovariance> },
+    { "noise_correlation.row_noise",
+      "row noise",
+      "DN",
+      "Common to the pixels of a row in one frame.",
+      ShownIn::TableIfKnown,
+      OfNoise<&Noise::rowNoise> },
+    { "noise_correlation.column_noise",
+      "column noise",
+      "DN",
+      "Common to the pixels of a column in one frame.",
+      ShownIn::TableIfKnown,
+      OfNoise<&Noise::columnNoise> },
+    { "noise_correlation.excess_kurtosis",
+      "excess kurtosis",
+      "1",
+      "Of the noise of a pixel; 0: normal.",
+      ShownIn::Record,
+      OfNoise<&Noise::excessKurtosis> },
+  };
+  return list;
+}
+
+} // namespace sensornoise

@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_test_RefinedResultsTestHelper_h
+#define sensornoise_test_RefinedResultsTestHelper_h
+
+#include "sensornoise/base/PixelUse.h"
+#include "sensornoise/refined/GainEstimate.h"
+#include "sensornoise/refined/OffsetReport.h"
+#include "sensornoise/refined/RefinedResults.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+/** \file
+ * What the passes of the refined method could have found, made by hand. */
+
+namespace sensornoise::test
+{
+
+/** A frame of 32 x 32 pixels, a ramp from 150 to 3150 DN, of a sensor of 1 DN/e-, 100 DN and 8 DN whose response is
+ * straight; 20 frames. The flicker, which is seen well, puts the offset at 100 +- 0.5 DN. */
+struct HandMadeResults
+{
+  static constexpr std::size_t Size = 32;
+
+  RefinedSettings     settings;
+  StillScene          scene;
+  SceneSeries         series;
+  StaticVariance      variance;
+  PolishedSeries      polished;
+  std::vector<double> correctedVariance;
+  NoiseCorrelation    correlation;
+
+  HandMadeResults()
+  {
+    constexpr std::size_t pixels = Size * Size;
+    constexpr double      lowDn = 150.0;
+    constexpr double      highDn = 3150.0;
+    for (std::size_t p = 0; p < pixels; ++p)
+    {
+      scene.mean.push_back(lowDn + (highDn - lowDn) * static_cast<double>(p) / (pixels - 1.0));
+      scene.variance.push_back(scene.mean.back() - 100.0 + 64.0);
+    }
+    scene.valid.assign(pixels, 1);
+    scene.pixelUse.assign(pixels, static_cast<std::uint8_t>(PixelUse::Used));
+    scene.usable = pixels;
+    scene.frame = { { Size, Size, 1 }, 20, scene.mean, scene.mean, {}, scene.valid };
+    scene.model.darkestDn = lowDn;
+    scene.model.brightestDn = highDn;
+    scene.model.centreDn = 1100.0;
+    correctedVariance = scene.variance;
+
+    VarianceLine & line = variance.line;
+    line.gain = 1.0;
+    line.intercept = -36.0;
+    line.isDetermined = true;
+    line.pivotDn = 1100.0;
+    // Uncorrelated at the pivot: 0.01 DN/e- and 5 DN^2.
+    line.covariance << 1e-4, -1e-4 * line.pivotDn, -1e-4 * line.pivotDn, 25.0 + 1e-4 * line.pivotDn * line.pivotDn;
+    variance.curve.line = line;
+    for (std::size_t b = 0; b < VarianceCurve::Bins; ++b)
+    {
+      const double level = lowDn + (highDn - lowDn) * (static_cast<double>(b) + 0.5) / VarianceCurve::Bins;
+      variance.curve.bins.push_back({ 16.0, 1e-4, 1e-4 * (level - line.pivotDn), 0.0 });
+    }
+    variance.pixelUse = scene.pixelUse;
+    variance.mask = scene.valid;
+
+    polished.line.offset = -1000.0;
+    polished.line.standardError = 0.5;
+    polished.line.low = -1001.0;
+    polished.line.high = -999.0;
+    polished.line.flickerZ = 100.0;
+    polished.line.contrast = 0.99;
+    for (std::size_t t = 0; t < 20; ++t)
+    {
+      polished.line.gamma.push_back(t % 2 == 0 ? 0.02 : -0.02);
+    }
+    // Any offset gives the same flicker, of precision 1e8.
+    polished.line.light << 0.0, 0.0, 0.0, 1e8;
+    polished.line.response = Eigen::MatrixX2d::Zero(20, 2);
+    for (Eigen::Index t = 0; t < 20; ++t)
+    {
+      polished.line.response(t, 1) = 1e8 * polished.line.gamma[static_cast<std::size_t>(t)];
+    }
+  }
+  /** Light that differs over the frame, with an offset of its own: 102 +- 1 DN. */
+  void
+  MakeLocal()
+  {
+    series.local.series = Eigen::MatrixXd::Ones(20, 1);
+    polished.localOffset = LocalOffset{ -998.0, 1.0, -1000.0, -996.0, 1.0, 16 };
+  }
+  RefinedResults
+  Get() const
+  {
+    return { settings, scene, series, variance, polished, correctedVariance, 100.0, correlation };
+  }
+};
+
+} // namespace sensornoise::test
+
+#endif

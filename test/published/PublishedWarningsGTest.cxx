@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/published/NoiseParameters.h"
+#include "sensornoise/report/ReportTable.h"
+#include "sensornoise/simulation/Scenes.h"
+#include "helpers/PublishedTestHelper.h"
+
+#include <cstddef>
+#include <gtest/gtest.h>
+#include <vector>
+
+// What makes the published method warn, and that the same stack without it does not.
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+
+namespace
+{
+/** Columns of grey levels; the lower half of the rows has \a lower of the light. */
+Report
+ReportOfHalves(double lower)
+{
+  constexpr std::size_t size = 96;
+  std::vector<double>   scene(size * size);
+  for (std::size_t p = 0; p < scene.size(); ++p)
+  {
+    scene[p] = static_cast<double>(p % size / 16) / 5.0 * (p / size < size / 2 ? 1.0 : lower);
+  }
+  SimulationSettings settings = SettingsOf(0.05, 40);
+  settings.rollingShutterPeriodRows = 40.0;
+  return Measure(Simulate<Codes>(settings, size, size, scene)).GetReport();
+}
+
+/** A small frame whose columns have these levels, or one ramp where there is none. */
+Report
+ReportOfLevels(const std::vector<double> & levels)
+{
+  constexpr std::size_t width = 48;
+  constexpr std::size_t height = 32;
+  std::vector<double>   scene(width * height);
+  for (std::size_t p = 0; p < scene.size(); ++p)
+  {
+    scene[p] = levels.empty() ? static_cast<double>(p % width * height + p / width) / static_cast<double>(scene.size())
+                              : levels[p % width * levels.size() / width];
+  }
+  return Measure(Simulate<Codes>(SettingsOf(0.05, 40), width, height, scene)).GetReport();
+}
+} // namespace
+
+TEST(SensorNoisePublishedWarnings, LinesWithoutFlicker)
+{
+  const Report half = ReportOfHalves(0.4);
+  EXPECT_TRUE(HasWarning(half, WarningCode::RollingShutter)) << MakeText(half);
+  EXPECT_TRUE(HasWarning(half, WarningCode::LinesWithoutFlicker)) << MakeText(half);
+  const Report whole = ReportOfHalves(1.0);
+  EXPECT_TRUE(HasWarning(whole, WarningCode::RollingShutter)) << MakeText(whole);
+  EXPECT_FALSE(HasWarning(whole, WarningCode::LinesWithoutFlicker)) << MakeText(whole);
+}
+
+TEST(SensorNoisePublishedWarnings, OffsetAboveDarkest)
+{
+  PolynomialFit line;
+  line.isDetermined = true;
+  line.slope = 0.5;
+  line.intercept = -11.0; // sigma^2 = 0 at 22 DN
+  Report report;
+  FillNoiseParameters(report, line, 61.0, 60.0);
+  EXPECT_TRUE(HasWarning(report, WarningCode::OffsetAboveDarkest));
+  Report below;
+  FillNoiseParameters(below, line, 59.0, 60.0);
+  EXPECT_TRUE(below.warnings.empty());
+}
+
+TEST(SensorNoisePublishedWarnings, PoorFit)
+{
+  const auto reportOf = [](double reducedChi2) {
+    Report     report;
+    FitQuality quality;
+    quality.reducedChi2 = reducedChi2;
+    FillFit(report, quality);
+    return report;
+  };
+  EXPECT_TRUE(reportOf(1.5).warnings.empty());
+  EXPECT_TRUE(HasWarning(reportOf(1.6), WarningCode::PoorFit));
+  EXPECT_TRUE(HasWarning(reportOf(10.0), WarningCode::PoorFit));
+  EXPECT_TRUE(HasWarning(reportOf(10.1), WarningCode::VarianceNotAffine));
+}
+
+TEST(SensorNoisePublishedWarnings, SetsWidened)
+{
+  const Report report = ReportOfLevels({}); // no level has many pixels
+  EXPECT_TRUE(HasWarning(report, WarningCode::BrightSetWidened)) << MakeText(report);
+  EXPECT_TRUE(HasWarning(report, WarningCode::DarkSetWidened)) << MakeText(report);
+  const Report broad = ReportOfLevels({ 0.0, 0.5, 1.0 });
+  EXPECT_FALSE(HasWarning(broad, WarningCode::BrightSetWidened)) << MakeText(broad);
+  EXPECT_FALSE(HasWarning(broad, WarningCode::DarkSetWidened)) << MakeText(broad);
+}

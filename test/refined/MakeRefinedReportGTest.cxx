@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/refined/RefinedReport.h"
+#include "sensornoise/report/ReportTable.h"
+#include "helpers/RefinedResultsTestHelper.h"
+#include "helpers/ReportTestHelper.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+// The report of results made by hand: every number follows from them.
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+
+TEST(SensorNoiseMakeRefinedReport, NumbersAreThoseOfTheLineAndTheFlicker)
+{
+  const Report report = MakeRefinedReport(HandMadeResults().Get());
+  EXPECT_TRUE(report.warnings.empty()) << MakeText(report);
+  EXPECT_EQ(report.pixels.used, 1024u);
+  EXPECT_EQ(report.frames, 20u);
+  EXPECT_DOUBLE_EQ(ValueOf(report.gain), 1.0);
+  EXPECT_DOUBLE_EQ(*report.gain.standardError, 0.01);
+  EXPECT_DOUBLE_EQ(ValueOf(report.intercept), -36.0);
+  EXPECT_DOUBLE_EQ(ValueOf(report.totalIntercept), -36.0); // no codes
+  EXPECT_DOUBLE_EQ(ValueOf(report.offset), 100.0);
+  EXPECT_DOUBLE_EQ(*report.offset.standardError, 0.5);
+  // -36 + 1 * 100 = 64.
+  EXPECT_DOUBLE_EQ(ValueOf(report.readNoise), 8.0);
+  EXPECT_DOUBLE_EQ(ValueOf(report.readNoiseElectrons), 8.0);
+  // Of the square: the line's error 1,000 DN from its pivot, and the offset's.
+  const double square = std::sqrt(25.0 + 1e-4 * 1000.0 * 1000.0 + 0.25);
+  EXPECT_NEAR(*report.readNoise.standardError, square / 16.0, 1e-9);
+  // 19 of 20 squares of 0.02, without the noise of 1e-8.
+  EXPECT_NEAR(ValueOf(report.flickerSd), std::sqrt(20.0 / 19.0 * 4e-4 - 1e-8), 1e-9);
+  EXPECT_EQ(report.vibrationSdX.status, EstimateStatus::NotIdentifiable); // no derivative is active
+  ASSERT_TRUE(report.covariance);
+  EXPECT_DOUBLE_EQ((*report.covariance)[0][0], 1e-4);
+  EXPECT_DOUBLE_EQ((*report.covariance)[2][2], 0.25);
+}
+
+TEST(SensorNoiseMakeRefinedReport, PixelsThatAreLeftOutAreSaidFromOneInAHundredOn)
+{
+  HandMadeResults results;
+  results.variance.notStatic = 10; // of 1,024
+  results.scene.nearClip = 10;
+  results.variance.line.trimmedFraction = 0.002;
+  EXPECT_TRUE(MakeRefinedReport(results.Get()).warnings.empty());
+  results.variance.notStatic = results.scene.nearClip = 11;
+  results.variance.line.trimmedFraction = 0.0021;
+  const Report report = MakeRefinedReport(results.Get());
+  EXPECT_TRUE(HasWarning(report, WarningCode::NotStatic));
+  EXPECT_TRUE(HasWarning(report, WarningCode::NearClipLevel));
+  EXPECT_TRUE(HasWarning(report, WarningCode::NoisyPixels));
+  EXPECT_EQ(report.warnings.size(), 3u) << MakeText(report);
+}
+
+TEST(SensorNoiseMakeRefinedReport, LocalLightIsADriftOrLamps)
+{
+  HandMadeResults results;
+  results.MakeLocal();
+  EXPECT_TRUE(HasWarning(MakeRefinedReport(results.Get()), WarningCode::LocalLight));
+  EXPECT_DOUBLE_EQ(ValueOf(MakeRefinedReport(results.Get()).offset), 102.0);
+  results.polished.isOffsetDrift = true;
+  const Report drift = MakeRefinedReport(results.Get());
+  EXPECT_TRUE(HasWarning(drift, WarningCode::OffsetDrift));
+  EXPECT_FALSE(HasWarning(drift, WarningCode::LocalLight));
+  EXPECT_DOUBLE_EQ(ValueOf(drift.offset), 100.0);
+}
+
+TEST(SensorNoiseMakeRefinedReport, VibrationIsStrongFromFourTenthsOfAPixelOn)
+{
+  HandMadeResults results;
+  results.scene.model.vibrationYPixels2 = 0.159;
+  EXPECT_FALSE(HasWarning(MakeRefinedReport(results.Get()), WarningCode::StrongVibration));
+  results.scene.model.vibrationYPixels2 = 0.161;
+  EXPECT_TRUE(HasWarning(MakeRefinedReport(results.Get()), WarningCode::StrongVibration));
+}
+
+TEST(SensorNoiseMakeRefinedReport, NoiseThatIsNotLinearLeavesTheLineOfTheFrames)
+{
+  HandMadeResults results;
+  results.correlation.kind = NoiseKind::NotLinear;
+  const Report report = MakeRefinedReport(results.Get());
+  EXPECT_EQ(report.gain.status, EstimateStatus::Failed);
+  EXPECT_TRUE(HasWarning(report, WarningCode::NoiseNotLinear));
+  EXPECT_DOUBLE_EQ(ValueOf(report.varianceSlope), 1.0);
+  EXPECT_DOUBLE_EQ(ValueOf(report.totalIntercept), -36.0);
+}
+
+TEST(SensorNoiseMakeRefinedReport, RefusalKeepsWhatDarkFramesTell)
+{
+  HandMadeResults results;
+  results.settings.offset = KnownOffset{ 97.0, 0.2, 20, DarkVariance{ 81.0, 0.3 } };
+  const Report report = MakeRefusal(
+    results.settings, results.scene, results.scene.pixelUse, NothingToMeasure("nothing", WarningCode::CodesTooCoarse));
+  EXPECT_TRUE(HasWarning(report, WarningCode::CodesTooCoarse));
+  EXPECT_FALSE(report.IsUsable());
+  EXPECT_DOUBLE_EQ(ValueOf(report.offset), 97.0);
+  EXPECT_DOUBLE_EQ(ValueOf(report.readNoise), 9.0);
+}

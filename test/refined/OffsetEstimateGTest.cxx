@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/refined/GainEstimate.h"
+#include "sensornoise/refined/OffsetReport.h"
+#include "helpers/RefinedResultsTestHelper.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+#include <string>
+
+// When the flicker tells the offset, and what is said where it does not: on results made by hand.
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+
+namespace
+{
+/** With a line of gain 1 DN/e- and limits of 50 and 150 DN. */
+struct Results : HandMadeResults
+{
+  GainEstimate gain;
+  OffsetLimits limits;
+
+  Results()
+  {
+    gain.line.gain = 1.0;
+    limits.lowestDn = 50.0;
+    limits.highestDn = 150.0;
+  }
+  OffsetEstimate
+  Estimate() const
+  {
+    return EstimateOffset(this->Get(), gain, limits);
+  }
+  /** Whether the offset is not told, for a reason that begins so. */
+  bool
+  IsRefused(const std::string & reason) const
+  {
+    return this->Estimate().obstacle.rfind(reason, 0) == 0 && !reason.empty();
+  }
+};
+} // namespace
+
+TEST(SensorNoiseOffsetEstimate, FlickerTellsItWithItsInterval)
+{
+  const OffsetEstimate offset = Results().Estimate();
+  EXPECT_EQ(offset.obstacle, "");
+  EXPECT_DOUBLE_EQ(offset.valueDn, 100.0);
+  EXPECT_DOUBLE_EQ(offset.standardErrorDn, 0.5);
+  EXPECT_DOUBLE_EQ(*offset.interval.low, 99.0);
+  EXPECT_DOUBLE_EQ(*offset.interval.high, 101.0);
+}
+
+TEST(SensorNoiseOffsetEstimate, PatternOfOffsetsWidensItInProportionToTheLight)
+{
+  Results results;
+  results.variance.pattern.offsetShare = 0.01; // of 1,000 DN: 10 DN
+  const OffsetEstimate offset = results.Estimate();
+  EXPECT_DOUBLE_EQ(offset.standardErrorDn, std::hypot(0.5, 10.0));
+  EXPECT_DOUBLE_EQ(*offset.interval.low, 99.0 - 19.6);
+  EXPECT_DOUBLE_EQ(*offset.interval.high, 101.0 + 19.6);
+  results.variance.pattern.offsetShare = 1e-4; // 0.1 DN: a fifth of the error
+  EXPECT_DOUBLE_EQ(results.Estimate().standardErrorDn, 0.5);
+}
+
+TEST(SensorNoiseOffsetEstimate, BentResponseWidensIt)
+{
+  Results results;
+  results.gain.below = results.gain.above = 0.02; // 2 % of the gain
+  EXPECT_DOUBLE_EQ(results.Estimate().standardErrorDn, std::hypot(0.5, 20.0));
+}
+
+TEST(SensorNoiseOffsetEstimate, WhatKeepsTheFlickerFromTellingItIsSaid)
+{
+  const auto refusedWith = [](auto change, const std::string & reason) {
+    Results results;
+    change(results);
+    return results.IsRefused(reason);
+  };
+  EXPECT_TRUE(refusedWith([](Results & r) { r.polished.line.contrast = 0.9; }, "the scene has one intensity"));
+  EXPECT_TRUE(refusedWith([](Results & r) { r.polished.line.isLevelMotion = true; }, "the scene is a ramp"));
+  EXPECT_TRUE(refusedWith([](Results & r) { r.polished.line.flickerZ = 6.0; }, "the flicker"));
+  EXPECT_TRUE(refusedWith([](Results & r) { r.polished.line.low = -std::numeric_limits<double>::infinity(); },
+                          "the offset's interval"));
+  // A quarter of 3,000 DN.
+  EXPECT_TRUE(refusedWith([](Results & r) { r.polished.line.high = -250.9; }, "the offset's interval"));
+  EXPECT_FALSE(refusedWith([](Results & r) { r.polished.line.high = -251.1; }, "the offset's interval"));
+}
+
+TEST(SensorNoiseOffsetEstimate, LimitsHoldButForThreeOfItsErrors)
+{
+  Results results;
+  results.limits.highestDn = 98.4; // 1.6 DN below: 3.2 errors
+  EXPECT_TRUE(results.IsRefused("the flicker's zero, 100 DN"));
+  results.limits.highestDn = 98.6;
+  EXPECT_EQ(results.Estimate().obstacle, "");
+  results.limits.highestDn = 150.0;
+  results.limits.lowestDn = 101.6;
+  EXPECT_TRUE(results.IsRefused("the flicker's zero, 100 DN"));
+  // The error of the intercept, 0.1 DN^2 over a gain of 1 DN/e-, moves that end, too.
+  results.gain.covariance(1, 1) = 0.01;
+  EXPECT_EQ(results.Estimate().obstacle, "");
+}
+
+TEST(SensorNoiseOffsetEstimate, WhereLightIsLocalTheResponsesToItTell)
+{
+  Results results;
+  results.MakeLocal();
+  results.polished.line.flickerZ = 0.0; // no flicker of the whole frame is needed
+  const OffsetEstimate offset = results.Estimate();
+  EXPECT_EQ(offset.obstacle, "");
+  EXPECT_DOUBLE_EQ(offset.valueDn, 102.0);
+  EXPECT_DOUBLE_EQ(offset.standardErrorDn, 1.0);
+  results.polished.localOffset->phi = 4.1;
+  EXPECT_TRUE(results.IsRefused("the responses to the lamps do not meet"));
+  results.polished.localOffset.reset();
+  EXPECT_TRUE(results.IsRefused("the light changes differently over the frame"));
+  results.polished.isOffsetDrift = true; // then it is no light, and the flicker counts
+  EXPECT_TRUE(results.IsRefused("the flicker"));
+}
+
+TEST(SensorNoiseOffsetEstimate, OffsetInUseIsKnownOrToldOrInTheMiddleOfTheLimits)
+{
+  Results    results;
+  const auto inUse = [&results] { return OffsetInUse(results.Get(), results.Estimate(), results.limits); };
+  EXPECT_DOUBLE_EQ(inUse().valueDn, 100.0);
+  EXPECT_DOUBLE_EQ(inUse().errorDn, 0.5);
+  results.polished.line.flickerZ = 0.0;
+  EXPECT_DOUBLE_EQ(inUse().valueDn, 100.0); // of 50 to 150 DN, as likely everywhere
+  EXPECT_DOUBLE_EQ(inUse().errorDn, 100.0 / std::sqrt(12.0));
+  results.settings.offset = KnownOffset{ 97.0, 0.2 };
+  EXPECT_DOUBLE_EQ(inUse().valueDn, 97.0);
+  EXPECT_DOUBLE_EQ(inUse().errorDn, 0.2);
+}

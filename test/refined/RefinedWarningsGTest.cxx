@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/report/Report.h"
+#include "sensornoise/report/ReportTable.h"
+#include "sensornoise/simulation/Random.h"
+#include "sensornoise/simulation/Scenes.h"
+#include "sensornoise/simulation/SimulationSettings.h"
+#include "helpers/SensorTestHelper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <gtest/gtest.h>
+#include <vector>
+
+// What makes the refined method warn, and that the same stack without it does not.
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+using namespace sensornoise::test::sensor;
+
+namespace
+{
+constexpr std::size_t Size = 128;
+constexpr std::size_t Frames = 40;
+
+/** A value as a code. */
+Codes
+Code(double value)
+{
+  return static_cast<Codes>(std::clamp(std::lround(value), 0L, 65535L));
+}
+
+/** A stack of the target whose pixels' values \a change replaces. */
+Stack<Codes>
+Changed(const std::function<double(std::size_t t, std::size_t x, std::size_t y, double value)> & change,
+        const SimulationSettings & settings = StillCamera(Frames))
+{
+  Stack<Codes> stack = Simulate<Codes>(settings, Size, Size);
+  for (std::size_t i = 0; i < stack.pixels.size(); ++i)
+  {
+    const std::size_t p = i % (Size * Size);
+    stack.pixels[i] = Code(change(i / (Size * Size), p % Size, p / Size, stack.pixels[i]));
+  }
+  return stack;
+}
+
+void
+ExpectWarns(const Stack<Codes> & stack, WarningCode code)
+{
+  const Report report = Measure(stack, {}).GetReport();
+  EXPECT_TRUE(HasWarning(report, code)) << KindOf(code).name << '\n' << MakeText(report);
+  const bool isMeasured = report.gain.status == EstimateStatus::Identified;
+  EXPECT_EQ(isMeasured, KindOf(code).severity != Severity::Error) << KindOf(code).name;
+  if (isMeasured)
+  {
+    EXPECT_NEAR(*report.gain.value, 1.0, 5.0 * *report.gain.standardError) << KindOf(code).name;
+  }
+}
+} // namespace
+
+TEST(SensorNoiseRefinedWarnings, PlainStackHasNone)
+{
+  const Report report = Measure(Simulate<Codes>(StillCamera(Frames), Size, Size), {}).GetReport();
+  EXPECT_TRUE(report.warnings.empty()) << MakeText(report);
+}
+
+TEST(SensorNoiseRefinedWarnings, IrregularCodes)
+{
+  // Every code times 2.6: they lie 2 or 3 apart.
+  const Stack<Codes> stack = Changed([](auto, auto, auto, double u) { return 2.6 * u; });
+  EXPECT_TRUE(HasWarning(Measure(stack, {}).GetReport(), WarningCode::IrregularCodes));
+}
+
+TEST(SensorNoiseRefinedWarnings, NotStatic)
+{
+  ExpectWarns(Changed([](std::size_t t, std::size_t x, std::size_t y, double u) {
+                const bool isThere = y > 80 && x > 2 * t && x < 2 * t + 30;
+                return isThere ? 0.5 * (u + 100.0) : u;
+              }),
+              WarningCode::NotStatic);
+}
+
+TEST(SensorNoiseRefinedWarnings, NoisyPixels)
+{
+  SimulationSettings settings = StillCamera(Frames);
+  settings.hotPixelFraction = 0.01;
+  ExpectWarns(Simulate<Codes>(settings, Size, Size), WarningCode::NoisyPixels);
+}
+
+TEST(SensorNoiseRefinedWarnings, LocalLight)
+{
+  // A second lamp lights the right half.
+  ExpectWarns(Changed([](std::size_t t, std::size_t x, auto, double u) {
+                const double gamma = 0.05 * std::sin(2.3 * static_cast<double>(t));
+                return u + (x > Size / 2 ? gamma * (u - 100.0) : 0.0);
+              }),
+              WarningCode::LocalLight);
+}
+
+TEST(SensorNoiseRefinedWarnings, OffsetDrift)
+{
+  ExpectWarns(Changed([](std::size_t t, auto, auto, double u) { return u + 1.0 * static_cast<double>(t); }),
+              WarningCode::OffsetDrift);
+}
+
+TEST(SensorNoiseRefinedWarnings, StrongVibration)
+{
+  SimulationSettings settings = StillCamera(Frames);
+  settings.conditions.vibrationSdXPixels = 0.8;
+  ExpectWarns(Simulate<Codes>(settings, Size, Size), WarningCode::StrongVibration);
+}
+
+TEST(SensorNoiseRefinedWarnings, FlickerNotIdentifiable)
+{
+  const Report report =
+    Measure(Simulate<Codes>(StillCamera(Frames), Size, Size, FlatScene(Size, 0.05)), {}).GetReport();
+  EXPECT_TRUE(HasWarning(report, WarningCode::FlickerNotIdentifiable)) << MakeText(report);
+  EXPECT_FALSE(report.flickerSd.value);
+}
+
+TEST(SensorNoiseRefinedWarnings, NoiseNotLinear)
+{
+  SimulationSettings settings = StillCamera(Frames);
+  settings.flaws.median.radiusPixels = 1;
+  ExpectWarns(Simulate<Codes>(settings, Size, Size, FlatScene(Size, 1.0)), WarningCode::NoiseNotLinear);
+}
+
+TEST(SensorNoiseRefinedWarnings, TooLittleToMeasure)
+{
+  // Leaves in the wind over all but the upper rows: every pixel's light changes by itself.
+  ExpectWarns(Changed([](std::size_t t, std::size_t x, std::size_t y, double u) {
+                CounterSeededRandom random(7, t, x, y);
+                return y < 10 ? u : 100.0 + (u - 100.0) * (0.6 + 0.8 * random.Uniform()) + 400.0 * random.Uniform();
+              }),
+              WarningCode::TooLittleToMeasure);
+}

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/base/WarningCodes.h"
+#include "sensornoise/report/QuantityList.h"
+
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <iterator>
+#include <regex>
+#include <set>
+#include <string>
+
+// What README and the tests say of every warning and of every quantity.
+
+using namespace sensornoise;
+
+namespace
+{
+std::string
+TextOfFile(const std::filesystem::path & name)
+{
+  std::ifstream file(name);
+  EXPECT_TRUE(file.is_open()) << name;
+  return { std::istreambuf_iterator<char>(file), {} };
+}
+
+/** First cells, in backquotes, of the rows of README's table whose head begins with \a head. */
+std::set<std::string>
+FirstCells(const std::string & readme, const std::string & head)
+{
+  std::set<std::string> cells;
+  std::size_t           at = readme.find("\n" + head);
+  EXPECT_NE(at, std::string::npos) << head;
+  for (at = readme.find('\n', at + 1) + 1; readme[at] == '|'; at = readme.find('\n', at) + 1)
+  {
+    if (readme.compare(at, 3, "| `") == 0)
+    {
+      cells.insert(readme.substr(at + 3, readme.find('`', at + 3) - at - 3));
+    }
+  }
+  return cells;
+}
+} // namespace
+
+TEST(SensorNoiseDocuments, ReadmeHasTheTableOfWarnings)
+{
+  const std::string     readme = TextOfFile(SENSORNOISE_SOURCE "/README.md");
+  std::set<std::string> names;
+  for (const WarningKind & kind : WarningTable)
+  {
+    names.insert(kind.name);
+    const std::string row =
+      std::string("\n| `") + kind.name + "` | " + NameOf(kind.severity) + " | " + kind.sentence + " |\n";
+    EXPECT_NE(readme.find(row), std::string::npos) << "README.md lacks this row:" << row;
+  }
+  EXPECT_EQ(FirstCells(readme, "| code |"), names);
+}
+
+TEST(SensorNoiseDocuments, ReadmeHasTheListOfQuantities)
+{
+  const std::string     readme = TextOfFile(SENSORNOISE_SOURCE "/README.md");
+  std::set<std::string> paths;
+  for (const QuantityEntry & entry : QuantityList())
+  {
+    paths.insert(entry.path);
+    const std::string row =
+      std::string("\n| `") + entry.path + "` | " + entry.label + " | " + entry.unit + " | " + entry.meaning + " |";
+    EXPECT_NE(readme.find(row), std::string::npos) << "README.md lacks this row:" << row;
+  }
+  EXPECT_EQ(FirstCells(readme, "| quantity |"), paths);
+}
+
+TEST(SensorNoiseDocuments, EveryWarningOccursInATest)
+{
+  std::set<std::string> found;
+  const std::regex      use("WarningCode::([A-Za-z]+)");
+  for (const auto & entry : std::filesystem::recursive_directory_iterator(SENSORNOISE_SOURCE "/test"))
+  {
+    if (entry.path().extension() == ".cxx")
+    {
+      const std::string text = TextOfFile(entry.path());
+      for (std::sregex_iterator match(text.begin(), text.end(), use), end; match != end; ++match)
+      {
+        found.insert((*match)[1]);
+      }
+    }
+  }
+  const std::string table = TextOfFile(SENSORNOISE_SOURCE "/module/sensornoise/base/WarningCodes.h");
+  const std::regex  line("WarningCode::([A-Za-z]+),");
+  std::size_t       codes = 0;
+  for (std::sregex_iterator match(table.begin(), table.end(), line), end; match != end; ++match)
+  {
+    EXPECT_EQ(found.count((*match)[1]), 1u) << "no test provokes " << (*match)[1];
+    ++codes;
+  }
+  EXPECT_EQ(codes, WarningTable.size());
+}
