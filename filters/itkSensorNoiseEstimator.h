@@ -25,6 +25,7 @@
 #include "sensornoise/refined/RefinedSettings.h"
 #include "sensornoise/report/Report.h"
 #include "sensornoise/report/ReportTable.h"
+#include "sensornoise/report/StackSettings.h"
 #include "itkNumericTraits.h"
 #include "itkSensorNoiseStackSink.h"
 #include "itkSensorNoiseResult.h"
@@ -221,7 +222,22 @@ public:
   itkSetMacro(QuantisationStep, double);
   itkGetConstMacro(QuantisationStep, double);
 
-  /** The report as a pipeline output, and itself; valid after Update(). */
+  /** What was recorded may be more than the stack: the rectangle of each frame, and the frames from \a first up to but
+   * not \a end, that the stack was cut out of. Noted in the report's settings, so that the measurement can be repeated;
+   * nothing is cut here, and no number changes. By default nothing is noted. Throws for a rectangle, or a range, that
+   * is not of the stack's size at Update(). */
+  void
+  SetSourceRegion(SizeValueType x, SizeValueType y, SizeValueType width, SizeValueType height);
+  void
+  SetSourceFrames(SizeValueType first, SizeValueType end);
+  const sensornoise::StackSelection &
+  GetSource() const
+  {
+    return m_Source;
+  }
+
+  /** The report as a pipeline output, and itself. Before Update(), and after one that failed in its work, there is
+   * none: an ExceptionObject, of all that asks for it. */
   ReportObjectType *
   GetReportOutput()
   {
@@ -362,6 +378,8 @@ private:
   // Defined in the .hxx: what reads the headers alone, as wrapping does, need not read the methods.
   struct Estimation;
 
+  void
+  VerifySource() const;
   bool
   HasLevelRange() const;
   sensornoise::PublishedSettings
@@ -386,6 +404,8 @@ private:
   double             m_LevelRangeLow{ NumericTraits<double>::NonpositiveMin() };
   double             m_LevelRangeHigh{ NumericTraits<double>::max() };
   double             m_QuantisationStep{ 0.0 };
+
+  sensornoise::StackSelection m_Source;
 
   std::unique_ptr<Estimation> m_Estimation;
 };

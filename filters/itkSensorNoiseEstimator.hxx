@@ -140,8 +140,45 @@ SensorNoiseEstimator<TStack>::SetRollingShutter(RollingShutterEnum mode)
 
 template <typename TStack>
 void
+SensorNoiseEstimator<TStack>::SetSourceRegion(SizeValueType x,
+                                              SizeValueType y,
+                                              SizeValueType width,
+                                              SizeValueType height)
+{
+  m_Source.roi = { x, y, width, height };
+  this->Modified();
+}
+
+template <typename TStack>
+void
+SensorNoiseEstimator<TStack>::SetSourceFrames(SizeValueType first, SizeValueType end)
+{
+  m_Source.frames = { first, end };
+  this->Modified();
+}
+
+template <typename TStack>
+void
+SensorNoiseEstimator<TStack>::VerifySource() const
+{
+  const auto size = this->GetInput()->GetLargestPossibleRegion().GetSize();
+  if (const auto & roi = m_Source.roi; roi && ((*roi)[2] != size[0] || (*roi)[3] != size[1]))
+  {
+    itkExceptionMacro("the source's region has " << (*roi)[2] << " x " << (*roi)[3] << " pixels, but the frames have "
+                                                 << size[0] << " x " << size[1]);
+  }
+  if (const auto & frames = m_Source.frames; frames && frames->second != frames->first + size[2])
+  {
+    itkExceptionMacro("the source's frames are " << frames->first << " up to " << frames->second
+                                                 << ", but the stack has " << size[2]);
+  }
+}
+
+template <typename TStack>
+void
 SensorNoiseEstimator<TStack>::VerifyInputInformation() const
 {
+  this->VerifySource();
   const auto   region = this->GetInput()->GetLargestPossibleRegion();
   const double pixels = static_cast<double>(region.GetSize(0)) * static_cast<double>(region.GetSize(1));
   const double bytesPerPixel = m_Method == MethodEnum::Refined ? 130.0 : 50.0; // measured, the least of all stacks
@@ -363,8 +400,10 @@ SensorNoiseEstimator<TStack>::FillOutputs()
   };
   std::visit(
     [&](const auto & method) {
-      constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-      this->GetReportOutput()->Set(method.GetReport());
+      constexpr double    nan = std::numeric_limits<double>::quiet_NaN();
+      sensornoise::Report report = method.GetReport();
+      sensornoise::NoteSelection(report, m_Source);
+      this->GetReportOutput()->Set(std::move(report));
       fill(this->GetMean(), method.GetMean(), nan);
       fill(this->GetVariance(), method.GetVariance(), nan);
       fill(this->GetCorrectedVariance(), method.GetCorrectedVariance(), nan);
@@ -403,6 +442,15 @@ SensorNoiseEstimator<TStack>::PrintSelf(std::ostream & os, Indent indent) const
   os << indent << "LevelRangeLow: " << m_LevelRangeLow << std::endl;
   os << indent << "LevelRangeHigh: " << m_LevelRangeHigh << std::endl;
   os << indent << "QuantisationStep: " << m_QuantisationStep << std::endl;
+  if (const auto & roi = m_Source.roi)
+  {
+    os << indent << "SourceRegion: " << (*roi)[0] << ", " << (*roi)[1] << ", " << (*roi)[2] << ", " << (*roi)[3]
+       << std::endl;
+  }
+  if (const auto & frames = m_Source.frames)
+  {
+    os << indent << "SourceFrames: " << frames->first << ", " << frames->second << std::endl;
+  }
 }
 
 } // namespace itk

@@ -19,8 +19,10 @@
 #define itkSensorNoiseResult_h
 
 #include "itkDataObject.h"
+#include "itkMacro.h"
 #include "itkObjectFactory.h"
 
+#include <optional>
 #include <utility>
 
 namespace itk
@@ -29,9 +31,10 @@ namespace itk
 /** \class SensorNoiseResult
  * \brief Carries the result of an estimator, a plain struct, through a pipeline.
  *
- * As SimpleDataObjectDecorator, which wants its component to be comparable; a result is new each time it is set.
+ * As SimpleDataObjectDecorator, which wants its component to be comparable; a result is new each time it is set. Before
+ * the estimator's Update(), and after one that failed in its work, there is none.
  *
- * \tparam TResult a copyable type with a default constructor.
+ * \tparam TResult a copyable type.
  * \ingroup SensorNoise
  */
 template <typename TResult>
@@ -59,10 +62,23 @@ public:
     m_Result = std::move(result);
     this->Modified();
   }
+  /** Throws an ExceptionObject if there is no result. */
   const TResult &
   Get() const
   {
-    return m_Result;
+    if (!m_Result)
+    {
+      itkExceptionMacro("there is no result: Update() of the estimator comes first, and must succeed");
+    }
+    return *m_Result;
+  }
+
+  /** Called by ITK before the estimator works: what follows may fail. */
+  void
+  Initialize() override
+  {
+    DataObject::Initialize();
+    m_Result.reset();
   }
 
 protected:
@@ -70,7 +86,7 @@ protected:
   ~SensorNoiseResult() override = default;
 
 private:
-  TResult m_Result;
+  std::optional<TResult> m_Result;
 };
 
 } // namespace itk

@@ -58,9 +58,7 @@ def main() -> int:
     except (ValueError, RuntimeError) as error:
         print(str(error).splitlines()[0], file=sys.stderr)
         return 2
-    print(report)
-    for warning in report["warnings"]:
-        print(f"warning: {warning['message']}", file=sys.stderr)
+    print(report)  # a table, and the warnings below it
     if truth is not None:
         print_truth(report, truth)
     if arguments.json:

@@ -234,6 +234,7 @@ EstimateOptions::SelectFiles()
 {
   if (!frames || files.size() == 1)
   {
+    cut = frames;
     return;
   }
   if (frames->second > files.size())
@@ -243,7 +244,6 @@ EstimateOptions::SelectFiles()
   }
   files = { files.begin() + static_cast<std::ptrdiff_t>(frames->first),
             files.begin() + static_cast<std::ptrdiff_t>(frames->second) };
-  frames.reset();
 }
 
 std::string
@@ -254,9 +254,9 @@ EstimateOptions::DescribeRegion() const
   {
     text << (*roi)[2] << " x " << (*roi)[3] << " pixels from " << (*roi)[0] << "," << (*roi)[1];
   }
-  if (frames)
+  if (cut)
   {
-    text << (roi ? " and " : "") << "frames " << frames->first << " to " << frames->second - 1;
+    text << (roi ? " and " : "") << "frames " << cut->first << " to " << cut->second - 1;
   }
   return text.str();
 }

@@ -33,6 +33,7 @@ struct EstimateOptions
   double                                             sigmaRows{ 50.0 };
   std::optional<std::array<long, 4>>                 roi;    ///< x, y, width, height
   std::optional<std::pair<std::size_t, std::size_t>> frames; ///< first, one past the last
+  std::optional<std::pair<std::size_t, std::size_t>> cut;    ///< of these what is left to do, see SelectFiles()
   std::string                                        mask;
   unsigned int                                       threads{ 0 }; ///< 0: all
   std::string                                        json;
@@ -45,7 +46,7 @@ struct EstimateOptions
   std::optional<int>
   Parse(int argc, char ** argv);
 
-  /** Applies --frames to a list of files; a stack is cut later. */
+  /** Applies --frames to a list of files; one file, a stack, is cut later. */
   void
   SelectFiles();
 
@@ -56,7 +57,7 @@ struct EstimateOptions
     return !json.empty() && json != "-";
   }
 
-  /** What --roi and --frames ask for. */
+  /** What is to be cut out of the stack. */
   std::string
   DescribeRegion() const;
 
@@ -78,6 +79,15 @@ struct EstimateOptions
     estimator.SetSigmaRows(sigmaRows);
     estimator.SetOffset(offset);
     estimator.SetOffsetStandardError(offsetStandardError);
+    if (roi)
+    {
+      const auto number = [this](std::size_t i) { return static_cast<std::size_t>((*roi)[i]); };
+      estimator.SetSourceRegion(number(0), number(1), number(2), number(3));
+    }
+    if (frames)
+    {
+      estimator.SetSourceFrames(frames->first, frames->second);
+    }
   }
 };
 

@@ -66,10 +66,10 @@ SelectRegion(const EstimateOptions & options, const FrameList & list, const itk:
       region.SetSize(d, static_cast<itk::SizeValueType>((*options.roi)[d + 2]));
     }
   }
-  if (list.isStack && options.frames)
+  if (list.isStack && options.cut)
   {
-    region.SetIndex(2, static_cast<itk::IndexValueType>(options.frames->first));
-    region.SetSize(2, options.frames->second - options.frames->first);
+    region.SetIndex(2, static_cast<itk::IndexValueType>(options.cut->first));
+    region.SetSize(2, options.cut->second - options.cut->first);
   }
   if (!whole.IsInside(region))
   {

@@ -77,6 +77,16 @@ protected:
     EXPECT_EQ(Run(arguments + " --quiet --json -"), exitCode) << m_Message;
     return m_Output;
   }
+  /** The same without `settings`, which say how it was made. */
+  std::string
+  MeasuredTextOf(const std::string & arguments)
+  {
+    std::string       text = JsonTextOf(arguments);
+    const std::size_t begin = text.find("\"settings\": {");
+    const std::size_t end = text.find('}', begin);
+    EXPECT_NE(end, std::string::npos) << text;
+    return end == std::string::npos ? text : text.erase(begin, end - begin);
+  }
   /** The same, parsed, which fails on NaN and infinity. */
   nlohmann::json
   ReportOf(const std::string & arguments, int exitCode = 0)

@@ -73,12 +73,12 @@ TEST_F(EstimateSelectionTool, FramesAreCutOutOfAStackAndAList)
 {
   const auto        burst = MakeBurst(30);
   const auto        part = Cut<unsigned short>(burst, { { 0, 0, 3 } }, { { 64, 64, 22 } });
-  const std::string expected = JsonTextOf(Write("part.mha", part.GetPointer()));
+  const std::string expected = MeasuredTextOf(Write("part.mha", part.GetPointer()));
   for (const std::string name : { "s.mha", "s.tif", "s.nrrd" })
   {
-    EXPECT_EQ(JsonTextOf(Write(name, burst.GetPointer()) + " --frames 3:25"), expected) << name;
+    EXPECT_EQ(MeasuredTextOf(Write(name, burst.GetPointer()) + " --frames 3:25"), expected) << name;
   }
-  EXPECT_EQ(JsonTextOf(Joined(WriteList<unsigned short>(burst, ".tif")) + "--frames 3:25"), expected);
+  EXPECT_EQ(MeasuredTextOf(Joined(WriteList<unsigned short>(burst, ".tif")) + "--frames 3:25"), expected);
 }
 
 TEST_F(EstimateSelectionTool, FilesThatFramesLeavesOutAreNotOpened)
@@ -93,18 +93,18 @@ TEST_F(EstimateSelectionTool, RoiGivesTheReportOfTheCutStackBitForBit)
 {
   const auto        burst = MakeBurst(24, "96x80");
   const auto        part = Cut<unsigned short>(burst, { { 9, 3, 0 } }, { { 80, 75, 24 } });
-  const std::string expected = JsonTextOf(Write("part.mha", part.GetPointer()));
+  const std::string expected = MeasuredTextOf(Write("part.mha", part.GetPointer()));
   for (const std::string name : { "s.mha", "s.tif", "s.nrrd" })
   {
-    EXPECT_EQ(JsonTextOf(Write(name, burst.GetPointer()) + " --roi 9,3,80,75"), expected) << name;
+    EXPECT_EQ(MeasuredTextOf(Write(name, burst.GetPointer()) + " --roi 9,3,80,75"), expected) << name;
   }
   const std::string list = Joined(WriteList<unsigned short>(burst, ".png"));
-  EXPECT_EQ(JsonTextOf(list + "--roi 9,3,80,75"), expected);
-  EXPECT_EQ(JsonTextOf("s.mha --roi 0,0,96,80"), JsonTextOf("s.mha"));
+  EXPECT_EQ(MeasuredTextOf(list + "--roi 9,3,80,75"), expected);
+  EXPECT_EQ(MeasuredTextOf("s.mha --roi 0,0,96,80"), MeasuredTextOf("s.mha"));
 
   const auto late = Cut<unsigned short>(burst, { { 9, 3, 2 } }, { { 80, 75, 20 } });
   Write("late.mha", late.GetPointer());
-  EXPECT_EQ(JsonTextOf("s.mha --roi 9,3,80,75 --frames 2:22"), JsonTextOf("late.mha"));
+  EXPECT_EQ(MeasuredTextOf("s.mha --roi 9,3,80,75 --frames 2:22"), MeasuredTextOf("late.mha"));
 }
 
 TEST_F(EstimateSelectionTool, MaskLeavesOutThePixelsThatAreZero)
@@ -129,7 +129,7 @@ TEST_F(EstimateSelectionTool, MaskLeavesOutThePixelsThatAreZero)
   EXPECT_EQ(JsonTextOf(stack + " --mask mask.mha"), text);
 
   Write("ones.png", Make<MaskType>({ { 64, 64 } }, 255).GetPointer());
-  EXPECT_EQ(JsonTextOf(stack + " --mask ones.png"), JsonTextOf(stack));
+  EXPECT_EQ(MeasuredTextOf(stack + " --mask ones.png"), MeasuredTextOf(stack));
 }
 
 TEST_F(EstimateSelectionTool, MaskIsThatOfTheWholeFrameAlsoWithRoi)
@@ -148,7 +148,22 @@ TEST_F(EstimateSelectionTool, MaskIsThatOfTheWholeFrameAlsoWithRoi)
     }
   }
   Write("part.png", partOfMask.GetPointer());
-  const std::string text = JsonTextOf("s.mha --roi 6,4,56,60 --mask mask.png");
-  EXPECT_EQ(text, JsonTextOf("part.mha --mask part.png"));
-  EXPECT_NE(text, JsonTextOf("part.mha"));
+  const std::string text = MeasuredTextOf("s.mha --roi 6,4,56,60 --mask mask.png");
+  EXPECT_EQ(text, MeasuredTextOf("part.mha --mask part.png"));
+  EXPECT_NE(text, MeasuredTextOf("part.mha"));
+}
+
+// The checksum is Python's zlib.crc32(b"56x60:" + bytes of 0 and 1, row by row), of the part that was measured.
+TEST_F(EstimateSelectionTool, WhatWasSelectedIsInTheSettings)
+{
+  const auto burst = MakeBurst(30);
+  Write("s.mha", burst.GetPointer());
+  Write("mask.png", MakeMask().GetPointer());
+  const std::string    options = " --roi 6,4,56,60 --frames 3:25 --mask mask.png --threads 1";
+  const nlohmann::json settings = ReportOf("s.mha" + options)["settings"];
+  EXPECT_EQ(settings,
+            nlohmann::json::parse(R"({"rolling_shutter": "auto", "mask_crc32": "deb2ea24", "roi_x": 6, "roi_y": 4,
+      "roi_width": 56, "roi_height": 60, "frame_range_first": 3, "frame_range_end": 25})"));
+  EXPECT_EQ(ReportOf(Joined(WriteList<unsigned short>(burst, ".tif")) + options)["settings"], settings);
+  EXPECT_EQ(ReportOf("s.mha")["settings"], nlohmann::json::parse(R"({"rolling_shutter": "auto"})"));
 }

@@ -189,3 +189,19 @@ def test_sources_in_both_styles(pixel):
     simulated, truth = itk.simulate_sensor_noise(frames=7, size=(48, 32), reference="bars", seed=9, dtype=pixel)
     np.testing.assert_array_equal(simulated, found)
     assert truth["gain"] == 1.0 and truth["camera"] == "B" and truth["condition"] == 3
+
+
+@pytest.mark.parametrize(
+    "name, pixel, dimension, getter",
+    [
+        ("SensorNoiseEstimator", itk.US, 3, "GetReportAsJson"),
+        ("SensorNoiseEstimator", itk.US, 3, "GetReportAsText"),
+        ("NoiseRegressionEstimator", itk.D, 2, "GetReportAsJson"),
+        ("NoiseCorrelationEstimator", itk.US, 3, "GetResultAsJson"),
+        ("VibrationCovarianceEstimator", itk.D, 2, "GetCovariance"),
+    ],
+)
+def test_without_an_update_there_is_no_result(name, pixel, dimension, getter):
+    estimator = getattr(itk, name)[itk.Image[pixel, dimension]].New()
+    with pytest.raises(RuntimeError, match=r"there is no result: Update.. of the estimator comes first"):
+        getattr(estimator, getter)()

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The report: a mapping that prints, draws, travels and compares."""
+"""The report: a dict that prints, draws, travels, compares and does not change."""
 
 import base64
 import builtins
@@ -42,6 +42,73 @@ def test_it_travels(report, travel):
     assert other == report and str(other) == str(report) and other.to_json() == report.to_json()
 
 
+def test_json_takes_it(report):
+    assert (
+        json.loads(json.dumps(report)) == json.loads(json.dumps(dict(report), indent=1)) == json.loads(report.to_json())
+    )
+    assert (
+        json.loads(json.dumps({"mine": report["gain"], "scatter": report["scatter"]["mean"]}))["mine"] == report["gain"]
+    )
+
+
+CHANGES = {
+    "member": lambda report: report.update(gain=None),
+    "item": lambda report: report.__setitem__("gain", None),
+    "union": lambda report: report.__ior__({"gain": None}),
+    "less": lambda report: report.pop("gain"),
+    "less still": lambda report: report.__delitem__("gain"),
+    "nothing": lambda report: report.clear(),
+    "default": lambda report: report.setdefault("moon", 1),
+    "last": lambda report: report.popitem(),
+    "value": lambda report: report["gain"].__setitem__("value", 1.0),
+    "value in a dict": lambda report: dict(report)["gain"].__setitem__("value", 1.0),
+    "warning": lambda report: report["warnings"].append("moon"),
+    "warnings": lambda report: report["warnings"].__iadd__(["moon"]),
+    "frame": lambda report: report["flicker"].__setitem__(0, 1.0),
+    "order": lambda report: report["flicker"].sort(),
+    "pair": lambda report: report["motion"][0].insert(0, 1.0),
+}
+
+
+@pytest.mark.parametrize("case", CHANGES)
+def test_a_change_is_refused_and_not_lost(report, case):
+    with pytest.raises(TypeError, match="the record of a measurement cannot be changed; to_dict"):
+        CHANGES[case](report)
+    assert report == json.loads(report.to_json())
+
+
+def test_copies_of_it_can_be_changed(report):
+    for record in (report.to_dict(), copy.deepcopy(dict(report)), json.loads(json.dumps(report))):
+        record["gain"]["value"] = 7.0
+        record["warnings"].append({"code": "mine"})
+        assert json.loads(json.dumps(record))["gain"]["value"] == 7.0
+    for travel in (copy.copy, copy.deepcopy, lambda member: pickle.loads(pickle.dumps(member))):
+        gain, flicker = travel(report["gain"]), travel(report["flicker"])
+        assert gain == report["gain"] and flicker == report["flicker"]
+        gain["value"], flicker[0] = 7.0, 7.0
+    assert report["gain"]["value"] != 7.0 and report["flicker"][0] != 7.0
+    assert type(report | {"note": 1}) is dict
+
+
+def identified(record):
+    """All quantities of a record that have a value."""
+    if isinstance(record, dict) and record.get("status") == "identified":
+        yield record
+    for member in record.values() if isinstance(record, dict) else record if isinstance(record, list) else []:
+        yield from identified(member)
+
+
+@pytest.mark.parametrize("options", [{}, {"dark": True}, {"offset": 100}, {"level_range": (500, 2500)}])
+def test_what_is_identified_has_an_error_and_an_interval(burst, dark, options):
+    report = itk.estimate_sensor_noise(
+        burst, **{name: dark if value is True else value for name, value in options.items()}
+    )
+    found = list(identified(report))
+    assert len(found) >= 8 and report["vibration"]["covariance"] in found
+    for quantity in found:
+        assert quantity["standard_error"] is not None and None not in quantity["interval95"], quantity
+
+
 def test_it_compares(report, burst):
     assert report != itk.estimate_sensor_noise(burst[:-1])
     assert report == itk.estimate_sensor_noise(burst)
@@ -74,8 +141,22 @@ def test_plot_draws_the_scatter_and_the_line(report):
     expected = report["variance_slope"]["value"] * ends + report["total_intercept"]["value"]
     np.testing.assert_allclose(line.get_ydata(), expected)
     assert line.get_linestyle() == "-" and figure.axes[0].get_legend().get_title().get_text() == ""
-    assert report.plot(figure.axes[0]) is figure
     matplotlib.pyplot.close(figure)
+
+
+def test_plot_draws_into_given_axes(report):
+    pytest.importorskip("matplotlib").use("svg")
+    import matplotlib.pyplot as plt
+    from matplotlib.figure import Figure
+
+    before = plt.get_fignums()
+    figure = Figure()
+    left, right = figure.subplots(1, 2)
+    assert report.plot(ax=right) is figure and report.plot(right) is figure
+    assert len(right.get_lines()) == 6 and not left.get_lines()
+    part = figure.subfigures(1, 2)[0].subplots()
+    assert report.plot(ax=part) is figure and part.get_lines()
+    assert plt.get_fignums() == before
 
 
 def test_plot_dashes_the_line_where_the_gain_is_not_identified():

@@ -3,6 +3,8 @@
 """The same numbers as the command-line tools, bit for bit; what neighbours share to seven digits."""
 
 import json
+import pickle
+import zlib
 
 import itk
 import numpy as np
@@ -41,6 +43,11 @@ def assert_same(found, expected):
     assert numbers(shared) == pytest.approx(numbers(shared_expected), rel=1e-6, abs=1e-9)
 
 
+ALL_FLAGS = (
+    "--bit-depth 12 --clip 0,4000 --step 1 --level-range 400,3000 --rolling-shutter off --offset 100,0.5 "
+    "--roi 4,3,110,90 --frames 2:58"
+)
+# Parameters, and the same as flags.
 OPTIONS = {
     "defaults": ({}, []),
     "published": ({"method": "published"}, ["--method", "published"]),
@@ -59,6 +66,53 @@ OPTIONS = {
     ),
     "level range": ({"level_range": (500, 2500.5)}, ["--level-range", "500,2500.5"]),
     "one thread": ({"threads": 1}, ["--threads", "1"]),
+    "all of them": (
+        {
+            "bit_depth": 12,
+            "clip": (0, 4000),
+            "step": 1,
+            "level_range": (400, 3000),
+            "rolling_shutter": "off",
+            "offset": (100, 0.5),
+            "roi": (4, 3, 110, 90),
+            "frame_range": (2, 58),
+        },
+        ALL_FLAGS.split(),
+    ),
+}
+# What `settings` holds of them.
+SETTINGS = {
+    "defaults": {"rolling_shutter": "auto"},
+    "offset": {"rolling_shutter": "auto", "offset": 100, "offset_standard_error": 0, "dark_frames": 0},
+    "roi": {"rolling_shutter": "auto", "roi_x": 10, "roi_y": 5, "roi_width": 100, "roi_height": 80},
+    "frames": {"rolling_shutter": "auto", "frame_range_first": 7, "frame_range_end": 41},
+    "codes": {
+        "rolling_shutter": "auto",
+        "bit_depth": 14,
+        "clip_low": 90,
+        "clip_high": 3000,
+        "quantisation_step": 1,
+    },
+    "level range": {"rolling_shutter": "auto", "level_range_low": 500, "level_range_high": 2500.5},
+    "one thread": {"rolling_shutter": "auto"},
+    "all of them": {
+        "rolling_shutter": "off",
+        "level_range_low": 400,
+        "level_range_high": 3000,
+        "offset": 100,
+        "offset_standard_error": 0.5,
+        "dark_frames": 0,
+        "bit_depth": 12,
+        "clip_low": 0,
+        "clip_high": 4000,
+        "quantisation_step": 1,
+        "roi_x": 4,
+        "roi_y": 3,
+        "roi_width": 110,
+        "roi_height": 90,
+        "frame_range_first": 2,
+        "frame_range_end": 58,
+    },
 }
 
 
@@ -68,6 +122,31 @@ def test_json_is_the_tool_s(tool, burst, stack_file, case):
     expected = tool("estimate-sensor-noise", stack_file, "--quiet", "--json", "-", *flags)
     assert_same(itk.estimate_sensor_noise(burst, **parameters).to_json(), expected)
     assert_same(itk.estimate_sensor_noise(stack_file, **parameters).to_json(), expected)
+
+
+@pytest.mark.parametrize("case", SETTINGS)
+def test_settings_hold_what_was_given(tool, burst, stack_file, case):
+    parameters, flags = OPTIONS[case]
+    here = itk.estimate_sensor_noise(list(burst), **parameters)["settings"]
+    there = json.loads(tool("estimate-sensor-noise", stack_file, "--quiet", "--json", "-", *flags))["settings"]
+    assert here == there == SETTINGS[case]
+
+
+def test_settings_of_files_in_a_list_are_the_tool_s(tool, burst, tmp_path):
+    names = [tmp_path / f"{number:03}.tif" for number in range(len(burst))]
+    for name, frame in zip(names, burst, strict=True):
+        itk.imwrite(itk.image_from_array(frame), str(name))
+    there = tool("estimate-sensor-noise", *names, "--quiet", "--json", "-", *OPTIONS["frames"][1])
+    here = itk.estimate_sensor_noise(names, **OPTIONS["frames"][0])
+    assert here["settings"] == json.loads(there)["settings"] == SETTINGS["frames"]
+
+
+@pytest.mark.parametrize("roi", [None, (10, 5, 100, 80)])
+def test_settings_hold_the_mask_s_checksum(burst, mask, roi):
+    x, y, width, height = roi or (0, 0, 128, 96)
+    part = mask[y : y + height, x : x + width]
+    expected = zlib.crc32(f"{width}x{height}:".encode() + (part != 0).tobytes())
+    assert itk.estimate_sensor_noise(burst, mask=mask, roi=roi)["settings"]["mask_crc32"] == f"{expected:08x}"
 
 
 @pytest.mark.parametrize("roi", [None, (10, 5, 100, 80)])
@@ -102,21 +181,39 @@ def test_maps_are_the_tool_s(tool, burst, dark, stack_file, tmp_path, has_dark):
     itk.estimate_sensor_noise(burst, dark=dark if has_dark else None, maps=tmp_path / "here")
     names = sorted(path.name for path in (tmp_path / "tool").iterdir())
     assert len(names) == (10 if has_dark else 4)
+    report = itk.estimate_sensor_noise(burst, dark=dark if has_dark else None, maps=True)
+    assert sorted(f"{name}.mha" for name in report.maps) == names
     assert sorted(path.name for path in (tmp_path / "here").iterdir()) == names
     for name in names:
         expected, found = (itk.array_from_image(itk.imread(str(tmp_path / by / name))) for by in ("tool", "here"))
         np.testing.assert_array_equal(found, expected)
+        np.testing.assert_array_equal(report.maps[name.removesuffix(".mha")], expected)
     if has_dark:
         low, high = (itk.imread(str(tmp_path / "here" / f"pixel_offset_{end}.mha")) for end in ("low", "high"))
         covered = (np.asarray(low) < 100) & (np.asarray(high) > 100)
         assert covered.mean() == pytest.approx(0.95, abs=0.01)
 
 
+def test_maps_in_memory_stay_with_the_report(burst):
+    report = itk.estimate_sensor_noise(burst, maps=True)
+    assert report.maps["mean"].flags.owndata and report.maps["pixel_use"].dtype == np.uint8
+    assert (report.maps["pixel_use"] == 0).sum() == report["pixels"]["used"]
+    other = pickle.loads(pickle.dumps(report))
+    assert list(other.maps) == list(report.maps)
+    np.testing.assert_array_equal(other.maps["variance"], report.maps["variance"])
+    with pytest.raises(KeyError, match=r"'moon' is not among the maps .mean, variance, corrected_variance, pixel_use"):
+        report.maps["moon"]
+    without = itk.estimate_sensor_noise(burst, maps=False)
+    assert without == report and not without.maps
+    with pytest.raises(KeyError, match="maps=True"):
+        without.maps["mean"]
+
+
 def test_maps_that_cannot_be_written_are_refused(burst, tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(ValueError, match="maps is .*that folder cannot be made"):
         itk.estimate_sensor_noise(burst, maps=tmp_path / "file" / "maps")
-    with pytest.raises(ValueError, match="maps is 7; expected the name of a folder"):
+    with pytest.raises(ValueError, match="maps is 7; expected True or the name of a folder"):
         itk.estimate_sensor_noise(burst, maps=7)
 
 

@@ -6,6 +6,7 @@
 #include "sensornoise/moments/StackMaps.h"
 #include "sensornoise/moments/StackRequirements.h"
 #include "sensornoise/report/RepeatedFrames.h"
+#include "sensornoise/report/StackSettings.h"
 
 #include <cmath>
 #include <utility>
@@ -84,6 +85,7 @@ PublishedMethod<TPixel>::EndPass()
     m_Corrected = this->EndCorrection();
     m_Correction.reset(); // their memory
     m_Report = MakePublishedReport({ m_Settings, m_Geometry, m_Distinct.Count(), m_Scene, m_Flicker, m_Corrected });
+    NoteMask(m_Report, m_Geometry, m_UserMask);
     ReportAllFrames(m_Report, m_Distinct);
   }
 }

@@ -16,6 +16,7 @@
 #include "sensornoise/published/VibrationCovariance.h"
 #include "sensornoise/report/Quantities.h"
 #include "sensornoise/report/StackReport.h"
+#include "sensornoise/report/StackSettings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,6 +40,7 @@ DescribeSettings(Report & report, const PublishedFindings & found)
                       { "rolling_shutter", std::string(NameOf(settings.rollingShutter)) },
                       { "sigma_rows", found.flicker.sigmaRows },
                       { "shutter_axis", std::string(settings.shutterAxis == 0 ? "x" : "y") } };
+  NoteCodes(report, settings.codes);
 }
 
 void

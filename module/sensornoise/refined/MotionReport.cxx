@@ -23,7 +23,9 @@ constexpr double LargestScaleError = 0.25;
 /** One axis of the motion. */
 struct AxisMotion
 {
-  std::vector<double> series; ///< of every frame, mean 0 [pixel]; empty: its derivative is not active
+  std::vector<double> series;       ///< of every frame, mean 0 [pixel]; empty: its derivative is not active
+  std::vector<double> leastSquares; ///< the same by least squares
+  Eigen::Index        place{ 0 };   ///< of its derivative among those of the motion
   Quantity            sd{ Quantity::Without(EstimateStatus::NotIdentifiable) };
 };
 
@@ -69,12 +71,14 @@ MotionAlong(Eigen::Index axis, std::size_t stencil, const PolishedSeries & polis
   {
     return result;
   }
-  const auto   frames = static_cast<double>(gamma.size());
-  const auto   k = static_cast<Eigen::Index>(place - stencils.begin());
+  const auto frames = static_cast<double>(gamma.size());
+  const auto k = static_cast<Eigen::Index>(place - stencils.begin());
+  result.place = k;
   const double leastVariance = polished.motion.covariance(k, k) * polished.motionPhi;
   ShiftSpread  spread = SpreadOf(polished.motion.coefficients.col(k), gamma, leastVariance);
   double       errorSquare = leastVariance;
   double       systematic = 0.0;
+  result.leastSquares = spread.series;
   if (polished.shifts)
   {
     const double leastSquares = std::sqrt(std::max(0.0, spread.square));
@@ -89,6 +93,45 @@ MotionAlong(Eigen::Index axis, std::size_t stencil, const PolishedSeries & polis
   result.sd = RootOf(spread.square, error);
   result.series = std::move(spread.series);
   return result;
+}
+
+/** The mean product of two series of mean 0. */
+double
+ProductOf(const std::vector<double> & a, const std::vector<double> & b)
+{
+  double sum = 0.0;
+  for (std::size_t t = 0; t < a.size(); ++t)
+  {
+    sum += a[t] * b[t];
+  }
+  return sum / (static_cast<double>(a.size()) - 1.0);
+}
+
+/** The covariance of the shifts along both axes, without that of their noise. Its error is that of a mean product of
+ * shifts with Gaussian noise, whose covariance in one frame is known; half of what it differs by from least squares, if
+ * it is by instruments, is a systematic one, as of the standard deviations. */
+Quantity
+CovarianceOf(const AxisMotion & x, const AxisMotion & y, const PolishedSeries & polished)
+{
+  const Eigen::MatrixXd & ofAll = polished.motion.covariance;
+  Eigen::Matrix2d         noise;
+  noise << ofAll(x.place, x.place), ofAll(x.place, y.place), ofAll(y.place, x.place), ofAll(y.place, y.place);
+  noise *= polished.motionPhi;
+  double value = ProductOf(x.leastSquares, y.leastSquares) - noise(0, 1);
+  double systematic = 0.0;
+  if (polished.shifts)
+  {
+    const double leastSquares = value;
+    noise = polished.shifts->covariance * polished.motionPhi;
+    value = ProductOf(x.series, y.series) - noise(0, 1);
+    systematic = 0.5 * std::abs(value - leastSquares);
+  }
+  const double squareX = std::max(0.0, ProductOf(x.series, x.series) - noise(0, 0));
+  const double squareY = std::max(0.0, ProductOf(y.series, y.series) - noise(1, 1));
+  const double shiftsAndNoise = squareX * noise(1, 1) + squareY * noise(0, 0) + 2.0 * value * noise(0, 1);
+  const double noiseAlone = noise(0, 0) * noise(1, 1) + noise(0, 1) * noise(0, 1);
+  const double variance = (std::max(0.0, shiftsAndNoise) + noiseAlone) / (static_cast<double>(x.series.size()) - 1.0);
+  return WithError(value, std::hypot(std::sqrt(variance), systematic));
 }
 } // namespace
 
@@ -134,7 +177,6 @@ void
 FillMotion(Report & report, const RefinedResults & found)
 {
   const PolishedSeries & polished = found.polished;
-  const auto             frames = static_cast<double>(report.flicker.size());
   if (polished.line.isLevelMotion)
   {
     report.vibrationSdX = report.vibrationSdY = Quantity::Without(EstimateStatus::NotIdentifiable);
@@ -150,17 +192,11 @@ FillMotion(Report & report, const RefinedResults & found)
   {
     return;
   }
-  double product = 0.0;
   for (std::size_t t = 0; t < x.series.size(); ++t)
   {
     report.motion.push_back({ x.series[t], y.series[t] });
-    product += x.series[t] * y.series[t] / (frames - 1.0);
   }
-  if (polished.shifts)
-  {
-    product -= polished.shifts->covariance(0, 1) * polished.motionPhi;
-  }
-  report.vibrationCovariance = Quantity::Identified(product);
+  report.vibrationCovariance = CovarianceOf(x, y, polished);
 }
 
 } // namespace sensornoise

@@ -12,6 +12,7 @@
 #include "sensornoise/refined/PixelsOfVariance.h"
 #include "sensornoise/refined/RefinedReport.h"
 #include "sensornoise/report/RepeatedFrames.h"
+#include "sensornoise/report/StackSettings.h"
 #include "sensornoise/series/FrameProducts.h"
 #include "sensornoise/scene/UnexplainedPixels.h"
 #include "sensornoise/series/FrameRegressors.h"
@@ -347,6 +348,7 @@ RefinedMethod<TPixel>::MakeReport()
                                               m_CorrectedVariance,
                                               BlackLevel(m_Settings, *m_Scene, m_Series),
                                               m_Correlation });
+  NoteMask(m_Report, m_Geometry, m_UserMask);
   ReportAllFrames(m_Report, m_Distinct);
 }
 

@@ -17,6 +17,7 @@
 #include "sensornoise/refined/SensorLines.h"
 #include "sensornoise/report/Quantities.h"
 #include "sensornoise/report/StackReport.h"
+#include "sensornoise/report/StackSettings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -111,6 +112,7 @@ DescribeInput(const RefinedSettings & settings, const StillScene & scene, const 
       report.settings.emplace_back("dark_variance_standard_error", variance->standardErrorDn2);
     }
   }
+  NoteCodes(report, settings.codes);
   DescribeStack(report, scene.frame.geometry, scene.frame.frames, scene.summary, scene.valid, pixelUse);
   WarnOfStack(report, scene.frame.frames, scene.summary);
   return report;

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """NumPy arrays that ITK can look at without a copy."""
 
-from typing import Any
-
 import numpy as np
+
+from ._types import ItkObject
 
 # The pixel types of the filters: NumPy's name, ITK's name in Python, ITK's name of a component type of files.
 PIXEL_TYPES = {
@@ -17,7 +17,7 @@ PIXEL_TYPES = {
 PIXEL_NAMES = "uint8, uint16, int16, float32 or float64"
 
 
-def as_array(values: Any, name: str) -> np.ndarray:
+def as_array(values: object, name: str) -> np.ndarray:
     """`values` as an array, shared if it is one; refuses what is none, and masked arrays, whose mask would be lost."""
     if isinstance(values, np.ma.MaskedArray):
         raise ValueError(f"{name} is a masked array, expected a plain one: give its data, and a mask by mask=")
@@ -25,6 +25,7 @@ def as_array(values: Any, name: str) -> np.ndarray:
         try:
             return np.asarray(values)
         except (ValueError, TypeError, RuntimeError) as error:
+            # NumPy's of lists of unequal length or of no numbers; tensors' that are elsewhere, or want a gradient.
             raise ValueError(f"{name} cannot be made an array ({error}); expected numbers") from error
     raise ValueError(f"{name} is of type {type(values).__name__}; expected an array")
 
@@ -56,7 +57,7 @@ def as_itk_order(array: np.ndarray) -> np.ndarray:
     return np.ascontiguousarray(array, dtype=array.dtype.newbyteorder("="))
 
 
-def as_frame(values: Any, name: str, dtype: type) -> np.ndarray:
+def as_frame(values: object, name: str, dtype: type[np.generic]) -> np.ndarray:
     """A frame-sized array (y, x) of `dtype`, converted where it is of another one that holds real numbers."""
     array = as_array(values, name)
     require_shape(array, name, "y, x")
@@ -65,7 +66,7 @@ def as_frame(values: Any, name: str, dtype: type) -> np.ndarray:
     return np.ascontiguousarray(array, dtype=dtype)
 
 
-def as_mask(values: Any, name: str) -> np.ndarray:
+def as_mask(values: object, name: str) -> np.ndarray:
     """A mask (y, x) of uint8: 1 where `values` is not 0."""
     array = as_array(values, name)
     require_shape(array, name, "y, x")
@@ -74,7 +75,7 @@ def as_mask(values: Any, name: str) -> np.ndarray:
     return np.ascontiguousarray(array != 0, dtype=np.uint8)
 
 
-def view(array: np.ndarray) -> Any:
+def view(array: np.ndarray) -> ItkObject:
     """An itk.Image on the memory of an array as as_itk_order() gives it. The array must outlive the image."""
     import itk
 

@@ -2,20 +2,22 @@
 # SPDX-License-Identifier: Apache-2.0
 """Whether the noise is that of raw frames: what neighbours and frames share of it."""
 
-import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import _options
 from ._arrays import as_frame, as_mask
 from ._errors import itk_errors
 from ._frames import Stack, frame_image, open_frames
 from ._progress import at_work
+from ._record import Record
+from ._types import Frame, Frames
 
 
-class NoiseCorrelation(Mapping[str, Any]):
+class NoiseCorrelation(Record):
     """What noise_correlation_estimator() measured: the record "itk-sensornoise-correlation/1", the names of its JSON.
 
         found["noise_correlation"]    kind, space, time, row_noise, column_noise, excess_kurtosis: as in the report of
@@ -25,29 +27,28 @@ class NoiseCorrelation(Mapping[str, Any]):
                                       variance_standard_error, sum_over_lags
         found["frames_used"], found["pixels_used"]
 
-    `kind`, `sum_over_lags` and `standard_error` are the most wanted of it. print() shows it as a table. Equal to any
-    mapping with the same content; can be pickled.
+    `kind`, `sum_over_lags` and `standard_error` are the most wanted of it. print() shows it as a table. It is a dict
+    that cannot be changed, as the report of estimate_sensor_noise(): json.dumps() writes it, it equals any dict with the
+    same content, and it can be pickled.
     """
-
-    def __init__(self, text: str) -> None:
-        """`text`: the record as JSON, as C++ writes it."""
-        self._text = text
-        self._record: dict[str, Any] = json.loads(text)
 
     @property
     def kind(self) -> str:
-        """"white", "crosstalk", "filtered", "temporal", "brighter-fatter", "not-linear" or "not-measured"."""
-        return self["noise_correlation"]["kind"]
+        """ "white", "crosstalk", "filtered", "temporal", "brighter-fatter", "not-linear" or "not-measured"."""
+        kind: str = self["noise_correlation"]["kind"]
+        return kind
 
     @property
     def sum_over_lags(self) -> float | None:
         """What variance, or gain, has to be multiplied by where the kind is not "white" [1]; None: not known."""
-        return self["sum_over_lags"]["value"]
+        value: float | None = self["sum_over_lags"]["value"]
+        return value
 
     @property
     def standard_error(self) -> float | None:
         """Standard error of `sum_over_lags` [1]."""
-        return self["sum_over_lags"]["standard_error"]
+        error: float | None = self["sum_over_lags"]["standard_error"]
+        return error
 
     def coefficient(self, x: int = 0, y: int = 0, *, frames: int = 0) -> tuple[float, float]:
         """Correlation coefficient and its standard error [1] of pixels `x` columns and `y` rows apart, or of one pixel
@@ -59,20 +60,6 @@ class NoiseCorrelation(Mapping[str, Any]):
         if not found:
             raise KeyError(f"the lag of {x} columns, {y} rows and {frames} frames was not measured")
         return found[0]["value"], found[0]["standard_error"]
-
-    def __getitem__(self, name: str) -> Any:
-        return self._record[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._record)
-
-    def __len__(self) -> int:
-        return len(self._record)
-
-    __hash__ = None  # type: ignore[assignment]  # what it holds can be changed
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return NoiseCorrelation, (self._text,)
 
     def __repr__(self) -> str:
         return f"<NoiseCorrelation: {self.kind}, sum over lags {_number(self['sum_over_lags'])}>"
@@ -86,12 +73,8 @@ class NoiseCorrelation(Mapping[str, Any]):
         rows += [(f"{line} noise", _number(correlation[f"{line}_noise"])) for line in ("row", "column")]
         return "\n".join(f"{name:22} {value}" for name, value in rows)
 
-    def to_json(self) -> str:
-        """The record as C++ writes it."""
-        return self._text
 
-
-def _number(quantity: dict[str, Any]) -> str:
+def _number(quantity: Mapping[str, Any]) -> str:
     if quantity["value"] is None:
         limit = quantity["interval95"]
         return quantity["status"] if limit is None else f"below {limit[1]:.3g} {quantity['unit']}"
@@ -99,21 +82,21 @@ def _number(quantity: dict[str, Any]) -> str:
     return f"{quantity['value']:.5g} +- {quantity['standard_error']:.2g}{unit}"
 
 
-def _lag(lag: dict[str, Any]) -> str:
+def _lag(lag: Mapping[str, Any]) -> str:
     return f"{lag['value']:+.4f} +- {lag['standard_error']:.4f}"
 
 
-def _light(light: dict[str, Any]) -> str:
+def _light(light: Mapping[str, Any]) -> str:
     variance = f"{light['variance']:.5g} +- {light['variance_standard_error']:.2g} DN^2"
     return f"variance {variance}, sum over lags {_number(light['sum_over_lags'])}"
 
 
 def noise_correlation_estimator(
-    stack: Any,
+    stack: Frames,
     *,
-    mean: Any = None,
-    mask: Any = None,
-    series: Any = None,
+    mean: Frame | None = None,
+    mask: Frame | None = None,
+    series: ArrayLike | None = None,
     remove_frame_means: bool = True,
     offset: float | None = None,
     quantisation_step: float | None = None,
@@ -186,7 +169,7 @@ def _of_frame(array: np.ndarray, name: str, stack: Stack) -> np.ndarray:
     return array
 
 
-def _columns(series: Any, frames: int) -> Sequence[list[float]]:
+def _columns(series: ArrayLike | None, frames: int) -> Sequence[list[float]]:
     if series is None:
         return []
     expected = f"finite numbers, an array ({frames},) or ({frames}, k) for {frames} frames"
@@ -198,4 +181,5 @@ def _columns(series: Any, frames: int) -> Sequence[list[float]]:
         raise ValueError(f"series has shape {array.shape}; expected {expected}")
     if not np.isfinite(array).all():
         raise ValueError(f"series holds a number that is not finite; expected {expected}")
-    return array.reshape(frames, -1).T.tolist()
+    columns: list[list[float]] = array.reshape(frames, -1).T.tolist()
+    return columns

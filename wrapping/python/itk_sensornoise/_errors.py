@@ -31,4 +31,5 @@ def itk_errors(context: str = "", kind: type[Exception] = RuntimeError) -> Itera
     try:
         yield
     except (RuntimeError, TypeError, OverflowError) as error:
+        # ITK's exceptions arrive as RuntimeError; SWIG itself throws the others, where a value fits no C++ type.
         raise kind(f"{context}{cause_of(error)}") from error

@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The one-call way from frames to a report."""
 
-import os
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
@@ -11,18 +10,19 @@ from . import _options
 from ._arrays import as_mask
 from ._errors import itk_errors
 from ._frames import Stack, crop, frame_image, is_name, open_frames
-from ._maps import maps_folder, require_apart, write_maps
+from ._maps import arrays_of, maps_folder, require_apart, write_maps
 from ._progress import at_work
 from ._report import Report
 from ._source import read_image
+from ._types import FileName, Frame, Frames, ItkObject
 
 
 def estimate_sensor_noise(
-    frames: Any,
+    frames: Frames,
     *,
     method: Literal["refined", "published"] = "refined",
     offset: float | tuple[float, float] | None = None,
-    dark: Any = None,
+    dark: Frames | None = None,
     bit_depth: int | None = None,
     clip: tuple[float, float] | None = None,
     step: float | None = None,
@@ -32,9 +32,9 @@ def estimate_sensor_noise(
     level: float = 0.01,
     quantiles: tuple[float, float] = (0.01, 0.99),
     roi: tuple[int, int, int, int] | None = None,
-    mask: Any = None,
+    mask: Frame | FileName | None = None,
     frame_range: tuple[int, int] | None = None,
-    maps: str | os.PathLike[str] | None = None,
+    maps: bool | FileName | None = None,
     threads: int | None = None,
     progress: bool = False,
 ) -> Report:
@@ -46,11 +46,11 @@ def estimate_sensor_noise(
         Raw frames in time order, at least 5 of at least 3 x 3 pixels: a NumPy array (t, y, x); an itk.Image of 3
         dimensions (x, y, t); a list of file names or of 2-D arrays (y, x), or of what has `__array__`; or the name of
         one stack file. uint8, uint16, int16, float32 or float64 [DN]. Files are read a few frames at a time and never
-        held together (NRRD and multi-page TIFF, which ITK cannot read in parts, are). Arrays are shared; one that is
-        not C-contiguous or not in the machine's byte order is copied once.
+        held together (a stack in NRRD, multi-page TIFF or a compressed MetaImage, which ITK cannot read in parts, is).
+        Arrays are shared; one that is not C-contiguous or not in the machine's byte order is copied once.
     method
-        "refined": all pixels of a still scene, textured or not, and an error for every quantity. "published": Figure 2
-        of Sur & Grédiac 2015, even areas only, without errors.
+        "refined": all pixels of a still scene, textured or not; what is `identified` has a standard error and a 95 %
+        interval. "published": Figure 2 of Sur & Grédiac 2015, even areas only, without errors.
     offset
         The offset [DN] if it is known, or (offset, standard error): offset and read noise then need no flicker, and
         steady light is told from the offset. Default: found. "refined" only.
@@ -83,10 +83,10 @@ def estimate_sensor_noise(
     frame_range
         (first, end): only the frames first, first + 1, ... end - 1, counted from 0.
     maps
-        Folder for what is known of every pixel, an image (.mha) each: mean, variance, corrected_variance [DN, DN^2] and
-        pixel_use (0: used; the other values are README.md's). With two dark frames or more also the camera calibration:
-        pixel_offset and pixel_read_noise [DN], and the ends of their 95 % intervals, _low and _high.
-        itk.SensorNoiseEstimator has them as images in memory. Default: none is written.
+        What is known of every pixel: mean, variance, corrected_variance [DN, DN^2] and pixel_use (0: used; the other
+        values are README.md's); with two dark frames or more also the camera calibration: pixel_offset and
+        pixel_read_noise [DN], and the ends of their 95 % intervals, _low and _high. True: arrays by these names, the
+        report's `maps`. A folder: an image (.mha) each, written there. Default: none.
     threads
         Number of threads. Default: all. The result is the same bits for any number.
     progress
@@ -95,8 +95,9 @@ def estimate_sensor_noise(
     Returns
     -------
     Report
-        A mapping, the same record as the JSON of `estimate-sensor-noise`. Data that cannot be measured give quantities
-        that are `failed` or `not-identifiable`, and a warning that says why.
+        A dict, the same record as the JSON of `estimate-sensor-noise`; `settings` holds all of the options above that
+        were given and change a number. Data that cannot be measured give quantities that are `failed` or
+        `not-identifiable`, and a warning that says why.
 
     Raises
     ------
@@ -113,7 +114,7 @@ def estimate_sensor_noise(
     _check_what_is_known(method, offset, dark)
     levels = None if level_range is None else _level_range(level_range, method)
     span = None if frame_range is None else _frame_range(frame_range)
-    folder = None if maps is None else maps_folder(maps)
+    folder = None if maps is None or isinstance(maps, bool) else maps_folder(maps)
     if folder is not None:
         require_apart(folder, frames=frames, dark=dark, mask=mask)
     stack = open_frames(frames, span)
@@ -123,6 +124,10 @@ def estimate_sensor_noise(
     if size != stack.size:
         stack = crop(stack, corner, size)
     estimator = stack.estimator(itk.SensorNoiseEstimator)
+    if roi is not None:
+        estimator.SetSourceRegion(*corner[:2], *size[:2])
+    if span is not None:
+        estimator.SetSourceFrames(*span)
     estimator.SetMethod(method)
     if offset is not None:
         _set_offset(estimator, offset)
@@ -144,10 +149,10 @@ def estimate_sensor_noise(
         estimator.Update()
     if folder is not None:
         write_maps(estimator, folder)
-    return Report.of(estimator)
+    return Report.of(estimator, arrays_of(estimator) if maps is True else None)
 
 
-def _check_what_is_known(method: str, offset: Any, dark: Any) -> None:
+def _check_what_is_known(method: str, offset: object, dark: object) -> None:
     given = [name for name, value in (("offset", offset), ("dark", dark)) if value is not None]
     if given and method == "published":
         raise ValueError(
@@ -158,7 +163,7 @@ def _check_what_is_known(method: str, offset: Any, dark: Any) -> None:
         raise ValueError("offset and dark were given; expected one of them")
 
 
-def _set_offset(estimator: Any, offset: Any) -> None:
+def _set_offset(estimator: ItkObject, offset: float | tuple[float, float]) -> None:
     expected = "a finite number or (number, standard error) [DN]"
     if np.ndim(offset) == 0:
         estimator.SetOffset(_options.number("offset", offset, expected))
@@ -168,7 +173,7 @@ def _set_offset(estimator: Any, offset: Any) -> None:
     estimator.SetOffsetStandardError(error)
 
 
-def _level_range(level_range: Any, method: str) -> tuple[float, float]:
+def _level_range(level_range: tuple[float, float], method: str) -> tuple[float, float]:
     expected = "(low, high), two levels with low < high [DN]"
     low, high = _options.numbers("level_range", level_range, 2, expected)
     if not low < high:
@@ -181,7 +186,7 @@ def _level_range(level_range: Any, method: str) -> tuple[float, float]:
     return low, high
 
 
-def _dark_of(dark: Any, stack: Stack, corner: tuple[int, ...], size: tuple[int, ...]) -> Stack:
+def _dark_of(dark: Frames, stack: Stack, corner: tuple[int, ...], size: tuple[int, ...]) -> Stack:
     """The dark frames, cut as the stack is."""
     opened = open_frames(dark, name="dark")
     if (opened.size[:2], opened.pixel) != (stack.size[:2], stack.pixel):
@@ -191,12 +196,12 @@ def _dark_of(dark: Any, stack: Stack, corner: tuple[int, ...], size: tuple[int, 
     return opened if size == opened.size else crop(opened, corner, size)
 
 
-def _is_cut(frames: Any) -> bool:
+def _is_cut(frames: Frames) -> bool:
     """Whether open_frames() opens no more than the frames asked for."""
     return isinstance(frames, (list, tuple)) and len(frames) > 1
 
 
-def _frame_range(frame_range: Any) -> tuple[int, int]:
+def _frame_range(frame_range: tuple[int, int]) -> tuple[int, int]:
     expected = "(first, end) with 0 <= first < end"
     first, end = _options.integers("frame_range", frame_range, 2, expected)
     if not 0 <= first < end:
@@ -204,7 +209,9 @@ def _frame_range(frame_range: Any) -> tuple[int, int]:
     return first, end
 
 
-def _region(stack: Stack, roi: Any, span: tuple[int, int] | None) -> tuple[tuple[int, ...], tuple[int, ...]]:
+def _region(
+    stack: Stack, roi: tuple[int, int, int, int] | None, span: tuple[int, int] | None
+) -> tuple[tuple[int, ...], tuple[int, ...]]:
     """Corner and size (x, y, t) of what roi and frame_range ask for."""
     width, height, frames = stack.size
     expected = f"(x, y, width, height) inside {width} x {height} pixels"
@@ -221,7 +228,7 @@ def _region(stack: Stack, roi: Any, span: tuple[int, int] | None) -> tuple[tuple
     return tuple(corner), tuple(size)
 
 
-def _mask_of(mask: Any, size: tuple[int, int]) -> np.ndarray:
+def _mask_of(mask: Frame | FileName, size: tuple[int, int]) -> np.ndarray:
     """The mask (y, x) of a stack whose frames have `size` (width, height)."""
     if is_name(mask):
         mask = read_image(mask, "the mask")
@@ -232,14 +239,14 @@ def _mask_of(mask: Any, size: tuple[int, int]) -> np.ndarray:
 
 
 def _set_parameters(
-    estimator: Any,
-    bit_depth: Any,
-    clip: Any,
-    step: Any,
-    rolling_shutter: Any,
-    shutter_axis: Any,
-    level: Any,
-    quantiles: Any,
+    estimator: ItkObject,
+    bit_depth: int | None,
+    clip: tuple[float, float] | None,
+    step: float | None,
+    rolling_shutter: str | float,
+    shutter_axis: str,
+    level: float,
+    quantiles: tuple[float, float],
 ) -> None:
     if bit_depth is not None:
         estimator.SetBitDepth(_options.integer("bit_depth", bit_depth, 1, 16))

@@ -12,9 +12,10 @@ from ._errors import itk_errors
 from ._frames import open_frames
 from ._progress import at_work
 from ._report import Report
+from ._types import Frame, Frames, ItkObject
 
 
-def _set_parameters(instance: Any, parameters: dict[str, Any]) -> None:
+def _set_parameters(instance: ItkObject, parameters: dict[str, Any]) -> None:
     """Sets a filter's parameters by ITK's snake-case names."""
     for name, value in parameters.items():
         setter = getattr(instance, "Set" + "".join(word.capitalize() for word in name.split("_")), None)
@@ -31,7 +32,9 @@ def _frames_of_one_shape(**arrays: np.ndarray | None) -> None:
         raise ValueError(f"the shapes are {found}; expected one for all")
 
 
-def sensor_noise_estimator(stack: Any, *, mask: Any = None, dark: Any = None, **parameters: Any) -> Report:
+def sensor_noise_estimator(
+    stack: Frames, *, mask: Frame | None = None, dark: Frames | None = None, **parameters: Any
+) -> Report:
     """itk.SensorNoiseEstimator in functional style; estimate_sensor_noise() checks more and says it in its own words.
 
     `stack` as `frames` there; `mask` an array (y, x), or an image, of a frame's size: pixels of value 0 are left out;
@@ -58,7 +61,7 @@ def sensor_noise_estimator(stack: Any, *, mask: Any = None, dark: Any = None, **
 
 
 def noise_regression_estimator(
-    mean: Any, variance: Any, mask: Any, *, offset: float | None = None, number_of_frames: int = 0
+    mean: Frame, variance: Frame, mask: Frame, *, offset: float | None = None, number_of_frames: int = 0
 ) -> Report:
     """Gain, intercept and read noise from the line through temporal variance against mean.
 
@@ -87,7 +90,7 @@ def noise_regression_estimator(
 
 
 def vibration_covariance_estimator(
-    mean: Any, variance: Any, *, valid_mask: Any = None, flicker_sd: float | None = None
+    mean: Frame, variance: Frame, *, valid_mask: Frame | None = None, flicker_sd: float | None = None
 ) -> dict[str, float | bool]:
     """Covariance of the vibration (alpha_t, beta_t) from temporal variance and mean, by multiple regression.
 

@@ -16,7 +16,8 @@ def new_axes() -> "Axes":
     """Axes in a new figure, which a notebook or plt.show() shows."""
     import matplotlib.pyplot as plt
 
-    return plt.subplots(layout="constrained")[1]
+    axes: Axes = plt.subplots(layout="constrained")[1]
+    return axes
 
 
 def draw(report: Mapping[str, Any], axes: "Axes") -> "Figure":
@@ -46,7 +47,8 @@ def draw(report: Mapping[str, Any], axes: "Axes") -> "Figure":
     axes.set_xlabel("mean [DN]")
     axes.set_ylabel("temporal variance [DN$^2$]")
     axes.legend(title=_bend(report))
-    return axes.figure
+    figure: Figure = axes.figure.figure  # the whole one, also of axes in a subfigure
+    return figure
 
 
 def _draw_line(axes: "Axes", mean: Sequence[float], gain: float, intercept: float, style: str, what: str) -> None:

@@ -5,13 +5,14 @@
 import os
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeGuard
 
 import numpy as np
 
 from ._arrays import PIXEL_NAMES, PIXEL_TYPES, as_array, as_itk_order, require_pixel_type, require_shape, view
 from ._errors import itk_errors
 from ._source import open_files
+from ._types import FileName, Frames, ItkObject
 
 EXPECTED = (
     "expected an array (t, y, x), an itk.Image of 3 dimensions, a list of file names or of 2-D arrays, or a file name"
@@ -22,7 +23,7 @@ EXPECTED = (
 class Stack:
     """A stack as ITK sees it; `kept` holds what its memory belongs to and the filters that make it."""
 
-    image: Any
+    image: ItkObject
     pixel: str  # a key of PIXEL_TYPES
     kept: list[Any]
 
@@ -32,18 +33,18 @@ class Stack:
         width, height, frames = self.image.GetLargestPossibleRegion().GetSize()
         return int(width), int(height), int(frames)
 
-    def estimator(self, template: Any) -> Any:
+    def estimator(self, template: ItkObject) -> ItkObject:
         """A new filter of this stack's type with the stack as input."""
         instance = template[type(self.image)].New()
         instance.SetInput(self.image)
         return instance
 
 
-def is_name(value: Any) -> bool:
+def is_name(value: object) -> TypeGuard[FileName]:
     return isinstance(value, (str, os.PathLike))
 
 
-def open_frames(frames: Any, frame_range: tuple[int, int] | None = None, name: str = "frames") -> Stack:
+def open_frames(frames: Frames, frame_range: tuple[int, int] | None = None, name: str = "frames") -> Stack:
     """The frames as a stack: arrays are shared, files are read later, a few at a time.
 
     An array that is not C-contiguous or not in the machine's byte order is copied once. Of a list, the files outside
@@ -80,7 +81,7 @@ def crop(stack: Stack, corner: tuple[int, ...], size: tuple[int, ...]) -> Stack:
     return Stack(_with_information(extract), stack.pixel, [extract, stack])
 
 
-def frame_image(array: np.ndarray, stack_image: Any) -> Any:
+def frame_image(array: np.ndarray, stack_image: ItkObject) -> ItkObject:
     """An image on an array (y, x), with the index of a stack's frames. The array must outlive the image."""
     import itk
 
@@ -93,14 +94,14 @@ def frame_image(array: np.ndarray, stack_image: Any) -> Any:
     return image
 
 
-def _with_information(source: Any) -> Any:
+def _with_information(source: ItkObject) -> ItkObject:
     """The output of a reader or filter with its size known and no pixel read."""
     with itk_errors():
         source.UpdateOutputInformation()
     return source.GetOutput()
 
 
-def _from_image(image: Any, name: str) -> Stack:
+def _from_image(image: ItkObject, name: str) -> Stack:
     import itk
 
     for pixel, (itk_name, _) in PIXEL_TYPES.items():
@@ -113,7 +114,7 @@ def _from_image(image: Any, name: str) -> Stack:
     raise ValueError(f"{name} is an {type(image).__name__}; expected an itk.Image of 3 dimensions of {PIXEL_NAMES}")
 
 
-def _from_files(names: Sequence[Any], frame_range: tuple[int, int] | None) -> Stack:
+def _from_files(names: Sequence[FileName], frame_range: tuple[int, int] | None) -> Stack:
     if frame_range is not None and len(names) > 1:
         names = names[frame_range[0] : frame_range[1]]
     source, pixel = open_files(names)

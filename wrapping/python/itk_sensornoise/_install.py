@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Sets the functions of this package on `itk`."""
+"""Sets the functions of this package on `itk`, and the docstrings of its classes."""
 
+import inspect
 import sys
+from types import FunctionType
 
 _NEW = ("estimate_sensor_noise", "simulate_sensor_noise")
 # ITK generates functions of these names too; what they return holds a C++ struct that Python cannot open, or they must
@@ -17,14 +19,38 @@ _REPLACED = (
 _MODULE = "SensorNoise"
 
 
+def _document(cls: type, text: str, methods: dict[str, str]) -> None:
+    """Sets the docstring of a class, and puts what its header says of its methods before SWIG's words for them."""
+    cls.__doc__ = text
+    for name, words in methods.items():
+        method = vars(cls).get(name)
+        if isinstance(method, FunctionType) and not (method.__doc__ or "").startswith(words):
+            method.__doc__ = f"{words}\n\n{inspect.cleandoc(method.__doc__ or '')}"
+
+
 def _replace_generated() -> None:
-    """Puts our functions into ITK's module of generated ones, if that is loaded: ITK copies them from there."""
+    """Puts our functions into ITK's module of generated ones, if that is loaded: ITK copies them from there.
+
+    Its classes get the documentation of their headers."""
+    from itk.support.base import itk_base_global_module_data
+    from itk.support.template_class import itkTemplate
+
     import itk_sensornoise
 
     generated = sys.modules.get(f"itk.{_MODULE}Python")
-    if generated is not None:
-        for name in _REPLACED:
-            setattr(generated, name, getattr(itk_sensornoise, name))
+    if generated is None:
+        return
+    for name in _REPLACED:
+        setattr(generated, name, getattr(itk_sensornoise, name))
+
+    from ._class_docs import CLASS_DOCS
+
+    for feature in itk_base_global_module_data[_MODULE].get_all_template_features():
+        cls = getattr(generated, feature.get_swig_class_name(), None)
+        docs = CLASS_DOCS.get(feature.get_python_class_name())
+        if cls is not None and docs is not None:
+            _document(cls, *docs)
+            itkTemplate(feature.get_cpp_class_name()).__doc__ = docs[0]
 
 
 def install() -> None:
@@ -35,8 +61,9 @@ def install() -> None:
     place.
     """
     import itk
-    import itk_sensornoise
     from itk.support.base import itk_base_global_module_data
+
+    import itk_sensornoise
 
     for name in _NEW + _REPLACED:
         setattr(itk, name, getattr(itk_sensornoise, name))

@@ -1,13 +1,15 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The maps of an estimator as files of a folder, with the names of `estimate-sensor-noise --maps`."""
+"""The maps of an estimator, as arrays or as files of a folder, with the names of `estimate-sensor-noise --maps`."""
 
 import os
 from pathlib import Path
-from typing import Any
+
+import numpy as np
 
 from . import _options
 from ._errors import itk_errors
+from ._types import FileName, ItkObject
 
 _NAMES = (
     "mean",
@@ -23,10 +25,18 @@ _NAMES = (
 )
 
 
-def maps_folder(folder: Any) -> Path:
+class Maps(dict[str, np.ndarray]):
+    """Arrays (y, x) by name: mean, variance, corrected_variance, pixel_use, and of dark frames those of every pixel."""
+
+    def __missing__(self, name: str) -> np.ndarray:
+        found = ", ".join(self) or "none: estimate_sensor_noise(..., maps=True) keeps them"
+        raise KeyError(f"{name!r} is not among the maps ({found})")
+
+
+def maps_folder(folder: FileName) -> Path:
     """The folder, which is made if there is none."""
     if not isinstance(folder, (str, os.PathLike)) or not os.fspath(folder):
-        raise _options.refuse("maps", folder, "the name of a folder")
+        raise _options.refuse("maps", folder, "True or the name of a folder")
     path = Path(os.fsdecode(folder))
     try:
         path.mkdir(parents=True, exist_ok=True)
@@ -35,7 +45,7 @@ def maps_folder(folder: Any) -> Path:
     return path
 
 
-def require_apart(folder: Path, **read: Any) -> None:
+def require_apart(folder: Path, **read: object) -> None:
     """Raises ValueError if a map would be written over a file that is read: names, or lists of them, by their role."""
     targets = [folder / f"{name}.mha" for name in _NAMES]
     for role, given in read.items():
@@ -50,7 +60,7 @@ def require_apart(folder: Path, **read: Any) -> None:
                     )
 
 
-def _images(estimator: Any) -> dict[str, Any]:
+def _images(estimator: ItkObject) -> dict[str, ItkObject]:
     images = {
         "mean": estimator.GetMean(),
         "variance": estimator.GetVariance(),
@@ -69,7 +79,14 @@ def _images(estimator: Any) -> dict[str, Any]:
     return images
 
 
-def write_maps(estimator: Any, folder: Path) -> None:
+def arrays_of(estimator: ItkObject) -> dict[str, np.ndarray]:
+    """The maps as arrays (y, x) that own their memory."""
+    import itk
+
+    return {name: itk.array_from_image(image) for name, image in _images(estimator).items()}
+
+
+def write_maps(estimator: ItkObject, folder: Path) -> None:
     """All of them appear, or none. Raises RuntimeError for what ITK threw."""
     import itk
 

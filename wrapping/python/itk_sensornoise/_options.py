@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Parameters, checked before a pixel is read, as the command-line tools check theirs."""
+"""Parameters, checked before a pixel is read, as the tools check theirs. `value` is whatever a user gave."""
 
 import math
 import operator

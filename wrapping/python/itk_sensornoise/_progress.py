@@ -3,9 +3,21 @@
 """ITK filters at work: their progress, for a person, and a person's Ctrl-C."""
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from contextlib import contextmanager
-from typing import Any
+from typing import Protocol
+
+from ._types import ItkObject
+
+
+class _Bar(Protocol):
+    """A bar that shows how many of 100 % are done, `n` of them."""
+
+    n: int
+
+    def update(self, percent: int) -> object: ...
+
+    def close(self) -> None: ...
 
 
 class _PlainBar:
@@ -23,15 +35,16 @@ class _PlainBar:
         sys.stderr.write("\n")
 
 
-def _make_bar() -> Any:
+def _make_bar() -> _Bar:
     try:
         from tqdm.auto import tqdm
     except ImportError:
         return _PlainBar()
-    return tqdm(total=100, unit="%", desc="estimate_sensor_noise")
+    bar: _Bar = tqdm(total=100, unit="%", desc="estimate_sensor_noise")
+    return bar
 
 
-def _watch(instance: Any, bar: Any, caught: list[BaseException]) -> Iterator[None]:
+def _watch(instance: ItkObject, bar: _Bar | None, caught: list[BaseException]) -> Generator[None, None, None]:
     """Each turn, which ITK asks for as the work goes on, runs Python: pending signals are handled, and the bar moves.
 
     What they raise would end as a text in ITK's own exception: it is kept in `caught`, and `instance` is told to stop.
@@ -44,13 +57,13 @@ def _watch(instance: Any, bar: Any, caught: list[BaseException]) -> Iterator[Non
                 bar.update(max(int(100 * instance.GetProgress()) - int(bar.n), 0))
         except GeneratorExit:
             return
-        except BaseException as error:  # noqa: BLE001 - raised again by at_work()
+        except BaseException as error:  # noqa: BLE001 - of signals and bars; at_work() raises it again
             caught.append(error)
             instance.AbortGenerateDataOn()
 
 
 @contextmanager
-def at_work(instance: Any, progress: bool = False) -> Iterator[None]:
+def at_work(instance: ItkObject, progress: bool = False) -> Iterator[None]:
     """While the context lasts, Ctrl-C stops the update of `instance`, a filter that reads a stack, within the time of a
     chunk and raises KeyboardInterrupt. With `progress` a bar is shown: tqdm's if that is installed.
     """
@@ -65,7 +78,7 @@ def at_work(instance: Any, progress: bool = False) -> Iterator[None]:
         yield
         if bar is not None and not caught:
             bar.update(100 - int(bar.n))
-    except Exception:
+    except RuntimeError:  # ITK's "aborted", if _watch() told the filter to stop
         if not caught:
             raise
     finally:

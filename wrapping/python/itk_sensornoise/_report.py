@@ -3,49 +3,52 @@
 """The report of an estimate: a mapping that prints, draws and travels."""
 
 import html
-import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ._maps import Maps
+from ._record import Record
+from ._types import ItkObject
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 
-class Report(Mapping[str, Any]):
+class Report(Record):
     """All that was measured from one stack: the record "itk-sensornoise-report/1", the same names as in its JSON.
 
         report["gain"]["value"], report["gain"]["unit"], report["gain"]["status"]
         report["warnings"]
+        report.maps["mean"]           arrays (y, x), where estimate_sensor_noise() was asked for them by maps=True
 
-    A value that is not identified is None. print() shows the table of `estimate-sensor-noise` and the warnings, a notebook
-    also the noise curve, plot() draws that. Equal to any mapping with the same content; can be pickled.
+    A value that is not identified is None. print() shows the table of `estimate-sensor-noise` and the warnings, a
+    notebook also the noise curve, plot() draws that. It is a dict: json.dumps() writes it, and it equals any dict with
+    the same content (the maps are not part of that). It cannot be changed, which would be a TypeError: to_dict() gives
+    a copy that can, and that is no report. It can be pickled, with its maps.
     """
 
-    def __init__(self, text: str, table: str = "") -> None:
-        """`text`: the record as JSON, as C++ writes it. `table`: the same for people."""
-        self._text = text
+    def __init__(self, text: str, table: str = "", maps: Mapping[str, np.ndarray] | None = None) -> None:
+        """`text`: the record as JSON, as C++ writes it. `table`: the same for people. `maps`: arrays by name."""
+        super().__init__(text)
         self._table = table
-        self._record: dict[str, Any] = json.loads(text)
+        self._maps = Maps(maps or {})
 
     @classmethod
-    def of(cls, estimator: Any) -> "Report":
+    def of(cls, estimator: ItkObject, maps: Mapping[str, np.ndarray] | None = None) -> "Report":
         """The report of an ITK estimator that is up to date."""
-        return cls(estimator.GetReportAsJson(), estimator.GetReportAsText())
+        return cls(estimator.GetReportAsJson(), estimator.GetReportAsText(), maps)
 
-    def __getitem__(self, name: str) -> Any:
-        return self._record[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._record)
-
-    def __len__(self) -> int:
-        return len(self._record)
-
-    __hash__ = None  # type: ignore[assignment]  # what it holds can be changed
+    @property
+    def maps(self) -> "Maps":
+        """What is known of every pixel, arrays (y, x) by the names of the files that `--maps` writes; empty unless
+        estimate_sensor_noise() was called with maps=True."""
+        return self._maps
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Report, (self._text, self._table)
+        return type(self), (self._text, self._table, dict(self._maps))
 
     def __str__(self) -> str:
         return self._table.rstrip("\n")
@@ -55,21 +58,18 @@ class Report(Mapping[str, Any]):
         found = gain["status"] if gain["value"] is None else f"{gain['value']:.5g} {gain['unit']}"
         return f"<Report: {self['frames']} frames of {self['width']} x {self['height']} pixels, gain {found}>"
 
-    def to_json(self) -> str:
-        """The record as C++ writes it: the same bytes as `estimate-sensor-noise --json`."""
-        return self._text
-
-    def plot(self, axes: "Axes | None" = None) -> "Figure":
+    def plot(self, ax: "Axes | None" = None) -> "Figure":
         """Draws the temporal variance, as it is and corrected for flicker, against the mean, and the line through the
         corrected one, as the paper's Figure 4: the noise curve of the camera. Where the gain is not identified, the line
         is dashed and indicative; where the response bends, the legend says how much.
 
-        axes: where to draw; default: a new figure of matplotlib.pyplot. Returns the figure. Raises ImportError if
-        matplotlib is not installed, ValueError if nothing was measured.
+        ax: matplotlib's axes to draw into; default: those of a new figure of matplotlib.pyplot. Returns their figure,
+        whose `axes` are all of its axes. Raises ImportError if matplotlib is not installed, ValueError if nothing was
+        measured.
         """
         from ._figure import draw, new_axes
 
-        return draw(self, new_axes() if axes is None else axes)
+        return draw(self, new_axes() if ax is None else ax)
 
     def _repr_html_(self) -> str:
         """The table with its warnings and, where matplotlib is installed, the noise curve as an image of its own."""
@@ -80,5 +80,5 @@ class Report(Mapping[str, Any]):
 
                 picture = as_svg(self)
             except ImportError:
-                pass
+                pass  # without matplotlib the table has to do
         return f"<pre>{html.escape(str(self))}</pre>{picture}"

@@ -6,10 +6,12 @@ import json
 from typing import Any, Literal
 
 import numpy as np
+from numpy.typing import DTypeLike
 
 from . import _options
 from ._arrays import PIXEL_NAMES, PIXEL_TYPES, as_frame, view
 from ._errors import itk_errors
+from ._types import Frame, ItkObject
 
 _CHUNK_BYTES = 64 * 2**20
 _SHAPES = ["straight", "quadratic", "wave", "shoulder", "gamma", "s-curve"]
@@ -58,9 +60,9 @@ def simulate_sensor_noise(
     condition: Literal[1, 2, 3] = 3,
     frames: int = 100,
     size: tuple[int, int] | None = None,
-    reference: Any = "target",
+    reference: Literal["target", "bars", "texture", "flat"] | Frame = "target",
     seed: int = 1,
-    dtype: Any = np.uint16,
+    dtype: DTypeLike = np.uint16,
     *,
     gain: float | None = None,
     offset: float | None = None,
@@ -83,7 +85,7 @@ def simulate_sensor_noise(
     coupling: float = 0.0,
     read_noise_spread: float = 0.0,
     read_noise_tail: tuple[float, float] | None = None,
-    response: tuple[str, float] | None = None,
+    response: tuple[Literal["straight", "quadratic", "wave", "shoulder", "gamma", "s-curve"], float] | None = None,
     row_noise: float = 0.0,
     column_noise: float = 0.0,
     banding: tuple[float, float] | None = None,
@@ -238,7 +240,7 @@ def simulate_sensor_noise(
     return stack, truth
 
 
-def _set_flaws(source: Any, flaws: dict[str, Any]) -> None:
+def _set_flaws(source: ItkObject, flaws: dict[str, Any]) -> None:
     """Flaws that are one number or two; None leaves a pair as it is."""
     for name, value in flaws.items():
         if name in _NUMBERS:
@@ -249,14 +251,14 @@ def _set_flaws(source: Any, flaws: dict[str, Any]) -> None:
                 getattr(source, setter)(number)
 
 
-def _set_response(source: Any, response: Any) -> None:
+def _set_response(source: ItkObject, response: tuple[str, float]) -> None:
     expected = "(shape, size), a name and a number"
     shape, size = _options.items("response", response, 2, expected)
     source.SetResponseShape(_options.one_of("response[0]", shape, _SHAPES))
     source.SetResponseSize(_options.number("response", size, expected))
 
 
-def _draw(source: Any, dtype: np.dtype) -> np.ndarray:
+def _draw(source: ItkObject, dtype: np.dtype[Any]) -> np.ndarray:
     """The source's output as an array that owns its memory, drawn a few frames at a time into it."""
     import itk
 
@@ -275,7 +277,7 @@ def _draw(source: Any, dtype: np.dtype) -> np.ndarray:
     return stack
 
 
-def _pixel_type(dtype: Any) -> str:
+def _pixel_type(dtype: DTypeLike) -> str:
     """The name of the pixel type, as in PIXEL_TYPES."""
     try:
         pixel = np.dtype(dtype).newbyteorder("=").name
@@ -286,7 +288,7 @@ def _pixel_type(dtype: Any) -> str:
     return pixel
 
 
-def _scene(reference: Any, size: Any) -> tuple[Any, Any]:
+def _scene(reference: Frame, size: tuple[int, int] | None) -> tuple[ItkObject, object]:
     """The reference image, and what its memory belongs to."""
     import itk
 

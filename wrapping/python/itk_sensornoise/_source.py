@@ -5,15 +5,15 @@
 import os
 import warnings
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
 from ._arrays import PIXEL_TYPES
 from ._errors import itk_errors
+from ._types import FileName, ItkObject
 
 
-def _names_of(file_names: Any) -> list[str]:
+def _names_of(file_names: FileName | Sequence[FileName]) -> list[str]:
     """Names as C++ takes them."""
     if isinstance(file_names, (str, os.PathLike)):
         file_names = [file_names]
@@ -26,13 +26,13 @@ def _names_of(file_names: Any) -> list[str]:
     return names
 
 
-def _new(pixel: str) -> Any:
+def _new(pixel: str) -> ItkObject:
     import itk
 
     return itk.SensorNoiseFrameListSource[itk.Image[getattr(itk, PIXEL_TYPES[pixel][0]), 3]].New()
 
 
-def open_files(file_names: Sequence[Any]) -> tuple[Any, str]:
+def open_files(file_names: Sequence[FileName]) -> tuple[ItkObject, str]:
     """The source of files in time order, and its pixel type, a key of PIXEL_TYPES. All headers are checked; no pixel is
     kept. Raises ValueError, in the words of C++, where a file is not what it should be; warns of one that is there twice."""
     import itk
@@ -54,7 +54,7 @@ def open_files(file_names: Sequence[Any]) -> tuple[Any, str]:
     return source, pixel
 
 
-def read_image(file_name: Any, what: str) -> np.ndarray:
+def read_image(file_name: FileName, what: str) -> np.ndarray:
     """The pixels (y, x) of one image on a file, for what is called `what` in errors."""
     import itk
 
@@ -67,10 +67,11 @@ def read_image(file_name: Any, what: str) -> np.ndarray:
         raise ValueError(f"{what} {error}") from error
     with itk_errors(f"{what} "):
         source.Update()
-    return itk.array_from_image(source.GetOutput())[0]
+    image: np.ndarray = itk.array_from_image(source.GetOutput())[0]
+    return image
 
 
-def sensor_noise_frame_list_source(file_names: Any, *, ttype: Any = None) -> Any:
+def sensor_noise_frame_list_source(file_names: FileName | Sequence[FileName], *, ttype: ItkObject = None) -> ItkObject:
     """itk.SensorNoiseFrameListSource in functional style: frames on files as an itk.Image (x, y, t), all read.
 
     `file_names`: 2-D images in time order, TIFF, PNG, MetaImage or NRRD, or the name of one stack. `ttype`: the type of

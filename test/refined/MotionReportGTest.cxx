@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/refined/MotionReport.h"
+#include "sensornoise/report/Report.h"
+#include "sensornoise/simulation/SimulationSettings.h"
+#include "sensornoise/simulation/SimulationTruth.h"
+#include "helpers/RefinedTestHelper.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <gtest/gtest.h>
+#include <vector>
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+
+namespace
+{
+constexpr std::size_t Size = 96;
+
+double
+CovarianceOfSeries(const std::vector<double> & a, const std::vector<double> & b)
+{
+  const auto frames = static_cast<double>(a.size());
+  double     sumA = 0.0;
+  double     sumB = 0.0;
+  double     product = 0.0;
+  for (std::size_t t = 0; t < a.size(); ++t)
+  {
+    sumA += a[t];
+    sumB += b[t];
+    product += a[t] * b[t];
+  }
+  return (product - sumA * sumB / frames) / (frames - 1.0);
+}
+} // namespace
+
+// Little light, so that the noise of the shifts is as large as they are. Of 16 departures in standard errors the mean
+// square is chi2 / 16 where the error is right: 0.35 to 2.2 in 99.8 of 100 cases.
+TEST(SensorNoiseMotionReport, TheCovarianceOfTheVibrationHasAnError)
+{
+  double squares = 0.0;
+  for (std::uint64_t seed = 1; seed <= 16; ++seed)
+  {
+    SimulationSettings settings = FlickeringSettings(30);
+    settings.camera.electrons = 300.0;
+    settings.conditions.vibrationSdXPixels = 0.03;
+    settings.conditions.vibrationSdYPixels = 0.03;
+    settings.seed = seed;
+    const SimulatedSeries series = DrawTruth(settings, Size).series;
+    const Report          report = Measure(Simulate<unsigned short>(settings, Size, Size)).GetReport();
+    const Quantity &      covariance = report.vibrationCovariance;
+    ASSERT_TRUE(covariance.value && covariance.standardError && covariance.interval95) << seed;
+    EXPECT_LT(*covariance.standardError, 0.03 * 0.03);
+    const double z = (*covariance.value - CovarianceOfSeries(series.alpha, series.beta)) / *covariance.standardError;
+    squares += z * z;
+  }
+  EXPECT_GT(squares / 16.0, 0.35);
+  EXPECT_LT(squares / 16.0, 2.2);
+}
+
+// Every quantity of the refined method that has a value has an error and an interval.
+TEST(SensorNoiseMotionReport, WhatIsIdentifiedHasAnError)
+{
+  const Report report = Measure(Simulate<unsigned short>(FlickeringSettings(30), Size, Size)).GetReport();
+  for (const Quantity * quantity : { &report.gain,
+                                     &report.varianceSlope,
+                                     &report.offset,
+                                     &report.readNoise,
+                                     &report.readNoiseElectrons,
+                                     &report.intercept,
+                                     &report.totalIntercept,
+                                     &report.flickerSd,
+                                     &report.vibrationSdX,
+                                     &report.vibrationSdY,
+                                     &report.vibrationCovariance })
+  {
+    EXPECT_TRUE(quantity->value && quantity->standardError && quantity->interval95) << quantity->unit;
+  }
+}

@@ -1,0 +1,40 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""The example programs, as a person runs them."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import itk
+import pytest
+
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "python"
+
+
+def run(program, *arguments):
+    command = [sys.executable, str(EXAMPLES / program), *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+@pytest.fixture(scope="module")
+def few(tmp_path_factory):
+    """A stack of so few frames that the report warns of it."""
+    name = tmp_path_factory.mktemp("few") / "few.mha"
+    itk.imwrite(itk.image_view_from_array(itk.simulate_sensor_noise(frames=8, size=(96, 64))[0]), str(name))
+    return name
+
+
+def test_estimate_tells_each_warning_once(few, tmp_path):
+    result = run("estimate.py", few, "--json", tmp_path / "report.json")
+    report = json.loads((tmp_path / "report.json").read_text())
+    assert report["warnings"]
+    for warning in report["warnings"]:
+        assert (result.stdout + result.stderr).count(warning["message"]) == 1
+
+
+def test_estimate_ends_with_what_it_says(few, tmp_path):
+    assert run("estimate.py", few).returncode == 0
+    result = run("estimate.py", tmp_path / "no-such.mha")
+    assert result.returncode == 2 and "does not exist" in result.stderr and result.stdout == ""
