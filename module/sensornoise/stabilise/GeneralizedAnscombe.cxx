@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/stabilise/GeneralizedAnscombe.h"
 
-#include "sensornoise/base/Eigen.h"
-
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 #include <type_traits>
@@ -15,87 +15,106 @@ namespace sensornoise
 
 namespace
 {
-/** Values that are worked on together. A block is always computed whole, so that no value meets another code, and other
- * bits, because of where it stands. */
+/** Values that are worked on together. A block is always computed whole, by loops of a known length that the compiler
+ * makes vectors of: no value meets another code, and other bits, because of where it stands. */
 constexpr std::size_t ValuesPerBlock = 128;
-using ValueBlock = Eigen::Array<double, ValuesPerBlock, 1>;
+using ValueBlock = std::array<double, ValuesPerBlock>;
 
 /** The smallest mean of a stabilised value, that of no light and no read noise. */
 const double LeastMean = std::sqrt(1.5);
 
-/** Reads a block; what is missing at its end is 0. */
+/** Reads a block; what is missing at its end is NaN, which is never counted as negative. */
 template <typename TValue>
 void
 ReadBlock(const TValue * values, std::size_t count, ValueBlock & block)
 {
   if (count < ValuesPerBlock)
   {
-    block.setZero();
+    block.fill(std::numeric_limits<double>::quiet_NaN());
+    std::copy_n(values, count, block.begin());
+    return;
   }
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < ValuesPerBlock; ++i)
   {
     block[i] = static_cast<double>(values[i]);
   }
+}
+
+/** Replaces a block's values by those of a function. */
+template <typename TFunction>
+void
+Transform(ValueBlock & block, TFunction function)
+{
+  for (std::size_t i = 0; i < ValuesPerBlock; ++i)
+  {
+    block[i] = function(block[i]);
+  }
+}
+
+/** How many of a block's values are as \a isCounted says. In lanes, which the compiler can add as vectors. */
+template <typename TFunction>
+std::size_t
+CountIn(const ValueBlock & block, TFunction isCounted)
+{
+  constexpr std::size_t     lanes = 4;
+  std::array<double, lanes> counted{};
+  for (std::size_t i = 0; i < ValuesPerBlock; i += lanes)
+  {
+    for (std::size_t k = 0; k < lanes; ++k)
+    {
+      counted[k] += isCounted(block[i + k]) ? 1.0 : 0.0;
+    }
+  }
+  return static_cast<std::size_t>(counted[0] + counted[1] + counted[2] + counted[3]);
 }
 
 /** D to E, see AnscombeInverse. Comparisons are such that NaN stays. */
 void
 InvertBlock(AnscombeInverse inverse, ValueBlock & block)
 {
-  const double least = inverse == AnscombeInverse::ExactUnbiased ? LeastMean : 0.0;
-  for (std::size_t i = 0; i < ValuesPerBlock; ++i)
-  {
-    block[i] = block[i] < least ? least : block[i];
-  }
   if (inverse == AnscombeInverse::ExactUnbiased)
   {
+    const double least = LeastMean;
     const double c1 = 0.25 * LeastMean;
     const double c3 = 0.625 * LeastMean;
-    for (std::size_t i = 0; i < ValuesPerBlock; ++i)
-    {
-      const double d = block[i];
+    Transform(block, [=](double value) {
+      const double d = value < least ? least : value;
       const double r = 1.0 / d;
-      block[i] = 0.25 * d * d - 0.125 + r * (c1 + r * (c3 * r - 1.375));
-    }
+      return 0.25 * d * d - 0.125 + r * (c1 + r * (c3 * r - 1.375));
+    });
+    return;
   }
-  else
-  {
-    const double constant = inverse == AnscombeInverse::Algebraic ? 0.375 : 0.125;
-    block = 0.25 * block * block - constant;
-  }
+  const double constant = inverse == AnscombeInverse::Algebraic ? 0.375 : 0.125;
+  Transform(block, [=](double value) {
+    const double d = value < 0.0 ? 0.0 : value;
+    return 0.25 * d * d - constant;
+  });
 }
 
-/** Writes levels [DN] as \a TPixel; returns how many are NaN and cannot be. */
-template <typename TPixel>
-std::size_t
-WriteBlock(ValueBlock & block, std::size_t count, TPixel * levelsDn)
+/** Writes the first values of a block, of which \a convert makes \a TValue. */
+template <typename TValue, typename TFunction>
+void
+WriteBlock(const ValueBlock & block, std::size_t count, TValue * values, TFunction convert)
 {
-  if constexpr (std::is_floating_point_v<TPixel>)
+  std::array<TValue, ValuesPerBlock> converted;
+  for (std::size_t i = 0; i < ValuesPerBlock; ++i)
   {
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      levelsDn[i] = static_cast<TPixel>(block[i]);
-    }
-    return 0;
+    converted[i] = convert(block[i]);
   }
-  else
-  {
-    constexpr double low = std::numeric_limits<TPixel>::lowest();
-    constexpr double high = std::numeric_limits<TPixel>::max();
-    int              notNumbers = 0;
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      const double level = block[i];
-      notNumbers += level == level ? 0 : 1;
-      const double inRange = level > low ? (level < high ? level : high) : low;
-      levelsDn[i] = static_cast<TPixel>(static_cast<int>(inRange - low + 0.5) + static_cast<int>(low));
-    }
-    for (std::size_t i = 0; notNumbers > 0 && i < count; ++i)
-    {
-      levelsDn[i] = std::isnan(block[i]) ? TPixel{ 0 } : levelsDn[i];
-    }
-    return static_cast<std::size_t>(notNumbers);
-  }
+  std::copy_n(converted.begin(), count, values);
+}
+
+/** The nearest whole number in the range of \a TPixel, half up; of NaN the lowest. */
+template <typename TPixel>
+TPixel
+Rounded(double level)
+{
+  constexpr double low = std::numeric_limits<TPixel>::lowest();
+  constexpr double high = std::numeric_limits<TPixel>::max();
+  const double     above = level > low ? level : low;
+  const double     inside = above < high ? above : high;
+  // Above 0 the conversion rounds down; through 32 bits there are vectors.
+  return static_cast<TPixel>(static_cast<std::int32_t>(inside - low + 0.5) + static_cast<std::int32_t>(low));
 }
 } // namespace
 
@@ -133,26 +152,19 @@ GeneralizedAnscombe::Stabilise(const TPixel * levelsDn, std::size_t count, TReal
 {
   const double a = m_Model.varianceSlopeDn;
   const double constant = 0.375 * a * a + m_Model.totalInterceptDn2;
-  const double scale = 2.0 / a;
+  const auto   scale = static_cast<TReal>(2.0 / a);
   std::size_t  negative = 0;
   ValueBlock   block;
   for (std::size_t begin = 0; begin < count; begin += ValuesPerBlock)
   {
     const std::size_t size = std::min(ValuesPerBlock, count - begin);
     ReadBlock(levelsDn + begin, size, block);
-    int below = 0;
-    for (std::size_t i = 0; i < ValuesPerBlock; ++i)
-    {
-      const double argument = a * block[i] + constant;
-      below += argument < 0.0 && i < size ? 1 : 0;
-      block[i] = argument < 0.0 ? 0.0 : argument;
-    }
-    negative += static_cast<std::size_t>(below);
-    block = scale * block.sqrt();
-    for (std::size_t i = 0; i < size; ++i)
-    {
-      stabilised[begin + i] = static_cast<TReal>(block[i]);
-    }
+    Transform(block, [=](double level) { return a * level + constant; });
+    negative += CountIn(block, [](double argument) { return argument < 0.0; });
+    Transform(block, [](double argument) { return argument < 0.0 ? 0.0 : argument; });
+    WriteBlock(block, size, stabilised + begin, [scale](double argument) {
+      return scale * std::sqrt(static_cast<TReal>(argument)); // single is twice as fast
+    });
   }
   return negative;
 }
@@ -164,18 +176,27 @@ GeneralizedAnscombe::Invert(const TReal *   stabilised,
                             TPixel *        levelsDn,
                             AnscombeInverse inverse) const
 {
-  const double zeroLevelDn = -m_Model.totalInterceptDn2 / m_Model.varianceSlopeDn;
-  std::size_t  notNumbers = 0;
+  const double a = m_Model.varianceSlopeDn;
+  const double zeroLevelDn = -m_Model.totalInterceptDn2 / a;
+  std::size_t  numbers = 0;
   ValueBlock   block;
   for (std::size_t begin = 0; begin < count; begin += ValuesPerBlock)
   {
     const std::size_t size = std::min(ValuesPerBlock, count - begin);
     ReadBlock(stabilised + begin, size, block);
     InvertBlock(inverse, block);
-    block = m_Model.varianceSlopeDn * block + zeroLevelDn;
-    notNumbers += WriteBlock(block, size, levelsDn + begin);
+    Transform(block, [=](double electrons) { return a * electrons + zeroLevelDn; });
+    if constexpr (std::is_integral_v<TPixel>)
+    {
+      numbers += CountIn(block, [](double level) { return level == level; });
+      WriteBlock(block, size, levelsDn + begin, [](double level) { return Rounded<TPixel>(level); });
+    }
+    else
+    {
+      WriteBlock(block, size, levelsDn + begin, [](double level) { return static_cast<TPixel>(level); });
+    }
   }
-  return notNumbers;
+  return std::is_integral_v<TPixel> ? count - numbers : 0;
 }
 
 // clang-format off

@@ -44,8 +44,8 @@ NameOf(AnscombeInverse inverse);
  * F. Murtagh, J.-L. Starck, A. Bijaoui, Astron. Astrophys. Suppl. Ser. 112, 1995, with sigma^2 - a mu written as b. The
  * variance of f is 1 within 0.02 above 10 e-, and less in the dark; MomentsOfStabilised() tells how much.
  *
- * Computed in double, whatever the types; the same bits wherever a value stands. Input and output may be the same
- * memory where they have the same type. NaN gives NaN.
+ * Computed in double, but for roots that are wanted as float; the same bits wherever a value stands. Input and output
+ * may be the same memory where they have the same type. NaN gives NaN.
  *
  * Instantiated for pixels of unsigned char, unsigned short, short, float and double, stabilised as float and double.
  */
@@ -63,7 +63,7 @@ public:
 
   /** The levels [DN] of \a count stabilised values; negative ones count as 0. For integers the level is rounded to the
    * nearest, half up, and kept within the type's range. Returns how many values are NaN, which integers cannot hold:
-   * these give 0. */
+   * these give the lowest level. */
   template <typename TReal, typename TPixel>
   std::size_t
   Invert(const TReal * stabilised, std::size_t count, TPixel * levelsDn, AnscombeInverse inverse) const;
