@@ -19,11 +19,14 @@ from ._estimators import noise_regression_estimator, sensor_noise_estimator, vib
 from ._report import Report
 from ._simulate import simulate_sensor_noise
 from ._source import sensor_noise_frame_list_source
+from ._stabilise import generalized_anscombe_image_filter, inverse_generalized_anscombe_image_filter
 
 __all__ = [
     "NoiseCorrelation",
     "Report",
     "estimate_sensor_noise",
+    "generalized_anscombe_image_filter",
+    "inverse_generalized_anscombe_image_filter",
     "noise_correlation_estimator",
     "noise_regression_estimator",
     "sensor_noise_estimator",

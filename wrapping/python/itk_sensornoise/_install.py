@@ -8,8 +8,10 @@ from types import FunctionType
 
 _NEW = ("estimate_sensor_noise", "simulate_sensor_noise")
 # ITK generates functions of these names too; what they return holds a C++ struct that Python cannot open, or they must
-# be told the pixel type.
+# be told the pixel type, or know no report.
 _REPLACED = (
+    "generalized_anscombe_image_filter",
+    "inverse_generalized_anscombe_image_filter",
     "noise_correlation_estimator",
     "noise_regression_estimator",
     "sensor_noise_estimator",

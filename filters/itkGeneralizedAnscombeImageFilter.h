@@ -1,0 +1,155 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef itkGeneralizedAnscombeImageFilter_h
+#define itkGeneralizedAnscombeImageFilter_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/report/Report.h"
+#include "itkImage.h"
+#include "itkImageToImageFilter.h"
+#include "itkSensorNoiseResult.h"
+
+#include <atomic>
+#include <limits>
+#include <ostream>
+
+namespace itk
+{
+
+/** \class GeneralizedAnscombeImageFilter
+ * \brief Makes noise whose variance grows with the light into noise of variance 1, for whatever removes Gaussian noise.
+ *
+ *   f(x) = (2/a) sqrt(max(0, a x + 3/8 a^2 + b)),
+ *
+ * a the slope and b the intercept of the variance against the level, as SensorNoiseEstimator reports them. The variance
+ * of f is 1 within 0.02 above 10 electrons and falls to 0 in the dark of a sensor without read noise.
+ * InverseGeneralizedAnscombeImageFilter leads back.
+ *
+ * Input: levels [DN], of unsigned char, unsigned short, short, float or double. Output: f [1], float or double. Where
+ * the root's argument is negative f is 0, and the pixel is counted. NaN stays NaN and is not counted.
+ *
+ * Any dimension: pixels are transformed one by one. Streams and is threaded. Computed in double; the same bits for any
+ * number of threads and any region.
+ *
+ * F. Murtagh, J.-L. Starck, A. Bijaoui, Image restoration with noise suppression using a multiresolution support,
+ * Astron. Astrophys. Suppl. Ser. 112, 1995.
+ *
+ * \tparam TInputImage image of levels.
+ * \tparam TOutputImage image of the same dimension.
+ * \ingroup SensorNoise
+ */
+template <typename TInputImage, typename TOutputImage = Image<float, TInputImage::ImageDimension>>
+class ITK_TEMPLATE_EXPORT GeneralizedAnscombeImageFilter : public ImageToImageFilter<TInputImage, TOutputImage>
+{
+public:
+  ITK_DISALLOW_COPY_AND_MOVE(GeneralizedAnscombeImageFilter);
+
+  using Self = GeneralizedAnscombeImageFilter;
+  using Superclass = ImageToImageFilter<TInputImage, TOutputImage>;
+  using Pointer = SmartPointer<Self>;
+  using ConstPointer = SmartPointer<const Self>;
+  using RegionType = typename TOutputImage::RegionType;
+
+  itkNewMacro(Self);
+
+  const char *
+  GetNameOfClass() const override
+  {
+    return "GeneralizedAnscombeImageFilter";
+  }
+
+  /** The noise model: `variance_slope` a [DN/e-], above 0, and `total_intercept` b [DN^2], of either sign, of a report.
+   * Both must be set, here or by SetReport(). */
+  itkSetMacro(VarianceSlope, double);
+  itkGetConstMacro(VarianceSlope, double);
+  itkSetMacro(TotalIntercept, double);
+  itkGetConstMacro(TotalIntercept, double);
+
+  /** Takes both from a report, as SensorNoiseEstimator::GetReport() or GetReportOutput() give it. Throws
+   * ExceptionObject where one of them has no value, or the slope is not above 0; nothing else of the report is asked
+   * for. */
+  void
+  SetReport(const sensornoise::Report & report);
+  void
+  SetReport(const SensorNoiseResult<sensornoise::Report> * report);
+
+  /** How many pixels had a negative argument and became 0, in the last Update(): of all the regions it was made in, and
+   * of each as often as it was made. Many in number say that the model is of another camera or setting. */
+  SizeValueType
+  GetNumberOfNegativeArguments() const
+  {
+    return m_NumberOfNegativeArguments;
+  }
+
+  /** Resets the pipeline when an input could not be updated: ITK would otherwise take the next Update() for one that is
+   * under way and return without a word and without a result. */
+  void
+  UpdateOutputInformation() override;
+  void
+  UpdateOutputData(DataObject * output) override;
+
+protected:
+  GeneralizedAnscombeImageFilter();
+  ~GeneralizedAnscombeImageFilter() override = default;
+
+  void
+  VerifyPreconditions() const override;
+  void
+  BeforeThreadedGenerateData() override;
+  void
+  DynamicThreadedGenerateData(const RegionType & region) override;
+  void
+  PrintSelf(std::ostream & os, Indent indent) const override;
+
+private:
+  double                     m_VarianceSlope{ 0.0 };
+  double                     m_TotalIntercept{ std::numeric_limits<double>::quiet_NaN() };
+  std::atomic<SizeValueType> m_NumberOfNegativeArguments{ 0 };
+  bool                       m_IsNewUpdate{ true };
+};
+
+// Instantiated once, in the library.
+extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<unsigned char, 2>, Image<float, 2>>;
+extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<unsigned char, 2>, Image<double, 2>>;
+extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<unsigned short, 2>, Image<float, 2>>;
+extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<unsigned short, 2>, Image<double, 2>>;
+extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<short, 2>, Image<float, 2>>;
+extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<short, 2>, Image<double, 2>>;
+extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<float, 2>, Image<float, 2>>;
+extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<float, 2>, Image<double, 2>>;
+extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<double, 2>, Image<float, 2>>;
+extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<double, 2>, Image<double, 2>>;
+extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<unsigned char, 3>, Image<float, 3>>;
+extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<unsigned char, 3>, Image<double, 3>>;
+extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<unsigned short, 3>, Image<float, 3>>;
+extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<unsigned short, 3>, Image<double, 3>>;
+extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<short, 3>, Image<float, 3>>;
+extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<short, 3>, Image<double, 3>>;
+extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<float, 3>, Image<float, 3>>;
+extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<float, 3>, Image<double, 3>>;
+extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<double, 3>, Image<float, 3>>;
+extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<double, 3>, Image<double, 3>>;
+
+} // namespace itk
+
+// For images of other dimensions.
+#ifndef ITK_MANUAL_INSTANTIATION
+#  include "itkGeneralizedAnscombeImageFilter.hxx"
+#endif
+
+#endif
