@@ -71,12 +71,12 @@ CountWarnings(const std::vector<RealSensorOutcome> & outcomes)
   std::map<std::string, std::size_t> counts;
   for (const RealSensorOutcome & outcome : outcomes)
   {
-    std::vector<std::string> codes = outcome.warnings;
+    std::vector<WarningCode> codes = outcome.warnings;
     std::sort(codes.begin(), codes.end());
     codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
-    for (const std::string & code : codes)
+    for (const WarningCode code : codes)
     {
-      ++counts[code];
+      ++counts[sensornoise::KindOf(code).name];
     }
   }
   return counts;

@@ -153,10 +153,7 @@ PrintStacks(const RealSensorGroup & group)
     for (std::size_t k = 0; k < NumberOfJudged; ++k)
     {
       const auto quantity = static_cast<JudgedQuantity>(k);
-      if (!outcome.Of(quantity).estimate.unit.empty()) // the report has it
-      {
-        std::printf(" %s;", FormatEstimate(quantity, outcome.Of(quantity)).c_str());
-      }
+      std::printf(" %s;", FormatEstimate(quantity, outcome.Of(quantity)).c_str());
     }
     std::printf(" D %s; %s\n",
                 FormatNumber(outcome.nonlinearity.value_or(NAN), "%.3g").c_str(),
