@@ -23,6 +23,7 @@
 #include "sensornoise/report/ReportJson.h"
 #include "sensornoise/published/PublishedSettings.h"
 #include "sensornoise/refined/RefinedSettings.h"
+#include "sensornoise/report/Catalogue.h"
 #include "sensornoise/report/Report.h"
 #include "sensornoise/report/ReportTable.h"
 #include "sensornoise/report/StackSettings.h"
@@ -260,6 +261,13 @@ public:
   GetReportAsText() const
   {
     return sensornoise::MakeText(this->GetReport());
+  }
+
+  /** All warnings and quantities that a report may have, as JSON. \see sensornoise::CatalogueAsJson */
+  static std::string
+  GetCatalogueAsJson()
+  {
+    return sensornoise::CatalogueAsJson();
   }
 
   /** What neighbours and frames share of their noise: kind, coefficients by lag, noise of rows and columns. Null where

@@ -10,6 +10,8 @@ import pickle
 import re
 
 import itk
+import itk_sensornoise
+import itk_sensornoise._figure
 import numpy as np
 import pytest
 
@@ -220,3 +222,33 @@ def test_progress_ends_at_100_percent_on_standard_error(burst, capfd, monkeypatc
     captured = capfd.readouterr()
     assert captured.out == "" and "100" in captured.err and "%" in captured.err
     assert report == itk.estimate_sensor_noise(burst)
+
+
+def test_its_quantities_are_rows(report):
+    rows = report.quantities()
+    assert [row["path"] for row in rows] == [entry["path"] for entry in itk_sensornoise.quantity_list()]
+    gain, *_ = rows
+    assert gain["label"] == "gain g" and gain["value"] == report["gain"]["value"]
+    by_path = {row["path"]: row for row in rows}
+    assert by_path["vibration.sd_x"]["interval95"] == report["vibration"]["sd_x"]["interval95"]
+    for entry, row in zip(itk_sensornoise.quantity_list(), rows, strict=True):
+        assert entry["unit"] == row["unit"] and row["status"]
+
+
+def test_what_was_not_looked_at_has_no_row(burst):
+    rows = itk.estimate_sensor_noise(burst, method="published").quantities()
+    assert not [row for row in rows if row["path"].startswith("noise_correlation.")] and len(rows) >= 12
+
+
+def test_warnings_are_those_of_the_table(burst):
+    table = {kind["code"]: kind for kind in itk_sensornoise.warning_table()}
+    assert {kind["severity"] for kind in table.values()} == {"note", "warning", "error"}
+    warnings = itk.estimate_sensor_noise(burst[:10])["warnings"]
+    assert "few-frames" in {warning["code"] for warning in warnings}
+    for warning in warnings:
+        assert warning["severity"] == table[warning["code"]]["severity"]
+
+
+def test_the_code_speaks_of_warnings_that_exist():
+    table = {kind["code"] for kind in itk_sensornoise.warning_table()}
+    assert set(itk_sensornoise._figure.BENDS) <= table

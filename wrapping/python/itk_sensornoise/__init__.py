@@ -13,6 +13,7 @@ noise sigma [DN], flicker gamma_t [1] and vibration (alpha_t, beta_t) [pixel] ar
 Imaging Sci. 8(1), 2015, https://doi.org/10.1137/140977035.
 """
 
+from ._catalogue import quantity_list, warning_table
 from ._correlation import NoiseCorrelation, noise_correlation_estimator
 from ._estimate import estimate_sensor_noise
 from ._estimators import noise_regression_estimator, sensor_noise_estimator, vibration_covariance_estimator
@@ -29,8 +30,10 @@ __all__ = [
     "inverse_generalized_anscombe_image_filter",
     "noise_correlation_estimator",
     "noise_regression_estimator",
+    "quantity_list",
     "sensor_noise_estimator",
     "sensor_noise_frame_list_source",
     "simulate_sensor_noise",
     "vibration_covariance_estimator",
+    "warning_table",
 ]

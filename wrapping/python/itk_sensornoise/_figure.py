@@ -11,6 +11,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+#: Codes of warnings that tell of a response that bends.
+BENDS = {"response-not-straight", "variance-not-affine"}
+
 
 def new_axes() -> "Axes":
     """Axes in a new figure, which a notebook or plt.show() shows."""
@@ -61,7 +64,7 @@ def _bend(report: Mapping[str, Any]) -> str | None:
     """How far the variance departs from its line, where a warning tells of it."""
     bend = report["fit"].get("nonlinearity")
     codes = {warning["code"] for warning in report["warnings"]}
-    if not bend or codes.isdisjoint({"response-not-straight", "variance-not-affine"}):
+    if not bend or codes.isdisjoint(BENDS):
         return None
     return f"the response bends: variance off its line by up to {100 * bend:.2g} %"
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ._catalogue import quantity_list
 from ._maps import Maps
 from ._record import Record
 from ._types import ItkObject
@@ -57,6 +58,19 @@ class Report(Record):
         gain = self["gain"]
         found = gain["status"] if gain["value"] is None else f"{gain['value']:.5g} {gain['unit']}"
         return f"<Report: {self['frames']} frames of {self['width']} x {self['height']} pixels, gain {found}>"
+
+    def quantities(self) -> list[dict[str, Any]]:
+        """Every quantity as a row: `path`, `label` and `meaning` of quantity_list(), then what the report has of it:
+        `value`, `standard_error`, `interval95`, `status`, `unit`, `bracket`. For a table: pandas.DataFrame() of it.
+        What was not looked at, as the noise's correlation by the published method, has no row."""
+        rows = []
+        for entry in quantity_list():
+            found: Any = self
+            for name in entry["path"].split("."):
+                found = found[name] if found is not None else None
+            if found is not None:
+                rows.append({**entry, **found})
+        return rows
 
     def plot(self, ax: "Axes | None" = None) -> "Figure":
         """Draws the temporal variance, as it is and corrected for flicker, against the mean, and the line through the
