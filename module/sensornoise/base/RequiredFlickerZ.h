@@ -18,7 +18,7 @@ inline constexpr double RequiredFlickerZ = 6.0;
 inline std::string
 TextOfFaintFlicker(double flickerZ)
 {
-  return flickerZ > 0.0 ? "the flicker's variance exceeds that of its noise by " + Text(flickerZ) +
+  return flickerZ > 0.0 ? "the flicker's variance exceeds that of its noise by " + Rounded(flickerZ) +
                             " standard deviations (expected more than " + Text(RequiredFlickerZ) + ")"
                         : "the flicker is lost in its noise";
 }

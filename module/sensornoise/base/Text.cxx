@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/base/Text.h"
 
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
 #include <sstream>
 
 namespace sensornoise
@@ -13,6 +16,42 @@ Text(double number)
   std::ostringstream text;
   text.precision(6);
   text << number;
+  return text.str();
+}
+
+std::string
+Rounded(double number)
+{
+  const bool         isLarge = std::abs(number) >= 999.5;
+  std::ostringstream text;
+  text.precision(isLarge ? 15 : 3);
+  text << (isLarge ? std::round(number) : number);
+  return text.str();
+}
+
+std::string
+Percent(double share)
+{
+  return Rounded(100.0 * share) + " %";
+}
+
+std::string
+Measured(double value, double standardError)
+{
+  if (!(standardError > 0.0) || !std::isfinite(standardError) || !std::isfinite(value))
+  {
+    return Text(value) + " +- " + Text(standardError);
+  }
+  // The place of the error's second digit, after rounding it to two: 0.0996 is 0.10.
+  std::ostringstream twoDigits;
+  twoDigits << std::scientific << std::setprecision(1) << standardError;
+  const int  place = static_cast<int>(std::floor(std::log10(std::stod(twoDigits.str())) + 1e-9)) - 1;
+  const auto rounded = [unit = std::pow(10.0, place), place](double number) {
+    return place > 0 ? std::round(number / unit) * unit : number;
+  };
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(std::max(0, -place));
+  text << rounded(value) << " +- " << rounded(standardError);
   return text.str();
 }
 

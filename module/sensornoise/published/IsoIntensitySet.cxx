@@ -3,6 +3,7 @@
 #include "sensornoise/published/IsoIntensitySet.h"
 
 #include "sensornoise/base/NothingToMeasure.h"
+#include "sensornoise/base/Text.h"
 #include "sensornoise/base/Quantiles.h"
 
 #include <algorithm>
@@ -71,7 +72,7 @@ IsoIntensitySetFinder::Find(double quantile) const
     }
   }
   throw NothingToMeasure("found " + std::to_string(set.pixels.size()) + " pixels of nearly the intensity " +
-                         std::to_string(set.levelDn) + " DN; expected at least " +
+                         Rounded(set.levelDn) + " DN; expected at least " +
                          std::to_string(IsoIntensitySet::MinimumPixels) + " (the scene has too few even areas)");
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/published/NoiseParameters.h"
 
+#include "sensornoise/base/Text.h"
 #include "sensornoise/report/Quantities.h"
 
 #include <cmath>
@@ -35,7 +36,7 @@ FillOffset(Report & report, const PolynomialFit & line, std::optional<double> of
     report.readNoise = Quantity::Without(EstimateStatus::NotIdentifiable);
     report.readNoiseElectrons = Quantity::Without(EstimateStatus::NotIdentifiable);
     report.Warn(WarningCode::ReadNoiseNotIdentifiable,
-                "gain, intercept and offset give a squared read noise of " + std::to_string(squared) +
+                "gain, intercept and offset give a squared read noise of " + Rounded(squared) +
                   " DN^2, expected above 0: it is smaller than their errors");
   }
 }
@@ -51,7 +52,7 @@ FillNoiseParameters(Report &              report,
   {
     SetSensorParameters(report, EstimateStatus::Failed);
     report.Warn(WarningCode::VarianceNotAffine,
-                line.isDetermined ? "the variance does not rise with the mean (slope " + std::to_string(line.slope) +
+                line.isDetermined ? "the variance does not rise with the mean (slope " + Rounded(line.slope) +
                                       " DN/e-, expected above 0): the data are not raw, or hold too little noise"
                                   : "the regression has " + std::to_string(line.pixels) +
                                       " pixels of one intensity; expected pixels of different intensities");
@@ -73,8 +74,8 @@ FillNoiseParameters(Report &              report,
     if (offsetDn && *offsetDn > *darkestDn)
     {
       report.Warn(WarningCode::OffsetAboveDarkest,
-                  "the offset " + std::to_string(*offsetDn) + " DN is above the darkest level, " +
-                    std::to_string(*darkestDn) + " DN, which is not possible: its error is larger than that; more " +
+                  "the offset " + Rounded(*offsetDn) + " DN is above the darkest level, " + Rounded(*darkestDn) +
+                    " DN, which is not possible: its error is larger than that; more " +
                     "frames or more flicker would help");
     }
   }
@@ -91,14 +92,14 @@ FillFit(Report & report, const FitQuality & quality)
     SetSensorParameters(report, EstimateStatus::Failed);
     report.Warn(
       WarningCode::VarianceNotAffine,
-      "the corrected variance scatters about its line " + std::to_string(quality.reducedChi2) +
+      "the corrected variance scatters about its line " + Rounded(quality.reducedChi2) +
         " times as much as sampling noise does (expected 1, at most 10): the scene moves, the flicker differs "
         "within the frame, or the data are not raw");
   }
   else if (quality.reducedChi2 > 1.5)
   {
     report.Warn(WarningCode::PoorFit,
-                "the corrected variance scatters about its line " + std::to_string(quality.reducedChi2) +
+                "the corrected variance scatters about its line " + Rounded(quality.reducedChi2) +
                   " times as much as sampling noise does (expected 1): vibrations, flicker that differs within the "
                   "frame, or a scene that moves are left in it");
   }

@@ -74,8 +74,8 @@ WarnOfFlicker(Report & report, const FlickerEstimate & flicker)
   if (flicker.offsetLinePhi > 3.0)
   {
     report.Warn(WarningCode::OffsetLineMisfit,
-                "dark pixels do not follow the bright ones' flicker (residual variance " + Text(flicker.offsetLinePhi) +
-                  " times that of noise, expected 1): the offset is not reliable");
+                "dark pixels do not follow the bright ones' flicker (residual variance " +
+                  Rounded(flicker.offsetLinePhi) + " times that of noise, expected 1): the offset is not reliable");
   }
 }
 
@@ -140,8 +140,9 @@ HasRange(Report & report, const PublishedScene & scene)
   }
   SetSensorParameters(report, EstimateStatus::NotIdentifiable);
   report.Warn(WarningCode::IntensityRangeTooSmall,
-              "the even areas span " + Text(ContrastDn(scene)) + " DN, expected more than " + Text(6.0 * spreadDn) +
-                " DN (6 standard deviations of their means): use a scene with dark " + "and bright areas");
+              "the even areas span " + Rounded(ContrastDn(scene)) + " DN, expected more than " +
+                Rounded(6.0 * spreadDn) + " DN (6 standard deviations of their means): use a scene with dark " +
+                "and bright areas");
   return false;
 }
 
@@ -183,8 +184,8 @@ FillQuality(Report &                  report,
   if (std::abs(quality.curvatureZ) > 5.0 && std::abs(bendDn2) > 0.03 * middleDn2)
   {
     report.Warn(WarningCode::CorrectedVarianceCurved,
-                "the corrected variance bends by " + Text(100.0 * bendDn2 / middleDn2) +
-                  " % of itself (expected under 3 %): vibrations, several lamps, or data that are not linear");
+                "the corrected variance bends by " + Percent(bendDn2 / middleDn2) +
+                  " of itself (expected under 3 %): vibrations, several lamps, or data that are not linear");
   }
 }
 } // namespace

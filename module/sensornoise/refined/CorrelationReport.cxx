@@ -22,14 +22,10 @@ LargestOf(const std::vector<LagCoefficient> & lags)
   return largest == lags.end() ? nullptr : &*largest;
 }
 
-/** With as many digits as the error has. */
 std::string
 PercentOf(const MeasuredNumber & number)
 {
-  const double percent = 100.0 * number.standardError;
-  const double unit = percent > 0.0 ? std::pow(10.0, std::floor(std::log10(percent))) : 1e-3;
-  const auto   rounded = [unit](double value) { return Text(std::round(value / unit) * unit); };
-  return rounded(100.0 * number.value) + " +- " + rounded(percent) + " %";
+  return Measured(100.0 * number.value, 100.0 * number.standardError) + " %";
 }
 
 std::string
@@ -68,8 +64,9 @@ WarnOfCorrelation(Report & report, const NoiseCorrelation & correlation)
     case NoiseKind::NotLinear:
       report.Warn(WarningCode::NoiseNotLinear,
                   "the noise is not distributed as a sensor's or a linear filter's (excess kurtosis " +
-                    Text(correlation.kurtosis.front().value) + ", of four neighbours in turn " +
-                    Text(correlation.kurtosis[3].value) +
+                    Measured(correlation.kurtosis.front().value, correlation.kurtosis.front().standardError) +
+                    ", of four neighbours in turn " +
+                    Measured(correlation.kurtosis[3].value, correlation.kurtosis[3].standardError) +
                     ", expected 0): the camera corrects defects, takes medians or compresses, and what gain it had "
                     "before cannot be told; ask it for raw frames");
       break;

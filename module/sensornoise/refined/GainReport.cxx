@@ -46,19 +46,19 @@ FindContradiction(const RefinedResults & found, const GainEstimate & gain)
   const bool        hasCodes = found.scene.summary.codes.clipHighDn.has_value();
   if (gain.nonlinearity > LargestNonlinearity)
   {
-    return "the variance departs from its line by " + Text(100.0 * gain.nonlinearity) +
-           " % of itself (expected less than " + Text(100.0 * LargestNonlinearity) + " %)" + advice +
+    return "the variance departs from its line by " + Percent(gain.nonlinearity) + " of itself (expected less than " +
+           Percent(LargestNonlinearity) + ")" + advice +
            (hasCodes ? "" : ", or they saturate: then give the levels that the sensor attains (clip)");
   }
   if (gain.isWide && gain.IsBent() && gain.above + gain.below > 2.0 * LargestGainError * gain.line.gain)
   {
     return "the variance bends against the mean, and the gain depends on what is taken for read noise, between " +
-           Text(gain.line.gain - gain.below) + " and " + Text(gain.line.gain + gain.above) + " DN/e-" + advice;
+           Rounded(gain.line.gain - gain.below) + " and " + Rounded(gain.line.gain + gain.above) + " DN/e-" + advice;
   }
   if (!(gain.line.gain > 0.0))
   {
-    return "the variance does not rise with the mean (slope " + Text(gain.line.gain) + " +- " +
-           Text(gain.StandardError()) + " DN/e-, expected above 0): the data are not raw, or hold too little noise";
+    return "the variance does not rise with the mean (slope " + Measured(gain.line.gain, gain.StandardError()) +
+           " DN/e-, expected above 0): the data are not raw, or hold too little noise";
   }
   return {};
 }
@@ -88,21 +88,21 @@ FillTooLittle(Report & report, const RefinedResults & found, const GainEstimate 
   if (static_cast<double>(report.pixels.used) < LeastUsedShare * found.scene.usable)
   {
     report.Warn(WarningCode::TooLittleToMeasure,
-                Text(100.0 * static_cast<double>(report.pixels.used) / std::max(1.0, found.scene.usable)) +
-                  " % of the pixels that are not clipped fit a static scene (expected at least " +
-                  Text(100.0 * LeastUsedShare) + " %) and give a gain of " + Text(gain.line.gain) + " +- " +
-                  Text(error) + " DN/e-: the scene is not static, or too dark; choose a static part of it");
+                Percent(static_cast<double>(report.pixels.used) / std::max(1.0, found.scene.usable)) +
+                  " of the pixels that are not clipped fit a static scene (expected at least " +
+                  Percent(LeastUsedShare) + ") and give a gain of " + Measured(gain.line.gain, error) +
+                  " DN/e-: the scene is not static, or too dark; choose a static part of it");
     return;
   }
   BoundGain(report, found, gain);
   const LevelPattern & pattern = found.variance.pattern;
   const double         levels = std::sqrt(std::max(0.0, pattern.lightDn2));
   report.Warn(WarningCode::IntensityRangeTooSmall,
-              "the scene has one intensity: its levels differ by " + Text(levels) + " DN rms, " +
-                Text(100.0 * levels / std::max(1e-9, gain.line.pivotDn - found.blackDn)) +
-                " % of the light, of which the pixels' own pattern may be " +
-                Text(100.0 * std::min(1.0, pattern.LargestShare())) + " %, and tell the gain to +- " + Text(error) +
-                " DN/e- only (about " + Text(gain.scale) +
+              "the scene has one intensity: its levels differ by " + Rounded(levels) + " DN rms, " +
+                Percent(levels / std::max(1e-9, gain.line.pivotDn - found.blackDn)) +
+                " of the light, of which the pixels' own pattern may be " +
+                Percent(std::min(1.0, pattern.LargestShare())) + ", and tell the gain to +- " + Rounded(error) +
+                " DN/e- only (about " + Rounded(gain.scale) +
                 " expected): a scene with dark and bright areas would help, or dark frames");
 }
 
@@ -130,9 +130,9 @@ FillGainAndIntercept(Report &             report,
   if (gain.nonlinearity > LeastNonlinearity && gain.IsBent())
   {
     report.Warn(WarningCode::ResponseNotStraight,
-                "the variance departs from its line by up to " + Text(100.0 * gain.nonlinearity) +
-                  " % of itself: the sensor's response bends, and gain is between " +
-                  Text(gain.line.gain - gain.below) + " and " + Text(gain.line.gain + gain.above) +
+                "the variance departs from its line by up to " + Percent(gain.nonlinearity) +
+                  " of itself: the sensor's response bends, and gain is between " +
+                  Rounded(gain.line.gain - gain.below) + " and " + Rounded(gain.line.gain + gain.above) +
                   " DN/e- for parts of the levels; its interval holds them");
   }
 }
@@ -177,9 +177,9 @@ WarnOfNarrowRange(Report & report, const RefinedResults & found, const OffsetLim
   if (!isDarkGiven && share > VarianceCurve::DarkEnough)
   {
     report.Warn(WarningCode::ResponseUnchecked,
-                "the darkest levels have " + Text(100.0 * share) + " % of the brightest's light (expected at most " +
-                  Text(100.0 * VarianceCurve::DarkEnough) +
-                  " %): a bent response could not be seen there; dark frames would tell");
+                "the darkest levels have " + Percent(share) + " of the brightest's light (expected at most " +
+                  Percent(VarianceCurve::DarkEnough) +
+                  "): a bent response could not be seen there; dark frames would tell");
   }
 }
 

@@ -159,9 +159,9 @@ FillFlicker(Report & report, const RefinedResults & found, double offset, double
   {
     report.flickerSd = Quantity::Without(EstimateStatus::NotIdentifiable);
     report.Warn(WarningCode::FlickerNotIdentifiable,
-                "the light is known to " + Text(100.0 * ofScale) + " % only, and so is the flicker (expected " +
-                  Text(100.0 * LargestScaleError) +
-                  " % at most): a known offset would tell, or a scene with dark and bright areas");
+                "the light is known to " + Percent(ofScale) + " only, and so is the flicker (expected " +
+                  Percent(LargestScaleError) +
+                  " at most): a known offset would tell, or a scene with dark and bright areas");
   }
   if (found.HasLocalLight())
   {

@@ -36,9 +36,9 @@ CompareDarkVariance(Report &             report,
       std::abs(varianceDn2 - gain.atOffset->valueDn2) > 4.0 * std::hypot(errorDn2, gain.atOffset->standardErrorDn2))
   {
     report.Warn(WarningCode::DarkFramesDiffer,
-                "at the offset the noise is " + Text(gain.atOffset->valueDn2 - quantisationDn2) + " +- " +
-                  Text(gain.atOffset->standardErrorDn2) + " DN^2, but the dark frames have " +
-                  Text(varianceDn2 - quantisationDn2) + " +- " + Text(errorDn2) +
+                "at the offset the noise is " +
+                  Measured(gain.atOffset->valueDn2 - quantisationDn2, gain.atOffset->standardErrorDn2) +
+                  " DN^2, but the dark frames have " + Measured(varianceDn2 - quantisationDn2, errorDn2) +
                   " DN^2: another exposure, gain or temperature");
   }
 }
@@ -72,8 +72,8 @@ CompareKnownOffset(Report &               report,
   if (flicker.obstacle.empty() && std::abs(difference) > 3.0 * error)
   {
     report.Warn(WarningCode::SteadyLight,
-                "the level that does not flicker is " + Text(flicker.valueDn) + " +- " + Text(flicker.standardErrorDn) +
-                  " DN, " + Text(difference) + " DN from the given offset: " +
+                "the level that does not flicker is " + Measured(flicker.valueDn, flicker.standardErrorDn) + " DN, " +
+                  Rounded(difference) + " DN from the given offset: " +
                   (difference > 0.0 ? "light that does not flicker, or dark current, makes the difference"
                                     : "that is too high for these frames"));
   }
@@ -84,8 +84,8 @@ CompareKnownOffset(Report &               report,
   {
     report.Warn(WarningCode::OffsetOutOfRange,
                 "the given offset, " + Text(offsetDn) + " DN, is not between " +
-                  (limits.lowestDn ? Text(*limits.lowestDn) : std::string("-infinity")) + " and " +
-                  Text(limits.highestDn) + " DN, where sigma^2 >= 0 and the darkest pixels put it");
+                  (limits.lowestDn ? Rounded(*limits.lowestDn) : std::string("-infinity")) + " and " +
+                  Rounded(limits.highestDn) + " DN, where sigma^2 >= 0 and the darkest pixels put it");
   }
 }
 
@@ -140,7 +140,7 @@ FillReadNoise(Report &               report,
   if (report.readNoise.status == EstimateStatus::UpperLimit)
   {
     report.Warn(WarningCode::ReadNoiseUpperLimit,
-                "the read noise is below " + Text(*report.readNoise.bracket->high) +
+                "the read noise is below " + Rounded(*report.readNoise.bracket->high) +
                   " DN and cannot be told from 0 or from the rounding to codes");
   }
 }
@@ -241,19 +241,20 @@ EstimateOffset(const RefinedResults & found, const GainEstimate & gain, const Of
   }
   else if (!std::isfinite(low) || !std::isfinite(high) || high - low > 0.25 * rangeDn)
   {
-    estimate.obstacle = "the offset's interval, " + Text(low + model.centreDn) + " to " + Text(high + model.centreDn) +
-                        " DN, is wider than a quarter of the range of the scene, " + Text(rangeDn) + " DN";
+    estimate.obstacle = "the offset's interval, " + Rounded(low + model.centreDn) + " to " +
+                        Rounded(high + model.centreDn) + " DN, is wider than a quarter of the range of the scene, " +
+                        Rounded(rangeDn) + " DN";
   }
   else if ((limits.lowestDn && estimate.valueDn < *limits.lowestDn - slackBelowDn) ||
            estimate.valueDn > limits.highestDn + slackDn)
   {
-    estimate.obstacle = "the flicker's zero, " + Text(estimate.valueDn) +
+    estimate.obstacle = "the flicker's zero, " + Rounded(estimate.valueDn) +
                         " DN, contradicts sigma^2 >= 0 or the darkest level: parts of the light flicker differently";
   }
   else if (isLocal && local->phi > 4.0)
   {
     estimate.obstacle =
-      "the responses to the lamps do not meet in one zero (dispersion " + Text(local->phi) + ", expected 1)";
+      "the responses to the lamps do not meet in one zero (dispersion " + Rounded(local->phi) + ", expected 1)";
   }
   return estimate;
 }

@@ -34,7 +34,7 @@ void
 WarnOfScene(Report & report, const RefinedResults & found)
 {
   const auto total = static_cast<double>(found.scene.frame.geometry.Pixels());
-  const auto percent = [total](std::size_t pixels) { return Text(100.0 * static_cast<double>(pixels) / total) + " %"; };
+  const auto percent = [total](std::size_t pixels) { return Percent(static_cast<double>(pixels) / total); };
   if (found.series.local.series.cols() > 0)
   {
     const auto count = std::to_string(found.series.local.series.cols());
@@ -65,8 +65,8 @@ WarnOfScene(Report & report, const RefinedResults & found)
   if (found.variance.line.trimmedFraction > 2e-3)
   {
     report.Warn(WarningCode::NoisyPixels,
-                Text(100.0 * found.variance.line.trimmedFraction) +
-                  " % of the pixels are noisier or quieter than the sensor's noise explains, and are left out");
+                Percent(found.variance.line.trimmedFraction) +
+                  " of the pixels are noisier or quieter than the sensor's noise explains, and are left out");
   }
 }
 
@@ -84,7 +84,7 @@ WarnOfMotion(Report & report, const RefinedResults & found)
   if (vibration > strongPixels)
   {
     report.Warn(WarningCode::StrongVibration,
-                "the scene moves by " + Text(vibration) +
+                "the scene moves by " + Rounded(vibration) +
                   " pixels rms: register the frames to whole pixels first; rough areas are left out");
   }
 }

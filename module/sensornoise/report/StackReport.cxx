@@ -82,8 +82,8 @@ WarnOfStack(Report & report, std::size_t frames, const StackSummary & summary)
     const CodeSteps::Local & bright = codes.steps.GetTable().back();
     report.Warn(
       WarningCode::Companded,
-      "the grey levels lie " + Text(dark.stepDn) + " DN apart about " + Text(dark.levelDn) + " DN and " +
-        Text(bright.stepDn) + " DN about " + Text(bright.levelDn) +
+      "the grey levels lie " + Rounded(dark.stepDn) + " DN apart about " + Rounded(dark.levelDn) + " DN and " +
+        Rounded(bright.stepDn) + " DN about " + Rounded(bright.levelDn) +
         " DN: a tone curve was applied to fewer bits and undone, and the noise of rounding differs from level "
         "to level");
   }
