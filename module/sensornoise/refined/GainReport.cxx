@@ -5,9 +5,11 @@
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Text.h"
 #include "sensornoise/pixels/CodeNoise.h"
+#include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/LevelPattern.h"
 #include "sensornoise/pixels/VarianceCurve.h"
 #include "sensornoise/pixels/VarianceLine.h"
+#include "sensornoise/refined/Constants.h"
 #include "sensornoise/refined/GainEstimate.h"
 #include "sensornoise/report/Quantities.h"
 
@@ -20,12 +22,6 @@ namespace sensornoise
 
 namespace
 {
-/** Departure of the variance from its line above which the data are not those of a sensor [1]: local gains that differ
- * by 4 % make 0.03 to 0.1 of it, a gamma of 1.3 from 0.13 on. */
-constexpr double LargestNonlinearity = 0.12;
-/** Part of the usable pixels that a measurement needs [1]. Set by hand. */
-constexpr double LeastUsedShare = 0.1;
-
 /** Files the fit. */
 void
 FillFit(Report & report, const RefinedResults & found, const GainEstimate & gain)
@@ -44,13 +40,13 @@ FindContradiction(const RefinedResults & found, const GainEstimate & gain)
 {
   const std::string advice = ": the data are not raw (gamma, compression), or not linear";
   const bool        hasCodes = found.scene.summary.codes.clipHighDn.has_value();
-  if (gain.nonlinearity > LargestNonlinearity)
+  if (gain.nonlinearity > InRefined.largestNonlinearity)
   {
     return "the variance departs from its line by " + Text(100.0 * gain.nonlinearity) +
-           " % of itself (expected less than " + Text(100.0 * LargestNonlinearity) + " %)" + advice +
+           " % of itself (expected less than " + Text(100.0 * InRefined.largestNonlinearity) + " %)" + advice +
            (hasCodes ? "" : ", or they saturate: then give the levels that the sensor attains (clip)");
   }
-  if (gain.isWide && gain.IsBent() && gain.above + gain.below > 2.0 * LargestGainError * gain.line.gain)
+  if (gain.isWide && gain.IsBent() && gain.above + gain.below > 2.0 * InRefined.largestGainError * gain.line.gain)
   {
     return "the variance bends against the mean, and the gain depends on what is taken for read noise, between " +
            Text(gain.line.gain - gain.below) + " and " + Text(gain.line.gain + gain.above) + " DN/e-" + advice;
@@ -85,12 +81,12 @@ FillTooLittle(Report & report, const RefinedResults & found, const GainEstimate 
 {
   SetSensorParameters(report, EstimateStatus::NotIdentifiable);
   const double error = gain.StandardError();
-  if (static_cast<double>(report.pixels.used) < LeastUsedShare * found.scene.usable)
+  if (static_cast<double>(report.pixels.used) < InRefined.leastUsedShare * found.scene.usable)
   {
     report.Warn("too-little-to-measure",
                 Text(100.0 * static_cast<double>(report.pixels.used) / std::max(1.0, found.scene.usable)) +
                   " % of the pixels that are not clipped fit a static scene (expected at least " +
-                  Text(100.0 * LeastUsedShare) + " %) and give a gain of " + Text(gain.line.gain) + " +- " +
+                  Text(100.0 * InRefined.leastUsedShare) + " %) and give a gain of " + Text(gain.line.gain) + " +- " +
                   Text(error) + " DN/e-: the scene is not static, or too dark; choose a static part of it");
     return;
   }
@@ -127,7 +123,7 @@ FillGainAndIntercept(Report &             report,
     std::hypot(std::sqrt(gain.covariance(1, 1)), 0.5 * (gain.below + gain.above) * gain.line.pivotDn);
   report.totalIntercept = WithError(gain.line.intercept + codes.interceptDn2, interceptError, "DN^2", student);
   report.intercept = WithError(gain.line.intercept - quantisationDn2, interceptError, "DN^2", student);
-  if (gain.nonlinearity > LeastNonlinearity && gain.IsBent())
+  if (gain.nonlinearity > InRefined.leastNonlinearity && gain.IsBent())
   {
     report.Warn("response-not-straight",
                 "the variance departs from its line by up to " + Text(100.0 * gain.nonlinearity) +
@@ -149,9 +145,9 @@ FillGain(Report &               report,
   const std::string contradiction = FindContradiction(found, gain);
   // Parts of levels that are all alike differ by patterns, not by a bend.
   const double error = gain.isWide ? std::sqrt(gain.covariance(0, 0)) : gain.StandardError();
-  const bool   isTooLittle = error > LargestGainError * gain.scale ||
-                           static_cast<double>(report.pixels.used) < LeastUsedShare * found.scene.usable;
-  if (isTooLittle && !(gain.nonlinearity > LargestNonlinearity))
+  const bool   isTooLittle = error > InRefined.largestGainError * gain.scale ||
+                           static_cast<double>(report.pixels.used) < InRefined.leastUsedShare * found.scene.usable;
+  if (isTooLittle && !(gain.nonlinearity > InRefined.largestNonlinearity))
   {
     FillTooLittle(report, found, gain);
     return false;
@@ -174,11 +170,11 @@ WarnOfNarrowRange(Report & report, const RefinedResults & found, const OffsetLim
   const double          blackDn = report.offset.value.value_or(limits.rootDn);
   const bool            isDarkGiven = found.settings.offset && found.settings.offset->variance;
   const double          share = curve.DarkestShare(blackDn);
-  if (!isDarkGiven && share > VarianceCurve::DarkEnough)
+  if (!isDarkGiven && share > InPixels.darkEnough)
   {
     report.Warn("response-unchecked",
                 "the darkest levels have " + Text(100.0 * share) + " % of the brightest's light (expected at most " +
-                  Text(100.0 * VarianceCurve::DarkEnough) +
+                  Text(100.0 * InPixels.darkEnough) +
                   " %): a bent response could not be seen there; dark frames would tell");
   }
 }

@@ -3,11 +3,14 @@
 #include "sensornoise/refined/OffsetReport.h"
 
 #include "sensornoise/base/ChiSquare.h"
-#include "sensornoise/base/RequiredFlickerZ.h"
+#include "sensornoise/base/Constants.h"
 #include "sensornoise/base/Text.h"
 #include "sensornoise/moments/KnownOffset.h"
+#include "sensornoise/pixels/Constants.h"
+#include "sensornoise/refined/Constants.h"
 #include "sensornoise/refined/GainEstimate.h"
 #include "sensornoise/report/Quantities.h"
+#include "sensornoise/series/Constants.h"
 
 #include <algorithm>
 #include <array>
@@ -20,9 +23,6 @@ namespace sensornoise
 
 namespace
 {
-/** Error that offsets which differ may cause, in standard errors, that is left out [1]. Set by hand: it adds 3 %. */
-constexpr double NegligiblePattern = 0.25;
-
 /** Warns if the dark frames are noisier or quieter than the line is at the offset, unless a bent response explains it.
  */
 void
@@ -32,8 +32,8 @@ CompareDarkVariance(Report &             report,
                     double               errorDn2,
                     double               quantisationDn2)
 {
-  if (gain.atOffset &&
-      std::abs(varianceDn2 - gain.atOffset->valueDn2) > 4.0 * std::hypot(errorDn2, gain.atOffset->standardErrorDn2))
+  if (gain.atOffset && std::abs(varianceDn2 - gain.atOffset->valueDn2) >
+                         InRefined.anotherSensorZ * std::hypot(errorDn2, gain.atOffset->standardErrorDn2))
   {
     report.Warn("dark-frames-differ",
                 "at the offset the noise is " + Text(gain.atOffset->valueDn2 - quantisationDn2) + " +- " +
@@ -69,7 +69,7 @@ CompareKnownOffset(Report &               report,
   const double offsetErrorDn = found.settings.offset->standardErrorDn;
   const double difference = flicker.valueDn - offsetDn;
   const double error = std::hypot(flicker.standardErrorDn, offsetErrorDn);
-  if (flicker.obstacle.empty() && std::abs(difference) > 3.0 * error)
+  if (flicker.obstacle.empty() && std::abs(difference) > InRefined.steadyLightZ * error)
   {
     report.Warn("steady-light",
                 "the level that does not flicker is " + Text(flicker.valueDn) + " +- " + Text(flicker.standardErrorDn) +
@@ -77,10 +77,11 @@ CompareKnownOffset(Report &               report,
                   (difference > 0.0 ? "light that does not flicker, or dark current, makes the difference"
                                     : "that is too high for these frames"));
   }
-  const double slackDn = 3.0 * offsetErrorDn + 2.0 * std::sqrt(gain.covariance(1, 1)) / gain.line.gain;
+  const double slackDn = InRefined.slackOfOffsetZ * offsetErrorDn +
+                         InRefined.slackOfInterceptZ * std::sqrt(gain.covariance(1, 1)) / gain.line.gain;
   const double rangeDn = found.scene.model.brightestDn - found.scene.model.darkestDn;
   const bool   isTooLow = limits.lowestDn && offsetDn < *limits.lowestDn - slackDn;
-  if (isTooLow || offsetDn > limits.highestDn + slackDn + 0.01 * rangeDn)
+  if (isTooLow || offsetDn > limits.highestDn + slackDn + InRefined.slackOfRange * rangeDn)
   {
     report.Warn("offset-out-of-range",
                 "the given offset, " + Text(offsetDn) + " DN, is not between " +
@@ -127,7 +128,7 @@ FillReadNoise(Report &               report,
     FillElectrons(
       report, dark.valueDn2 - quantisationDn2, dark.standardErrorDn2, v.gain, gain.StandardError(), student);
   }
-  else if (square + 4.0 * error < 0.0)
+  else if (square + InRefined.negativeNoiseZ * error < 0.0)
   {
     report.readNoise = Quantity::Without(EstimateStatus::Failed, "DN");
     report.readNoiseElectrons = Quantity::Without(EstimateStatus::Failed, "e-");
@@ -177,7 +178,7 @@ FillFromDarkFrames(Report & report, const RefinedSettings & settings, double qua
   }
   const double student = StudentQuantile(0.975, std::max(1.0, static_cast<double>(known.darkFrames) - 1.0));
   const double square = known.variance->valueDn2 - quantisationDn2;
-  const double halfStepDn2 = 3.0 * quantisationDn2; // below it the codes hide the noise
+  const double halfStepDn2 = 12.0 * InCommon.hiddenVariance * quantisationDn2; // below it the codes hide the noise
   report.readNoise = square < halfStepDn2 ? UpperLimit(std::sqrt(halfStepDn2), "DN")
                                           : RootOf(square, known.variance->standardErrorDn2, "DN", student);
   if (known.readNoiseMedian)
@@ -215,16 +216,17 @@ EstimateOffset(const RefinedResults & found, const GainEstimate & gain, const Of
   // So does a response that bends.
   const double lightDn = std::abs(model.centreDn - estimate.valueDn);
   const double fromPatternDn = lightDn * std::hypot(found.variance.pattern.offsetShare, gain.RelativeModelError());
-  if (fromPatternDn > NegligiblePattern * estimate.standardErrorDn)
+  if (fromPatternDn > InPixels.negligiblePattern * estimate.standardErrorDn)
   {
     estimate.standardErrorDn = std::hypot(estimate.standardErrorDn, fromPatternDn);
     low -= 1.96 * fromPatternDn;
     high += 1.96 * fromPatternDn;
     estimate.interval = Interval{ low + model.centreDn, high + model.centreDn };
   }
-  const double slackDn = 3.0 * estimate.standardErrorDn;
-  const double slackBelowDn = slackDn + 2.0 * std::sqrt(gain.covariance(1, 1)) / std::max(1e-9, gain.line.gain);
-  if (!(line.contrast > OffsetLine::LeastContrast))
+  const double slackDn = InRefined.slackOfOffsetZ * estimate.standardErrorDn;
+  const double slackBelowDn =
+    slackDn + InRefined.slackOfInterceptZ * std::sqrt(gain.covariance(1, 1)) / std::max(1e-9, gain.line.gain);
+  if (!(line.contrast > InSeries.leastContrast))
   {
     estimate.obstacle = "the scene has one intensity";
   }
@@ -232,7 +234,7 @@ EstimateOffset(const RefinedResults & found, const GainEstimate & gain, const Of
   {
     estimate.obstacle = "the scene is a ramp, along which motion changes every level alike, as an offset does";
   }
-  else if (!(line.flickerZ > RequiredFlickerZ) && !isLocal)
+  else if (!(line.flickerZ > InCommon.requiredFlickerZ) && !isLocal)
   {
     estimate.obstacle =
       "the flicker exceeds its own noise by " + Text(line.flickerZ) + " standard deviations (expected more than 6)";
@@ -241,7 +243,7 @@ EstimateOffset(const RefinedResults & found, const GainEstimate & gain, const Of
   {
     estimate.obstacle = "the light changes differently over the frame, and no part of it tells the offset";
   }
-  else if (!std::isfinite(low) || !std::isfinite(high) || high - low > 0.25 * rangeDn)
+  else if (!std::isfinite(low) || !std::isfinite(high) || high - low > InRefined.largestOffsetInterval * rangeDn)
   {
     estimate.obstacle = "its interval, " + Text(low + model.centreDn) + " to " + Text(high + model.centreDn) +
                         " DN, is wider than a quarter of the range of the scene, " + Text(rangeDn) + " DN";
@@ -252,7 +254,7 @@ EstimateOffset(const RefinedResults & found, const GainEstimate & gain, const Of
     estimate.obstacle = "the flicker's zero, " + Text(estimate.valueDn) +
                         " DN, contradicts sigma^2 >= 0 or the darkest level: parts of the light flicker differently";
   }
-  else if (isLocal && local->phi > 4.0)
+  else if (isLocal && local->phi > InRefined.largestLocalDispersion)
   {
     estimate.obstacle =
       "the responses to the lamps do not meet in one zero (dispersion " + Text(local->phi) + ", expected 1)";
