@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/published/PublishedReport.h"
 
+#include "sensornoise/base/Constants.h"
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/IntensityIndex.h"
 #include "sensornoise/base/PolynomialFit.h"
-#include "sensornoise/base/RequiredFlickerZ.h"
 #include "sensornoise/base/RollingShutter.h"
 #include "sensornoise/base/Text.h"
 #include "sensornoise/published/FlickerEstimate.h"
@@ -152,7 +152,7 @@ FillNoise(Report &                  report,
 {
   const PublishedScene &  scene = found.scene;
   const FlickerEstimate & flicker = found.flicker;
-  const bool              isIdentified = flicker.flickerZ > RequiredFlickerZ;
+  const bool              isIdentified = flicker.flickerZ > InCommon.requiredFlickerZ;
   if (!isIdentified)
   {
     report.Warn("offset-not-identifiable",
@@ -206,7 +206,7 @@ MakePublishedReport(const PublishedFindings & found)
   WarnOfWidening(report, "bright", scene.bright);
   WarnOfWidening(report, "dark", scene.dark);
   WarnOfFlicker(report, found.flicker);
-  FillFlicker(report, found.flicker, found.flicker.flickerZ > RequiredFlickerZ);
+  FillFlicker(report, found.flicker, found.flicker.flickerZ > InCommon.requiredFlickerZ);
   FillVibration(report, found);
   if (!HasRange(report, scene))
   {
