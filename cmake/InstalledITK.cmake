@@ -27,22 +27,9 @@ include(${ITK_USE_FILE})
 find_package(ZLIB REQUIRED) # the same as ITK's: the module ITKZLIB of an installed ITK may stand for the system's
 
 add_subdirectory(module)
-# The files of a room are compiled together, six at a time to spare memory: half of the time to compile them one by one goes
-# into reading Eigen and ITK and into what they instantiate alike. Ways 1 and 2 compile them one by one, which shows whether
-# each file includes what it uses; so does CMake before 3.18, which knows no groups.
-if(NOT CMAKE_VERSION VERSION_LESS 3.18)
-  get_target_property(_sources SensorNoise SOURCES)
-  list(SORT _sources)
-  foreach(_source IN LISTS _sources)
-    get_filename_component(_room ${_source} DIRECTORY)
-    get_filename_component(_room ${_room} NAME)
-    math(EXPR _group "${_files_of_${_room}} + 0")
-    math(EXPR _files_of_${_room} "${_group} + 1")
-    math(EXPR _group "${_group} / 6")
-    set_property(SOURCE ${_source} TARGET_DIRECTORY SensorNoise PROPERTY UNITY_GROUP ${_room}${_group})
-  endforeach()
-  set_target_properties(SensorNoise PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-endif()
+# Ways 1 and 2 compile the files one by one, which shows whether each includes what it uses.
+include(cmake/UnityByRoom.cmake)
+sensornoise_unity_by_room(SensorNoise)
 
 install(EXPORT SensorNoiseTargets NAMESPACE SensorNoise:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/SensorNoise)
 configure_package_config_file(cmake/SensorNoiseConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/SensorNoiseConfig.cmake

@@ -20,8 +20,8 @@
 
 #include "itkSensorNoiseChunks.h"
 #include "itkSensorNoiseErrors.h"
+#include "sensornoise/base/Constants.h"
 #include "sensornoise/base/FrameGeometry.h"
-#include "sensornoise/base/RequiredFlickerZ.h"
 #include "sensornoise/base/RollingShutter.h"
 #include "sensornoise/published/FlickerEstimate.h"
 #include "sensornoise/published/FlickerSums.h"
@@ -203,7 +203,7 @@ FlickerCorrectionImageFilter<TStack>::GenerateData()
   {
     this->EstimateFlicker();
   }
-  const bool isIdentified = m_Flicker.flickerZ > sensornoise::RequiredFlickerZ;
+  const bool isIdentified = m_Flicker.flickerZ > sensornoise::InCommon.requiredFlickerZ;
   this->GetOffsetOutput()->Set(isIdentified ? m_Flicker.offsetDn : std::numeric_limits<double>::quiet_NaN());
 
   // The pass above, or the update of the mean from the same reader, left the stack at another chunk.

@@ -3,11 +3,9 @@
 // Simulates bursts with what goes wrong in real life, estimates each and prints the errors, the errors in units of the
 // reported standard errors, and a verdict. See --help and --list.
 
-#include "sensornoise/base/FrameGeometry.h"
-#include "sensornoise/base/PixelUse.h"
 #include "sensornoise/published/PublishedMethod.h"
 #include "sensornoise/refined/RefinedMethod.h"
-#include "sensornoise/report/Report.h"
+#include "studies/RobustnessEstimate.h"
 #include "studies/RobustnessRun.h"
 #include "studies/RobustnessTable.h"
 #include "studies/StressStacks.h"
@@ -45,54 +43,14 @@ struct Options
   bool                     list{ false };
 };
 
-/** A report, and the pixels that it is of. */
-struct Estimation
-{
-  Report                    report;
-  std::vector<std::uint8_t> isUsed;
-};
-
-template <typename TMethod, typename TPixel>
-Estimation
-EstimateBy(TMethod && method, const std::vector<TPixel> & codes, std::size_t frames)
-{
-  for (unsigned int pass = 0; pass < method.NumberOfPasses; ++pass)
-  {
-    method.AddFrames(codes.data(), frames);
-    method.EndPass();
-  }
-  Estimation estimation{ method.GetReport(), {} };
-  for (const std::uint8_t use : method.GetPixelUse())
-  {
-    estimation.isUsed.push_back(static_cast<PixelUse>(use) == PixelUse::Used ? 1 : 0);
-  }
-  return estimation;
-}
-
-template <typename TPixel>
-Estimation
-Estimate(const std::string & name, const StressStack & stack, const std::vector<TPixel> & codes)
-{
-  const FrameGeometry geometry{ stack.width, stack.height, 1 };
-  return name == "published" ? EstimateBy(PublishedMethod<TPixel>({}, geometry, stack.frames), codes, stack.frames)
-                             : EstimateBy(RefinedMethod<TPixel>({}, geometry, stack.frames), codes, stack.frames);
-}
-
 void
 Execute(Run & run, const Options & options)
 {
   const StressStack stack = tools::MakeStressStack(run.stressCase.name, run.reference, options.size, run.seed);
-  const Estimation  estimation =
-    stack.isEightBit
-       ? Estimate(options.method, stack, std::vector<std::uint8_t>(stack.codes.begin(), stack.codes.end()))
-       : Estimate(options.method, stack, stack.codes);
-  const tools::StressTruth truth = stack.TruthOver(estimation.isUsed);
-  run.report = estimation.report;
-  run.gain = truth.gain;
-  run.gainPercent = tools::Compare(run.report.gain, truth.gain, 0.01 * truth.gain);
-  run.intercept = tools::Compare(
-    run.report.intercept, truth.InterceptNear(run.report.intercept.value.value_or(0.0), stack.sharedVariance), 1.0);
-  run.offset = tools::Compare(run.report.offset, truth.offset, 1.0);
+  tools::FileEstimation(run,
+                        stack,
+                        options.method == "published" ? tools::EstimateStack<PublishedMethod>(stack)
+                                                      : tools::EstimateStack<RefinedMethod>(stack));
 }
 
 /** Simulates and estimates all runs, some at a time, and prints them in order. */

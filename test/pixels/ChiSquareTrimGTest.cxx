@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/pixels/ChiSquareTrim.h"
 
+#include "sensornoise/pixels/Constants.h"
+
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -34,8 +36,8 @@ TEST(SensorNoiseChiSquareTrim, MeanFactorAgreesWithNumericalIntegration)
   {
     const auto & limits = trim.Of(k);
     const double inside = Integrate(k, k * limits.low, k * limits.high, 0);
-    EXPECT_NEAR(inside, 1.0 - 2.0 * ChiSquareTrim::Tail, 1e-9) << k;
-    EXPECT_NEAR(Integrate(k, 1e-9, k * limits.low, 0), ChiSquareTrim::Tail, 1e-8) << k;
+    EXPECT_NEAR(inside, 1.0 - 2.0 * InPixels.trimTail, 1e-9) << k;
+    EXPECT_NEAR(Integrate(k, 1e-9, k * limits.low, 0), InPixels.trimTail, 1e-8) << k;
     EXPECT_NEAR(limits.mean, Integrate(k, k * limits.low, k * limits.high, 1) / inside / k, 1e-9) << k;
     EXPECT_NEAR(Integrate(k, 1e-9, k * limits.median, 0), 0.5, 1e-8) << k;
   }

@@ -3,6 +3,7 @@
 #include "sensornoise/pixels/JudgingLine.h"
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/PixelCoordinates.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
 #include "sensornoise/pixels/ProjectionSums.h"
@@ -48,7 +49,7 @@ MakeLine()
   VarianceLine line;
   line.gain = 0.4;
   line.intercept = 100.0 - 0.4 * BlackDn;
-  line.lowestDn2 = VarianceLine::LowestShare * 108.0;
+  line.lowestDn2 = InPixels.lowestShare * 108.0;
   line.pivotDn = BlackDn + 520.0;
   line.weightSum = 1.0;
   line.spreadDn2 = 1e6 / 12.0;

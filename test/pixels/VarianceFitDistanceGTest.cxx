@@ -3,6 +3,7 @@
 #include "sensornoise/pixels/VarianceFit.h"
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/moments/Constants.h"
 #include "sensornoise/moments/DefectivePixels.h"
 #include "sensornoise/pixels/VarianceLine.h"
 #include "helpers/StackTestHelper.h"
@@ -157,7 +158,7 @@ TEST(SensorNoiseVarianceFitDistance, NoisyPixelsRaiseTheLineByTheirShare)
 TEST(SensorNoiseVarianceFitDistance, DefectivePixelsAreTrimmedAtTheSameDistanceEverywhere)
 {
   Maps                            maps([](std::mt19937 &) { return 1.0; });
-  const double                    factor = DefectiveNoiseFactor * DefectiveNoiseFactor;
+  const double                    factor = InMoments.defectiveNoiseFactor * InMoments.defectiveNoiseFactor;
   const std::vector<std::uint8_t> before = maps.Fit(TrimRule::Distance).FindTrimmed();
   EXPECT_LE(std::count(before.begin(), before.end(), std::uint8_t{ 1 }), 4); // 1e-5 of the brightest
   for (std::size_t p = 0; p < Pixels; p += 100)

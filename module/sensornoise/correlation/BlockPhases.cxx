@@ -3,6 +3,7 @@
 #include "sensornoise/correlation/BlockPhases.h"
 
 #include "sensornoise/base/Eigen.h"
+#include "sensornoise/correlation/Constants.h"
 #include "sensornoise/correlation/Jackknife.h"
 #include "sensornoise/correlation/LagSums.h"
 
@@ -14,9 +15,6 @@ namespace sensornoise
 
 namespace
 {
-/** Standard deviations of chance by which the sum of the squared differences is cut [1]. */
-constexpr double PhaseZ = 4.0;
-
 /** The coefficients of the phases less the mean of their axis. */
 Eigen::VectorXd
 Differences(const BlockPhases & sums)
@@ -85,7 +83,7 @@ SpreadOfPhases(const std::vector<BlockPhases> & tiles)
 {
   const JackknifeEstimate estimate = Jackknife(tiles, Differences);
   const Eigen::VectorXd   variances = estimate.covariance.diagonal();
-  const double            chance = variances.sum() + PhaseZ * std::sqrt(2.0 * variances.squaredNorm());
+  const double            chance = variances.sum() + InCorrelation.phaseZ * std::sqrt(2.0 * variances.squaredNorm());
   return std::sqrt(std::max(0.0, estimate.value.squaredNorm() - chance) / static_cast<double>(estimate.value.size()));
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/correlation/CommonNoise.h"
 
+#include "sensornoise/correlation/Constants.h"
+
 #include <cstddef>
 #include <cstdlib>
 
@@ -10,10 +12,6 @@ namespace sensornoise
 
 namespace
 {
-/** Part of the square of the products of the lights that is their spread, from which levels tell what grows with the
- * light from what does not [1]: below, the error of both would be seven times that of their sum. Set by hand. */
-constexpr double LeastSpread = 0.05;
-
 /** The part of the light's square, of what is far apart along both axes; what does not depend on the light is another
  * part. Where the levels cannot tell them apart, as in a flat field, all is the light's. */
 double
@@ -21,7 +19,7 @@ LightOf(const DistantSums & far)
 {
   const double squares = far.constant * far.lightSquare;
   const double determinant = squares - far.light * far.light;
-  if (determinant > LeastSpread * squares)
+  if (determinant > InCorrelation.leastSpread * squares)
   {
     return (far.constant * far.lightCovariance - far.light * far.covariance) / determinant;
   }

@@ -3,6 +3,7 @@
 #include "sensornoise/correlation/CorrelationEstimate.h"
 
 #include "sensornoise/base/BytesFingerprint.h"
+#include "sensornoise/base/Constants.h"
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Quantiles.h"
 #include "sensornoise/base/Text.h"
@@ -28,9 +29,6 @@ namespace sensornoise
 
 namespace
 {
-constexpr double DarkestQuantile = 0.002;
-constexpr double BrightestQuantile = 0.998;
-
 double
 LevelWithoutLight(const CorrelationSettings &       settings,
                   const std::vector<double> &       mean,
@@ -49,8 +47,8 @@ LevelWithoutLight(const CorrelationSettings &       settings,
   {
     return 0.0;
   }
-  const double darkest = Quantile(levels, DarkestQuantile);
-  return ZeroOfLight(darkest, Quantile(levels, BrightestQuantile), 0.0);
+  const double darkest = Quantile(levels, InCommon.darkestQuantile);
+  return ZeroOfLight(darkest, Quantile(levels, InCommon.brightestQuantile), 0.0);
 }
 
 /** The frames of a sample that are not equal to an earlier one. */

@@ -3,6 +3,7 @@
 #include "sensornoise/correlation/NoiseCorrelation.h"
 
 #include "sensornoise/base/Eigen.h"
+#include "sensornoise/correlation/Constants.h"
 #include "sensornoise/correlation/CorrelationSums.h"
 #include "sensornoise/correlation/SpaceCorrelation.h"
 #include "sensornoise/correlation/TemporalMixing.h"
@@ -20,34 +21,18 @@ namespace sensornoise
 
 namespace
 {
-/** Tiles, pixels and degrees of freedom below which nothing is measured. */
-constexpr std::size_t LeastTiles = 4;
-constexpr std::size_t LeastPixels = 1024;
-constexpr double      LeastFreedom = 3.0;
 /** Distance [pixels] and frames that are looked at in any case. */
 constexpr int FirstRings = 2;
 constexpr int FirstTimeLags = 3;
 /** Rings that there may be at most [pixels]. */
 constexpr int AllRings = 16;
 
-/** Frames after which a recursive filter has forgotten how it began: its first frame is not filtered. */
-constexpr std::size_t FirstFrames = 8;
-
-/** Excess kurtosis that no linear filter leaves [1]. Set by hand: the correction of defects at 3 standard deviations
- * makes -0.06 to -0.08 of the noise and 0.1 to 0.25 of four neighbours in turn, white and filtered noise 0.01. */
-constexpr double LargestExcess = 0.04;
-constexpr double ExcessZ = 4.0;
-
-/** Part of the lines' variance that the series of the scene may take for light [1]. Set by hand: a row noise as large
- * as the read noise loses 3 to 8 %. */
-constexpr double LostToSeries = 0.04;
-
 /** The variance of lines, with what the jackknife does not see: tiles side by side have the same \a lines. */
 MeasuredNumber
 LineVariance(const MeasuredNumber & ofTiles, double lines, double freedom)
 {
   const double chance = ofTiles.value * std::sqrt(2.0 / std::max(1.0, lines * freedom));
-  return { ofTiles.value, std::hypot(ofTiles.standardError, chance, LostToSeries * ofTiles.value) };
+  return { ofTiles.value, std::hypot(ofTiles.standardError, chance, InCorrelation.lostToSeries * ofTiles.value) };
 }
 
 /** How many rows and columns of the frame the tiles cover. */
@@ -167,14 +152,14 @@ IsLinear(const CorrelationSums & sums, const NoiseCorrelation & found)
   }
   MeasuredNumber own = found.kurtosis[0];
   own.value += 1.2 * sums.GetCodesDn2() * sums.GetCodesDn2() * square;
-  if (own.value < 0.0 && own.Exceeds(LargestExcess, ExcessZ))
+  if (own.value < 0.0 && own.Exceeds(InCorrelation.largestExcess, InCorrelation.excessZ))
   {
     return false;
   }
   return std::none_of(found.kurtosis.begin() + 1, found.kurtosis.end(), [&](MeasuredNumber more) {
     // The fewer electrons or the more the light changes, the larger both are, and that of one value the more so.
     more.value -= std::max(0.0, own.value);
-    return more.value > 0.0 && more.Exceeds(LargestExcess, ExcessZ);
+    return more.value > 0.0 && more.Exceeds(InCorrelation.largestExcess, InCorrelation.excessZ);
   });
 }
 } // namespace
@@ -214,7 +199,7 @@ NoiseCorrelation::LineNoise() const
   MeasuredNumber sum;
   for (const MeasuredNumber & lines : { rowsDn2, columnsDn2 })
   {
-    if (lines.value > LeastLineNoiseZ * lines.standardError)
+    if (lines.value > InCorrelation.leastLineNoiseZ * lines.standardError)
     {
       sum.value += lines.value;
       sum.standardError = std::hypot(sum.standardError, lines.standardError);
@@ -238,8 +223,8 @@ SharedSquares(const std::vector<LagCoefficient> & lags)
 NoiseCorrelation
 MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const ParallelFor & parallelFor)
 {
-  if (residuals.GetTiles().origins.size() < LeastTiles || residuals.GetNumberOfPixels() < LeastPixels ||
-      residuals.GetFreedom() < LeastFreedom)
+  if (residuals.GetTiles().origins.size() < InCorrelation.leastTiles ||
+      residuals.GetNumberOfPixels() < InCorrelation.leastPixels || residuals.GetFreedom() < InCorrelation.leastFreedom)
   {
     return {};
   }
@@ -285,7 +270,8 @@ MeasureSettledFrames(NoiseCorrelation &  correlation,
 {
   if (correlation.kind == NoiseKind::Temporal)
   {
-    residuals.DropFirst(std::min(FirstFrames, residuals.GetTiles().frames / 5), parallelFor);
+    residuals.DropFirst(
+      std::min(InCorrelation.firstFrames, residuals.GetTiles().frames / InCorrelation.firstFramesOneIn), parallelFor);
     correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
   }
 }

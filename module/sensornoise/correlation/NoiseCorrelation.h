@@ -44,9 +44,6 @@ struct MeasuredNumber
   Exceeds(double least, double z) const;
 };
 
-/** Standard errors by which the variance of whole rows' or columns' noise must exceed 0 to be there [1]. */
-inline constexpr double LeastLineNoiseZ = 4.0;
-
 /** The correlation coefficient of the noise of two values [1]. */
 struct LagCoefficient
 {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/correlation/NoiseKurtosis.h"
 
+#include "sensornoise/correlation/Constants.h"
+
 #include <cstddef>
 #include <vector>
 
@@ -39,9 +41,6 @@ Alternate(const float * values, std::size_t side, const Alternation & of, std::v
     }
   }
 }
-
-/** Part of a pixel's variance that a series must have [1]. */
-constexpr float LeastNoise = 1e-3F;
 
 bool
 AllAreTaken(const float * weight, std::size_t side, const Alternation & of, std::size_t p)
@@ -102,7 +101,8 @@ SumKurtosis(const NoiseResiduals & residuals, const ParallelFor & parallelFor)
       for (std::size_t p = 0; p < size; ++p)
       {
         // Of pixels that are copies of each other nothing is left but rounding.
-        const bool isNoise = squares[p] * residuals.WeightOf(i)[p] > LeastNoise * static_cast<float>(freedom);
+        const bool isNoise =
+          squares[p] * residuals.WeightOf(i)[p] > InCorrelation.leastNoise * static_cast<float>(freedom);
         if (isNoise && AllAreTaken(residuals.WeightOf(i), tiles.side, Alternations[k], p))
         {
           const double square = squares[p];

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/correlation/NoiseResiduals.h"
 
+#include "sensornoise/correlation/Constants.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -13,10 +15,6 @@ namespace sensornoise
 
 namespace
 {
-/** Bins of equal count along the light in which the variance is averaged, and the least pixels of one. */
-constexpr std::size_t NoiseBins = 32;
-constexpr std::size_t LeastPixelsOfBin = 256;
-
 /** An orthonormal basis of the constant and what the series add to it. */
 Eigen::MatrixXd
 BasisOf(const Eigen::MatrixXd & series, std::size_t frames)
@@ -171,8 +169,9 @@ NoiseResiduals::Weigh(const std::vector<std::uint8_t> & take)
   std::sort(order.begin(), order.end(), [this](std::size_t a, std::size_t b) {
     return m_Light[a] != m_Light[b] ? m_Light[a] < m_Light[b] : a < b;
   });
-  const std::size_t bins = std::clamp<std::size_t>(order.size() / LeastPixelsOfBin, 1, NoiseBins);
-  NoiseCurve        curve;
+  const std::size_t bins =
+    std::clamp<std::size_t>(order.size() / InCorrelation.leastPixelsOfBin, 1, InCorrelation.noiseBins);
+  NoiseCurve curve;
   for (std::size_t b = 0; b < bins; ++b)
   {
     const std::size_t first = b * order.size() / bins;

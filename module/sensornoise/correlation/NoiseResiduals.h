@@ -6,6 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/correlation/Constants.h"
 #include "sensornoise/correlation/NoiseSample.h"
 
 #include <cstddef>
@@ -23,17 +24,13 @@ struct SampledPixels
   double                            blackDn; ///< level without light, from which light is measured
 };
 
-/** Part of the levels' range above black up to which the darkest may lie to be the zero of the light [1]: flat fields
- * have none that is near it. */
-inline constexpr double DarkShare = 0.3;
-
 /** The level from which light is measured where nothing tells it [DN]: the darkest if that is near \a blackDn, which it
  * is not below, else that. What is shared in proportion to the variance is in proportion to the light above a level
  * that is below. */
 inline double
 ZeroOfLight(double darkestDn, double brightestDn, double blackDn)
 {
-  return darkestDn - blackDn < DarkShare * (brightestDn - blackDn) ? darkestDn : blackDn;
+  return darkestDn - blackDn < InCorrelation.darkShare * (brightestDn - blackDn) ? darkestDn : blackDn;
 }
 
 /** \class NoiseResiduals

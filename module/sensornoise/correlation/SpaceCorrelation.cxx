@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/correlation/BlockPhases.h"
+#include "sensornoise/correlation/Constants.h"
 #include "sensornoise/correlation/SharedShapes.h"
 
 #include <algorithm>
@@ -16,60 +17,6 @@ namespace sensornoise
 
 namespace
 {
-/** Coefficient that is worth a word [1]. Set by hand: charge coupling of 0.3 % makes 0.006 of it, the noise of a plain
- * sample 0.0004 to 0.0007. */
-constexpr double LeastCoefficient = 0.002;
-/** What the nearest four share together that is worth a word, relative to the variance of the bright pixels [1]. Set by
- * hand: a brighter-fatter effect of 2 % at full well makes 0.02. */
-constexpr double LeastEffect = 0.003;
-/** Standard errors by which that of the nearest neighbours, and any of the others, must exceed it [1]. */
-constexpr double NearestZ = 2.7;
-/** Standard errors of what grows with the square of the light, and chi-square by which it straightens the variance,
- * that together tell it from chance [1]. */
-constexpr double LeastZOfSquare = 1.5;
-constexpr double LeastEvidenceOfBend = 9.0;
-constexpr double AnyZ = 4.0;
-
-/** What a further ring adds to the sum that is left out of it and counted as its error, even if it is seen, of the sum
- * [1]. Set by hand: the error of the sum is 0.2 % at best. With 0.005 the gain after smoothing by 0.6 pixels is 0.6 %
- * low where the frames are large. */
-constexpr double LeastRing = 0.001;
-/** What is far, relative to the variance, that tells a filter from coupled charge [1]. Set by hand. */
-constexpr double SmallRing = 0.005;
-/** Of the sum over lags [pixels]: smoothing by a Gaussian of 1 pixel reaches as far. */
-constexpr int LargestReach = 5;
-/** Of the error of the next ring, that it may hold where it is not seen [1]. Set by hand: intervals of smoothed frames
- * of 256 x 256 pixels hold the gain in 239 of 240 with 1, in 238 with 0.75; those of 512 x 512 in 18 of 20 with 1, in
- * 17 with 0.75, in 16 with half. */
-constexpr double UnseenErrors = 0.75;
-/** Of the size of the next, that all rings beyond LargestReach may add [1]: 1.3 for a Gaussian of 1.5 pixels, 1.7 of 2.
- */
-constexpr double RingsBeyondReach = 2.0;
-
-/** Coefficient up to which charge may be coupled [1]: sensors have a few hundredths. */
-constexpr double LargestCrosstalk = 0.06;
-/** Distance up to which charge is coupled [pixels]. */
-constexpr int ReachOfCharge = 2;
-/** Standard errors by which what is farther must exceed SmallRing to be no chance [1]. */
-constexpr double FarZ = 3.0;
-/** Evidence that a constant needs, as a difference of chi-squares [1]: one in e. */
-constexpr double EvidenceOfConstant = 2.0;
-/** Probability from which what neighbours share, with the opposite sign, is taken for the rounding of blocks [1]. */
-constexpr double RoundingProbability = 0.05;
-/** Standard errors by which it must be below 0 [1]. */
-constexpr double RoundingZ = 2.0;
-/** Chi-square of the best shape from which nothing explains it: the 99 % quantile for four bins and one number [1]. */
-constexpr double LargestChi2 = 11.3;
-
-/** Chi-square that a bend of the variance may count at most [1]: the response may bend, too. */
-constexpr double MostEvidenceOfBend = 20.0;
-/** Part of that chi-square that may be left of a bend that charge makes [1]. */
-constexpr double LargestShareOfBend = 0.5;
-/** Root mean square by which a negative share of nearest neighbours may differ with the place in a block [1]. Set by
- * hand: a JPEG of quality 98 makes 0.01. (A positive one may: frames that were binned, sensors read in groups of rows.)
- */
-constexpr double LargestSpreadOfPhases = 0.003;
-
 MeasuredNumber
 NumberAt(const JackknifeEstimate & estimate, std::size_t k)
 {
@@ -107,10 +54,11 @@ FindReach(CorrelationSums & sums, double & beyond)
     const MeasuredNumber next = SumOfCoefficients(sums, sums.Ring(reach + 1, reach + 1));
     const double         inside = 1.0 + SumOfCoefficients(sums, sums.Ring(1, reach)).value;
     const double         size = std::abs(next.value);
-    const bool           isLast = size < LeastRing * std::abs(inside) || size < next.standardError;
-    if (isLast || reach == LargestReach)
+    const bool           isLast = size < InCorrelation.leastRing * std::abs(inside) || size < next.standardError;
+    if (isLast || reach == InCorrelation.largestReach)
     {
-      beyond = std::max((isLast ? 1.0 : RingsBeyondReach) * size, UnseenErrors * next.standardError);
+      beyond = std::max((isLast ? 1.0 : InCorrelation.ringsBeyondReach) * size,
+                        InCorrelation.unseenErrors * next.standardError);
       return reach;
     }
   }
@@ -142,8 +90,8 @@ Chi2OfSums(const CorrelationSums & sums, const TileSums & all, const Eigen::Vect
   Eigen::VectorXd             chi2 = Eigen::VectorXd::Constant(NumberOfShapes, straight);
   const auto                  square = static_cast<Eigen::Index>(ShapeOfShared::Square);
   const double                left = Chi2OfLine(shapes, own + coefficients(square) * shapes.col(square), errors);
-  chi2(square) = left < LargestShareOfBend * straight ? left : straight; // else the response bends
-  return chi2.cwiseMin(chi2.minCoeff() + MostEvidenceOfBend);
+  chi2(square) = left < InCorrelation.largestShareOfBend * straight ? left : straight; // else the response bends
+  return chi2.cwiseMin(chi2.minCoeff() + InCorrelation.mostEvidenceOfBend);
 }
 
 /** Coefficients of the shapes, then their chi-squares; \a unfilteredDn2 of the variance is that of codes and lines. */
@@ -173,7 +121,7 @@ ProbabilitiesOf(const Eigen::VectorXd & chi2, bool mayBeCharge)
   {
     const auto   shape = static_cast<ShapeOfShared>(k);
     const bool   isCharge = shape == ShapeOfShared::Light || shape == ShapeOfShared::Square;
-    const double evidence = shape == ShapeOfShared::Constant ? EvidenceOfConstant : 0.0;
+    const double evidence = shape == ShapeOfShared::Constant ? InCorrelation.evidenceOfConstant : 0.0;
     probabilities[k] = isCharge && !mayBeCharge
                          ? 0.0
                          : std::exp(-0.5 * (chi2(static_cast<Eigen::Index>(k)) + evidence - chi2.minCoeff()));
@@ -190,7 +138,7 @@ ProbabilitiesOf(const Eigen::VectorXd & chi2, bool mayBeCharge)
 bool
 StraightensVariance(const CorrelationSums & sums, const Eigen::VectorXd & errors, const MeasuredNumber & effect)
 {
-  if (effect.value < LeastEffect || !effect.Exceeds(0.0, LeastZOfSquare))
+  if (effect.value < InCorrelation.leastEffect || !effect.Exceeds(0.0, InCorrelation.leastZOfSquare))
   {
     return false;
   }
@@ -203,7 +151,7 @@ StraightensVariance(const CorrelationSums & sums, const Eigen::VectorXd & errors
   const Eigen::VectorXd chi2 = Chi2OfSums(sums, all, coefficients);
   return chi2(static_cast<Eigen::Index>(ShapeOfShared::Variance)) -
            chi2(static_cast<Eigen::Index>(ShapeOfShared::Square)) >
-         LeastEvidenceOfBend;
+         InCorrelation.leastEvidenceOfBend;
 }
 } // namespace
 
@@ -224,7 +172,7 @@ SharesInSpace(const CorrelationSums & sums, const std::vector<LagCoefficient> & 
   });
   for (std::size_t k = 0; k < static_cast<std::size_t>(atTheTop.value.size()); ++k)
   {
-    if (NumberAt(atTheTop, k).Exceeds(LeastEffect, NearestZ))
+    if (NumberAt(atTheTop, k).Exceeds(InCorrelation.leastEffect, InCorrelation.nearestZ))
     {
       return true;
     }
@@ -234,7 +182,7 @@ SharesInSpace(const CorrelationSums & sums, const std::vector<LagCoefficient> & 
     return true;
   }
   return std::any_of(coefficients.begin(), coefficients.end(), [](const LagCoefficient & lag) {
-    return lag.coefficient.Exceeds(LeastCoefficient, AnyZ);
+    return lag.coefficient.Exceeds(InCorrelation.leastCoefficient, InCorrelation.anyZ);
   });
 }
 
@@ -249,12 +197,13 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
   {
     largest = std::max(largest, std::abs(sums.CoefficientOf(all, common, k)));
   }
-  const MeasuredNumber far = SumOfCoefficients(sums, sums.Ring(ReachOfCharge + 1, found.reach));
-  const bool           mayBeCharge = largest < LargestCrosstalk && !far.Exceeds(SmallRing, FarZ);
-  if (mayBeCharge && found.reach > ReachOfCharge)
+  const MeasuredNumber far = SumOfCoefficients(sums, sums.Ring(InCorrelation.reachOfCharge + 1, found.reach));
+  const bool           mayBeCharge =
+    largest < InCorrelation.largestCrosstalk && !far.Exceeds(InCorrelation.smallRing, InCorrelation.farZ);
+  if (mayBeCharge && found.reach > InCorrelation.reachOfCharge)
   {
-    found.reach = ReachOfCharge; // the rest was chance
-    found.beyondReach = std::max(std::abs(far.value), 0.5 * far.standardError);
+    found.reach = InCorrelation.reachOfCharge; // the rest was chance
+    found.beyondReach = std::max(std::abs(far.value), InCorrelation.unseenErrorsOfCharge * far.standardError);
   }
   const CorrelationSums::Lags lags = sums.Ring(1, found.reach);
   const JackknifeEstimate     fits = FitAllShapes(sums, lags, sums.GetCodesDn2() + found.LineNoise().value);
@@ -272,16 +221,19 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
   // to does not.
   const double constant = probabilities[static_cast<std::size_t>(ShapeOfShared::Constant)];
   const double shared = found.ofVariance.coefficient.value;
-  const bool   isUnlikeFilter = constant > RoundingProbability || chi2.minCoeff() > LargestChi2;
-  const bool   isRounding = (shared < -RoundingZ * found.ofVariance.coefficient.standardError && isUnlikeFilter) ||
-                          (shared < 0.0 && SpreadOfPhases(sums.SumPhases()) > LargestSpreadOfPhases);
+  const bool   isUnlikeFilter =
+    constant > InCorrelation.roundingProbability || chi2.minCoeff() > InCorrelation.largestChi2;
+  const bool isRounding =
+    (shared < -InCorrelation.roundingZ * found.ofVariance.coefficient.standardError && isUnlikeFilter) ||
+    (shared < 0.0 && SpreadOfPhases(sums.SumPhases()) > InCorrelation.largestSpreadOfPhases);
   if (isRounding)
   {
     found.kind = NoiseKind::NotLinear;
   }
   else if (found.kind != NoiseKind::Temporal)
   {
-    const bool isNear = !SumOfCoefficients(sums, sums.Ring(2, found.reach)).Exceeds(SmallRing, FarZ);
+    const bool isNear =
+      !SumOfCoefficients(sums, sums.Ring(2, found.reach)).Exceeds(InCorrelation.smallRing, InCorrelation.farZ);
     const bool isCharge = mayBeCharge && (isNear || found.ofLight.probability > found.ofVariance.probability);
     found.kind = found.ofSquare.probability > 0.5 ? NoiseKind::BrighterFatter
                  : isCharge                       ? NoiseKind::Crosstalk

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/moments/CodeSteps.h"
 
+#include "sensornoise/moments/Constants.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -15,16 +17,8 @@ namespace sensornoise
 
 namespace
 {
-/** Pixels that each of two neighbouring codes needs to tell their distance: where codes have 8 pixels, one between them
- * has none by a chance of e^-8. */
-constexpr std::uint32_t LeastPixelsOfCode = 8;
-/** Distances that a local step is the mean of, at least: rounding moves each by up to 1 DN, their sum by no more. */
-constexpr std::size_t DistancesPerStep = 12;
 /** Local steps of the table, about; they overlap by three quarters. */
 constexpr std::size_t StepsInTable = 256;
-/** By how much a distance may differ from the median one about it, relative to that, and at least by the codes' unit:
- * where one code between is missing, it is twice as large. */
-constexpr double LargestRelativeDifference = 0.4;
 
 /** Two neighbouring codes. */
 struct CodeDistance
@@ -39,7 +33,7 @@ DistancesOf(const std::vector<SeenCode> & codes)
   std::vector<CodeDistance> distances;
   for (std::size_t i = 1; i < codes.size(); ++i)
   {
-    if (std::min(codes[i - 1].pixels, codes[i].pixels) >= LeastPixelsOfCode)
+    if (std::min(codes[i - 1].pixels, codes[i].pixels) >= InMoments.leastPixelsOfCode)
     {
       distances.push_back(
         { 0.5 * (codes[i - 1].code + codes[i].code), static_cast<double>(codes[i].code - codes[i - 1].code) });
@@ -85,7 +79,7 @@ StretchOf(const CodeDistance * first, std::size_t count, double unitDn)
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(count / 2);
   std::nth_element(steps.begin(), middle, steps.end());
   const double median = *middle;
-  const double reach = std::max(unitDn, LargestRelativeDifference * median);
+  const double reach = std::max(unitDn, InMoments.largestRelativeDifference * median);
   double       kept = 0.0, level = 0.0, step = 0.0, squares = 0.0, products = 0.0;
   bool         isRounded = false;
   for (std::size_t i = 0; i < count; ++i)
@@ -111,19 +105,20 @@ StretchOf(const CodeDistance * first, std::size_t count, double unitDn)
   return stretch;
 }
 
-/** Whether the steps differ by more than rounding makes of steps that are the same everywhere. A twentieth of the table
- * at either end of the sizes may be anything. */
+/** Whether the steps differ by more than rounding makes of steps that are the same everywhere. Few at either end of
+ * the sizes may be anything. */
 bool
 Differ(const std::vector<CodeSteps::Local> & table, double unitDn)
 {
   std::vector<double> steps(table.size());
   std::transform(table.begin(), table.end(), steps.begin(), [](const auto & local) { return local.stepDn; });
   std::sort(steps.begin(), steps.end());
-  const std::size_t odd = steps.size() / 20;
+  const std::size_t odd = steps.size() / InMoments.oddStepsOneIn;
   const double      smallest = steps[odd];
   const double      largest = steps[steps.size() - 1 - odd];
-  return largest > LeastRatioOfSteps * smallest &&
-         largest - smallest > 4.0 * unitDn / static_cast<double>(DistancesPerStep);
+  return largest > InMoments.leastRatioOfSteps * smallest &&
+         largest - smallest >
+           InMoments.leastDifferenceOfSteps * unitDn / static_cast<double>(InMoments.distancesPerStep);
 }
 } // namespace
 
@@ -156,7 +151,7 @@ FindCodeSteps(const std::vector<SeenCode> & codes)
 {
   const std::vector<CodeDistance> distances = DistancesOf(codes);
   const double                    unit = UnitOf(distances);
-  const std::size_t               count = std::max(DistancesPerStep, 4 * distances.size() / StepsInTable);
+  const std::size_t               count = std::max(InMoments.distancesPerStep, 4 * distances.size() / StepsInTable);
   std::vector<CodeSteps::Local>   table;
   std::vector<Stretch>            ends;
   for (std::size_t first = 0; first + count <= distances.size(); first += count / 4)

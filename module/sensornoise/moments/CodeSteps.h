@@ -80,10 +80,6 @@ private:
   double             m_UnitDn{ 1.0 };
 };
 
-/** Ratio of the largest local step to the smallest from which on codes are called companded [1]. Set by hand: where
- * less of a tone curve is seen, the noise of rounding differs by less than a fifth. */
-inline constexpr double LeastRatioOfSteps = 1.1;
-
 /** Finds the steps of \a codes, all that occur, ascending. Only neighbours tell that are the extreme of at least 8
  * pixels each: between such, no code is missing by chance. Averages over 12 and more of them are compared, so that
  * rescaled data, whose steps are irregular but the same everywhere, have no table. */

@@ -6,6 +6,7 @@
 #include "sensornoise/moments/CodeRange.h"
 #include "sensornoise/moments/CodeSettings.h"
 #include "sensornoise/moments/CodeSteps.h"
+#include "sensornoise/moments/Constants.h"
 #include "sensornoise/moments/PileUp.h"
 
 #include <algorithm>
@@ -74,7 +75,8 @@ FindQuantisationStep(const std::vector<std::int32_t> & codes, bool & regular)
   {
     onGrid = std::max(onGrid, remainder.second);
   }
-  regular = static_cast<double>(codes.size() - onGrid) <= 0.02 * static_cast<double>(codes.size()) + 2.0;
+  regular = static_cast<double>(codes.size() - onGrid) <=
+            InMoments.largestOffGridShare * static_cast<double>(codes.size()) + InMoments.offGridCodes;
   return step;
 }
 
@@ -86,7 +88,7 @@ bool
 CodePilesUp(const CodeHistogram & extremes, std::int32_t end, std::int32_t inwards)
 {
   std::uint32_t inside = 0;
-  for (std::int32_t k = 1; k <= LevelsInsidePileUp; ++k)
+  for (std::int32_t k = 1; k <= InMoments.levelsInsidePileUp; ++k)
   {
     inside = std::max(inside, extremes.Count(end + k * inwards));
   }
@@ -99,7 +101,7 @@ CompandedPileUp(const CodeHistogram & extremes, const std::vector<std::int32_t> 
 {
   std::uint32_t     inside = 0;
   const std::size_t last = occupied.size() - 1;
-  for (std::size_t k = 1; k <= std::min<std::size_t>(LevelsInsidePileUp, last); ++k)
+  for (std::size_t k = 1; k <= std::min<std::size_t>(InMoments.levelsInsidePileUp, last); ++k)
   {
     inside = std::max(inside, extremes.Count(occupied[isHigh ? last - k : k]));
   }

@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/Quantiles.h"
+#include "sensornoise/moments/Constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -79,7 +80,8 @@ DarkDrift::Start(const TPixel * frame)
   std::vector<double> values = FiniteValues(frame, m_Sample);
   // At least a code, so that rounding does not cut the reach to nothing.
   const double leastDn = std::is_integral_v<TPixel> ? 1.0 : 0.0;
-  m_ReachDn = values.empty() ? 0.0 : 3.0 * std::max(leastDn, Quantile(values, 0.84) - Quantile(values, 0.16));
+  m_ReachDn =
+    values.empty() ? 0.0 : InMoments.levelReach * std::max(leastDn, Quantile(values, 0.84) - Quantile(values, 0.16));
   const double medianDn = MedianOf(frame);
   for (std::size_t p = 0; p < m_Mask.size(); ++p)
   {

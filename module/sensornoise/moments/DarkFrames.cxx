@@ -6,6 +6,7 @@
 #include "sensornoise/base/Quantiles.h"
 #include "sensornoise/moments/CodeRange.h"
 #include "sensornoise/moments/CodeSettings.h"
+#include "sensornoise/moments/Constants.h"
 #include "sensornoise/moments/DarkDrift.h"
 #include "sensornoise/moments/DarkMaps.h"
 #include "sensornoise/moments/DefectivePixels.h"
@@ -79,11 +80,11 @@ SurveyPixels(const TemporalMoments<TPixel> &   moments,
 void
 RequireDarkLevel(const DarkSurvey & survey)
 {
-  // Some dead pixels do no harm, nor does a sample in a thousand: cutting it off moves the mean by 0.003 sigma.
+  // Some dead pixels do no harm, nor does a sample in a thousand.
   const auto   frames = static_cast<double>(survey.maps.frames);
   const auto   clipped = static_cast<double>(survey.clipped);
   const double clippedFraction = clipped / (clipped + static_cast<double>(survey.usable));
-  if (clippedFraction > std::max(0.01, 1.0 - std::pow(0.999, frames)))
+  if (clippedFraction > std::max(InMoments.largestClippedShare, 1.0 - std::pow(InMoments.leastShareOfSamples, frames)))
   {
     const CodeRange & range = survey.codes;
     throw std::invalid_argument(std::to_string(100.0 * clippedFraction) +
@@ -92,10 +93,11 @@ RequireDarkLevel(const DarkSurvey & survey)
                                 (range.clipHighDn ? std::to_string(*range.clipHighDn) : "none") +
                                 " DN; expected at most 1 %: their black level is cut off, or they are not dark");
   }
-  if (survey.usable < 30)
+  if (survey.usable < InMoments.fewestDarkPixels)
   {
     throw std::invalid_argument("only " + std::to_string(survey.usable) +
-                                " pixels of the dark frames are usable; expected at least 30");
+                                " pixels of the dark frames are usable; expected at least " +
+                                std::to_string(InMoments.fewestDarkPixels));
   }
 }
 
@@ -137,8 +139,9 @@ ExcludeDefective(DarkMaps & maps, const TemporalMoments<TPixel> & moments)
   }
   const double limitDn2 = DefectiveVarianceDn2(medianDn2, freedom);
   const double typicalDn = std::sqrt(medianDn2 / share);
-  const bool   mustChange = ChanceOfOneCode(typicalDn, maps.stepDn, static_cast<double>(maps.frames)) < 1e-6;
-  std::size_t  defective = 0;
+  const bool   mustChange =
+    ChanceOfOneCode(typicalDn, maps.stepDn, static_cast<double>(maps.frames)) < InMoments.chanceOfStuck;
+  std::size_t defective = 0;
   for (std::size_t p = 0; p < maps.usable.size(); ++p)
   {
     const bool isStuck = mustChange && moments.GetMinimum(p) == moments.GetMaximum(p);
@@ -186,7 +189,7 @@ MeasureDarkFrames(const TemporalMoments<TPixel> &   moments,
   const double        low = Quantile(levels, 0.16);
   const double        high = Quantile(levels, 0.84);
   const double        median = Quantile(levels, 0.5);
-  const double        reach = 3.0 * std::max(high - low, maps.stepDn);
+  const double        reach = InMoments.levelReach * std::max(high - low, maps.stepDn);
   const MeanOfPixels  level = MeanWithin(levels, median - reach, median + reach);
   double              spreadDn2 = 0.25 * (high - low) * (high - low);
   KnownOffset         dark;

@@ -36,8 +36,8 @@ MeanWithin(const std::vector<double> & values, double low, double high);
  *
  * Two frames or more tell every pixel's variance over time, too. The mean is that of all pixels that are not defective,
  * the noisy ones among them: their noise is in the bright frames as well. Defective is a pixel of more than
- * DefectiveNoiseFactor times the typical noise, or one that never changed where a typical pixel would have, with a
- * chance of 1e-6 of being wrong. Its standard error is the pixels' scatter. The median pixel's read noise, see
+ * InMoments.defectiveNoiseFactor times the typical noise, or one that never changed where a typical pixel would have,
+ * with a chance of 1e-6 of being wrong. Its standard error is the pixels' scatter. The median pixel's read noise, see
  * MedianReadNoiseOf(), stands beside it.
  *
  * \a drift, of the same frames, is taken off all variances; without it a level that drifts adds to them. \a mask, if

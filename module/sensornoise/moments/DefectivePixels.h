@@ -4,14 +4,10 @@
 #define sensornoise_moments_DefectivePixels_h
 
 #include "sensornoise/base/ChiSquare.h"
+#include "sensornoise/moments/Constants.h"
 
 namespace sensornoise
 {
-
-/** A pixel is defective if its read noise is more than this many times that of a typical pixel [1]. Set by hand: 4 cuts
- * 9 % of the rms of an sCMOS sensor (log-normal, spread 0.4, a tail of 10 %), 8 cuts 3 %, 16 less than 1 % but keeps
- * pixels of ten times the noise, of which a hundredth is more than all others. */
-inline constexpr double DefectiveNoiseFactor = 8.0;
 
 /** What the median of the variances of pixels with the same noise is of their expectation [1].
  * \param freedom degrees of freedom of a variance, above 0 */
@@ -23,17 +19,17 @@ MedianShareOfVariance(double freedom)
 
 /** The variance above which a pixel is defective [DN^2].
  *
- * That of DefectiveNoiseFactor times the typical noise, times 1 + 2/freedom. Of pixels whose noise is near the limit
- * some stay below it by chance and some come to lie above; those that are lost are the ones of large variance. With
- * this factor as much variance is gained as is lost, exactly so where the density of the true variances falls as their
- * third power, and to some per cent of what lies near the limit for other tails.
+ * That of InMoments.defectiveNoiseFactor times the typical noise, times 1 + 2/freedom. Of pixels whose noise is near
+ * the limit some stay below it by chance and some come to lie above; those that are lost are the ones of large
+ * variance. With this factor as much variance is gained as is lost, exactly so where the density of the true variances
+ * falls as their third power, and to some per cent of what lies near the limit for other tails.
  * \param medianDn2 median of the pixels' variances [DN^2]
  * \param freedom degrees of freedom of a variance, above 0 */
 inline double
 DefectiveVarianceDn2(double medianDn2, double freedom)
 {
   const double typicalDn2 = medianDn2 / MedianShareOfVariance(freedom);
-  return DefectiveNoiseFactor * DefectiveNoiseFactor * typicalDn2 * (1.0 + 2.0 / freedom);
+  return InMoments.defectiveNoiseFactor * InMoments.defectiveNoiseFactor * typicalDn2 * (1.0 + 2.0 / freedom);
 }
 
 } // namespace sensornoise

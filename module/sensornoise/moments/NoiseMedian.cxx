@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/moments/NoiseMedian.h"
 
+#include "sensornoise/base/Constants.h"
 #include "sensornoise/base/Quantiles.h"
+#include "sensornoise/moments/Constants.h"
 #include "sensornoise/moments/KnownOffset.h"
 #include "sensornoise/moments/LogDeconvolution.h"
 
@@ -80,11 +82,11 @@ MedianOfTrueVariances(const std::vector<double> & variances, double freedom, dou
 std::optional<MedianReadNoise>
 MedianReadNoiseOf(const std::vector<double> & variancesDn2, double freedom, double stepDn)
 {
-  if (freedom < 5.0 || variancesDn2.size() < 100)
+  if (freedom < InMoments.leastFreedomOfMedian || variancesDn2.size() < InMoments.fewestPixelsOfMedian)
   {
     return std::nullopt;
   }
-  const double leastDn2 = 0.25 * stepDn * stepDn;
+  const double leastDn2 = InCommon.hiddenVariance * stepDn * stepDn;
   const double medianDn2 = QuantileOf(variancesDn2, 0.5);
   if (!(medianDn2 > leastDn2))
   {

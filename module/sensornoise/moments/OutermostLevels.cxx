@@ -3,6 +3,7 @@
 #include "sensornoise/moments/OutermostLevels.h"
 
 #include "sensornoise/base/Quantiles.h"
+#include "sensornoise/moments/Constants.h"
 #include "sensornoise/moments/PileUp.h"
 
 #include <algorithm>
@@ -35,7 +36,7 @@ OutermostLevels::Step() const
       spacings.push_back(std::prev(inner)->first - inner->first);
     }
   }
-  return spacings.empty() ? 0.0 : Quantile(spacings, 0.1);
+  return spacings.empty() ? 0.0 : Quantile(spacings, InMoments.stepQuantile);
 }
 
 std::size_t
@@ -45,7 +46,7 @@ OutermostLevels::MostInside(double stepDn) const
   if (!m_Counts.empty())
   {
     // Half a step more: spacings of rescaled codes differ in the last digits.
-    const double reach = m_Counts.begin()->first - (LevelsInsidePileUp + 0.5) * stepDn;
+    const double reach = m_Counts.begin()->first - (InMoments.levelsInsidePileUp + 0.5) * stepDn;
     for (auto level = std::next(m_Counts.begin()); level != m_Counts.end() && level->first >= reach; ++level)
     {
       most = std::max(most, level->second);

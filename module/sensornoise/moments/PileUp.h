@@ -3,6 +3,9 @@
 #ifndef sensornoise_moments_PileUp_h
 #define sensornoise_moments_PileUp_h
 
+#include "sensornoise/base/Constants.h"
+#include "sensornoise/moments/Constants.h"
+
 #include <algorithm>
 #include <cstddef>
 
@@ -14,18 +17,12 @@ namespace sensornoise
  * on the outermost level, fewer than on the levels inside of it. A clip level gathers the extremes of all pixels that
  * would have passed it. */
 
-/** How many levels inside of the outermost one it is compared with. */
-inline constexpr int LevelsInsidePileUp = 16;
-
-/** Fewer pixels on one level are no pile-up. */
-inline constexpr std::size_t FewestPixelsOfPileUp = 8;
-
 /** Whether \a atEnd pixels whose extreme is the outermost level are a pile-up, if each of the levels inside is the
  * extreme of at most \a mostInside pixels: at least 8, and more than 3 times as many. */
 inline bool
 IsPileUp(std::size_t atEnd, std::size_t mostInside)
 {
-  return atEnd >= std::max(FewestPixelsOfPileUp, 3 * mostInside + 1);
+  return atEnd >= std::max(InMoments.fewestPixelsOfPileUp, InMoments.pileUpRatio * mostInside + 1);
 }
 
 /** How far the outermost levels lie from the mean of the pixels that attain them, in these pixels' temporal standard
@@ -43,7 +40,7 @@ struct ExtremeDepths
 inline bool
 CanTellPileUp(double typicalVarianceDn2, double stepDn, double depth)
 {
-  return typicalVarianceDn2 >= 0.25 * stepDn * stepDn && depth < 2.5;
+  return typicalVarianceDn2 >= InCommon.hiddenVariance * stepDn * stepDn && depth < InMoments.largestPileUpDepth;
 }
 
 } // namespace sensornoise

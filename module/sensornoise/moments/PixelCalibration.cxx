@@ -3,6 +3,7 @@
 #include "sensornoise/moments/PixelCalibration.h"
 
 #include "sensornoise/base/ChiSquare.h"
+#include "sensornoise/base/Constants.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/moments/DarkMaps.h"
 #include "sensornoise/moments/RoundingError.h"
@@ -67,11 +68,11 @@ FillPixel(PixelCalibration & maps, std::size_t p, double offsetDn, double varian
   maps.offset.low[p] = offsetDn - half;
   maps.offset.high[p] = offsetDn + half;
   const double stepDn = factors.stepDn;
-  const bool   isHidden = varianceDn2 < 0.25 * stepDn * stepDn;
+  const bool   isHidden = varianceDn2 < InCommon.hiddenVariance * stepDn * stepDn;
   const double high = NoiseWithoutRounding(varianceDn2 * factors.high, stepDn);
   maps.readNoise.value[p] = NoiseWithoutRounding(varianceDn2, stepDn);
   maps.readNoise.low[p] = isHidden ? 0.0 : NoiseWithoutRounding(varianceDn2 * factors.low, stepDn);
-  maps.readNoise.high[p] = isHidden ? std::max(0.5 * stepDn, high) : high;
+  maps.readNoise.high[p] = isHidden ? std::max(std::sqrt(InCommon.hiddenVariance) * stepDn, high) : high;
 }
 
 } // namespace

@@ -7,6 +7,7 @@
 #include "sensornoise/moments/CodeRange.h"
 #include "sensornoise/moments/CodeSettings.h"
 #include "sensornoise/moments/Codes.h"
+#include "sensornoise/moments/Constants.h"
 #include "sensornoise/moments/FloatingLevels.h"
 #include "sensornoise/moments/FloatingMoments.h"
 #include "sensornoise/moments/IntegerMoments.h"
@@ -88,7 +89,7 @@ FindCodesOfStack(const FloatingMoments<TPixel> & moments,
   parallelFor(2, [&](std::size_t isHigh) {
     const auto       end = isHigh == 1 ? OutermostLevels::End::High : OutermostLevels::End::Low;
     const StackEnd & level = isHigh == 1 ? ends.high : ends.low;
-    if (level.pixels >= FewestPixelsOfPileUp)
+    if (level.pixels >= InMoments.fewestPixelsOfPileUp)
     {
       (isHigh == 1 ? maxima : minima) = LevelsAt(end, moments);
       (isHigh == 1 ? depths.high : depths.low) = MedianDepth(moments, end, level, mean, variance);

@@ -4,6 +4,7 @@
 #define sensornoise_pixels_ChiSquareTrim_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/pixels/Constants.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -13,16 +14,14 @@ namespace sensornoise
 {
 
 /** \class ChiSquareTrim
- * \brief Two-sided trimming of sample variances at a tail probability of 1e-4 each, unless another is asked for, and
- * its bias: a trimmed mean of chi-square variables of k degrees of freedom is (F_{k+2}(b) - F_{k+2}(a)) / (F_k(b) -
- * F_k(a)) of the mean. */
+ * \brief Two-sided trimming of sample variances at the tail probability trimTail each, unless another is asked
+ * for, and its bias: a trimmed mean of chi-square variables of k degrees of freedom is (F_{k+2}(b) - F_{k+2}(a)) /
+ * (F_k(b) - F_k(a)) of the mean. */
 class SensorNoise_EXPORT ChiSquareTrim
 {
 public:
-  static constexpr double Tail = 1e-4;
-
   /** For degrees of freedom from \a lowest to \a highest. */
-  ChiSquareTrim(double lowest, double highest, double tail = Tail);
+  ChiSquareTrim(double lowest, double highest, double tail = InPixels.trimTail);
 
   struct Limits
   {

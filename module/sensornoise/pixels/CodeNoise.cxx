@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/Quantiles.h"
 #include "sensornoise/moments/CodeSteps.h"
+#include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/StaticVariance.h"
 #include "sensornoise/pixels/VarianceLine.h"
 
@@ -19,16 +20,6 @@ namespace sensornoise
 namespace
 {
 constexpr std::size_t LevelsOfRest = 513;
-
-/** What is not known of the noise of rounding, relative to it [1]. Set by hand: of square roots, powers and logarithms
- * to 8 and 10 bits, at four gains, a scene of few levels left 0 to 6 % of it in the slope where the codes are as coarse
- * as the noise; a texture less. */
-constexpr double ErrorOfCodeNoise = 0.05;
-
-/** What rounding the expanded codes to their unit does to the variance at one level, which the codes at that level
- * stretch or squeeze by chance: relative to the unit times the root of noise and step [1]. Set by hand, on charts whose
- * darkest patch has one level. */
-constexpr double ErrorOfRounding = 0.15;
 
 /** The noise of rounding of a pixel of the mean \a levelDn and the standard deviation \a sdDn: the expectation over a
  * normal distribution, by the five-point rule of Gauss and Hermite. */
@@ -100,7 +91,7 @@ MakeCodeNoise(const CodeRange & codes, const ReferenceFrame & frame, const Provi
   noise.inTheDarkDn2 = darkStepDn > 0.0 ? darkStepDn * darkStepDn / 12.0 : codes.steps.GetTable().front().varianceDn2;
   const double darkNoiseDn = std::sqrt(model.NoiseVariance(model.darkestDn));
   noise.darkErrorDn2 =
-    ErrorOfRounding * codes.steps.GetUnitDn() * std::sqrt(darkNoiseDn * codes.steps.StepAt(model.darkestDn));
+    InPixels.errorOfRounding * codes.steps.GetUnitDn() * std::sqrt(darkNoiseDn * codes.steps.StepAt(model.darkestDn));
   noise.spacingDn = (brightestDn - noise.lowestDn) / static_cast<double>(LevelsOfRest - 1);
   for (std::size_t i = 0; i < LevelsOfRest; ++i)
   {
@@ -115,7 +106,7 @@ MakeCodeNoise(const CodeRange & codes, const ReferenceFrame & frame, const Provi
 Eigen::Matrix2d
 CodeNoise::ErrorOfLine(double pivotDn) const
 {
-  const double    slope = ErrorOfCodeNoise * slopeDn;
+  const double    slope = InPixels.errorOfCodeNoise * slopeDn;
   Eigen::Matrix2d error;
   error << 1.0, -pivotDn, -pivotDn, pivotDn * pivotDn;
   error *= slope * slope;

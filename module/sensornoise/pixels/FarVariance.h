@@ -3,18 +3,20 @@
 #ifndef sensornoise_pixels_FarVariance_h
 #define sensornoise_pixels_FarVariance_h
 
+#include "sensornoise/pixels/Constants.h"
+
 #include <cmath>
 
 namespace sensornoise
 {
 
-/** Whether a chi-square variable over its \a freedom is 4.5 standard deviations above 1 or more: its cube root is about
- * normal (Wilson & Hilferty 1931). */
+/** Whether a chi-square variable over its \a freedom is farZ standard deviations above 1 or more: its cube root is
+ * about normal (Wilson & Hilferty 1931). */
 inline bool
 IsFarAbove(double ratio, double freedom)
 {
   const double s = 2.0 / (9.0 * freedom);
-  const double limit = 1.0 - s + 4.5 * std::sqrt(s);
+  const double limit = 1.0 - s + InPixels.farZ * std::sqrt(s);
   return !(ratio < limit * limit * limit);
 }
 /** The same on either side. */
@@ -22,7 +24,7 @@ inline bool
 IsFarOff(double ratio, double freedom)
 {
   const double s = 2.0 / (9.0 * freedom);
-  const double limit = 1.0 - s - 4.5 * std::sqrt(s);
+  const double limit = 1.0 - s - InPixels.farZ * std::sqrt(s);
   return IsFarAbove(ratio, freedom) || !(ratio > limit * limit * limit);
 }
 

@@ -4,7 +4,9 @@
 
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/Quantiles.h"
+#include "sensornoise/moments/Constants.h"
 #include "sensornoise/moments/DefectivePixels.h"
+#include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/LevelPattern.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
 #include "sensornoise/pixels/VarianceLine.h"
@@ -19,18 +21,6 @@ namespace sensornoise
 
 namespace
 {
-constexpr std::size_t JudgingSquareSide = 16;   // pixels; enough for a mean to 2 %, few enough to be of one level
-constexpr double      LeastSquarePixels = 64.0; // of a square that counts
-constexpr std::size_t MostLevels = 16;
-constexpr std::size_t SquaresPerLevel = 8; // at least
-/** Departure from the line, beyond 2 of its standard errors, that counts [1]. Set by hand: neighbourhoods are blamed
- * from 4 % on; half of it is within the noise of frames of 128 x 128 pixels. */
-constexpr double LeastDeparture = 0.01;
-
-/** Variance of what the pixels' own offsets do to the line, relative to its square at the darkest level, up to which
- * pixels are judged at their own level [1]. Set by hand: at the limit a ratio of variances is off by 2 %. */
-constexpr double LargestOwnOffset = 0.02;
-
 /** What the pixels of a square tell about the line. */
 struct JudgingSquare
 {
@@ -49,14 +39,15 @@ SumJudgingSquare(const VarianceLine &      line,
                  std::size_t               top)
 {
   const FrameGeometry & geometry = projected.GetFrame().geometry;
-  const double  reachDn2 = DefectiveNoiseFactor * DefectiveNoiseFactor * line.lowestDn2 / VarianceLine::LowestShare;
+  const double          reachDn2 =
+    InMoments.defectiveNoiseFactor * InMoments.defectiveNoiseFactor * line.lowestDn2 / InPixels.lowestShare;
   JudgingSquare square;
   double        total = 0.0;
   double        squares = 0.0;
   double        chance = 0.0;
-  for (std::size_t y = top; y < std::min(top + JudgingSquareSide, geometry.height); ++y)
+  for (std::size_t y = top; y < std::min(top + InPixels.judgingSquareSide, geometry.height); ++y)
   {
-    for (std::size_t x = left; x < std::min(left + JudgingSquareSide, geometry.width); ++x)
+    for (std::size_t x = left; x < std::min(left + InPixels.judgingSquareSide, geometry.width); ++x)
     {
       const std::size_t p = y * geometry.width + x;
       const double      expected = data.mask[p] != 0 ? line.At(data.mean[p]) : 0.0;
@@ -91,17 +82,17 @@ MakeJudgingSquares(const VarianceLine &      line,
                    const ParallelFor &       parallelFor)
 {
   const FrameGeometry &      geometry = projected.GetFrame().geometry;
-  const std::size_t          across = (geometry.width + JudgingSquareSide - 1) / JudgingSquareSide;
-  const std::size_t          down = (geometry.height + JudgingSquareSide - 1) / JudgingSquareSide;
+  const std::size_t          across = (geometry.width + InPixels.judgingSquareSide - 1) / InPixels.judgingSquareSide;
+  const std::size_t          down = (geometry.height + InPixels.judgingSquareSide - 1) / InPixels.judgingSquareSide;
   std::vector<JudgingSquare> squares(across * down);
   parallelFor(down, [&](std::size_t row) {
     for (std::size_t column = 0; column < across; ++column)
     {
       squares[row * across + column] =
-        SumJudgingSquare(line, data, projected, column * JudgingSquareSide, row * JudgingSquareSide);
+        SumJudgingSquare(line, data, projected, column * InPixels.judgingSquareSide, row * InPixels.judgingSquareSide);
     }
   });
-  const auto isTooSmall = [](const JudgingSquare & square) { return square.pixels < LeastSquarePixels; };
+  const auto isTooSmall = [](const JudgingSquare & square) { return square.pixels < InPixels.leastSquarePixels; };
   squares.erase(std::remove_if(squares.begin(), squares.end(), isTooSmall), squares.end());
   std::stable_sort(squares.begin(), squares.end(), [](const auto & a, const auto & b) { return a.level < b.level; });
   return squares;
@@ -150,9 +141,9 @@ MakeJudgingLine(const VarianceLine &              line,
     const double patternDn2 =
       MeasureLevelPattern(projected.GetFrame(), data, line, blackDn, parallelFor).OffsetVarianceDn2();
     const double darkest = line.At(squares.front().level);
-    judging.byNeighbours = line.gain * line.gain * patternDn2 > LargestOwnOffset * darkest * darkest;
+    judging.byNeighbours = line.gain * line.gain * patternDn2 > InPixels.largestOwnOffset * darkest * darkest;
   }
-  const std::size_t bins = std::min(MostLevels, squares.size() / SquaresPerLevel);
+  const std::size_t bins = std::min(InPixels.mostJudgingLevels, squares.size() / InPixels.squaresPerLevel);
   bool              departs = false;
   for (std::size_t b = 0; b < bins; ++b)
   {
@@ -169,17 +160,17 @@ MakeJudgingLine(const VarianceLine &              line,
     }
     // 1.5 median distances are a standard deviation; a median's standard error is 1.25 of a mean's.
     const double error = 1.25 * 1.5 * Quantile(distance, 0.5) / std::sqrt(static_cast<double>(last - first));
-    departs = departs || std::abs(excess) > LeastDeparture + 2.0 * error;
+    departs = departs || std::abs(excess) > InPixels.leastDeparture + InPixels.departureZ * error;
     const double level = MedianOf(squares, first, last, &JudgingSquare::level);
     if (judging.levels.empty() || level > judging.levels.back())
     {
       judging.levels.push_back(level);
-      judging.ratios.push_back(std::max(0.1, 1.0 + excess));
+      judging.ratios.push_back(std::max(InPixels.leastRatio, 1.0 + excess));
     }
   }
   if (departs)
   {
-    const std::size_t dark = std::max(SquaresPerLevel, squares.size() / 5);
+    const std::size_t dark = std::max(InPixels.squaresPerLevel, squares.size() / InPixels.darkSquaresOneIn);
     judging.line.noiseSpreadDn4 = std::max(0.0, MedianOf(squares, 0, dark, &JudgingSquare::spread));
   }
   else

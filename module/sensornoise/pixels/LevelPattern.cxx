@@ -3,6 +3,7 @@
 #include "sensornoise/pixels/LevelPattern.h"
 
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/VarianceLine.h"
 #include "sensornoise/scene/ReferenceFrame.h"
 
@@ -17,21 +18,6 @@ namespace sensornoise
 
 namespace
 {
-/** Side of a square [pixel]: many columns tell their pattern, but a small frame may have no large square that is flat.
- * Set by hand: with 8 in large frames those squares are the flattest whose few columns are alike by chance. */
-constexpr std::size_t LargeSquareSide = 16;
-constexpr std::size_t SmallSquareSide = 8;
-constexpr std::size_t SmallFramePixels = 128 * 128;
-constexpr double      LeastHalfPixels = 24.0; // of either half of a square that counts
-/** Share of the squares that count as the flattest [1], and their least number. Set by hand: with half and twice the
- * share the shares of natural scenes change by a third. */
-constexpr double      FlattestShare = 0.05;
-constexpr std::size_t FewestSquares = 4;
-/** Standard deviations of patterns of real sensors, at most: of gain or efficiency [1], and of offset, in units of the
- * noise at the level of the flattest squares [1]. What is larger, in a scene that is rough everywhere, is light. Set by
- * hand, three times and twice what data sheets and measured sensors have. */
-constexpr double LargestGainPattern = 0.03;
-constexpr double LargestOffsetPattern = 5.0;
 /** Variance of a pixel minus its diagonal mean, in units of a pixel's. */
 constexpr double DifferenceVariance = 1.125;
 
@@ -65,7 +51,7 @@ struct Square
   double
   Roughness(std::size_t chooser) const
   {
-    return half[chooser].Pattern() + 2.0 * half[chooser].Error();
+    return half[chooser].Pattern() + InPattern.roughnessZ * half[chooser].Error();
   }
   /** The same relative to the square of the light [1]. */
   double
@@ -111,7 +97,8 @@ SumPatternSquare(const ReferenceFrame & frame,
 std::vector<Square>
 MakeSquares(const ReferenceFrame & frame, const VarianceData & data, const ParallelFor & parallelFor)
 {
-  const std::size_t   side = frame.geometry.Pixels() < SmallFramePixels ? SmallSquareSide : LargeSquareSide;
+  const std::size_t side =
+    frame.geometry.Pixels() < InPattern.largeFramePixels ? InPattern.smallSquareSide : InPattern.squareSide;
   const std::size_t   across = (frame.geometry.width + side - 1) / side;
   const std::size_t   down = (frame.geometry.height + side - 1) / side;
   std::vector<Square> squares(across * down);
@@ -124,8 +111,8 @@ MakeSquares(const ReferenceFrame & frame, const VarianceData & data, const Paral
   squares.erase(std::remove_if(squares.begin(),
                                squares.end(),
                                [](const Square & square) {
-                                 return square.half[0].pixels < LeastHalfPixels ||
-                                        square.half[1].pixels < LeastHalfPixels;
+                                 return square.half[0].pixels < InPattern.leastHalfPixels ||
+                                        square.half[1].pixels < InPattern.leastHalfPixels;
                                }),
                 squares.end());
   return squares;
@@ -167,7 +154,8 @@ MeasureLevelPattern(const ReferenceFrame & frame,
   }
   const auto count =
     std::min(squares.size(),
-             std::max(FewestSquares, static_cast<std::size_t>(FlattestShare * static_cast<double>(squares.size()))));
+             std::max(InPattern.fewestSquares,
+                      static_cast<std::size_t>(InPattern.flattestShare * static_cast<double>(squares.size()))));
   const auto sortBy = [&](auto value) {
     std::sort(squares.begin(), squares.end(), [&](const Square & a, const Square & b) { return value(a) < value(b); });
   };
@@ -184,14 +172,15 @@ MeasureLevelPattern(const ReferenceFrame & frame,
       count,
       [&](const Square & square) { return measured(square).Pattern() / (fluxOf(square) * fluxOf(square)); },
       [&](const Square & square) { return measured(square).Error() / (fluxOf(square) * fluxOf(square)); });
-    gainSquare += 0.5 * std::min(gain, LargestGainPattern * LargestGainPattern);
+    gainSquare += 0.5 * std::min(gain, InPattern.largestGain * InPattern.largestGain);
     sortBy([&](const Square & square) { return square.Roughness(chooser); });
     const double offsetDn2 = UpperMean(
       squares,
       count,
       [&](const Square & square) { return measured(square).Pattern(); },
       [&](const Square & square) { return measured(square).Error(); });
-    const double largestDn2 = LargestOffsetPattern * LargestOffsetPattern * line.At(measured(squares.front()).level);
+    const double largestDn2 =
+      InPattern.largestOffset * InPattern.largestOffset * line.At(measured(squares.front()).level);
     offsetSquareDn2 += 0.5 * std::min(offsetDn2, largestDn2);
   }
   pattern.gainShare = gainSquare * (fluxDn * fluxDn + pattern.lightDn2) / pattern.lightDn2;

@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/LevelPattern.h"
 #include "sensornoise/pixels/VarianceFit.h"
 #include "sensornoise/scene/ReferenceFrame.h"
@@ -15,13 +16,6 @@
 
 namespace sensornoise
 {
-
-namespace
-{
-/** Variance of the slope by whole columns or rows, relative to that by pixels, that is more than chance [1]. Set by
- * hand: 256 columns scatter by 0.1. */
-constexpr double LeastLikeness = 1.5;
-} // namespace
 
 VarianceLine
 FitLightLine(const VarianceFit &    fit,
@@ -96,7 +90,7 @@ FitLightLine(const VarianceFit &    fit,
   const auto      squaresOf = [&](auto first, auto last) { return std::inner_product(first, last, first, 0.0); };
   const auto      middle = alike.begin() + static_cast<std::ptrdiff_t>(width);
   const double    most = std::max(squaresOf(alike.begin(), middle), squaresOf(middle, alike.end()));
-  const double    widening = most > LeastLikeness * squares[0] ? most / squares[0] : 1.0;
+  const double    widening = most > InPattern.leastLikeness * squares[0] ? most / squares[0] : 1.0;
   Eigen::Matrix2d atPivot;
   atPivot << squares[0] / (common * common), squares[1] / (common * s[W]), squares[1] / (common * s[W]),
     squares[2] / (s[W] * s[W]);

@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/ChiSquare.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/PixelLight.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
 #include "sensornoise/pixels/VarianceLine.h"
@@ -189,7 +190,8 @@ SumTiles(const PixelLight &                       data,
   for (const TileSums & s : sums)
   {
     const double determinant = s.Determinant();
-    if (s.n > 12.0 && determinant > 30.0 * s.g11 * s.n / frames && determinant > 1e-6 * s.g11 * std::abs(s.g22))
+    if (s.n > InPattern.leastTilePixels && determinant > InPattern.leastTileContrast * s.g11 * s.n / frames &&
+        determinant > 1e-6 * s.g11 * std::abs(s.g22))
     {
       good.push_back(s);
     }

@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/Quantiles.h"
 #include "sensornoise/pixels/ChiSquareTrim.h"
+#include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/VarianceLine.h"
 
 #include <algorithm>
@@ -45,7 +46,7 @@ FitMedians(const VarianceData & data, const ChiSquareTrim & trim)
   double     lowest = std::numeric_limits<double>::infinity();
   for (std::size_t b = 0; b < bins; ++b)
   {
-    if (count[b] > 5.0 && medians[b] > 0.0)
+    if (count[b] > InPixels.fewestPixelsOfBin && medians[b] > 0.0)
     {
       const double w = count[b] / (medians[b] * medians[b]);
       const double x = levels[b];
@@ -62,7 +63,7 @@ FitMedians(const VarianceData & data, const ChiSquareTrim & trim)
   {
     return std::nullopt;
   }
-  line.lowestDn2 = std::max(1e-9, VarianceLine::LowestShare * lowest);
+  line.lowestDn2 = std::max(1e-9, InPixels.lowestShare * lowest);
   line.gain = (s0 * r1 - s1 * r0) / determinant;
   line.intercept = (s2 * r0 - s1 * r1) / determinant - line.gain * line.pivotDn;
   return line;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/pixels/OffsetDrift.h"
 
+#include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/PixelCoordinates.h"
 #include "sensornoise/pixels/PixelLight.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
@@ -33,7 +34,7 @@ struct LineSums
 bool
 IsOffsetDrift(const PixelLight & data)
 {
-  constexpr std::size_t  side = 32;
+  const std::size_t      side = InPattern.driftTileSide;
   const ReferenceFrame & frame = data.projected.GetFrame();
   const std::size_t      width = frame.geometry.width;
   const std::size_t      light = data.projected.GetBasis().NumberOfLightFactors();
@@ -74,7 +75,8 @@ IsOffsetDrift(const PixelLight & data)
         used += 1.0;
       }
     }
-    if (chi2 > 4.0 * std::max(1.0, used - 2.0) || explained < 10.0 * chi2)
+    if (chi2 > InPattern.largestDriftChi2 * std::max(1.0, used - 2.0) ||
+        explained < InPattern.leastDriftExplained * chi2)
     {
       return false;
     }

@@ -5,6 +5,7 @@
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/Stencils.h"
+#include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/PixelCoordinates.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
 #include "sensornoise/pixels/VarianceLine.h"
@@ -125,7 +126,7 @@ ProductsOfBand(const Bands & bands, std::size_t band)
     const TileWeights &  s = weights[bands.TileOf(p)];
     const TileProducts * own = products.data() + bands.TileOf(p) * variables;
     const double         determinant = s.w * s.wII - s.wI * s.wI;
-    if (s.pixels > 20.0 && determinant > 1e-9 * s.w * s.wII)
+    if (s.pixels > InPattern.leastLeakPixels && determinant > 1e-9 * s.w * s.wII)
     {
       for (std::size_t k = 0; k < variables; ++k)
       {

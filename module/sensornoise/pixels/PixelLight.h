@@ -23,8 +23,8 @@ struct PixelLight
   const VarianceLine &              line;
   const std::vector<std::uint8_t> & mask;
   double                            centreDn;  ///< the level that is subtracted from the means
-  double                            darkestDn; ///< quantile 0.002 of the means
-  double                            rangeDn;   ///< between the quantiles 0.002 and 0.998
+  double                            darkestDn; ///< quantile of the means
+  double                            rangeDn;   ///< from the darkest to the brightest quantile
 };
 
 /** A way to cut the frame into tiles, within which local light has one pattern. */

@@ -7,6 +7,7 @@
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/Quantiles.h"
 #include "sensornoise/base/Stencils.h"
+#include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/PixelCoordinates.h"
 #include "sensornoise/pixels/VarianceLine.h"
 #include "sensornoise/scene/ProvisionalModel.h"
@@ -132,7 +133,7 @@ ProjectedVariance::CountFreedom(const MotionSeries & motion, const ProvisionalMo
       {
         const double noise = model.NoiseVariance(m_Frame.neighbourMean[p]);
         const double leverage = Leverage(m_Frame, motion, p, 1e-5 * noise) / noise;
-        m_Freedom[p] = static_cast<float>(freedom * (1.0 - std::min(0.5, leverage)));
+        m_Freedom[p] = static_cast<float>(freedom * (1.0 - std::min(InPixels.largestLeverage, leverage)));
       }
     }
   });
@@ -152,8 +153,9 @@ ProjectedVariance::Classify(const ProvisionalModel & model)
       }
     }
   });
-  const double        sd = std::sqrt(std::max(model.vibrationXPixels2, model.vibrationYPixels2));
-  const auto          radius = static_cast<std::size_t>(sd < 0.35 ? 2.0 : 2.0 + std::ceil(3.0 * std::min(sd, 4.0)));
+  const double sd = std::sqrt(std::max(model.vibrationXPixels2, model.vibrationYPixels2));
+  const auto   radius = static_cast<std::size_t>(
+    sd < InPixels.smallMotion ? 2.0 : 2.0 + std::ceil(InPixels.motionSds * std::min(sd, InPixels.largestMotion)));
   std::vector<double> roughness = BoxSum(energy, width, m_Frame.geometry.height, radius, m_ParallelFor);
   std::vector<double> sample;
   ForBlocks(roughness.size(), m_ParallelFor, [&](std::size_t begin, std::size_t end) {

@@ -5,6 +5,7 @@
 #include "sensornoise/base/BoxSum.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/Quantiles.h"
+#include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/FarVariance.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
 #include "sensornoise/pixels/JudgingLine.h"
@@ -106,9 +107,10 @@ FirstBadClass(const ClassTable & table)
 {
   const double usual = QuantileOf({ table.outliers.begin(), table.outliers.begin() + FlatClasses }, 0.5);
   const auto   isBad = [&](std::size_t c) {
-    return table.excess[c] > std::max(2.5 * table.error[c], 0.0015) || table.outliers[c] > usual + 0.01;
+    return table.excess[c] > std::max(InPixels.classZ * table.error[c], InPixels.leastClassExcess) ||
+           table.outliers[c] > usual + InPixels.leastClassOutliers;
   };
-  for (std::size_t c = 4; c < Classes; ++c)
+  for (std::size_t c = InPixels.firstJudgedClass; c < Classes; ++c)
   {
     if (isBad(c) && (c + 1 == Classes || isBad(c + 1)))
     {
@@ -183,8 +185,9 @@ FindLocalMisfit(const ProjectedVariance &         projected,
                 const std::vector<std::uint8_t> & mask,
                 const ParallelFor &               parallelFor)
 {
-  constexpr std::size_t     radius = 7;
-  constexpr double          area = (2.0 * radius + 1.0) * (2.0 * radius + 1.0);
+  const std::size_t         radius = InPixels.misfitRadius;
+  const double              side = 2.0 * static_cast<double>(radius) + 1.0;
+  const double              area = side * side;
   const ReferenceFrame &    frame = projected.GetFrame();
   const std::size_t         width = frame.geometry.width;
   const std::size_t         height = frame.geometry.height;
@@ -193,7 +196,7 @@ FindLocalMisfit(const ProjectedVariance &         projected,
   std::vector<double>       sum = BoxSum(pixels.rejected, width, height, radius, parallelFor);
   std::vector<std::uint8_t> core(mask.size());
   std::transform(sum.begin(), sum.end(), core.begin(), [area](double crowd) {
-    return static_cast<std::uint8_t>(crowd > 0.15 * area);
+    return static_cast<std::uint8_t>(crowd > InPixels.largestFarShare * area);
   });
   BoxSum(pixels.ratio, width, height, radius, parallelFor, sum);
   std::vector<double> count = BoxSum(pixels.fits, width, height, radius, parallelFor);
@@ -203,7 +206,10 @@ FindLocalMisfit(const ProjectedVariance &         projected,
       const double excess = sum[p] / std::max(1.0, count[p]) - 1.0;
       const double own = line.EffectiveFreedom(freedom, line.At(frame.neighbourMean[p]));
       const double sd = std::sqrt(2.0 * line.sharedSquares / (own * std::max(1.0, count[p])));
-      core[p] = core[p] != 0 || (excess > std::max(5.0 * sd, 0.04) && count[p] > 0.3 * area) ? 1 : 0;
+      core[p] = core[p] != 0 || (excess > std::max(InPixels.misfitZ * sd, InPixels.leastMisfit) &&
+                                 count[p] > InPixels.leastCountedShare * area)
+                  ? 1
+                  : 0;
     }
   });
   BoxSum(core, width, height, (2 * radius + 1) / 3, parallelFor, count);

@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/PixelUse.h"
+#include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/JudgingLine.h"
 #include "sensornoise/pixels/LevelPattern.h"
 #include "sensornoise/pixels/LightLine.h"
@@ -50,14 +51,10 @@ MaskOfFlatClasses(const ProjectedVariance & projected, const std::vector<std::ui
   std::vector<std::uint8_t> mask(usable.size());
   for (std::size_t p = 0; p < mask.size(); ++p)
   {
-    mask[p] = usable[p] != 0 && projected.ClassOf(p) <= 0.6 * ProjectedVariance::Classes ? 1 : 0;
+    mask[p] = usable[p] != 0 && projected.ClassOf(p) <= InPixels.flatShare * ProjectedVariance::Classes ? 1 : 0;
   }
   return mask;
 }
-
-/** Error that a pattern may cause, in standard errors of the gain, which is not worth another fit [1]. Set by hand: it
- * adds 3 % to the error. */
-constexpr double NegligibleShare = 0.25;
 
 /** Files classes, mask and use of the pixels as \a line tells; returns the number of pixels that do not fit. */
 std::size_t
@@ -130,7 +127,7 @@ FitStaticVariance(ProjectedVariance &               projected,
     {
       return found;
     }
-    if (static_cast<double>(misfits) < 1e-3 * static_cast<double>(usable.size()))
+    if (static_cast<double>(misfits) < InPixels.fewMisfits * static_cast<double>(usable.size()))
     {
       break; // too few to have drawn the line
     }
@@ -152,7 +149,8 @@ FitStaticVariance(ProjectedVariance &               projected,
   found.fromFlat = FitFlatHalf(projected, found.mask, line, parallelFor);
   const VarianceData data = projected.GetData(found.mask);
   found.pattern = MeasureLevelPattern(frame, data, line, blackDn, parallelFor);
-  if (found.pattern.LargestShare() * std::abs(line.gain) > NegligibleShare * std::sqrt(line.covariance(0, 0)))
+  if (found.pattern.LargestShare() * std::abs(line.gain) >
+      InPixels.negligiblePattern * std::sqrt(line.covariance(0, 0)))
   {
     found.fromLight = FitLightLine(fit, data, frame, parallelFor);
   }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/pixels/VarianceCurve.h"
 
+#include "sensornoise/pixels/Constants.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -9,12 +11,6 @@
 
 namespace sensornoise
 {
-
-namespace
-{
-/** Standard deviations by which chance may carry an excess, the largest of sixteen [1]. */
-constexpr double CurveChanceZ = 3.0;
-} // namespace
 
 CurveBin &
 CurveBin::operator+=(const CurveBin & other)
@@ -64,7 +60,7 @@ VarianceCurve::Nonlinearity(double dispersion) const
     if (group.weight > 0.0)
     {
       const double excess = group.excess / group.weight;
-      const double square = excess * excess - CurveChanceZ * CurveChanceZ * dispersion / group.weight;
+      const double square = excess * excess - InPixels.curveChanceZ * InPixels.curveChanceZ * dispersion / group.weight;
       largest = std::max(largest, std::sqrt(std::max(0.0, square)) / line.At(this->LevelOf(group)));
     }
   }

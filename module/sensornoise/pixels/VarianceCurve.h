@@ -63,9 +63,6 @@ struct SensorNoise_EXPORT VarianceCurve
   /** Part of the brightest levels' light, above \a blackDn, that the darkest have [1]; 1 without levels. */
   double
   DarkestShare(double blackDn) const;
-  /** DarkestShare up to which a bend of the response shows [1]: at levels of 20 to 80 % a gamma of 1.3 departs from a
-   * line by 2 %, and has half the gain. */
-  static constexpr double DarkEnough = 0.1;
 
   /** Of the darker and the brighter half, parted by the count of pixels and by the information on the slope; a half of
    * one level is left out. */

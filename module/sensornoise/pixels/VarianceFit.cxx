@@ -3,11 +3,14 @@
 #include "sensornoise/pixels/VarianceFit.h"
 
 #include "sensornoise/base/ChiSquare.h"
+#include "sensornoise/base/Constants.h"
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/Quantiles.h"
+#include "sensornoise/moments/Constants.h"
 #include "sensornoise/moments/DefectivePixels.h"
 #include "sensornoise/pixels/ChiSquareTrim.h"
+#include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/MedianLine.h"
 #include "sensornoise/pixels/VarianceCurve.h"
 #include "sensornoise/pixels/VarianceLine.h"
@@ -22,16 +25,6 @@
 namespace sensornoise
 {
 
-namespace
-{
-/** Probability that chance carries a pixel of the brightest level beyond the reach of TrimRule::Distance [1]. Set by
- * hand, small enough to leave the mean alone: a tenth and ten times of it move no gain by 0.01 %. */
-constexpr double ReachTail = 1e-5;
-/** Variance of the pixels' own noise, in units of what the sampling noise makes of it at the darkest level, below which
- * the weights leave it out [1]. Set by hand: at the limit equal weights cost 0.3 % of the precision. */
-constexpr double LeastNoiseSpread = 0.1;
-} // namespace
-
 VarianceFit::VarianceFit(const VarianceData &                data,
                          const ParallelFor &                 parallelFor,
                          const std::optional<VarianceLine> & start,
@@ -43,7 +36,7 @@ VarianceFit::VarianceFit(const VarianceData &                data,
   , m_Rule(rule)
   , m_BlackDn(blackDn)
 {
-  if (m_Freedoms.pixels >= 10)
+  if (m_Freedoms.pixels >= InPixels.fewestPixelsOfFit)
   {
     const std::optional<VarianceLine> first =
       start ? start : FitMedians(data, ChiSquareTrim(m_Freedoms.lowest, m_Freedoms.highest));
@@ -58,8 +51,8 @@ VarianceFit::VarianceFit(const VarianceData &                data,
       if (m_Rule == TrimRule::Distance)
       {
         std::vector<double> levels = this->SampleLevels();
-        m_DarkestDn = Quantile(levels, 0.002);
-        m_BrightestDn = Quantile(levels, 0.998);
+        m_DarkestDn = Quantile(levels, InCommon.darkestQuantile);
+        m_BrightestDn = Quantile(levels, InCommon.brightestQuantile);
         this->SetReach();
         this->SetNoiseSpread();
       }
@@ -135,11 +128,12 @@ VarianceFit::SetReach()
   const double brightest = m_Line.At(m_BrightestDn);
   const double largest = std::max(darkest, brightest);
   const double freedom = std::max(1.0, m_Line.SamplingFreedom(m_Freedoms.highest, largest));
-  const double chance = largest * (ChiSquareUpperQuantile(ReachTail, freedom) / freedom - 1.0);
+  const double chance = largest * (ChiSquareUpperQuantile(InPixels.reachTail, freedom) / freedom - 1.0);
   const double atBlack = std::max(0.0, m_Line.intercept + m_Line.gain * m_BlackDn);
-  const double noisy = (DefectiveNoiseFactor * DefectiveNoiseFactor - 1.0) * std::min({ darkest, brightest, atBlack });
+  const double noisy =
+    (InMoments.defectiveNoiseFactor * InMoments.defectiveNoiseFactor - 1.0) * std::min({ darkest, brightest, atBlack });
   m_ReachDn2 = std::max(chance, noisy);
-  m_ReachBelowDn2 = largest * (1.0 - ChiSquareQuantile(ReachTail, freedom) / freedom);
+  m_ReachBelowDn2 = largest * (1.0 - ChiSquareQuantile(InPixels.reachTail, freedom) / freedom);
 }
 
 void
@@ -167,7 +161,7 @@ VarianceFit::SetNoiseSpread()
     }
   });
   const double spread = s[WWMore] / std::max(1e-300, s[WW]);
-  m_Line.noiseSpreadDn4 = spread * s[WW] > LeastNoiseSpread * s[WWChance] ? spread : 0.0;
+  m_Line.noiseSpreadDn4 = spread * s[WW] > InPixels.leastNoiseSpread * s[WWChance] ? spread : 0.0;
 }
 
 void

@@ -117,7 +117,7 @@ private:
   std::optional<ChiSquareTrim> m_Trim;
   TrimRule                     m_Rule;
   double                       m_BlackDn;
-  double                       m_DarkestDn{ 0.0 }; // quantiles 0.002 and 0.998 of the levels
+  double                       m_DarkestDn{ 0.0 }; // quantiles of the levels
   double                       m_BrightestDn{ 0.0 };
   double                       m_ReachDn2{ 0.0 };
   double                       m_ReachBelowDn2{ 0.0 };

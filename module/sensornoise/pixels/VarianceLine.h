@@ -26,9 +26,6 @@ struct VarianceData
 /** variance = intercept + gain mean, and how sure. */
 struct VarianceLine
 {
-  /** Of the smallest median of a bin: lowestDn2 [1]. */
-  static constexpr double LowestShare = 0.2;
-
   double          gain{ 0.0 };
   double          intercept{ 0.0 };
   double          lowestDn2{ 0.0 };                      ///< the line is cut there where it serves as a variance

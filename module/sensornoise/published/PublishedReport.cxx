@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/published/PublishedReport.h"
 
+#include "sensornoise/base/Constants.h"
+#include "sensornoise/base/FaintFlicker.h"
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/IntensityIndex.h"
 #include "sensornoise/base/PolynomialFit.h"
-#include "sensornoise/base/RequiredFlickerZ.h"
 #include "sensornoise/base/RollingShutter.h"
 #include "sensornoise/base/Text.h"
 #include "sensornoise/published/FlickerEstimate.h"
@@ -155,7 +156,7 @@ FillNoise(Report &                  report,
 {
   const PublishedScene &  scene = found.scene;
   const FlickerEstimate & flicker = found.flicker;
-  const bool              isIdentified = flicker.flickerZ > RequiredFlickerZ;
+  const bool              isIdentified = flicker.flickerZ > InCommon.requiredFlickerZ;
   if (!isIdentified)
   {
     report.Warn(WarningCode::OffsetNotIdentifiable,
@@ -207,7 +208,7 @@ MakePublishedReport(const PublishedFindings & found)
   WarnOfWidening(report, WarningCode::BrightSetWidened, "bright", scene.bright);
   WarnOfWidening(report, WarningCode::DarkSetWidened, "dark", scene.dark);
   WarnOfFlicker(report, found.flicker);
-  FillFlicker(report, found.flicker, found.flicker.flickerZ > RequiredFlickerZ);
+  FillFlicker(report, found.flicker, found.flicker.flickerZ > InCommon.requiredFlickerZ);
   FillVibration(report, found);
   if (!HasRange(report, scene))
   {

@@ -6,7 +6,9 @@
 #include "sensornoise/base/PixelUse.h"
 #include "sensornoise/moments/DarkMaps.h"
 #include "sensornoise/moments/KnownOffset.h"
+#include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/VarianceCurve.h"
+#include "sensornoise/refined/Constants.h"
 #include "sensornoise/refined/GainEstimate.h"
 
 #include <algorithm>
@@ -19,14 +21,6 @@ namespace sensornoise
 
 namespace
 {
-/** Standard deviations by which chance may part the dark frames from the line [1]. */
-constexpr double LargestContradiction = 2.0;
-/** The same from which on dark frames are of another sensor, exposure or temperature, where the response is straight
- * [1]. */
-constexpr double AnotherSensor = 4.0;
-/** Part of the levels above the offset below which they say nothing of the gain [1]. */
-constexpr double LeastLight = 0.1;
-
 /** The point of the dark frames. */
 struct DarkPoint
 {
@@ -103,7 +97,7 @@ GainsOfLevels(const VarianceCurve & curve, const DarkPoint & dark)
   {
     const double level = curve.LevelOf(bin);
     const double light = level - dark.offsetDn;
-    if (light > LeastLight * (brightestDn - dark.offsetDn))
+    if (light > InRefined.leastLight * (brightestDn - dark.offsetDn))
     {
       const double own = curve.line.intercept + curve.line.gain * level + bin.excess / bin.weight;
       const double gain = (own - dark.varianceDn2) / light;
@@ -122,7 +116,7 @@ GainsOfLevels(const VarianceCurve & curve, const DarkPoint & dark)
     // Beyond chance by two standard deviations of chi-square.
     const double freedom = std::max(1.0, levels - 1.0);
     const double chi2 = squares - sum * gains.mean;
-    const double more = chi2 - freedom - LargestContradiction * std::sqrt(2.0 * freedom);
+    const double more = chi2 - freedom - InRefined.largestContradiction * std::sqrt(2.0 * freedom);
     gains.scatter = std::sqrt(std::max(0.0, more / weight));
   }
   return gains;
@@ -136,8 +130,8 @@ UseDarkPoint(GainEstimate & estimate, const RefinedResults & found)
   const bool         isBent = estimate.IsBent();
   const GainEstimate before = estimate;
   const double       contradiction = MoveToPoint(estimate, dark);
-  if (!isBent && contradiction > AnotherSensor &&
-      estimate.curve.DarkestShare(dark.offsetDn) < VarianceCurve::DarkEnough)
+  if (!isBent && contradiction > InRefined.anotherSensorZ &&
+      estimate.curve.DarkestShare(dark.offsetDn) < InPixels.darkEnough)
   {
     // A straight line that comes close to the dark knows the variance there: these are not its dark frames.
     const auto atOffset = estimate.atOffset;
@@ -147,11 +141,11 @@ UseDarkPoint(GainEstimate & estimate, const RefinedResults & found)
   }
   const LevelGains   gains = GainsOfLevels(estimate.curve, dark);
   const VarianceLine line = estimate.line;
-  if (isBent || estimate.curve.DarkestShare(dark.offsetDn) > VarianceCurve::DarkEnough)
+  if (isBent || estimate.curve.DarkestShare(dark.offsetDn) > InPixels.darkEnough)
   {
     estimate.atOffset.reset(); // a bend of the response may explain the difference
   }
-  if ((isBent || contradiction > LargestContradiction) && gains.mean > 0.0)
+  if ((isBent || contradiction > InRefined.largestContradiction) && gains.mean > 0.0)
   {
     const double light = std::max(1e-9, line.pivotDn - dark.offsetDn);
     const double error = std::hypot(dark.varianceErrorDn2 / light, gains.mean * dark.offsetErrorDn / light);

@@ -6,6 +6,7 @@
 #include "sensornoise/pixels/MeanGain.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
 #include "sensornoise/pixels/VarianceCurve.h"
+#include "sensornoise/refined/Constants.h"
 #include "sensornoise/refined/DarkPoint.h"
 
 #include <algorithm>
@@ -18,9 +19,6 @@ namespace sensornoise
 
 namespace
 {
-/** Standard deviations by which chance may part two fits of the same data [1]. */
-constexpr double HausmanZ = 2.0;
-
 /** A covariance of gain and intercept that leaves the value at the pivot alone. */
 Eigen::Matrix2d
 SlopeCovariance(double errorOfSlope, double pivotDn)
@@ -30,13 +28,14 @@ SlopeCovariance(double errorOfSlope, double pivotDn)
   return errorOfSlope * errorOfSlope * added;
 }
 
-/** What is known of the bias of vibrations above 0.4 pixels, beyond which the expansion in derivatives fails: about
- * 0.15 % of the gain at 0.5 pixels, growing with the square (measured by measure-robustness); nothing below. */
+/** What is known of the bias of large vibrations, beyond which the expansion in derivatives fails. */
 double
 ErrorOfVibration(const VarianceLine & line, const ProvisionalModel & model)
 {
   const double square = std::max(model.vibrationXPixels2, model.vibrationYPixels2);
-  return square > 0.16 ? 0.0015 * line.gain * square / 0.25 : 0.0;
+  return square > InRefined.smallVibration
+           ? InRefined.biasOfVibration * line.gain * square / InRefined.referenceVibration
+           : 0.0;
 }
 
 /** What the smoother half of the pixels says against all of them, as a covariance: 0 unless gain or value at the centre
@@ -53,7 +52,9 @@ Disagreement(const VarianceLine & all, const VarianceLine & flat)
     for (int k = 0; k < 2; ++k)
     {
       const double square = difference(k) * difference(k);
-      added(k, k) = square > HausmanZ * HausmanZ * expected(k, k) ? std::max(0.0, square - expected(k, k)) : 0.0;
+      added(k, k) = square > InRefined.hausmanZ * InRefined.hausmanZ * expected(k, k)
+                      ? std::max(0.0, square - expected(k, k))
+                      : 0.0;
     }
     added(0, 1) = added(1, 0) = std::copysign(std::sqrt(added(0, 0) * added(1, 1)), difference(0) * difference(1));
   }
@@ -64,7 +65,7 @@ Disagreement(const VarianceLine & all, const VarianceLine & flat)
 double
 BeyondChance(double chi2, double freedom)
 {
-  return chi2 > 1.0 + HausmanZ * std::sqrt(2.0 / freedom) ? chi2 : 1.0;
+  return chi2 > 1.0 + InRefined.hausmanZ * std::sqrt(2.0 / freedom) ? chi2 : 1.0;
 }
 
 double
@@ -108,9 +109,6 @@ SizeBeyondChance(double difference, double variance, double z)
   return std::sqrt(std::max(0.0, difference * difference - z * z * variance));
 }
 
-/** Standard deviations by which chance may part the slope of a half of the levels from that of all [1]. */
-constexpr double HalvesZ = 3.0;
-
 /** The gains of the halves of the levels that differ from the whole's by more than chance. */
 void
 FindSpreadOfSlopes(GainEstimate & estimate, const VarianceCurve & curve, double dispersion)
@@ -118,26 +116,9 @@ FindSpreadOfSlopes(GainEstimate & estimate, const VarianceCurve & curve, double 
   for (const SlopeExcess & half : curve.SlopesOfHalves())
   {
     double & side = half.value < 0.0 ? estimate.below : estimate.above;
-    side = std::max(side, SizeBeyondChance(half.value, dispersion * half.variance, HalvesZ));
+    side = std::max(side, SizeBeyondChance(half.value, dispersion * half.variance, InRefined.halvesZ));
   }
 }
-
-/** What is left of the departure from a line as the error of the mean gain [1]. Set by hand: of three shapes of bend by
- * 2 and 4 % on two scenes the largest error was 0.29 of it; half fails to cover, twice covers all. */
-constexpr double ErrorOfNonlinearity = 1.0 / 3.0;
-
-/** Part of the brightest levels' variance that the line may leave to read noise where the response bends [1]. Above it,
- * what looks like read noise may be the bend of a tone curve. Set by hand: bends of 4 % make 0.05 of it, a gamma of 1.3
- * 0.3. */
-constexpr double LargestReadShare = 0.1;
-
-/** Part of the brightest levels' light that the darkest may have for a bend to be told from noise [1]. Set by hand:
- * flat fields have 0.9 and more, scenes less than 0.3. */
-constexpr double LargestDarkestShare = 0.5;
-
-/** Standard deviations by which the mean gain must differ from the slope to replace it [1]: below, it widens the error,
- * as it does below LeastNonlinearity. */
-constexpr double MeanGainZ = 3.0;
 
 /** Where the response bends visibly, the mean of the local gain replaces the slope, which is not the gain there. */
 void
@@ -150,20 +131,21 @@ UseMeanGain(GainEstimate & estimate, const VarianceCurve & curve, double blackDn
   }
   const double bend = parabola->value - curve.line.gain;
   const double chance = dispersion * parabola->variance;
-  const bool   isSure = estimate.IsBent() || bend * bend > MeanGainZ * MeanGainZ * chance;
-  if (!isSure || !(estimate.nonlinearity > LeastNonlinearity))
+  const bool   isSure = estimate.IsBent() || bend * bend > InRefined.meanGainZ * InRefined.meanGainZ * chance;
+  if (!isSure || !(estimate.nonlinearity > InRefined.leastNonlinearity))
   {
     double & side = bend < 0.0 ? estimate.below : estimate.above;
-    side = std::max(side, SizeBeyondChance(bend, chance, HausmanZ));
+    side = std::max(side, SizeBeyondChance(bend, chance, InRefined.hausmanZ));
     return;
   }
   const MeanGain best = FindMeanGain(curve, 3).value_or(*parabola);
-  const double   ofShape = ErrorOfNonlinearity * estimate.nonlinearity * best.value;
+  const double   ofShape = InRefined.errorOfNonlinearity * estimate.nonlinearity * best.value;
   const double   atPivot = estimate.line.intercept + estimate.line.gain * estimate.line.pivotDn;
-  estimate.below = estimate.above = std::max(ofShape, 0.5 * std::abs(best.value - curve.line.gain));
+  estimate.below = estimate.above =
+    std::max(ofShape, InRefined.errorOfMeanGain * std::abs(best.value - curve.line.gain));
   const double read = curve.line.intercept + curve.line.gain * blackDn;
   const auto   shotNoise = FindMeanGain(curve, 2, blackDn);
-  if (shotNoise && read > LargestReadShare * curve.line.At(curve.LevelOf(curve.bins.back())))
+  if (shotNoise && read > InRefined.largestReadShare * curve.line.At(curve.LevelOf(curve.bins.back())))
   {
     estimate.above = std::max(estimate.above, shotNoise->value - best.value);
     estimate.below = std::max(estimate.below, best.value - shotNoise->value);
@@ -173,16 +155,11 @@ UseMeanGain(GainEstimate & estimate, const VarianceCurve & curve, double blackDn
   estimate.covariance += SlopeCovariance(std::sqrt(dispersion * best.variance), estimate.line.pivotDn);
 }
 
-/** Scatter of the classes beyond sampling, as a factor of the variance, that chance is given where departures from a
- * line are judged [1]. Set by hand: scenes and sensors that fit have 1 to 4; a tone curve has 50 and hides behind it.
- */
-constexpr double LargestDispersion = 4.0;
-
 void
 FindModelError(GainEstimate & estimate, const VarianceCurve & curve, double blackDn, double dispersion)
 {
-  estimate.isWide = curve.DarkestShare(blackDn) < LargestDarkestShare;
-  if (!estimate.isWide && std::sqrt(estimate.covariance(0, 0)) > LargestGainError * estimate.scale)
+  estimate.isWide = curve.DarkestShare(blackDn) < InRefined.largestDarkestShare;
+  if (!estimate.isWide && std::sqrt(estimate.covariance(0, 0)) > InRefined.largestGainError * estimate.scale)
   {
     return; // a line that is not known has no departures
   }
@@ -195,7 +172,7 @@ FindModelError(GainEstimate & estimate, const VarianceCurve & curve, double blac
   if (!estimate.IsBent())
   {
     // What is left is scatter about a line that is straight enough.
-    estimate.covariance *= BeyondChance(estimate.reducedChi2, 62.0);
+    estimate.covariance *= BeyondChance(estimate.reducedChi2, VarianceCurve::Bins - 2.0);
   }
 }
 } // namespace
@@ -221,7 +198,8 @@ EstimateGain(const RefinedResults & found, const SensorLines & lines)
   estimate.reducedChi2 = lines.curve.ReducedChi2() / variance.sharedSquares;
   ChooseLine(estimate, lines, variance, found.scene.model);
   estimate.scale = estimate.line.At(estimate.line.pivotDn) / std::max(1e-9, estimate.line.pivotDn - found.blackDn);
-  const double dispersion = std::min(DispersionOfClasses(variance), LargestDispersion * variance.sharedSquares);
+  const double dispersion =
+    std::min(DispersionOfClasses(variance), InRefined.largestDispersion * variance.sharedSquares);
   FindModelError(estimate, lines.curve, found.blackDn, dispersion);
   if (found.settings.offset && found.settings.offset->variance)
   {

@@ -16,14 +16,6 @@
 namespace sensornoise
 {
 
-/** Standard error of a gain that is worth a number, relative to its order of magnitude [1]. Set by hand. The order of
- * magnitude is not the gain that came out: nothing is told because it came out large. */
-inline constexpr double LargestGainError = 0.25;
-
-/** Departure of the variance from its line that is worth a word [1]. Set by hand: a hundredth moves the gain by about
- * half of it. */
-inline constexpr double LeastNonlinearity = 0.01;
-
 /** Gain and intercept of the sensor, with all that is known of their errors. */
 struct GainEstimate
 {

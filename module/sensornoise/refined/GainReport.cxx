@@ -5,9 +5,11 @@
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Text.h"
 #include "sensornoise/pixels/CodeNoise.h"
+#include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/LevelPattern.h"
 #include "sensornoise/pixels/VarianceCurve.h"
 #include "sensornoise/pixels/VarianceLine.h"
+#include "sensornoise/refined/Constants.h"
 #include "sensornoise/refined/GainEstimate.h"
 #include "sensornoise/report/Quantities.h"
 
@@ -20,12 +22,6 @@ namespace sensornoise
 
 namespace
 {
-/** Departure of the variance from its line above which the data are not those of a sensor [1]: local gains that differ
- * by 4 % make 0.03 to 0.1 of it, a gamma of 1.3 from 0.13 on. */
-constexpr double LargestNonlinearity = 0.12;
-/** Part of the usable pixels that a measurement needs [1]. Set by hand. */
-constexpr double LeastUsedShare = 0.1;
-
 /** Files the fit. */
 void
 FillFit(Report & report, const RefinedResults & found, const GainEstimate & gain)
@@ -44,13 +40,13 @@ FindContradiction(const RefinedResults & found, const GainEstimate & gain)
 {
   const std::string advice = ": the data are not raw (gamma, compression), or not linear";
   const bool        hasCodes = found.scene.summary.codes.clipHighDn.has_value();
-  if (gain.nonlinearity > LargestNonlinearity)
+  if (gain.nonlinearity > InRefined.largestNonlinearity)
   {
     return "the variance departs from its line by " + Percent(gain.nonlinearity) + " of itself (expected less than " +
-           Percent(LargestNonlinearity) + ")" + advice +
+           Percent(InRefined.largestNonlinearity) + ")" + advice +
            (hasCodes ? "" : ", or they saturate: then give the levels that the sensor attains (clip)");
   }
-  if (gain.isWide && gain.IsBent() && gain.above + gain.below > 2.0 * LargestGainError * gain.line.gain)
+  if (gain.isWide && gain.IsBent() && gain.above + gain.below > 2.0 * InRefined.largestGainError * gain.line.gain)
   {
     return "the variance bends against the mean, and the gain depends on what is taken for read noise, between " +
            Rounded(gain.line.gain - gain.below) + " and " + Rounded(gain.line.gain + gain.above) + " DN/e-" + advice;
@@ -85,12 +81,12 @@ FillTooLittle(Report & report, const RefinedResults & found, const GainEstimate 
 {
   SetSensorParameters(report, EstimateStatus::NotIdentifiable);
   const double error = gain.StandardError();
-  if (static_cast<double>(report.pixels.used) < LeastUsedShare * found.scene.usable)
+  if (static_cast<double>(report.pixels.used) < InRefined.leastUsedShare * found.scene.usable)
   {
     report.Warn(WarningCode::TooLittleToMeasure,
                 Percent(static_cast<double>(report.pixels.used) / std::max(1.0, found.scene.usable)) +
                   " of the pixels that are not clipped fit a static scene (expected at least " +
-                  Percent(LeastUsedShare) + ") and give a gain of " + Measured(gain.line.gain, error) +
+                  Percent(InRefined.leastUsedShare) + ") and give a gain of " + Measured(gain.line.gain, error) +
                   " DN/e-: the scene is not static, or too dark; choose a static part of it");
     return;
   }
@@ -127,7 +123,7 @@ FillGainAndIntercept(Report &             report,
     std::hypot(std::sqrt(gain.covariance(1, 1)), 0.5 * (gain.below + gain.above) * gain.line.pivotDn);
   report.totalIntercept = WithError(gain.line.intercept + codes.interceptDn2, interceptError, student);
   report.intercept = WithError(gain.line.intercept - quantisationDn2, interceptError, student);
-  if (gain.nonlinearity > LeastNonlinearity && gain.IsBent())
+  if (gain.nonlinearity > InRefined.leastNonlinearity && gain.IsBent())
   {
     report.Warn(WarningCode::ResponseNotStraight,
                 "the variance departs from its line by up to " + Percent(gain.nonlinearity) +
@@ -149,9 +145,9 @@ FillGain(Report &               report,
   const std::string contradiction = FindContradiction(found, gain);
   // Parts of levels that are all alike differ by patterns, not by a bend.
   const double error = gain.isWide ? std::sqrt(gain.covariance(0, 0)) : gain.StandardError();
-  const bool   isTooLittle = error > LargestGainError * gain.scale ||
-                           static_cast<double>(report.pixels.used) < LeastUsedShare * found.scene.usable;
-  if (isTooLittle && !(gain.nonlinearity > LargestNonlinearity))
+  const bool   isTooLittle = error > InRefined.largestGainError * gain.scale ||
+                           static_cast<double>(report.pixels.used) < InRefined.leastUsedShare * found.scene.usable;
+  if (isTooLittle && !(gain.nonlinearity > InRefined.largestNonlinearity))
   {
     FillTooLittle(report, found, gain);
     return false;
@@ -174,12 +170,11 @@ WarnOfNarrowRange(Report & report, const RefinedResults & found, const OffsetLim
   const double          blackDn = report.offset.value.value_or(limits.rootDn);
   const bool            isDarkGiven = found.settings.offset && found.settings.offset->variance;
   const double          share = curve.DarkestShare(blackDn);
-  if (!isDarkGiven && share > VarianceCurve::DarkEnough)
+  if (!isDarkGiven && share > InPixels.darkEnough)
   {
     report.Warn(WarningCode::ResponseUnchecked,
                 "the darkest levels have " + Percent(share) + " of the brightest's light (expected at most " +
-                  Percent(VarianceCurve::DarkEnough) +
-                  "): a bent response could not be seen there; dark frames would tell");
+                  Percent(InPixels.darkEnough) + "): a bent response could not be seen there; dark frames would tell");
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/Stencils.h"
 #include "sensornoise/base/Text.h"
+#include "sensornoise/refined/Constants.h"
 #include "sensornoise/report/Quantities.h"
 
 #include <algorithm>
@@ -17,9 +18,6 @@ namespace sensornoise
 
 namespace
 {
-/** Error of the light above the offset, relative to it, at which a flicker is no number [1]. Set by hand. */
-constexpr double LargestScaleError = 0.25;
-
 /** One axis of the motion. */
 struct AxisMotion
 {
@@ -84,7 +82,7 @@ MotionAlong(Eigen::Index axis, std::size_t stencil, const PolishedSeries & polis
     const double leastSquares = std::sqrt(std::max(0.0, spread.square));
     errorSquare = polished.shifts->covariance(axis, axis) * polished.motionPhi;
     spread = SpreadOf(polished.shifts->coefficients.col(axis), gamma, errorSquare);
-    systematic = 0.5 * std::abs(std::sqrt(std::max(0.0, spread.square)) - leastSquares);
+    systematic = InRefined.errorOfMotion * std::abs(std::sqrt(std::max(0.0, spread.square)) - leastSquares);
   }
   const double sd = std::sqrt(std::max(0.0, spread.square));
   const double error = std::hypot(2.0 * sd * std::sqrt(errorSquare / (frames - 1.0)),
@@ -155,12 +153,12 @@ FillFlicker(Report & report, const RefinedResults & found, double offset, double
   report.flickerSd = RootOf(variance, std::hypot(ownError, fromOffset));
   const double ofScale = std::abs(line.sensitivity) * offsetErrorDn;
   const auto & limit = report.flickerSd.interval95;
-  if (ofScale > LargestScaleError || !(limit && limit->high.value_or(2.0) < 1.0))
+  if (ofScale > InRefined.largestScaleError || !(limit && limit->high.value_or(2.0) < 1.0))
   {
     report.flickerSd = Quantity::Without(EstimateStatus::NotIdentifiable);
     report.Warn(WarningCode::FlickerNotIdentifiable,
                 "the light is known to " + Percent(ofScale) + " only, and so is the flicker (expected " +
-                  Percent(LargestScaleError) +
+                  Percent(InRefined.largestScaleError) +
                   " at most): a known offset would tell, or a scene with dark and bright areas");
   }
   if (found.HasLocalLight())

@@ -3,8 +3,10 @@
 #include "sensornoise/refined/OffsetLimits.h"
 
 #include "sensornoise/base/ChiSquare.h"
+#include "sensornoise/base/Constants.h"
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Quantiles.h"
+#include "sensornoise/refined/Constants.h"
 #include "sensornoise/refined/GainEstimate.h"
 
 #include <algorithm>
@@ -17,10 +19,7 @@ namespace sensornoise
 
 namespace
 {
-/** How far chance carries the darkest 0.2 % of the pixels below their level, in standard deviations [1]. */
-constexpr double ChanceOfDarkest = 3.0;
-
-/** The quantile 0.002 of the neighbours' means of the usable pixels [DN]. */
+/** The darkest quantile of the neighbours' means of the usable pixels [DN]. */
 double
 DarkestNeighbourhood(const ReferenceFrame & frame)
 {
@@ -29,7 +28,7 @@ DarkestNeighbourhood(const ReferenceFrame & frame)
   {
     levels.push_back(frame.neighbourMean[p]);
   }
-  return Quantile(levels, 0.002);
+  return Quantile(levels, InCommon.darkestQuantile);
 }
 } // namespace
 
@@ -53,7 +52,7 @@ LimitsOf(const RefinedResults & found, const GainEstimate & gain, double quantis
     const double          pivotError = std::sqrt(std::max(0.0, pivot.dot(gain.covariance * pivot)));
     limits.lowestDn = std::min(v.pivotDn - (atPivot + student * pivotError) / slope, darkestDn);
   }
-  limits.highestDn = darkestDn + ChanceOfDarkest * std::sqrt(spreadDn2);
+  limits.highestDn = darkestDn + InRefined.chanceOfDarkestZ * std::sqrt(spreadDn2);
   const Eigen::Vector2d design(limits.highestDn, 1.0);
   const double          error = std::sqrt(std::max(0.0, design.dot(gain.covariance * design)));
   limits.largestNoiseDn2 = std::max(0.0, v.intercept + v.gain * limits.highestDn + student * error - quantisationDn2);

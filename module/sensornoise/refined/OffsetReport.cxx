@@ -3,11 +3,15 @@
 #include "sensornoise/refined/OffsetReport.h"
 
 #include "sensornoise/base/ChiSquare.h"
-#include "sensornoise/base/RequiredFlickerZ.h"
+#include "sensornoise/base/Constants.h"
+#include "sensornoise/base/FaintFlicker.h"
 #include "sensornoise/base/Text.h"
 #include "sensornoise/moments/KnownOffset.h"
+#include "sensornoise/pixels/Constants.h"
+#include "sensornoise/refined/Constants.h"
 #include "sensornoise/refined/GainEstimate.h"
 #include "sensornoise/report/Quantities.h"
+#include "sensornoise/series/Constants.h"
 
 #include <algorithm>
 #include <array>
@@ -20,9 +24,6 @@ namespace sensornoise
 
 namespace
 {
-/** Error that offsets which differ may cause, in standard errors, that is left out [1]. Set by hand: it adds 3 %. */
-constexpr double NegligiblePattern = 0.25;
-
 /** Warns if the dark frames are noisier or quieter than the line is at the offset, unless a bent response explains it.
  */
 void
@@ -32,8 +33,8 @@ CompareDarkVariance(Report &             report,
                     double               errorDn2,
                     double               quantisationDn2)
 {
-  if (gain.atOffset &&
-      std::abs(varianceDn2 - gain.atOffset->valueDn2) > 4.0 * std::hypot(errorDn2, gain.atOffset->standardErrorDn2))
+  if (gain.atOffset && std::abs(varianceDn2 - gain.atOffset->valueDn2) >
+                         InRefined.anotherSensorZ * std::hypot(errorDn2, gain.atOffset->standardErrorDn2))
   {
     report.Warn(WarningCode::DarkFramesDiffer,
                 "at the offset the noise is " +
@@ -69,7 +70,7 @@ CompareKnownOffset(Report &               report,
   const double offsetErrorDn = found.settings.offset->standardErrorDn;
   const double difference = flicker.valueDn - offsetDn;
   const double error = std::hypot(flicker.standardErrorDn, offsetErrorDn);
-  if (flicker.obstacle.empty() && std::abs(difference) > 3.0 * error)
+  if (flicker.obstacle.empty() && std::abs(difference) > InRefined.steadyLightZ * error)
   {
     report.Warn(WarningCode::SteadyLight,
                 "the level that does not flicker is " + Measured(flicker.valueDn, flicker.standardErrorDn) + " DN, " +
@@ -77,10 +78,11 @@ CompareKnownOffset(Report &               report,
                   (difference > 0.0 ? "light that does not flicker, or dark current, makes the difference"
                                     : "that is too high for these frames"));
   }
-  const double slackDn = 3.0 * offsetErrorDn + 2.0 * std::sqrt(gain.covariance(1, 1)) / gain.line.gain;
+  const double slackDn = InRefined.slackOfOffsetZ * offsetErrorDn +
+                         InRefined.slackOfInterceptZ * std::sqrt(gain.covariance(1, 1)) / gain.line.gain;
   const double rangeDn = found.scene.model.brightestDn - found.scene.model.darkestDn;
   const bool   isTooLow = limits.lowestDn && offsetDn < *limits.lowestDn - slackDn;
-  if (isTooLow || offsetDn > limits.highestDn + slackDn + 0.01 * rangeDn)
+  if (isTooLow || offsetDn > limits.highestDn + slackDn + InRefined.slackOfRange * rangeDn)
   {
     report.Warn(WarningCode::OffsetOutOfRange,
                 "the given offset, " + Text(offsetDn) + " DN, is not between " +
@@ -127,7 +129,7 @@ FillReadNoise(Report &               report,
     FillElectrons(
       report, dark.valueDn2 - quantisationDn2, dark.standardErrorDn2, v.gain, gain.StandardError(), student);
   }
-  else if (square + 4.0 * error < 0.0)
+  else if (square + InRefined.negativeNoiseZ * error < 0.0)
   {
     report.readNoise = Quantity::Without(EstimateStatus::Failed);
     report.readNoiseElectrons = Quantity::Without(EstimateStatus::Failed);
@@ -214,16 +216,17 @@ EstimateOffset(const RefinedResults & found, const GainEstimate & gain, const Of
   // So does a response that bends.
   const double lightDn = std::abs(model.centreDn - estimate.valueDn);
   const double fromPatternDn = lightDn * std::hypot(found.variance.pattern.offsetShare, gain.RelativeModelError());
-  if (fromPatternDn > NegligiblePattern * estimate.standardErrorDn)
+  if (fromPatternDn > InPixels.negligiblePattern * estimate.standardErrorDn)
   {
     estimate.standardErrorDn = std::hypot(estimate.standardErrorDn, fromPatternDn);
     low -= 1.96 * fromPatternDn;
     high += 1.96 * fromPatternDn;
     estimate.interval = Interval{ low + model.centreDn, high + model.centreDn };
   }
-  const double slackDn = 3.0 * estimate.standardErrorDn;
-  const double slackBelowDn = slackDn + 2.0 * std::sqrt(gain.covariance(1, 1)) / std::max(1e-9, gain.line.gain);
-  if (!(line.contrast > OffsetLine::LeastContrast))
+  const double slackDn = InRefined.slackOfOffsetZ * estimate.standardErrorDn;
+  const double slackBelowDn =
+    slackDn + InRefined.slackOfInterceptZ * std::sqrt(gain.covariance(1, 1)) / std::max(1e-9, gain.line.gain);
+  if (!(line.contrast > InSeries.leastContrast))
   {
     estimate.obstacle = "the scene has one intensity";
   }
@@ -231,7 +234,7 @@ EstimateOffset(const RefinedResults & found, const GainEstimate & gain, const Of
   {
     estimate.obstacle = "the scene is a ramp, along which motion changes every level alike, as an offset does";
   }
-  else if (!(line.flickerZ > RequiredFlickerZ) && !isLocal)
+  else if (!(line.flickerZ > InCommon.requiredFlickerZ) && !isLocal)
   {
     estimate.obstacle = TextOfFaintFlicker(line.flickerZ);
   }
@@ -239,7 +242,7 @@ EstimateOffset(const RefinedResults & found, const GainEstimate & gain, const Of
   {
     estimate.obstacle = "the light changes differently over the frame, and no part of it tells the offset";
   }
-  else if (!std::isfinite(low) || !std::isfinite(high) || high - low > 0.25 * rangeDn)
+  else if (!std::isfinite(low) || !std::isfinite(high) || high - low > InRefined.largestOffsetInterval * rangeDn)
   {
     estimate.obstacle = "the offset's interval, " + Rounded(low + model.centreDn) + " to " +
                         Rounded(high + model.centreDn) + " DN, is wider than a quarter of the range of the scene, " +
@@ -251,7 +254,7 @@ EstimateOffset(const RefinedResults & found, const GainEstimate & gain, const Of
     estimate.obstacle = "the flicker's zero, " + Rounded(estimate.valueDn) +
                         " DN, contradicts sigma^2 >= 0 or the darkest level: parts of the light flicker differently";
   }
-  else if (isLocal && local->phi > 4.0)
+  else if (isLocal && local->phi > InRefined.largestLocalDispersion)
   {
     estimate.obstacle =
       "the responses to the lamps do not meet in one zero (dispersion " + Rounded(local->phi) + ", expected 1)";

@@ -3,6 +3,7 @@
 #include "sensornoise/refined/PixelNoise.h"
 
 #include "sensornoise/correlation/NoiseResiduals.h"
+#include "sensornoise/refined/Constants.h"
 #include "sensornoise/refined/PixelsOfVariance.h"
 #include "sensornoise/report/StackReport.h"
 
@@ -13,13 +14,6 @@
 
 namespace sensornoise
 {
-
-namespace
-{
-/** Sum of the squared coefficients from which areas are judged once more [1]. Set by hand: below, the scatter of their
- * means grows by less than a twentieth. */
-constexpr double LeastSharedSquares = 1.1;
-} // namespace
 
 PixelNoise
 MeasurePixelNoise(ProjectedVariance &                      projected,
@@ -50,7 +44,7 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
     std::move(sample), series->basis.GetBasis(), { scene.frame.mean, used, zeroDn }, parallelFor);
   noise.correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
   const double sharedSquares = SharedSquares(noise.correlation.space);
-  if (noise.correlation.IsShared() && sharedSquares > LeastSharedSquares)
+  if (noise.correlation.IsShared() && sharedSquares > InRefined.leastSharedSquares)
   {
     noise.variance = fit(sharedSquares);
     used = MaskOfUsed(noise.variance.pixelUse);

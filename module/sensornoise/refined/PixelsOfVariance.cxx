@@ -5,6 +5,7 @@
 #include "sensornoise/base/PixelUse.h"
 #include "sensornoise/moments/DarkMaps.h"
 #include "sensornoise/moments/KnownOffset.h"
+#include "sensornoise/refined/Constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,16 +14,6 @@
 
 namespace sensornoise
 {
-
-namespace
-{
-/** Pixels around an edge over which its surroundings' level is taken: 5 x 5 pixels, the border of usable pixels. */
-constexpr std::size_t EdgeMargin = 2;
-/** Change of a pixel's variance, along the line, from its own level to that of its surroundings, from which it is an
- * edge [1]. A Gaussian of 1 pixel then misses its variance by a quarter of that. Set by hand: half changes nothing,
- * twice loses 1 % of the read noise of a texture. */
-constexpr double LargestEdge = 0.04;
-} // namespace
 
 double
 BlackLevel(const RefinedSettings & settings, const StillScene & scene, const std::optional<const SceneSeries> & series)
@@ -69,26 +60,26 @@ LeaveOutEdges(const ReferenceFrame &      frame,
               std::vector<std::uint8_t> & chosen,
               std::vector<std::uint8_t> & pixelUse)
 {
-  constexpr double  count = (2 * EdgeMargin + 1) * (2 * EdgeMargin + 1);
+  const auto        side = static_cast<double>(2 * InRefined.edgeMargin + 1);
   const std::size_t width = frame.geometry.width;
   for (std::size_t p = 0; p < chosen.size(); ++p)
   {
     const std::size_t x = p % width;
     const std::size_t y = p / width;
-    const bool        isInside =
-      std::min(x, width - 1 - x) >= EdgeMargin && std::min(y, frame.geometry.height - 1 - y) >= EdgeMargin;
+    const bool        isInside = std::min(x, width - 1 - x) >= InRefined.edgeMargin &&
+                          std::min(y, frame.geometry.height - 1 - y) >= InRefined.edgeMargin;
     if (chosen[p] == 0 || !isInside)
     {
       continue;
     }
     double sum = 0.0;
-    for (std::size_t row = y - EdgeMargin; row <= y + EdgeMargin; ++row)
+    for (std::size_t row = y - InRefined.edgeMargin; row <= y + InRefined.edgeMargin; ++row)
     {
-      const double * const first = frame.mean.data() + row * width + x - EdgeMargin;
-      sum = std::accumulate(first, first + 2 * EdgeMargin + 1, sum);
+      const double * const first = frame.mean.data() + row * width + x - InRefined.edgeMargin;
+      sum = std::accumulate(first, first + 2 * InRefined.edgeMargin + 1, sum);
     }
-    const double step = line.gain * (sum / count - frame.mean[p]);
-    if (std::abs(step) > LargestEdge * line.At(frame.mean[p]))
+    const double step = line.gain * (sum / (side * side) - frame.mean[p]);
+    if (std::abs(step) > InRefined.largestEdge * line.At(frame.mean[p]))
     {
       chosen[p] = 0;
       pixelUse[p] = static_cast<std::uint8_t>(PixelUse::Edge);

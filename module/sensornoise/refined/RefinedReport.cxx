@@ -8,6 +8,7 @@
 #include "sensornoise/base/Text.h"
 #include "sensornoise/pixels/VarianceLine.h"
 #include "sensornoise/correlation/CorrelationRecord.h"
+#include "sensornoise/refined/Constants.h"
 #include "sensornoise/refined/CorrelationReport.h"
 #include "sensornoise/refined/GainEstimate.h"
 #include "sensornoise/refined/GainReport.h"
@@ -50,19 +51,19 @@ WarnOfScene(Report & report, const RefinedResults & found)
                     " further series): a rolling shutter, several lamps or bleaching; gain and intercept allow for it");
     }
   }
-  if (static_cast<double>(found.variance.notStatic) > 0.01 * total)
+  if (static_cast<double>(found.variance.notStatic) > InRefined.reportedShare * total)
   {
     report.Warn(WarningCode::NotStatic,
                 percent(found.variance.notStatic) +
                   " of the pixels lie where something moves or changes, and are left out");
   }
-  if (static_cast<double>(found.scene.nearClip + found.scene.summary.clipped) > 0.01 * total)
+  if (static_cast<double>(found.scene.nearClip + found.scene.summary.clipped) > InRefined.reportedShare * total)
   {
     report.Warn(WarningCode::NearClipLevel,
                 percent(found.scene.nearClip + found.scene.summary.clipped) +
                   " of the pixels reach a clip level or could have, and are left out");
   }
-  if (found.variance.line.trimmedFraction > 2e-3)
+  if (found.variance.line.trimmedFraction > InRefined.reportedTrimmed)
   {
     report.Warn(WarningCode::NoisyPixels,
                 Percent(found.variance.line.trimmedFraction) +
@@ -74,14 +75,13 @@ WarnOfScene(Report & report, const RefinedResults & found)
 void
 WarnOfMotion(Report & report, const RefinedResults & found)
 {
-  constexpr double strongPixels = 0.4;
-  const auto       alongAxis = [](const Quantity & sd, double provisional) {
+  const auto alongAxis = [](const Quantity & sd, double provisional) {
     return sd.interval95 && sd.interval95->high ? std::min(*sd.interval95->high, std::sqrt(provisional))
-                                                      : std::sqrt(provisional);
+                                                : std::sqrt(provisional);
   };
   const double vibration = std::max(alongAxis(report.vibrationSdX, found.scene.model.vibrationXPixels2),
                                     alongAxis(report.vibrationSdY, found.scene.model.vibrationYPixels2));
-  if (vibration > strongPixels)
+  if (vibration > InRefined.strongVibration)
   {
     report.Warn(WarningCode::StrongVibration,
                 "the scene moves by " + Rounded(vibration) +

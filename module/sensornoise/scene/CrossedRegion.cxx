@@ -3,6 +3,7 @@
 #include "sensornoise/scene/CrossedRegion.h"
 
 #include "sensornoise/base/Quantiles.h"
+#include "sensornoise/scene/Constants.h"
 #include "sensornoise/scene/VarianceCells.h"
 #include "sensornoise/scene/VarianceSample.h"
 
@@ -18,29 +19,6 @@ namespace
 {
 using Coefficients = VarianceSample::Coefficients;
 
-/** Nothing crosses a frame whose model has this score (see Candidate). Set by hand: static scenes, rolling shutters and
- * vibration give 0.98 to 1, a disk that crosses a quarter of the frame 0.75. At 0.7 that disk is left to the later
- * passes: the same gain from a tenth more pixels, but at strong vibration flicker and offset are then off. At 0.92
- * things that cross a tenth of the frame are left out here. */
-constexpr double EnoughScore = 0.85;
-
-/** What a share of cells below a model counts in units of a share that fits. Below a model of what is still lies
- * nothing; a model of the thing itself may fit two thirds of the frame, and lie above the rest. Half and twice find the
- * same regions; without a cost, light that differs over the frame is taken for a thing. */
-constexpr double CostOfBelow = 2.0;
-
-/** Cells above the model are light if one flicker a cell explains this share of them, and it is at most so large. Set
- * by hand: where half of the light bleaches by 20 % it is 1.0 and 0.06, for things on charts and textures 0.35 to 0.95
- * and 0.2 to 0.6. With 0.2 for the size a faint thing is taken for a lamp, with 0.05 that bleaching for a thing. */
-constexpr double LeastLightShare = 0.8;
-constexpr double LargestLight = 0.1; // rms, relative
-
-constexpr std::size_t LeastPixels = 100; // of a part of the frame that draws a model
-
-/** Share of the pixels that must be left. Below, all of the frame moves, and the later passes must see what they can.
- */
-constexpr double LeastStill = 0.05;
-
 /** A model of the variance, and how the cells of the frame compare. */
 struct Candidate
 {
@@ -50,7 +28,7 @@ struct Candidate
   double
   Score() const
   {
-    return judged.fitting - CostOfBelow * judged.below;
+    return judged.fitting - InScene.costOfBelow * judged.below;
   }
 };
 
@@ -207,7 +185,7 @@ FindBest(Candidate                        best,
   for (const FramePart & part : PartsOfFrame())
   {
     const std::vector<std::size_t> own = PixelsOfPart(pixels, frame.geometry, part);
-    if (own.size() >= LeastPixels)
+    if (own.size() >= InScene.fewestPixelsOfPart)
     {
       Candidate found = FollowPart(SampleVariance(frame, own, model), whole, cells, model.largestRatio);
       if (found.Score() > best.Score())
@@ -230,13 +208,13 @@ FindCrossedRegion(const ReferenceFrame & frame, const ProvisionalModel & model)
   best.prediction.lowest = model.interceptDn2;
   Predict(sample, CoefficientsOf(model, sample.scale), model.largestRatio, best.prediction);
   best.judged = cells.Judge(best.prediction);
-  if (best.Score() >= EnoughScore)
+  if (best.Score() >= InScene.enoughScore)
   {
     return {};
   }
   best = FindBest(std::move(best), frame, model, pixels, sample, cells);
   const LightOfCells light = cells.FindLight(best.judged, best.prediction, model.largestRatio);
-  if (light.explained >= LeastLightShare && light.modulation <= LargestLight)
+  if (light.explained >= InScene.leastLightShare && light.modulation <= InScene.largestLight)
   {
     return {};
   }
@@ -247,7 +225,7 @@ FindCrossedRegion(const ReferenceFrame & frame, const ProvisionalModel & model)
   region = Close(region, cells);
   const auto still =
     std::count_if(pixels.begin(), pixels.end(), [&](std::size_t p) { return region[cells.CellOfPixel(p)] == 0; });
-  if (static_cast<double>(still) < LeastStill * static_cast<double>(pixels.size()))
+  if (static_cast<double>(still) < InScene.leastStill * static_cast<double>(pixels.size()))
   {
     return {};
   }

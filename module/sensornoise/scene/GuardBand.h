@@ -6,6 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/moments/CodeRange.h"
+#include "sensornoise/scene/Constants.h"
 #include "sensornoise/scene/ProvisionalModel.h"
 #include "sensornoise/scene/ReferenceFrame.h"
 
@@ -28,7 +29,7 @@ FindGuardBand(const ReferenceFrame &   frame,
               double                   brightest,
               double                   darkest,
               const ParallelFor &      parallelFor,
-              double                   sds = 4.5);
+              double                   sds = InScene.guardBandSds);
 
 } // namespace sensornoise
 

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/scene/ProvisionalModel.h"
 
+#include "sensornoise/base/Constants.h"
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/NothingToMeasure.h"
 #include "sensornoise/base/Quantiles.h"
+#include "sensornoise/scene/Constants.h"
 #include "sensornoise/scene/VarianceSample.h"
 
 #include <cmath>
@@ -28,8 +30,8 @@ SetLevels(ProvisionalModel & model, const ReferenceFrame & frame, const std::vec
     level[i] = frame.mean[pixels[i]];
     model.centreDn += level[i] / static_cast<double>(n);
   }
-  model.darkestDn = Quantile(level, 0.002);
-  model.brightestDn = Quantile(level, 0.998);
+  model.darkestDn = Quantile(level, InCommon.darkestQuantile);
+  model.brightestDn = Quantile(level, InCommon.brightestQuantile);
 }
 
 void
@@ -38,10 +40,12 @@ SetCoefficients(ProvisionalModel &                   model,
                 const VarianceSample &               sample,
                 double                               lowest)
 {
-  model.interceptDn2 = std::max({ theta(0), 0.3 * QuantileOf(sample.raw, 0.001), 1e-3 * lowest });
+  model.interceptDn2 = std::max({ theta(0),
+                                  InScene.leastIntercept * QuantileOf(sample.raw, InScene.quantileOfIntercept),
+                                  InScene.leastInterceptOfBin * lowest });
   const double averageRaw = QuantileOf(sample.raw, 0.5);
   const double averageX = std::max(1e-9, model.centreDn - model.darkestDn);
-  model.slopeDn = theta(1) > 0.0 ? theta(1) / sample.scale : 0.1 * averageRaw / averageX;
+  model.slopeDn = theta(1) > 0.0 ? theta(1) / sample.scale : InScene.fallbackSlope * averageRaw / averageX;
   model.flickerVariance = std::max(0.0, theta(2)) / (sample.scale * sample.scale);
   model.vibrationXPixels2 = std::max(0.0, theta(3));
   model.vibrationYPixels2 = std::max(0.0, theta(4));
@@ -53,14 +57,16 @@ ProvisionalModel
 FitProvisionalModel(const ReferenceFrame & frame)
 {
   const std::vector<std::size_t> pixels = SamplePixels(frame.usable);
-  if (pixels.size() < 100)
+  if (pixels.size() < InScene.fewestPixels)
   {
     throw NothingToMeasure("only " + std::to_string(pixels.size()) +
-                           " pixels are free of clipping, with all their neighbours, and vary; expected at least 100");
+                           " pixels are free of clipping, with all their neighbours, and vary; expected at least " +
+                           std::to_string(InScene.fewestPixels));
   }
   ProvisionalModel model;
   SetLevels(model, frame, pixels);
-  model.largestRatio = std::max(2.5, 1.0 + 6.0 * std::sqrt(2.0 / static_cast<double>(frame.frames - 1)));
+  model.largestRatio = std::max(InScene.largestRatio,
+                                1.0 + InScene.largestRatioZ * std::sqrt(2.0 / static_cast<double>(frame.frames - 1)));
   const VarianceSample         sample = SampleVariance(frame, pixels, model);
   VariancePrediction           prediction = StartFromMedians(sample);
   VarianceSample::Coefficients theta = VarianceSample::Coefficients::Zero();

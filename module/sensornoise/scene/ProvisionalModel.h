@@ -22,8 +22,8 @@ namespace sensornoise
  * an estimate that is reported. Estimator.md, 3.2. */
 struct ProvisionalModel
 {
-  double darkestDn{ 0.0 };   ///< quantile 0.002 of the mean of the usable pixels
-  double brightestDn{ 0.0 }; ///< quantile 0.998
+  double darkestDn{ 0.0 };   ///< darkest quantile of the mean of the usable pixels
+  double brightestDn{ 0.0 }; ///< the brightest
   double centreDn{ 0.0 };    ///< mean of the usable pixels, about which the regressions are centred
 
   double interceptDn2{ 0.0 };      ///< variance at the darkest level

@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/BoxSum.h"
 #include "sensornoise/base/Stencils.h"
+#include "sensornoise/scene/Constants.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -23,7 +24,8 @@ FindUnexplained(const ReferenceFrame & frame, const ProvisionalModel & model, co
         const auto   derivatives = ApplyStencils(frame.mean.data(), frame.geometry.width, p);
         const double gx = derivatives[StencilX];
         const double gy = derivatives[StencilY];
-        const double expected = std::max(0.2 * model.interceptDn2, model.RawVariance(frame.neighbourMean[p], gx, gy));
+        const double expected =
+          std::max(InScene.leastShareOfDarkest * model.interceptDn2, model.RawVariance(frame.neighbourMean[p], gx, gy));
         unexplained[p] = frame.RawVariance(p) > model.largestRatio * expected ? 1 : 0;
       }
     }
@@ -31,7 +33,7 @@ FindUnexplained(const ReferenceFrame & frame, const ProvisionalModel & model, co
   const std::vector<double> crowd = BoxSum(unexplained, frame.geometry.width, frame.geometry.height, 3, parallelFor);
   for (std::size_t p = 0; p < unexplained.size(); ++p)
   {
-    unexplained[p] = crowd[p] > 0.15 * 49.0 ? 2 : unexplained[p];
+    unexplained[p] = crowd[p] > InScene.largestFarShare * 49.0 ? 2 : unexplained[p];
   }
   return unexplained;
 }

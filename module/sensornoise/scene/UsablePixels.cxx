@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/scene/UsablePixels.h"
 
+#include "sensornoise/base/Constants.h"
 #include "sensornoise/base/NothingToMeasure.h"
 #include "sensornoise/base/PixelUse.h"
 #include "sensornoise/base/Stencils.h"
 #include "sensornoise/base/Text.h"
+#include "sensornoise/scene/Constants.h"
 #include "sensornoise/scene/GuardBand.h"
 
 #include <algorithm>
@@ -52,7 +54,7 @@ ExtremesOfLight(const ReferenceFrame & frame, const ProvisionalModel & model, co
   const double average = std::accumulate(frameMeans.begin(), frameMeans.end(), 0.0) / static_cast<double>(frame.frames);
   const double flux = std::max(1e-3, model.centreDn - model.darkestDn);
   const auto [lowest, highest] = std::minmax_element(frameMeans.begin(), frameMeans.end());
-  const double typical = 1.5 * std::sqrt(model.flickerVariance);
+  const double typical = InScene.typicalFlickerSds * std::sqrt(model.flickerVariance);
   const double brightest = std::max((*highest - average) / flux, typical);
   const double darkest = std::max(-1.0, std::min((*lowest - average) / flux, -typical));
   return { darkest, brightest };
@@ -94,7 +96,7 @@ LeaveOutCoarseAndGuarded(const ReferenceFrame &      frame,
     {
       const double level = frame.neighbourMean[p];
       const double step = codes.StepAt(level);
-      const bool   isCoarse = step > 0.0 && model.NoiseVariance(level) < 0.25 * step * step;
+      const bool   isCoarse = step > 0.0 && model.NoiseVariance(level) < InCommon.hiddenVariance * step * step;
       if (isCoarse || guarded[p] != 0)
       {
         pixels.pixelUse[p] = static_cast<std::uint8_t>(isCoarse ? PixelUse::CoarseCodes : PixelUse::NearClip);
@@ -113,7 +115,7 @@ RequireFineCodes(const UsablePixels & pixels, double stepDn)
 {
   const auto   coarse = static_cast<double>(pixels.coarse - pixels.coarseInLight);
   const double all = pixels.count + static_cast<double>(pixels.coarse + pixels.nearClip);
-  if (coarse > 0.02 * all)
+  if (coarse > InScene.largestCoarseShare * all)
   {
     throw NothingToMeasure("the noise of " + Text(100.0 * coarse / all) +
                              " % of the pixels, the darkest, is below half a code step of " + Text(stepDn) +

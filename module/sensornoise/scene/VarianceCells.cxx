@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/ChiSquare.h"
 #include "sensornoise/base/Quantiles.h"
+#include "sensornoise/scene/Constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,30 +12,14 @@
 namespace sensornoise
 {
 
-namespace
-{
-/** Cells along either axis: a band of a third of the frame is 8 cells wide. Set by hand: with 32 the medians of 32
- * pixels scatter more, and still cells are lost; with 12 the neighbours of a region are half of such a band. */
-constexpr std::size_t MostCells = 24;
-constexpr std::size_t LeastCellPixels = 8; // width
-
-/** A median that is off by this factor does not fit. Set by hand: the noise of 60 frames and pixels moves it by 3 %,
- * and light may differ over the frame. 1.2 gives the same where something crosses, but little room to light; 1.8 leaves
- * more cells in which the crossing is faint. */
-constexpr double LargestMedianRatio = 1.4;
-
-/** A cell with a larger share of pixels that are far above is above: the same share as in FindUnexplained. */
-constexpr double LargestFarShare = 0.15;
-} // namespace
-
 VarianceCells::VarianceCells(const VarianceSample &           sample,
                              const std::vector<std::size_t> & pixels,
                              const FrameGeometry &            geometry,
                              std::size_t                      frames)
   : m_Sample(sample)
   , m_Geometry(geometry)
-  , m_Columns(std::clamp<std::size_t>(geometry.width / LeastCellPixels, 1, MostCells))
-  , m_Rows(std::clamp<std::size_t>(geometry.height / LeastCellPixels, 1, MostCells))
+  , m_Columns(std::clamp<std::size_t>(geometry.width / InScene.leastCellWidth, 1, InScene.mostCells))
+  , m_Rows(std::clamp<std::size_t>(geometry.height / InScene.leastCellWidth, 1, InScene.mostCells))
   , m_CellOf(pixels.size())
 {
   const auto freedom = static_cast<double>(frames - 1);
@@ -60,14 +45,14 @@ VarianceCells::Judge(const VariancePrediction & prediction) const
   for (std::size_t c = 0; c < count; ++c)
   {
     const auto pixels = static_cast<double>(ratios[c].size());
-    if (ratios[c].size() < 8)
+    if (ratios[c].size() < InScene.fewestPixelsOfCell)
     {
       judged.fits.push_back(CellFit::Unknown);
       continue;
     }
     const double median = Quantile(ratios[c], 0.5);
-    const bool   isAbove = median > LargestMedianRatio || far[c] > LargestFarShare * pixels;
-    const bool   isBelow = median < 1.0 / LargestMedianRatio;
+    const bool   isAbove = median > InScene.largestMedianRatio || far[c] > InScene.largestFarShare * pixels;
+    const bool   isBelow = median < 1.0 / InScene.largestMedianRatio;
     judged.fits.push_back(isAbove ? CellFit::Above : isBelow ? CellFit::Below : CellFit::Fits);
     (isAbove ? judged.above : isBelow ? judged.below : judged.fitting) += pixels;
     all += pixels;
@@ -113,7 +98,7 @@ VarianceCells::FindLight(const JudgedCells & judged, const VariancePrediction & 
       off += ratio > largestRatio || ratio < 1.0 / largestRatio ? 1.0 : 0.0;
     }
     cells += own.empty() ? 0.0 : 1.0;
-    explained += !own.empty() && off <= LargestFarShare * static_cast<double>(own.size()) ? 1.0 : 0.0;
+    explained += !own.empty() && off <= InScene.largestFarShare * static_cast<double>(own.size()) ? 1.0 : 0.0;
   }
   return { explained / std::max(1.0, cells), std::sqrt(std::max(0.0, excess / std::max(1e-30, signal))) };
 }

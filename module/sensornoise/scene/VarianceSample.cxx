@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/Quantiles.h"
 #include "sensornoise/base/Stencils.h"
+#include "sensornoise/scene/Constants.h"
 #include "sensornoise/scene/ProvisionalModel.h"
 
 #include <algorithm>
@@ -15,7 +16,6 @@ namespace sensornoise
 namespace
 {
 constexpr std::size_t Bins = 32; // of intensity
-
 } // namespace
 
 VarianceSample
@@ -75,7 +75,11 @@ StartFromMedians(const VarianceSample & sample)
   {
     const double median = medians[binOf[i]];
     start.variance[i] = std::isfinite(median) ? median : largest;
-    start.keep[i] = sample.raw[i] < (sample.energy[i] <= middleEnergy ? 2.5 : 30.0) * start.variance[i] ? 1 : 0;
+    start.keep[i] =
+      sample.raw[i] <
+          (sample.energy[i] <= middleEnergy ? InScene.startRatioSmooth : InScene.startRatioRough) * start.variance[i]
+        ? 1
+        : 0;
   }
   return start;
 }
@@ -111,7 +115,7 @@ Predict(const VarianceSample &               sample,
   prediction.keep.resize(sample.Size());
   for (std::size_t i = 0; i < sample.Size(); ++i)
   {
-    prediction.variance[i] = std::max(0.2 * prediction.lowest, sample.TermsOf(i).dot(theta));
+    prediction.variance[i] = std::max(InScene.leastShareOfDarkest * prediction.lowest, sample.TermsOf(i).dot(theta));
     prediction.keep[i] = sample.raw[i] < largestRatio * prediction.variance[i] ? 1 : 0;
   }
 }

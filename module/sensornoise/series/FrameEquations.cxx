@@ -3,6 +3,7 @@
 #include "sensornoise/series/FrameEquations.h"
 
 #include "sensornoise/base/Stencils.h"
+#include "sensornoise/series/Constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,13 +13,6 @@ namespace sensornoise
 
 namespace
 {
-/** Share of a column that others may leave of it for it to be told from them [1]. Set by hand: what is less is within
- * what vignetting makes of a ramp, and an offset by it would be ten times as uncertain as by levels. */
-constexpr double LeastOwnShare = 0.01;
-
-/** Standard deviations by which a share must exceed what chance makes of it [1]. */
-constexpr double OwnShareZ = 4.0;
-
 /** What white noise of variance 1 in the mean adds to the Gram matrix. */
 FrameSums::ClassMatrix
 KernelGram()
@@ -62,7 +56,7 @@ FindCandidates(const Eigen::MatrixXd & rawGram, const Eigen::MatrixXd & gram, in
   for (std::size_t k = 2; k < FrameColumns; ++k)
   {
     const auto i = static_cast<Eigen::Index>(k);
-    if (stencils[k - 2].order <= largestOrder && gram(i, i) > 0.5 * rawGram(i, i))
+    if (stencils[k - 2].order <= largestOrder && gram(i, i) > InSeries.leastSignalShare * rawGram(i, i))
     {
       active.push_back(k);
     }
@@ -87,7 +81,7 @@ LeastShareBeside(const Eigen::MatrixXd &          rawGram,
       noise += (rawGram(i, i) - gram(i, i)) / gram(i, i);
     }
   }
-  return std::max(LeastOwnShare, noise > 0.0 ? OwnShareZ * noise * std::sqrt(3.0 / pixels) : 0.0);
+  return std::max(InSeries.leastOwnShare, noise > 0.0 ? InSeries.ownShareZ * noise * std::sqrt(3.0 / pixels) : 0.0);
 }
 
 /** Leaves out the weaker of the first derivatives, if the other says the same: then only motion along the gradient is
@@ -150,7 +144,7 @@ FindInsignificant(const Eigen::MatrixXd &          rawGram,
       }
       const double z = (energy / variance(static_cast<Eigen::Index>(k)) - freedom) / std::sqrt(2.0 * freedom);
       const double score = z - (order == 3 ? 100.0 : 0.0);
-      if (z < 4.0 && (worst == 0 || score < worstScore))
+      if (z < InSeries.leastColumnZ && (worst == 0 || score < worstScore))
       {
         worst = k;
         worstScore = score;
@@ -263,7 +257,7 @@ MakeFrameEquations(const FrameSums &           sums,
 
   const double   pixels = variance * static_cast<double>(frames); // about: variances have been divided by the model's
   FrameEquations equations;
-  equations.active = FindActiveColumns(rawGram, gram, right, frames < 20 ? 2 : 3, pixels);
+  equations.active = FindActiveColumns(rawGram, gram, right, frames < InSeries.framesForThirdOrder ? 2 : 3, pixels);
   std::vector<std::size_t> rows(frames);
   for (std::size_t t = 0; t < frames; ++t)
   {

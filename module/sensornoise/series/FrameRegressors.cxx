@@ -3,6 +3,7 @@
 #include "sensornoise/series/FrameRegressors.h"
 
 #include "sensornoise/base/Quantiles.h"
+#include "sensornoise/series/Constants.h"
 
 #include <utility>
 
@@ -36,7 +37,7 @@ FrameRegressors::ClassifyPixels(const std::vector<std::uint8_t> & take, const Pa
   {
     values.push_back(roughness(p));
   }
-  std::array<double, GradientClasses - 1> edges{ 0.4, 0.6, 0.75, 0.87, 0.95 };
+  std::array<double, GradientClasses - 1> edges = InSeries.classEdges;
   for (double & edge : edges)
   {
     edge = values.empty() ? 0.0 : Quantile(values, edge);

@@ -8,6 +8,7 @@
 #include "sensornoise/base/Stencils.h"
 #include "sensornoise/scene/ProvisionalModel.h"
 #include "sensornoise/scene/ReferenceFrame.h"
+#include "sensornoise/series/Constants.h"
 #include "sensornoise/series/FrameProducts.h"
 #include "sensornoise/series/ShiftInstruments.h"
 
@@ -107,7 +108,7 @@ public:
     columns[FrameColumns + 1] = this->InstrumentY(p);
     // Motion that the derivatives do not explain is noise to the light's local changes.
     const double motion = m_Model.MotionVariance(values[2 + StencilX], values[2 + StencilY]);
-    columns[FrameColumns + Instruments] = 1.0 / (noise + 0.2 * motion);
+    columns[FrameColumns + Instruments] = 1.0 / (noise + InSeries.motionLeftInCells * motion);
     columns[FrameColumns + Instruments + 1] = columns[FrameColumns + Instruments] * values[1];
     return columns;
   }

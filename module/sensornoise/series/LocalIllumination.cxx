@@ -3,6 +3,7 @@
 #include "sensornoise/series/LocalIllumination.h"
 
 #include "sensornoise/base/Quantiles.h"
+#include "sensornoise/series/Constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +40,9 @@ FindUsedCells(const FrameSums & sums, double offset)
   for (std::size_t c = 0; c < cells.size(); ++c)
   {
     const double p = cells[c].sumI[1] - 2.0 * offset * cells[c].sum[1] + offset * offset * cells[c].sum[0];
-    if (static_cast<double>(cells[c].pixels) > std::max(20.0, 0.25 * pixels) && p > 0.0)
+    if (static_cast<double>(cells[c].pixels) >
+          std::max(InSeries.fewestPixelsOfCell, InSeries.leastCellShare * pixels) &&
+        p > 0.0)
     {
       used.cells.push_back(c);
       used.precision.push_back(p);
@@ -124,7 +127,8 @@ FindFactors(const Eigen::MatrixXd & rest, const Eigen::MatrixXd & whole, Eigen::
   }
   const double ratio = static_cast<double>(shorter) / longer;
   const double noise = QuantileOf(values, 0.5) / (MedianNoiseEigenvalue(ratio) * longer);
-  const double edge = 1.25 * noise * std::pow(std::sqrt(static_cast<double>(shorter)) + std::sqrt(longer), 2);
+  const double edge =
+    InSeries.edgeOfNoise * noise * std::pow(std::sqrt(static_cast<double>(shorter)) + std::sqrt(longer), 2);
 
   LocalIllumination found;
   found.excess = values.front() / edge;

@@ -3,6 +3,7 @@
 #include "sensornoise/series/MotionSeries.h"
 
 #include "sensornoise/base/Stencils.h"
+#include "sensornoise/series/Constants.h"
 #include "sensornoise/series/FrameProducts.h"
 #include "sensornoise/series/ShiftInstruments.h"
 
@@ -19,10 +20,10 @@ GramWithoutNoise(const FrameSums & sums, const InstrumentNoise & noise)
 {
   // The triangle of two boxes of side s has the height 1 / s, and (s - 2) / s^2 two pixels away; a central difference
   // smoothed by it and the plain one share (height - that) / 2 of the noise, along the other axis the height again.
-  constexpr double side = 2.0 * InstrumentRadius + 1.0;
-  constexpr double shared = 0.5 * (1.0 / side - (side - 2.0) / (side * side)) / side;
-  const auto       frames = sums.GetFrame().frames;
-  InstrumentGram   gram = sums.GetInstrumentGram();
+  const double   side = 2.0 * InSeries.instrumentRadius + 1.0;
+  const double   shared = 0.5 * (1.0 / side - (side - 2.0) / (side * side)) / side;
+  const auto     frames = sums.GetFrame().frames;
+  InstrumentGram gram = sums.GetInstrumentGram();
   gram(0, 2 + StencilX) -= shared * noise.variance / static_cast<double>(frames);
   gram(1, 2 + StencilY) -= shared * noise.variance / static_cast<double>(frames);
   return gram;
@@ -91,7 +92,8 @@ SolveShifts(const FrameSums &           sums,
   Eigen::Matrix2d      gradient;
   gradient << gram(0, 2 + StencilX), gram(0, 2 + StencilY), gram(1, 2 + StencilX), gram(1, 2 + StencilY);
   const Eigen::Vector2d light = gram.leftCols<2>() * Eigen::Vector2d(-offset, 1.0);
-  if (!(gradient.diagonal().prod() > 0.0 && gradient.determinant() > 0.01 * gradient.diagonal().prod()))
+  if (!(gradient.diagonal().prod() > 0.0 &&
+        gradient.determinant() > InSeries.leastDeterminant * gradient.diagonal().prod()))
   {
     return std::nullopt; // too little of the scene is whole
   }

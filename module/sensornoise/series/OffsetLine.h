@@ -4,8 +4,9 @@
 #define sensornoise_series_OffsetLine_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/base/Constants.h"
 #include "sensornoise/base/Eigen.h"
-#include "sensornoise/base/RequiredFlickerZ.h"
+#include "sensornoise/series/Constants.h"
 #include "sensornoise/series/FrameEquations.h"
 #include "sensornoise/series/FrameSums.h"
 
@@ -44,11 +45,8 @@ struct SensorNoise_EXPORT OffsetLine
   bool
   TellsOffset() const
   {
-    return flickerZ > RequiredFlickerZ && contrast > LeastContrast && std::isfinite(low);
+    return flickerZ > InCommon.requiredFlickerZ && contrast > InSeries.leastContrast && std::isfinite(low);
   }
-  /** Contrast below which noise is taken for levels, and looks like flicker [1]. Set by hand: natural scenes have 0.99;
-   * at 0.5 flats with an offset pattern pass, 0.95 asks 100 frames of a flat field with a shading of 3 %. */
-  static constexpr double LeastContrast = 0.9;
 
   double
   Widening() const

@@ -5,6 +5,7 @@
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/NothingToMeasure.h"
 #include "sensornoise/scene/ProvisionalModel.h"
+#include "sensornoise/series/Constants.h"
 #include "sensornoise/series/FrameProducts.h"
 
 #include <algorithm>
@@ -46,7 +47,7 @@ FindSceneSeries(const FrameSums &             sums,
   const ProvisionalModel & model = sums.GetRegressors().GetModel();
   const FrameEquations     equations = MakeFrameEquations(sums, noise, GradientClasses - 1);
   found.isOffsetTold = line->TellsOffset();
-  const bool   hasLevels = line->contrast > OffsetLine::LeastContrast;
+  const bool   hasLevels = line->contrast > InSeries.leastContrast;
   const double fallbackDn = hasLevels ? model.darkestDn : std::min(blackDn, model.darkestDn);
   found.offset = found.isOffsetTold ? line->offset : knownOffsetDn.value_or(fallbackDn) - model.centreDn;
   if (!found.isOffsetTold)
@@ -56,7 +57,9 @@ FindSceneSeries(const FrameSums &             sums,
   found.motion = SolveMotion(equations, found.line.gamma, found.offset);
   const Eigen::MatrixXd motionColumns = MotionColumns(found.motion, found.line.gamma);
   const std::size_t     most =
-    rollingShutter == RollingShutter::Off ? 0 : std::min<std::size_t>(12, (sums.GetFrame().frames - 1) / 6);
+    rollingShutter == RollingShutter::Off
+          ? 0
+          : std::min<std::size_t>(InSeries.mostLocalSeries, (sums.GetFrame().frames - 1) / InSeries.framesPerLocalSeries);
   found.local = FindLocalIllumination(sums, found.motion, motionColumns, found.line.gamma, found.offset, most);
   found.basis = TemporalBasis(found.line.gamma, found.local.series, motionColumns);
   return found;

@@ -3,6 +3,7 @@
 #include "sensornoise/series/ShiftInstruments.h"
 
 #include "sensornoise/base/BoxSum.h"
+#include "sensornoise/series/Constants.h"
 
 #include <algorithm>
 
@@ -12,7 +13,7 @@ namespace sensornoise
 std::vector<double>
 SmoothedDerivative(const ReferenceFrame & frame, StencilIndex k, const ParallelFor & parallelFor)
 {
-  constexpr double    side = 2.0 * InstrumentRadius + 1.0;
+  const double        side = 2.0 * InSeries.instrumentRadius + 1.0;
   const std::size_t   width = frame.geometry.width;
   const std::size_t   height = frame.geometry.height;
   std::vector<double> map(frame.mean.size(), 0.0);
@@ -26,8 +27,8 @@ SmoothedDerivative(const ReferenceFrame & frame, StencilIndex k, const ParallelF
       }
     }
   });
-  const std::vector<double> once = BoxSum(map, width, height, InstrumentRadius, parallelFor);
-  BoxSum(once, width, height, InstrumentRadius, parallelFor, map);
+  const std::vector<double> once = BoxSum(map, width, height, InSeries.instrumentRadius, parallelFor);
+  BoxSum(once, width, height, InSeries.instrumentRadius, parallelFor, map);
   return map;
 }
 
@@ -37,8 +38,8 @@ InstrumentWeight(const ReferenceFrame &            frame,
                  const std::vector<std::uint8_t> & mask,
                  const ParallelFor &               parallelFor)
 {
-  constexpr std::size_t     reach = 4;
-  constexpr std::size_t     radius = 8;
+  const std::size_t         reach = InSeries.missingRadius;
+  const std::size_t         radius = InSeries.noiseRadius;
   const std::size_t         width = frame.geometry.width;
   const std::size_t         height = frame.geometry.height;
   std::vector<std::uint8_t> missing(mask.size(), 0);
@@ -59,12 +60,12 @@ InstrumentWeight(const ReferenceFrame &            frame,
     smooth.begin(), smooth.end(), complete.begin(), [](double near) { return static_cast<std::uint8_t>(near < 0.5); });
   std::vector<double> weight = BoxSum(complete, width, height, reach, parallelFor);
   BoxSum(noise, width, height, radius, parallelFor, smooth);
-  constexpr double side = 2.0 * radius + 1.0;
-  constexpr double area = (2.0 * reach + 1.0) * (2.0 * reach + 1.0);
+  const double side = 2.0 * static_cast<double>(radius) + 1.0;
+  const double reachSide = 2.0 * static_cast<double>(reach) + 1.0;
   ForBlocks(mask.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p)
     {
-      weight[p] *= side * side / (area * smooth[p]);
+      weight[p] *= side * side / (reachSide * reachSide * smooth[p]);
     }
   });
   return weight;

@@ -16,10 +16,6 @@
 namespace sensornoise
 {
 
-/** Half width of the box that smooths the derivatives twice along each axis: a triangle of standard deviation 2.8
- * pixels, whose instruments see long wavelengths only. */
-inline constexpr std::size_t InstrumentRadius = 3;
-
 /** The derivative of the mean by stencil \a k, smoothed. */
 SensorNoise_EXPORT std::vector<double>
 SmoothedDerivative(const ReferenceFrame & frame, StencilIndex k, const ParallelFor & parallelFor);

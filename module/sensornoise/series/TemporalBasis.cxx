@@ -3,6 +3,7 @@
 #include "sensornoise/series/TemporalBasis.h"
 
 #include "sensornoise/base/Stencils.h"
+#include "sensornoise/series/Constants.h"
 #include "sensornoise/series/LocalIllumination.h"
 
 #include <algorithm>
@@ -48,6 +49,15 @@ MotionColumns(const MotionSeries & motion, const std::vector<double> & gamma)
   return result;
 }
 
+namespace
+{
+Eigen::Index
+MostSeries(Eigen::Index frames)
+{
+  return static_cast<Eigen::Index>(InSeries.mostSeriesOfFrames * static_cast<double>(frames - 2));
+}
+} // namespace
+
 TemporalBasis::TemporalBasis(const std::vector<double> & gamma,
                              const Eigen::MatrixXd &     local,
                              const Eigen::MatrixXd &     motion)
@@ -58,7 +68,7 @@ TemporalBasis::TemporalBasis(const std::vector<double> & gamma,
   light.rightCols(local.cols()) = local;
   Eigen::MatrixXd all(frames, light.cols() + motion.cols());
   all << light, motion;
-  const Eigen::MatrixXd basis = Orthonormalise(all, std::max<Eigen::Index>(light.cols(), 3 * (frames - 2) / 5));
+  const Eigen::MatrixXd basis = Orthonormalise(all, std::max(light.cols(), MostSeries(frames)));
   m_LightFactors = static_cast<std::size_t>(std::min(basis.cols(), Orthonormalise(light, frames).cols()));
   m_Rounded = (basis * Unit).array().round();
   m_Series = m_Rounded / Unit;

@@ -31,8 +31,8 @@ public:
   static constexpr double Unit = 1048576.0; // 2^20
 
   TemporalBasis() = default;
-  /** At most 0.6 (T - 2) series: a short burst leaves out the last of the motion's. (With 0.4 (T - 1) vibrations of 0.3
-   * pixels bias the gain of 20 frames of texture by 0.15 %.) */
+  /** At most mostSeriesOfFrames (T - 2) series, and all of the light's: a short burst leaves out the last of the
+   * motion's. */
   TemporalBasis(const std::vector<double> & gamma, const Eigen::MatrixXd & local, const Eigen::MatrixXd & motion);
 
   std::size_t

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_base_FaintFlicker_h
+#define sensornoise_base_FaintFlicker_h
+
+#include "sensornoise/base/Constants.h"
+#include "sensornoise/base/Text.h"
+
+#include <string>
+
+namespace sensornoise
+{
+
+/** That the flicker does not tell the offset, as a sentence without its end. \a flickerZ is by how many standard
+ * deviations of its noise's variance the flicker's exceeds it. */
+inline std::string
+TextOfFaintFlicker(double flickerZ)
+{
+  return flickerZ > 0.0 ? "the flicker's variance exceeds that of its noise by " + Rounded(flickerZ) +
+                            " standard deviations (expected more than " + Text(InCommon.requiredFlickerZ) + ")"
+                        : "the flicker is lost in its noise";
+}
+
+} // namespace sensornoise
+
+#endif

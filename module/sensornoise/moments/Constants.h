@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_moments_Constants_h
+#define sensornoise_moments_Constants_h
+
+#include "sensornoise/base/Constant.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace sensornoise
+{
+
+/** The numbers of the room `moments`. */
+struct MomentsConstants
+{
+  /** A pixel is defective if its read noise is more than this many times that of a typical pixel [1]. Set by hand: 4
+   * cuts 9 % of the rms of an sCMOS sensor (log-normal, spread 0.4, a tail of 10 %), 8 cuts 3 %, 16 less than 1 % but
+   * keeps pixels of ten times the noise, of which a hundredth is more than all others. */
+  double defectiveNoiseFactor{ 8.0 };
+
+  /** \name Pile-ups */
+  ///@{
+  /** How many levels inside of the outermost one it is compared with. Set by hand. */
+  int levelsInsidePileUp{ 16 };
+  /** Fewer pixels on one level are no pile-up. Set by hand. */
+  std::size_t fewestPixelsOfPileUp{ 8 };
+  /** Times as many pixels as on any level inside that a pile-up has more than [1]. Set by hand: noise alone has fewer.
+   */
+  std::size_t pileUpRatio{ 3 };
+  /** Depth of the extremes, see ExtremeDepths, from which they are rare noise and no clip level [standard deviations].
+   * Set by hand. */
+  double largestPileUpDepth{ 2.5 };
+  ///@}
+
+  /** \name Steps of the codes */
+  ///@{
+  /** Codes off the grid of the step, relative to all and beside that, up to which codes are regular [1, codes]. Set by
+   * hand. */
+  double largestOffGridShare{ 0.02 };
+  double offGridCodes{ 2.0 };
+  /** Quantile of the spacings of the outermost levels that is their step [1]. Set by hand: some levels are missing. */
+  double stepQuantile{ 0.1 };
+  /** Pixels that each of two neighbouring codes needs to tell their distance: where codes have 8 pixels, one between
+   * them has none by a chance of e^-8. */
+  std::uint32_t leastPixelsOfCode{ 8 };
+  /** Distances that a local step is the mean of, at least: rounding moves each by up to 1 DN, their sum by no more. */
+  std::size_t distancesPerStep{ 12 };
+  /** By how much a distance may differ from the median one about it, relative to that, and at least by the codes' unit
+   * [1]: where one code between is missing, it is twice as large. */
+  double largestRelativeDifference{ 0.4 };
+  /** Ratio of the largest local step to the smallest from which on codes are called companded [1]. Set by hand: where
+   * less of a tone curve is seen, the noise of rounding differs by less than a fifth. */
+  double leastRatioOfSteps{ 1.1 };
+  /** Difference of these steps that rounding does not make, in units of what it makes of one [1]. Set by hand: both
+   * steps are rounded at both ends. */
+  double leastDifferenceOfSteps{ 4.0 };
+  /** One in so many local steps, the largest and the smallest, may be anything. Set by hand. */
+  std::size_t oddStepsOneIn{ 20 };
+  ///@}
+
+  /** \name Dark frames */
+  ///@{
+  /** Pixels that may reach a clip level, relative to all: so many in any case, or where no more than one sample in a
+   * thousand is cut off, by the number of frames [1]. Cutting off that sample moves the mean by 0.003 sigma. */
+  double largestClippedShare{ 0.01 };
+  double leastShareOfSamples{ 0.999 };
+  /** Pixels that tell a level. Set by hand. */
+  std::size_t fewestDarkPixels{ 30 };
+  /** Chance of one code in all frames below which a pixel that holds one is stuck [1]. Set by hand: of 10^6 pixels one
+   * does by chance. */
+  double chanceOfStuck{ 1e-6 };
+  /** Distance of a pixel from the median beyond which it is left out of the common level, in units of the distance of
+   * the quantiles 0.16 and 0.84, two standard deviations [1]. Set by hand. */
+  double levelReach{ 3.0 };
+  /** Degrees of freedom and pixels that the median read noise needs. Set by hand: with fewer frames the deconvolution
+   * is biased by more than a per cent. */
+  double      leastFreedomOfMedian{ 5.0 };
+  std::size_t fewestPixelsOfMedian{ 100 };
+  ///@}
+};
+
+SENSORNOISE_CONSTANT MomentsConstants InMoments;
+
+} // namespace sensornoise
+
+#endif

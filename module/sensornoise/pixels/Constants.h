@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_pixels_Constants_h
+#define sensornoise_pixels_Constants_h
+
+#include "sensornoise/base/Constant.h"
+
+#include <cstddef>
+
+namespace sensornoise
+{
+
+/** The numbers of the room `pixels`: which pixels fit, and the line through them. Estimator.md, 3.5 to 3.8. */
+struct PixelsConstants
+{
+  /** \name Roughness */
+  ///@{
+  /** Standard deviation of the motion below which roughness is that of a radius of 2 pixels [pixels]; above, the radius
+   * is larger by so many standard deviations, of a motion of at most so many pixels. Set by hand. */
+  double smallMotion{ 0.35 };
+  double motionSds{ 3.0 };
+  double largestMotion{ 4.0 };
+  /** Part of a pixel's freedom that the motion's series may take, at most [1]. Set by hand. */
+  double largestLeverage{ 0.5 };
+  /** Share of the classes, the flat ones, that draw the first line [1]. Set by hand. */
+  double flatShare{ 0.6 };
+  ///@}
+
+  /** \name Single pixels, neighbourhoods and classes that do not fit */
+  ///@{
+  /** Standard deviations by which the variance of a pixel is far off, by the cube root of chi-square [1]. Set by hand:
+   * 7 of 10^6 pixels are by chance. */
+  double farZ{ 4.5 };
+  /** Half width of a neighbourhood [pixels]. Set by hand: 225 variances of 100 frames have a mean to 1 %. */
+  std::size_t misfitRadius{ 7 };
+  /** Share of its pixels far above the line from which a neighbourhood does not fit [1]. Set by hand. */
+  double largestFarShare{ 0.15 };
+  /** Standard deviations, and excess over the line, by which a neighbourhood's mean variance does not fit [1], and the
+   * share of its pixels that it needs. Set by hand. */
+  double misfitZ{ 5.0 };
+  double leastMisfit{ 0.04 };
+  double leastCountedShare{ 0.3 };
+  /** Share of the frame's pixels that do not fit, below which the line that they took part in stands [1]. Set by hand:
+   * so few have not drawn it. */
+  double fewMisfits{ 1e-3 };
+  /** Standard errors, and excess over the flat classes, by which a class of roughness does not fit [1]; or its outliers
+   * beyond theirs, of its pixels [1]. Set by hand. */
+  double classZ{ 2.5 };
+  double leastClassExcess{ 0.0015 };
+  double leastClassOutliers{ 0.01 };
+  /** The flattest class that may be left out. Set by hand: those below are the reference. */
+  std::size_t firstJudgedClass{ 4 };
+  ///@}
+
+  /** \name The judging line */
+  ///@{
+  /** Side of a square [pixels]: enough for a mean to 2 %, few enough to be of one level; and its pixels that must
+   * count. Set by hand. */
+  std::size_t judgingSquareSide{ 16 };
+  double      leastSquarePixels{ 64.0 };
+  /** Levels at most, and squares of each at least. Set by hand. */
+  std::size_t mostJudgingLevels{ 16 };
+  std::size_t squaresPerLevel{ 8 };
+  /** Departure from the line, beyond so many of its standard errors, that counts [1]. Set by hand: neighbourhoods are
+   * blamed from 4 % on; half of it is within the noise of frames of 128 x 128 pixels. */
+  double leastDeparture{ 0.01 };
+  double departureZ{ 2.0 };
+  /** Smallest ratio of the judging line to the line [1]. Set by hand: a variance is above 0. */
+  double leastRatio{ 0.1 };
+  /** One in so many squares, the darkest, tells the scatter of the pixels' own noise. Set by hand. */
+  std::size_t darkSquaresOneIn{ 5 };
+  /** Variance of what the pixels' own offsets do to the line, relative to its square at the darkest level, up to which
+   * pixels are judged at their own level [1]. Set by hand: at the limit a ratio of variances is off by 2 %. */
+  double largestOwnOffset{ 0.02 };
+  ///@}
+
+  /** \name The variance line */
+  ///@{
+  /** Probability of each tail of chi-square that is trimmed where pixels are judged [1]. Set by hand. */
+  double trimTail{ 1e-4 };
+  /** Where the line serves as a variance it is cut at this part of the smallest median of a bin [1]. Set by hand. */
+  double lowestShare{ 0.2 };
+  /** Pixels of a bin of the first line, and of a fit, at least. Set by hand. */
+  double      fewestPixelsOfBin{ 5.0 };
+  std::size_t fewestPixelsOfFit{ 10 };
+  /** Probability that chance carries a pixel of the brightest level beyond the reach of TrimRule::Distance [1]. Set by
+   * hand, small enough to leave the mean alone: a tenth and ten times of it move no gain by 0.01 %. */
+  double reachTail{ 1e-5 };
+  /** Variance of the pixels' own noise, in units of what the sampling noise makes of it at the darkest level, below
+   * which the weights leave it out [1]. Set by hand: at the limit equal weights cost 0.3 % of the precision. */
+  double leastNoiseSpread{ 0.1 };
+  /** Error that a pattern may cause, in standard errors, which is left out [1]. Set by hand: it adds 3 % to the error.
+   */
+  double negligiblePattern{ 0.25 };
+  ///@}
+
+  /** \name Bends of the response */
+  ///@{
+  /** Standard deviations by which chance may carry an excess, the largest of sixteen [1]. Set by hand. */
+  double curveChanceZ{ 3.0 };
+  /** VarianceCurve::DarkestShare up to which a bend of the response shows [1]: at levels of 20 to 80 % a gamma of 1.3
+   * departs from a line by 2 %, and has half the gain. */
+  double darkEnough{ 0.1 };
+  ///@}
+
+  /** \name Noise of companded codes */
+  ///@{
+  /** What is not known of the noise of rounding, relative to it [1]. Set by hand: of square roots, powers and
+   * logarithms to 8 and 10 bits, at four gains, a scene of few levels left 0 to 6 % of it in the slope where the codes
+   * are as coarse as the noise; a texture less. */
+  double errorOfCodeNoise{ 0.05 };
+  /** What rounding the expanded codes to their unit does to the variance at one level, which the codes at that level
+   * stretch or squeeze by chance: relative to the unit times the root of noise and step [1]. Set by hand, on charts
+   * whose darkest patch has one level. */
+  double errorOfRounding{ 0.15 };
+  ///@}
+};
+
+SENSORNOISE_CONSTANT PixelsConstants InPixels;
+
+/** The numbers of the room `pixels` by which pixels' own patterns and local light are told. Estimator.md, 3.7. */
+struct PatternConstants
+{
+  /** Side of a square [pixels], in small frames, and the pixels of a frame that is not small: many columns tell their
+   * pattern, but a small frame may have no large square that is flat. Set by hand: with 8 in large frames those squares
+   * are the flattest whose few columns are alike by chance. */
+  std::size_t squareSide{ 16 };
+  std::size_t smallSquareSide{ 8 };
+  std::size_t largeFramePixels{ 16384 };
+  /** Pixels of either half of a square that counts. Set by hand. */
+  double leastHalfPixels{ 24.0 };
+  /** Share of the squares that count as the flattest [1], and their least number. Set by hand: with half and twice the
+   * share the shares of natural scenes change by a third. */
+  double      flattestShare{ 0.05 };
+  std::size_t fewestSquares{ 4 };
+  /** Standard errors that are added to a square's roughness where squares are chosen [1]. Set by hand. */
+  double roughnessZ{ 2.0 };
+  /** Standard deviations of patterns of real sensors, at most: of gain or efficiency [1], and of offset, in units of
+   * the noise at the level of the flattest squares [1]. What is larger, in a scene that is rough everywhere, is light.
+   * Set by hand, three times and twice what data sheets and measured sensors have. */
+  double largestGain{ 0.03 };
+  double largestOffset{ 5.0 };
+  /** Variance of the slope by whole columns or rows, relative to that by pixels, that is more than chance [1]. Set by
+   * hand: 256 columns scatter by 0.1. */
+  double leastLikeness{ 1.5 };
+
+  /** Pixels of a tile that tells a line of responses to local light, and, for an offset, what its levels must differ by
+   * in units of the noise of their means, as variances [1]. Set by hand. */
+  double leastLeakPixels{ 20.0 };
+  double leastTilePixels{ 12.0 };
+  double leastTileContrast{ 30.0 };
+  /** Side of a tile [pixels], chi-square by which tiles may depart from one line, relative to their number [1], and
+   * what that line must explain in units of that chi-square [1], for local light to be a drift of the offset. Set by
+   * hand. */
+  std::size_t driftTileSide{ 32 };
+  double      largestDriftChi2{ 4.0 };
+  double      leastDriftExplained{ 10.0 };
+};
+
+SENSORNOISE_CONSTANT PatternConstants InPattern;
+
+} // namespace sensornoise
+
+#endif

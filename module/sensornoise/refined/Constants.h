@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_refined_Constants_h
+#define sensornoise_refined_Constants_h
+
+#include "sensornoise/base/Constant.h"
+
+#include <cstddef>
+
+namespace sensornoise
+{
+
+/** The numbers of the room `refined`: errors, and what is told. Estimator.md, 3.8 to 3.10 and 4. */
+struct RefinedConstants
+{
+  /** \name Whether the gain is told */
+  ///@{
+  /** Standard error of a gain that is worth a number, relative to its order of magnitude [1]. Set by hand. The order of
+   * magnitude is not the gain that came out: nothing is told because it came out large. */
+  double largestGainError{ 0.25 };
+  /** Part of the usable pixels that a measurement needs [1]. Set by hand. */
+  double leastUsedShare{ 0.1 };
+  /** Departure of the variance from its line above which the data are not those of a sensor [1]: local gains that
+   * differ by 4 % make 0.03 to 0.1 of it, a gamma of 1.3 from 0.13 on. */
+  double largestNonlinearity{ 0.12 };
+  ///@}
+
+  /** \name Errors of the gain */
+  ///@{
+  /** Standard deviations by which chance may part two fits of the same data [1]. Set by hand. */
+  double hausmanZ{ 2.0 };
+  /** Vibration beyond which the expansion in derivatives fails, as a square [pixels^2], and what is then known of the
+   * bias, relative to the gain, at the reference's square, with which it grows [1, pixels^2]. Measured by
+   * measure-robustness. */
+  double smallVibration{ 0.16 };
+  double biasOfVibration{ 0.0015 };
+  double referenceVibration{ 0.25 };
+  /** Scatter of the classes beyond sampling, as a factor of the variance, that chance is given where departures from a
+   * line are judged [1]. Set by hand: scenes and sensors that fit have 1 to 4; a tone curve has 50 and hides behind it.
+   */
+  double largestDispersion{ 4.0 };
+  /** Sum of the squared coefficients from which areas are judged once more [1]. Set by hand: below, the scatter of
+   * their means grows by less than a twentieth. */
+  double leastSharedSquares{ 1.1 };
+  /** Pixels around an edge over which its surroundings' level is taken: 5 x 5 pixels, the border of usable pixels. */
+  std::size_t edgeMargin{ 2 };
+  /** Change of a pixel's variance, along the line, from its own level to that of its surroundings, from which it is an
+   * edge [1]. A Gaussian of 1 pixel then misses its variance by a quarter of that. Set by hand: half changes nothing,
+   * twice loses 1 % of the read noise of a texture. */
+  double largestEdge{ 0.04 };
+  ///@}
+
+  /** \name Bends of the response */
+  ///@{
+  /** Departure of the variance from its line that is worth a word [1]. Set by hand: a hundredth moves the gain by about
+   * half of it. */
+  double leastNonlinearity{ 0.01 };
+  /** Standard deviations by which chance may part the slope of a half of the levels from that of all [1]. Set by hand.
+   */
+  double halvesZ{ 3.0 };
+  /** Standard deviations by which the mean gain must differ from the slope to replace it [1]: below, it widens the
+   * error, as it does below leastNonlinearity. Set by hand. */
+  double meanGainZ{ 3.0 };
+  /** What is left of the departure from a line as the error of the mean gain [1]. Set by hand: of three shapes of bend
+   * by 2 and 4 % on two scenes the largest error was 0.29 of it; half fails to cover, twice covers all. */
+  double errorOfNonlinearity{ 1.0 / 3.0 };
+  /** The same of its difference from the slope [1]. Set by hand. */
+  double errorOfMeanGain{ 0.5 };
+  /** Part of the brightest levels' variance that the line may leave to read noise where the response bends [1]. Above
+   * it, what looks like read noise may be the bend of a tone curve. Set by hand: bends of 4 % make 0.05 of it, a gamma
+   * of 1.3 0.3. */
+  double largestReadShare{ 0.1 };
+  /** Part of the brightest levels' light that the darkest may have for a bend to be told from noise [1]. Set by hand:
+   * flat fields have 0.9 and more, scenes less than 0.3. */
+  double largestDarkestShare{ 0.5 };
+  ///@}
+
+  /** \name Dark frames */
+  ///@{
+  /** Standard deviations by which chance may part the dark frames from the line [1]. Set by hand. */
+  double largestContradiction{ 2.0 };
+  /** The same from which on dark frames are of another sensor, exposure or temperature, where the response is straight
+   * [1]. Set by hand. */
+  double anotherSensorZ{ 4.0 };
+  /** Part of the levels above the offset below which they say nothing of the gain [1]. Set by hand. */
+  double leastLight{ 0.1 };
+  ///@}
+
+  /** \name Offset, read noise, flicker and motion */
+  ///@{
+  /** How far chance carries the darkest pixels below their level, in standard deviations [1]. Set by hand. */
+  double chanceOfDarkestZ{ 3.0 };
+  /** Standard errors of offset and intercept, and part of the levels' range, by which an offset may lie beyond its
+   * limits [1]. Set by hand. */
+  double slackOfOffsetZ{ 3.0 };
+  double slackOfInterceptZ{ 2.0 };
+  double slackOfRange{ 0.01 };
+  /** Standard errors by which the level that does not flicker and the known offset differ by steady light [1]. Set by
+   * hand. */
+  double steadyLightZ{ 3.0 };
+  /** Width of the offset's interval, relative to the levels' range, that is worth a number [1]. Set by hand. */
+  double largestOffsetInterval{ 0.25 };
+  /** Dispersion of the lines of local light about one zero that is worth a number [1]. Set by hand. */
+  double largestLocalDispersion{ 4.0 };
+  /** Standard errors by which a square of the read noise below 0 is no chance [1]. Set by hand. */
+  double negativeNoiseZ{ 4.0 };
+  /** Error of the light above the offset, relative to it, at which a flicker is no number [1]. Set by hand. */
+  double largestScaleError{ 0.25 };
+  /** Part of what two ways to measure motion differ by that is its systematic error [1]. Set by hand. */
+  double errorOfMotion{ 0.5 };
+  ///@}
+
+  /** \name What is worth a warning */
+  ///@{
+  /** Share of the pixels that move, or that clipping could touch [1], and of those that are trimmed [1]. Set by hand.
+   */
+  double reportedShare{ 0.01 };
+  double reportedTrimmed{ 2e-3 };
+  /** Motion from which the scene is to be registered [pixels rms]. Set by hand: biasOfVibration begins there. */
+  double strongVibration{ 0.4 };
+  ///@}
+};
+
+SENSORNOISE_CONSTANT RefinedConstants InRefined;
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_series_Constants_h
+#define sensornoise_series_Constants_h
+
+#include "sensornoise/base/Constant.h"
+
+#include <array>
+#include <cstddef>
+
+namespace sensornoise
+{
+
+/** The numbers of the room `series`. Estimator.md, 3.3 and 3.4. */
+struct SeriesConstants
+{
+  /** \name Equations of the frames */
+  ///@{
+  /** Quantiles of the roughness that part the gradient classes [1]. Set by hand: the flat classes hold most pixels. */
+  std::array<double, 5> classEdges{ { 0.4, 0.6, 0.75, 0.87, 0.95 } };
+  /** Part of a derivative's square sum that must be signal, not noise of the mean, for it to be a column [1]. Set by
+   * hand. */
+  double leastSignalShare{ 0.5 };
+  /** Share of a column that others may leave of it for it to be told from them [1]. Set by hand: what is less is within
+   * what vignetting makes of a ramp, and an offset by it would be ten times as uncertain as by levels. */
+  double leastOwnShare{ 0.01 };
+  /** Standard deviations by which such a share must exceed what chance makes of it [1]. Set by hand. */
+  double ownShareZ{ 4.0 };
+  /** Standard deviations by which a derivative of higher order must show in the frames to be a column [1]. Set by hand.
+   */
+  double leastColumnZ{ 4.0 };
+  /** Frames from which derivatives of the third order are tried. Set by hand. */
+  std::size_t framesForThirdOrder{ 20 };
+  ///@}
+
+  /** Contrast below which noise is taken for levels, and looks like flicker [1]. Set by hand: natural scenes have 0.99;
+   * at 0.5 flats with an offset pattern pass, 0.95 asks 100 frames of a flat field with a shading of 3 %. */
+  double leastContrast{ 0.9 };
+
+  /** \name Instruments of the shifts */
+  ///@{
+  /** Half width of the box that smooths the derivatives twice along each axis [pixels]: a triangle of standard
+   * deviation 2.8 pixels, whose instruments see long wavelengths only. Set by hand. */
+  std::size_t instrumentRadius{ 3 };
+  /** Half width of the box over which the weights fall to 0 where pixels are missing, and of that over which the noise
+   * is averaged [pixels]. Set by hand. */
+  std::size_t missingRadius{ 4 };
+  std::size_t noiseRadius{ 8 };
+  /** Determinant of the instruments' equations relative to its diagonal, below which too little of the scene is whole
+   * [1]. Set by hand. */
+  double leastDeterminant{ 0.01 };
+  ///@}
+
+  /** \name Local light, and the basis */
+  ///@{
+  /** Part of the variance by motion that derivatives do not explain, which is noise to the light of cells [1]. Set by
+   * hand. */
+  double motionLeftInCells{ 0.2 };
+  /** Pixels of a cell that tells, and those relative to the average cell's [1]. Set by hand. */
+  double fewestPixelsOfCell{ 20.0 };
+  double leastCellShare{ 0.25 };
+  /** What a squared singular value must have of the edge of the noise, by Marchenko and Pastur, to be light [1]. Set by
+   * hand. */
+  double edgeOfNoise{ 1.25 };
+  /** Series of local light, at most, and frames that each needs. Set by hand. */
+  std::size_t mostLocalSeries{ 12 };
+  std::size_t framesPerLocalSeries{ 6 };
+  /** Series of the basis relative to the frames but two, at most [1]: a short burst leaves out the last of the
+   * motion's. Set by hand: with 0.4 vibrations of 0.3 pixels bias the gain of 20 frames of texture by 0.15 %. */
+  double mostSeriesOfFrames{ 0.6 };
+  ///@}
+};
+
+SENSORNOISE_CONSTANT SeriesConstants InSeries;
+
+} // namespace sensornoise
+
+#endif
