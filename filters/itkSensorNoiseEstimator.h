@@ -25,6 +25,7 @@
 #include "sensornoise/refined/RefinedSettings.h"
 #include "sensornoise/report/Report.h"
 #include "sensornoise/report/ReportTable.h"
+#include "sensornoise/stabilise/NoiseModelCheck.h"
 #include "itkNumericTraits.h"
 #include "itkSensorNoiseStackSink.h"
 #include "itkSensorNoiseResult.h"
@@ -246,6 +247,21 @@ public:
     return sensornoise::MakeText(this->GetReport());
   }
 
+  /** Whether the stack has the noise of a model, level by level: its corrected variance against variance slope [DN/e-]
+   * and total intercept [DN^2] of another stack's report, whose read noise [e-] and quantisation step [DN] help to say
+   * it (NaN: not known). As JSON, schema "itk-sensornoise-check/1", and as a table for people. \see
+   * sensornoise::NoiseModelCheck */
+  std::string
+  GetNoiseModelCheckAsJson(double varianceSlope,
+                           double totalIntercept,
+                           double readNoiseElectrons = std::numeric_limits<double>::quiet_NaN(),
+                           double quantisationStep = std::numeric_limits<double>::quiet_NaN()) const;
+  std::string
+  GetNoiseModelCheckAsText(double varianceSlope,
+                           double totalIntercept,
+                           double readNoiseElectrons = std::numeric_limits<double>::quiet_NaN(),
+                           double quantisationStep = std::numeric_limits<double>::quiet_NaN()) const;
+
   /** What neighbours and frames share of their noise: kind, coefficients by lag, noise of rows and columns. Null where
    * it was not measured (method Published, few pixels or frames). Stands until the next Update(). \see
    * NoiseCorrelationEstimator */
@@ -362,6 +378,8 @@ private:
   // Defined in the .hxx: what reads the headers alone, as wrapping does, need not read the methods.
   struct Estimation;
 
+  sensornoise::NoiseModelCheck
+  CheckModel(double varianceSlope, double totalIntercept, double readNoiseElectrons, double quantisationStep) const;
   bool
   HasLevelRange() const;
   sensornoise::PublishedSettings
