@@ -266,6 +266,7 @@ TEST_F(EstimateTool, HelpNamesEveryOptionAndTheExitCodes)
                                "--rolling-shutter",
                                "--offset",
                                "--dark",
+                               "--check",
                                "--roi",
                                "--mask",
                                "--frames",
