@@ -77,15 +77,15 @@ TEST(NoiseModelCheck, SlopeThatIsFivePerCentWrongIsSeen)
   EXPECT_NEAR(*check.bands.back().ratio, 1.0 / 1.05, 1e-3);
 }
 
-// A read noise that is 3 times the model's matters in the dark only: (0.5 x + 10 + 20) / (0.5 x + 10).
+// A read variance of 5 DN^2 more matters in the dark only: (0.5 x + 15) / (0.5 x + 10), below 1.02 from 480 DN on.
 TEST(NoiseModelCheck, SaysWhereAModelFits)
 {
   const NoiseModelCheck check =
-    CheckNoiseModel(FramesOf([](double level) { return Model.VarianceAt(level) + 20.0; }), Model);
+    CheckNoiseModel(FramesOf([](double level) { return Model.VarianceAt(level) + 5.0; }), Model);
   EXPECT_EQ(check.verdict, Verdict::DoesNotFit);
   EXPECT_FALSE(check.bands.front().fits);
-  EXPECT_DOUBLE_EQ(*check.bands.front().ratio, 2.0);
-  EXPECT_TRUE(check.bands.back().fits); // 0.5 * 2036 + 10: 1.0195
+  EXPECT_DOUBLE_EQ(*check.bands.front().ratio, 1.25);
+  EXPECT_TRUE(check.bands.back().fits);
   EXPECT_NE(check.sentence.find(" to 2,036 DN, but "), std::string::npos) << check.sentence;
   EXPECT_NE(check.sentence.find(": this model does not fit there"), std::string::npos) << check.sentence;
 }

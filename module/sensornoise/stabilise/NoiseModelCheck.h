@@ -46,7 +46,7 @@ struct NoiseModelCheck
   {
     Fits,       ///< in all bands
     DoesNotFit, ///< in some
-    NotTold     ///< nothing was measured, or with errors above 5 %
+    NotTold     ///< nothing was measured, or with errors above 5 % in most bands
   };
 
   std::vector<Band> bands; ///< dark to bright
