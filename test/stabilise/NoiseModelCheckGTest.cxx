@@ -154,6 +154,16 @@ TEST(NoiseModelCheck, TransformsOwnVarianceStandsBeside)
   EXPECT_NEAR(*CheckNoiseModel(darker, { 0.5, -9.0 }, 2.0).bands.front().transformVariance, 1.1986, 1e-3);
 }
 
+// sqrt(v)^2 can be above v, by rounding.
+TEST(NoiseModelCheck, DarkestLevelMayBeAllReadNoise)
+{
+  const Report frames = FramesOfModel();
+  for (double intercept = -9.0; intercept < 9.0; intercept += 0.37)
+  {
+    EXPECT_GT(*CheckNoiseModel(frames, { 0.5, intercept }, 30.0).bands.front().transformVariance, 0.0) << intercept;
+  }
+}
+
 TEST(NoiseModelCheck, FramesOfAnotherScaleAreSaid)
 {
   Report frames = FramesOfModel();

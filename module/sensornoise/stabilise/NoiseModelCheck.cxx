@@ -106,7 +106,8 @@ TransformVariance(const NoiseModel & model, double levelDn, std::optional<double
     return std::nullopt;
   }
   const double readNoise = std::clamp(readNoiseElectrons.value_or(0.0), 0.0, std::min(1000.0, std::sqrt(electrons2)));
-  return MomentsOfStabilised(std::min(1e6, electrons2 - readNoise * readNoise), readNoise).variance;
+  const double electrons = std::clamp(electrons2 - readNoise * readNoise, 0.0, 1e6); // rounding could leave less than 0
+  return MomentsOfStabilised(electrons, readNoise).variance;
 }
 
 NoiseModelCheck::Verdict
