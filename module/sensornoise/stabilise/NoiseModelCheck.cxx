@@ -91,9 +91,24 @@ MakeBand(const Report::Scatter &     scatter,
   }
   band.ratio = sum / weights;
   band.standardError = std::abs(*band.ratio) * std::sqrt(excess / weights);
-  const double departure = std::abs(*band.ratio - 1.0);
-  band.fits = departure <= Tolerance || departure <= StandardErrors * band.standardError;
   return band;
+}
+
+/** Pixels are sorted by means that have noise: at both ends of the range, those are gathered whose mean came out too
+ * low, or too high. What one standard deviation of a mean makes of the ratio, for an end's band of so many bins [1]. */
+double
+SortingError(const NoiseModelCheck::Band & band, const NoiseModel & model, double frames, std::size_t bins)
+{
+  const double variance = model.VarianceAt(band.lowDn);
+  return variance > 0.0 ? model.varianceSlopeDn / std::sqrt(variance * frames) / static_cast<double>(bins) : 0.0;
+}
+
+/** Whether a band's ratio is near 1; \a sortingError for the bands at both ends. */
+bool
+Fits(const NoiseModelCheck::Band & band, double sortingError)
+{
+  const double departure = std::abs(band.ratio.value_or(0.0) - 1.0);
+  return band.ratio && (departure <= Tolerance + sortingError || departure <= StandardErrors * band.standardError);
 }
 
 /** Variance after the transform at a level, if the model is right [1]. */
@@ -152,6 +167,9 @@ CheckNoiseModel(const Report & frames, const NoiseModel & model, std::optional<d
       check.bands.push_back(MakeBand(scatter, begin, end, model, errors2, excess));
       NoiseModelCheck::Band & band = check.bands.back();
       band.transformVariance = TransformVariance(model, 0.5 * (band.lowDn + band.highDn), readNoiseElectrons);
+      const bool isEnd = begin == 0 || end == bins;
+      band.fits =
+        Fits(band, isEnd ? SortingError(band, model, static_cast<double>(frames.framesDistinct), end - begin) : 0.0);
       begin = end;
     }
     check.verdict = VerdictOf(check.bands);
