@@ -227,6 +227,11 @@ TEST(GeneralizedAnscombeImageFilter, StabilisesWhatWasMeasured)
   auto estimator = itk::SensorNoiseEstimator<StackType>::New();
   estimator->SetInput(source->GetOutput());
   estimator->Update();
+  const double slope = *estimator->GetReport().varianceSlope.value;
+  const double intercept = *estimator->GetReport().totalIntercept.value;
+  EXPECT_SAYS(estimator->GetNoiseModelCheckAsJson(slope, intercept), "\"verdict\": \"fits\"");
+  EXPECT_SAYS(estimator->GetNoiseModelCheckAsText(2.0 * slope, intercept), "this model is not that of these frames");
+  EXPECT_SAYS(ErrorWhen([&] { estimator->GetNoiseModelCheckAsJson(-1.0, 0.0); }), "the variance slope is -1");
   const auto filter = ForwardType::New();
   filter->SetInput(source->GetOutput());
   filter->SetReport(estimator->GetReportOutput());

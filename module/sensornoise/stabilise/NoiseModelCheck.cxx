@@ -21,7 +21,9 @@ namespace
 constexpr std::size_t Bands = 12;
 /** What a band may depart by, whatever its error [1]. */
 constexpr double Tolerance = 0.02;
-constexpr double StandardErrors = 3.0;
+// At three, one of a dozen bands of a right model would fail by chance in every 30th check, and the model has errors,
+// too.
+constexpr double StandardErrors = 4.0;
 /** From this error on a ratio tells nothing [1]. */
 constexpr double LargestError = 0.05;
 /** Electrons above which the transform makes a variance of 1 within 0.016, whatever the read noise. */

@@ -25,7 +25,7 @@ namespace sensornoise
  * flickering level cannot be freed of it exactly.
  *
  * A band fits where the ratio is within 0.02 of 1 (at both ends more, for the noise of the means that pixels are sorted
- * by) or within three standard errors. The errors are those of a variance
+ * by) or within four standard errors. The errors are those of a variance
  * of as many pixels and frames, times what neighbouring bins differ by in excess of that: shared noise, pixels that
  * differ, tails. The model's own errors are not in them. */
 struct NoiseModelCheck

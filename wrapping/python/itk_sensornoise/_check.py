@@ -86,7 +86,7 @@ def check_noise_model(frames: Any, report: Any, *, mask: Any = None, **parameter
     -------
     NoiseModelCheck
         A mapping with `verdict`, `sentence` and `bands`. A band fits where the ratio is within 0.02 of 1, or within
-        three standard errors.
+        four standard errors.
 
     Raises
     ------
