@@ -27,6 +27,7 @@
 #include "sensornoise/report/Report.h"
 #include "sensornoise/report/ReportTable.h"
 #include "sensornoise/report/StackSettings.h"
+#include "sensornoise/stabilise/NoiseModelCheck.h"
 #include "itkNumericTraits.h"
 #include "itkSensorNoiseStackSink.h"
 #include "itkSensorNoiseResult.h"
@@ -270,6 +271,21 @@ public:
     return sensornoise::CatalogueAsJson();
   }
 
+  /** Whether the stack has the noise of a model, level by level: its corrected variance against variance slope [DN/e-]
+   * and total intercept [DN^2] of another stack's report, whose read noise [e-] and quantisation step [DN] help to say
+   * it (NaN: not known). As JSON, schema "itk-sensornoise-check/1", and as a table for people. \see
+   * sensornoise::NoiseModelCheck */
+  std::string
+  GetNoiseModelCheckAsJson(double varianceSlope,
+                           double totalIntercept,
+                           double readNoiseElectrons = std::numeric_limits<double>::quiet_NaN(),
+                           double quantisationStep = std::numeric_limits<double>::quiet_NaN()) const;
+  std::string
+  GetNoiseModelCheckAsText(double varianceSlope,
+                           double totalIntercept,
+                           double readNoiseElectrons = std::numeric_limits<double>::quiet_NaN(),
+                           double quantisationStep = std::numeric_limits<double>::quiet_NaN()) const;
+
   /** What neighbours and frames share of their noise: kind, coefficients by lag, noise of rows and columns. Null where
    * it was not measured (method Published, few pixels or frames). Stands until the next Update(). \see
    * NoiseCorrelationEstimator */
@@ -388,6 +404,8 @@ private:
 
   void
   VerifySource() const;
+  sensornoise::NoiseModelCheck
+  CheckModel(double varianceSlope, double totalIntercept, double readNoiseElectrons, double quantisationStep) const;
   bool
   HasLevelRange() const;
   sensornoise::PublishedSettings

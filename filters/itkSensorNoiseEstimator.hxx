@@ -270,6 +270,47 @@ SensorNoiseEstimator<TStack>::EnlargeOutputRequestedRegion(DataObject *)
 }
 
 template <typename TStack>
+sensornoise::NoiseModelCheck
+SensorNoiseEstimator<TStack>::CheckModel(double varianceSlope,
+                                         double totalIntercept,
+                                         double readNoiseElectrons,
+                                         double quantisationStep) const
+{
+  sensornoise::Report of;
+  of.varianceSlope = sensornoise::Quantity::Identified(varianceSlope);
+  of.totalIntercept = sensornoise::Quantity::Identified(totalIntercept);
+  if (!std::isnan(readNoiseElectrons))
+  {
+    of.readNoiseElectrons = sensornoise::Quantity::Identified(readNoiseElectrons);
+  }
+  if (!std::isnan(quantisationStep))
+  {
+    of.quantisationStepDn = quantisationStep;
+  }
+  return WithItkErrors(this, [&] { return sensornoise::CheckReport(this->GetReport(), of); });
+}
+
+template <typename TStack>
+std::string
+SensorNoiseEstimator<TStack>::GetNoiseModelCheckAsJson(double varianceSlope,
+                                                       double totalIntercept,
+                                                       double readNoiseElectrons,
+                                                       double quantisationStep) const
+{
+  return sensornoise::ToJson(this->CheckModel(varianceSlope, totalIntercept, readNoiseElectrons, quantisationStep));
+}
+
+template <typename TStack>
+std::string
+SensorNoiseEstimator<TStack>::GetNoiseModelCheckAsText(double varianceSlope,
+                                                       double totalIntercept,
+                                                       double readNoiseElectrons,
+                                                       double quantisationStep) const
+{
+  return sensornoise::MakeTable(this->CheckModel(varianceSlope, totalIntercept, readNoiseElectrons, quantisationStep));
+}
+
+template <typename TStack>
 bool
 SensorNoiseEstimator<TStack>::HasLevelRange() const
 {

@@ -6,7 +6,9 @@
 #include "sensornoise/report/Version.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -83,6 +85,13 @@ AddOptions(CLI::App & app, EstimateOptions & options, Texts & texts)
                 "frames without light, or one stack, of the same size and type and at the same exposure, gain and "
                 "temperature: they tell offset and read noise. Write them behind FRAME...")
     ->excludes(offsetOption);
+  app
+    .add_option(
+      "--check",
+      options.check,
+      "says at which levels the report's noise model is true of other frames, or one stack, of the same camera "
+      "and setting; without a name, of FRAME... themselves. Write them behind FRAME...")
+    ->expected(0, std::numeric_limits<int>::max());
   app.add_option("--roi", texts.roi, "X,Y,W,H: only these pixels");
   app.add_option("--mask", options.mask, "image file: only pixels that are not 0");
   app.add_option("--frames", texts.frames, "A:B: only the frames A, A+1, ... B-1, counted from 0");
@@ -221,6 +230,8 @@ EstimateOptions::Parse(int argc, char ** argv)
   {
     return app.exit(request); // --help or --version
   }
+  hasCheck = app.count("--check") > 0;
+  check.erase(std::remove(check.begin(), check.end(), ""), check.end()); // what CLI11 makes of no name
   ReadCodes(*this, texts);
   ReadLevelRange(*this, texts.levelRange);
   ReadOffset(*this, texts);

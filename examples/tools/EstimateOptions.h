@@ -29,6 +29,8 @@ struct EstimateOptions
   double                                             offset{ std::numeric_limits<double>::quiet_NaN() };
   double                                             offsetStandardError{ 0.0 };
   std::vector<std::string>                           dark;
+  bool                                               hasCheck{ false };
+  std::vector<std::string>                           check; ///< empty: the frames themselves
   RollingShutter                                     rollingShutter{ RollingShutter::Auto };
   double                                             sigmaRows{ 50.0 };
   std::optional<std::array<long, 4>>                 roi;    ///< x, y, width, height

@@ -3,13 +3,13 @@
 // Measures the noise of a camera from a burst of raw frames on files. See --help, and README.md.
 
 #include "sensornoise/report/Report.h"
-#include "sensornoise/report/ReportJson.h"
 #include "sensornoise/report/ReportTable.h"
 #include "tools/ErrorSentence.h"
 #include "tools/CompanionFiles.h"
 #include "tools/EstimateOptions.h"
 #include "tools/FilesInUse.h"
 #include "tools/MapFiles.h"
+#include "tools/ModelCheck.h"
 #include "tools/PendingFile.h"
 #include "tools/StackEstimate.h"
 #include "itkSensorNoiseFrameFiles.h"
@@ -56,9 +56,12 @@ TellWhetherHeldInMemory(const sensornoise::FrameList & frames)
 /** The report to its file first, which is there even if nobody takes the table; then the table, and JSON for standard
  * output. */
 void
-WriteReport(const sensornoise::Report & report, const EstimateOptions & options, std::optional<PendingFile> & json)
+WriteReport(const sensornoise::Report &                         report,
+            const std::optional<sensornoise::NoiseModelCheck> & check,
+            const EstimateOptions &                             options,
+            std::optional<PendingFile> &                        json)
 {
-  const std::string text = sensornoise::ToJson(report);
+  const std::string text = ToJson(report, check);
   const bool        isFile = json && json->Target().kind == OutputTarget::Kind::File;
   if (json)
   {
@@ -70,7 +73,7 @@ WriteReport(const sensornoise::Report & report, const EstimateOptions & options,
   }
   if (!options.quiet)
   {
-    std::cout << MakeTable(report);
+    std::cout << MakeTable(report) << (check ? '\n' + MakeTable(*check) : "");
   }
   if (options.json == "-")
   {
@@ -99,6 +102,7 @@ RequireOutputsApart(const EstimateOptions & options)
   };
   read(options.files, "the frame");
   read(options.dark, "the dark frame");
+  read(options.check, "the frame to be checked");
   if (!options.mask.empty())
   {
     files.Read(options.mask, "the mask");
@@ -148,9 +152,10 @@ Run(EstimateOptions & options)
   TellWhetherHeldInMemory(frames);
 
   const sensornoise::Report report = EstimateStack(options, frames, maps ? &*maps : nullptr);
-  WriteReport(report, options, json);
+  const auto                check = options.hasCheck ? CheckModel(options, report) : std::nullopt;
+  WriteReport(report, check, options, json);
   TellWarnings(report);
-  return report.IsUsable() ? ExitDone : ExitNothingEstimated;
+  return report.IsUsable() && (check || !options.hasCheck) ? ExitDone : ExitNothingEstimated;
 }
 } // namespace
 

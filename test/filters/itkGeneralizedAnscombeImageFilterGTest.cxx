@@ -49,8 +49,8 @@ sensornoise::Report
 ReportOf(double slope, double intercept)
 {
   sensornoise::Report report;
-  report.varianceSlope = sensornoise::Quantity::Identified(slope, "DN/e-");
-  report.totalIntercept = sensornoise::Quantity::Identified(intercept, "DN^2");
+  report.varianceSlope = sensornoise::Quantity::Identified(slope);
+  report.totalIntercept = sensornoise::Quantity::Identified(intercept);
   return report;
 }
 
@@ -219,7 +219,8 @@ TEST(GeneralizedAnscombeImageFilter, TakesTheModelOfAReport)
 }
 
 // The whole way: a burst's report, and a variance of 1 at every level. 12,000 pixels of 30 frames: each third of the
-// levels has 4000 x 29 degrees of freedom, a standard error of sqrt(2 / 116,000) = 0.0042; 4.5 of them.
+// levels has 4000 x 29 degrees of freedom, a standard error of
+// sqrt(2 / 116,000) = 0.0042; 4.5 of them, and 0.01 for the transform in the dark and the errors of the report.
 TEST(GeneralizedAnscombeImageFilter, StabilisesWhatWasMeasured)
 {
   const auto source = TargetSource<StackType>(120, 100, 30);
@@ -227,6 +228,11 @@ TEST(GeneralizedAnscombeImageFilter, StabilisesWhatWasMeasured)
   auto estimator = itk::SensorNoiseEstimator<StackType>::New();
   estimator->SetInput(source->GetOutput());
   estimator->Update();
+  const double slope = *estimator->GetReport().varianceSlope.value;
+  const double intercept = *estimator->GetReport().totalIntercept.value;
+  EXPECT_SAYS(estimator->GetNoiseModelCheckAsJson(slope, intercept), "\"verdict\": \"fits\"");
+  EXPECT_SAYS(estimator->GetNoiseModelCheckAsText(2.0 * slope, intercept), "this model is not that of these frames");
+  EXPECT_SAYS(ErrorWhen([&] { estimator->GetNoiseModelCheckAsJson(-1.0, 0.0); }), "the variance slope is -1");
   const auto filter = ForwardType::New();
   filter->SetInput(source->GetOutput());
   filter->SetReport(estimator->GetReportOutput());

@@ -16,8 +16,8 @@ Report
 ReportOf(double slope, double intercept)
 {
   Report report;
-  report.varianceSlope = Quantity::Identified(slope, "DN/e-");
-  report.totalIntercept = Quantity::Identified(intercept, "DN^2");
+  report.varianceSlope = Quantity::Identified(slope);
+  report.totalIntercept = Quantity::Identified(intercept);
   return report;
 }
 
@@ -47,11 +47,11 @@ TEST(NoiseModel, AsksForSlopeAndInterceptOnly)
 TEST(NoiseModel, SaysWhatIsMissing)
 {
   Report report = ReportOf(0.5, 3.0);
-  report.totalIntercept = Quantity::Without(EstimateStatus::NotIdentifiable, "DN^2");
+  report.totalIntercept = Quantity::Without(EstimateStatus::NotIdentifiable);
   EXPECT_EQ(RefusalOf(report),
             "the report's total_intercept has no value (it is not identifiable); expected a report that has "
             "variance_slope and total_intercept");
-  report.varianceSlope = Quantity::Without(EstimateStatus::Failed, "DN/e-");
+  report.varianceSlope = Quantity::Without(EstimateStatus::Failed);
   EXPECT_EQ(RefusalOf(report),
             "the report's variance_slope has no value (it is failed); expected a report that has variance_slope and "
             "total_intercept");

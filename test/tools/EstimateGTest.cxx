@@ -267,6 +267,7 @@ TEST_F(EstimateTool, HelpNamesEveryOptionAndTheExitCodes)
                                "--rolling-shutter",
                                "--offset",
                                "--dark",
+                               "--check",
                                "--roi",
                                "--mask",
                                "--frames",

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "helpers/EstimateToolTestHelper.h"
+
+#include <string>
+
+namespace
+{
+/** --check. */
+class EstimateCheckTool : public EstimateToolTest
+{
+protected:
+  /** A burst of the same camera, or of one with other options. */
+  std::string
+  Burst(const std::string & name, int seed, const std::string & options = "")
+  {
+    EXPECT_EQ(RunCommand("\"" SENSORNOISE_BIN "/simulate-sensor-noise\" --reference texture --size 128x96 --frames 40 "
+                         "--output " +
+                         name + " --seed " + std::to_string(seed) + " " + options),
+              0)
+      << m_Message;
+    return name;
+  }
+};
+} // namespace
+
+TEST_F(EstimateCheckTool, ModelIsHeldAgainstOtherFrames)
+{
+  const std::string frames = Burst("a.mha", 1);
+  const auto        same = ReportOf(frames + " --check " + Burst("b.mha", 2, "--flicker-sd 0.02"));
+  EXPECT_EQ(same["schema"], "itk-sensornoise-report/1");
+  EXPECT_EQ(same["check"]["schema"], "itk-sensornoise-check/1");
+  EXPECT_EQ(same["check"]["verdict"], "fits") << same["check"];
+  EXPECT_GE(same["check"]["bands"].size(), 5U);
+  const auto other = ReportOf(frames + " --check " + Burst("c.mha", 2, "--gain 1.2"));
+  EXPECT_EQ(other["check"]["verdict"], "does-not-fit") << other["check"];
+  EXPECT_EQ(other["gain"], same["gain"]); // of the first frames
+}
+
+TEST_F(EstimateCheckTool, WithoutANameOfTheFramesThemselves)
+{
+  const std::string frames = Burst("a.mha", 1);
+  const auto        report = ReportOf(frames);
+  EXPECT_FALSE(report.contains("check"));
+  const auto checked = ReportOf(frames + " --check");
+  EXPECT_EQ(checked["check"]["verdict"], "fits") << checked["check"];
+  EXPECT_EQ(checked["total_intercept"], report["total_intercept"]);
+  EXPECT_EQ(Run(frames + " --check"), 0) << m_Message;
+  EXPECT_NE(m_Output.find("variance/model"), std::string::npos) << m_Output;
+  EXPECT_NE(m_Output.find("DN: this model can be used\n"), std::string::npos) << m_Output;
+}
+
+TEST_F(EstimateCheckTool, FramesThatAreNotThereOrGetOverwrittenAreRefused)
+{
+  const std::string frames = Burst("a.mha", 1);
+  EXPECT_EQ(Run(frames + " --check nowhere.mha"), 2);
+  EXPECT_NE(m_Message.find("nowhere.mha"), std::string::npos) << m_Message;
+  EXPECT_EQ(m_Output, "");
+  Burst("b.mha", 2);
+  EXPECT_EQ(Run(frames + " --check b.mha --json b.mha"), 2) << m_Output;
+}
+
+TEST_F(EstimateCheckTool, ReportWithoutAModelSaysSo)
+{
+  const auto constant = Write("c.mha", Make<StackType>({ { 32, 32, 10 } }, 500).GetPointer());
+  EXPECT_EQ(Run(constant + " --check"), 3);
+  EXPECT_NE(m_Message.find("error: the noise model cannot be checked: the report's variance_slope has no value"),
+            std::string::npos)
+    << m_Message;
+}
