@@ -107,7 +107,7 @@ TEST(SensorNoiseNoiseParameters, NegativeSquareOfTheReadNoiseIsNotIdentifiable)
   ExpectInterval(report.readNoise.bracket, 0.0, std::sqrt(15.0));
   ASSERT_EQ(report.warnings.size(), 1u);
   EXPECT_EQ(report.warnings[0].code, WarningCode::ReadNoiseNotIdentifiable);
-  EXPECT_NE(report.warnings[0].message.find("-5.0"), std::string::npos) << report.warnings[0].message;
+  EXPECT_NE(report.warnings[0].message.find("of -5 DN^2"), std::string::npos) << report.warnings[0].message;
 }
 
 TEST(SensorNoiseNoiseParameters, GainThatIsNotPositiveFailsEverything)

@@ -173,5 +173,5 @@ TEST(SensorNoisePublishedMethod, MaskedPixelsTakeNoPart)
   EXPECT_EQ(method.GetPixelUse(), expected.GetPixelUse());
   EXPECT_EQ(std::count(method.GetPixelUse().begin(), method.GetPixelUse().end(), std::uint8_t{ 7 }), 16 * 64);
   mask.assign(mask.size(), 0);
-  ExpectNothingMeasured(Measure(stack, settings, 1000, mask).GetReport(), "nothing-to-measure");
+  ExpectNothingMeasured(Measure(stack, settings, 1000, mask).GetReport(), WarningCode::NothingToMeasure);
 }

@@ -71,7 +71,7 @@ TEST(SensorNoiseCorrelationReport, FilteredFramesAreNamedWithTheLargestCoefficie
     EXPECT_EQ(warning.rfind("noise-correlated: the camera smooths, resamples or sharpens its frames", 0), 0U)
       << warning;
     EXPECT_TRUE(Has(warning, "pixels 1 row apart share " + std::string(below < 0.0 ? "-5" : "5"))) << warning;
-    EXPECT_TRUE(Has(warning, "+- 0.3 % of their noise")) << warning;
+    EXPECT_TRUE(Has(warning, "+- 0.30 % of their noise")) << warning;
     EXPECT_TRUE(Has(warning, "the variance of a pixel shows 50 % of the gain")) << warning;
     EXPECT_TRUE(Has(warning, "variance_slope")) << warning;
   }
@@ -81,7 +81,7 @@ TEST(SensorNoiseCorrelationReport, EachKindIsSaidInItsWords)
 {
   const std::string crosstalk = WarningOf(CorrelationOf(NoiseKind::Crosstalk));
   EXPECT_EQ(crosstalk.rfind("noise-correlated: neighbours are coupled, or slightly filtered", 0), 0U) << crosstalk;
-  EXPECT_TRUE(Has(crosstalk, "share 5 +- 0.3 %")) << crosstalk;
+  EXPECT_TRUE(Has(crosstalk, "share 5.00 +- 0.30 %")) << crosstalk;
 
   const std::string fatter = WarningOf(CorrelationOf(NoiseKind::BrighterFatter));
   EXPECT_EQ(fatter.rfind("noise-correlated: charge repels charge", 0), 0U) << fatter;
@@ -90,11 +90,11 @@ TEST(SensorNoiseCorrelationReport, EachKindIsSaidInItsWords)
 
   const std::string temporal = WarningOf(CorrelationOf(NoiseKind::Temporal));
   EXPECT_EQ(temporal.rfind("noise-correlated: the camera mixes its frames", 0), 0U) << temporal;
-  EXPECT_TRUE(Has(temporal, "frames 1 apart share 20 +- 1 % of their noise")) << temporal;
+  EXPECT_TRUE(Has(temporal, "frames 1 apart share 20.0 +- 1.0 % of their noise")) << temporal;
 
   const std::string bent = WarningOf(CorrelationOf(NoiseKind::NotLinear));
   EXPECT_EQ(bent.rfind("noise-not-linear: ", 0), 0U) << bent;
-  EXPECT_TRUE(Has(bent, "excess kurtosis -0.125, of four neighbours in turn 0.5, expected 0")) << bent;
+  EXPECT_TRUE(Has(bent, "excess kurtosis -0.125 +- 0.010, of four neighbours in turn 0.500 +- 0.010, expected 0")) << bent;
   EXPECT_TRUE(Has(bent, "ask it for raw frames")) << bent;
 }
 
@@ -102,7 +102,7 @@ TEST(SensorNoiseCorrelationReport, WithoutAGainNothingIsSaidOfIt)
 {
   const std::string warning = WarningOf(CorrelationOf(NoiseKind::Filtered), false);
   EXPECT_FALSE(Has(warning, "of the gain")) << warning;
-  EXPECT_TRUE(Has(warning, "share 5 +- 0.3 % of their noise")) << warning;
+  EXPECT_TRUE(Has(warning, "share 5.00 +- 0.30 % of their noise")) << warning;
 }
 
 TEST(SensorNoiseCorrelationReport, RecordHoldsKindAndCoefficients)

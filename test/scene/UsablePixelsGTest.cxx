@@ -121,7 +121,7 @@ TEST(SensorNoiseUsablePixels, CoarseCodesAreRefusedAboveTwoPerCent)
   }
   catch (const NothingToMeasure & error)
   {
-    EXPECT_EQ(error.GetCode(), "codes-too-coarse");
+    EXPECT_EQ(error.GetCode(), WarningCode::CodesTooCoarse);
     EXPECT_EQ(std::string(error.what()),
               "the noise of 2.1 % of the pixels, the darkest, is below half a code step of 4 DN, where the codes hide "
               "it: use more bits, or a higher analogue gain");
