@@ -74,9 +74,9 @@ def _methods(body: str) -> dict[str, str]:
 def class_docs(header: str) -> dict[str, tuple[str, dict[str, str]]]:
     """The classes of a header with the texts of their public methods."""
     comments = [comment for comment in _COMMENT.finditer(header) if _CLASS.search(comment[1])]
-    ends = [comment.start() for comment in comments[1:]] + [len(header)]
+    bounds = [comment.start() for comment in comments] + [len(header)]
     docs = {}
-    for comment, end in zip(comments, ends, strict=True):
+    for comment, end in zip(comments, bounds[1:], strict=True):
         public = re.split(r"^(?:protected|private):", header[comment.end() : end], maxsplit=1, flags=re.MULTILINE)[0]
         name = _CLASS.search(comment[1])
         assert name is not None

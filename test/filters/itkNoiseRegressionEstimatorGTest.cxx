@@ -127,7 +127,7 @@ TEST(NoiseRegressionEstimator, DataThatContradictTheModelFail)
   };
   estimator->SetVariance(
     ImageOf<FrameType>(Size, [&](const auto & index) { return 9000.0 - 2.0 * estimator->GetMean()->GetPixel(index); }));
-  expectFailure("slope -2.0");
+  expectFailure("slope -2 DN");
   estimator->SetMask(ConstantImage<MaskType>(Size, 0));
   expectFailure("the regression has 0 pixels");
 }

@@ -49,6 +49,17 @@ JsonOf(const TEstimator & estimator)
   return sensornoise::ToJson(estimator->GetReport());
 }
 
+/** The same without the settings, which say how it was made. */
+template <typename TEstimator>
+std::string
+MeasuredBy(const TEstimator & estimator)
+{
+  EXPECT_EQ(ErrorOf(estimator), "no error");
+  sensornoise::Report report = estimator->GetReport();
+  report.settings.clear();
+  return sensornoise::ToJson(report);
+}
+
 template <typename TEstimator>
 void
 ExpectTheSameMaps(const TEstimator & a, const TEstimator & b)

@@ -5,6 +5,7 @@
 #include "sensornoise/simulation/Scenes.h"
 #include "helpers/PublishedTestHelper.h"
 
+#include <cmath>
 #include <cstddef>
 #include <gtest/gtest.h>
 #include <vector>
@@ -94,4 +95,22 @@ TEST(SensorNoisePublishedWarnings, SetsWidened)
   const Report broad = ReportOfLevels({ 0.0, 0.5, 1.0 });
   EXPECT_FALSE(HasWarning(broad, WarningCode::BrightSetWidened)) << MakeText(broad);
   EXPECT_FALSE(HasWarning(broad, WarningCode::DarkSetWidened)) << MakeText(broad);
+}
+
+TEST(SensorNoisePublishedWarnings, OffsetLineMisfit)
+{
+  // A second lamp lights the dark areas.
+  const SimulationSettings settings = SettingsOf(0.05, 40);
+  Stack<Codes>             stack = Simulate(settings);
+  EXPECT_FALSE(HasWarning(Measure(stack).GetReport(), WarningCode::OffsetLineMisfit));
+  for (std::size_t i = 0; i < stack.pixels.size(); ++i)
+  {
+    const auto t = static_cast<double>(i / (stack.width * stack.height));
+    if (stack.pixels[i] < 500)
+    {
+      stack.pixels[i] = static_cast<Codes>(stack.pixels[i] + std::lround(20.0 + 20.0 * std::sin(2.3 * t)));
+    }
+  }
+  const Report report = Measure(stack).GetReport();
+  EXPECT_TRUE(HasWarning(report, WarningCode::OffsetLineMisfit)) << MakeText(report);
 }

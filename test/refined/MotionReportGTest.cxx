@@ -37,7 +37,7 @@ CovarianceOfSeries(const std::vector<double> & a, const std::vector<double> & b)
 } // namespace
 
 // Little light, so that the noise of the shifts is as large as they are. Of 16 departures in standard errors the mean
-// square is chi2 / 16 where the error is right: 0.35 to 2.2 in 99.8 of 100 cases.
+// square is chi2 / 16 where the error is right: 0.25 to 2.45 in 99.8 of 100 cases.
 TEST(SensorNoiseMotionReport, TheCovarianceOfTheVibrationHasAnError)
 {
   double squares = 0.0;
@@ -56,8 +56,8 @@ TEST(SensorNoiseMotionReport, TheCovarianceOfTheVibrationHasAnError)
     const double z = (*covariance.value - CovarianceOfSeries(series.alpha, series.beta)) / *covariance.standardError;
     squares += z * z;
   }
-  EXPECT_GT(squares / 16.0, 0.35);
-  EXPECT_LT(squares / 16.0, 2.2);
+  EXPECT_GT(squares / 16.0, 0.25);
+  EXPECT_LT(squares / 16.0, 2.45);
 }
 
 // Every quantity of the refined method that has a value has an error and an interval.

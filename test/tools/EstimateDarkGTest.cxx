@@ -78,7 +78,8 @@ TEST_F(EstimateDarkTool, DarkFramesAreCutAsTheOthersByRoi)
   Write("d.mha", dark.GetPointer());
   Write("part.mha", Cut<unsigned short>(burst, { { 6, 4, 2 } }, { { 50, 56, 20 } }).GetPointer());
   Write("dpart.mha", Cut<unsigned short>(dark, { { 6, 4, 0 } }, { { 50, 56, 12 } }).GetPointer());
-  EXPECT_EQ(JsonTextOf("s.mha --roi 6,4,50,56 --frames 2:22 --dark d.mha"), JsonTextOf("part.mha --dark dpart.mha"));
+  EXPECT_EQ(MeasuredTextOf("s.mha --roi 6,4,50,56 --frames 2:22 --dark d.mha"),
+            MeasuredTextOf("part.mha --dark dpart.mha"));
 }
 
 TEST_F(EstimateDarkTool, MapsTellThePixelsOwnOffsetAndReadNoise)

@@ -3,6 +3,7 @@
 #include "sensornoise/report/StackSettings.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <string>
 #include <zlib.h>
@@ -43,9 +44,9 @@ NoteMask(Report & report, const FrameGeometry & geometry, const std::vector<std:
     });
     sum = crc32(sum, row.data(), static_cast<uInt>(row.size()));
   }
-  char text[9];
-  std::snprintf(text, sizeof(text), "%08lx", sum & 0xffffffffUL);
-  report.settings.emplace_back("mask_crc32", std::string(text));
+  std::array<char, 9> text{};
+  std::snprintf(text.data(), text.size(), "%08lx", sum & 0xffffffffUL);
+  report.settings.emplace_back("mask_crc32", std::string(text.data()));
 }
 
 void

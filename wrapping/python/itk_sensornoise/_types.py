@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The types of what people give, by name; for type checkers and readers, imported by nothing that runs."""
+"""The types of what people give, by name: what a checker and a reader of the signatures want to know."""
 
 import os
 from collections.abc import Sequence
