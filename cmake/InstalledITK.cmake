@@ -9,6 +9,7 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 option(SensorNoise_BUILD_EXAMPLES "Build the command-line tools and the example programs" ON)
 option(BUILD_SHARED_LIBS "Build a shared library" OFF)
 option(BUILD_TESTING "Build the tests" ON)
+option(SensorNoise_UNITY_BUILD "Compile sources together, which takes half of the time" ON)
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(SensorNoise_INSTALL_INCLUDE_DIR ${CMAKE_INSTALL_INCLUDEDIR}/SensorNoise)
@@ -30,7 +31,7 @@ add_subdirectory(module)
 # The files of a room are compiled together, six at a time to spare memory: half of the time to compile them one by one goes
 # into reading Eigen and ITK and into what they instantiate alike. Ways 1 and 2 compile them one by one, which shows whether
 # each file includes what it uses; so does CMake before 3.18, which knows no groups.
-if(NOT CMAKE_VERSION VERSION_LESS 3.18)
+if(SensorNoise_UNITY_BUILD AND NOT CMAKE_VERSION VERSION_LESS 3.18)
   get_target_property(_sources SensorNoise SOURCES)
   list(SORT _sources)
   foreach(_source IN LISTS _sources)
