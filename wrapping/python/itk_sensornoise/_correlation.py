@@ -36,7 +36,7 @@ class NoiseCorrelation(Mapping[str, Any]):
 
     @property
     def kind(self) -> str:
-        """"white", "crosstalk", "filtered", "temporal", "brighter-fatter", "not-linear" or "not-measured"."""
+        """What it is: "white", "crosstalk", "filtered", "temporal", "brighter-fatter", "not-linear" or "not-measured"."""
         return self["noise_correlation"]["kind"]
 
     @property

@@ -35,8 +35,9 @@ def install() -> None:
     place.
     """
     import itk
-    import itk_sensornoise
     from itk.support.base import itk_base_global_module_data
+
+    import itk_sensornoise
 
     for name in _NEW + _REPLACED:
         setattr(itk, name, getattr(itk_sensornoise, name))

@@ -18,8 +18,8 @@ class Report(Mapping[str, Any]):
         report["gain"]["value"], report["gain"]["unit"], report["gain"]["status"]
         report["warnings"]
 
-    A value that is not identified is None. print() shows the table of `estimate-sensor-noise` and the warnings, a notebook
-    also the noise curve, plot() draws that. Equal to any mapping with the same content; can be pickled.
+    A value that is not identified is None. print() shows the table of `estimate-sensor-noise` and the warnings, a
+    notebook also the noise curve, plot() draws that. Equal to any mapping with the same content; can be pickled.
     """
 
     def __init__(self, text: str, table: str = "") -> None:
@@ -61,8 +61,8 @@ class Report(Mapping[str, Any]):
 
     def plot(self, axes: "Axes | None" = None) -> "Figure":
         """Draws the temporal variance, as it is and corrected for flicker, against the mean, and the line through the
-        corrected one, as the paper's Figure 4: the noise curve of the camera. Where the gain is not identified, the line
-        is dashed and indicative; where the response bends, the legend says how much.
+        corrected one, as the paper's Figure 4: the noise curve of the camera. Where the gain is not identified, the
+        line is dashed and indicative; where the response bends, the legend says how much.
 
         axes: where to draw; default: a new figure of matplotlib.pyplot. Returns the figure. Raises ImportError if
         matplotlib is not installed, ValueError if nothing was measured.
