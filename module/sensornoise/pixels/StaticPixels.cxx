@@ -192,9 +192,8 @@ FindLocalMisfit(const ProjectedVariance &         projected,
   const auto                freedom = static_cast<double>(frame.frames - 1 - projected.GetBasis().Size());
   std::vector<double>       sum = BoxSum(pixels.rejected, width, height, radius, parallelFor);
   std::vector<std::uint8_t> core(mask.size());
-  std::transform(sum.begin(), sum.end(), core.begin(), [area](double crowd) {
-    return static_cast<std::uint8_t>(crowd > 0.15 * area);
-  });
+  std::transform(
+    sum.begin(), sum.end(), core.begin(), [](double crowd) { return static_cast<std::uint8_t>(crowd > 0.15 * area); });
   BoxSum(pixels.ratio, width, height, radius, parallelFor, sum);
   std::vector<double> count = BoxSum(pixels.fits, width, height, radius, parallelFor);
   ForBlocks(mask.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
