@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes the project that README.md shows under "In C++" into a folder, as it stands: readme.py README.md FOLDER.
 
-Its CMakeLists.txt is the cmake block, measure.cxx the cpp block with a main function. The other cpp blocks, of which the
-README shows no project, are added to that target.
+Its CMakeLists.txt is the cmake block, measure.cxx the cpp block with a main function. The other cpp blocks, of which
+the README shows no project, are added to that target.
 """
 
 import pathlib

@@ -20,7 +20,7 @@ namespace sensornoise
  * pixels, whose instruments see long wavelengths only. */
 inline constexpr std::size_t InstrumentRadius = 3;
 
-/** The derivative of the mean by stencil \a k, smoothed. */
+/** The derivative of the mean by stencil \a k, smoothed [DN/pixel for the first derivatives], of all pixels. */
 SensorNoise_EXPORT std::vector<double>
 SmoothedDerivative(const ReferenceFrame & frame, StencilIndex k, const ParallelFor & parallelFor);
 

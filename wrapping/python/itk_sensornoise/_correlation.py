@@ -36,7 +36,7 @@ class NoiseCorrelation(Mapping[str, Any]):
 
     @property
     def kind(self) -> str:
-        """What it is: "white", "crosstalk", "filtered", "temporal", "brighter-fatter", "not-linear" or "not-measured"."""
+        """One of "white", "crosstalk", "filtered", "temporal", "brighter-fatter", "not-linear" or "not-measured"."""
         return self["noise_correlation"]["kind"]
 
     @property
