@@ -9,6 +9,7 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 option(SensorNoise_BUILD_EXAMPLES "Build the command-line tools and the example programs" ON)
 option(BUILD_SHARED_LIBS "Build a shared library" OFF)
 option(BUILD_TESTING "Build the tests" ON)
+option(SensorNoise_UNITY_BUILD "Compile sources together, which takes half of the time" ON)
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(SensorNoise_INSTALL_INCLUDE_DIR ${CMAKE_INSTALL_INCLUDEDIR}/SensorNoise)
@@ -28,8 +29,10 @@ find_package(ZLIB REQUIRED) # the same as ITK's: the module ITKZLIB of an instal
 
 add_subdirectory(module)
 # Ways 1 and 2 compile the files one by one, which shows whether each includes what it uses.
-include(cmake/UnityByRoom.cmake)
-sensornoise_unity_by_room(SensorNoise)
+if(SensorNoise_UNITY_BUILD)
+  include(cmake/UnityByRoom.cmake)
+  sensornoise_unity_by_room(SensorNoise)
+endif()
 
 install(EXPORT SensorNoiseTargets NAMESPACE SensorNoise:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/SensorNoise)
 configure_package_config_file(cmake/SensorNoiseConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/SensorNoiseConfig.cmake

@@ -39,8 +39,8 @@ def number_of_frames(text):
 def unpacked(packed):
     """The pixels of whole triples of bytes: p0 = b0 << 4 | b1 >> 4, p1 = (b1 & 15) << 8 | b2."""
     pixels = array.array("H", bytes(len(packed) // 3 * 4))
-    pixels[0::2] = array.array("H", [a << 4 | b >> 4 for a, b in zip(packed[0::3], packed[1::3])])
-    pixels[1::2] = array.array("H", [(b & 15) << 8 | c for b, c in zip(packed[1::3], packed[2::3])])
+    pixels[0::2] = array.array("H", [a << 4 | b >> 4 for a, b in zip(packed[0::3], packed[1::3], strict=True)])
+    pixels[1::2] = array.array("H", [(b & 15) << 8 | c for b, c in zip(packed[1::3], packed[2::3], strict=True)])
     return pixels
 
 
@@ -81,7 +81,8 @@ def convert(source, target, size, frames):
 def main():
     """Exit code 0: done, 2: wrong use or unreadable input."""
     parser = argparse.ArgumentParser(
-        description=__doc__.split("\n\n", maxsplit=1)[0], epilog="The size stands in the .cihx file beside the .mraw file."
+        description=__doc__.split("\n\n", maxsplit=1)[0],
+        epilog="The size stands in the .cihx file beside the .mraw file.",
     )
     parser.add_argument("input", metavar="INPUT.mraw")
     parser.add_argument("output", metavar="OUTPUT.mha")

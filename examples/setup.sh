@@ -23,7 +23,7 @@ sensornoise_install() {
   $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends "${missing[@]}" >/dev/null
 }
 
-# sensornoise_build FOLDER [CMake options]: configures quietly and builds.
+# sensornoise_build FOLDER [CMake options]: configures quietly and builds, with SENSORNOISE_WARNINGS_AS_ERRORS=ON so.
 sensornoise_build() {
   local folder="$1"
   shift
@@ -31,7 +31,8 @@ sensornoise_build() {
   source="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
   mkdir -p "$folder"
   # The distribution's GDCM names programs in its CMake files that its library packages leave out: pages of notes.
-  cmake -G Ninja -S "$source" -B "$folder" -DCMAKE_BUILD_TYPE=Release "$@" >"$folder/configure.log" 2>&1 ||
+  cmake -G Ninja -S "$source" -B "$folder" -DCMAKE_BUILD_TYPE=Release \
+    -DSensorNoise_WARNINGS_AS_ERRORS="${SENSORNOISE_WARNINGS_AS_ERRORS:-OFF}" "$@" >"$folder/configure.log" 2>&1 ||
     { cat "$folder/configure.log" >&2; return 1; }
   cmake --build "$folder"
 }

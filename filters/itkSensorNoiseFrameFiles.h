@@ -63,8 +63,8 @@ struct FrameList
  *
  * Throws std::invalid_argument without a file, and FileError unless each file is a complete image of one grey value of
  * type unsigned char, unsigned short, short, float or double a pixel, and all have the same size and type. One 3-D file
- * is a stack; a list holds 2-D files, or 3-D files of one slice. Formats are TIFF, PNG, MetaImage and NRRD, as far as
- * the program has registered their ImageIO. \a beforeInflating is asked about each compressed file before it is
+ * is a stack; a list holds 2-D files, or 3-D files of one slice. Formats are those of FrameFormats(), as far as the
+ * program has registered their ImageIO. \a beforeInflating is asked about each compressed file before it is
  * inflated. */
 SensorNoise_EXPORT FrameList
 OpenFrames(const std::vector<std::string> & names, const BeforeInflating & beforeInflating = {});

@@ -19,12 +19,12 @@
 
 #include "itkSensorNoiseSilentTiff.h"
 #include "sensornoise/files/FileError.h"
+#include "sensornoise/files/FrameFormats.h"
 #include "itkObjectFactoryBase.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <exception>
-#include <iterator>
 #include <new>
 #include <string>
 
@@ -32,19 +32,6 @@ namespace sensornoise
 {
 namespace
 {
-/** The class of ITK that reads a format, and the module that brings it. */
-struct ReaderOfFormat
-{
-  FrameFormat  format;
-  const char * name;
-  const char * imageIO;
-  const char * module;
-};
-constexpr ReaderOfFormat Readers[] = { { FrameFormat::MetaImage, "MetaImage", "MetaImageIO", "ITKIOMeta" },
-                                       { FrameFormat::Nrrd, "NRRD", "NrrdImageIO", "ITKIONRRD" },
-                                       { FrameFormat::Tiff, "TIFF", "TIFFImageIO", "ITKIOTIFF" },
-                                       { FrameFormat::Png, "PNG", "PNGImageIO", "ITKIOPNG" } };
-
 /** What an exception says: of ITK's its first line without class and address, and where NRRD reports a chain of
  * "trouble" the last link. */
 std::string
@@ -69,24 +56,22 @@ CauseOf(const std::exception & error)
 itk::ImageIOBase::Pointer
 MakeImageIO(const FrameFile & file)
 {
-  const auto reader = std::find_if(
-    std::begin(Readers), std::end(Readers), [&](const ReaderOfFormat & known) { return known.format == file.format; });
-  if (reader == std::end(Readers))
+  if (file.format == nullptr)
   {
-    throw FileError(file.name, "of a format that cannot be checked; expected TIFF, PNG, MetaImage or NRRD");
+    throw FileError(file.name, "of a format that cannot be checked; expected " + NamesOfFrameFormats());
   }
   for (const itk::LightObject::Pointer & object : itk::ObjectFactoryBase::CreateAllInstance("itkImageIOBase"))
   {
     auto * const io = dynamic_cast<itk::ImageIOBase *>(object.GetPointer());
-    if (io != nullptr && io->GetNameOfClass() == std::string(reader->imageIO))
+    if (io != nullptr && io->GetNameOfClass() == std::string(file.format->imageIO))
     {
       return io;
     }
   }
   throw FileError(file.name,
-                  std::string("of format ") + reader->name +
+                  std::string("of format ") + file.format->name +
                     ", which this program does not read; expected one that is linked to ITK's module " +
-                    reader->module + " and has registered its format");
+                    file.format->itkModule + " and has registered its format");
 }
 
 std::string

@@ -85,12 +85,12 @@ public:
   void
   Update() override
   {
-    ProcessObject::Update();
+    ProcessObject::Update(); // NOLINT(bugprone-parent-virtual-call)
   }
   void
   UpdateLargestPossibleRegion() override
   {
-    ProcessObject::UpdateLargestPossibleRegion();
+    ProcessObject::UpdateLargestPossibleRegion(); // NOLINT(bugprone-parent-virtual-call)
   }
   void
   UpdateOutputInformation() override;

@@ -3,15 +3,17 @@
 # SPDX-License-Identifier: Apache-2.0
 # Installs what is missing, builds into build/ and runs every test: C++ with damaged files among them, then Python (examples,
 # tests, damaged files) with the wheel in a fresh virtual environment, then C++ once more with AddressSanitizer and
-# UndefinedBehaviorSanitizer, in build/sanitized. Says at its end what each part took. Options are handed on to ctest, for
-# example -R Codes.
+# UndefinedBehaviorSanitizer, in build/sanitized. Warnings are errors, and test/check-style.sh has no finding. Says at its
+# end what each part took. Options are handed on to ctest, for example -R Codes.
 #
 # Python needs ITK's source (wrapping/build-itk.sh says where that comes from). Where it is not to be had, the last line says
 # so, and what was tested counts. SENSORNOISE_PYTHON=1: that is a failure, too; SENSORNOISE_PYTHON=0: Python is left out.
-# SENSORNOISE_SANITIZE=0: the sanitizers are left out.
+# SENSORNOISE_STYLE in the same way: 1, or CI=true: it is a failure that a program which checks the style is not to be had;
+# 0: the style is left out. SENSORNOISE_SANITIZE=0: the sanitizers are left out.
 set -euo pipefail
 here="$(cd "$(dirname "$0")/.." && pwd)"
 source "$here/examples/setup.sh"
+export SENSORNOISE_WARNINGS_AS_ERRORS="${SENSORNOISE_WARNINGS_AS_ERRORS:-ON}"
 
 failed=()
 times=()
@@ -27,6 +29,21 @@ sensornoise_build "$here/build" -DBUILD_TESTING=ON -DSensorNoise_BUILD_STUDIES=O
 took "build"
 ctest --test-dir "$here/build" --output-on-failure -j "$(nproc)" "$@" || failed+=(C++)
 took "C++ tests"
+
+unchecked=
+if [ "${SENSORNOISE_STYLE:-}" != 0 ]; then
+  # Not `check-style.sh || …`: the exit code of tee would be the one looked at.
+  set +e
+  bash "$here/test/check-style.sh" 2>&1 | tee "$here/build/style.log"
+  status="${PIPESTATUS[0]}"
+  set -e
+  if [ "$status" = 69 ] && [ "${SENSORNOISE_STYLE:-}" != 1 ] && [ "${CI:-}" != true ]; then
+    unchecked="$(sed -n '$s/^check-style.sh: //p' "$here/build/style.log")"
+  elif [ "$status" != 0 ]; then
+    failed+=(style)
+  fi
+  took "style"
+fi
 
 # test_wheel WHEEL: the wheel as a user installs it. Run from build/, so that nothing of the checkout is imported.
 test_wheel() (
@@ -76,4 +93,5 @@ fi
 
 printf 'took: %s\n' "${times[@]}"
 [ -z "$untested" ] || echo "Python: not tested, $untested" >&2
+[ -z "$unchecked" ] || echo "style: not checked, $unchecked" >&2
 [ ${#failed[@]} = 0 ] || { echo "failed: ${failed[*]}" >&2; exit 1; }

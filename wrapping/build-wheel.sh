@@ -56,6 +56,7 @@ rm -rf "$work/raw" "$work/dist"
 CMAKE_GENERATOR=Ninja "$venv/bin/pip" -q --disable-pip-version-check wheel "$here" --no-deps --no-build-isolation \
   --wheel-dir "$work/raw" -C build-dir="$work/module" -C cmake.define.ITK_DIR="$view" \
   -C cmake.define.SWIG_EXECUTABLE="$venv/bin/swig" -C cmake.define.Python3_EXECUTABLE="$venv/bin/python3" \
+  -C cmake.define.SensorNoise_WARNINGS_AS_ERRORS="${SENSORNOISE_WARNINGS_AS_ERRORS:-OFF}" \
   -C cmake.define.CMAKE_CXX_FLAGS="${CXXFLAGS:+$CXXFLAGS }$maps" >&2
 
 # Brings libtbb into the wheel and gives it the tag of the oldest C library that it runs with.

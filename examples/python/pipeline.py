@@ -26,7 +26,7 @@ def write_frames(folder: str, frames: int) -> list[str]:
     """Simulates the paper's camera B under its condition 3, writes it frame by frame and returns the file names."""
     stack, _ = itk.simulate_sensor_noise(camera="B", condition=3, frames=frames, seed=1)
     names = [str(Path(folder) / f"frame-{t:03d}.tif") for t in range(frames)]
-    for frame, name in zip(stack, names):
+    for frame, name in zip(stack, names, strict=True):
         itk.imwrite(itk.image_view_from_array(frame), name)
     return names
 

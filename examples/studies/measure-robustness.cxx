@@ -121,7 +121,7 @@ PlanRuns(const Options & options)
       for (std::uint64_t k = 0; k < options.seeds && (options.reference == "both" || options.reference == reference);
            ++k)
       {
-        runs.push_back({ stressCase, reference, options.firstSeed + k, {}, {}, {}, {} });
+        runs.push_back({ stressCase, reference, options.firstSeed + k, {}, {}, {}, {}, {} });
       }
     }
   }

@@ -50,7 +50,7 @@ protected:
 TEST_F(NrrdFile, OfEveryKindThatIsCompleteIsAccepted)
 {
   const std::string pixels = RandomBytes(StackBytes);
-  EXPECT_EQ(IsStack("a.nrrd", NrrdHeaderOf("raw") + pixels).format, FrameFormat::Nrrd);
+  EXPECT_STREQ(IsStack("a.nrrd", NrrdHeaderOf("raw") + pixels).format->name, "NRRD");
   IsStack("a.nrrd", NrrdHeaderOf("RAW", "Byte Skip: 5\n") + "12345" + pixels);
   IsStack("a.nrrd", NrrdHeaderOf("raw", "byteskip: -1\nline skip: 0\n") + "12345" + pixels);
   IsStack("a.nrrd", NrrdHeaderOf("gzip") + GzipStream(pixels));

@@ -29,9 +29,9 @@ TYPED_TEST_SUITE(TemporalStatisticsImageFilterOf, PixelTypes, );
 TYPED_TEST(TemporalStatisticsImageFilterOf, RampInTimeHasTheClosedForm)
 {
   using Stack = itk::Image<TypeParam, 3>;
-  const auto baseOf = [](const auto & index) { return 10.0 + index[0] + 5.0 * index[1]; };
-  const auto filter =
-    StatisticsOf<Stack>(ImageOf<Stack>({ { 7, 5, 6 } }, [&](const auto & index) { return baseOf(index) + index[2]; }));
+  const auto baseOf = [](const auto & index) { return static_cast<double>(10 + index[0] + 5 * index[1]); };
+  const auto filter = StatisticsOf<Stack>(
+    ImageOf<Stack>({ { 7, 5, 6 } }, [&](const auto & index) { return baseOf(index) + static_cast<double>(index[2]); }));
   filter->Update();
   const auto mean = ImageOf<FrameType>({ { 7, 5 } }, [&](const auto & index) { return baseOf(index) + 2.5; });
   for (std::size_t p = 0; p < 35; ++p)
@@ -126,8 +126,8 @@ TEST(TemporalStatisticsImageFilter, PixelThatIsNotFiniteOnceHasNeitherMeanNorVar
   constexpr float infinity = std::numeric_limits<float>::infinity();
   for (const float value : { nan, infinity, -infinity })
   {
-    const auto stack =
-      ImageOf<FloatStackType>({ { 5, 3, 4 } }, [](const auto & index) { return 0.5 + index[0] + index[2]; });
+    const auto stack = ImageOf<FloatStackType>(
+      { { 5, 3, 4 } }, [](const auto & index) { return 0.5 + static_cast<double>(index[0] + index[2]); });
     stack->SetPixel({ { 2, 1, 1 } }, value);
     const auto filter = StatisticsOf<FloatStackType>(stack);
     filter->Update();

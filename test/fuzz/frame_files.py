@@ -144,6 +144,11 @@ _TIFF = {
 }
 
 
+def _swapped(frame: bytes) -> bytes:
+    """The same 16-bit pixels in the other byte order."""
+    return b"".join(frame[k + 1 : k + 2] + frame[k : k + 1] for k in range(0, len(frame), 2))
+
+
 def _tiff(
     name: str, frames: list[bytes], compression: str, order: str = "<", rows: int = HEIGHT, big: bool = False
 ) -> File:
@@ -154,9 +159,7 @@ def _tiff(
     first = struct.pack(order + "2sHHHQ", b"II" if order == "<" else b"MM", 43, 8, 0, 0) if big else None
     made.data = first or struct.pack(order + "2sHI", b"II" if order == "<" else b"MM", 42, 0)
     link = 8 if big else 4  # where the offset of the next directory goes
-    for frame in frames:
-        if order == ">":
-            frame = b"".join(frame[k + 1 : k + 2] + frame[k : k + 1] for k in range(0, len(frame), 2))
+    for frame in map(_swapped, frames) if order == ">" else frames:
         step = 2 * WIDTH * rows
         strips = [pack(frame[k : k + step]) for k in range(0, len(frame), step)]
         offsets = []

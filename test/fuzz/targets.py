@@ -100,7 +100,11 @@ class PythonTarget:
         fresh = worker is None or worker.poll() is not None
         if fresh:
             worker = subprocess.Popen(
-                self.command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=_no_core
+                self.command,
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                preexec_fn=_no_core,  # noqa: PLW1509 - it takes no lock
             )
         files = [os.path.join(folder, name) for name in case.frames]
         request = {"role": role, "files": files, "stack": os.path.join(good, "s.mha")}

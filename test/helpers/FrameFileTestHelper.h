@@ -5,6 +5,7 @@
 
 #include "sensornoise/files/FileError.h"
 #include "sensornoise/files/FrameFile.h"
+#include "sensornoise/files/FrameFormats.h"
 #include "helpers/FolderTestHelper.h"
 
 #include <cstddef>

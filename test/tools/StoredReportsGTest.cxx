@@ -257,8 +257,8 @@ TEST_P(StoredReports, NothingInItMayChange)
   EXPECT_NE(DifferencesOf(stored, renamed), "");
 }
 
-INSTANTIATE_TEST_SUITE_P(All, StoredReports, ::testing::ValuesIn(NamesOfCases()), [](const auto & info) {
-  return info.param;
+INSTANTIATE_TEST_SUITE_P(All, StoredReports, ::testing::ValuesIn(NamesOfCases()), [](const auto & instance) {
+  return instance.param;
 });
 
 TEST(StoredReportsFolder, HasOneFilePerCase)

@@ -16,7 +16,7 @@ def peak():
 
 def write(folder, frames, extension="mha"):
     names = [folder / f"{number:03}.{extension}" for number in range(len(frames))]
-    for name, frame in zip(names, frames):
+    for name, frame in zip(names, frames, strict=True):
         itk.imwrite(itk.image_from_array(frame), str(name))
     return names
 

@@ -56,7 +56,7 @@ def test_temporal_statistics_in_class_style(stack, pixel, statistics, is_explici
     template = itk.TemporalStatisticsImageFilter
     found = (template[stack_type(pixel)] if is_explicit else template).New(image(stack))
     found.Update()
-    for output, expected in zip((found.GetMean(), found.GetVariance(), found.GetValidMask()), statistics):
+    for output, expected in zip((found.GetMean(), found.GetVariance(), found.GetValidMask()), statistics, strict=True):
         np.testing.assert_array_equal(array(output), expected)
     assert found.GetFoundQuantisationStep() == (0 if pixel.startswith("float") else 1)
     assert found.GetNumberOfNotFinitePixels() == 0

@@ -117,7 +117,7 @@ def test_it_compares(report, burst):
 
 
 def test_functions_can_be_pickled():
-    names = [name for name in dir(itk) if name.endswith("estimator") or name.endswith("sensor_noise")]
+    names = [name for name in dir(itk) if name.endswith(("estimator", "sensor_noise"))]
     assert len(names) >= 6
     for name in names:
         assert pickle.loads(pickle.dumps(getattr(itk, name))) is getattr(itk, name)

@@ -35,7 +35,7 @@ def numbers(value):
 
 
 def assert_same(found, expected):
-    """The wheel is built with ITK's Eigen, the tools with the system's: another order of sums, of numbers of 4 bytes."""
+    """The wheel has ITK's Eigen, the tools the system's: another order of sums, of numbers of 4 bytes."""
     found, expected = json.loads(found), json.loads(expected)
     shared, shared_expected = found.pop("noise_correlation"), expected.pop("noise_correlation")
     assert found == expected
@@ -163,7 +163,7 @@ def test_mask_is_the_tool_s(tool, burst, stack_file, mask, tmp_path, roi):
 @pytest.mark.parametrize("roi", [None, (10, 5, 100, 80)])
 def test_dark_frames_are_the_tool_s(tool, burst, dark, stack_file, tmp_path, roi):
     names = [tmp_path / f"{number:03}.tif" for number in range(len(dark))]
-    for name, frame in zip(names, dark):
+    for name, frame in zip(names, dark, strict=True):
         itk.imwrite(itk.image_from_array(frame), str(name))
     flags = [] if roi is None else ["--roi", ",".join(map(str, roi))]
     expected = tool("estimate-sensor-noise", stack_file, "--quiet", "--json", "-", *flags, "--dark", *names)
@@ -231,7 +231,7 @@ def test_every_pixel_type(tool, stack, tmp_path):
 @pytest.mark.parametrize("extension", ["png", "tif", "mha"])
 def test_list_of_files(tool, burst, tmp_path, extension):
     names = [tmp_path / f"{number:03}.{extension}" for number in range(len(burst))]
-    for name, frame in zip(names, burst):
+    for name, frame in zip(names, burst, strict=True):
         itk.imwrite(itk.image_from_array(frame), str(name))
     expected = tool("estimate-sensor-noise", *names, "--quiet", "--json", "-", "--frames", "3:50")
     assert_same(itk.estimate_sensor_noise(names, frame_range=(3, 50)).to_json(), expected)

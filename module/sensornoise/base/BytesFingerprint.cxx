@@ -71,7 +71,7 @@ FingerprintOfBlocks(const BytesFingerprint * begin, const BytesFingerprint * end
   Fingerprint second;
   for (const BytesFingerprint * block = begin; block != end; ++block)
   {
-    first.Add(&(*block)[0], 1);
+    first.Add(block->data(), 1);
     second.Add(&(*block)[1], 1);
   }
   return { first.GetValue(), second.GetValue() };

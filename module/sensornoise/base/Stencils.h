@@ -46,8 +46,8 @@ private:
 /** A central difference on 5 x 5 pixels. */
 struct Stencil
 {
-  const char * name;  ///< the derivatives that it takes: "x", "yy", "xxy", ...
-  int          order; ///< of the derivative, 1 to 3
+  const char * name{ nullptr }; ///< the derivatives that it takes: "x", "yy", "xxy", ...
+  int          order{ 0 };      ///< of the derivative, 1 to 3
   StencilTaps  taps;
 
   constexpr double

@@ -88,7 +88,7 @@ private:
   std::uint64_t m_End;
   std::size_t   m_Held{ 0 };
   std::size_t   m_Used{ 0 };
-  unsigned char m_Buffer[BufferBytes];
+  unsigned char m_Buffer[BufferBytes]{};
 };
 
 } // namespace sensornoise

@@ -4,11 +4,7 @@
 
 #include "sensornoise/files/FileBytes.h"
 #include "sensornoise/files/FileError.h"
-#include "sensornoise/files/MetaImageFile.h"
-#include "sensornoise/files/NrrdFile.h"
-#include "sensornoise/files/PngFile.h"
-#include "sensornoise/files/TiffDirectory.h"
-#include "sensornoise/files/TiffFile.h"
+#include "sensornoise/files/FrameFormats.h"
 
 #include <algorithm>
 #include <array>
@@ -17,12 +13,6 @@ namespace sensornoise
 {
 namespace
 {
-bool
-EndsWith(const std::string & text, const std::string & end)
-{
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
 /** What a file that cannot be checked is, where its beginning tells. */
 std::string
 OtherFormat(const std::string & head, const std::string & name)
@@ -49,7 +39,7 @@ OtherFormat(const std::string & head, const std::string & name)
       return std::string(signature.format) + ", which cannot be checked";
     }
   }
-  if (EndsWith(name, ".mha") || EndsWith(name, ".mhd"))
+  if (HasEnding(name, { ".mha", ".mhd" }))
   {
     return "no MetaImage, or damaged at its start";
   }
@@ -59,35 +49,14 @@ OtherFormat(const std::string & head, const std::string & name)
 void
 InspectByContents(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating)
 {
-  std::array<unsigned char, 512> buffer{};
-  const std::size_t              count = bytes.ReadSome(0, buffer.data(), buffer.size());
-  const std::string              head(buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(count));
-  if (head.rfind("\x89PNG\r\n\x1A\n", 0) == 0)
+  std::string head(512, '\0');
+  head.resize(bytes.ReadSome(0, head.data(), head.size()));
+  file.format = FindFrameFormat(head, file.name);
+  if (file.format == nullptr)
   {
-    InspectPng(bytes, file, beforeInflating);
+    throw FileError(file.name, OtherFormat(head, file.name) + "; expected " + NamesOfFrameFormats());
   }
-  else if (TiffBytes::IsTiff(buffer.data(), count))
-  {
-    InspectTiff(bytes, file, beforeInflating);
-  }
-  else if (head.rfind("NRRD", 0) == 0)
-  {
-    // ITK looks at the name, too
-    if (!EndsWith(file.name, ".nrrd") && !EndsWith(file.name, ".nhdr"))
-    {
-      throw FileError(file.name, "begins as a NRRD file; expected its name to end with .nrrd or .nhdr");
-    }
-    InspectNrrd(bytes, file, beforeInflating);
-  }
-  else if ((EndsWith(file.name, ".mha") || EndsWith(file.name, ".mhd")) &&
-           head.find_first_of("=:") != std::string::npos)
-  {
-    InspectMetaImage(bytes, file, beforeInflating);
-  }
-  else
-  {
-    throw FileError(file.name, OtherFormat(head, file.name) + "; expected TIFF, PNG, MetaImage or NRRD");
-  }
+  file.format->inspect(bytes, file, beforeInflating);
 }
 } // namespace
 

@@ -15,16 +15,7 @@
 namespace sensornoise
 {
 
-/** What a file is by its contents: the ImageIO of ITK that has to read it is that of this name, with "ImageIO" behind
- * it (NrrdImageIO for Nrrd). */
-enum class FrameFormat
-{
-  MetaImage,
-  Nrrd,
-  Tiff,
-  Png,
-  Other // never told by InspectFrameFile(): what cannot be checked is refused
-};
+struct FrameFormat;
 
 /** The component types that a stack may have. */
 enum class FramePixel
@@ -39,13 +30,14 @@ enum class FramePixel
 /** What a file of a frame or of a stack says of itself, after it was found to be whole. */
 struct FrameFile
 {
-  std::string   name{};
-  FrameFormat   format{ FrameFormat::Other };
-  std::size_t   width{ 0 };  // [pixels]
-  std::size_t   height{ 0 }; // [pixels]
-  std::size_t   frames{ 0 }; // 1 where the file is a single frame
-  FramePixel    pixel{ FramePixel::UnsignedChar };
-  std::uint64_t bytes{ 0 }; // of its pixels, uncompressed
+  std::string name{};
+  /** What it is by its contents, a line of FrameFormats(); never null after InspectFrameFile(). */
+  const FrameFormat * format{ nullptr };
+  std::size_t         width{ 0 };  // [pixels]
+  std::size_t         height{ 0 }; // [pixels]
+  std::size_t         frames{ 0 }; // 1 where the file is a single frame
+  FramePixel          pixel{ FramePixel::UnsignedChar };
+  std::uint64_t       bytes{ 0 }; // of its pixels, uncompressed
 
   /** Of a PNG whose sBIT chunk says that fewer bits than it has are significant: their number, else 0. ITK shifts such
    * codes down by the others, which are 0 (or the file is refused): shifted up again they are what the file holds. */

@@ -66,7 +66,7 @@ private:
   bool                             m_Ended{ false };
   std::string                      m_Error;
   std::unique_ptr<Stream>          m_Stream;
-  std::array<unsigned char, 65536> m_Out;
+  std::array<unsigned char, 65536> m_Out{};
 };
 
 /** Adds the bytes [offset, offset + count) of the file. */

@@ -4,6 +4,7 @@
 
 #include "sensornoise/files/DataFile.h"
 #include "sensornoise/files/FileError.h"
+#include "sensornoise/files/FrameFormats.h"
 #include "sensornoise/files/FrameSizes.h"
 #include "sensornoise/files/MetaImageHeader.h"
 #include "sensornoise/files/MetaImagePlaces.h"
@@ -111,12 +112,18 @@ CheckMetaImageMeaning(const std::string & file, const MetaImageHeader & header)
 
 } // namespace
 
+bool
+IsHeadOfMetaImage(const std::string & head, const std::string & name)
+{
+  return HasEnding(name, { ".mha", ".mhd" }) && head.find_first_of("=:") != std::string::npos &&
+         head.rfind("NRRD", 0) != 0;
+}
+
 void
 InspectMetaImage(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating)
 {
   const MetaImageHeader header = ReadMetaImageHeader(file.name, bytes);
   CheckMetaImageMeaning(file.name, header);
-  file.format = FrameFormat::MetaImage;
   file.pixel = PixelOfMetaImage(file.name, header.Field("ElementType"));
   std::vector<std::uint64_t> sizes;
   for (const std::string & word : WordsOf(header.Field("DimSize")))

@@ -6,8 +6,14 @@
 #include "sensornoise/files/FileBytes.h"
 #include "sensornoise/files/FrameFile.h"
 
+#include <string>
+
 namespace sensornoise
 {
+
+/** Whether a file may be a MetaImage, which has no mark of its own: its name ends as one, and fields begin. */
+bool
+IsHeadOfMetaImage(const std::string & head, const std::string & name);
 
 /** Fills in what a MetaImage says of itself. \a file has its name and identity. Throws FileError unless all of its
  * pixels are there, in the file or in data files, and unless MetaIO reads them as they are. */

@@ -4,6 +4,7 @@
 
 #include "sensornoise/files/DataFile.h"
 #include "sensornoise/files/FileError.h"
+#include "sensornoise/files/FrameFormats.h"
 #include "sensornoise/files/FrameSizes.h"
 #include "sensornoise/files/NrrdHeader.h"
 #include "sensornoise/files/TextHeader.h"
@@ -192,11 +193,20 @@ IsGzip(const FrameFile & file, const NrrdHeader & header)
 }
 } // namespace
 
+bool
+IsHeadOfNrrd(const std::string & head, const std::string & /*name*/)
+{
+  return head.rfind("NRRD", 0) == 0;
+}
+
 void
 InspectNrrd(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating)
 {
+  if (!HasEnding(file.name, { ".nrrd", ".nhdr" })) // ITK looks at the name, too
+  {
+    throw FileError(file.name, "begins as a NRRD file; expected its name to end with .nrrd or .nhdr");
+  }
   const NrrdHeader header = ReadNrrdHeader(file.name, bytes);
-  file.format = FrameFormat::Nrrd;
   file.pixel = PixelOfNrrd(file.name, header);
   const std::vector<std::uint64_t> sizes = SizesOfNrrd(file.name, header);
   CheckKinds(file.name, header, sizes);

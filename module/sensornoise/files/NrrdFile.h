@@ -6,8 +6,14 @@
 #include "sensornoise/files/FileBytes.h"
 #include "sensornoise/files/FrameFile.h"
 
+#include <string>
+
 namespace sensornoise
 {
+
+/** Whether a file begins as a NRRD file, whatever its name. */
+bool
+IsHeadOfNrrd(const std::string & head, const std::string & name);
 
 /** Fills in what a NRRD file says of itself. \a file has its name and identity. Throws FileError unless all of its
  * pixels are there, raw or in a stream of gzip that is whole, in the file or in data files, and unless NrrdIO reads

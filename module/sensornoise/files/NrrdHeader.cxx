@@ -77,7 +77,7 @@ AddNrrdField(const std::string & file, const TextHeader & text, const std::strin
   }
   const std::string place = "line " + std::to_string(text.LineNumber()) + " of its header ";
   const std::size_t colon = line.find(": ");
-  const std::string name = colon == std::string::npos ? "" : FieldNamed(line.substr(0, colon));
+  std::string       name = colon == std::string::npos ? "" : FieldNamed(line.substr(0, colon));
   if (name.empty())
   {
     if (line.find(":=") == std::string::npos)

@@ -42,7 +42,7 @@ PngChunks::Next()
     throw FileError(m_File, "truncated: " + size + " without the IEND chunk that ends a PNG file");
   }
   m_Bytes.Read(m_Offset, head.data(), head.size());
-  const PngChunk chunk{ std::string(head.begin() + 4, head.end()), m_Offset + 8, PngNumber(head.data()) };
+  PngChunk chunk{ std::string(head.begin() + 4, head.end()), m_Offset + 8, PngNumber(head.data()) };
   if (!std::all_of(head.begin() + 4, head.end(), IsLetter))
   {
     throw FileError(m_File,

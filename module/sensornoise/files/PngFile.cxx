@@ -228,10 +228,15 @@ private:
 };
 } // namespace
 
+bool
+IsHeadOfPng(const std::string & head, const std::string & /*name*/)
+{
+  return head.rfind("\x89PNG\r\n\x1A\n", 0) == 0;
+}
+
 void
 InspectPng(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating)
 {
-  file.format = FrameFormat::Png;
   PngInspection(bytes, file, beforeInflating).Run();
 }
 

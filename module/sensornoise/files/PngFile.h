@@ -6,8 +6,14 @@
 #include "sensornoise/files/FileBytes.h"
 #include "sensornoise/files/FrameFile.h"
 
+#include <string>
+
 namespace sensornoise
 {
+
+/** Whether a file begins as a PNG. */
+bool
+IsHeadOfPng(const std::string & head, const std::string & name);
 
 /** Fills in what a PNG file says of itself. \a file has its name and identity. Throws FileError unless all of its
  * chunks are there, in the right order and with the right checksums, and its pixels are grey values of 8 or 16 bits

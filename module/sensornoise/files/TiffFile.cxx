@@ -90,7 +90,6 @@ public:
   void
   Run()
   {
-    m_File.format = FrameFormat::Tiff;
     std::uint64_t offset = m_Tiff.FirstDirectory();
     for (; offset != 0; ++m_Pages)
     {
@@ -195,6 +194,12 @@ private:
   std::uint64_t                     m_Full{ 0 };
 };
 } // namespace
+
+bool
+IsHeadOfTiff(const std::string & head, const std::string & /*name*/)
+{
+  return TiffBytes::IsTiff(reinterpret_cast<const unsigned char *>(head.data()), head.size());
+}
 
 void
 InspectTiff(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating)

@@ -6,8 +6,14 @@
 #include "sensornoise/files/FileBytes.h"
 #include "sensornoise/files/FrameFile.h"
 
+#include <string>
+
 namespace sensornoise
 {
+
+/** Whether a file begins as a TIFF, or a BigTIFF, of either byte order. */
+bool
+IsHeadOfTiff(const std::string & head, const std::string & name);
 
 /** Fills in what a TIFF, or a BigTIFF, says of itself. \a file has its name and identity. Throws FileError unless its
  * pages are all there, of one size and kind, each a frame for ITK, and TiffStrips has nothing against them. */

@@ -35,6 +35,7 @@ struct CodeRange
   {
     return steps.IsCompanded() ? steps.StepAt(levelDn) : quantisationStepDn;
   }
+  /** Whether a pixel with these extremes over time attains a clip level. */
   bool
   IsClipped(double minimumDn, double maximumDn) const
   {

@@ -57,7 +57,7 @@ UnitOf(const std::vector<CodeDistance> & distances)
 /** Steps along the level, of some neighbouring distances. */
 struct Stretch
 {
-  CodeSteps::Local middle;
+  CodeSteps::Local middle{};
   double           slope{ 0.0 };    ///< of the step [1]
   double           addedDn2{ 0.0 }; ///< by rounding to the unit after the codes were expanded
 

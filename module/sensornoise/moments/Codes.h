@@ -20,11 +20,13 @@ class SensorNoise_EXPORT CodeHistogram
 {
 public:
   CodeHistogram();
+  /** Counts a pixel whose extreme is \a code, a whole number from -32768 to 65535 [DN]. */
   void
   Add(double code)
   {
     ++m_Counts[static_cast<std::size_t>(static_cast<std::int32_t>(code) + LowestCode)];
   }
+  /** Pixels whose extreme is \a code. */
   std::uint32_t
   Count(std::int32_t code) const
   {

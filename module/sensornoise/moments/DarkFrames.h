@@ -16,7 +16,7 @@
 namespace sensornoise
 {
 
-/** A mean and its standard error. */
+/** A mean and its standard error, in the unit of the values. */
 struct MeanOfPixels
 {
   double value{ 0.0 };

@@ -36,12 +36,13 @@ public:
   {
     return m_Count;
   }
+  /** The first frame that frame \a t of the stack as given equals, from 0. */
   std::size_t
   OriginalOf(std::size_t t) const
   {
     return m_Originals[t];
   }
-  /** Of frame \a t's original, from 0. */
+  /** The place of frame \a t's original among the distinct frames, from 0. */
   std::size_t
   PlaceOf(std::size_t t) const
   {

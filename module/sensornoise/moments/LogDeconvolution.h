@@ -24,8 +24,8 @@ using LogBins = std::array<double, NumberOfLogBins>;
  * too. */
 struct LogBinning
 {
-  double      low;   ///< lower end of the first bin
-  double      width; ///< of a bin
+  double      low;   ///< lower end of the first bin: logarithm of a variance in DN^2
+  double      width; ///< of a bin, in the same logarithm
   std::size_t first; ///< the lowest bin in use; holds what is below it, too
 
   std::size_t

@@ -18,12 +18,12 @@ struct PixelLight;
 /** The offset from the pixels' responses to the series of light. */
 struct LocalOffset
 {
-  double      offset{ 0.0 }; ///< [DN], minus the centre
-  double      standardError{ std::numeric_limits<double>::infinity() };
-  double      low{ -std::numeric_limits<double>::infinity() };
-  double      high{ std::numeric_limits<double>::infinity() };
+  double      offset{ 0.0 };                                            ///< [DN], minus the centre
+  double      standardError{ std::numeric_limits<double>::infinity() }; ///< [DN]
+  double      low{ -std::numeric_limits<double>::infinity() };          ///< 95 % interval [DN], minus the centre
+  double      high{ std::numeric_limits<double>::infinity() };          ///< its other end [DN]
   double      phi{ 1.0 }; ///< dispersion of the lines about the common zero; 1 if they meet there but for noise
-  std::size_t tiles{ 0 };
+  std::size_t tiles{ 0 }; ///< that tell it
 };
 
 /** The offset where light is local. A pixel's response to any series of light is its own light's, S_j = rho_j (mean -

@@ -22,10 +22,10 @@ struct ScaledCurve
 {
   std::vector<double> level;
   std::vector<double> pixels;
-  double              lineAtDarkest; // [DN^2]
-  double              lineRise;      // from the darkest to the brightest [DN^2]
-  double              rangeDn;
-  double              darkestLightDn; // of the darkest level above the offset; 0: little
+  double              lineAtDarkest{ 0.0 }; // [DN^2]
+  double              lineRise{ 0.0 };      // from the darkest to the brightest [DN^2]
+  double              rangeDn{ 0.0 };
+  double              darkestLightDn{ 0.0 }; // of the darkest level above the offset; 0: little
 };
 
 double

@@ -22,16 +22,16 @@ struct PixelLight
   const ProjectedVariance &         projected;
   const VarianceLine &              line;
   const std::vector<std::uint8_t> & mask;
-  double                            centreDn;  ///< the level that is subtracted from the means
-  double                            darkestDn; ///< quantile of the means
-  double                            rangeDn;   ///< from the darkest to the brightest quantile
+  double                            centreDn;  ///< the level that is subtracted from the means [DN]
+  double                            darkestDn; ///< quantile of the means [DN]
+  double                            rangeDn;   ///< from the darkest to the brightest quantile [DN]
 };
 
 /** A way to cut the frame into tiles, within which local light has one pattern. */
 struct Tiles
 {
-  std::size_t height; ///< of a tile
-  std::size_t width;
+  std::size_t height; ///< of a tile [pixels]
+  std::size_t width;  ///< of a tile [pixels]
   std::size_t across; ///< tiles side by side
 
   /** The tile of pixel \a p of frames of \a frameWidth columns. */

@@ -65,7 +65,7 @@ public:
     m_CodeNoise = noise;
   }
 
-  /** Computes the variance; \a gain serves the noise that changes with the light. */
+  /** Computes the variance; \a gain [DN/e-] serves the noise that changes with the light. */
   void
   Compute(double gain);
 
@@ -81,11 +81,13 @@ public:
   {
     return std::move(m_Variance);
   }
+  /** Degrees of freedom of every pixel's variance, leverage taken off; 0 outside the mask. */
   const std::vector<float> &
   GetFreedom() const
   {
     return m_Freedom;
   }
+  /** The class of roughness of pixel \a p, from 0, flat, to Classes - 1. */
   std::uint8_t
   ClassOf(std::size_t p) const
   {

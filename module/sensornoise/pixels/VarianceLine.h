@@ -19,16 +19,16 @@ struct VarianceData
   const double *       neighbourMean; ///< mean of the 8 neighbours [DN]
   const double *       variance;      ///< unbiased [DN^2]
   const float *        freedom;       ///< degrees of freedom of the variance
-  const std::uint8_t * mask;
+  const std::uint8_t * mask;          ///< nonzero at the pixels that count
   std::size_t          pixels;
 };
 
 /** variance = intercept + gain mean, and how sure. */
 struct VarianceLine
 {
-  double          gain{ 0.0 };
-  double          intercept{ 0.0 };
-  double          lowestDn2{ 0.0 };                      ///< the line is cut there where it serves as a variance
+  double          gain{ 0.0 };                           ///< [DN/e-]
+  double          intercept{ 0.0 };                      ///< [DN^2]
+  double          lowestDn2{ 0.0 };                      ///< the line is cut there where it serves as a variance [DN^2]
   Eigen::Matrix2d covariance{ Eigen::Matrix2d::Zero() }; ///< of (gain, intercept), sandwich
   double          weightSum{ 0.0 };                      ///< of the weights
   double          pivotDn{ 0.0 };       ///< weighted mean of the means: slope and value there are uncorrelated
@@ -41,6 +41,7 @@ struct VarianceLine
   double          noiseSpreadDn4{ 0.0 };  ///< variance from pixel to pixel of their own noise's variance
   bool            isDetermined{ false };
 
+  /** The line's value, or lowestDn2 where it is below that [DN^2]. */
   double
   At(double meanDn) const
   {

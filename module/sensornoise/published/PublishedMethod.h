@@ -35,7 +35,8 @@ namespace sensornoise
    PublishedMethod<unsigned short> method(settings, geometry, frames);
    for (unsigned int pass = 0; pass < method.NumberOfPasses; ++pass)
    {
-     method.AddFrames(chunk, count); // for each chunk, in order
+     for (const auto & chunk : chunks) // of consecutive frames, all of the stack in every pass
+       method.AddFrames(chunk.pixels, chunk.frames);
      method.EndPass();
    }
    method.GetReport();
@@ -53,18 +54,21 @@ class PublishedMethod
 public:
   static constexpr unsigned int NumberOfPasses = 3;
 
-  /** \a mask, if given, has a nonzero value at the pixels to be used; \a parallelFor spreads the work. */
+  /** \a mask, if given, has a nonzero value at the pixels to be used; \a parallelFor spreads the work. Throws
+   * std::invalid_argument for settings out of range, see PublishedSettings::Validate(), and for a stack or a mask that
+   * RequireStack() refuses. */
   PublishedMethod(const PublishedSettings &         settings,
                   const FrameGeometry &             geometry,
                   std::size_t                       frames,
                   const std::vector<std::uint8_t> & mask = {},
                   ParallelFor                       parallelFor = SerialFor);
 
-  /** Adds the next \a frames frames of the current pass, stored one after the other. */
+  /** Adds the next \a frames frames of the current pass, stored one after the other. Throws std::logic_error if there
+   * are not so many left. */
   void
   AddFrames(const TPixel * chunk, std::size_t frames);
 
-  /** Ends the current pass. */
+  /** Ends the current pass. Throws std::logic_error if a frame is missing. */
   void
   EndPass();
 

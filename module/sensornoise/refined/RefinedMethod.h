@@ -41,8 +41,7 @@ namespace sensornoise
  * regression on the mean gives gain and intercept. Usage as PublishedMethod.
  *
  * Frames that are equal, bit by bit, are counted once: the result is that of the distinct frames, and the report's
- series
- * repeat the values of a frame's original.
+ * series repeat the values of a frame's original.
  *
  * Same bits for any number of threads and any chunks. Memory: about 130 bytes a pixel and 8 more a series (4 to 20), 20
  * kB a frame. A stack that cannot be measured (NothingToMeasure) ends in a report whose quantities are `failed`, with a
@@ -73,14 +72,17 @@ class RefinedMethod
 public:
   static constexpr unsigned int NumberOfPasses = 3;
 
-  /** \a mask, if given, has a nonzero value at the pixels to be used; \a parallelFor spreads the work. */
+  /** \a mask, if given, has a nonzero value at the pixels to be used; \a parallelFor spreads the work. Throws
+   * std::invalid_argument for settings out of range, see RefinedSettings::Validate(), and for a stack or a mask that
+   * RequireStack() refuses. */
   RefinedMethod(const RefinedSettings &           settings,
                 const FrameGeometry &             geometry,
                 std::size_t                       frames,
                 const std::vector<std::uint8_t> & mask = {},
                 ParallelFor                       parallelFor = SerialFor);
 
-  /** Adds the next \a frames frames of the current pass, stored one after the other. */
+  /** Adds the next \a frames frames of the current pass, stored one after the other. Throws std::logic_error if there
+   * are not so many left. */
   void
   AddFrames(const TPixel * chunk, std::size_t frames);
 
@@ -98,7 +100,7 @@ public:
   void
   MergeSums(std::istream & in);
 
-  /** Ends the current pass. */
+  /** Ends the current pass. Throws std::logic_error if a frame is missing. */
   void
   EndPass();
 

@@ -22,7 +22,7 @@ struct RefinedResults
   const StaticVariance &      variance;          ///< of the third
   const PolishedSeries &      polished;          ///< of the second's sums, with the third's noise
   const std::vector<double> & correctedVariance; ///< NaN where it was not computed [DN^2]
-  double                      blackDn;           ///< see BlackLevel()
+  double                      blackDn{ 0.0 };    ///< see BlackLevel()
   NoiseCorrelation            correlation{};     ///< of the third pass's sample
 
   /** Whether the light changes in some places in another way than in others. */

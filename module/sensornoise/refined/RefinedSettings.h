@@ -40,8 +40,7 @@ struct SensorNoise_EXPORT RefinedSettings
   Validate() const;
 
   /** Throws std::invalid_argument if the offset, or its standard error, is further from 0 than \a limitDn [DN], which
-   * is
-   * \a whatOf the data. */
+   * is \a whatOf the data. */
   void
   RequireOffsetWithin(double limitDn, const std::string & whatOf) const;
 };

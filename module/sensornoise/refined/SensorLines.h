@@ -17,14 +17,15 @@ namespace sensornoise
  * frames shared it. */
 struct SensorLines
 {
-  VarianceLine  all;
-  VarianceLine  fromLight;
-  VarianceLine  fromFlat;
-  VarianceCurve curve;
+  VarianceLine  all;       ///< through all pixels that fit a static scene
+  VarianceLine  fromLight; ///< by light alone, see FitLightLine(); may be not determined
+  VarianceLine  fromFlat;  ///< through the smoother half of the pixels, see FitFlatHalf()
+  VarianceCurve curve;     ///< how the variance departs from its line
   /** Of gain and intercept: what is not known of what is shared. */
   Eigen::Matrix2d errorOfShared{ Eigen::Matrix2d::Zero() };
 };
 
+/** The lines of the variance as it is. */
 SensorNoise_EXPORT SensorLines
 LinesOf(const StaticVariance & variance);
 
@@ -33,8 +34,8 @@ LinesOf(const StaticVariance & variance);
 SensorNoise_EXPORT double
 FilterFactor(const NoiseCorrelation & correlation);
 
-/** The variance of a pixel before a filter, which the codes' noise has not passed, without that of its row and column.
- */
+/** The variance of a pixel before a filter, which the codes' noise, \a codesDn2, has not passed, without that of its
+ * row and column [DN^2]. */
 inline double
 VarianceOfSensor(double varianceDn2, const NoiseCorrelation & correlation, double codesDn2)
 {

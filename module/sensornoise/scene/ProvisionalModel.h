@@ -22,16 +22,16 @@ namespace sensornoise
  * an estimate that is reported. Estimator.md, 3.2. */
 struct ProvisionalModel
 {
-  double darkestDn{ 0.0 };   ///< darkest quantile of the mean of the usable pixels
-  double brightestDn{ 0.0 }; ///< the brightest
-  double centreDn{ 0.0 };    ///< mean of the usable pixels, about which the regressions are centred
+  double darkestDn{ 0.0 };   ///< darkest quantile of the mean of the usable pixels [DN]
+  double brightestDn{ 0.0 }; ///< the brightest [DN]
+  double centreDn{ 0.0 };    ///< mean of the usable pixels, about which the regressions are centred [DN]
 
-  double interceptDn2{ 0.0 };      ///< variance at the darkest level
-  double slopeDn{ 0.0 };           ///< about the gain
-  double flickerVariance{ 0.0 };   ///< about sigma_gamma^2
-  double vibrationXPixels2{ 0.0 }; ///< about sigma_alpha^2
-  double vibrationYPixels2{ 0.0 };
-  double vibrationXY{ 0.0 };
+  double interceptDn2{ 0.0 };      ///< variance at the darkest level [DN^2]
+  double slopeDn{ 0.0 };           ///< about the gain [DN/e-]
+  double flickerVariance{ 0.0 };   ///< about sigma_gamma^2 [1]
+  double vibrationXPixels2{ 0.0 }; ///< about sigma_alpha^2 [pixel^2]
+  double vibrationYPixels2{ 0.0 }; ///< about sigma_beta^2 [pixel^2]
+  double vibrationXY{ 0.0 };       ///< about sigma_alpha,beta [pixel^2]
 
   /** Ratio of raw to modelled variance above which a pixel is not explained. */
   double largestRatio{ 0.0 };
@@ -42,7 +42,7 @@ struct ProvisionalModel
   {
     return interceptDn2 + slopeDn * std::max(0.0, neighbourMeanDn - darkestDn);
   }
-  /** What motion adds at a gradient [DN^2]. */
+  /** What motion adds at a gradient, \a gx and \a gy in DN/pixel [DN^2]. */
   double
   MotionVariance(double gx, double gy) const
   {

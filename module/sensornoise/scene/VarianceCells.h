@@ -26,10 +26,10 @@ enum class CellFit : std::uint8_t
 /** All cells, compared with a model. The shares are of the pixels of the cells that tell, and add up to 1. */
 struct JudgedCells
 {
-  std::vector<CellFit> fits; ///< row after row of cells
-  double               fitting{ 0.0 };
-  double               below{ 0.0 };
-  double               above{ 0.0 };
+  std::vector<CellFit> fits;           ///< row after row of cells
+  double               fitting{ 0.0 }; ///< [1]
+  double               below{ 0.0 };   ///< [1]
+  double               above{ 0.0 };   ///< [1]
 };
 
 /** How the cells above a model change, if it is by light: every pixel in proportion to its level. */

@@ -33,7 +33,10 @@ class SensorNoise_EXPORT FrameProducts
 public:
   using ColumnVector = Eigen::Matrix<double, FrameColumns, 1>;
 
+  /** Of frames of \a pixels pixels, parted into \a cells cells; all products are 0. */
   FrameProducts(std::size_t pixels, std::size_t frames, std::size_t cells);
+
+  /** The products of frame \a t with the columns over the pixels of a gradient class: R[t][class][k] of FrameSums. */
 
   ColumnVector &
   OfClass(std::size_t t, std::size_t gradientClass)
@@ -45,6 +48,7 @@ public:
   {
     return m_ClassSums[t * GradientClasses + gradientClass];
   }
+  /** The products of frame \a t with the two instruments, over all pixels: see SolveShifts(). */
   std::array<double, 2> &
   OfInstruments(std::size_t t)
   {
@@ -55,6 +59,7 @@ public:
   {
     return m_InstrumentSums[t];
   }
+  /** The products of frame \a t with 1 and the mean minus the centre over cell \a c: see LocalIllumination. */
   std::array<double, 2> &
   OfCell(std::size_t t, std::size_t c)
   {
@@ -66,7 +71,7 @@ public:
     return m_CellSums[t * m_Cells + c];
   }
 
-  /** Adds the products of other frames of the same stack. */
+  /** Adds the products of other frames of the same stack. Throws std::invalid_argument if the sizes differ. */
   void
   Merge(const FrameProducts & other);
 

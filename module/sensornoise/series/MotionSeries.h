@@ -15,8 +15,8 @@
 namespace sensornoise
 {
 
-/** Coefficients of the derivatives of the mean in every frame: each about (1 + gamma_t) times a monomial of the shift.
- */
+/** Coefficients of the derivatives of the mean in every frame: each about (1 + gamma_t) times a monomial of the shift,
+ * of the order of the derivative [pixel^order]. */
 struct SensorNoise_EXPORT MotionSeries
 {
   std::vector<std::size_t> stencils;     ///< which derivatives, indices in MotionStencils()
@@ -36,8 +36,8 @@ SolveMotion(const FrameEquations & equations, const std::vector<double> & gamma,
 /** Shifts of every frame times (1 + gamma_t), from instruments. */
 struct InstrumentShifts
 {
-  Eigen::MatrixX2d coefficients; ///< frames x (x, y)
-  Eigen::Matrix2d  covariance;   ///< of one frame's
+  Eigen::MatrixX2d coefficients; ///< frames x (x, y) [pixel]
+  Eigen::Matrix2d  covariance;   ///< of one frame's [pixel^2]
 };
 
 /** Sums of what noise does to the instruments: of w V, and of z z' V, z the instruments with their weights. */

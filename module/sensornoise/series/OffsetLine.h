@@ -23,13 +23,13 @@ namespace sensornoise
 /** Offset and flicker, from the line on which the frames' changes of light lie. */
 struct SensorNoise_EXPORT OffsetLine
 {
-  double offset{ 0.0 }; ///< mu minus the centre of the regression [DN]
-  double standardError{ std::numeric_limits<double>::infinity() };
-  double low{ -std::numeric_limits<double>::infinity() }; ///< 95 % interval, may be unbounded
-  double high{ std::numeric_limits<double>::infinity() };
-  double phi{ 1.0 };       ///< dispersion about the line; 1: nothing but noise
+  double offset{ 0.0 };                                            ///< mu minus the centre of the regression [DN]
+  double standardError{ std::numeric_limits<double>::infinity() }; ///< of the offset [DN]
+  double low{ -std::numeric_limits<double>::infinity() };          ///< 95 % interval, may be unbounded [DN]
+  double high{ std::numeric_limits<double>::infinity() };          ///< its other end [DN]
+  double phi{ 1.0 };                                               ///< dispersion about the line; 1: nothing but noise
   double flickerZ{ 0.0 };  ///< how far the flicker exceeds its noise, in standard deviations
-  double precision{ 0.0 }; ///< inverse variance of one gamma_t
+  double precision{ 0.0 }; ///< inverse variance of one gamma_t [1]
   /** Of what the levels differ by, the share that is not the noise of their means [1]; 0: the scene has one level. */
   double              contrast{ 0.0 };
   double              sensitivity{ 0.0 }; ///< relative change of gamma_t with the offset [1/DN]
@@ -48,6 +48,7 @@ struct SensorNoise_EXPORT OffsetLine
     return flickerZ > InCommon.requiredFlickerZ && contrast > InSeries.leastContrast && std::isfinite(low);
   }
 
+  /** What the dispersion widens variances by [1]; 1: by nothing, chance makes it smaller at times. */
   double
   Widening() const
   {

@@ -16,7 +16,7 @@
 namespace sensornoise
 {
 
-/** The derivative of the mean by stencil \a k, smoothed. */
+/** The derivative of the mean by stencil \a k, smoothed [DN/pixel for the first derivatives], of all pixels. */
 SensorNoise_EXPORT std::vector<double>
 SmoothedDerivative(const ReferenceFrame & frame, StencilIndex k, const ParallelFor & parallelFor);
 

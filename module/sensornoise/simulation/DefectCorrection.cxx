@@ -16,7 +16,7 @@ namespace
 /** What surrounds a pixel. */
 struct Neighbourhood
 {
-  std::array<double, 8> values;
+  std::array<double, 8> values{};
   std::size_t           count{ 0 };
 
   Neighbourhood(const DoubleFrame & frame, std::size_t centreX, std::size_t centreY)

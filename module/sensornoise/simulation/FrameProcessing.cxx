@@ -24,7 +24,11 @@ MoveCharge(DoubleFrame charge, const SensorFlaws & flaws, const ParallelFor & pa
 DoubleFrame
 ProcessBeforeTemporalFilter(DoubleFrame codesDn, const SensorFlaws & flaws, const ParallelFor & parallelFor)
 {
-  return flaws.defectCorrection.IsOn() ? CorrectDefects(codesDn, flaws.defectCorrection, parallelFor) : codesDn;
+  if (flaws.defectCorrection.IsOn())
+  {
+    codesDn = CorrectDefects(codesDn, flaws.defectCorrection, parallelFor);
+  }
+  return codesDn;
 }
 
 DoubleFrame

@@ -103,7 +103,7 @@ GaussianBlur(const std::vector<double> & image,
              double                      sdPixels,
              const ParallelFor &         parallelFor)
 {
-  const auto          radius = static_cast<std::ptrdiff_t>(4.0 * sdPixels + 0.5);
+  const auto          radius = static_cast<std::ptrdiff_t>(std::lround(4.0 * sdPixels));
   std::vector<double> kernel;
   double              sum = 0.0;
   for (std::ptrdiff_t k = -radius; k <= radius; ++k)

@@ -12,7 +12,8 @@
 
 /** \file
  * Reference images to simulate a burst from, made by program: nothing to download, any size. An image is a vector of
- * doubles, row after row; the scenes below have values in [0, 1]. */
+ * doubles, row after row; the scenes below have values in [0, 1]. Each throws std::invalid_argument for a smaller size
+ * than it needs. */
 
 namespace sensornoise
 {

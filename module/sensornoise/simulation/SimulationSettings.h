@@ -26,7 +26,7 @@ struct CameraModel
   double readNoiseDn{ 8.0 };
 };
 
-/** Cameras A, B and C of Table 1. */
+/** Camera "A", "B" or "C" of Table 1. \throws std::invalid_argument for another name. */
 SensorNoise_EXPORT CameraModel
 PaperCamera(char name);
 
@@ -41,7 +41,7 @@ struct SceneConditions
   double vibrationSdYPixels{ 0.02 };
 };
 
-/** Experimental conditions 1, 2 and 3 of Table 1. */
+/** Experimental condition 1, 2 or 3 of Table 1. \throws std::invalid_argument for another number. */
 SensorNoise_EXPORT SceneConditions
 PaperConditions(int number);
 

@@ -32,10 +32,9 @@ namespace sensornoise
  * rolling shutter, saturation and floor, PRNU, DSNU and hot pixels (SimulationSettings), and those of SensorFlaws.
  *
  * A row is a pure function of (settings, frame, row): rows may be drawn in any order and by any number of threads.
- Where
- * flaws mix the rows of a frame or the frames (NeedsWholeFrames()), the same holds for whole frames, RenderFrame(). The
- * simulator holds one frame of doubles, and one more for each kind of fixed pattern (efficiency, gain, offset, read
- * noise) and for the temporal filter, never the stack.
+ * Where flaws mix the rows of a frame or the frames (NeedsWholeFrames()), the same holds for whole frames:
+ * RenderFrame(). The simulator holds one frame of doubles, and one more for each kind of fixed pattern (efficiency,
+ * gain, offset, read noise) and for the temporal filter, never the stack.
  *
    \code
    const StackSimulator simulator(MakeTargetScene(512, 512), 512, 512, SimulationSettings{});

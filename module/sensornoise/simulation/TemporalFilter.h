@@ -50,7 +50,7 @@ public:
 private:
   struct State
   {
-    std::size_t frame;
+    std::size_t frame{ 0 };
     DoubleFrame output;
   };
 

@@ -34,7 +34,7 @@ class NoiseCorrelation(Record):
 
     @property
     def kind(self) -> str:
-        """ "white", "crosstalk", "filtered", "temporal", "brighter-fatter", "not-linear" or "not-measured"."""
+        """One of "white", "crosstalk", "filtered", "temporal", "brighter-fatter", "not-linear" or "not-measured"."""
         kind: str = self["noise_correlation"]["kind"]
         return kind
 

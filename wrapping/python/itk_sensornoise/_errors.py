@@ -27,7 +27,7 @@ def cause_of(error: BaseException) -> str:
 
 @contextmanager
 def itk_errors(context: str = "", kind: type[Exception] = RuntimeError) -> Iterator[None]:
-    """Raises what ITK throws as `kind`: the cause, one sentence, after `context`. ITK's own text is the cause of that."""
+    """Raises what ITK throws as `kind`: the cause, one sentence, after `context`. ITK's own text is its cause."""
     try:
         yield
     except (RuntimeError, TypeError, OverflowError) as error:

@@ -48,8 +48,8 @@ def open_frames(frames: Frames, frame_range: tuple[int, int] | None = None, name
     """The frames as a stack: arrays are shared, files are read later, a few at a time.
 
     An array that is not C-contiguous or not in the machine's byte order is copied once. Of a list, the files outside
-    `frame_range` (first, one past the last) are not opened; a stack is left whole. Raises ValueError, with the `name` of
-    the parameter, for anything else.
+    `frame_range` (first, one past the last) are not opened; a stack is left whole. Raises ValueError, with the `name`
+    of the parameter, for anything else.
     """
     if is_name(frames):
         return _from_files([frames], None)

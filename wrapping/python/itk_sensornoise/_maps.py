@@ -55,8 +55,8 @@ def require_apart(folder: Path, **read: object) -> None:
             for target in targets:
                 if target.exists() and target.samefile(os.fsdecode(name)):
                     raise ValueError(
-                        f"maps is {str(folder)!r}: {target} is the same file as {os.fsdecode(name)} of {role}, which is "
-                        "read; expected another folder"
+                        f"maps is {str(folder)!r}: {target} is the same file as {os.fsdecode(name)} of {role}, which "
+                        "is read; expected another folder"
                     )
 
 

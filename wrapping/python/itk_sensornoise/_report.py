@@ -74,8 +74,8 @@ class Report(Record):
 
     def plot(self, ax: "Axes | None" = None) -> "Figure":
         """Draws the temporal variance, as it is and corrected for flicker, against the mean, and the line through the
-        corrected one, as the paper's Figure 4: the noise curve of the camera. Where the gain is not identified, the line
-        is dashed and indicative; where the response bends, the legend says how much.
+        corrected one, as the paper's Figure 4: the noise curve of the camera. Where the gain is not identified, the
+        line is dashed and indicative; where the response bends, the legend says how much.
 
         ax: matplotlib's axes to draw into; default: those of a new figure of matplotlib.pyplot. Returns their figure,
         whose `axes` are all of its axes. Raises ImportError if matplotlib is not installed, ValueError if nothing was

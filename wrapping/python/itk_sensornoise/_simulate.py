@@ -247,7 +247,7 @@ def _set_flaws(source: ItkObject, flaws: dict[str, Any]) -> None:
             getattr(source, _NUMBERS[name])(_options.number(name, value))
         elif value is not None:
             expected, *setters = _PAIRS[name]
-            for setter, number in zip(setters, _options.numbers(name, value, 2, expected)):
+            for setter, number in zip(setters, _options.numbers(name, value, 2, expected), strict=True):
                 getattr(source, setter)(number)
 
 

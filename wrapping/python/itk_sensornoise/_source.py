@@ -34,7 +34,8 @@ def _new(pixel: str) -> ItkObject:
 
 def open_files(file_names: Sequence[FileName]) -> tuple[ItkObject, str]:
     """The source of files in time order, and its pixel type, a key of PIXEL_TYPES. All headers are checked; no pixel is
-    kept. Raises ValueError, in the words of C++, where a file is not what it should be; warns of one that is there twice."""
+    kept. Raises ValueError, in the words of C++, where a file is not what it should be; warns of one that is there
+    twice."""
     import itk
 
     # Any type will do to ask for the right one; what it found is handed on, so that nothing is checked twice.
@@ -74,8 +75,8 @@ def read_image(file_name: FileName, what: str) -> np.ndarray:
 def sensor_noise_frame_list_source(file_names: FileName | Sequence[FileName], *, ttype: ItkObject = None) -> ItkObject:
     """itk.SensorNoiseFrameListSource in functional style: frames on files as an itk.Image (x, y, t), all read.
 
-    `file_names`: 2-D images in time order, TIFF, PNG, MetaImage or NRRD, or the name of one stack. `ttype`: the type of
-    the image, itk.Image[itk.US, 3] for instance; default: that of the files, and nothing is converted.
+    `file_names`: 2-D images in time order, of the formats that README.md names, or the name of one stack. `ttype`: the
+    type of the image, itk.Image[itk.US, 3] for instance; default: that of the files, and nothing is converted.
 
     Raises ValueError for files that are not complete, not all alike or not of grey values, RuntimeError where their
     pixels cannot be read. To read a few frames at a time, use the class, as an input of a filter.

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/files/FrameFormats.h"
+
+#include "sensornoise/files/MetaImageFile.h"
+#include "sensornoise/files/NrrdFile.h"
+#include "sensornoise/files/PngFile.h"
+#include "sensornoise/files/TiffFile.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace sensornoise
+{
+
+const std::vector<FrameFormat> &
+FrameFormats()
+{
+  static const std::vector<FrameFormat> formats{
+    { "TIFF", "TIFFImageIO", "ITKIOTIFF", IsHeadOfTiff, InspectTiff },
+    { "PNG", "PNGImageIO", "ITKIOPNG", IsHeadOfPng, InspectPng },
+    { "MetaImage", "MetaImageIO", "ITKIOMeta", IsHeadOfMetaImage, InspectMetaImage },
+    { "NRRD", "NrrdImageIO", "ITKIONRRD", IsHeadOfNrrd, InspectNrrd },
+  };
+  return formats;
+}
+
+const FrameFormat *
+FindFrameFormat(const std::string & head, const std::string & name)
+{
+  const auto & formats = FrameFormats();
+  const auto   found = std::find_if(
+    formats.begin(), formats.end(), [&](const FrameFormat & format) { return format.isItsHead(head, name); });
+  return found == formats.end() ? nullptr : &*found;
+}
+
+bool
+HasEnding(const std::string & name, std::initializer_list<const char *> endings)
+{
+  return std::any_of(endings.begin(), endings.end(), [&](const std::string & ending) {
+    return name.size() >= ending.size() && name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
+  });
+}
+
+std::string
+NamesOfFrameFormats()
+{
+  const auto & formats = FrameFormats();
+  std::string  names = formats.front().name;
+  for (std::size_t k = 1; k < formats.size(); ++k)
+  {
+    names += std::string(k + 1 < formats.size() ? ", " : " or ") + formats[k].name;
+  }
+  return names;
+}
+
+} // namespace sensornoise
