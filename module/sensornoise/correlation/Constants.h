@@ -43,9 +43,10 @@ struct CorrelationConstants
    * coupling of 0.3 % makes 0.006 of it, the noise of a plain sample 0.0004 to 0.0007. */
   double leastCoefficient{ 0.002 };
   double anyZ{ 4.0 };
-  /** What the nearest four share together that is worth a word, relative to the variance of the bright pixels [1], and
-   * the standard errors by which it must exceed that [1]. Set by hand: a brighter-fatter effect of 2 % at full well
-   * makes 0.02. */
+  /** What the nearest four share together that is worth a word, relative to the variance of the bright pixels [1],
+   * and the standard errors by which it must exceed that [1]. Set by hand: a brighter-fatter effect of 2 % at full
+   * well makes 0.02. Half of nearestZ: chance is taken for shared noise, errors double in one of six cases; twice:
+   * the same. */
   double leastEffect{ 0.003 };
   double nearestZ{ 2.7 };
   /** Standard errors of what grows with the square of the light, and chi-square by which it straightens the variance,
@@ -64,7 +65,7 @@ struct CorrelationConstants
   int largestReach{ 5 };
   /** Of the error of the next ring, that it may hold where it is not seen [1]. Set by hand: intervals of smoothed
    * frames of 256 x 256 pixels hold the gain in 239 of 240 with 1, in 238 with 0.75; those of 512 x 512 in 18 of 20
-   * with 1, in 17 with 0.75, in 16 with half. */
+   * with 1, in 17 with 0.75, in 16 with half. Of brighter-fatter sensors twice makes errors 1.4 times as large. */
   double unseenErrors{ 0.75 };
   /** The same where it is left out because charge reaches less far [1]. Set by hand. */
   double unseenErrorsOfCharge{ 0.5 };

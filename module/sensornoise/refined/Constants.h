@@ -21,13 +21,15 @@ struct RefinedConstants
   /** Part of the usable pixels that a measurement needs [1]. Set by hand. */
   double leastUsedShare{ 0.1 };
   /** Departure of the variance from its line above which the data are not those of a sensor [1]: local gains that
-   * differ by 4 % make 0.03 to 0.1 of it, a gamma of 1.3 from 0.13 on. */
+   * differ by 4 % make 0.03 to 0.1 of it, a gamma of 1.3 from 0.13 on. Half: a shoulder of 4 % is refused; twice:
+   * the same. */
   double largestNonlinearity{ 0.12 };
   ///@}
 
   /** \name Errors of the gain */
   ///@{
-  /** Standard deviations by which chance may part two fits of the same data [1]. Set by hand. */
+  /** Standard deviations by which chance may part two fits of the same data [1]. Set by hand. Half: errors are a
+   * tenth larger; twice: the same. */
   double hausmanZ{ 2.0 };
   /** Vibration beyond which the expansion in derivatives fails, as a square [pixels^2], and what is then known of the
    * bias, relative to the gain, at the reference's square, with which it grows [1, pixels^2]. Measured by
@@ -40,7 +42,8 @@ struct RefinedConstants
    */
   double largestDispersion{ 4.0 };
   /** Sum of the squared coefficients from which areas are judged once more [1]. Set by hand: below, the scatter of
-   * their means grows by less than a twentieth. */
+   * their means grows by less than a twentieth. Half: errors of brighter-fatter sensors are 1.7 times as large;
+   * twice: gains of smoothed frames are 0.9 % low, errors twice as large. */
   double leastSharedSquares{ 1.1 };
   /** Pixels around an edge over which its surroundings' level is taken: 5 x 5 pixels, the border of usable pixels. */
   std::size_t edgeMargin{ 2 };

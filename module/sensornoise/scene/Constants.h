@@ -28,11 +28,10 @@ struct SceneConstants
   /** Part of the darkest levels' variance below which no variance is expected [1]. Set by hand: a fit may go below 0.
    */
   double leastShareOfDarkest{ 0.2 };
-  /** The intercept is at least this part of that quantile of the raw variances, and this part of the darkest bin's [1].
-   * Set by hand, for the same reason. */
+  /** The intercept is at least this part of that quantile of the raw variances [1]. Set by hand, for the same reason.
+   */
   double leastIntercept{ 0.3 };
   double quantileOfIntercept{ 0.001 };
-  double leastInterceptOfBin{ 1e-3 };
   /** Where the fit's slope is not positive, that part of the median variance over the mean light takes its place [1].
    * Set by hand. */
   double fallbackSlope{ 0.1 };

@@ -35,14 +35,9 @@ SetLevels(ProvisionalModel & model, const ReferenceFrame & frame, const std::vec
 }
 
 void
-SetCoefficients(ProvisionalModel &                   model,
-                const VarianceSample::Coefficients & theta,
-                const VarianceSample &               sample,
-                double                               lowest)
+SetCoefficients(ProvisionalModel & model, const VarianceSample::Coefficients & theta, const VarianceSample & sample)
 {
-  model.interceptDn2 = std::max({ theta(0),
-                                  InScene.leastIntercept * QuantileOf(sample.raw, InScene.quantileOfIntercept),
-                                  InScene.leastInterceptOfBin * lowest });
+  model.interceptDn2 = std::max(theta(0), InScene.leastIntercept * QuantileOf(sample.raw, InScene.quantileOfIntercept));
   const double averageRaw = QuantileOf(sample.raw, 0.5);
   const double averageX = std::max(1e-9, model.centreDn - model.darkestDn);
   model.slopeDn = theta(1) > 0.0 ? theta(1) / sample.scale : InScene.fallbackSlope * averageRaw / averageX;
@@ -75,7 +70,7 @@ FitProvisionalModel(const ReferenceFrame & frame)
     theta = SolveKept(sample, prediction);
     Predict(sample, theta, model.largestRatio, prediction);
   }
-  SetCoefficients(model, theta, sample, prediction.lowest);
+  SetCoefficients(model, theta, sample);
   return model;
 }
 

@@ -19,7 +19,7 @@ struct SeriesConstants
   /** Quantiles of the roughness that part the gradient classes [1]. Set by hand: the flat classes hold most pixels. */
   std::array<double, 5> classEdges{ { 0.4, 0.6, 0.75, 0.87, 0.95 } };
   /** Part of a derivative's square sum that must be signal, not noise of the mean, for it to be a column [1]. Set by
-   * hand. */
+   * hand. Half: the same; twice: no derivative is left, and gains are up to 1.3 % off. */
   double leastSignalShare{ 0.5 };
   /** Share of a column that others may leave of it for it to be told from them [1]. Set by hand: what is less is within
    * what vignetting makes of a ramp, and an offset by it would be ten times as uncertain as by levels. */
@@ -60,7 +60,8 @@ struct SeriesConstants
   double fewestPixelsOfCell{ 20.0 };
   double leastCellShare{ 0.25 };
   /** What a squared singular value must have of the edge of the noise, by Marchenko and Pastur, to be light [1]. Set by
-   * hand. */
+   * hand. Half: noise that neighbours share is taken for light, gains of smoothed frames are 2 % low; twice: the same.
+   */
   double edgeOfNoise{ 1.25 };
   /** Series of local light, at most, and frames that each needs. Set by hand. */
   std::size_t mostLocalSeries{ 12 };
