@@ -10,8 +10,8 @@ PaperFigures(int table, const std::string & experiment)
 {
   struct Row
   {
-    int                        table;
-    const char *               experiment;
+    int                        table{ 0 };
+    const char *               experiment{ nullptr };
     std::array<std::string, 7> figures;
   };
   static const std::array<Row, 16> rows{ {

@@ -54,7 +54,7 @@ SentenceOf(const std::exception & error)
   {
     return file->path1().string() + ": " + file->code().message();
   }
-  const std::string text = TextOf(error);
+  std::string text = TextOf(error);
   if (IsOutOfMemory(error, text))
   {
     return "there is not enough memory for images of this size; expected smaller ones (--roi, --frames, --size), or "

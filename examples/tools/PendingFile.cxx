@@ -166,7 +166,7 @@ PendingFile::CopyToTarget() const
   {
     this->Fail(SystemWords());
   }
-  std::array<char, 65536> bytes;
+  std::array<char, 65536> bytes{};
   for (ssize_t count = 1; count > 0;)
   {
     count = read(from.Number(), bytes.data(), bytes.size());

@@ -17,7 +17,7 @@ struct EstimateOptions;
 
 /** Reads the frames, in parts, and measures what the options select of them. Writes the maps unless \a maps is null. */
 Report
-EstimateStack(const EstimateOptions & options, const FrameList & frames, MapFiles * maps);
+EstimateStack(const EstimateOptions & options, const FrameList & list, MapFiles * maps);
 
 } // namespace sensornoise::tools
 

@@ -22,7 +22,8 @@ constexpr double Offset = 90.0;
 double
 GammaOf(itk::IndexValueType t)
 {
-  return t == static_cast<itk::IndexValueType>(Frames) - 1 ? 0.0 : 0.1 * ((t % 2) * 2 - 1) * (1.0 + t / 2);
+  return t == static_cast<itk::IndexValueType>(Frames) - 1 ? 0.0
+                                                           : 0.1 * static_cast<double>(((t % 2) * 2 - 1) * (1 + t / 2));
 }
 
 /** mu + (1 + gamma_t)(level - mu) without noise, at the level that levelOf(index) says. */

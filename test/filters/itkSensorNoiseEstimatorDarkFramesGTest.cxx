@@ -145,9 +145,9 @@ TEST(SensorNoiseEstimatorDarkFrames, PixelsHaveTheirOwnOffsetAndReadNoise)
   EXPECT_EQ(estimator->GetPixelOffset()->GetLargestPossibleRegion(), estimator->GetMean()->GetLargestPossibleRegion());
   double offsets = 0.0;
   double noises = 0.0;
-  for (int y = 0; y < Height; ++y)
+  for (int y = 0; y < static_cast<int>(Height); ++y)
   {
-    for (int x = 0; x < Width; ++x)
+    for (int x = 0; x < static_cast<int>(Width); ++x)
     {
       double sum = 0.0;
       for (int t = 0; t < 12; ++t)
@@ -218,7 +218,7 @@ TEST(SensorNoiseEstimatorDarkFrames, DriftOfTheBlackLevelIsNoReadNoise)
     estimator->SetDark(reader->GetOutput());
     estimator->SetNumberOfStreamDivisions(chunks);
     estimator->Update();
-    for (int x = 0; x < Width; ++x)
+    for (int x = 0; x < static_cast<int>(Width); ++x)
     {
       ASSERT_NEAR(estimator->GetPixelReadNoise()->GetPixel({ { x, 7 } }),
                   expected->GetPixelReadNoise()->GetPixel({ { x, 7 } }),

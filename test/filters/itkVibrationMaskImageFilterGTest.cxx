@@ -64,7 +64,8 @@ TEST(VibrationMaskImageFilter, SlopeIsKeptUpToTheQuantile)
   for (const double statistic : { 9.21, 9.2104 })
   {
     const auto filter = FilterType::New();
-    filter->SetInput(ImageOf<FrameType>({ { 6, 5 } }, [](const auto & index) { return slope * index[0]; }));
+    filter->SetInput(
+      ImageOf<FrameType>({ { 6, 5 } }, [](const auto & index) { return slope * static_cast<double>(index[0]); }));
     filter->SetVariance(ConstantImage<FrameType>({ { 6, 5 } }, 2.0 * Frames * slope * slope / statistic));
     filter->SetNumberOfFrames(Frames);
     filter->Update();

@@ -3,6 +3,7 @@
 #include "helpers/EstimateToolTestHelper.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <random>
 #include <string>
@@ -18,7 +19,7 @@ class EstimateFailureTool : public EstimateToolTest
 
 TEST_F(EstimateFailureTool, ClippedPixelsGiveNoEstimate)
 {
-  for (const unsigned short level : { 0, 4095 })
+  for (const unsigned short level : { std::uint16_t{ 0 }, std::uint16_t{ 4095 } })
   {
     Write("s.mha", Make<StackType>({ { 32, 32, 20 } }, level).GetPointer());
     GivesNoEstimate("s.mha --bit-depth 12", { "only 0 pixels", "clip", "expected at least" });
