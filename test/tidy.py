@@ -64,7 +64,15 @@ def check(name, group, arguments, configuration):
         return True, ""
     start = time.monotonic()
     found = subprocess.run(
-        ["clang-tidy", "--quiet", f"--header-filter=^{arguments.root}/(module|filters|examples)/", str(together), "--", *flags, *WARNINGS],
+        [
+            "clang-tidy",
+            "--quiet",
+            f"--header-filter=^{arguments.root}/(module|filters|examples)/",
+            str(together),
+            "--",
+            *flags,
+            *WARNINGS,
+        ],
         check=False,
         capture_output=True,
         text=True,

@@ -215,8 +215,8 @@ protected:
     return names;
   }
 
-  /** The first line of standard error that is no note and no warning says what is wrong, and holds \a parts. There are more
-   * only where more than one thing in the frames keeps the gain from being told. */
+  /** The first line of standard error that is no note and no warning says what is wrong, and holds \a parts. There are
+   * more only where more than one thing in the frames keeps the gain from being told. */
   void
   SaysInOneSentence(const std::vector<std::string> & parts) const
   {

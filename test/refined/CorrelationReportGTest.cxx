@@ -94,7 +94,8 @@ TEST(SensorNoiseCorrelationReport, EachKindIsSaidInItsWords)
 
   const std::string bent = WarningOf(CorrelationOf(NoiseKind::NotLinear));
   EXPECT_EQ(bent.rfind("noise-not-linear: ", 0), 0U) << bent;
-  EXPECT_TRUE(Has(bent, "excess kurtosis -0.125 +- 0.010, of four neighbours in turn 0.500 +- 0.010, expected 0")) << bent;
+  EXPECT_TRUE(Has(bent, "excess kurtosis -0.125 +- 0.010, of four neighbours in turn 0.500 +- 0.010, expected 0"))
+    << bent;
   EXPECT_TRUE(Has(bent, "ask it for raw frames")) << bent;
 }
 

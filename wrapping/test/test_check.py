@@ -31,7 +31,10 @@ def test_other_frames_of_the_camera_fit(report, tmp_path):
 
 
 def test_wrong_models_are_seen(report):
-    steeper = {**report, "variance_slope": {**report["variance_slope"], "value": 1.05 * report["variance_slope"]["value"]}}
+    steeper = {
+        **report,
+        "variance_slope": {**report["variance_slope"], "value": 1.05 * report["variance_slope"]["value"]},
+    }
     frames = simulated(2)
     assert itk.check_noise_model(frames, report)
     assert not itk.check_noise_model(frames, steeper)

@@ -83,7 +83,8 @@ def test_closed_form_brings_a_mean_back_without_bias():
         warnings.simplefilter("ignore")
         mean = itk.generalized_anscombe_image_filter(levels, model).mean()
     found = {
-        inverse: (itk.inverse_generalized_anscombe_image_filter(np.array([mean]), model, inverse=inverse)[0] - offset) / gain
+        inverse: (itk.inverse_generalized_anscombe_image_filter(np.array([mean]), model, inverse=inverse)[0] - offset)
+        / gain
         for inverse in ("exact-unbiased", "algebraic", "asymptotic")
     }
     error = 4 * np.sqrt((light + read_noise**2) / 200000)
@@ -93,7 +94,9 @@ def test_closed_form_brings_a_mean_back_without_bias():
 
 
 def test_negative_arguments_are_said():
-    with pytest.warns(UserWarning, match=r"^6 of 10 pixels are below 5\.8125 DN, where the noise model has no variance"):
+    with pytest.warns(
+        UserWarning, match=r"^6 of 10 pixels are below 5\.8125 DN, where the noise model has no variance"
+    ):
         found = itk.generalized_anscombe_image_filter(np.arange(10, dtype=np.uint8), **MODEL)
     assert (found[:6] == 0).all() and (found[6:] > 0).all()
     with warnings.catch_warnings():

@@ -107,8 +107,11 @@ def check_noise_model(frames: Any, report: Any, *, mask: Any = None, **parameter
         estimator.SetMask(frame_image(mask_array, opened.image))
     with at_work(estimator), itk_errors():
         estimator.Update()
-    model = slope, intercept, _known((record.get("read_noise_electrons") or {}).get("value")), _known(
-        record.get("quantisation_step")
+    model = (
+        slope,
+        intercept,
+        _known((record.get("read_noise_electrons") or {}).get("value")),
+        _known(record.get("quantisation_step")),
     )
     return NoiseModelCheck(estimator.GetNoiseModelCheckAsJson(*model), estimator.GetNoiseModelCheckAsText(*model))
 

@@ -214,7 +214,9 @@ class _Picture:
         array = as_array(values, name)
         self.pixel = require_pixel_type(array, name)
         if array.ndim == 0 or array.size == 0:
-            raise ValueError(f"{name} has shape {array.shape}, which holds no pixel; expected at least 1 along each axis")
+            raise ValueError(
+                f"{name} has shape {array.shape}, which holds no pixel; expected at least 1 along each axis"
+            )
         self._shape = array.shape
         self._dimension = 2
         self._kept = as_itk_order(array).reshape(-1, array.shape[-1])
