@@ -7,6 +7,7 @@
 // This is Figure 2 of F. Sur, M. Gredi'ac, SIAM J. Imaging Sci. 8(1), 2015. SensorNoiseEstimator gives the same numbers
 // in fewer passes over the stack.
 
+#include "sensornoise/report/QuantityList.h"
 #include "sensornoise/report/Report.h"
 #include "itkFlickerCorrectionImageFilter.h"
 #include "itkNoiseRegressionEstimator.h"
@@ -17,7 +18,6 @@
 #include <cstdlib>
 #include <iostream>
 #include <string>
-#include <utility>
 
 int
 main(int argc, char * argv[])
@@ -61,13 +61,13 @@ main(int argc, char * argv[])
     regression->Update();
 
     const sensornoise::Report & report = regression->GetReport();
-    for (const auto & [name, quantity] : { std::pair("gain", &report.gain),
-                                           std::pair("offset", &report.offset),
-                                           std::pair("read noise", &report.readNoise),
-                                           std::pair("intercept", &report.intercept) })
+    for (const sensornoise::QuantityEntry & entry : sensornoise::QuantityList())
     {
-      std::cout << name << ' ' << (quantity->value ? std::to_string(*quantity->value) : "not identifiable") << ' '
-                << quantity->unit << '\n';
+      const sensornoise::Quantity * quantity = entry.of(report);
+      if (quantity != nullptr && quantity->value)
+      {
+        std::cout << entry.label << ' ' << *quantity->value << ' ' << entry.unit << '\n';
+      }
     }
     std::cout << "flicker sd " << flicker->GetFlicker().flickerSd << '\n';
   }

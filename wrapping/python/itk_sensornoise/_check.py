@@ -20,7 +20,7 @@ class NoiseModelCheck(Mapping[str, Any]):
 
         found["verdict"]     "fits", "does-not-fit" or "not-told"
         found["sentence"]    the same for people, with the ranges of levels
-        found["bands"]       dark to bright: low, high [DN], pixels; variance over the model's and its standard_error [1]
+        found["bands"]       dark to bright: low, high [DN], pixels; variance over the model's, its standard_error [1]
                              (None: the model has none there); transform_variance, what the transform makes of the right
                              model [1] (None: in the dark, where the read noise is not known); fits
 

@@ -28,8 +28,8 @@ class NoiseCorrelation(Record):
         found["frames_used"], found["pixels_used"]
 
     `kind`, `sum_over_lags` and `standard_error` are the most wanted of it. print() shows it as a table. It is a dict
-    that cannot be changed, as the report of estimate_sensor_noise(): json.dumps() writes it, it equals any dict with the
-    same content, and it can be pickled.
+    that cannot be changed, as the report of estimate_sensor_noise(): json.dumps() writes it, it equals any dict with
+    the same content, and it can be pickled.
     """
 
     @property
