@@ -182,6 +182,19 @@ TEST(GeneralizedAnscombeImageFilter, NotANumberStaysOne)
   }
 }
 
+// After an error the next update fails again, or is right.
+TEST(GeneralizedAnscombeImageFilter, FailsAgainUntilTheReaderIsMended)
+{
+  const auto reader = StackReader<StackType>::Of(Levels<StackType>({ { 17, 9, 5 } }));
+  const auto forward = FilterOf<ForwardType>(reader->GetOutput());
+  const auto inverse = FilterOf<InverseType>(forward->GetOutput());
+  reader->Break(2);
+  EXPECT_SAYS(ErrorOf(inverse), "frame 2 is broken");
+  EXPECT_SAYS(ErrorOf(inverse), "frame 2 is broken");
+  reader->Mend();
+  EXPECT_EQ(ErrorOf(inverse), "no error");
+}
+
 TEST(GeneralizedAnscombeImageFilter, RefusesWhatIsNoModel)
 {
   auto filter = ForwardType::New();
