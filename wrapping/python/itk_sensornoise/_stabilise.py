@@ -74,7 +74,8 @@ def generalized_anscombe_image_filter(
         level = -intercept / slope - 0.375 * slope
         warnings.warn(
             f"{negative} of {picture.count} pixels are below {level:.5g} DN, where the noise model has no variance, "
-            "and became 0; a few are the noise of dark pixels, many say that the report is of another camera or setting",
+            "and became 0; a few are the noise of dark pixels, many say that the report is of another camera or "
+            "setting",
             stacklevel=2,
         )
     return picture.like(stabiliser.GetOutput())
