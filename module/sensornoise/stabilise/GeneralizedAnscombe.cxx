@@ -96,7 +96,7 @@ template <typename TValue, typename TFunction>
 void
 WriteBlock(const ValueBlock & block, std::size_t count, TValue * values, TFunction convert)
 {
-  std::array<TValue, ValuesPerBlock> converted;
+  std::array<TValue, ValuesPerBlock> converted{};
   for (std::size_t i = 0; i < ValuesPerBlock; ++i)
   {
     converted[i] = convert(block[i]);
@@ -113,7 +113,7 @@ Rounded(double level)
   constexpr double high = std::numeric_limits<TPixel>::max();
   const double     above = level > low ? level : low;
   const double     inside = above < high ? above : high;
-  // Above 0 the conversion rounds down; through 32 bits there are vectors.
+  // Above 0 the conversion rounds down; through 32 bits there are vectors. NOLINTNEXTLINE(bugprone-incorrect-roundings)
   return static_cast<TPixel>(static_cast<std::int32_t>(inside - low + 0.5) + static_cast<std::int32_t>(low));
 }
 } // namespace
@@ -199,12 +199,14 @@ GeneralizedAnscombe::Invert(const TReal *   stabilised,
   return std::is_integral_v<TPixel> ? count - numbers : 0;
 }
 
+// Types have no parentheses. NOLINTBEGIN(bugprone-macro-parentheses)
 // clang-format off
 #define SENSORNOISE_INSTANTIATE(TPixel, TReal)                                                                        \
   template SensorNoise_EXPORT std::size_t GeneralizedAnscombe::Stabilise(const TPixel *, std::size_t, TReal *) const; \
   template SensorNoise_EXPORT std::size_t GeneralizedAnscombe::Invert(                                                \
     const TReal *, std::size_t, TPixel *, AnscombeInverse) const;
 // clang-format on
+// NOLINTEND(bugprone-macro-parentheses)
 SENSORNOISE_INSTANTIATE(unsigned char, float)
 SENSORNOISE_INSTANTIATE(unsigned short, float)
 SENSORNOISE_INSTANTIATE(short, float)

@@ -90,8 +90,9 @@ MomentsOfStabilised(double electrons, double readNoiseElectrons)
   double       negative = 0.0;
   for (double k = first; k <= last; ++k)
   {
-    const double probability =
-      electrons > 0.0 ? std::exp(k * std::log(electrons) - electrons - std::lgamma(k + 1.0)) : 1.0;
+    // The sign that lgamma keeps for all threads is not looked at. NOLINTNEXTLINE(concurrency-mt-unsafe)
+    const double logFactorial = std::lgamma(k + 1.0);
+    const double probability = electrons > 0.0 ? std::exp(k * std::log(electrons) - electrons - logFactorial) : 1.0;
     const double meanRoot = MeanRoot(k + least, s);
     total += probability;
     root += probability * (meanRoot - middle);
