@@ -20,6 +20,7 @@
 #include <exception>
 #include <iostream>
 #include <opencv2/core.hpp>
+#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <string>
@@ -155,6 +156,7 @@ main(int argc, char * argv[])
 {
   try
   {
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_ERROR); // a file that is not there is said below
     Run({ argv + 1, argv + argc });
     return 0;
   }

@@ -103,7 +103,7 @@ protected:
   HasOpenCV()
   {
     Denoise("--help");
-    return m_Output.find("[nlm]") != std::string::npos;
+    return m_Output.find("}=nlm") != std::string::npos || m_Output.find("[nlm]") != std::string::npos;
   }
 
   StackType::Pointer m_Truth;

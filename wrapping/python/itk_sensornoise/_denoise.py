@@ -138,13 +138,12 @@ def _require_scale(levels: np.ndarray, slope: float, intercept: float, record: M
     high = record.get("clip_high")
     means = [mean for mean in (record.get("scatter") or {}).get("mean") or [] if mean is not None]
     light = (median - zero) / (max(means) - zero) if means and max(means) > zero else 0.0
+    spacing = _code_spacing(levels) if levels.dtype.kind in "iu" and step >= 1 else 0
     found = None
-    if levels.dtype.kind in "iu" and step >= 1:
-        codes = np.unique(levels).astype(np.int64)
-        spacing = int(np.gcd.reduce(np.diff(codes))) if codes.size >= _LEAST_CODES else 0
-        if spacing >= 4 * step or 0 < 2 * spacing <= step:
-            found = f"its codes are multiples of {spacing}, the report's of {step:g}"
-    if median < lowest:
+    # Every second code of a frame of few levels may lack by chance; a spacing below the report's is never chance.
+    if spacing >= 4 * step > 0 or 0 < 2 * spacing <= step:
+        found = f"its codes are multiples of {spacing}, the report's of {step:g}"
+    elif median < lowest:
         found = f"half of its pixels are at or below {median:g} DN, the level of no light is {zero:.5g} DN"
     elif high is not None and median > high:
         found = f"half of its pixels are at or above {median:g} DN, the sensor attains {high:g} DN"
@@ -161,6 +160,12 @@ def _require_scale(levels: np.ndarray, slope: float, intercept: float, record: M
             f"brightest in the report had {max(means):.5g} DN",
             stacklevel=3,
         )
+
+
+def _code_spacing(levels: np.ndarray) -> int:
+    """The largest number that the distances of all codes are multiples of; 0 where there are too few to tell."""
+    codes = np.unique(levels).astype(np.int64)
+    return int(np.gcd.reduce(np.diff(codes))) if codes.size >= _LEAST_CODES else 0
 
 
 def _denoiser(denoiser: Any, strength: Any) -> Denoiser:
