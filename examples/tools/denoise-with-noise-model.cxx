@@ -21,6 +21,7 @@
 
 namespace
 {
+namespace fs = std::filesystem;
 using namespace sensornoise::tools;
 
 constexpr int ExitDone = 0;
@@ -43,19 +44,37 @@ RequireOutputsApart(const DenoiseOptions & options, const std::vector<DenoiseOpt
   }
 }
 
-void
-MakeFolder(const std::string & folder)
+/** The folder of the outputs, made if there is none; it goes again if nothing is written into it. */
+class OutputFolder
 {
-  std::error_code error;
-  if (!folder.empty() && !std::filesystem::is_directory(folder, error))
+public:
+  explicit OutputFolder(const std::string & folder)
   {
-    std::filesystem::create_directories(folder, error);
-    if (error)
+    std::error_code error;
+    for (fs::path path = folder; !path.empty() && !fs::exists(path, error); path = path.parent_path())
+    {
+      m_Made.push_back(path);
+    }
+    if (!m_Made.empty() && !fs::create_directories(m_Made.front(), error) && error)
     {
       throw std::runtime_error("cannot make the folder " + folder + ": " + error.message());
     }
   }
-}
+  OutputFolder(const OutputFolder &) = delete;
+  OutputFolder &
+  operator=(const OutputFolder &) = delete;
+  ~OutputFolder()
+  {
+    for (const fs::path & path : m_Made)
+    {
+      std::error_code stays; // where it holds a file
+      fs::remove(path, stays);
+    }
+  }
+
+private:
+  std::vector<fs::path> m_Made; // the innermost first
+};
 
 void
 SetThreads(unsigned int threads)
@@ -74,7 +93,7 @@ Run(const DenoiseOptions & options)
   const auto           jobs = options.Jobs();
   const NoiseModelFile report = ReadNoiseModel(options.report);
   const Denoiser       denoise = MakeDenoiser(options.denoiser, options.strength, options.threads);
-  MakeFolder(options.outputFolder);
+  const OutputFolder   folder(options.outputFolder);
   RequireOutputsApart(options, jobs);
   for (const DenoiseOptions::Job & job : jobs)
   {

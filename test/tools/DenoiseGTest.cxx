@@ -109,16 +109,16 @@ protected:
   StackType::Pointer m_Truth;
 };
 
-// On an even place the bilateral filter leaves 1 / (4 pi 1.5^2) = 3.5 % of the variance or more, non-local means 1 /
-// 441 or more; the chart is even between its edges, which are 96 x 96 pixels' worth of dense here.
+// Measured: 4.7 dB (itk) and 11.5 dB (nlm). On an even place the bilateral filter leaves 1 / (4 pi 1.5^2) = 3.5 % of
+// the variance at best, non-local means 1 / 441: the chart's edges cost the rest.
 TEST_F(DenoiseToolTest, RaisesThePsnr)
 {
   WriteFrame("frame.tif");
   EXPECT_GT(GainOf("--report report.json --denoiser itk"), 3.0);
   if (HasOpenCV())
   {
-    EXPECT_GT(GainOf("--report report.json"), 5.0);
-    EXPECT_GT(GainOf("--report report.json --denoiser nlm --threads 1"), 5.0);
+    EXPECT_GT(GainOf("--report report.json"), 8.0);
+    EXPECT_GT(GainOf("--report report.json --denoiser nlm --threads 1"), 8.0);
   }
 }
 
@@ -305,4 +305,6 @@ TEST_F(DenoiseToolTest, NothingIsWrittenTwice)
   std::filesystem::copy_file(Path("frame.tif"), Path("other/frame.tif"));
   std::filesystem::create_directories(Path("clean"));
   IsRefusedBy("--report report.json --output-folder clean frame.tif other/frame.tif", { "same file" });
+  IsRefusedBy("--report report.json --output-folder new/clean frame.tif other/frame.tif", { "same file" });
+  EXPECT_FALSE(std::filesystem::exists(Path("new")));
 }
