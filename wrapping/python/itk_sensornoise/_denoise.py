@@ -172,8 +172,11 @@ def _denoiser(denoiser: Any, strength: Any) -> Denoiser:
     strength = _options.number("strength", strength, "a number above 0, at most 10", above=0.0)
     if strength > 10.0:
         raise _options.refuse("strength", strength, "a number above 0, at most 10")
-    if callable(denoiser):
-        return denoiser
+    return denoiser if callable(denoiser) else named_denoiser(denoiser, strength)
+
+
+def named_denoiser(denoiser: Any, strength: float) -> Denoiser:
+    """"nlm" or "itk", which take noise of variance 1; the strength as denoise_with_noise_model()'s."""
     _options.one_of("denoiser", denoiser, ["nlm", "itk"])
     return _non_local_means(strength) if denoiser == "nlm" else _bilateral(strength)
 
