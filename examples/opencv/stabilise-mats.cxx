@@ -56,10 +56,15 @@ ReadVideo([[maybe_unused]] const std::string & name)
   {
     throw std::runtime_error(name + " cannot be opened as a video; expected a file, or the number of a camera");
   }
-  video.set(cv::CAP_PROP_CONVERT_RGB, 0.0); // as the camera gives them; three channels mean that it was not heard
+  const bool           isLeftAsItIs = video.set(cv::CAP_PROP_CONVERT_RGB, 0.0);
   std::vector<cv::Mat> frames;
   for (cv::Mat frame; frames.size() < most && video.read(frame); frame = cv::Mat())
   {
+    if (!isLeftAsItIs && frame.channels() != 1)
+    {
+      throw std::runtime_error(name + " is made colour by OpenCV " CV_VERSION "'s " + video.getBackendName() +
+                               ", which has no CAP_PROP_CONVERT_RGB; expected raw frames, for example as PNG or TIFF");
+    }
     RequireRaw(frame, name);
     frames.push_back(frame); // a new Mat each time: read() would write into the last one's memory
   }
