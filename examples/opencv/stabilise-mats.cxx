@@ -15,7 +15,7 @@
 #include "tools/PendingFile.h"
 #include "itkSensorNoiseEstimator.h"
 
-#include <cmath>
+#include <algorithm>
 #include <cstddef>
 #include <exception>
 #include <iostream>
@@ -119,7 +119,8 @@ StabiliseInPlace(cv::Mat & frame, const sensornoise::NoiseModel & model)
   }
 }
 
-/** Standard deviation of the noise of a stabilised frame, from its difference to the next one: 1, but for motion. */
+/** Standard deviation of the noise of a stabilised frame, from how its difference to the next one differs between
+ * neighbours: what flicker adds is alike there. By the median, as edges are outliers; 1 where the model is right. */
 double
 StabilisedNoise(const std::vector<cv::Mat> & frames, const sensornoise::NoiseModel & model)
 {
@@ -129,10 +130,13 @@ StabilisedNoise(const std::vector<cv::Mat> & frames, const sensornoise::NoiseMod
   frames[1].convertTo(two, CV_32F);
   StabiliseInPlace(one, model);
   StabiliseInPlace(two, model);
-  cv::Scalar mean;
-  cv::Scalar deviation;
-  cv::meanStdDev(two - one, mean, deviation);
-  return deviation[0] / std::sqrt(2.0);
+  const cv::Mat      difference = two - one;
+  const cv::Mat      steps = cv::abs(difference.colRange(1, one.cols) - difference.colRange(0, one.cols - 1));
+  std::vector<float> sizes(steps.begin<float>(), steps.end<float>());
+  const auto         middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  constexpr double medianOfNormal = 0.6745; // of the size of a normal number with standard deviation 1
+  return *middle / medianOfNormal / 2.0;    // of four pixels
 }
 
 void
