@@ -5,8 +5,8 @@
     measure_denoising.py [--denoiser nlm|itk] [--size 256] [--frames 60]
 
 For the cameras A, B and C of Sur & Grédiac 2015 and two scenes, PSNR [dB, against the range of the levels] and SSIM of
-one frame: noisy; through the denoiser alone, at the strength that is best by the truth; through it between transform and
-inverse, with the report of a burst; and with the true parameters. The burst is of condition 3, which flickers.
+one frame: noisy; through the denoiser alone, at the strength that is best by the truth; through it between transform
+and inverse, with the report of a burst; and with the true parameters. The burst is of condition 3, which flickers.
 """
 
 import argparse

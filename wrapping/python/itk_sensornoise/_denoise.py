@@ -18,8 +18,8 @@ from ._stabilise import (
     open_report,
 )
 
-# Filter strength of OpenCV's non-local means with NORM_L1, and standard deviations of ITK's bilateral filter over places
-# [pixels] and values, for noise of variance 1: those of denoise-with-noise-model, see OpenCVDenoisers.cxx and
+# Filter strength of OpenCV's non-local means with NORM_L1, and standard deviations of ITK's bilateral filter over
+# places [pixels] and values, for noise of variance 1: those of denoise-with-noise-model, see OpenCVDenoisers.cxx and
 # BilateralDenoiser.cxx in examples/tools.
 _NON_LOCAL_MEANS_H = 1.3
 _BILATERAL_SIGMAS = 1.5, 2.0
@@ -54,8 +54,8 @@ def denoise_with_noise_model(
         The noise model: a report of estimate_sensor_noise(), a mapping like it, or the name of its JSON file. Only its
         variance_slope and total_intercept are needed: a report without offset serves.
     denoiser
-        What removes white Gaussian noise of variance 1: a function that takes an array (y, x) of float32 and returns one
-        of the same shape; "nlm", OpenCV's non-local means, which needs cv2 (pip install itk-sensornoise[denoise]); or
+        What removes white Gaussian noise of variance 1: a function that takes an array (y, x) of float32 and returns
+        one of the same shape; "nlm", OpenCV's non-local means, which needs cv2 (pip install itk-sensornoise[denoise]); or
         "itk", ITK's bilateral filter.
     variance_slope, total_intercept
         The model by its numbers [DN/e-], above 0, and [DN^2], in place of a report. Nothing then tells on which scale
@@ -96,7 +96,9 @@ def denoise_with_noise_model(
     frames = stabilised if levels.ndim == 3 else stabilised[np.newaxis]
     for index, frame in enumerate(frames):
         frames[index] = _checked(remove(frame), frame.shape)
-    result = inverse_generalized_anscombe_image_filter(stabilised, **model, dtype=dtype or levels.dtype.newbyteorder("="))
+    result = inverse_generalized_anscombe_image_filter(
+        stabilised, **model, dtype=dtype or levels.dtype.newbyteorder("=")
+    )
     return _like(result, image)
 
 
@@ -151,8 +153,8 @@ def _require_scale(levels: np.ndarray, slope: float, intercept: float, record: M
         found = f"half of its pixels are at or above {median:g} DN, the brightest measured had {max(means):.5g} DN"
     if found:
         raise ValueError(
-            f"image is on another scale than the report: {found}; expected levels of the same camera at the same setting, "
-            "as they were"
+            f"image is on another scale than the report: {found}; expected levels of the same camera at the same "
+            "setting, as they were"
         )
     if light > _DOUBTFUL_LIGHT:
         warnings.warn(
@@ -176,7 +178,7 @@ def _denoiser(denoiser: Any, strength: Any) -> Denoiser:
 
 
 def named_denoiser(denoiser: Any, strength: float) -> Denoiser:
-    """"nlm" or "itk", which take noise of variance 1; the strength as denoise_with_noise_model()'s."""
+    """The denoiser "nlm" or "itk", which takes noise of variance 1; the strength as denoise_with_noise_model()'s."""
     _options.one_of("denoiser", denoiser, ["nlm", "itk"])
     return _non_local_means(strength) if denoiser == "nlm" else _bilateral(strength)
 
@@ -186,7 +188,8 @@ def _checked(frame: Any, shape: tuple[int, ...]) -> np.ndarray:
     frame = as_array(frame, "what the denoiser returned")
     if frame.shape != shape or frame.dtype.kind not in "fiu":
         raise ValueError(
-            f"the denoiser returned an array of shape {frame.shape} and dtype {frame.dtype}; expected numbers of shape {shape}"
+            f"the denoiser returned an array of shape {frame.shape} and dtype {frame.dtype}; expected numbers of shape "
+            f"{shape}"
         )
     if not np.isfinite(frame).all():
         raise ValueError("the denoiser returned NaN or infinity; expected finite values")
@@ -199,8 +202,8 @@ def _non_local_means(strength: float) -> Denoiser:
         import cv2
     except ImportError as error:
         raise ImportError(
-            'denoiser "nlm" is OpenCV\'s, and cv2 is not installed; expected `pip install itk-sensornoise[denoise]`, or '
-            'denoiser="itk"'
+            'denoiser "nlm" is OpenCV\'s, and cv2 is not installed; expected `pip install itk-sensornoise[denoise]`, '
+            'or denoiser="itk"'
         ) from error
 
     def remove(frame: np.ndarray) -> np.ndarray:
@@ -208,9 +211,7 @@ def _non_local_means(strength: float) -> Denoiser:
         scale = min(_CODES_PER_SIGMA, 65535.0 / (high - low)) if high > low else _CODES_PER_SIGMA
         codes = ((frame.astype(np.float64) - low) * scale + 0.5).astype(np.uint16)
         h = strength * _NON_LOCAL_MEANS_H * scale
-        clean = cv2.fastNlMeansDenoising(
-            codes, h=[h], templateWindowSize=3, searchWindowSize=21, normType=cv2.NORM_L1
-        )
+        clean = cv2.fastNlMeansDenoising(codes, h=[h], templateWindowSize=3, searchWindowSize=21, normType=cv2.NORM_L1)
         return (low + clean / scale).astype(np.float32)
 
     return remove
