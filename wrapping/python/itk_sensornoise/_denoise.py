@@ -55,8 +55,8 @@ def denoise_with_noise_model(
         variance_slope and total_intercept are needed: a report without offset serves.
     denoiser
         What removes white Gaussian noise of variance 1: a function that takes an array (y, x) of float32 and returns
-        one of the same shape; "nlm", OpenCV's non-local means, which needs cv2 (pip install itk-sensornoise[denoise]); or
-        "itk", ITK's bilateral filter.
+        one of the same shape; "nlm", OpenCV's non-local means, which needs cv2 (pip install
+        itk-sensornoise[denoise]); or "itk", ITK's bilateral filter.
     variance_slope, total_intercept
         The model by its numbers [DN/e-], above 0, and [DN^2], in place of a report. Nothing then tells on which scale
         the levels are.
