@@ -21,7 +21,7 @@ endif()
 # these modules are all that the filters, the tools and the tests use.
 set(_modules ITKCommon ITKEigen3 ITKIOImageBase)
 if(SensorNoise_BUILD_EXAMPLES OR BUILD_TESTING)
-  list(APPEND _modules ITKImageIO ITKImageFilterBase ITKImageGrid ITKImageStatistics ITKTestKernel)
+  list(APPEND _modules ITKImageIO ITKImageFeature ITKImageFilterBase ITKImageGrid ITKImageStatistics ITKTestKernel)
 endif()
 find_package(ITK 5.2.1 REQUIRED COMPONENTS ${_modules})
 include(${ITK_USE_FILE})

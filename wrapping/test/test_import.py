@@ -10,6 +10,7 @@ import itk
 import pytest
 
 NAMES = [
+    "denoise_with_noise_model",
     "estimate_sensor_noise",
     "noise_correlation_estimator",
     "noise_regression_estimator",

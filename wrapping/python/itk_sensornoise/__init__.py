@@ -16,6 +16,7 @@ Imaging Sci. 8(1), 2015, https://doi.org/10.1137/140977035.
 from ._catalogue import quantity_list, warning_table
 from ._check import NoiseModelCheck, check_noise_model
 from ._correlation import NoiseCorrelation, noise_correlation_estimator
+from ._denoise import denoise_with_noise_model
 from ._estimate import estimate_sensor_noise
 from ._estimators import noise_regression_estimator, sensor_noise_estimator, vibration_covariance_estimator
 from ._report import Report
@@ -28,6 +29,7 @@ __all__ = [
     "NoiseModelCheck",
     "Report",
     "check_noise_model",
+    "denoise_with_noise_model",
     "estimate_sensor_noise",
     "generalized_anscombe_image_filter",
     "inverse_generalized_anscombe_image_filter",

@@ -6,7 +6,7 @@ import inspect
 import sys
 from types import FunctionType
 
-_NEW = ("check_noise_model", "estimate_sensor_noise", "simulate_sensor_noise")
+_NEW = ("check_noise_model", "denoise_with_noise_model", "estimate_sensor_noise", "simulate_sensor_noise")
 # ITK generates functions of these names too; what they return holds a C++ struct that Python cannot open, or they must
 # be told the pixel type, or know no report.
 _REPLACED = (

@@ -1,0 +1,59 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Measures a camera from one burst and takes the noise out of a frame of another; draws it before and after.
+
+    denoise.py [--picture denoised.png] [--denoiser nlm|itk]
+
+Both bursts are simulated (camera B of Sur & Grédiac 2015 with a tenth of its light), so that the truth is known: the
+report is made of a burst without flicker, which cannot tell the offset, and serves all the same.
+"""
+
+import argparse
+
+import itk
+import numpy as np
+
+CAMERA = {"camera": "B", "electrons": 300.0, "size": (256, 256)}
+STILL = {"flicker_sd": 0.0, "vibration_sd": (0.0, 0.0)}
+
+
+def psnr(image, truth):
+    """Against the range of the levels [dB]."""
+    return 10 * np.log10(np.ptp(truth) ** 2 / np.mean((image.astype(np.float64) - truth) ** 2))
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--picture", help="file for the picture before and after; needs matplotlib")
+    parser.add_argument("--denoiser", default="nlm", choices=["nlm", "itk"], help="nlm needs OpenCV (cv2)")
+    options = parser.parse_args()
+
+    burst, _ = itk.simulate_sensor_noise(**CAMERA, **STILL, frames=50, reference="texture", seed=1)
+    report = itk.estimate_sensor_noise(burst)
+    print("offset:", report["offset"]["status"], " variance slope:", report["variance_slope"]["value"])
+
+    # Another scene, and the same with a hundred thousand times the electrons, which has hardly any noise.
+    noisy = itk.simulate_sensor_noise(**CAMERA, **STILL, frames=1, seed=2)[0][0]
+    bright = {**CAMERA, **STILL, "electrons": 3e7, "gain": 1e-5, "read_noise": 0.0}
+    truth = itk.simulate_sensor_noise(**bright, frames=1, seed=2)[0][0].astype(np.float64)
+
+    clean = itk.denoise_with_noise_model(noisy, report, options.denoiser)
+    print(f"PSNR: {psnr(noisy, truth):.2f} dB before, {psnr(clean, truth):.2f} dB after")
+    if options.picture:
+        draw(noisy, clean, truth, options.picture)
+
+
+def draw(noisy, clean, truth, file) -> None:
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(8, 4.3), dpi=100, layout="constrained")
+    low, high = np.quantile(truth, [0.001, 0.999])
+    for axes, image, name in zip(figure.subplots(1, 2), (noisy, clean), ("one raw frame", "denoised"), strict=True):
+        axes.imshow(image, cmap="gray", vmin=low, vmax=high, interpolation="nearest")
+        axes.set_title(f"{name}: {psnr(image, truth):.1f} dB")
+        axes.set_axis_off()
+    figure.savefig(file)
+
+
+if __name__ == "__main__":
+    main()

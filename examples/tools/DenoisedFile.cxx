@@ -1,0 +1,215 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/DenoisedFile.h"
+
+#include "sensornoise/base/FreeMemory.h"
+#include "sensornoise/stabilise/GeneralizedAnscombe.h"
+#include "tools/ImageScale.h"
+#include "tools/PendingFile.h"
+#include "tools/WriterErrors.h"
+#include "itkImage.h"
+#include "itkImageFileWriter.h"
+#include "itkSensorNoiseFrameFiles.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
+#include <filesystem>
+#include <iostream>
+#include <stdexcept>
+#include <type_traits>
+#include <vector>
+
+namespace sensornoise::tools
+{
+namespace
+{
+std::string
+LowerCaseEnding(const std::string & file)
+{
+  std::string ending = std::filesystem::path(file).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending;
+}
+
+/** What the formats cannot hold, before any work. */
+template <typename TOutput>
+void
+RequireFormat(const std::string & output, bool isStack)
+{
+  const std::string ending = LowerCaseEnding(output);
+  if (ending == ".png" && isStack)
+  {
+    throw std::runtime_error("the output is " + output +
+                             " and the input a stack; PNG holds one frame, expected .mha, "
+                             ".nrrd or .tif");
+  }
+  if (ending == ".png" && !std::is_same_v<TOutput, unsigned char> && !std::is_same_v<TOutput, unsigned short>)
+  {
+    throw std::runtime_error("the output is " + output +
+                             "; PNG holds unsigned char and unsigned short only, expected .mha, .nrrd or .tif");
+  }
+  if ((ending == ".tif" || ending == ".tiff") && std::is_same_v<TOutput, double>)
+  {
+    throw std::runtime_error("the output is " + output +
+                             "; ITK writes no TIFF of type double, expected .mha or .nrrd, or --pixel-type float");
+  }
+}
+
+/** One frame after the other, however the file can be read. */
+template <typename TPixel>
+class FrameReader
+{
+public:
+  explicit FrameReader(const FrameList & list)
+    : m_List(list)
+    , m_Frame(list.width * list.height)
+  {
+    if (!m_List.streams && m_List.frames > 1)
+    {
+      m_All.resize(m_Frame.size() * list.frames);
+      ReadFrames(list, 0, list.frames, m_All.data());
+    }
+  }
+  const std::vector<TPixel> &
+  Read(std::size_t frame)
+  {
+    if (m_All.empty())
+    {
+      ReadFrames(m_List, frame, 1, m_Frame.data());
+    }
+    else
+    {
+      std::copy_n(m_All.begin() + static_cast<std::ptrdiff_t>(frame * m_Frame.size()), m_Frame.size(), m_Frame.begin());
+    }
+    return m_Frame;
+  }
+
+private:
+  const FrameList &   m_List;
+  std::vector<TPixel> m_Frame;
+  std::vector<TPixel> m_All;
+};
+
+/** An image of the list's size and place. */
+template <typename TImage>
+typename TImage::Pointer
+MakeLike(const FrameList & list)
+{
+  const auto                     image = TImage::New();
+  typename TImage::SizeType      size;
+  typename TImage::SpacingType   spacing;
+  typename TImage::PointType     origin;
+  typename TImage::DirectionType direction;
+  const std::size_t              sizes[3] = { list.width, list.height, list.frames };
+  for (unsigned int d = 0; d < TImage::ImageDimension; ++d)
+  {
+    size[d] = sizes[d];
+    spacing[d] = list.geometry.spacing[d];
+    origin[d] = list.geometry.origin[d];
+    for (unsigned int e = 0; e < TImage::ImageDimension; ++e)
+    {
+      direction[d][e] = list.geometry.direction[d][e];
+    }
+  }
+  image->SetRegions(size);
+  image->SetSpacing(spacing);
+  image->SetOrigin(origin);
+  image->SetDirection(direction);
+  image->Allocate();
+  return image;
+}
+
+template <typename TPixel, typename TOutput>
+void
+DenoiseFrames(const FrameList & list, const NoiseModelFile & report, const Denoiser & denoise, TOutput * output)
+{
+  const GeneralizedAnscombe transform(report.model);
+  FrameReader<TPixel>       reader(list);
+  bool                      isWarned = false;
+  for (std::size_t t = 0; t < list.frames; ++t)
+  {
+    const std::vector<TPixel> & levels = reader.Read(t);
+    const std::string           name =
+      list.files.front().name + (list.isStack ? ", frame " + std::to_string(t) + "," : std::string());
+    const std::string odd = RequireScale(levels, report, name);
+    if (!odd.empty() && !isWarned)
+    {
+      std::cerr << "warning: " << odd << '\n';
+      isWarned = true;
+    }
+    RealFrame frame{ list.width, list.height, std::vector<float>(levels.size()) };
+    transform.Stabilise(levels.data(), levels.size(), frame.pixels.data());
+    denoise(frame);
+    transform.Invert(frame.pixels.data(), levels.size(), output + t * levels.size(), AnscombeInverse::ExactUnbiased);
+  }
+}
+
+template <typename TPixel, typename TOutput, unsigned int VDimension>
+void
+WriteAs(const FrameList & list, const NoiseModelFile & report, const Denoiser & denoise, const std::string & name)
+{
+  using ImageType = itk::Image<TOutput, VDimension>;
+  RequireFormat<TOutput>(name, list.isStack);
+  PendingFile  file(name); // whether it can be written is found before the work begins
+  const double pixels =
+    static_cast<double>(list.width) * static_cast<double>(list.height) * static_cast<double>(list.frames);
+  file.RequireRoom(LowerCaseEnding(name) == ".png" ? 0.0 : pixels * sizeof(TOutput));
+  RequireMemory(pixels * sizeof(TOutput) + (list.streams ? 0.0 : static_cast<double>(list.bytes)),
+                "the output " + name);
+  const auto image = MakeLike<ImageType>(list);
+  DenoiseFrames<TPixel>(list, report, denoise, image->GetBufferPointer());
+  const auto writer = itk::ImageFileWriter<ImageType>::New();
+  writer->SetInput(image);
+  writer->SetFileName(file.Temporary().string());
+  WriteNamed(file, [&] { writer->Update(); });
+  if (LowerCaseEnding(name) != ".png") // the others do not compress
+  {
+    file.RequireBytes(static_cast<std::uintmax_t>(pixels) * sizeof(TOutput));
+  }
+  file.Commit();
+}
+
+template <typename TPixel>
+void
+WriteOf(const FrameList &      list,
+        const NoiseModelFile & report,
+        const Denoiser &       denoise,
+        const std::string &    name,
+        bool                   asFloat)
+{
+  if (asFloat)
+  {
+    list.isStack ? WriteAs<TPixel, float, 3>(list, report, denoise, name)
+                 : WriteAs<TPixel, float, 2>(list, report, denoise, name);
+    return;
+  }
+  list.isStack ? WriteAs<TPixel, TPixel, 3>(list, report, denoise, name)
+               : WriteAs<TPixel, TPixel, 2>(list, report, denoise, name);
+}
+} // namespace
+
+void
+WriteDenoised(const std::string &    input,
+              const std::string &    output,
+              const NoiseModelFile & report,
+              const Denoiser &       denoise,
+              bool                   asFloat)
+{
+  const FrameList list = OpenFrames({ input });
+  switch (list.pixel)
+  {
+    case FramePixel::UnsignedChar:
+      return WriteOf<unsigned char>(list, report, denoise, output, asFloat);
+    case FramePixel::UnsignedShort:
+      return WriteOf<unsigned short>(list, report, denoise, output, asFloat);
+    case FramePixel::Short:
+      return WriteOf<short>(list, report, denoise, output, asFloat);
+    case FramePixel::Float:
+      return WriteOf<float>(list, report, denoise, output, asFloat);
+    default:
+      return WriteOf<double>(list, report, denoise, output, asFloat);
+  }
+}
+
+} // namespace sensornoise::tools

@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/ImageScale.h"
+
+#include "sensornoise/base/Text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <type_traits>
+
+namespace sensornoise::tools
+{
+namespace
+{
+/** Light of the median pixel over that of the brightest that were measured, from which on a frame is refused: codes
+ * times 16 are beyond in all but the darkest frames. Between both limits a frame is warned of. Set by hand. */
+constexpr double ImpossibleLight = 8.0;
+constexpr double DoubtfulLight = 2.0;
+/** Share of pixels whose argument of the root is negative that is warned of; noise alone makes 8 % of a frame without
+ * light at a read noise of 1 e-, and less than 0.1 % from 10 e- on. */
+constexpr double DoubtfulShare = 0.01;
+/** Different codes that must occur before their spacing tells anything. */
+constexpr std::size_t LeastCodes = 16;
+
+std::string
+Name(double level)
+{
+  return Text(level) + " DN";
+}
+
+[[noreturn]] void
+Refuse(const std::string & image, const std::string & found, const NoiseModelFile & report)
+{
+  throw std::runtime_error(image + " is on another scale than the report " + report.name + ": " + found +
+                           "; expected a frame of the same camera at the same setting, its levels as they were");
+}
+
+template <typename TPixel>
+void
+RequireFinite(const std::vector<TPixel> & levels, const std::string & image)
+{
+  const auto bad = std::count_if(levels.begin(), levels.end(), [](TPixel level) { return !std::isfinite(level); });
+  if (bad > 0)
+  {
+    throw std::runtime_error(image + " has " + std::to_string(bad) +
+                             " pixels that are NaN or infinite; expected finite levels");
+  }
+}
+
+/** The largest number that the distances of all codes are multiples of; 0 where there are too few to tell. */
+template <typename TPixel>
+std::int32_t
+CodeStep(const std::vector<TPixel> & levels)
+{
+  constexpr std::int32_t lowest = std::numeric_limits<TPixel>::lowest();
+  std::vector<bool>      seen(static_cast<std::size_t>(std::numeric_limits<TPixel>::max() - lowest) + 1, false);
+  for (const TPixel level : levels)
+  {
+    seen[static_cast<std::size_t>(level - lowest)] = true;
+  }
+  std::int32_t step = 0;
+  std::int32_t last = -1;
+  std::size_t  codes = 0;
+  for (std::size_t code = 0; code < seen.size(); ++code)
+  {
+    if (seen[code])
+    {
+      const auto here = static_cast<std::int32_t>(code);
+      step = last < 0 ? 0 : std::gcd(step, here - last);
+      last = here;
+      ++codes;
+    }
+  }
+  return codes < LeastCodes ? 0 : step;
+}
+
+template <typename TPixel>
+void
+RequireCodeStep(const std::vector<TPixel> & levels, const NoiseModelFile & report, const std::string & image)
+{
+  if (!report.codeStepDn || !(*report.codeStepDn >= 1.0))
+  {
+    return;
+  }
+  const std::int32_t step = CodeStep(levels);
+  // a frame of few levels may have every second code only by chance; a step below the report's is never chance
+  if (step >= 4.0 * *report.codeStepDn || (step > 0 && 2.0 * step <= *report.codeStepDn))
+  {
+    Refuse(image,
+           "its codes are multiples of " + std::to_string(step) + ", the report's of " + Text(*report.codeStepDn),
+           report);
+  }
+}
+
+template <typename TPixel>
+double
+Median(std::vector<TPixel> levels)
+{
+  const auto middle = levels.begin() + static_cast<std::ptrdiff_t>(levels.size() / 2);
+  std::nth_element(levels.begin(), middle, levels.end());
+  return static_cast<double>(*middle);
+}
+
+/** Light of the median over that of the brightest measured; refuses what cannot be. */
+double
+RequireMedian(double median, const NoiseModelFile & report, const std::string & image)
+{
+  const double zero = report.ZeroLevelDn();
+  const double lowest = zero - 0.375 * report.model.varianceSlopeDn; // below, the transform gives 0
+  if (median < lowest)
+  {
+    Refuse(
+      image, "half of its pixels are at or below " + Name(median) + ", the level of no light is " + Name(zero), report);
+  }
+  if (report.clipHighDn && median > *report.clipHighDn)
+  {
+    Refuse(image,
+           "half of its pixels are at or above " + Name(median) + ", the sensor attains " + Name(*report.clipHighDn),
+           report);
+  }
+  const double light =
+    report.highestDn && *report.highestDn > zero ? (median - zero) / (*report.highestDn - zero) : 0.0;
+  if (light > ImpossibleLight)
+  {
+    Refuse(image,
+           "half of its pixels are at or above " + Name(median) + ", the brightest that were measured had " +
+             Name(*report.highestDn),
+           report);
+  }
+  return light;
+}
+} // namespace
+
+template <typename TPixel>
+std::string
+RequireScale(const std::vector<TPixel> & levels, const NoiseModelFile & report, const std::string & image)
+{
+  if constexpr (std::is_floating_point_v<TPixel>)
+  {
+    RequireFinite(levels, image);
+  }
+  else
+  {
+    RequireCodeStep(levels, report, image);
+  }
+  const double median = Median(levels);
+  if (RequireMedian(median, report, image) > DoubtfulLight)
+  {
+    return image + " is far brighter than what was measured: half of its pixels are at or above " + Name(median) +
+           ", the brightest in the report " + report.name + " had " + Name(*report.highestDn);
+  }
+  const double lowest = report.ZeroLevelDn() - 0.375 * report.model.varianceSlopeDn;
+  const auto   below = static_cast<double>(std::count_if(
+    levels.begin(), levels.end(), [lowest](TPixel level) { return static_cast<double>(level) < lowest; }));
+  const double share = below / static_cast<double>(levels.size());
+  if (share > DoubtfulShare)
+  {
+    return image + ": " + Text(std::round(1000.0 * share) / 10.0) + " % of the pixels are below " + Name(lowest) +
+           ", where the model of the report " + report.name +
+           " has no variance; in the dark noise alone does that, else the report is of another camera or setting";
+  }
+  return "";
+}
+
+template std::string
+RequireScale(const std::vector<unsigned char> &, const NoiseModelFile &, const std::string &);
+template std::string
+RequireScale(const std::vector<unsigned short> &, const NoiseModelFile &, const std::string &);
+template std::string
+RequireScale(const std::vector<short> &, const NoiseModelFile &, const std::string &);
+template std::string
+RequireScale(const std::vector<float> &, const NoiseModelFile &, const std::string &);
+template std::string
+RequireScale(const std::vector<double> &, const NoiseModelFile &, const std::string &);
+
+} // namespace sensornoise::tools
