@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 namespace sensornoise::tools
 {
@@ -30,7 +30,7 @@ ReadJson(const std::string & file)
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
   {
-    throw std::runtime_error("the report " + file + " cannot be read: " + std::strerror(errno) + expected);
+    throw std::runtime_error("the report " + file + " cannot be read: " + std::generic_category().message(errno) + expected);
   }
   const std::string text{ std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>() };
   json              record = json::parse(text, nullptr, false);

@@ -44,7 +44,7 @@ public:
     constexpr double most = std::numeric_limits<std::uint16_t>::max();
     m_CodesPerSigma = range * CodesPerSigma > most ? most / range : CodesPerSigma;
     std::transform(frame.pixels.begin(), frame.pixels.end(), m_Codes.begin<std::uint16_t>(), [this](float value) {
-      return static_cast<std::uint16_t>((static_cast<double>(value) - m_Lowest) * m_CodesPerSigma + 0.5);
+      return static_cast<std::uint16_t>(std::lround((static_cast<double>(value) - m_Lowest) * m_CodesPerSigma));
     });
   }
 
