@@ -30,7 +30,8 @@ ReadJson(const std::string & file)
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
   {
-    throw std::runtime_error("the report " + file + " cannot be read: " + std::generic_category().message(errno) + expected);
+    throw std::runtime_error("the report " + file + " cannot be read: " + std::generic_category().message(errno) +
+                             expected);
   }
   const std::string text{ std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>() };
   json              record = json::parse(text, nullptr, false);
