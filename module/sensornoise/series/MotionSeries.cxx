@@ -20,7 +20,7 @@ GramWithoutNoise(const FrameSums & sums, const InstrumentNoise & noise)
 {
   // The triangle of two boxes of side s has the height 1 / s, and (s - 2) / s^2 two pixels away; a central difference
   // smoothed by it and the plain one share (height - that) / 2 of the noise, along the other axis the height again.
-  const double   side = 2.0 * InSeries.instrumentRadius + 1.0;
+  const double   side = 2.0 * static_cast<double>(InSeries.instrumentRadius) + 1.0;
   const double   shared = 0.5 * (1.0 / side - (side - 2.0) / (side * side)) / side;
   const auto     frames = sums.GetFrame().frames;
   InstrumentGram gram = sums.GetInstrumentGram();

@@ -13,7 +13,7 @@ namespace sensornoise
 std::vector<double>
 SmoothedDerivative(const ReferenceFrame & frame, StencilIndex k, const ParallelFor & parallelFor)
 {
-  const double        side = 2.0 * InSeries.instrumentRadius + 1.0;
+  const double        side = 2.0 * static_cast<double>(InSeries.instrumentRadius) + 1.0;
   const std::size_t   width = frame.geometry.width;
   const std::size_t   height = frame.geometry.height;
   std::vector<double> map(frame.mean.size(), 0.0);
