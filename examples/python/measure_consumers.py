@@ -1,0 +1,138 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Programs that others wrote, with the report's numbers and with those of their own calibration.
+
+    measure_consumers.py --ndsafir VENV/bin/python --anscombe-transform VENV/bin/python [--camera A] [--size 128]
+
+`ndsafir` (BSD) is a denoiser that takes a gain and an offset: the report's variance_slope and total_intercept.
+`anscombe-transform` (MIT) codes films; it takes a conversion gain and a zero level: variance_slope and
+-total_intercept / variance_slope. Each runs in an environment of its own (`pip install` of the name there), and the data go by .npz files.
+
+Bursts that flicker by 0, 0.2, 1 and 5 % are measured by the report and by each program. Then come other frames, without
+flicker, and per band of their light: the temporal variance after the transform, which should be the law's, and what
+the brightness of the result departs from the truth [e-]. ndsafir keeps its transform to itself: its variance is that of
+the formula it is known for with its numbers, its brightness the mean of its denoised frames. The codes' own rounding is
+taken off the variance of anscombe-transform; its brightness is the mean code, led back by its table.
+"""
+
+import argparse
+import subprocess
+import tempfile
+from itertools import pairwise
+from pathlib import Path
+
+import itk
+import numpy as np
+from measure_held_out import STILL, band_means, bands_of, held_out, law, model_of, stabilised, true_model
+
+FLICKERS = (0.0, 0.002, 0.01, 0.05)
+EDGES = (0, 10, 50, 200, 500)  # of the bands [e-]
+
+NDSAFIR = """
+import sys
+import ndsafir
+import numpy as np
+
+data, found = np.load(sys.argv[1]), {}
+for index, ours in enumerate(data["models"]):
+    gains, offsets = ndsafir.calibrate_poisson_gaussian(data[f"burst{index}"], axes="TYX")
+    found[f"own{index}"] = own = np.array([gains[0], offsets[0]])
+    for name, (gain, offset) in (("ours", ours), ("own", own)):
+        if gain > 0:
+            for light in ("bright", "dim"):
+                clean = ndsafir.denoise_poisson_gaussian(
+                    data[light], axes="TYX", gains=[gain], offsets=[offset], nthreads=1)
+                found[f"{name}{index}{light}"] = clean.mean(axis=0)
+np.savez(sys.argv[2], **found)
+"""
+
+ANSCOMBE_TRANSFORM = """
+import sys
+import numpy as np
+from anscombe_transform import codec, estimate
+
+BETA = 0.5  # its step, in units of the noise
+data, found = np.load(sys.argv[1]), {}
+for index, (slope, intercept) in enumerate(data["models"]):
+    own = estimate.compute_conversion_gain(data[f"burst{index}"])
+    own = own["conversion_gain"], own["zero_level"]
+    found[f"own{index}"] = np.array([own[0], -own[0] * own[1]])
+    for name, (gain, zero) in (("ours", (slope, -intercept / slope)), ("own", own)):
+        table = codec.make_anscombe_lookup(gain, zero_level=zero, output_type="uint16")
+        back = codec.make_inverse_lookup(table, output_type="float64")
+        for light in ("bright", "dim"):
+            codes = codec.encode(data[light], conversion_gain=gain, zero_level=zero, encoded_dtype="uint16")
+            found[f"{name}{index}{light}"] = np.interp(codes.mean(axis=0), np.arange(back.size), back)
+            found[f"{name}{index}{light}variance"] = BETA**2 * (codes.var(axis=0, ddof=1) - 1 / 12)
+np.savez(sys.argv[2], **found)
+"""
+
+
+def run(python, program, data):
+    """What the program makes of the data, in its own environment."""
+    with tempfile.TemporaryDirectory() as folder:
+        given, made = Path(folder, "given.npz"), Path(folder, "made.npz")
+        np.savez(given, **data)
+        subprocess.run([python, "-c", program, given, made], check=True)
+        with np.load(made) as found:
+            return dict(found)
+
+
+def joined(found, key, suffix=""):
+    return np.concatenate([found[f"{key}{light}{suffix}"].ravel() for light in ("bright", "dim")])
+
+
+def cells(values, bands, form):
+    return "".join((format(mean[0], form) if mean else "").rjust(9) for mean in band_means(values, bands))
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--ndsafir", help="Python of an environment with ndsafir")
+    parser.add_argument("--anscombe-transform", help="Python of an environment with anscombe-transform")
+    parser.add_argument("--camera", default="A", help="its steps are too coarse for anscombe-transform's table in B, C")
+    parser.add_argument("--scene", default="texture")
+    parser.add_argument("--size", type=int, default=128)
+    parser.add_argument("--frames", type=int, default=60, help="of each burst")
+    parser.add_argument("--held-out", type=int, default=30, help="frames in each of the two lights")
+    options = parser.parse_args()
+
+    common = {"camera": options.camera, "reference": options.scene, "size": (options.size, options.size)}
+    stacks, lights, record = held_out(common, options.held_out)
+    light = np.maximum(1e-6, np.concatenate([values.ravel() for values in lights]))
+    bands = bands_of(light, record, EDGES)
+    data = dict(zip(("bright", "dim"), stacks, strict=True))
+    models = []
+    for index, flicker in enumerate(FLICKERS):
+        settings = {**common, **STILL, "flicker_sd": flicker}
+        data[f"burst{index}"], _ = itk.simulate_sensor_noise(**settings, frames=options.frames, seed=1)
+        models.append(tuple(model_of(itk.estimate_sensor_noise(data[f"burst{index}"])).values()))
+    data["models"] = np.array(models)
+
+    columns = "".join(f"{low}-{high}".rjust(9) for low, high in pairwise(EDGES))
+    truth = tuple(true_model(record).values())
+    print(f"{'variance after the transform':>82}{'brightness - truth [e-]':>37}")
+    print(f"{'':<38}{'slope':>8}{'intercept':>11} {columns} {columns}")
+    print(f"{'the law, true parameters':<38}{truth[0]:8.4f}{truth[1]:11.2f} {cells(law(light, record), bands, '.3f')}")
+    for consumer, program in (("ndsafir", NDSAFIR), ("anscombe_transform", ANSCOMBE_TRANSFORM)):
+        python = getattr(options, consumer)
+        if python is None:
+            continue
+        found = run(python, program, data)
+        for index, flicker in enumerate(FLICKERS):
+            for name, (slope, intercept) in (("ours", models[index]), ("own", found[f"own{index}"])):
+                key = f"{name}{index}"
+                row = f"{consumer:<19} {100 * flicker:3.1f} % {name:<11}{slope:8.4f}{intercept:11.2f} "
+                if f"{key}bright" not in found:
+                    print(row, "not usable")
+                    continue
+                if f"{key}brightvariance" in found:
+                    variance = joined(found, key, "variance")
+                else:
+                    variance, _ = stabilised(stacks, {"variance_slope": slope, "total_intercept": intercept})
+                bias = (joined(found, key) - record["offset"]) / record["gain"] - light
+                print(row + cells(variance, bands, ".3f") + " " + cells(bias, bands, "+.2f"), flush=True)
+
+
+if __name__ == "__main__":
+    main()
