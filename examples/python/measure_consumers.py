@@ -6,13 +6,15 @@
 
 `ndsafir` (BSD) is a denoiser that takes a gain and an offset: the report's variance_slope and total_intercept.
 `anscombe-transform` (MIT) codes films; it takes a conversion gain and a zero level: variance_slope and
--total_intercept / variance_slope. Each runs in an environment of its own (`pip install` of the name there), and the data go by .npz files.
+-total_intercept / variance_slope. Each runs in an environment of its own, where `pip install` of its name put it; the
+data go by .npz files.
 
-Bursts that flicker by 0, 0.2, 1 and 5 % are measured by the report and by each program. Then come other frames, without
-flicker, and per band of their light: the temporal variance after the transform, which should be the law's, and what
-the brightness of the result departs from the truth [e-]. ndsafir keeps its transform to itself: its variance is that of
-the formula it is known for with its numbers, its brightness the mean of its denoised frames. The codes' own rounding is
-taken off the variance of anscombe-transform; its brightness is the mean code, led back by its table.
+Bursts of a smooth ramp and of a texture that flicker by 0, 0.2, 1 and 5 % are measured by the report and by each
+program. Then come other frames, without flicker, and per band of their light: the temporal variance once transformed,
+which should be the law's, and what the brightness of the result departs from the truth [e-]. ndsafir keeps its
+transform to itself: its variance is that of the formula it is known for with its numbers, its brightness the mean of
+its denoised frames. The codes' own rounding is taken off the variance of anscombe-transform; its brightness is the mean
+code, led back by its table.
 """
 
 import argparse
@@ -86,18 +88,12 @@ def cells(values, bands, form):
     return "".join((format(mean[0], form) if mean else "").rjust(9) for mean in band_means(values, bands))
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--ndsafir", help="Python of an environment with ndsafir")
-    parser.add_argument("--anscombe-transform", help="Python of an environment with anscombe-transform")
-    parser.add_argument("--camera", default="A", help="its steps are too coarse for anscombe-transform's table in B, C")
-    parser.add_argument("--scene", default="texture")
-    parser.add_argument("--size", type=int, default=128)
-    parser.add_argument("--frames", type=int, default=60, help="of each burst")
-    parser.add_argument("--held-out", type=int, default=30, help="frames in each of the two lights")
-    options = parser.parse_args()
-
-    common = {"camera": options.camera, "reference": options.scene, "size": (options.size, options.size)}
+def measure(options, scene):
+    """Prints a scene's rows."""
+    common = {"camera": options.camera, "reference": scene, "size": (options.size, options.size)}
+    if scene == "ramp":
+        common["reference"] = np.tile(np.linspace(0, 1, options.size) ** 2, (options.size, 1))
+        del common["size"]
     stacks, lights, record = held_out(common, options.held_out)
     light = np.maximum(1e-6, np.concatenate([values.ravel() for values in lights]))
     bands = bands_of(light, record, EDGES)
@@ -109,20 +105,16 @@ def main() -> None:
         models.append(tuple(model_of(itk.estimate_sensor_noise(data[f"burst{index}"])).values()))
     data["models"] = np.array(models)
 
-    columns = "".join(f"{low}-{high}".rjust(9) for low, high in pairwise(EDGES))
     truth = tuple(true_model(record).values())
-    print(f"{'variance after the transform':>82}{'brightness - truth [e-]':>37}")
-    print(f"{'':<38}{'slope':>8}{'intercept':>11} {columns} {columns}")
-    print(f"{'the law, true parameters':<38}{truth[0]:8.4f}{truth[1]:11.2f} {cells(law(light, record), bands, '.3f')}")
+    row = f"{f'{scene}: the law, true parameters':<38}{truth[0]:8.4f}{truth[1]:11.2f} "
+    print(row + cells(law(light, record), bands, ".3f"))
     for consumer, program in (("ndsafir", NDSAFIR), ("anscombe_transform", ANSCOMBE_TRANSFORM)):
         python = getattr(options, consumer)
-        if python is None:
-            continue
-        found = run(python, program, data)
-        for index, flicker in enumerate(FLICKERS):
+        found = run(python, program, data) if python else {}
+        for index, flicker in enumerate(FLICKERS if found else ()):
             for name, (slope, intercept) in (("ours", models[index]), ("own", found[f"own{index}"])):
                 key = f"{name}{index}"
-                row = f"{consumer:<19} {100 * flicker:3.1f} % {name:<11}{slope:8.4f}{intercept:11.2f} "
+                row = f"{consumer:<19} {100 * flicker:3.1f} % {name:<12}{slope:8.4f}{intercept:11.2f} "
                 if f"{key}bright" not in found:
                     print(row, "not usable")
                     continue
@@ -132,6 +124,24 @@ def main() -> None:
                     variance, _ = stabilised(stacks, {"variance_slope": slope, "total_intercept": intercept})
                 bias = (joined(found, key) - record["offset"]) / record["gain"] - light
                 print(row + cells(variance, bands, ".3f") + " " + cells(bias, bands, "+.2f"), flush=True)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--ndsafir", help="Python of an environment with ndsafir")
+    parser.add_argument("--anscombe-transform", help="Python of an environment with anscombe-transform")
+    parser.add_argument("--camera", default="A", help="anscombe-transform's table has gaps at the gains of B and C")
+    parser.add_argument("--scenes", default="ramp,texture")
+    parser.add_argument("--size", type=int, default=128)
+    parser.add_argument("--frames", type=int, default=60, help="of each burst")
+    parser.add_argument("--held-out", type=int, default=30, help="frames in each of the two lights")
+    options = parser.parse_args()
+
+    columns = "".join(f"{low}-{high}".rjust(9) for low, high in pairwise(EDGES))
+    print(f"{'variance after the transform':>92}{'brightness - truth [e-]':>37}")
+    print(f"{'':<38}{'slope':>8}{'intercept':>11} {columns} {columns}")
+    for scene in options.scenes.split(","):
+        measure(options, scene)
 
 
 if __name__ == "__main__":
