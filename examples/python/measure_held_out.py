@@ -37,7 +37,7 @@ def variance_after(light, read_noise):
     electrons = np.arange(max(0, int(light - spread)), int(light + spread))
     factorials = np.concatenate(([0.0], np.cumsum(np.log(np.arange(1, electrons[-1] + 1)))))[electrons]
     photons = np.exp(electrons * np.log(light) - light - factorials)
-    z = np.linspace(-8, 8, 161)
+    z = np.linspace(-8, 8, 1601)
     normal = np.exp(-(z**2) / 2) / np.exp(-(z**2) / 2).sum()
     values = 2 * np.sqrt(np.maximum(0, electrons[:, None] + read_noise * z + 3 / 8 + read_noise**2))
     values -= photons @ values @ normal
