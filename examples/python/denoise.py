@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Measures a camera from one burst and takes the noise out of a frame of another; draws it before and after.
 
-    denoise.py [--picture denoised.png] [--denoiser nlm|itk]
+    denoise.py [--picture denoised.png] [--denoiser nlm|itk|scikit-image]
 
 Both bursts are simulated (camera B of Sur & Grédiac 2015 with a tenth of its light), so that the truth is known: the
 report is made of a burst without flicker, which cannot tell the offset, and serves all the same.
@@ -22,10 +22,18 @@ def psnr(image, truth):
     return 10 * np.log10(np.ptp(truth) ** 2 / np.mean((image.astype(np.float64) - truth) ** 2))
 
 
+def total_variation(image):
+    """Any function that takes noise of standard deviation 1 out of an array (y, x) will do: scikit-image's, here."""
+    from skimage.restoration import denoise_tv_chambolle
+
+    return denoise_tv_chambolle(image.astype(np.float64), weight=1.0)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--picture", help="file for the picture before and after; needs matplotlib")
-    parser.add_argument("--denoiser", default="nlm", choices=["nlm", "itk"], help="nlm needs OpenCV (cv2)")
+    choices = {"nlm": "nlm", "itk": "itk", "scikit-image": total_variation}
+    parser.add_argument("--denoiser", default="nlm", choices=list(choices), help="nlm needs OpenCV (cv2)")
     options = parser.parse_args()
 
     burst, _ = itk.simulate_sensor_noise(**CAMERA, **STILL, frames=50, reference="texture", seed=1)
@@ -37,7 +45,7 @@ def main() -> None:
     bright = {**CAMERA, **STILL, "electrons": 3e7, "gain": 1e-5, "read_noise": 0.0}
     truth = itk.simulate_sensor_noise(**bright, frames=1, seed=2)[0][0].astype(np.float64)
 
-    clean = itk.denoise_with_noise_model(noisy, report, options.denoiser)
+    clean = itk.denoise_with_noise_model(noisy, report, choices[options.denoiser])
     print(f"PSNR: {psnr(noisy, truth):.2f} dB before, {psnr(clean, truth):.2f} dB after")
     if options.picture:
         draw(noisy, clean, truth, options.picture)
