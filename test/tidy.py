@@ -46,11 +46,12 @@ def read_groups(commands, root):
     return groups
 
 
-def fingerprint(configuration, flags, source):
-    """Of all that clang-tidy reads: what is left of the source when its headers are in."""
+def fingerprint(configuration, flags, source, root):
+    """Of all that clang-tidy reads: what is left of the source when its headers are in, wherever the checkout is."""
     command = ["c++", "-E", "-P", "-C", *flags, str(source)]
     text = subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout
-    return hashlib.sha256(configuration + repr((flags, WARNINGS)).encode() + text).hexdigest()
+    read = repr((flags, WARNINGS)).encode() + text
+    return hashlib.sha256(configuration + read.replace(os.fsencode(root), b"")).hexdigest()
 
 
 def check(name, group, arguments, configuration):
@@ -58,7 +59,7 @@ def check(name, group, arguments, configuration):
     flags, sources = group
     together = arguments.work / f"{name}.cxx"
     together.write_text("".join(f'#include "{source}"\n' for source in sorted(sources)))
-    known = arguments.cache / fingerprint(configuration, flags, together)
+    known = arguments.cache / fingerprint(configuration, flags, together, arguments.root)
     if known.exists():
         known.touch()
         return True, ""
