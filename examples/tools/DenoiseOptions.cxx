@@ -3,10 +3,10 @@
 #include "tools/DenoiseOptions.h"
 
 #include "sensornoise/report/Version.h"
+#include "tools/LowerCase.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <stdexcept>
 
@@ -15,14 +15,6 @@ namespace sensornoise::tools
 namespace
 {
 namespace fs = std::filesystem;
-
-std::string
-LowerCaseEnding(const fs::path & file)
-{
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return ending;
-}
 
 void
 RequireImageName(const std::string & file)

@@ -5,6 +5,7 @@
 #include "sensornoise/base/FreeMemory.h"
 #include "sensornoise/stabilise/GeneralizedAnscombe.h"
 #include "tools/ImageScale.h"
+#include "tools/LowerCase.h"
 #include "tools/PendingFile.h"
 #include "tools/WriterErrors.h"
 #include "itkImage.h"
@@ -12,7 +13,6 @@
 #include "itkSensorNoiseFrameFiles.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
@@ -24,14 +24,6 @@ namespace sensornoise::tools
 {
 namespace
 {
-std::string
-LowerCaseEnding(const std::string & file)
-{
-  std::string ending = std::filesystem::path(file).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return ending;
-}
-
 /** What the formats cannot hold, before any work. */
 template <typename TOutput>
 void

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/FilesInUse.h"
 
+#include "tools/LowerCase.h"
 #include "tools/OutputTarget.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -19,13 +19,6 @@ namespace sensornoise::tools
 namespace
 {
 namespace fs = std::filesystem;
-
-std::string
-LowerCase(std::string text)
-{
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
 
 /** What an ordinary file, or one that is not there yet, is told by; empty for others. */
 std::string
@@ -53,7 +46,7 @@ DataFilesOf(const fs::path & header)
 {
   const std::set<std::string> headers{ ".mha", ".mhd", ".nhdr", ".nrrd" };
   std::vector<fs::path>       files;
-  if (headers.count(LowerCase(header.extension().string())) == 0 || !fs::is_regular_file(header))
+  if (headers.count(LowerCaseEnding(header)) == 0 || !fs::is_regular_file(header))
   {
     return files;
   }

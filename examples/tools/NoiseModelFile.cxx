@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/NoiseModelFile.h"
 
+#include "sensornoise/report/ReportJson.h"
+
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
@@ -15,8 +17,6 @@ namespace sensornoise::tools
 namespace
 {
 using nlohmann::json;
-
-constexpr const char * Schema = "itk-sensornoise-report/1";
 
 json
 ReadJson(const std::string & file)
@@ -45,11 +45,11 @@ ReadJson(const std::string & file)
 void
 RequireSchema(const json & record, const std::string & file)
 {
-  if (!record.is_object() || !record.contains("schema") || record["schema"] != Schema)
+  if (!record.is_object() || !record.contains("schema") || record["schema"] != ReportSchema)
   {
     const std::string found =
       record.is_object() && record.contains("schema") ? "the schema " + record["schema"].dump() : "no schema";
-    throw UnfitReport("the report " + file + " has " + found + "; expected \"" + Schema +
+    throw UnfitReport("the report " + file + " has " + found + "; expected \"" + ReportSchema +
                       "\", a report of estimate-sensor-noise");
   }
   if (record.contains("channels"))

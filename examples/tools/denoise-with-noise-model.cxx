@@ -9,7 +9,7 @@
 #include "tools/ErrorSentence.h"
 #include "tools/FilesInUse.h"
 #include "tools/NoiseModelFile.h"
-#include "itkMultiThreaderBase.h"
+#include "tools/ItkThreads.h"
 
 #include <exception>
 #include <filesystem>
@@ -77,19 +77,9 @@ private:
 };
 
 void
-SetThreads(unsigned int threads)
-{
-  if (threads > 0)
-  {
-    itk::MultiThreaderBase::SetGlobalMaximumNumberOfThreads(threads);
-    itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(threads);
-  }
-}
-
-void
 Run(const DenoiseOptions & options)
 {
-  SetThreads(options.threads);
+  SetItkThreads(options.threads);
   const auto           jobs = options.Jobs();
   const NoiseModelFile report = ReadNoiseModel(options.report);
   const Denoiser       denoise = MakeDenoiser(options.denoiser, options.strength, options.threads);

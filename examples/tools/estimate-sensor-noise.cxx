@@ -12,10 +12,9 @@
 #include "tools/ModelCheck.h"
 #include "tools/PendingFile.h"
 #include "tools/StackEstimate.h"
+#include "tools/ItkThreads.h"
 #include "itkSensorNoiseFrameFiles.h"
-#include "itkMultiThreaderBase.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <exception>
 #include <iostream>
@@ -31,16 +30,6 @@ using namespace sensornoise::tools;
 constexpr int ExitDone = 0;
 constexpr int ExitWrongUse = 2;
 constexpr int ExitNothingEstimated = 3;
-
-void
-SetThreads(unsigned int threads)
-{
-  if (threads > 0)
-  {
-    itk::MultiThreaderBase::SetGlobalMaximumNumberOfThreads(threads);
-    itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(threads);
-  }
-}
 
 void
 TellWhetherHeldInMemory(const sensornoise::FrameList & frames)
@@ -132,7 +121,7 @@ TellWarnings(const sensornoise::Report & report)
 int
 Run(EstimateOptions & options)
 {
-  SetThreads(options.threads);
+  SetItkThreads(options.threads);
   // whether they can be written is found before the work begins
   std::optional<PendingFile> json;
   if (options.HasReportFile())

@@ -9,6 +9,7 @@
 #include "tools/ErrorSentence.h"
 #include "tools/FilesInUse.h"
 #include "tools/ImageOnFile.h"
+#include "tools/LowerCase.h"
 #include "tools/PendingFile.h"
 #include "tools/SimulateOptions.h"
 #include "tools/WriterErrors.h"
@@ -19,7 +20,6 @@
 #include "itkImageFileWriter.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
 #include <exception>
 #include <filesystem>
@@ -60,15 +60,6 @@ ReadReference(const std::string & name)
   {
     throw std::runtime_error(std::string("the reference ") + error.what());
   }
-}
-
-std::string
-LowerCaseExtension(const std::string & name)
-{
-  std::string extension = fs::path(name).extension().string();
-  std::transform(
-    extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
-  return extension;
 }
 
 bool
@@ -157,7 +148,7 @@ RequireRoom(const SourceType & source, const PendingFile & file)
   const double bytes = sizeof(StackType::PixelType) * static_cast<double>(size[0]) * static_cast<double>(size[1]) *
                        static_cast<double>(size[2]);
   file.RequireRoom(bytes);
-  if (LowerCaseExtension(file.Target().name) != ".mha")
+  if (LowerCaseEnding(file.Target().name) != ".mha")
   {
     sensornoise::RequireMemory(bytes, "a stack that is not written in parts, as .mha is,");
   }
@@ -196,7 +187,7 @@ RequireOutputsApart(const SimulateOptions & options)
 void
 Run(const SimulateOptions & options)
 {
-  const std::string              extension = LowerCaseExtension(options.output);
+  const std::string              extension = LowerCaseEnding(options.output);
   const std::vector<std::string> known{ ".mha", ".nrrd", ".tif", ".tiff" };
   if (std::find(known.begin(), known.end(), extension) == known.end())
   {

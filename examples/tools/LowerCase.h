@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef LowerCase_h
+#define LowerCase_h
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <string>
+
+namespace sensornoise::tools
+{
+
+inline std::string
+LowerCase(std::string text)
+{
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+/** ".tif" of "Frame.TIF". */
+inline std::string
+LowerCaseEnding(const std::filesystem::path & file)
+{
+  return LowerCase(file.extension().string());
+}
+
+} // namespace sensornoise::tools
+
+#endif
