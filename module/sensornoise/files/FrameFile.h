@@ -4,6 +4,7 @@
 #define sensornoise_files_FrameFile_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/files/CameraSettings.h"
 #include "sensornoise/files/FileIdentity.h"
 
 #include <cstddef>
@@ -42,6 +43,8 @@ struct FrameFile
   /** Of a PNG whose sBIT chunk says that fewer bits than it has are significant: their number, else 0. ITK shifts such
    * codes down by the others, which are 0 (or the file is refused): shifted up again they are what the file holds. */
   unsigned significantBits{ 0 };
+
+  CameraSettings camera{}; // what it says of it
 
   std::vector<FileIdentity> identities{}; // of the file, then of its data files, each once
 };

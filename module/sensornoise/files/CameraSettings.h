@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_files_CameraSettings_h
+#define sensornoise_files_CameraSettings_h
+
+#include <limits>
+#include <string>
+
+namespace sensornoise
+{
+
+/** What a file says of the camera that took its frames. Every member is a default, which the user can overrule; what a
+ * file does not say is empty, 0 or NaN, as given here. */
+struct CameraSettings
+{
+  std::string  camera;                                                   ///< maker and model
+  std::string  bayerPattern;                                             ///< "RGGB", "GRBG", "GBRG" or "BGGR"
+  unsigned int bitDepth{ 0 };                                            ///< of the codes [bit]
+  double       blackLevelDn{ std::numeric_limits<double>::quiet_NaN() }; ///< level without light, as the maker says
+  double       whiteLevelDn{ std::numeric_limits<double>::quiet_NaN() }; ///< level at which the sensor saturates
+  double       isoSpeed{ std::numeric_limits<double>::quiet_NaN() };     ///< [1]
+  double       exposureSeconds{ std::numeric_limits<double>::quiet_NaN() };
+};
+
+} // namespace sensornoise
+
+#endif
