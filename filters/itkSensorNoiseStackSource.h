@@ -199,6 +199,20 @@ public:
   itkGetConstMacro(Dark, bool);
   itkBooleanMacro(Dark);
 
+  /** Mosaic of colour filters: "RGGB", "GRBG", "GBRG" or "BGGR"; "none" (default): no filters. */
+  void
+  SetBayerPattern(const std::string & name);
+  std::string
+  GetBayerPattern() const
+  {
+    return m_Flaws.filters.pattern ? sensornoise::NameOf(*m_Flaws.filters.pattern) : "none";
+  }
+
+  /** What the filters let through of the scene's electrons [1], 0 to 1. Defaults 0.5, 1, 0.6. */
+  itkSensorFlawMacro(TransmissionR, double, filters.transmissionR);
+  itkSensorFlawMacro(TransmissionG, double, filters.transmissionG);
+  itkSensorFlawMacro(TransmissionB, double, filters.transmissionB);
+
   /** Relative standard deviation of the gain from pixel to pixel [1], 0 or more, below 0.2. Default 0. */
   itkSensorFlawMacro(GainSd, double, pattern.gainSd);
 

@@ -31,6 +31,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <ostream>
 #include <stdexcept>
 #include <string>
@@ -98,6 +99,23 @@ SensorNoiseStackSource<TOutputStack>::SetResponseShape(const std::string & name)
   if (m_Flaws.response.shape != shape)
   {
     m_Flaws.response.shape = shape;
+    this->Modified();
+  }
+}
+
+template <typename TOutputStack>
+void
+SensorNoiseStackSource<TOutputStack>::SetBayerPattern(const std::string & name)
+{
+  std::optional<sensornoise::BayerPattern> pattern;
+  if (name != "none")
+  {
+    pattern =
+      WithItkErrors<std::invalid_argument>(this, [&name] { return sensornoise::BayerPatternOf(name); }, Impossible);
+  }
+  if (m_Flaws.filters.pattern != pattern)
+  {
+    m_Flaws.filters.pattern = pattern;
     this->Modified();
   }
 }
@@ -339,6 +357,10 @@ SensorNoiseStackSource<TOutputStack>::PrintSelf(std::ostream & os, Indent indent
   os << indent << "HotPixelFraction: " << m_HotPixelFraction << std::endl;
   os << indent << "HotPixelNoiseFactor: " << m_HotPixelNoiseFactor << std::endl;
   os << indent << "Dark: " << m_Dark << std::endl;
+  os << indent << "BayerPattern: " << this->GetBayerPattern() << std::endl;
+  os << indent << "TransmissionR: " << this->GetTransmissionR() << std::endl;
+  os << indent << "TransmissionG: " << this->GetTransmissionG() << std::endl;
+  os << indent << "TransmissionB: " << this->GetTransmissionB() << std::endl;
   os << indent << "GainSd: " << this->GetGainSd() << std::endl;
   os << indent << "ColumnGainSd: " << this->GetColumnGainSd() << std::endl;
   os << indent << "ColumnEfficiencySd: " << this->GetColumnEfficiencySd() << std::endl;

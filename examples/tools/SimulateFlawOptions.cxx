@@ -25,6 +25,16 @@ SimulateFlawOptions::AddTo(CLI::App & app)
   const auto add = [&app](const char * name, auto & value, const char * help, const char * group) {
     app.add_option(name, value, help)->group(group);
   };
+  app.add_option("--bayer", bayer, "Mosaic of colour filters: RGGB, GRBG, GBRG or BGGR")
+    ->check(CLI::IsMember({ "none", "RGGB", "GRBG", "GBRG", "BGGR" }))
+    ->group(SensorGroup);
+  app
+    .add_option(
+      "--transmission", transmission, "R,G,B: what each filter lets through of the scene's electrons; 0.5,1,0.6")
+    ->delimiter(',')
+    ->expected(3)
+    ->default_str("")
+    ->group(SensorGroup);
   add("--prnu", prnu, "Relative standard deviation of the pixels' efficiency", SensorGroup);
   add("--dsnu", dsnu, "Standard deviation of the pixels' offset [DN]", SensorGroup);
   AddPair(

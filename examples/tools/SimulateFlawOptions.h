@@ -19,6 +19,8 @@ namespace sensornoise::tools
  * patterns. All off unless given. */
 struct SimulateFlawOptions
 {
+  std::string                    bayer{ "none" };
+  std::vector<double>            transmission;
   double                         prnu{ 0.0 };
   double                         dsnu{ 0.0 };
   std::vector<double>            hotPixels;
@@ -62,6 +64,13 @@ template <typename TSource>
 void
 SimulateFlawOptions::ApplyTo(TSource & source) const
 {
+  source.SetBayerPattern(bayer);
+  if (!transmission.empty())
+  {
+    source.SetTransmissionR(transmission[0]);
+    source.SetTransmissionG(transmission[1]);
+    source.SetTransmissionB(transmission[2]);
+  }
   source.SetPrnuSd(prnu);
   source.SetDsnuSd(dsnu);
   if (!hotPixels.empty())

@@ -124,6 +124,10 @@ TEST(SensorNoiseStackSourceFlaws, ParametersReachTheSimulator)
 {
   const auto source = MakeSource();
   source->DarkOn();
+  source->SetBayerPattern("GBRG");
+  source->SetTransmissionR(0.4);
+  source->SetTransmissionG(0.9);
+  source->SetTransmissionB(0.3);
   source->SetGainSd(0.011);
   source->SetColumnGainSd(0.012);
   source->SetColumnEfficiencySd(0.013);
@@ -156,6 +160,10 @@ TEST(SensorNoiseStackSourceFlaws, ParametersReachTheSimulator)
   source->UpdateOutputInformation();
   EXPECT_TRUE(source->GetTruth().settings.isDark);
   const sensornoise::SensorFlaws & flaws = source->GetTruth().settings.flaws;
+  EXPECT_EQ(flaws.filters.pattern, sensornoise::BayerPattern::GBRG);
+  EXPECT_EQ(flaws.filters.transmissionR, 0.4);
+  EXPECT_EQ(flaws.filters.transmissionG, 0.9);
+  EXPECT_EQ(flaws.filters.transmissionB, 0.3);
   EXPECT_EQ(flaws.pattern.gainSd, 0.011);
   EXPECT_EQ(flaws.pattern.columnGainSd, 0.012);
   EXPECT_EQ(flaws.pattern.columnEfficiencySd, 0.013);

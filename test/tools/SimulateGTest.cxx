@@ -178,7 +178,7 @@ TEST_F(SimulateTool, FlawsReachTheTruth)
         "--read-noise-tail 0.018,1.9 --response wave,-0.02 --row-noise 2.1 --column-noise 2.2 --banding 2.3,24 "
         "--dark --defect-correction 2.5 --temporal-filter 0.26 --median 1 --smoothing 0.27 --binning 3 "
         "--binning-interpolation linear --resampling 0.28,-0.29 --resampling-interpolation cubic --block-quality 91 "
-        "--companding 10 --repeat 2 --repeat-period 1 --optical-blur 0.75"),
+        "--bayer GBRG --transmission 0.4,0.9,0.3 --companding 10 --repeat 2 --repeat-period 1 --optical-blur 0.75"),
     0)
     << m_Message;
   const auto truth = ReadJson("t.json");
@@ -189,7 +189,8 @@ TEST_F(SimulateTool, FlawsReachTheTruth)
   EXPECT_EQ(truth["dark"], true);
   EXPECT_GT(truth["realised_read_noise"], truth["realised_read_noise_median"]);
   const auto expected = nlohmann::json::parse(
-    R"({"pattern": {"gain_sd": 0.011, "column_gain_sd": 0.012, "column_efficiency_sd": 0.013, "column_offset_sd": 1.4},
+    R"({"filters": {"bayer": "GBRG", "transmission": [0.4, 0.9, 0.3]},
+        "pattern": {"gain_sd": 0.011, "column_gain_sd": 0.012, "column_efficiency_sd": 0.013, "column_offset_sd": 1.4},
         "brighter_fatter_per_electron": 1.5e-6, "coupling_fraction": 0.016,
         "read_noise": {"spread": 0.17, "tail_fraction": 0.018, "tail_spread": 1.9},
         "response": {"shape": "wave", "size": -0.02, "full_scale_electrons": 0},

@@ -17,6 +17,7 @@ FLAWS = {
     "column_gain_pattern": (0.02, "0.02"),
     "column_efficiency_pattern": (0.02, "0.02"),
     "column_offset_pattern": (3, "3"),
+    "bayer": ("GRBG", "GRBG"),
     "brighter_fatter": (1e-5, "1e-5"),
     "coupling": (0.02, "0.02"),
     "read_noise_spread": (0.3, "0.3"),
@@ -40,6 +41,7 @@ FLAWS = {
 # Parameters that change how another one works, with that one.
 MANNERS = {
     "binning_interpolation": ("linear", {"binning": 2}),
+    "transmission": ((0.3, 0.9, 0.5), {"bayer": "BGGR"}),
     "resampling_interpolation": ("cubic", {"resampling": (0.5, -0.25)}),
     "repeat_period": (2, {"repeat": 2}),
 }

@@ -79,6 +79,24 @@ struct MomentsConstants
   double      leastFreedomOfMedian{ 5.0 };
   std::size_t fewestPixelsOfMedian{ 100 };
   ///@}
+
+  /** \name Mosaics of colour filters
+   * Sums over the blocks of a frame of the differences between the four phases of its 2 x 2 pixels. */
+  ///@{
+  /** Largest difference of the two greens, in units of that of green to the mean of red and blue [1]. Set by hand: a
+   * mosaic has less than 0.1, what is no mosaic has two alike diagonals, near 1; half and twice change none of the
+   * 150 frames of the tests. */
+  double largestGreenDifference{ 0.25 };
+  /** Least difference of any two colours, in the same units, and in units of that of the greens, which is noise [1]:
+   * below it the two are one, as in a fine checkerboard. Set by hand: half of either takes a noisy checkerboard of one
+   * pixel for a mosaic, twice the first misses red and blue that differ by a seventh, twice the second dim mosaics. */
+  double leastColourDifference{ 0.08 };
+  double leastColourOverNoise{ 2.0 };
+  /** Least difference of green to the mean of red and blue, relative to how far pixels are from the mean of their four
+   * neighbours [1]: a mosaic has 0.3 to 1, what patterns of the scene leave at the borders of the blocks is below 0.05.
+   * Set by hand; half and twice as above. */
+  double leastMosaicContrast{ 0.12 };
+  ///@}
 };
 
 SENSORNOISE_CONSTANT MomentsConstants InMoments;

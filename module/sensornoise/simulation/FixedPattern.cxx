@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/simulation/FixedPattern.h"
 
+#include "sensornoise/simulation/ColourFilters.h"
 #include "sensornoise/simulation/GainPattern.h"
 #include "sensornoise/simulation/Random.h"
 #include "sensornoise/simulation/RandomStreams.h"
@@ -59,6 +60,7 @@ DrawEfficiency(const SimulationSettings & settings, std::size_t width, std::size
                      pixels,
                      1.0,
                      [](double ofPixel, double ofColumn) { return ofPixel * ofColumn; });
+  ApplyFilters(settings.flaws.filters, width, height, map);
   return map;
 }
 

@@ -11,6 +11,12 @@ void
 WriteJson(JsonWriter & json, const SensorFlaws & flaws)
 {
   json.Object([&] {
+    json.ObjectMember("filters", [&] {
+      const ColourFilterSettings & filters = flaws.filters;
+      json.Member("bayer", filters.pattern ? NameOf(*filters.pattern) : "none");
+      json.Member("transmission",
+                  std::array<double, 3>{ filters.transmissionR, filters.transmissionG, filters.transmissionB });
+    });
     json.ObjectMember("pattern", [&] {
       json.Member("gain_sd", flaws.pattern.gainSd).Member("column_gain_sd", flaws.pattern.columnGainSd);
       json.Member("column_efficiency_sd", flaws.pattern.columnEfficiencySd);

@@ -6,6 +6,7 @@
 #include "sensornoise/simulation/BlockQuantisation.h"
 #include "sensornoise/simulation/BrighterFatter.h"
 #include "sensornoise/simulation/ChargeCoupling.h"
+#include "sensornoise/simulation/ColourFilters.h"
 #include "sensornoise/simulation/Companding.h"
 #include "sensornoise/simulation/DefectCorrection.h"
 #include "sensornoise/simulation/FrameBinning.h"
@@ -23,10 +24,11 @@ namespace sensornoise
 {
 
 /** What a real sensor does beside the model, and what its camera does to the codes, in the order in which it happens:
- * charge, analogue signal, code, processing. Each piece has a file of its own; all are off by default, and any may be
- * combined. The pieces of the processing work on real numbers; rounding and clipping to codes come last. */
+ * light, charge, analogue signal, code, processing. Each piece has a file of its own; all are off by default, and any
+ * may be combined. The pieces of the processing work on real numbers; rounding and clipping to codes come last. */
 struct SensorFlaws
 {
+  ColourFilterSettings     filters{};
   PatternSettings          pattern{};
   BrighterFatterSettings   brighterFatter{};
   CouplingSettings         coupling{};

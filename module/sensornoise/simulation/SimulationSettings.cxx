@@ -70,6 +70,7 @@ CheckSettings(const SimulationSettings & settings)
   RequireNotNegative(settings.dsnuSdDn, "DSNU");
   RequireNotNegative(settings.hotPixelNoiseFactor, "noise factor of hot pixels");
   RequireFraction(settings.hotPixelFraction, "fraction of hot pixels");
+  CheckSettings(settings.flaws.filters);
   CheckSettings(settings.flaws.pattern);
   CheckSettings(settings.flaws.readNoise);
   CheckSettings(settings.flaws.response);

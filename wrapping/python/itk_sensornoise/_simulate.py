@@ -43,6 +43,7 @@ _COUNTS = {
 }
 # Setter of each flaw that is a name, and the names.
 _NAMES = {
+    "bayer": ("SetBayerPattern", ["none", "RGGB", "GRBG", "GBRG", "BGGR"]),
     "binning_interpolation": ("SetBinningInterpolation", ["nearest", "linear"]),
     "resampling_interpolation": ("SetResamplingInterpolation", ["linear", "cubic"]),
 }
@@ -74,6 +75,8 @@ def simulate_sensor_noise(
     rolling_shutter: float = 0.0,
     bit_depth: int | None = None,
     clip: tuple[float, float] | None = None,
+    bayer: Literal["none", "RGGB", "GRBG", "GBRG", "BGGR"] = "none",
+    transmission: tuple[float, float, float] | None = None,
     prnu: float = 0.0,
     dsnu: float = 0.0,
     hot_pixels: tuple[float, float] | None = None,
@@ -131,6 +134,9 @@ def simulate_sensor_noise(
         Bits of the converter, at most 16; 0: no clipping below the pixel type's range. Default 12, or 8 for uint8.
     clip
         Levels (low, high) between which the sensor itself is limited [DN]. Default: none.
+    bayer, transmission
+        Mosaic of colour filters by its pattern, and what its filters (R, G, B) let through of the scene's electrons [1].
+        Default: no filters; (0.5, 1, 0.6).
     prnu, dsnu
         Standard deviations of the pixels' efficiency, relative [1], and of their offset [DN].
     hot_pixels
@@ -220,6 +226,10 @@ def simulate_sensor_noise(
         source.SetClipLow(low)
         source.SetClipHigh(high)
     _set_flaws(source, {name: value for name, value in parameters.items() if name in _NUMBERS or name in _PAIRS})
+    if transmission is not None:
+        expected = "(R, G, B), three numbers from 0 to 1"
+        for colour, part in zip("RGB", _options.numbers("transmission", transmission, 3, expected), strict=True):
+            getattr(source, f"SetTransmission{colour}")(part)
     if response is not None:
         _set_response(source, response)
     for name, (setter, *limits) in _COUNTS.items():
