@@ -224,6 +224,7 @@ OpenFrames(const std::vector<std::string> & names, const BeforeInflating & befor
       list.pixel = file.pixel;
       list.width = file.width;
       list.height = file.height;
+      list.camera = file.camera;
       list.streams = !list.isStack || io->CanStreamRead();
       list.geometry = list.isStack ? GeometryOf(*io) : WithoutTime(GeometryOf(*io));
       if (!list.streams)

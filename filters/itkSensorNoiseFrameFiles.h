@@ -54,6 +54,7 @@ struct FrameList
   bool                   streams{ false }; // can be read a few frames at a time
   std::uint64_t          bytes{ 0 };       // of the pixels of all frames, uncompressed
   FrameListGeometry      geometry;
+  CameraSettings         camera; // as the first file says
 
   std::vector<std::string>
   Names() const;

@@ -48,7 +48,8 @@ namespace itk
  * that meets it. After an error the next Update() checks the files anew and starts from them as they are then.
  *
  * The region starts at index 0. Spacing, origin and direction are those of the stack's file, or for x and y those of
- * the list's first; time has spacing 1 and origin 0 there.
+ * the list's first; time has spacing 1 and origin 0 there. What the file, or the list's first, says of the camera is in
+ * the output's MetaDataDictionary (itkSensorNoiseMetaData.h).
  *
  * Not ImageSeriesReader: that stacks images of height 1 along y instead of time, converts a file whose component type
  * has changed, and believes files that have been cut off since.

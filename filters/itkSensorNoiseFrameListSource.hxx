@@ -19,6 +19,7 @@
 #define itkSensorNoiseFrameListSource_hxx
 
 #include "itkSensorNoiseFrameListSource.h"
+#include "itkSensorNoiseMetaData.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -182,6 +183,7 @@ SensorNoiseFrameListSource<TOutputStack>::GenerateOutputInformation()
   output->SetDirection(direction);
   const typename OutputRegionType::SizeType size{ { list.width, list.height, list.frames } };
   output->SetLargestPossibleRegion(OutputRegionType(size));
+  sensornoise::SetCameraSettings(output->GetMetaDataDictionary(), list.camera);
 }
 
 template <typename TOutputStack>

@@ -1,0 +1,76 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "itkSensorNoiseMetaData.h"
+
+#include "itkMetaDataObject.h"
+
+#include <cmath>
+#include <string>
+
+namespace sensornoise
+{
+namespace
+{
+template <typename T>
+void
+SetEntry(itk::MetaDataDictionary & dictionary, const char * key, const T & value, bool isKnown)
+{
+  if (isKnown)
+  {
+    itk::EncapsulateMetaData<T>(dictionary, key, value);
+  }
+  else
+  {
+    dictionary.Erase(key);
+  }
+}
+
+void
+SetNumber(itk::MetaDataDictionary & dictionary, const char * key, double value)
+{
+  SetEntry(dictionary, key, value, !std::isnan(value));
+}
+} // namespace
+
+void
+SetCameraSettings(itk::MetaDataDictionary & dictionary, const CameraSettings & camera)
+{
+  SetEntry(dictionary, MetaDataKeys::BayerPattern, camera.bayerPattern, !camera.bayerPattern.empty());
+  SetEntry(dictionary, MetaDataKeys::BitDepth, camera.bitDepth, camera.bitDepth != 0);
+  SetNumber(dictionary, MetaDataKeys::BlackLevel, camera.blackLevelDn);
+  SetNumber(dictionary, MetaDataKeys::WhiteLevel, camera.whiteLevelDn);
+  SetNumber(dictionary, MetaDataKeys::IsoSpeed, camera.isoSpeed);
+  SetNumber(dictionary, MetaDataKeys::ExposureSeconds, camera.exposureSeconds);
+  SetEntry(dictionary, MetaDataKeys::Camera, camera.camera, !camera.camera.empty());
+}
+
+CameraSettings
+CameraSettingsOf(const itk::MetaDataDictionary & dictionary)
+{
+  CameraSettings camera;
+  itk::ExposeMetaData(dictionary, MetaDataKeys::BayerPattern, camera.bayerPattern);
+  itk::ExposeMetaData(dictionary, MetaDataKeys::BitDepth, camera.bitDepth);
+  itk::ExposeMetaData(dictionary, MetaDataKeys::BlackLevel, camera.blackLevelDn);
+  itk::ExposeMetaData(dictionary, MetaDataKeys::WhiteLevel, camera.whiteLevelDn);
+  itk::ExposeMetaData(dictionary, MetaDataKeys::IsoSpeed, camera.isoSpeed);
+  itk::ExposeMetaData(dictionary, MetaDataKeys::ExposureSeconds, camera.exposureSeconds);
+  itk::ExposeMetaData(dictionary, MetaDataKeys::Camera, camera.camera);
+  return camera;
+}
+
+} // namespace sensornoise

@@ -1,0 +1,50 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef itkSensorNoiseMetaData_h
+#define itkSensorNoiseMetaData_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/files/CameraSettings.h"
+#include "itkMetaDataDictionary.h"
+
+namespace sensornoise
+{
+
+/** Under which keys a MetaDataDictionary has the CameraSettings; what is not known has none. */
+namespace MetaDataKeys
+{
+constexpr const char * BayerPattern = "SensorNoise.BayerPattern";       ///< std::string
+constexpr const char * BitDepth = "SensorNoise.BitDepth";               ///< unsigned int [bit]
+constexpr const char * BlackLevel = "SensorNoise.BlackLevel";           ///< double [DN]
+constexpr const char * WhiteLevel = "SensorNoise.WhiteLevel";           ///< double [DN]
+constexpr const char * IsoSpeed = "SensorNoise.IsoSpeed";               ///< double [1]
+constexpr const char * ExposureSeconds = "SensorNoise.ExposureSeconds"; ///< double [s]
+constexpr const char * Camera = "SensorNoise.Camera";                   ///< std::string
+} // namespace MetaDataKeys
+
+/** Replaces what \a dictionary says of the camera by \a camera. Its other entries stay. */
+SensorNoise_EXPORT void
+SetCameraSettings(itk::MetaDataDictionary & dictionary, const CameraSettings & camera);
+
+/** What a dictionary says of the camera; entries of another type count as none. */
+SensorNoise_EXPORT CameraSettings
+CameraSettingsOf(const itk::MetaDataDictionary & dictionary);
+
+} // namespace sensornoise
+
+#endif
