@@ -20,6 +20,7 @@
 
 #include "itkSensorNoiseStackSink.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/mosaic/PlaneFrames.h"
 #include "sensornoise/moments/CodeSettings.h"
 #include "sensornoise/moments/DarkDrift.h"
 #include "sensornoise/moments/DarkFrames.h"
@@ -28,6 +29,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -73,11 +75,26 @@ public:
     this->Modified();
   }
 
-  /** Offset and read noise of the frames that were read, see sensornoise::MeasureDarkFrames(). */
-  sensornoise::KnownOffset
+  /** The frames are mosaics, whose planes are measured each by itself. To be set before Update(). */
+  void
+  SetMosaic(const sensornoise::MosaicGeometry & geometry)
+  {
+    m_Planes.emplace(geometry);
+    this->Modified();
+  }
+
+  /** Offset and read noise of the frames that were read, see sensornoise::MeasureDarkFrames(), of each plane in the
+   * order of BayerPlanes, or of the only one. */
+  std::vector<sensornoise::KnownOffset>
   Measure(const sensornoise::CodeSettings & codes)
   {
-    return sensornoise::MeasureDarkFrames<PixelType>(m_Moments, codes, m_UsedPixels, this->GetParallelFor(), m_Drift);
+    std::vector<sensornoise::KnownOffset> offsets;
+    for (Part & part : m_Parts)
+    {
+      offsets.push_back(sensornoise::MeasureDarkFrames<PixelType>(
+        part.moments, codes, part.usedPixels, this->GetParallelFor(), part.drift));
+    }
+    return offsets;
   }
 
 protected:
@@ -92,28 +109,66 @@ protected:
   void
   StartPasses() override
   {
-    const SizeValueType pixels = this->GetFrameRegion().GetNumberOfPixels();
-    m_Moments = sensornoise::TemporalMoments<PixelType>(pixels);
-    m_Drift = sensornoise::DarkDrift(pixels, m_UsedPixels);
+    m_Parts.clear();
+    if (!m_Planes)
+    {
+      const SizeValueType pixels = this->GetFrameRegion().GetNumberOfPixels();
+      m_Parts.emplace_back(m_UsedPixels, pixels);
+      return;
+    }
+    const sensornoise::MosaicGeometry & geometry = m_Planes->GetGeometry();
+    for (const sensornoise::BayerPlane plane : sensornoise::BayerPlanes)
+    {
+      m_Parts.emplace_back(geometry.Take(m_UsedPixels, plane), geometry.Plane().Pixels());
+    }
   }
   void
   ProcessFrames(unsigned int, const PixelType * frames, SizeValueType, SizeValueType count) override
   {
-    const SizeValueType pixels = this->GetFrameRegion().GetNumberOfPixels();
-    sensornoise::ForBlocks(pixels, this->GetParallelFor(), [&](std::size_t begin, std::size_t end) {
-      m_Moments.AddFrames(frames, pixels, count, begin, end);
+    const sensornoise::ParallelFor parallelFor = this->GetParallelFor();
+    if (!m_Planes)
+    {
+      m_Parts.front().AddFrames(frames, count, parallelFor);
+      return;
+    }
+    m_Planes->ForPlanes(frames, count, parallelFor, [&](std::size_t k, const PixelType * plane, std::size_t now) {
+      m_Parts[k].AddFrames(plane, now, parallelFor);
     });
-    m_Moments.AdvanceFrames(count);
-    m_Drift.AddFrames(frames, count, this->GetParallelFor());
   }
   void
   EndPass(unsigned int) override
   {}
 
 private:
-  std::vector<std::uint8_t>               m_UsedPixels;
-  sensornoise::TemporalMoments<PixelType> m_Moments;
-  sensornoise::DarkDrift                  m_Drift;
+  /** The sums over the frames, or over one plane of them. */
+  struct Part
+  {
+    Part(std::vector<std::uint8_t> used, std::size_t numberOfPixels)
+      : usedPixels(std::move(used))
+      , pixels(numberOfPixels)
+      , moments(numberOfPixels)
+      , drift(numberOfPixels, usedPixels)
+    {}
+
+    void
+    AddFrames(const PixelType * frames, std::size_t count, const sensornoise::ParallelFor & parallelFor)
+    {
+      sensornoise::ForBlocks(pixels, parallelFor, [&](std::size_t begin, std::size_t end) {
+        moments.AddFrames(frames, pixels, count, begin, end);
+      });
+      moments.AdvanceFrames(count);
+      drift.AddFrames(frames, count, parallelFor);
+    }
+
+    std::vector<std::uint8_t>               usedPixels;
+    std::size_t                             pixels;
+    sensornoise::TemporalMoments<PixelType> moments;
+    sensornoise::DarkDrift                  drift;
+  };
+
+  std::vector<std::uint8_t>                          m_UsedPixels;
+  std::optional<sensornoise::PlaneFrames<PixelType>> m_Planes; // none: not a mosaic
+  std::vector<Part>                                  m_Parts;
 };
 
 } // namespace itk

@@ -27,6 +27,7 @@
 #include "sensornoise/report/Report.h"
 #include "sensornoise/report/ReportTable.h"
 #include "sensornoise/report/StackSettings.h"
+#include "sensornoise/report/ChannelRecord.h"
 #include "sensornoise/stabilise/NoiseModelCheck.h"
 #include "itkNumericTraits.h"
 #include "itkSensorNoiseStackSink.h"
@@ -35,12 +36,20 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
 
+namespace sensornoise
+{
+struct KnownOffset;
+}
+
 namespace itk
 {
+
+struct SensorNoiseMosaic;
 
 /** \class SensorNoiseEstimatorEnums
  * \brief Enumerations of SensorNoiseEstimator.
@@ -69,7 +78,8 @@ public:
  * size 1 mean [DN], 2 variance [DN^2], 3 corrected variance [DN^2] (NaN: not known), 4 pixel use
  * (sensornoise::PixelUse: 0 used, else why not); with two dark frames or more, of every pixel by itself, 5 offset, 6
  * and 7 the ends of its 95 % interval, 8 read noise, 9 and 10 the ends of its interval [DN] (NaN: not known, see
- * sensornoise::PixelCalibration), which have no pixels otherwise.
+ * sensornoise::PixelCalibration), which have no pixels otherwise; of a Bayer mosaic 11 the channels' reports in place
+ * of 0.
  *
  * The method Refined, the default, regresses every frame on the mean image and its derivatives, which gives flicker,
  * offset and motion, takes these out of every pixel, and fits the variance that is left with the weights of its own
@@ -111,6 +121,7 @@ public:
   using MethodEnum = SensorNoiseEstimatorEnums::Method;
   using RollingShutterEnum = sensornoise::RollingShutter;
   using ReportObjectType = SensorNoiseResult<sensornoise::Report>;
+  using ChannelReportsObjectType = SensorNoiseResult<sensornoise::ChannelReports>;
   using DataObjectPointer = DataObject::Pointer;
   using DataObjectPointerArraySizeType = ProcessObject::DataObjectPointerArraySizeType;
 
@@ -238,6 +249,34 @@ public:
     return m_Source;
   }
 
+  /** Colour filters in front of the pixels. "none" (default): the frames are those of a monochrome sensor. "RGGB",
+   * "GRBG", "GBRG" or "BGGR", the colours of the stack's upper left pixels: each of the four planes is measured by
+   * itself, and there are channel reports in place of the report; each pass still reads the stack once, and the maps
+   * stay those of the mosaic. "auto": as the input's MetaDataDictionary says (sensornoise::MetaDataKeys), else as the
+   * levels of its first frame tell, see sensornoise::RecogniseMosaic(). Mask and Dark are mosaics, too. */
+  void
+  SetBayerPattern(const std::string & name);
+  itkGetConstReferenceMacro(BayerPattern, std::string);
+
+  /** Whether the stack was measured as a mosaic, of which there are the channels' reports and not one report. */
+  bool
+  HasChannelReports() const
+  {
+    return static_cast<const ChannelReportsObjectType *>(this->ProcessObject::GetOutput(ChannelReportsOutput))->Has();
+  }
+  /** The reports of a mosaic's channels, as a pipeline output and themselves; an ExceptionObject where there are none.
+   */
+  ChannelReportsObjectType *
+  GetChannelReportsOutput()
+  {
+    return static_cast<ChannelReportsObjectType *>(this->ProcessObject::GetOutput(ChannelReportsOutput));
+  }
+  const sensornoise::ChannelReports &
+  GetChannelReports() const
+  {
+    return static_cast<const ChannelReportsObjectType *>(this->ProcessObject::GetOutput(ChannelReportsOutput))->Get();
+  }
+
   /** The report as a pipeline output, and itself. Before Update(), and after one that failed in its work, there is
    * none: an ExceptionObject, of all that asks for it. */
   ReportObjectType *
@@ -248,20 +287,38 @@ public:
   const sensornoise::Report &
   GetReport() const
   {
+    if (this->HasChannelReports())
+    {
+      itkExceptionMacro("the stack was measured as a Bayer mosaic and has a report for each of its channels; expected "
+                        "GetChannelReports() to be asked");
+    }
     return static_cast<const ReportObjectType *>(this->ProcessObject::GetOutput(0))->Get();
   }
 
-  /** The report as JSON, schema "itk-sensornoise-report/1". */
+  /** The report as JSON, schema "itk-sensornoise-report/1"; of a mosaic those of all channels in one record. */
   std::string
   GetReportAsJson() const
   {
-    return sensornoise::ToJson(this->GetReport());
+    return this->HasChannelReports() ? sensornoise::ToJson(this->GetChannelReports())
+                                     : sensornoise::ToJson(this->GetReport());
+  }
+  /** The report of one channel of a mosaic, "R", "G1", "G2" or "B", as JSON and as a table. */
+  std::string
+  GetChannelReportAsJson(const std::string & channel) const
+  {
+    return sensornoise::ToJson(this->GetChannelReport(channel));
+  }
+  std::string
+  GetChannelReportAsText(const std::string & channel) const
+  {
+    return sensornoise::MakeText(this->GetChannelReport(channel));
   }
   /** The report as a table that a person can read, as `estimate-sensor-noise` prints it, and its warnings. */
   std::string
   GetReportAsText() const
   {
-    return sensornoise::MakeText(this->GetReport());
+    return this->HasChannelReports() ? sensornoise::MakeText(this->GetChannelReports())
+                                     : sensornoise::MakeText(this->GetReport());
   }
 
   /** All warnings and quantities that a report may have, as JSON. \see sensornoise::CatalogueAsJson */
@@ -398,10 +455,18 @@ protected:
 private:
   // The six maps of the dark frames stand after the others.
   static constexpr DataObjectPointerArraySizeType FirstPixelOutput = 5;
+  static constexpr DataObjectPointerArraySizeType ChannelReportsOutput = FirstPixelOutput + 6;
 
   // Defined in the .hxx: what reads the headers alone, as wrapping does, need not read the methods.
   struct Estimation;
 
+  const sensornoise::Report &
+  GetChannelReport(const std::string & channel) const;
+  std::optional<SensorNoiseMosaic>
+  FindMosaic();
+  /** Offset and read noise of the dark frames, or what was given of the offset; of each plane of a mosaic. */
+  std::vector<std::optional<sensornoise::KnownOffset>>
+  FindOffsets(const std::vector<std::uint8_t> & mask, const std::optional<SensorNoiseMosaic> & mosaic);
   void
   VerifySource() const;
   sensornoise::NoiseModelCheck
@@ -411,7 +476,7 @@ private:
   sensornoise::PublishedSettings
   MakePublishedSettings() const;
   sensornoise::RefinedSettings
-  MakeRefinedSettings(const std::vector<std::uint8_t> & mask);
+  MakeRefinedSettings() const;
   void
   FillOutputs();
 
@@ -430,6 +495,7 @@ private:
   double             m_LevelRangeLow{ NumericTraits<double>::NonpositiveMin() };
   double             m_LevelRangeHigh{ NumericTraits<double>::max() };
   double             m_QuantisationStep{ 0.0 };
+  std::string        m_BayerPattern{ "none" };
 
   sensornoise::StackSelection m_Source;
 

@@ -20,17 +20,16 @@
 
 #include "itkSensorNoiseDarkSink.h"
 #include "itkSensorNoiseErrors.h"
+#include "itkSensorNoiseEstimation.h"
+#include "itkSensorNoiseMetaData.h"
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/FreeMemory.h"
 #include "sensornoise/base/RollingShutter.h"
 #include "sensornoise/moments/Codes.h"
-#include "sensornoise/moments/DarkMaps.h"
+#include "sensornoise/moments/MosaicLevels.h"
 #include "sensornoise/moments/KnownOffset.h"
-#include "sensornoise/moments/PixelCalibration.h"
 #include "sensornoise/moments/TemporalMoments.h"
-#include "sensornoise/published/PublishedMethod.h"
 #include "sensornoise/published/PublishedSettings.h"
-#include "sensornoise/refined/RefinedMethod.h"
 #include "sensornoise/refined/RefinedSettings.h"
 
 #include <algorithm>
@@ -39,33 +38,28 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <ostream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
 namespace itk
 {
 
-/** The method at work: both have one interface. */
+/** Defined here: what reads the header alone, as wrapping does, need not read the methods. */
 template <typename TStack>
-struct SensorNoiseEstimator<TStack>::Estimation
-{
-  using Refined = sensornoise::RefinedMethod<PixelType>;
-  using Published = sensornoise::PublishedMethod<PixelType>;
-  static_assert(Refined::NumberOfPasses == Published::NumberOfPasses, "the methods read the stack equally often");
-
-  std::variant<Refined, Published>             method;
-  std::shared_ptr<const sensornoise::DarkMaps> dark{}; ///< null: no dark frames, or one alone
-};
+struct SensorNoiseEstimator<TStack>::Estimation : SensorNoiseEstimation<PixelType>
+{};
 
 template <typename TStack>
 SensorNoiseEstimator<TStack>::SensorNoiseEstimator()
 {
   this->AddOptionalInputName("Mask", 1);
   this->AddOptionalInputName("Dark", 2);
-  constexpr DataObjectPointerArraySizeType outputs = FirstPixelOutput + 6;
+  constexpr DataObjectPointerArraySizeType outputs = ChannelReportsOutput + 1;
   this->SetNumberOfRequiredOutputs(outputs);
   for (DataObjectPointerArraySizeType i = 0; i < outputs; ++i)
   {
@@ -80,7 +74,7 @@ template <typename TStack>
 unsigned int
 SensorNoiseEstimator<TStack>::NumberOfPasses() const
 {
-  return Estimation::Refined::NumberOfPasses;
+  return SensorNoiseEstimation<PixelType>::Refined::NumberOfPasses;
 }
 
 template <typename TStack>
@@ -93,6 +87,8 @@ SensorNoiseEstimator<TStack>::MakeOutput(DataObjectPointerArraySizeType index) -
       return ReportObjectType::New().GetPointer();
     case 4:
       return MaskImageType::New().GetPointer();
+    case ChannelReportsOutput:
+      return ChannelReportsObjectType::New().GetPointer();
     default:
       return FrameImageType::New().GetPointer();
   }
@@ -136,6 +132,29 @@ SensorNoiseEstimator<TStack>::SetRollingShutter(RollingShutterEnum mode)
     m_RollingShutter = mode;
     this->Modified();
   }
+}
+
+template <typename TStack>
+void
+SensorNoiseEstimator<TStack>::SetBayerPattern(const std::string & name)
+{
+  if (name != "none" && name != "auto")
+  {
+    WithItkErrors(this, [&name] { return sensornoise::BayerPatternOf(name); });
+  }
+  if (m_BayerPattern != name)
+  {
+    m_BayerPattern = name;
+    this->Modified();
+  }
+}
+
+template <typename TStack>
+const sensornoise::Report &
+SensorNoiseEstimator<TStack>::GetChannelReport(const std::string & channel) const
+{
+  const auto plane = WithItkErrors(this, [&channel] { return sensornoise::BayerPlaneOf(channel); });
+  return this->GetChannelReports().Of(plane);
 }
 
 template <typename TStack>
@@ -263,7 +282,7 @@ template <typename TStack>
 void
 SensorNoiseEstimator<TStack>::EnlargeOutputRequestedRegion(DataObject *)
 {
-  for (DataObjectPointerArraySizeType i = 1; i < this->GetNumberOfIndexedOutputs(); ++i)
+  for (DataObjectPointerArraySizeType i = 1; i < ChannelReportsOutput; ++i)
   {
     this->ProcessObject::GetOutput(i)->SetRequestedRegionToLargestPossibleRegion();
   }
@@ -334,7 +353,7 @@ SensorNoiseEstimator<TStack>::MakePublishedSettings() const
 
 template <typename TStack>
 sensornoise::RefinedSettings
-SensorNoiseEstimator<TStack>::MakeRefinedSettings(const std::vector<std::uint8_t> & mask)
+SensorNoiseEstimator<TStack>::MakeRefinedSettings() const
 {
   sensornoise::RefinedSettings settings;
   settings.rollingShutter = m_RollingShutter;
@@ -343,27 +362,77 @@ SensorNoiseEstimator<TStack>::MakeRefinedSettings(const std::vector<std::uint8_t
   {
     settings.levelRangeDn = sensornoise::LevelRange{ m_LevelRangeLow, m_LevelRangeHigh };
   }
+  return settings;
+}
+
+template <typename TStack>
+std::vector<std::optional<sensornoise::KnownOffset>>
+SensorNoiseEstimator<TStack>::FindOffsets(const std::vector<std::uint8_t> &        mask,
+                                          const std::optional<SensorNoiseMosaic> & mosaic)
+{
+  std::vector<std::optional<sensornoise::KnownOffset>> offsets(mosaic ? sensornoise::BayerPlanes.size() : 1);
   if (!std::isnan(m_Offset))
   {
-    settings.offset = sensornoise::KnownOffset{ m_Offset, m_OffsetStandardError };
+    std::fill(offsets.begin(), offsets.end(), sensornoise::KnownOffset{ m_Offset, m_OffsetStandardError });
   }
   else if (const TStack * dark = this->GetDark())
   {
+    const sensornoise::RefinedSettings settings = this->MakeRefinedSettings();
     settings.Validate();
     const auto sink = SensorNoiseDarkSink<TStack>::New();
     sink->SetInput(dark);
     sink->SetNumberOfStreamDivisions(this->GetNumberOfStreamDivisions());
     sink->SetNumberOfWorkUnits(this->GetNumberOfWorkUnits());
     sink->SetUsedPixels(mask);
+    if (mosaic)
+    {
+      sink->SetMosaic(mosaic->geometry);
+    }
     auto * const reading = sink.GetPointer();
     sink->AddObserver(ProgressEvent(), [this, reading](const EventObject &) {
       this->InvokeEvent(ProgressEvent());
       reading->SetAbortGenerateData(this->GetAbortGenerateData());
     });
     sink->Update();
-    settings.offset = sink->Measure(settings.codes);
+    const std::vector<sensornoise::KnownOffset> measured = sink->Measure(settings.codes);
+    std::copy(measured.begin(), measured.end(), offsets.begin());
   }
-  return settings;
+  return offsets;
+}
+
+template <typename TStack>
+std::optional<SensorNoiseMosaic>
+SensorNoiseEstimator<TStack>::FindMosaic()
+{
+  using sensornoise::BayerSource;
+  const auto                       size = this->GetFrameRegion().GetSize();
+  const sensornoise::FrameGeometry frame{ size[0], size[1], m_ShutterAxis };
+  if (m_BayerPattern == "none")
+  {
+    return std::nullopt;
+  }
+  if (m_BayerPattern != "auto")
+  {
+    return SensorNoiseMosaic{ { frame, sensornoise::BayerPatternOf(m_BayerPattern) }, BayerSource::Given };
+  }
+  auto * const      stack = const_cast<TStack *>(this->GetInput());
+  const std::string inFile = sensornoise::CameraSettingsOf(stack->GetMetaDataDictionary()).bayerPattern;
+  if (!inFile.empty())
+  {
+    const auto pattern = WithItkErrors(this, [&inFile] { return sensornoise::BayerPatternOf(inFile); });
+    return SensorNoiseMosaic{ { frame, pattern }, BayerSource::File };
+  }
+  auto first = stack->GetLargestPossibleRegion();
+  first.SetSize(2, 1);
+  stack->SetRequestedRegion(first);
+  stack->Update();
+  const PixelType * const   pixels = stack->GetBufferPointer() + stack->ComputeOffset(first.GetIndex());
+  const std::vector<double> levels(pixels, pixels + frame.Pixels());
+  if (const auto pattern = sensornoise::RecogniseMosaic(levels, frame.width, frame.height, this->GetParallelFor()))
+  {
+    return SensorNoiseMosaic{ { frame, *pattern }, BayerSource::Levels };
+  }
+  return std::nullopt;
 }
 
 template <typename TStack>
@@ -381,19 +450,41 @@ SensorNoiseEstimator<TStack>::StartPasses()
     whole->Update();
     userMask.assign(mask->GetBufferPointer(), mask->GetBufferPointer() + size[0] * size[1]);
   }
-  using Refined = typename Estimation::Refined;
-  using Published = typename Estimation::Published;
-  if (m_Method == MethodEnum::Refined)
+  const auto mosaic = this->FindMosaic();
+  const auto offsets = this->FindOffsets(userMask, mosaic);
+  const auto makeRefined = [&](std::size_t part, const sensornoise::FrameGeometry & frame, const auto & mask) {
+    sensornoise::RefinedSettings settings = this->MakeRefinedSettings();
+    settings.offset = offsets[part];
+    return sensornoise::RefinedMethod<PixelType>(settings, frame, frames, mask, this->GetParallelFor());
+  };
+  const auto makePublished = [&](std::size_t, const sensornoise::FrameGeometry & frame, const auto & mask) {
+    return sensornoise::PublishedMethod<PixelType>(
+      this->MakePublishedSettings(), frame, frames, mask, this->GetParallelFor());
+  };
+  const auto ofPlane = [&](const auto & make) {
+    return [&](sensornoise::BayerPlane plane) {
+      const auto & planes = mosaic->geometry;
+      return make(static_cast<std::size_t>(plane), planes.Plane(), planes.Take(userMask, plane));
+    };
+  };
+  using Work = SensorNoiseEstimation<PixelType>;
+  using Method = decltype(Work::method);
+  const bool isRefined = m_Method == MethodEnum::Refined;
+  const auto makeMethod = [&]() -> Method {
+    if (!mosaic)
+    {
+      return isRefined ? Method(makeRefined(0, geometry, userMask)) : Method(makePublished(0, geometry, userMask));
+    }
+    if (isRefined)
+    {
+      return typename Work::MosaicRefined(mosaic->geometry, ofPlane(makeRefined), this->GetParallelFor());
+    }
+    return typename Work::MosaicPublished(mosaic->geometry, ofPlane(makePublished), this->GetParallelFor());
+  };
+  m_Estimation = std::make_unique<Estimation>(Estimation{ { makeMethod(), mosaic, {} } });
+  for (const auto & offset : offsets)
   {
-    const sensornoise::RefinedSettings settings = this->MakeRefinedSettings(userMask);
-    m_Estimation =
-      std::make_unique<Estimation>(Estimation{ Refined(settings, geometry, frames, userMask, this->GetParallelFor()),
-                                               settings.offset ? settings.offset->maps : nullptr });
-  }
-  else
-  {
-    m_Estimation = std::make_unique<Estimation>(
-      Estimation{ Published(this->MakePublishedSettings(), geometry, frames, userMask, this->GetParallelFor()) });
+    m_Estimation->dark.push_back(offset ? offset->maps : nullptr);
   }
 }
 
@@ -439,27 +530,32 @@ SensorNoiseEstimator<TStack>::FillOutputs()
       std::copy(values.begin(), values.end(), image->GetBufferPointer());
     }
   };
+  auto report = m_Estimation->GetReport(m_Source);
+  if (auto * const channels = std::get_if<sensornoise::ChannelReports>(&report))
+  {
+    this->GetChannelReportsOutput()->Set(std::move(*channels));
+  }
+  else
+  {
+    this->GetReportOutput()->Set(std::move(std::get<sensornoise::Report>(report)));
+  }
   std::visit(
     [&](const auto & method) {
-      constexpr double    nan = std::numeric_limits<double>::quiet_NaN();
-      sensornoise::Report report = method.GetReport();
-      sensornoise::NoteSelection(report, m_Source);
-      this->GetReportOutput()->Set(std::move(report));
+      constexpr double nan = std::numeric_limits<double>::quiet_NaN();
       fill(this->GetMean(), method.GetMean(), nan);
       fill(this->GetVariance(), method.GetVariance(), nan);
       fill(this->GetCorrectedVariance(), method.GetCorrectedVariance(), nan);
       fill(this->GetPixelUse(), method.GetPixelUse(), static_cast<unsigned char>(0));
     },
     m_Estimation->method);
-  if (m_Estimation->dark)
+  if (const auto pixels = m_Estimation->MakeCalibration(this->GetParallelFor()))
   {
-    const auto pixels = sensornoise::MakePixelCalibration(*m_Estimation->dark, this->GetParallelFor());
-    fill(this->GetPixelOffset(), pixels.offset.value, 0.0);
-    fill(this->GetPixelOffsetLow(), pixels.offset.low, 0.0);
-    fill(this->GetPixelOffsetHigh(), pixels.offset.high, 0.0);
-    fill(this->GetPixelReadNoise(), pixels.readNoise.value, 0.0);
-    fill(this->GetPixelReadNoiseLow(), pixels.readNoise.low, 0.0);
-    fill(this->GetPixelReadNoiseHigh(), pixels.readNoise.high, 0.0);
+    fill(this->GetPixelOffset(), pixels->offset.value, 0.0);
+    fill(this->GetPixelOffsetLow(), pixels->offset.low, 0.0);
+    fill(this->GetPixelOffsetHigh(), pixels->offset.high, 0.0);
+    fill(this->GetPixelReadNoise(), pixels->readNoise.value, 0.0);
+    fill(this->GetPixelReadNoiseLow(), pixels->readNoise.low, 0.0);
+    fill(this->GetPixelReadNoiseHigh(), pixels->readNoise.high, 0.0);
   }
 }
 
@@ -483,6 +579,7 @@ SensorNoiseEstimator<TStack>::PrintSelf(std::ostream & os, Indent indent) const
   os << indent << "LevelRangeLow: " << m_LevelRangeLow << std::endl;
   os << indent << "LevelRangeHigh: " << m_LevelRangeHigh << std::endl;
   os << indent << "QuantisationStep: " << m_QuantisationStep << std::endl;
+  os << indent << "BayerPattern: " << m_BayerPattern << std::endl;
   if (const auto & roi = m_Source.roi)
   {
     os << indent << "SourceRegion: " << (*roi)[0] << ", " << (*roi)[1] << ", " << (*roi)[2] << ", " << (*roi)[3]

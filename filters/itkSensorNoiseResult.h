@@ -62,6 +62,11 @@ public:
     m_Result = std::move(result);
     this->Modified();
   }
+  bool
+  Has() const
+  {
+    return m_Result.has_value();
+  }
   /** Throws an ExceptionObject if there is no result. */
   const TResult &
   Get() const

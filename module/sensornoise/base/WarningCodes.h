@@ -14,6 +14,10 @@ namespace sensornoise
 enum class WarningCode : std::uint8_t
 {
   FewFrames,
+  Mosaic,
+  RedOrBlue,
+  GreensDiffer,
+  OffsetsDiffer,
   RepeatedFrames,
   IrregularCodes,
   Companded,
@@ -76,8 +80,29 @@ struct WarningKind
 
 /** All that a report can warn of, in the order of WarningCode. README and Python show this table; a warning's own
  * message has the numbers. */
-inline constexpr std::array<WarningKind, 36> WarningTable{ {
+inline constexpr std::array<WarningKind, 40> WarningTable{ {
   { WarningCode::FewFrames, "few-frames", Severity::Warning, "Fewer than 20 different frames: indicative only." },
+  { WarningCode::Mosaic,
+    "mosaic",
+    Severity::Warning,
+    "The levels of neighbouring pixels alternate as behind the colour filters of a Bayer mosaic: measure its planes, "
+    "by "
+    "the option bayer." },
+  { WarningCode::RedOrBlue,
+    "red-or-blue",
+    Severity::Note,
+    "The pattern of the mosaic was found from the levels, which tell green; R and B may be exchanged." },
+  { WarningCode::GreensDiffer,
+    "greens-differ",
+    Severity::Warning,
+    "The two greens of a mosaic, which are alike, have different gains: another pattern, or rows that are read in "
+    "different ways." },
+  { WarningCode::OffsetsDiffer,
+    "offsets-differ",
+    Severity::Warning,
+    "The offsets of a mosaic's channels differ by more than their errors, and have no common value: coloured light "
+    "that "
+    "does not flicker, or a black level for each." },
   { WarningCode::RepeatedFrames,
     "repeated-frames",
     Severity::Note,

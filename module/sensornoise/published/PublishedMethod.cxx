@@ -6,6 +6,7 @@
 #include "sensornoise/moments/StackMaps.h"
 #include "sensornoise/moments/StackRequirements.h"
 #include "sensornoise/report/RepeatedFrames.h"
+#include "sensornoise/report/StackReport.h"
 #include "sensornoise/report/StackSettings.h"
 
 #include <cmath>
@@ -85,6 +86,7 @@ PublishedMethod<TPixel>::EndPass()
     m_Corrected = this->EndCorrection();
     m_Correction.reset(); // their memory
     m_Report = MakePublishedReport({ m_Settings, m_Geometry, m_Distinct.Count(), m_Scene, m_Flicker, m_Corrected });
+    WarnOfMosaic(m_Report, m_Scene.mean, m_Geometry, m_ParallelFor);
     NoteMask(m_Report, m_Geometry, m_UserMask);
     ReportAllFrames(m_Report, m_Distinct);
   }

@@ -12,6 +12,7 @@
 #include "sensornoise/refined/PixelsOfVariance.h"
 #include "sensornoise/refined/RefinedReport.h"
 #include "sensornoise/report/RepeatedFrames.h"
+#include "sensornoise/report/StackReport.h"
 #include "sensornoise/report/StackSettings.h"
 #include "sensornoise/series/FrameProducts.h"
 #include "sensornoise/scene/UnexplainedPixels.h"
@@ -348,6 +349,7 @@ RefinedMethod<TPixel>::MakeReport()
                                               m_CorrectedVariance,
                                               BlackLevel(m_Settings, *m_Scene, m_Series),
                                               m_Correlation });
+  WarnOfMosaic(m_Report, m_Scene->mean, m_Geometry, m_ParallelFor);
   NoteMask(m_Report, m_Geometry, m_UserMask);
   ReportAllFrames(m_Report, m_Distinct);
 }

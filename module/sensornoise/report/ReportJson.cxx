@@ -180,11 +180,9 @@ WriteFit(JsonWriter & json, const Report & report)
 }
 } // namespace
 
-std::string
-ToJson(const Report & report)
+void
+WriteJson(JsonWriter & json, const Report & report)
 {
-  std::string text;
-  JsonWriter  json(text);
   json.Object([&] {
     json.Member("schema", ReportSchema).Member("version", GetModuleVersion()).Member("method", report.method);
     json.ObjectMember("settings", [&] {
@@ -204,6 +202,14 @@ ToJson(const Report & report)
       json.Member("corrected_variance", report.scatter.correctedVariance).Member("count", report.scatter.count);
     });
   });
+}
+
+std::string
+ToJson(const Report & report)
+{
+  std::string text;
+  JsonWriter  json(text);
+  json.Write(report);
   text += '\n';
   return text;
 }

@@ -31,6 +31,10 @@ WriteQuantity(JsonWriter & json, const char * name, const Quantity & quantity, c
 SensorNoise_EXPORT void
 WriteJson(JsonWriter & json, const NoiseCorrelationRecord & correlation);
 
+/** The record as a value among others. */
+SensorNoise_EXPORT void
+WriteJson(JsonWriter & json, const Report & report);
+
 /** The record as JSON, schema "itk-sensornoise-report/1": one object, units in each quantity, null for what is unknown.
  */
 SensorNoise_EXPORT std::string

@@ -6,6 +6,7 @@
 #include "sensornoise/base/PixelUse.h"
 #include "sensornoise/base/Text.h"
 #include "sensornoise/moments/CodeRange.h"
+#include "sensornoise/moments/MosaicLevels.h"
 #include "sensornoise/moments/StackRequirements.h"
 
 #include <algorithm>
@@ -97,6 +98,23 @@ WarnOfStack(Report & report, std::size_t frames, const StackSummary & summary)
   {
     report.Warn(WarningCode::NotFinitePixels,
                 std::to_string(summary.notFinite) + " pixels are NaN or infinite in a frame and left out");
+  }
+}
+
+void
+WarnOfMosaic(Report &                    report,
+             const std::vector<double> & mean,
+             const FrameGeometry &       geometry,
+             const ParallelFor &         parallelFor)
+{
+  if (const auto pattern = RecogniseMosaic(mean, geometry.width, geometry.height, parallelFor))
+  {
+    const BayerPattern other = CutPattern(*pattern, 1, 1); // red and blue exchanged
+    report.Warn(WarningCode::Mosaic,
+                std::string("the levels of neighbouring pixels alternate as behind a Bayer mosaic, ") +
+                  NameOf(*pattern) + " or " + NameOf(other) +
+                  ", and the frames were measured as those of a monochrome sensor; expected the option bayer, which "
+                  "measures each colour by itself");
   }
 }
 

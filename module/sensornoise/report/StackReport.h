@@ -5,6 +5,7 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/PolynomialFit.h"
 #include "sensornoise/moments/StackMaps.h"
 #include "sensornoise/report/Report.h"
@@ -28,6 +29,13 @@ DescribeStack(Report &                          report,
 /** What was found that the user should know of before trusting the numbers. */
 SensorNoise_EXPORT void
 WarnOfStack(Report & report, std::size_t frames, const StackSummary & summary);
+
+/** Warns if the mean over time [DN] looks as a mosaic of colour filters does, see RecogniseMosaic(). */
+SensorNoise_EXPORT void
+WarnOfMosaic(Report &                    report,
+             const std::vector<double> & mean,
+             const FrameGeometry &       geometry,
+             const ParallelFor &         parallelFor);
 
 /** 1 where the value of \a pixelUse is PixelUse::Used. */
 SensorNoise_EXPORT std::vector<std::uint8_t>

@@ -1,0 +1,123 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef itkSensorNoiseEstimation_h
+#define itkSensorNoiseEstimation_h
+
+#include "sensornoise/mosaic/MosaicMethod.h"
+#include "sensornoise/moments/DarkMaps.h"
+#include "sensornoise/moments/PixelCalibration.h"
+#include "sensornoise/published/PublishedMethod.h"
+#include "sensornoise/refined/RefinedMethod.h"
+#include "sensornoise/report/ChannelReports.h"
+#include "sensornoise/report/StackSettings.h"
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace itk
+{
+
+/** The mosaic that a stack is, and how that is known. */
+struct SensorNoiseMosaic
+{
+  sensornoise::MosaicGeometry geometry;
+  sensornoise::BayerSource    source{ sensornoise::BayerSource::Given };
+};
+
+/** The method at work in SensorNoiseEstimator, on a frame or on the planes of a mosaic: all have one interface. */
+template <typename TPixel>
+struct SensorNoiseEstimation
+{
+  using Refined = sensornoise::RefinedMethod<TPixel>;
+  using Published = sensornoise::PublishedMethod<TPixel>;
+  using MosaicRefined = sensornoise::MosaicMethod<TPixel, Refined>;
+  using MosaicPublished = sensornoise::MosaicMethod<TPixel, Published>;
+  using DarkMapsPointer = std::shared_ptr<const sensornoise::DarkMaps>;
+  static_assert(Refined::NumberOfPasses == Published::NumberOfPasses, "the methods read the stack equally often");
+
+  std::variant<Refined, Published, MosaicRefined, MosaicPublished> method;
+  std::optional<SensorNoiseMosaic>                                 mosaic{};
+  std::vector<DarkMapsPointer> dark{}; ///< of each plane; null: fewer than two frames
+
+  /** Of the stack, or of each of its channels; \a selection is noted in each. */
+  std::variant<sensornoise::Report, sensornoise::ChannelReports>
+  GetReport(const sensornoise::StackSelection & selection) const
+  {
+    using Result = std::variant<sensornoise::Report, sensornoise::ChannelReports>;
+    return std::visit(
+      [&](const auto & atWork) -> Result {
+        if constexpr (std::is_same_v<decltype(atWork), const Refined &> ||
+                      std::is_same_v<decltype(atWork), const Published &>)
+        {
+          sensornoise::Report report = atWork.GetReport();
+          sensornoise::NoteSelection(report, selection);
+          return report;
+        }
+        else
+        {
+          std::array<sensornoise::Report, 4> reports = atWork.GetReports();
+          for (sensornoise::Report & report : reports)
+          {
+            sensornoise::NoteSelection(report, selection);
+          }
+          return sensornoise::MakeChannelReports(mosaic->geometry.pattern, mosaic->source, std::move(reports));
+        }
+      },
+      method);
+  }
+
+  /** What every pixel's own dark frames tell; none where there are fewer than two. */
+  std::optional<sensornoise::PixelCalibration>
+  MakeCalibration(const sensornoise::ParallelFor & parallelFor) const
+  {
+    if (dark.empty() || !dark.front())
+    {
+      return std::nullopt;
+    }
+    if (!mosaic)
+    {
+      return sensornoise::MakePixelCalibration(*dark.front(), parallelFor);
+    }
+    const sensornoise::MosaicGeometry & geometry = mosaic->geometry;
+    const std::vector<double>           nothing(geometry.frame.Pixels(), std::numeric_limits<double>::quiet_NaN());
+    sensornoise::PixelCalibration       joined{ { nothing, nothing, nothing }, { nothing, nothing, nothing } };
+    for (std::size_t k = 0; k < dark.size(); ++k)
+    {
+      const auto plane = sensornoise::BayerPlanes[k];
+      const auto pixels = sensornoise::MakePixelCalibration(*dark[k], parallelFor);
+      geometry.Put(pixels.offset.value, plane, joined.offset.value);
+      geometry.Put(pixels.offset.low, plane, joined.offset.low);
+      geometry.Put(pixels.offset.high, plane, joined.offset.high);
+      geometry.Put(pixels.readNoise.value, plane, joined.readNoise.value);
+      geometry.Put(pixels.readNoise.low, plane, joined.readNoise.low);
+      geometry.Put(pixels.readNoise.high, plane, joined.readNoise.high);
+    }
+    return joined;
+  }
+};
+
+} // namespace itk
+
+#endif

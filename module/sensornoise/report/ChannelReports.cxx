@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/report/ChannelReports.h"
+
+#include "sensornoise/base/ChiSquare.h"
+#include "sensornoise/base/Text.h"
+#include "sensornoise/report/Constants.h"
+#include "sensornoise/report/Quantities.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** A number and its standard error. */
+struct Measurement
+{
+  double value;
+  double error;
+};
+
+std::optional<Measurement>
+MeasurementOf(const Quantity & quantity)
+{
+  if (!quantity.value || !quantity.standardError || !(*quantity.standardError > 0.0))
+  {
+    return std::nullopt;
+  }
+  return Measurement{ *quantity.value, *quantity.standardError };
+}
+
+/** Whether the offset of a report was told to it, without an own look at dark frames. */
+bool
+IsOffsetGiven(const Report & report)
+{
+  return std::any_of(report.settings.begin(), report.settings.end(), [](const auto & setting) {
+    return setting.first == "dark_frames" && setting.second == Report::SettingValue{ 0.0 };
+  });
+}
+
+std::optional<JointOffset>
+JoinOffsets(const std::array<Report, 4> & channels)
+{
+  std::vector<Measurement> offsets;
+  for (const Report & channel : channels)
+  {
+    if (const auto offset = MeasurementOf(channel.offset); offset && !IsOffsetGiven(channel))
+    {
+      offsets.push_back(*offset);
+    }
+  }
+  if (offsets.size() < 2)
+  {
+    return std::nullopt;
+  }
+  double weights = 0.0;
+  double sum = 0.0;
+  double best = offsets.front().error;
+  for (const Measurement & offset : offsets)
+  {
+    const double weight = 1.0 / (offset.error * offset.error);
+    weights += weight;
+    sum += weight * offset.value;
+    best = std::min(best, offset.error);
+  }
+  const double mean = sum / weights;
+  const double freedom = static_cast<double>(offsets.size()) - 1.0;
+  double       chi2 = 0.0;
+  for (const Measurement & offset : offsets)
+  {
+    chi2 += (offset.value - mean) * (offset.value - mean) / (offset.error * offset.error);
+  }
+  JointOffset joint;
+  joint.reducedChi2 = chi2 / freedom;
+  // More than chance: whatever it is that makes them differ is in the mean, too.
+  const bool   isMore = chi2 > ChiSquareQuantile(0.95, freedom);
+  const double error = std::sqrt((isMore ? joint.reducedChi2 : 1.0) / weights);
+  if (error < best)
+  {
+    joint.offset = WithError(mean, error);
+    joint.precisionGain = best / error;
+  }
+  else
+  {
+    joint.offset = Quantity::Without(EstimateStatus::Failed);
+  }
+  return joint;
+}
+
+/** The two greens have the same filter, pixel and amplifier: gains that differ tell of something else. */
+void
+CompareGreens(ChannelReports & reports)
+{
+  const auto first = MeasurementOf(reports.Of(BayerPlane::G1).gain);
+  const auto second = MeasurementOf(reports.Of(BayerPlane::G2).gain);
+  if (!first || !second)
+  {
+    return;
+  }
+  const double difference = first->value - second->value;
+  const double error = std::hypot(first->error, second->error);
+  const double mean = 0.5 * (first->value + second->value);
+  if (std::abs(difference) > InReport.greensDifferZ * error &&
+      std::abs(difference) > InReport.leastGreenDifference * mean)
+  {
+    reports.warnings.push_back(
+      { WarningCode::GreensDiffer,
+        "the gains of the two greens are " + Measured(first->value, first->error) + " and " +
+          Measured(second->value, second->error) +
+          " DN/e-: expected one gain; is this the pattern of the sensor, and are its rows read in one way?" });
+  }
+}
+
+/** Found from the codes of each plane, of which some are darker than others: the converter has one. */
+void
+ShareBitDepth(std::array<Report, 4> & channels)
+{
+  std::optional<int> bits;
+  for (const Report & channel : channels)
+  {
+    bits = std::max(bits, channel.bitDepth);
+  }
+  for (Report & channel : channels)
+  {
+    channel.bitDepth = channel.bitDepth ? bits : channel.bitDepth;
+  }
+}
+} // namespace
+
+const char *
+NameOf(BayerSource source)
+{
+  return source == BayerSource::Given ? "given" : source == BayerSource::File ? "file" : "levels";
+}
+
+bool
+ChannelReports::IsUsable() const
+{
+  return std::any_of(channels.begin(), channels.end(), [](const Report & channel) { return channel.IsUsable(); });
+}
+
+ChannelReports
+MakeChannelReports(BayerPattern pattern, BayerSource source, std::array<Report, 4> channels)
+{
+  ShareBitDepth(channels);
+  for (const BayerPlane plane : BayerPlanes)
+  {
+    Report & report = channels.at(static_cast<std::size_t>(plane));
+    report.channel = NameOf(plane);
+    report.settings.emplace_back("bayer", std::string(NameOf(pattern)));
+  }
+  ChannelReports reports{ pattern, source, std::move(channels), std::nullopt, {} };
+  if (source == BayerSource::Levels)
+  {
+    reports.warnings.push_back({ WarningCode::RedOrBlue,
+                                 std::string("the pattern ") + NameOf(pattern) +
+                                   " was found from the levels, which tell green; of the two other colours the "
+                                   "brighter one is called R, it may be blue" });
+  }
+  reports.joint = JoinOffsets(reports.channels);
+  if (reports.joint && reports.joint->offset.status == EstimateStatus::Failed)
+  {
+    reports.warnings.push_back(
+      { WarningCode::OffsetsDiffer,
+        "the offsets of the channels differ by " + Rounded(std::sqrt(reports.joint->reducedChi2)) +
+          " times their errors, and have no common value: light that does not flicker, of another colour than that "
+          "which does, or a black level for each channel, makes such a difference" });
+  }
+  CompareGreens(reports);
+  return reports;
+}
+
+} // namespace sensornoise

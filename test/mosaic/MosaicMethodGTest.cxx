@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/mosaic/MosaicMethod.h"
+
+#include "sensornoise/base/PixelUse.h"
+#include "sensornoise/published/PublishedMethod.h"
+#include "sensornoise/refined/RefinedMethod.h"
+#include "sensornoise/report/ReportJson.h"
+#include "helpers/StackTestHelper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <gtest/gtest.h>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+/** \file
+ * What a method finds of the planes of a mosaic is, bit by bit, what it finds of them one by one. */
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+using Pixel = unsigned short;
+
+namespace
+{
+Stack<Pixel>
+SimulateMosaic(BayerPattern pattern, std::size_t width, std::size_t height)
+{
+  SimulationSettings settings = FlickeringSettings(24);
+  settings.flaws.filters.pattern = pattern;
+  return Simulate<Pixel>(settings, width, height);
+}
+
+template <typename TMethod>
+TMethod
+MakeMethod(const FrameGeometry &             frame,
+           std::size_t                       frames,
+           const std::vector<std::uint8_t> & mask,
+           ParallelFor                       parallelFor)
+{
+  if constexpr (std::is_same_v<TMethod, RefinedMethod<Pixel>>)
+  {
+    return TMethod(RefinedSettings(), frame, frames, mask, std::move(parallelFor));
+  }
+  else
+  {
+    return TMethod(PublishedSettings(), frame, frames, mask, std::move(parallelFor));
+  }
+}
+
+/** Runs a method through its passes, \a chunk frames at a time. */
+template <typename TMethod>
+void
+Run(TMethod & method, const Stack<Pixel> & stack, std::size_t chunk)
+{
+  for (unsigned int pass = 0; pass < TMethod::NumberOfPasses; ++pass)
+  {
+    for (std::size_t t = 0; t < stack.frames; t += chunk)
+    {
+      method.AddFrames(stack.Frame(t), std::min(chunk, stack.frames - t));
+    }
+    method.EndPass();
+  }
+}
+
+template <typename TMethod>
+class MosaicMethodOf : public ::testing::Test
+{};
+using Methods = ::testing::Types<RefinedMethod<Pixel>, PublishedMethod<Pixel>>;
+TYPED_TEST_SUITE(MosaicMethodOf, Methods, );
+} // namespace
+
+TYPED_TEST(MosaicMethodOf, FindsOfEachPlaneWhatItFindsOfItAlone)
+{
+  for (const BayerPattern pattern : { BayerPattern::RGGB, BayerPattern::GBRG })
+  {
+    const Stack<Pixel>   stack = SimulateMosaic(pattern, 97, 90); // the last column is in no plane
+    const MosaicGeometry geometry{ { stack.width, stack.height, 1 }, pattern };
+    ASSERT_EQ(geometry.Plane().width, 48U);
+    std::vector<std::uint8_t> mask(stack.width * stack.height, 1);
+    for (std::size_t p = 0; p < mask.size(); p += 5)
+    {
+      mask[p] = 0;
+    }
+    const auto                     threads = Threads(3);
+    MosaicMethod<Pixel, TypeParam> mosaic(
+      geometry,
+      [&](BayerPlane plane) {
+        return MakeMethod<TypeParam>(geometry.Plane(), stack.frames, geometry.Take(mask, plane), threads);
+      },
+      threads);
+    Run(mosaic, stack, 7);
+    const auto reports = mosaic.GetReports();
+    const auto mean = mosaic.GetMean();
+    const auto corrected = mosaic.GetCorrectedVariance();
+    const auto use = mosaic.GetPixelUse();
+    for (const BayerPlane plane : BayerPlanes)
+    {
+      Stack<Pixel> alone{ geometry.Plane().width, geometry.Plane().height, stack.frames, {} };
+      for (std::size_t t = 0; t < stack.frames; ++t)
+      {
+        const auto frame =
+          geometry.Take(std::vector<Pixel>(stack.Frame(t), stack.Frame(t) + geometry.frame.Pixels()), plane);
+        alone.pixels.insert(alone.pixels.end(), frame.begin(), frame.end());
+      }
+      auto method = MakeMethod<TypeParam>(geometry.Plane(), stack.frames, geometry.Take(mask, plane), SerialFor);
+      Run(method, alone, stack.frames);
+      EXPECT_EQ(ToJson(reports.at(static_cast<std::size_t>(plane))), ToJson(method.GetReport())) << NameOf(plane);
+      EXPECT_TRUE(HaveSameBits(geometry.Take(mean, plane), method.GetMean()));
+      EXPECT_TRUE(HaveSameBits(geometry.Take(corrected, plane), method.GetCorrectedVariance()));
+      EXPECT_EQ(geometry.Take(use, plane), method.GetPixelUse());
+    }
+    EXPECT_TRUE(std::isnan(mean[96]));
+    EXPECT_EQ(use[96], static_cast<std::uint8_t>(PixelUse::Border));
+  }
+}
+
+TEST(MosaicMethod, PlanesCountTheirOwnFrames)
+{
+  const MosaicGeometry geometry{ { 64, 64, 1 }, BayerPattern::RGGB };
+  const auto           make = [&](BayerPlane) { return RefinedMethod<Pixel>(RefinedSettings(), geometry.Plane(), 8); };
+  MosaicMethod<Pixel, RefinedMethod<Pixel>> method(geometry, make);
+  const std::vector<Pixel>                  frames(64 * 64 * 9);
+  EXPECT_THROW(method.AddFrames(frames.data(), 9), std::logic_error);
+}
+
+TEST(MosaicGeometry, SplitAndPutAreInverse)
+{
+  const MosaicGeometry geometry{ { 10, 6, 1 }, BayerPattern::GRBG };
+  std::vector<int>     frame(60);
+  for (std::size_t p = 0; p < frame.size(); ++p)
+  {
+    frame[p] = static_cast<int>(p);
+  }
+  std::vector<int> again(60, -1);
+  for (const BayerPlane plane : BayerPlanes)
+  {
+    const std::vector<int> ofPlane = geometry.Take(frame, plane);
+    EXPECT_EQ(ofPlane.size(), 15U);
+    geometry.Put(ofPlane, plane, again);
+  }
+  EXPECT_EQ(again, frame);
+  EXPECT_TRUE(geometry.Take(std::vector<int>(), BayerPlane::R).empty());
+}
