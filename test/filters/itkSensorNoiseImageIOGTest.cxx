@@ -149,7 +149,7 @@ TEST_F(SensorNoiseImageIO, WhatTheFileSaysOfTheCameraIsInTheDictionary)
   const auto other = sensornoise::CameraSettingsOf(ser->GetOutput()->GetMetaDataDictionary());
   EXPECT_EQ(other.bayerPattern, "");
   EXPECT_FALSE(ser->GetOutput()->GetMetaDataDictionary().HasKey("SensorNoise.BayerPattern"));
-  EXPECT_EQ(other.exposureSeconds, 1.0 / 5000.0);
+  EXPECT_DOUBLE_EQ(other.exposureSeconds, 1.0 / 5000.0);
 }
 
 TEST_F(SensorNoiseImageIO, APixelOfATiffIsWhatItksReaderMakesOfIt)

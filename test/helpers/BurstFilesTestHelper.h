@@ -130,8 +130,9 @@ struct CihxOf
     return std::string("\1\2<junk", 7) +
            "<?xml version=\"1.0\"?>\r\n<cih>\r\n  <!-- <a> -->\r\n<fileInfo><date>1</date></fileInfo>" +
            "<deviceInfo><deviceName>FASTCAM Mini</deviceName></deviceInfo>\r\n" +
-           "<recordInfo><recordRate>1000</recordRate><shutterSpeed>1/5000</shutterSpeed></recordInfo>" +
-           "<frameInfo><totalFrame>" + number(frames) + "</totalFrame><startFrame/></frameInfo>" +
+           "<recordInfo><recordRate>1000</recordRate><shutterSpeed>5000</shutterSpeed>" +
+           "<shutterSpeedNsec>200000</shutterSpeedNsec></recordInfo>" + "<frameInfo><totalFrame>" + number(frames) +
+           "</totalFrame><startFrame/></frameInfo>" +
            "<imageFileInfo><fileFormat>MRaw</fileFormat></imageFileInfo><imageDataInfo><resolution><width>" +
            number(width) + "</width><height> " + number(height) +
            " </height></resolution><colorInfo a=\"1\"><type>Mono</type><bit>" + number(bits) +

@@ -98,20 +98,25 @@ private:
   std::map<std::string, std::string> m_Fields;
 };
 
-/** "1/5000", or a part of a second; NaN for what could be anything else. */
+/** Of nanoseconds, or of "1/5000"; NaN for what could be anything else. */
 double
-SecondsOf(const std::string & text)
+ExposureOf(const PhotronFields & fields)
 {
-  constexpr double   unknown = std::numeric_limits<double>::quiet_NaN();
-  const bool         isQuotient = text.rfind("1/", 0) == 0;
-  std::istringstream stream(isQuotient ? text.substr(2) : text);
-  double             number = 0.0;
-  stream.imbue(std::locale::classic());
-  if (!(stream >> number) || !stream.eof() || !(number > 0.0))
+  constexpr double                   unknown = std::numeric_limits<double>::quiet_NaN();
+  const std::optional<std::uint64_t> nanoseconds = WholeNumber(fields.Text("recordInfo/shutterSpeedNsec", ""));
+  if (nanoseconds && *nanoseconds > 0)
+  {
+    return 1e-9 * static_cast<double>(*nanoseconds);
+  }
+  const std::string text = fields.Text("recordInfo/shutterSpeed", "Shutter Speed(s)");
+  if (text.rfind("1/", 0) != 0)
   {
     return unknown;
   }
-  return isQuotient ? 1.0 / number : number < 1.0 ? number : unknown;
+  std::istringstream stream(text.substr(2));
+  double             number = 0.0;
+  stream.imbue(std::locale::classic());
+  return (stream >> number) && stream.eof() && number > 0.0 ? 1.0 / number : unknown;
 }
 
 SampleFormat
@@ -145,7 +150,7 @@ void
 ReadCamera(const PhotronFields & fields, const SampleFormat & format, CameraSettings & camera)
 {
   camera.camera = PrintableText(fields.Text("deviceInfo/deviceName", "Camera Type"));
-  camera.exposureSeconds = SecondsOf(fields.Text("recordInfo/shutterSpeed", "Shutter Speed(s)"));
+  camera.exposureSeconds = ExposureOf(fields);
   const std::optional<std::uint64_t> depth =
     WholeNumber(fields.Text("imageDataInfo/effectiveBit/depth", "EffectiveBit Depth"));
   const std::string side = LowerCaseText(fields.Text("imageDataInfo/effectiveBit/side", "EffectiveBit Side"));
