@@ -15,5 +15,7 @@ itk_module(SensorNoise
     ITKGoogleTest
     ITKImageFilterBase
     ITKImageStatistics
+  FACTORY_NAMES
+    ImageIO::SensorNoise
   DESCRIPTION "${DOCUMENTATION}"
   EXCLUDE_FROM_DEFAULT)

@@ -17,16 +17,18 @@
  *=========================================================================*/
 #include "itkSensorNoiseFrameFiles.h"
 
-#include "itkSensorNoiseImageIO.h"
-#include "itkSensorNoiseSilentTiff.h"
+#include "itkSensorNoiseOpenImageIO.h"
 #include "sensornoise/base/FreeMemory.h"
 #include "sensornoise/files/FileError.h"
+#include "sensornoise/files/FrameFormats.h"
+#include "sensornoise/files/RawLayout.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <exception>
 #include <iterator>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -102,6 +104,15 @@ GeometryOf(const itk::ImageIOBase & io)
   return geometry;
 }
 
+FrameListGeometry
+GeometryOf(const FrameFile & file)
+{
+  FrameListGeometry geometry;
+  geometry.spacing[0] = file.spacing[0];
+  geometry.spacing[1] = file.spacing[1];
+  return geometry;
+}
+
 /** Of one slice: what it says of x and y. */
 FrameListGeometry
 WithoutTime(FrameListGeometry geometry)
@@ -152,16 +163,40 @@ RestoreCodes(const FrameFile & file, void * buffer, std::size_t count)
   }
 }
 
+/** By the reader that came with the inspection, or by that of ITK. */
+void
+ReadPixels(const FrameFile & file, itk::ImageIOBase * io, std::size_t first, std::size_t count, void * buffer)
+{
+  if (file.reader)
+  {
+    file.reader->Read(file, first, count, buffer);
+    return;
+  }
+  io->SetUseStreamedReading(count < file.frames);
+  io->SetIORegion(RegionOf(*io, first, count));
+  io->Read(buffer);
+}
+
 void
 ReadFile(const FrameFile & file, std::size_t first, std::size_t count, void * buffer)
 {
-  const itk::ImageIOBase::Pointer io = OpenImageIO(file);
-  const SilentTiff                silent;
+  itk::ImageIOBase::Pointer io;
+  if (file.reader)
+  {
+    RequireUnchanged(file);
+  }
+  else
+  {
+    io = OpenImageIO(file);
+  }
   try
   {
-    io->SetUseStreamedReading(count < file.frames);
-    io->SetIORegion(RegionOf(*io, first, count));
-    io->Read(buffer);
+    ReadPixels(file, io, first, count, buffer);
+  }
+  catch (const FileError &)
+  {
+    RequireUnchanged(file);
+    throw;
   }
   catch (const std::exception & error)
   {
@@ -183,11 +218,18 @@ FrameList::Names() const
 }
 
 FrameList
-OpenFrames(const std::vector<std::string> & names, const BeforeInflating & beforeInflating)
+OpenFrames(const std::vector<std::string> & names,
+           const BeforeInflating &          beforeInflating,
+           const std::string &              rawLayout)
 {
   if (names.empty())
   {
     throw std::invalid_argument("no file was given; expected image files in time order, or one stack");
+  }
+  std::optional<RawLayout> layout;
+  if (!rawLayout.empty())
+  {
+    layout = ReadRawLayout(rawLayout);
   }
   FrameList list;
   list.files.reserve(names.size());
@@ -205,9 +247,9 @@ OpenFrames(const std::vector<std::string> & names, const BeforeInflating & befor
         RequireAlike(file, list.files.front());
       }
     };
-    const FrameFile file = InspectFrameFile(name, [&](const FrameFile & known) {
+    const auto beforeWork = [&](const FrameFile & known) {
       requireFitting(known);
-      if (known.frames > 1)
+      if (known.frames > 1 && known.format->imageIO != nullptr)
       {
         RequireMemoryFor(known); // ITK reads no compressed stack in parts
       }
@@ -215,9 +257,11 @@ OpenFrames(const std::vector<std::string> & names, const BeforeInflating & befor
       {
         beforeInflating(known);
       }
-    });
+    };
+    const FrameFile file = layout ? InspectRawFile(name, *layout) : InspectFrameFile(name, beforeWork);
     requireFitting(file);
-    const itk::ImageIOBase::Pointer io = OpenImageIO(file);
+    // ITK's reader has to say the same as the file
+    const itk::ImageIOBase::Pointer io = file.reader ? nullptr : OpenImageIO(file);
     if (list.files.empty())
     {
       list.isStack = file.frames > 1;
@@ -225,8 +269,9 @@ OpenFrames(const std::vector<std::string> & names, const BeforeInflating & befor
       list.width = file.width;
       list.height = file.height;
       list.camera = file.camera;
-      list.streams = !list.isStack || io->CanStreamRead();
-      list.geometry = list.isStack ? GeometryOf(*io) : WithoutTime(GeometryOf(*io));
+      list.streams = !list.isStack || file.reader || io->CanStreamRead();
+      list.geometry = file.reader ? GeometryOf(file) : GeometryOf(*io);
+      list.geometry = list.isStack ? list.geometry : WithoutTime(list.geometry);
       if (!list.streams)
       {
         RequireMemoryFor(file);

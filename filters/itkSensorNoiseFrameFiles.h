@@ -66,9 +66,12 @@ struct FrameList
  * type unsigned char, unsigned short, short, float or double a pixel, and all have the same size and type. One 3-D file
  * is a stack; a list holds 2-D files, or 3-D files of one slice. Formats are those of FrameFormats(), as far as the
  * program has registered their ImageIO. \a beforeInflating is asked about each compressed file before it is
- * inflated. */
+ * inflated. \a rawLayout: how frames lie in files without a header, see ReadRawLayout(), which throws for what is none;
+ * empty: the files say so. */
 SensorNoise_EXPORT FrameList
-OpenFrames(const std::vector<std::string> & names, const BeforeInflating & beforeInflating = {});
+OpenFrames(const std::vector<std::string> & names,
+           const BeforeInflating &          beforeInflating = {},
+           const std::string &              rawLayout = {});
 
 /** Reads \a count frames from the frame \a first on, one after the other, without conversion: \a buffer has room for
  * width x height x count pixels of the list's type. Of a stack that does not stream only all frames can be read.

@@ -40,9 +40,9 @@ namespace itk
  * the pixel type is the component type of the files, and a program that does not know that asks ReadComponentType()
  * before it chooses.
  *
- * A list streams: no more frames than were asked for are held. So does an uncompressed MetaImage, and whatever else ITK
- * reads in parts. Other stacks (NRRD, multi-page TIFF, compressed) are read whole, at each reading again. A frame is
- * read whole, whatever part of it is wanted.
+ * A list streams: no more frames than were asked for are held. So do multi-page TIFF, SER, MRAW, raw frames without a
+ * header, an uncompressed MetaImage, and whatever else ITK reads in parts. Other stacks (NRRD, compressed MetaImage)
+ * are read whole, at each reading again. A frame is read whole, whatever part of it is wanted.
  *
  * A file that has changed since it was checked, by size, time or place on the disk, is an error as well, at the reading
  * that meets it. After an error the next Update() checks the files anew and starts from them as they are then.
@@ -99,6 +99,16 @@ public:
   void
   SetFileName(const std::string & name);
 
+  /** How frames lie in files that do not say so themselves, "640x480:uint16le" for instance, "1920x1080:Mono12p:64" for
+   * packed ones behind 64 other bytes; see sensornoise::ReadRawLayout(). Default: empty, the files say so. */
+  void
+  SetRawLayout(const std::string & layout);
+  const std::string &
+  GetRawLayout() const
+  {
+    return m_RawLayout;
+  }
+
   /** Files that are open already, and are not checked a second time. */
   void
   SetFrameList(const sensornoise::FrameList & list);
@@ -140,6 +150,7 @@ protected:
 
 private:
   std::vector<std::string> m_FileNames;
+  std::string              m_RawLayout;
   sensornoise::FrameList   m_FrameList;
   bool                     m_IsOpen{ false };
 };

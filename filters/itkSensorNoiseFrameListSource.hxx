@@ -102,6 +102,19 @@ SensorNoiseFrameListSource<TOutputStack>::SetFileName(const std::string & name)
 
 template <typename TOutputStack>
 void
+SensorNoiseFrameListSource<TOutputStack>::SetRawLayout(const std::string & layout)
+{
+  if (m_RawLayout != layout)
+  {
+    m_RawLayout = layout;
+    m_FrameList = {};
+    m_IsOpen = false;
+    this->Modified();
+  }
+}
+
+template <typename TOutputStack>
+void
 SensorNoiseFrameListSource<TOutputStack>::SetFrameList(const sensornoise::FrameList & list)
 {
   m_FileNames = list.Names();
@@ -116,7 +129,7 @@ SensorNoiseFrameListSource<TOutputStack>::GetFrameList()
 {
   if (!m_IsOpen)
   {
-    m_FrameList = WithFileErrors([this] { return sensornoise::OpenFrames(m_FileNames); });
+    m_FrameList = WithFileErrors([this] { return sensornoise::OpenFrames(m_FileNames, {}, m_RawLayout); });
     m_IsOpen = true;
   }
   return m_FrameList;
@@ -248,6 +261,7 @@ SensorNoiseFrameListSource<TOutputStack>::PrintSelf(std::ostream & os, Indent in
   {
     os << indent.GetNextIndent() << name << std::endl;
   }
+  os << indent << "RawLayout: " << (m_RawLayout.empty() ? "(none)" : m_RawLayout) << std::endl;
   os << indent << "FrameList: ";
   if (m_IsOpen)
   {

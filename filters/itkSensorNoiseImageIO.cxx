@@ -17,129 +17,202 @@
  *=========================================================================*/
 #include "itkSensorNoiseImageIO.h"
 
-#include "itkSensorNoiseSilentTiff.h"
-#include "sensornoise/files/FileError.h"
+#include "itkSensorNoiseMetaData.h"
+#include "sensornoise/files/FileBytes.h"
 #include "sensornoise/files/FrameFormats.h"
-#include "itkObjectFactoryBase.h"
+#include "sensornoise/files/RawLayout.h"
 
-#include <algorithm>
-#include <cstddef>
 #include <exception>
-#include <new>
-#include <string>
+#include <vector>
 
-namespace sensornoise
+namespace itk
 {
 namespace
 {
-/** What an exception says: of ITK's its first line without class and address, and where NRRD reports a chain of
- * "trouble" the last link. */
-std::string
-CauseOf(const std::exception & error)
-{
-  if (dynamic_cast<const std::bad_alloc *>(&error) != nullptr)
-  {
-    return "there is not enough memory for it";
-  }
-  const auto * const itkError = dynamic_cast<const itk::ExceptionObject *>(&error);
-  const std::string  text = itkError != nullptr ? itkError->GetDescription() : error.what();
-  std::size_t        start = text.rfind("[nrrd]");
-  if (start == std::string::npos)
-  {
-    // the end of "itk::ERROR: Class(address): "
-    const std::size_t address = text.find("): ");
-    start = address == std::string::npos ? 0 : address + 3;
-  }
-  return text.substr(start, text.find('\n', start) - start);
-}
-
-itk::ImageIOBase::Pointer
-MakeImageIO(const FrameFile & file)
-{
-  if (file.format == nullptr)
-  {
-    throw FileError(file.name, "of a format that cannot be checked; expected " + NamesOfFrameFormats());
-  }
-  for (const itk::LightObject::Pointer & object : itk::ObjectFactoryBase::CreateAllInstance("itkImageIOBase"))
-  {
-    auto * const io = dynamic_cast<itk::ImageIOBase *>(object.GetPointer());
-    if (io != nullptr && io->GetNameOfClass() == std::string(file.format->imageIO))
-    {
-      return io;
-    }
-  }
-  throw FileError(file.name,
-                  std::string("of format ") + file.format->name +
-                    ", which this program does not read; expected one that is linked to ITK's module " +
-                    file.format->itkModule + " and has registered its format");
-}
-
-std::string
-ComponentNameOf(const itk::ImageIOBase & io)
-{
-  std::string name = itk::ImageIOBase::GetComponentTypeAsString(io.GetComponentType());
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
-
-std::string
-Describe(std::size_t width, std::size_t height, std::size_t frames, const std::string & pixel)
-{
-  return std::to_string(width) + " x " + std::to_string(height) + " pixels of type " + pixel +
-         ", frames: " + std::to_string(frames);
-}
-
-/** ITK's readers make grey of colours, guess byte counts and count pages in their own way: then it would not be this.
- */
+/** Throws what \a function throws as ITK's exception, with the same sentence. */
+template <typename TFunction>
 void
-RequireSameFrames(const FrameFile & file, const itk::ImageIOBase & io)
+AsItk(TFunction function)
 {
-  const unsigned int dimensions = io.GetNumberOfDimensions();
-  const std::size_t  frames = dimensions > 2 ? io.GetDimensions(2) : 1;
-  std::string        found = std::to_string(dimensions) + " dimensions";
-  if (dimensions >= 2 && (dimensions < 4 || (dimensions == 4 && io.GetDimensions(3) == 1)))
-  {
-    found = Describe(io.GetDimensions(0), io.GetDimensions(1), frames, ComponentNameOf(io));
-  }
-  if (io.GetNumberOfComponents() != 1)
-  {
-    found += ", " + std::to_string(io.GetNumberOfComponents()) + " components a pixel";
-  }
-  const std::string expected = Describe(file.width, file.height, file.frames, NameOf(file.pixel));
-  if (found != expected)
-  {
-    throw FileError(file.name, "ITK would read " + found + "; expected " + expected + ", as the file declares");
-  }
-}
-} // namespace
-
-FileError
-PixelErrorOf(const std::string & file, const std::exception & error)
-{
-  return FileError(file, "its pixels cannot be read; " + CauseOf(error));
-}
-
-itk::ImageIOBase::Pointer
-OpenImageIO(const FrameFile & file)
-{
-  RequireUnchanged(file);
-  const SilentTiff silent;
   try
   {
-    const itk::ImageIOBase::Pointer io = MakeImageIO(file);
-    io->SetFileName(file.name);
-    io->ReadImageInformation();
-    RequireSameFrames(file, *io);
-    return io;
+    function();
   }
-  catch (const FileError &)
+  catch (const ExceptionObject &)
   {
     throw;
   }
   catch (const std::exception & error)
   {
-    throw FileError(file.name, "its header cannot be read; " + CauseOf(error));
+    throw ExceptionObject(__FILE__, __LINE__, error.what(), ITK_LOCATION);
   }
 }
 
-} // namespace sensornoise
+IOComponentEnum
+ComponentOf(sensornoise::FramePixel pixel)
+{
+  switch (pixel)
+  {
+    case sensornoise::FramePixel::UnsignedChar:
+      return IOComponentEnum::UCHAR;
+    case sensornoise::FramePixel::UnsignedShort:
+      return IOComponentEnum::USHORT;
+    case sensornoise::FramePixel::Short:
+      return IOComponentEnum::SHORT;
+    case sensornoise::FramePixel::Float:
+      return IOComponentEnum::FLOAT;
+    default:
+      return IOComponentEnum::DOUBLE;
+  }
+}
+
+/** Whether the file is of a format that this library reads itself, by its head and name. */
+bool
+MayBeOurs(const std::string & name)
+{
+  sensornoise::FileBytes bytes(name);
+  std::string            head(512, '\0');
+  head.resize(bytes.ReadSome(0, head.data(), head.size()));
+  const sensornoise::FrameFormat * const format = sensornoise::FindFrameFormat(head, name);
+  return format != nullptr && format->imageIO == nullptr;
+}
+} // namespace
+
+SensorNoiseImageIO::SensorNoiseImageIO()
+{
+  this->SetNumberOfDimensions(3);
+  this->SetNumberOfComponents(1);
+  this->SetPixelType(IOPixelEnum::SCALAR);
+  for (const char * const ending : { ".ser", ".mraw", ".cihx", ".cih", ".tif", ".tiff" })
+  {
+    this->AddSupportedReadExtension(ending);
+  }
+}
+
+void
+SensorNoiseImageIO::SetRawLayout(const std::string & layout)
+{
+  if (m_RawLayout != layout)
+  {
+    m_RawLayout = layout;
+    m_File = {};
+    this->Modified();
+  }
+}
+
+void
+SensorNoiseImageIO::Inspect(const std::string & name)
+{
+  if (m_File.name == name)
+  {
+    try
+    {
+      sensornoise::RequireUnchanged(m_File);
+      return;
+    }
+    catch (const std::exception &)
+    {
+      m_File = {}; // as it is now
+    }
+  }
+  m_File = m_RawLayout.empty() ? sensornoise::InspectFrameFile(name)
+                               : sensornoise::InspectRawFile(name, sensornoise::ReadRawLayout(m_RawLayout));
+}
+
+bool
+SensorNoiseImageIO::CanReadFile(const char * name)
+{
+  try
+  {
+    if (!m_RawLayout.empty())
+    {
+      this->Inspect(name);
+      return true;
+    }
+    if (!MayBeOurs(name))
+    {
+      return false;
+    }
+    this->Inspect(name);
+    return m_File.format->name != std::string("TIFF") || m_File.frames > 1;
+  }
+  catch (const std::exception &)
+  {
+    return false;
+  }
+}
+
+void
+SensorNoiseImageIO::ReadImageInformation()
+{
+  AsItk([this] { this->Inspect(this->GetFileName()); });
+  if (!m_File.reader)
+  {
+    itkExceptionMacro(<< m_File.name << ": of format " << m_File.format->name << ", which ITK's "
+                      << m_File.format->imageIO << " reads; expected SER, MRAW, TIFF or raw frames");
+  }
+  const unsigned int dimensions = m_File.frames > 1 ? 3 : 2;
+  this->SetNumberOfDimensions(dimensions);
+  this->SetNumberOfComponents(1);
+  this->SetPixelType(IOPixelEnum::SCALAR);
+  this->SetComponentType(ComponentOf(m_File.pixel));
+  this->SetDimensions(0, m_File.width);
+  this->SetDimensions(1, m_File.height);
+  if (dimensions == 3)
+  {
+    this->SetDimensions(2, m_File.frames);
+  }
+  for (unsigned int axis = 0; axis < dimensions; ++axis)
+  {
+    this->SetSpacing(axis, axis < 2 ? m_File.spacing[axis] : 1.0);
+    this->SetOrigin(axis, 0.0);
+    std::vector<double> direction(dimensions, 0.0);
+    direction[axis] = 1.0;
+    this->SetDirection(axis, direction);
+  }
+  sensornoise::SetCameraSettings(this->GetMetaDataDictionary(), m_File.camera);
+}
+
+ImageIORegion
+SensorNoiseImageIO::GenerateStreamableReadRegionFromRequestedRegion(const ImageIORegion & requested) const
+{
+  ImageIORegion region(this->GetNumberOfDimensions());
+  for (unsigned int axis = 0; axis < this->GetNumberOfDimensions(); ++axis)
+  {
+    const bool isPart = axis == 2 && axis < requested.GetImageDimension() && this->GetUseStreamedReading();
+    region.SetIndex(axis, isPart ? requested.GetIndex(axis) : 0);
+    region.SetSize(axis, isPart ? requested.GetSize(axis) : this->GetDimensions(axis));
+  }
+  return region;
+}
+
+void
+SensorNoiseImageIO::Read(void * buffer)
+{
+  const ImageIORegion region = this->GetIORegion();
+  const bool          isPart = m_File.frames > 1 && region.GetImageDimension() > 2 && this->GetUseStreamedReading();
+  const auto          first = isPart ? static_cast<std::size_t>(region.GetIndex(2)) : 0;
+  const auto          count = isPart ? static_cast<std::size_t>(region.GetSize(2)) : m_File.frames;
+  AsItk([&] {
+    sensornoise::RequireUnchanged(m_File);
+    m_File.reader->Read(m_File, first, count, buffer);
+    sensornoise::RequireUnchanged(m_File);
+  });
+}
+
+void
+SensorNoiseImageIO::Write(const void *)
+{
+  itkExceptionMacro(<< "nothing is written by this class; expected that of another format, of .mha for instance");
+}
+
+void
+SensorNoiseImageIO::PrintSelf(std::ostream & os, Indent indent) const
+{
+  Superclass::PrintSelf(os, indent);
+  os << indent << "RawLayout: " << (m_RawLayout.empty() ? "(none)" : m_RawLayout) << std::endl;
+  os << indent << "File: " << (m_File.name.empty() ? "(none)" : m_File.name) << ", frames: " << m_File.frames
+     << std::endl;
+}
+
+} // namespace itk

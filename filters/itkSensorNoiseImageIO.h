@@ -18,29 +18,101 @@
 #ifndef itkSensorNoiseImageIO_h
 #define itkSensorNoiseImageIO_h
 
-#include "sensornoise/files/FileError.h"
+#include "SensorNoiseExport.h"
 #include "sensornoise/files/FrameFile.h"
 #include "itkImageIOBase.h"
 
-#include <exception>
+#include <ostream>
 #include <string>
 
-namespace sensornoise
+namespace itk
 {
 
-/** ITK's reader of a file that InspectFrameFile() has found good, its header read, no pixel.
+/** \class SensorNoiseImageIO
+ * \brief Reads bursts that ITK has no reader for, or none that reads them in parts: SER, Photron's MRAW, stacks on
+ * multi-page TIFF, and, if their layout is given, raw frames without a header.
  *
- * A file of a known format is given to the reader of that format alone, no other library looks at it. Throws FileError
- * where the file has changed since, where the program has no reader for it, where ITK cannot read its header, and
- * unless it has one grey value of a supported type a pixel and, if its format is known, the size and type found before.
+ * Each file is checked whole before a pixel is read (sensornoise::InspectFrameFile()), so that a damaged one is an
+ * error of one sentence. Codes stand as the sensor gave them: those of 10 and 12 bits that are packed in the file come
+ * as unsigned short. What the file says of the camera is in the MetaDataDictionary (itkSensorNoiseMetaData.h).
+ *
+ * An image of several frames has three dimensions, the last of which is time; one frame has two. Frames are read whole,
+ * no more of them than are asked for.
+ *
+ * CanReadFile() takes of TIFFs only those of several pages of one grey value a pixel; others are left to ITK. Nothing
+ * is written.
+ * \ingroup SensorNoise
  */
-itk::ImageIOBase::Pointer
-OpenImageIO(const FrameFile & file);
+class SensorNoise_EXPORT SensorNoiseImageIO : public ImageIOBase
+{
+public:
+  ITK_DISALLOW_COPY_AND_MOVE(SensorNoiseImageIO);
 
-/** One sentence about pixels that an ImageIO could not read, from an error of ITK or another one. */
-FileError
-PixelErrorOf(const std::string & file, const std::exception & error);
+  using Self = SensorNoiseImageIO;
+  using Superclass = ImageIOBase;
+  using Pointer = SmartPointer<Self>;
+  using ConstPointer = SmartPointer<const Self>;
 
-} // namespace sensornoise
+  itkNewMacro(Self);
+
+  const char *
+  GetNameOfClass() const override
+  {
+    return "SensorNoiseImageIO";
+  }
+
+  /** How frames lie in a file that does not say so itself, "640x480:uint16le" for instance; see
+   * sensornoise::ReadRawLayout(). Empty, the default: the file says so. Throws where it is read, if it is no layout. */
+  void
+  SetRawLayout(const std::string & layout);
+  const std::string &
+  GetRawLayout() const
+  {
+    return m_RawLayout;
+  }
+
+  bool
+  CanReadFile(const char * name) override;
+  bool
+  CanStreamRead() override
+  {
+    return true;
+  }
+  void
+  ReadImageInformation() override;
+  void
+  Read(void * buffer) override;
+  /** Whole frames. */
+  ImageIORegion
+  GenerateStreamableReadRegionFromRequestedRegion(const ImageIORegion & requested) const override;
+
+  bool
+  CanWriteFile(const char *) override
+  {
+    return false;
+  }
+  void
+  WriteImageInformation() override
+  {}
+  void
+  Write(const void *) override;
+
+protected:
+  SensorNoiseImageIO();
+  ~SensorNoiseImageIO() override = default;
+
+  void
+  PrintSelf(std::ostream & os, Indent indent) const override;
+
+private:
+  /** Throws FileError, or std::invalid_argument for a layout that is none. */
+  void
+  Inspect(const std::string & name);
+
+  std::string            m_RawLayout;
+  sensornoise::FrameFile m_File; // what was inspected last; without a name: nothing
+};
+
+} // namespace itk
 
 #endif

@@ -46,9 +46,9 @@ catch (const FileError & error)
 }
 
 FrameList
-OpenDark(const std::vector<std::string> & files, const FrameList & frames)
+OpenDark(const std::vector<std::string> & files, const FrameList & frames, const std::string & rawLayout)
 {
-  FrameList dark = OpenFrames(files);
+  FrameList dark = OpenFrames(files, {}, rawLayout);
   TellWarningOf(dark);
   if (DescribeFrame(dark) != DescribeFrame(frames))
   {

@@ -16,9 +16,10 @@ namespace sensornoise::tools
 itk::Image<unsigned char, 2>::Pointer
 ReadMask(const std::string & file, const FrameList & frames);
 
-/** Opens the headers of dark frames, which must have the size and type of the others. Throws std::runtime_error. */
+/** Opens the headers of dark frames, which must have the size and type of the others; \a rawLayout as OpenFrames()
+ * takes it. Throws std::runtime_error. */
 FrameList
-OpenDark(const std::vector<std::string> & files, const FrameList & frames);
+OpenDark(const std::vector<std::string> & files, const FrameList & frames, const std::string & rawLayout);
 
 /** Says on standard error what is odd about the files and no error. */
 void

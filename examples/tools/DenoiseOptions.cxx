@@ -27,13 +27,15 @@ RequireImageName(const std::string & file)
   }
 }
 
-/** The name of an input in the folder; headers whose pixels stand in another file become one file. */
+/** The name of an input in the folder; headers whose pixels stand in another file become one file, and so
+ * do formats that are not written. */
 std::string
 NameInFolder(const std::string & folder, const std::string & input, const std::string & pixelType)
 {
-  fs::path          name = fs::path(input).filename();
-  const std::string ending = LowerCaseEnding(name);
-  if (ending == ".mhd")
+  fs::path                       name = fs::path(input).filename();
+  const std::string              ending = LowerCaseEnding(name);
+  const std::vector<std::string> unwritten{ ".mhd", ".ser", ".mraw", ".cihx", ".cih", ".raw", ".bin" };
+  if (std::find(unwritten.begin(), unwritten.end(), ending) != unwritten.end())
   {
     name.replace_extension(".mha");
   }
@@ -62,6 +64,7 @@ DenoiseOptions::Parse(int argc, char ** argv, const std::vector<std::string> & d
   app.add_option("--report", report, "JSON file of the camera at this setting (estimate-sensor-noise --json)")
     ->required();
   app.add_option("--output-folder", outputFolder, "folder for the images, under the names of the inputs");
+  app.add_option("--raw", raw, "WxH:TYPE[:SKIP[:ROW]]: inputs without a header, as estimate-sensor-noise --raw has it");
   app
     .add_option("--denoiser",
                 denoiser,

@@ -20,6 +20,7 @@ struct DenoiseOptions
   std::string              report;
   std::vector<std::string> files;        ///< INPUT OUTPUT, or INPUT... with a folder
   std::string              outputFolder; ///< empty: none
+  std::string              raw;          ///< how frames lie in inputs without a header; empty: none
   std::string              denoiser;
   std::string              pixelType{ "input" }; ///< input or float
   double                   strength{ 1.0 };      ///< of the denoiser, relative to noise of variance 1

@@ -186,9 +186,10 @@ WriteDenoised(const std::string &    input,
               const std::string &    output,
               const NoiseModelFile & report,
               const Denoiser &       denoise,
-              bool                   asFloat)
+              bool                   asFloat,
+              const std::string &    rawLayout)
 {
-  const FrameList list = OpenFrames({ input });
+  const FrameList list = OpenFrames({ input }, {}, rawLayout);
   switch (list.pixel)
   {
     case FramePixel::UnsignedChar:

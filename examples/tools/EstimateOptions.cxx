@@ -62,6 +62,13 @@ void
 AddOptions(CLI::App & app, EstimateOptions & options, Texts & texts)
 {
   app.add_option("FRAME", options.files, "frames in time order, or one stack")->required();
+  app.add_option(
+    "--raw",
+    options.raw,
+    "WxH:TYPE[:SKIP[:ROW]]: frames without a header, for instance 640x480:uint16le, or 1920x1080:Mono12p:64 "
+    "behind 64 other bytes; TYPE: uint8, uint16le, uint16be, int16le, float32le, float64le, Mono10p, "
+    "Mono12p, Mono12Packed, BayerRG12p, RAW10, RAW12, SRGGB10P, uint12msb and the like; ROW: bytes from a row "
+    "to the next. Dark frames and those of --check are taken for the same");
   app.add_option("--method", options.method, "refined, or published: Figure 2 of Sur & Grediac 2015")
     ->check(CLI::IsMember({ "refined", "published" }))
     ->capture_default_str();
@@ -218,7 +225,7 @@ std::optional<int>
 EstimateOptions::Parse(int argc, char ** argv)
 {
   CLI::App app("Measures gain, offset and read noise of a camera from a burst of raw frames of a static scene.\n"
-               "FRAME...: 2-D image files in time order, or one 3-D stack file (.mha .mhd .nrrd .tif).\n"
+               "FRAME...: 2-D image files in time order, or one 3-D stack file (.mha .mhd .nrrd .tif .ser .mraw).\n"
                "Exit code: 0 done, 2 wrong use or unreadable input, 3 nothing could be estimated.");
   Texts    texts;
   AddOptions(app, *this, texts);

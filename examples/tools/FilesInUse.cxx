@@ -40,10 +40,31 @@ IdentityOf(const OutputTarget & target)
                       : target.path);
 }
 
-/** The files that the header of a MetaImage or NRRD file names. */
+/** The other file of a Photron camera's recording. */
+std::vector<fs::path>
+OtherFilesOf(const fs::path & recording)
+{
+  std::vector<fs::path> files;
+  for (const char * const ending : { ".mraw", ".MRAW", ".cihx", ".CIHX", ".cih", ".CIH" })
+  {
+    fs::path        other = recording;
+    std::error_code ignored;
+    if (fs::is_regular_file(other.replace_extension(ending), ignored) && other != recording)
+    {
+      files.push_back(other);
+    }
+  }
+  return files;
+}
+
+/** The files that the header of a MetaImage or NRRD file names, and what else belongs to a file. */
 std::vector<fs::path>
 DataFilesOf(const fs::path & header)
 {
+  if (const std::string ending = LowerCaseEnding(header); ending == ".mraw" || ending == ".cihx" || ending == ".cih")
+  {
+    return OtherFilesOf(header);
+  }
   const std::set<std::string> headers{ ".mha", ".mhd", ".nhdr", ".nrrd" };
   std::vector<fs::path>       files;
   if (headers.count(LowerCaseEnding(header)) == 0 || !fs::is_regular_file(header))
@@ -94,7 +115,8 @@ FilesInUse::Read(const std::string & file, const std::string & role)
   use(file, role + " " + file);
   for (const fs::path & data : DataFilesOf(file))
   {
-    use(data, data.string() + ", the pixels of " + role + " " + file);
+    const bool isHeader = LowerCaseEnding(data).rfind(".cih", 0) == 0;
+    use(data, data.string() + (isHeader ? ", the header of " : ", the pixels of ") + role + " " + file);
   }
 }
 
@@ -114,11 +136,11 @@ FilesInUse::Write(const std::string & file, const std::string & option)
 void
 RequireReportName(const std::string & file, const std::string & option)
 {
-  static const std::set<std::string> images{ ".avi",  ".bin",  ".bmp",  ".bz2",  ".cr2", ".dcm",  ".dng",
-                                             ".fits", ".gif",  ".gipl", ".gz",   ".h5",  ".hdr",  ".img",
-                                             ".jpg",  ".jpeg", ".lsm",  ".mha",  ".mhd", ".mraw", ".nef",
-                                             ".nhdr", ".nii",  ".npy",  ".nrrd", ".pgm", ".png",  ".ppm",
-                                             ".raw",  ".stk",  ".tif",  ".tiff", ".vtk", ".webp", ".zraw" };
+  static const std::set<std::string> images{ ".avi", ".bin",  ".cih",  ".cihx", ".bmp",  ".bz2",  ".cr2", ".dcm",
+                                             ".dng", ".fits", ".gif",  ".gipl", ".gz",   ".h5",   ".hdr", ".img",
+                                             ".jpg", ".jpeg", ".lsm",  ".mha",  ".mhd",  ".mraw", ".nef", ".nhdr",
+                                             ".nii", ".npy",  ".nrrd", ".pgm",  ".png",  ".ppm",  ".raw", ".ser",
+                                             ".stk", ".tif",  ".tiff", ".vtk",  ".webp", ".zraw" };
   const std::string                  ending = fs::path(file).extension().string();
   if (images.count(LowerCase(ending)) != 0)
   {

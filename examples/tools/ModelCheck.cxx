@@ -26,7 +26,7 @@ MeasureFramesToCheck(const EstimateOptions & options)
   other.frames.reset();
   other.dark.clear();
   other.method = "refined";
-  const FrameList frames = OpenFrames(other.files);
+  const FrameList frames = OpenFrames(other.files, {}, other.raw);
   TellWarningOf(frames);
   return EstimateStack(other, frames, nullptr);
 }

@@ -129,7 +129,7 @@ Estimate(const EstimateOptions & options, const FrameList & list, MapFiles * map
   typename itk::ExtractImageFilter<StackType, StackType>::Pointer darkCrop;
   if (!options.dark.empty())
   {
-    darkReader = MakeReader<StackType>(OpenDark(options.dark, list));
+    darkReader = MakeReader<StackType>(OpenDark(options.dark, list, options.raw));
     darkReader->UpdateOutputInformation();
     itk::ImageRegion<3> dark = region;
     dark.SetIndex(2, 0);

@@ -87,7 +87,7 @@ Run(const DenoiseOptions & options)
   RequireOutputsApart(options, jobs);
   for (const DenoiseOptions::Job & job : jobs)
   {
-    WriteDenoised(job.first, job.second, report, denoise, options.pixelType == "float");
+    WriteDenoised(job.first, job.second, report, denoise, options.pixelType == "float", options.raw);
   }
 }
 } // namespace

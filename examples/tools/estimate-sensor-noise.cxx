@@ -136,7 +136,7 @@ Run(EstimateOptions & options)
   }
   RequireOutputsApart(options);
   options.SelectFiles();
-  const sensornoise::FrameList frames = sensornoise::OpenFrames(options.files);
+  const sensornoise::FrameList frames = sensornoise::OpenFrames(options.files, {}, options.raw);
   TellWarningOf(frames);
   TellWhetherHeldInMemory(frames);
 

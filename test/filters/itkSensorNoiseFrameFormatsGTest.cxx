@@ -24,9 +24,9 @@ TEST(FrameFormats, HaveReadersOfITK)
   }
   for (const FrameFormat & format : FrameFormats())
   {
-    EXPECT_EQ(readers.count(format.imageIO), 1u) << format.name;
+    EXPECT_TRUE(format.imageIO == nullptr || readers.count(format.imageIO) == 1) << format.name;
   }
-  EXPECT_EQ(NamesOfFrameFormats(), "TIFF, PNG, MetaImage or NRRD");
+  EXPECT_EQ(NamesOfFrameFormats(), "TIFF, PNG, MetaImage, NRRD, SER or MRAW");
 }
 
 TEST(FrameFormats, AreToldByContentsFirst)

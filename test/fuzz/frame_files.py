@@ -23,11 +23,12 @@ class File:
 
 @dataclass
 class Case:
-    """Files, and those of them that are handed over, in time order."""
+    """Files, and those of them that are handed over, in time order; `raw`: how frames without a header lie."""
 
     name: str
     files: list[File]
     frames: list[str]
+    raw: str = ""
 
 
 def _whole(name: str, data: bytes) -> File:
@@ -229,6 +230,79 @@ def pngs(frames: list[bytes]) -> list[Case]:
     return [Case("png list", list(map(_png, names, frames)), names)]
 
 
+def _codes(frames: list[bytes], bits: int) -> list[int]:
+    """The pixels, of so many bits: higher ones are cut off."""
+    pixels = b"".join(frames)
+    return [code & (1 << bits) - 1 for code in struct.unpack(f"<{len(pixels) // 2}H", pixels)]
+
+
+def _highest_first(codes: list[int], bits: int) -> bytes:
+    """A stream of bits, in pieces of eight codes."""
+    made = b""
+    for start in range(0, len(codes), 8):
+        number = 0
+        for code in codes[start : start + 8]:
+            number = number << bits | code
+        made += number.to_bytes(bits, "big")
+    return made
+
+
+def _lowest_first(codes: list[int], bits: int) -> bytes:
+    made = b""
+    for start in range(0, len(codes), 8):
+        number = sum(code << bits * k for k, code in enumerate(codes[start : start + 8]))
+        made += number.to_bytes(bits, "little")
+    return made
+
+
+def sers(frames: list[bytes]) -> list[Case]:
+    def header(color: int, depth: int) -> bytes:
+        fields = struct.pack("<14s7i", b"LUCAM-RECORDER", 0, color, 0, WIDTH, HEIGHT, depth, len(frames))
+        return fields + b"observer".ljust(40) + b"camera".ljust(40) + b"telescope".ljust(40) + b"\0" * 16
+
+    pixels = b"".join(frames)
+    times = struct.pack(f"<{len(frames)}Q", *range(1, len(frames) + 1))
+    eight = bytes(code >> 4 & 255 for code in _codes(frames, 12))
+    return [
+        Case("ser", [_parts("s.ser", ("header", header(0, 16)), ("raw", pixels))], ["s.ser"]),
+        Case(
+            "ser bayer",
+            [_parts("s.ser", ("header", header(8, 16)), ("raw", pixels), ("header", times))],
+            ["s.ser"],
+        ),
+        Case("ser 8", [_parts("s.ser", ("header", header(0, 8)), ("raw", eight))], ["s.ser"]),
+    ]
+
+
+def mraws(frames: list[bytes]) -> list[Case]:
+    def header(bits: int) -> File:
+        text = (
+            f'<?xml version="1.0"?>\n<cih>\n<deviceInfo><deviceName>camera</deviceName></deviceInfo>\n'
+            f"<frameInfo><totalFrame>{len(frames)}</totalFrame></frameInfo>\n<imageDataInfo>\n"
+            f"<resolution><width>{WIDTH}</width><height>{HEIGHT}</height></resolution>\n"
+            f"<colorInfo><type>Raw</type><bit>{bits}</bit></colorInfo>\n"
+            f"<effectiveBit><depth>{bits}</depth><side>Lower</side></effectiveBit>\n</imageDataInfo>\n</cih>\n"
+        )
+        return File("s.cihx", text.encode())
+
+    packed = _highest_first(_codes(frames, 12), 12)
+    return [
+        Case("mraw 12", [header(12), _whole("s.mraw", packed)], ["s.mraw"]),
+        Case("mraw 16", [header(16), _whole("s.mraw", b"".join(frames))], ["s.cihx"]),
+    ]
+
+
+def raws(frames: list[bytes]) -> list[Case]:
+    """Without a header: all that can be told is whether the frames are whole."""
+    size = f"{WIDTH}x{HEIGHT}"
+    pixels = b"".join(frames)
+    packed = _lowest_first(_codes(frames, 12), 12)
+    return [
+        Case("raw", [_parts("s.raw", ("header", b"skip"), ("raw", pixels))], ["s.raw"], f"{size}:uint16le:4"),
+        Case("raw packed", [_whole("s.raw", packed)], ["s.raw"], f"{size}:Mono12p"),
+    ]
+
+
 def others(frames: list[bytes]) -> list[Case]:
     """Formats without a check of their own."""
     pixels = b"".join(frames)
@@ -254,6 +328,6 @@ def others(frames: list[bytes]) -> list[Case]:
 def all_cases(frames: list[bytes]) -> list[Case]:
     """Every format, of the same frames: bytes of little-endian unsigned 16-bit pixels."""
     made: list[Case] = []
-    for make in (meta_images, nrrds, tiffs, pngs, others):
+    for make in (meta_images, nrrds, tiffs, pngs, sers, mraws, raws, others):
         made += make(frames)
     return made

@@ -167,6 +167,7 @@ def main() -> int:
     parser.add_argument("--count", type=int, default=1000)
     parser.add_argument("--seconds", type=float, default=1e9, help="stop after so long")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--formats", default="", help="only those whose name begins so")
     parser.add_argument("--keep", help="folder for the files of findings")
     parser.add_argument("--verbose", action="store_true", help="print every input")
     options = parser.parse_args()
@@ -176,7 +177,8 @@ def main() -> int:
     start = time.monotonic()
     target = PythonTarget(options.python, options.jobs) if options.python else ToolTarget(options.bin)
     frames = undamaged_frames(options.bin)
-    fuzzer = Fuzzer(target, all_cases(frames), options.seed)
+    cases = [case for case in all_cases(frames) if case.name.startswith(tuple(options.formats.split(",")))]
+    fuzzer = Fuzzer(target, cases, options.seed)
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         good = os.path.join(folder, "good")
         fuzzer.prepare(good)

@@ -88,6 +88,10 @@ def _png_header(width: int, height: int, depth: int = 16, colour: int = 0) -> Ch
     )
 
 
+def _at(place: int, number: int) -> Change:
+    return lambda data: data[:place] + struct.pack("<I", number) + data[place + 4 :]
+
+
 # Format, what is wrong, how the first file is changed.
 FOUND: list[tuple[str, str, Change]] = [
     ("mha", "bytes are left over", lambda data: data + b"\0\0"),
@@ -128,6 +132,20 @@ FOUND: list[tuple[str, str, Change]] = [
     ("tiff deflate", "a flipped bit", _flip(700)),
     ("tiff deflate", "a flipped bit of a checksum", lambda data: _flip(8 + len(zlib.compress(b"")) + 2000)(data)),
     ("tiff list", "a page cut off", lambda data: data[:-30]),
+    ("ser", "colours", _at(18, 100)),
+    ("ser", "a frame too many", _at(38, 9)),
+    ("ser", "a width of 4 billion", _at(26, 0xFFFFFFFF)),
+    ("ser", "sizes whose product wraps", lambda data: _at(26, 2**31 - 1)(_at(30, 2**31 - 1)(data))),
+    ("ser", "32 bits", _at(34, 32)),
+    ("ser", "cut off", lambda data: data[:-1]),
+    ("ser bayer", "half of the times", lambda data: data[:-32]),
+    ("mraw 12", "a frame too many", _replace(b">8<", b">9<")),
+    ("mraw 12", "a frame too few", _replace(b">8<", b">7<")),
+    ("mraw 12", "11 bits", _replace(b"<bit>12", b"<bit>11")),
+    ("mraw 12", "two widths", _replace(b"<width>", b"<width>7</width><width>")),
+    ("mraw 12", "an element that stays open", _replace(b"</colorInfo>", b"")),
+    ("raw", "a byte too many", lambda data: data + b"a"),
+    ("raw packed", "cut off", lambda data: data[:-1]),
     ("png list", "a checksum", _flip(-1)),
     ("png list", "no pixels", _png_without(b"IDAT")),
     ("png list", "no end", lambda data: data[:-12]),
@@ -150,7 +168,7 @@ def known_cases(frames: list[bytes]) -> list[tuple[str, Case]]:
         first, *rest = case.files
         changed = change(first.data)
         assert changed != first.data, (name, what)
-        made.append((f"{name}: {what}", Case(name, [File(first.name, changed), *rest], case.frames)))
+        made.append((f"{name}: {what}", Case(name, [File(first.name, changed), *rest], case.frames, case.raw)))
     return made
 
 

@@ -21,6 +21,8 @@ def answer(request: dict) -> dict:
             return {"code": 0, "text": "", "error": ""}
         options = {"mask": first} if request["role"] == "mask" else {"dark": files} if request["role"] == "dark" else {}
         frames = files if request["role"] == "frames" else request["stack"]
+        if request["role"] == "frames" and request["raw"]:
+            options["raw"] = request["raw"]
         report = itk.estimate_sensor_noise(frames, **options)
     except (ValueError, RuntimeError) as error:
         return {"code": 2, "text": "", "error": str(error)}

@@ -55,7 +55,7 @@ class ToolTarget:
         command = [tool, "--quiet", "--threads", "1", "--json", "-"]
         stack = os.path.join(good, "s.mha")
         if role == "frames":
-            command += files
+            command += files + (["--raw", case.raw] if case.raw else [])
         elif role == "mask":
             command += ["--mask", files[0], stack]
         elif role == "dark":
@@ -107,7 +107,7 @@ class PythonTarget:
                 preexec_fn=_no_core,  # noqa: PLW1509 - it takes no lock
             )
         files = [os.path.join(folder, name) for name in case.frames]
-        request = {"role": role, "files": files, "stack": os.path.join(good, "s.mha")}
+        request = {"role": role, "files": files, "stack": os.path.join(good, "s.mha"), "raw": case.raw}
         worker.stdin.write(json.dumps(request).encode() + b"\n")
         worker.stdin.flush()
         ready, _, _ = select.select([worker.stdout], [], [], SECONDS + (60 if fresh else 0))

@@ -6,10 +6,13 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/files/CameraSettings.h"
 #include "sensornoise/files/FileIdentity.h"
+#include "sensornoise/files/FrameReader.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -45,6 +48,10 @@ struct FrameFile
   unsigned significantBits{ 0 };
 
   CameraSettings camera{}; // what it says of it
+
+  /** Reads its pixels; null: ITK does, by the class that `format` names. */
+  std::shared_ptr<const FrameReader> reader{};
+  std::array<double, 2>              spacing{ { 1.0, 1.0 } }; // along x and y [mm], of files with a `reader`
 
   std::vector<FileIdentity> identities{}; // of the file, then of its data files, each once
 };

@@ -3,8 +3,10 @@
 #include "sensornoise/files/FrameFormats.h"
 
 #include "sensornoise/files/MetaImageFile.h"
+#include "sensornoise/files/MrawFile.h"
 #include "sensornoise/files/NrrdFile.h"
 #include "sensornoise/files/PngFile.h"
+#include "sensornoise/files/SerFile.h"
 #include "sensornoise/files/TiffFile.h"
 
 #include <algorithm>
@@ -17,10 +19,12 @@ const std::vector<FrameFormat> &
 FrameFormats()
 {
   static const std::vector<FrameFormat> formats{
-    { "TIFF", "TIFFImageIO", "ITKIOTIFF", IsHeadOfTiff, InspectTiff },
+    { "TIFF", nullptr, nullptr, IsHeadOfTiff, InspectTiff },
     { "PNG", "PNGImageIO", "ITKIOPNG", IsHeadOfPng, InspectPng },
     { "MetaImage", "MetaImageIO", "ITKIOMeta", IsHeadOfMetaImage, InspectMetaImage },
     { "NRRD", "NrrdImageIO", "ITKIONRRD", IsHeadOfNrrd, InspectNrrd },
+    { "SER", nullptr, nullptr, IsHeadOfSer, InspectSer },
+    { "MRAW", nullptr, nullptr, IsHeadOfMraw, InspectMraw },
   };
   return formats;
 }

@@ -17,8 +17,8 @@ namespace sensornoise
 /** A format that is read: a line of the table in FrameFormats.cxx, which is all that knows of it but its own files. */
 struct FrameFormat
 {
-  const char * name;      ///< as sentences call it
-  const char * imageIO;   ///< the class of ITK that reads it, once it was found to be whole
+  const char * name;    ///< as sentences call it
+  const char * imageIO; ///< the class of ITK that reads it, once it was found to be whole; null: FrameFile::reader does
   const char * itkModule; ///< the module of ITK that brings this class
 
   /** Whether a file is of this format, by its first bytes, 512 or all, and where these do not tell by its name. */

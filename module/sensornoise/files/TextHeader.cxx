@@ -79,6 +79,18 @@ WithoutBlanks(const std::string & text)
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(Blanks) - first + 1);
 }
 
+std::string
+PrintableText(const std::string & text)
+{
+  constexpr std::size_t longest = 100;
+  std::string           printable;
+  for (const char c : text)
+  {
+    printable += c >= ' ' && c < 127 && printable.size() < longest ? std::string(1, c) : "";
+  }
+  return WithoutBlanks(printable);
+}
+
 std::vector<std::string>
 WordsOf(const std::string & text)
 {

@@ -58,6 +58,10 @@ private:
 std::string
 WithoutBlanks(const std::string & text);
 
+/** The characters of ASCII that are no control characters, without blanks around them, at most 100. */
+std::string
+PrintableText(const std::string & text);
+
 /** The words of a text, which blanks part. */
 std::vector<std::string>
 WordsOf(const std::string & text);

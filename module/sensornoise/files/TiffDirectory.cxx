@@ -170,6 +170,21 @@ TiffBytes::Number(const std::string & page, const TiffDirectory & directory, uns
   return Numbers(*this, *entry).Next();
 }
 
+double
+TiffBytes::Quotient(const TiffDirectory & directory, unsigned tag)
+{
+  const TiffEntry * const entry = directory.Find(tag);
+  if (entry == nullptr || entry->count != 1 || entry->type != 5)
+  {
+    return 0.0;
+  }
+  std::array<unsigned char, 8> bytes{};
+  m_Bytes.Read(entry->offset, bytes.data(), bytes.size());
+  const auto above = static_cast<double>(At(bytes.data(), 4));
+  const auto below = static_cast<double>(At(bytes.data() + 4, 4));
+  return below == 0.0 ? 0.0 : above / below;
+}
+
 bool
 TiffBytes::HasEntry(std::uint64_t begin, std::uint64_t end, unsigned tag, std::uint64_t value)
 {

@@ -80,6 +80,16 @@ public:
   bool
   HasEntry(std::uint64_t begin, std::uint64_t end, unsigned tag, std::uint64_t value);
 
+  /** The only value of an entry that is a quotient of two whole numbers; 0 where there is none, or no such one. */
+  double
+  Quotient(const TiffDirectory & directory, unsigned tag);
+
+  bool
+  IsBigEndian() const
+  {
+    return m_IsBigEndian;
+  }
+
   FileBytes &
   File()
   {

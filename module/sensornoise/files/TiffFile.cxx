@@ -5,6 +5,7 @@
 #include "sensornoise/files/FileError.h"
 #include "sensornoise/files/FrameSizes.h"
 #include "sensornoise/files/TiffDirectory.h"
+#include "sensornoise/files/TiffFrames.h"
 #include "sensornoise/files/TiffPage.h"
 #include "sensornoise/files/TiffStrips.h"
 
@@ -12,8 +13,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <memory>
 #include <string>
 #include <unordered_set>
+#include <utility>
+#include <vector>
 
 namespace sensornoise
 {
@@ -99,6 +103,8 @@ public:
     }
     RequireAllPages();
     m_Strips.RequireAllBytes(m_File.name);
+    m_File.spacing = m_First.spacing;
+    m_File.reader = std::make_shared<TiffFrames>(std::move(m_Directories));
   }
 
 private:
@@ -126,6 +132,7 @@ private:
   ReadPage(const std::string & page, std::uint64_t offset)
   {
     const TiffDirectory directory = m_Tiff.ReadDirectory(page, offset);
+    m_Directories.push_back(offset);
     m_Strips.AddDirectory(page, directory);
     const TiffPage found = ReadTiffPage(page, m_Tiff, directory);
     if (m_Pages == 0)
@@ -186,6 +193,7 @@ private:
   TiffBytes                         m_Tiff;
   TiffStrips                        m_Strips;
   std::unordered_set<std::uint64_t> m_Seen{};
+  std::vector<std::uint64_t>        m_Directories{}; // of the pages
   TiffPage                          m_First{};
   std::string                       m_Images{};
   std::uint64_t                     m_Planes{ 0 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/files/TiffLzw.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -47,18 +48,76 @@ private:
   std::uint32_t m_Bits{ 0 };
   unsigned      m_Held{ 0 };
 };
+
+/** The strings that codes stand for. Each is a part of what came before, so that it is known by its place there. */
+class LzwStrings
+{
+public:
+  /** What comes goes to \a out, up to \a capacity bytes; null: nowhere. */
+  LzwStrings(unsigned char * out, std::uint64_t capacity)
+    : m_Out(out)
+    , m_Capacity(capacity)
+  {}
+
+  std::uint64_t
+  Bytes() const
+  {
+    return m_Bytes;
+  }
+
+  /** \a code stands for the string that came last, and the first byte of that which comes next. */
+  void
+  Define(std::size_t code)
+  {
+    m_Lengths[code] = static_cast<std::uint32_t>(m_Bytes - m_Last) + 1;
+    m_Starts[code] = m_Last;
+  }
+
+  /** The string of \a code comes. */
+  void
+  Add(std::size_t code)
+  {
+    const std::uint64_t length = code < ClearCode ? 1 : m_Lengths[code];
+    const std::uint64_t room = m_Out == nullptr ? 0 : m_Capacity - std::min(m_Capacity, m_Bytes);
+    m_Last = m_Bytes;
+    m_Bytes += length;
+    if (code < ClearCode && room > 0)
+    {
+      m_Out[m_Last] = static_cast<unsigned char>(code);
+      return;
+    }
+    // byte by byte: a string may begin with those that are just copied
+    for (std::uint64_t i = 0; i < std::min(length, room); ++i)
+    {
+      m_Out[m_Last + i] = m_Out[m_Starts[code] + i];
+    }
+  }
+
+private:
+  unsigned char *            m_Out;
+  std::uint64_t              m_Capacity;
+  std::uint64_t              m_Bytes{ 0 };
+  std::uint64_t              m_Last{ 0 }; // where the string that came last begins
+  std::vector<std::uint32_t> m_Lengths = std::vector<std::uint32_t>(MaximumStrings);
+  std::vector<std::uint64_t> m_Starts = std::vector<std::uint64_t>(MaximumStrings);
+};
 } // namespace
 
 LzwLength
-LengthOfLzw(FileBytes & bytes, std::uint64_t offset, std::uint64_t count, std::uint64_t expected, std::uint64_t whole)
+LengthOfLzw(FileBytes &     bytes,
+            std::uint64_t   offset,
+            std::uint64_t   count,
+            std::uint64_t   expected,
+            std::uint64_t   whole,
+            unsigned char * out)
 {
-  LzwLength                  found;
-  LzwCodes                   codes(bytes, offset, count);
-  std::vector<std::uint32_t> lengths(MaximumStrings, 1); // of the strings that codes stand for
-  std::size_t                next = FirstString;
-  unsigned                   bits = MinimumBits;
-  int                        previous = -1;
-  bool                       isCleared = false;
+  LzwLength   found;
+  LzwCodes    codes(bytes, offset, count);
+  LzwStrings  strings(out, expected);
+  std::size_t next = FirstString;
+  unsigned    bits = MinimumBits;
+  int         previous = -1;
+  bool        isCleared = false;
   while (found.bytes != expected && found.bytes < whole)
   {
     const int code = codes.Next(bits);
@@ -82,13 +141,14 @@ LengthOfLzw(FileBytes & bytes, std::uint64_t offset, std::uint64_t count, std::u
     }
     if (previous >= 0)
     {
-      lengths[next++] = lengths[static_cast<std::size_t>(previous)] + 1;
+      strings.Define(next++);
       if (next == (std::size_t{ 1 } << bits) - 1 && bits < MaximumBits)
       {
         ++bits;
       }
     }
-    found.bytes += lengths[static_cast<std::size_t>(code)];
+    strings.Add(static_cast<std::size_t>(code));
+    found.bytes = strings.Bytes();
     previous = code;
   }
   return found;

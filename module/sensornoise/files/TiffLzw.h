@@ -11,8 +11,8 @@
 namespace sensornoise
 {
 
-/** How many bytes the codes of a strip that is compressed by LZW stand for. Only their lengths are followed: LZW has no
- * checksum that would tell whether they are the right ones. */
+/** How many bytes the codes of a strip that is compressed by LZW stand for. LZW has no checksum that would tell whether
+ * they are the right ones. */
 struct LzwLength
 {
   std::uint64_t bytes{ 0 };
@@ -20,9 +20,15 @@ struct LzwLength
 };
 
 /** Follows the codes in the bytes [offset, offset + count) until they stand for \a expected bytes, or, where a writer
- * has filled the strip up, for \a whole, or end. */
+ * has filled the strip up, for \a whole, or end. The first \a expected of these bytes go to \a out, where there is one.
+ */
 LzwLength
-LengthOfLzw(FileBytes & bytes, std::uint64_t offset, std::uint64_t count, std::uint64_t expected, std::uint64_t whole);
+LengthOfLzw(FileBytes &     bytes,
+            std::uint64_t   offset,
+            std::uint64_t   count,
+            std::uint64_t   expected,
+            std::uint64_t   whole,
+            unsigned char * out = nullptr);
 
 } // namespace sensornoise
 

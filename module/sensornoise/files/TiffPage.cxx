@@ -146,6 +146,22 @@ ReadSubfileType(const TiffTags & tags, TiffPage & page)
   page.isFull = type == 0;
   page.isReduced = (type & 5) != 0 || oldType == 2;
 }
+
+/** As ITK's reader has it, which takes a resolution for pixels an inch or a centimetre, if the unit is said. */
+std::array<double, 2>
+SpacingOf(const TiffTags & tags, TiffBytes & tiff, const TiffDirectory & directory)
+{
+  const std::uint64_t unit = tags.Number(296, "ResolutionUnit", 1);
+  const double        millimetres = unit == 2 ? 25.4 : unit == 3 ? 10.0 : 0.0;
+  // libtiff hands them on as float
+  const std::array<float, 2> resolution{ { static_cast<float>(tiff.Quotient(directory, 282)),
+                                           static_cast<float>(tiff.Quotient(directory, 283)) } };
+  if (millimetres == 0.0 || !(resolution[0] > 0.0F) || !(resolution[1] > 0.0F))
+  {
+    return { { 1.0, 1.0 } };
+  }
+  return { { millimetres / static_cast<double>(resolution[0]), millimetres / static_cast<double>(resolution[1]) } };
+}
 } // namespace
 
 std::string
@@ -171,6 +187,7 @@ ReadTiffPage(const std::string & page, TiffBytes & tiff, const TiffDirectory & d
   found.compression = CompressionOf(tags);
   ReadPredictor(tags, found);
   ReadSubfileType(tags, found);
+  found.spacing = SpacingOf(tags, tiff, directory);
   found.orientation = tags.Number(274, "Orientation", 1);
   if (found.orientation != 1 && found.orientation != 4)
   {

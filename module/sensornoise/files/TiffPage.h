@@ -6,6 +6,7 @@
 #include "sensornoise/files/FrameFile.h"
 #include "sensornoise/files/TiffDirectory.h"
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -24,17 +25,18 @@ enum class TiffCompression
 /** What the directory of a page says of its pixels. */
 struct TiffPage
 {
-  std::uint64_t   width{ 0 };
-  std::uint64_t   height{ 0 };
-  FramePixel      pixel{ FramePixel::UnsignedChar };
-  TiffCompression compression{ TiffCompression::None };
-  std::uint64_t   predictor{ 1 };
-  std::uint64_t   rowsPerStrip{ 0 }; // at most the height
-  std::uint64_t   orientation{ 1 };
-  bool            isReduced{ false }; // a thumbnail or a mask, by NewSubfileType
-  bool            isFull{ false };    // NewSubfileType says so
-  TiffEntry       offsets{};          // of its strips
-  TiffEntry       byteCounts{};
+  std::uint64_t         width{ 0 };
+  std::uint64_t         height{ 0 };
+  FramePixel            pixel{ FramePixel::UnsignedChar };
+  TiffCompression       compression{ TiffCompression::None };
+  std::uint64_t         predictor{ 1 };
+  std::uint64_t         rowsPerStrip{ 0 }; // at most the height
+  std::uint64_t         orientation{ 1 };
+  bool                  isReduced{ false };      // a thumbnail or a mask, by NewSubfileType
+  bool                  isFull{ false };         // NewSubfileType says so
+  std::array<double, 2> spacing{ { 1.0, 1.0 } }; // along x and y [mm], 1 where it is not said
+  TiffEntry             offsets{};               // of its strips
+  TiffEntry             byteCounts{};
 };
 
 /** Reads what a directory says. \a page begins the errors. Throws FileError unless the page consists of strips of one

@@ -13,7 +13,7 @@ from ._frames import Stack, crop, frame_image, is_name, open_frames
 from ._maps import arrays_of, maps_folder, require_apart, write_maps
 from ._progress import at_work
 from ._report import Report
-from ._source import read_image
+from ._source import raw_stack, read_image
 from ._types import FileName, Frame, Frames, ItkObject
 
 
@@ -35,6 +35,7 @@ def estimate_sensor_noise(
     mask: Frame | FileName | None = None,
     frame_range: tuple[int, int] | None = None,
     maps: bool | FileName | None = None,
+    raw: str | None = None,
     threads: int | None = None,
     progress: bool = False,
 ) -> Report:
@@ -46,7 +47,7 @@ def estimate_sensor_noise(
         Raw frames in time order, at least 5 of at least 3 x 3 pixels: a NumPy array (t, y, x); an itk.Image of 3
         dimensions (x, y, t); a list of file names or of 2-D arrays (y, x), or of what has `__array__`; or the name of
         one stack file. uint8, uint16, int16, float32 or float64 [DN]. Files are read a few frames at a time and never
-        held together (a stack in NRRD, multi-page TIFF or a compressed MetaImage, which ITK cannot read in parts, is).
+        held together (a stack in NRRD or a compressed MetaImage, which ITK cannot read in parts, is).
         Arrays are shared; one that is not C-contiguous or not in the machine's byte order is copied once.
     method
         "refined": all pixels of a still scene, textured or not; what is `identified` has a standard error and a 95 %
@@ -87,6 +88,10 @@ def estimate_sensor_noise(
         values are README.md's); with two dark frames or more also the camera calibration: pixel_offset and
         pixel_read_noise [DN], and the ends of their 95 % intervals, _low and _high. True: arrays by these names, the
         report's `maps`. A folder: an image (.mha) each, written there. Default: none.
+    raw
+        How frames lie in files without a header, those of `frames` and of `dark`: "WxH:TYPE[:SKIP[:ROW]]", for example
+        "640x480:uint16le", or "1920x1080:Mono12p:64" behind 64 other bytes; the types are README.md's. Default: the
+        files say so.
     threads
         Number of threads. Default: all. The result is the same bits for any number.
     progress
@@ -117,6 +122,13 @@ def estimate_sensor_noise(
     folder = None if maps is None or isinstance(maps, bool) else maps_folder(maps)
     if folder is not None:
         require_apart(folder, frames=frames, dark=dark, mask=mask)
+    kept = []  # an itk.Image does not keep alive what makes it
+    if raw is not None:
+        frames, source = raw_stack(frames, raw, "frames")
+        kept.append(source)
+        if dark is not None:
+            dark, source = raw_stack(dark, raw, "dark")
+            kept.append(source)
     stack = open_frames(frames, span)
     corner, size = _region(stack, roi, None if _is_cut(frames) else span)
     mask_array = None if mask is None else _mask_of(mask, stack.size[:2])

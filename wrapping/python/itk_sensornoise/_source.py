@@ -32,15 +32,16 @@ def _new(pixel: str) -> ItkObject:
     return itk.SensorNoiseFrameListSource[itk.Image[getattr(itk, PIXEL_TYPES[pixel][0]), 3]].New()
 
 
-def open_files(file_names: Sequence[FileName]) -> tuple[ItkObject, str]:
+def open_files(file_names: Sequence[FileName], raw: str = "") -> tuple[ItkObject, str]:
     """The source of files in time order, and its pixel type, a key of PIXEL_TYPES. All headers are checked; no pixel is
-    kept. Raises ValueError, in the words of C++, where a file is not what it should be; warns of one that is there
-    twice."""
+    kept. `raw`: how frames lie in files without a header. Raises ValueError, in the words of C++, where a file is not
+    what it should be; warns of one that is there twice."""
     import itk
 
     # Any type will do to ask for the right one; what it found is handed on, so that nothing is checked twice.
     asked = _new("uint16")
     asked.SetFileNames(_names_of(file_names))
+    asked.SetRawLayout(raw)
     with itk_errors(kind=ValueError):
         component = asked.GetComponentType()
     if asked.GetWarning():
@@ -53,6 +54,18 @@ def open_files(file_names: Sequence[FileName]) -> tuple[ItkObject, str]:
     with itk_errors(kind=ValueError):
         source.UpdateOutputInformation()
     return source, pixel
+
+
+def raw_stack(frames: object, raw: str, what: str) -> tuple[ItkObject, ItkObject]:
+    """The stack on files without a header, as an itk.Image, and its source, which must outlive it. Raises ValueError
+    where `frames` are no names of files, with `what` they are called."""
+    if not isinstance(raw, str) or not raw:
+        raise ValueError(f"raw is {raw!r}; expected a layout, for example '640x480:uint16le'")
+    names = [frames] if isinstance(frames, (str, os.PathLike)) else frames
+    if not isinstance(names, (list, tuple)) or not all(isinstance(name, (str, os.PathLike)) for name in names):
+        raise ValueError(f"raw was given and {what} is of type {type(frames).__name__}; expected names of files")
+    source, _ = open_files(names, raw)
+    return source.GetOutput(), source
 
 
 def read_image(file_name: FileName, what: str) -> np.ndarray:
@@ -72,11 +85,14 @@ def read_image(file_name: FileName, what: str) -> np.ndarray:
     return image
 
 
-def sensor_noise_frame_list_source(file_names: FileName | Sequence[FileName], *, ttype: ItkObject = None) -> ItkObject:
+def sensor_noise_frame_list_source(
+    file_names: FileName | Sequence[FileName], *, ttype: ItkObject = None, raw: str = ""
+) -> ItkObject:
     """itk.SensorNoiseFrameListSource in functional style: frames on files as an itk.Image (x, y, t), all read.
 
     `file_names`: 2-D images in time order, of the formats that README.md names, or the name of one stack. `ttype`: the
-    type of the image, itk.Image[itk.US, 3] for instance; default: that of the files, and nothing is converted.
+    type of the image, itk.Image[itk.US, 3] for instance; default: that of the files, and nothing is converted. `raw`:
+    how frames lie in files without a header, as estimate_sensor_noise() has it.
 
     Raises ValueError for files that are not complete, not all alike or not of grey values, RuntimeError where their
     pixels cannot be read. To read a few frames at a time, use the class, as an input of a filter.
@@ -84,10 +100,11 @@ def sensor_noise_frame_list_source(file_names: FileName | Sequence[FileName], *,
     import itk
 
     if ttype is None:
-        source, _ = open_files([file_names] if isinstance(file_names, (str, os.PathLike)) else file_names)
+        source, _ = open_files([file_names] if isinstance(file_names, (str, os.PathLike)) else file_names, raw)
     else:
         source = itk.SensorNoiseFrameListSource[ttype].New()
         source.SetFileNames(_names_of(file_names))
+        source.SetRawLayout(raw)
         with itk_errors(kind=ValueError):
             source.UpdateOutputInformation()
     with itk_errors():

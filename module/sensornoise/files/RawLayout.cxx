@@ -1,0 +1,249 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/files/RawLayout.h"
+
+#include "sensornoise/files/FileBytes.h"
+#include "sensornoise/files/FrameFormats.h"
+#include "sensornoise/files/FrameSizes.h"
+#include "sensornoise/files/PackedFrames.h"
+#include "sensornoise/files/TextHeader.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+namespace sensornoise
+{
+namespace
+{
+[[noreturn]] void
+RefuseLayout(const std::string & text, const std::string & found)
+{
+  throw std::invalid_argument(
+    "\"" + text + "\" is no layout of raw frames: " + found +
+    "; expected WIDTHxHEIGHT:TYPE[:SKIP[:ROW]], for example 640x480:uint16le or 1920x1080:Mono12p:64");
+}
+
+std::string
+LowerCaseOf(std::string text)
+{
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+std::vector<std::string>
+Parted(const std::string & text, char separator)
+{
+  std::vector<std::string> parts{ "" };
+  for (const char c : text)
+  {
+    if (c == separator)
+    {
+      parts.emplace_back();
+    }
+    else
+    {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+struct NumberType
+{
+  const char * name;
+  FramePixel   pixel;
+  bool         isBigEndian;
+};
+
+std::optional<SampleFormat>
+FormatOfNumbers(const std::string & name)
+{
+  static constexpr std::array<NumberType, 9> types{ { { "uint8", FramePixel::UnsignedChar, false },
+                                                      { "uint16le", FramePixel::UnsignedShort, false },
+                                                      { "uint16be", FramePixel::UnsignedShort, true },
+                                                      { "int16le", FramePixel::Short, false },
+                                                      { "int16be", FramePixel::Short, true },
+                                                      { "float32le", FramePixel::Float, false },
+                                                      { "float32be", FramePixel::Float, true },
+                                                      { "float64le", FramePixel::Double, false },
+                                                      { "float64be", FramePixel::Double, true } } };
+  const auto * const                         found =
+    std::find_if(types.begin(), types.end(), [&](const NumberType & type) { return name == type.name; });
+  if (found == types.end())
+  {
+    return std::nullopt;
+  }
+  SampleFormat format;
+  format.pixel = found->pixel;
+  format.isBigEndian = found->isBigEndian;
+  format.bits = static_cast<unsigned>(8 * SizeOf(found->pixel));
+  return format;
+}
+
+/** Of the bits and the end of a name: "12p". */
+std::optional<SampleFormat>
+FormatOfBits(const std::string & bitsAndEnd, SamplePacking packing, const std::string & end)
+{
+  if (bitsAndEnd.size() < end.size() || bitsAndEnd.substr(bitsAndEnd.size() - end.size()) != end)
+  {
+    return std::nullopt;
+  }
+  const std::string bits = bitsAndEnd.substr(0, bitsAndEnd.size() - end.size());
+  const bool        isWhole = packing == SamplePacking::Whole;
+  const bool        isPacked = bits == "10" || bits == "12" || (bits == "14" && packing != SamplePacking::GigE);
+  if (!(isWhole ? bits == "8" || bits == "10" || bits == "12" || bits == "14" || bits == "16" : isPacked))
+  {
+    return std::nullopt;
+  }
+  SampleFormat format;
+  format.packing = packing;
+  format.bits = static_cast<unsigned>(std::stoul(bits));
+  format.pixel = format.bits == 8 ? FramePixel::UnsignedChar : FramePixel::UnsignedShort;
+  return format;
+}
+
+struct NameOfPacking
+{
+  const char *  begin;
+  const char *  end;
+  SamplePacking packing;
+};
+
+/** The format of a name without a pattern. */
+std::optional<SampleFormat>
+FormatOfCamera(const std::string & name)
+{
+  static constexpr std::array<NameOfPacking, 7> names{ { { "mono", "", SamplePacking::Whole },
+                                                         { "mono", "p", SamplePacking::LowestFirst },
+                                                         { "mono", "packed", SamplePacking::GigE },
+                                                         { "raw", "", SamplePacking::Mipi },
+                                                         { "s", "p", SamplePacking::Mipi },
+                                                         { "s", "", SamplePacking::Whole },
+                                                         { "uint", "msb", SamplePacking::HighestFirst } } };
+  for (const NameOfPacking & known : names)
+  {
+    const std::string begin = known.begin;
+    if (name.rfind(begin, 0) == 0)
+    {
+      if (const auto format = FormatOfBits(name.substr(begin.size()), known.packing, known.end))
+      {
+        return format;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+/** Takes the pattern out of "bayerrg12p" or "srggb10p", leaving "mono12p" or "s10p"; returns the pattern. */
+std::string
+TakePattern(std::string & name)
+{
+  static constexpr std::array<const char *, 4> patterns{ { "rggb", "grbg", "gbrg", "bggr" } };
+  for (const std::string pattern : patterns)
+  {
+    const std::string genicam = "bayer" + pattern.substr(0, 2);
+    const std::string linux = "s" + pattern;
+    const bool        isGenicam = name.rfind(genicam, 0) == 0;
+    if (isGenicam || name.rfind(linux, 0) == 0)
+    {
+      name = (isGenicam ? "mono" : "s") + name.substr(isGenicam ? genicam.size() : linux.size());
+      std::string upper = pattern;
+      std::transform(upper.begin(), upper.end(), upper.begin(), [](unsigned char c) { return std::toupper(c); });
+      return upper;
+    }
+  }
+  return "";
+}
+
+void
+ReadType(const std::string & text, const std::string & type, RawLayout & layout)
+{
+  std::string name = LowerCaseOf(type);
+  if (const auto numbers = FormatOfNumbers(name))
+  {
+    layout.sample = *numbers;
+    return;
+  }
+  layout.camera.bayerPattern = TakePattern(name);
+  const bool isLinux = name.size() > 1 && name[0] == 's';
+  const auto camera = isLinux && layout.camera.bayerPattern.empty() ? std::nullopt : FormatOfCamera(name);
+  if (!camera)
+  {
+    const bool lacksOrder = name == "uint16" || name == "int16" || name == "float32" || name == "float64";
+    RefuseLayout(text,
+                 lacksOrder
+                   ? "the type " + type + " does not say which byte comes first; " + name + "le or " + name + "be would"
+                   : "the type \"" + type +
+                       "\" is not known (uint8, uint16le, float32le, Mono12p, "
+                       "Mono12Packed, RAW10, SRGGB10P and others are)");
+  }
+  layout.sample = *camera;
+  layout.camera.bitDepth = camera->bits;
+}
+
+std::uint64_t
+ReadCount(const std::string & text, const std::string & what, const std::string & digits)
+{
+  const std::optional<std::uint64_t> number = WholeNumber(digits);
+  if (!number)
+  {
+    RefuseLayout(text, what + " is \"" + digits + "\", no whole number");
+  }
+  return *number;
+}
+
+/** Not in the table of formats: nothing tells such a file. */
+const FrameFormat RawFormat{ "raw frames without a header", nullptr, nullptr, nullptr, nullptr };
+} // namespace
+
+RawLayout
+ReadRawLayout(const std::string & text)
+{
+  const std::vector<std::string> parts = Parted(text, ':');
+  const std::vector<std::string> size = Parted(LowerCaseOf(parts.front()), 'x');
+  if (parts.size() < 2 || parts.size() > 4 || size.size() != 2)
+  {
+    RefuseLayout(text,
+                 size.size() != 2 ? "its size is \"" + parts.front() + "\""
+                                  : "it has " + std::to_string(parts.size()) + " parts");
+  }
+  RawLayout layout;
+  layout.width = ReadCount(text, "the width", size[0]);
+  layout.height = ReadCount(text, "the height", size[1]);
+  constexpr std::uint64_t longest = INT32_MAX;
+  if (layout.width < 1 || layout.height < 1 || layout.width > longest || layout.height > longest)
+  {
+    RefuseLayout(text, "a size of " + parts.front() + " pixels");
+  }
+  ReadType(text, parts[1], layout);
+  layout.skipBytes = parts.size() > 2 ? ReadCount(text, "the bytes to skip", parts[2]) : 0;
+  layout.rowBytes = parts.size() > 3 ? ReadCount(text, "the bytes of a row", parts[3]) : 0;
+  return layout;
+}
+
+FrameFile
+InspectRawFile(const std::string & name, const RawLayout & layout)
+{
+  FrameFile file;
+  file.name = name;
+  file.identities.push_back(IdentityOf(name));
+  file.format = &RawFormat;
+  file.pixel = layout.sample.pixel;
+  file.camera = layout.camera;
+  SetFrameSizes(file, { layout.width, layout.height });
+  FileBytes   bytes(name);
+  FramePlaces places;
+  places.path = name;
+  places.offset = layout.skipBytes;
+  places.rowBytes = layout.rowBytes;
+  places.sample = layout.sample;
+  SetFramePlaces(file, places, bytes.Size(), std::nullopt);
+  RequireUnchanged(file);
+  return file;
+}
+
+} // namespace sensornoise

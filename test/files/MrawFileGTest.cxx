@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "helpers/BurstFilesTestHelper.h"
+#include "helpers/FrameFileTestHelper.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+// Recordings of Photron cameras.
+
+namespace
+{
+using namespace sensornoise;
+using namespace sensornoise::test;
+
+Codes
+SomeCodes(std::size_t count, unsigned bits)
+{
+  Codes             codes;
+  const std::string bytes = RandomBytes(2 * count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    codes.push_back((static_cast<unsigned char>(bytes[2 * i]) * 256U + static_cast<unsigned char>(bytes[2 * i + 1])) >>
+                    (16 - bits));
+  }
+  return codes;
+}
+
+std::string
+PixelsOf(const Codes & codes, unsigned bits)
+{
+  return bits == 8 || bits == 16 ? BytesOfCodes(codes, bits / 8) : BitStream(codes, bits, true);
+}
+
+class MrawFile : public FrameFileTest
+{
+protected:
+  template <typename TPixel>
+  static Codes
+  Read(const FrameFile & file)
+  {
+    std::vector<TPixel> pixels(file.width * file.height * file.frames);
+    file.reader->Read(file, 0, file.frames, pixels.data());
+    return { pixels.begin(), pixels.end() };
+  }
+
+  void
+  HeaderIsRefused(const CihxOf & header, const std::string & pixels, const std::vector<std::string> & parts) const
+  {
+    Write("a.mraw", pixels);
+    IsRefused("a.cihx", header.Bytes(), parts);
+  }
+};
+
+TEST_F(MrawFile, IsReadByEitherOfItsNames)
+{
+  for (const unsigned bits : { 8U, 10U, 12U, 16U })
+  {
+    CihxOf header;
+    header.bits = bits;
+    header.depth = bits;
+    const FramePixel  pixel = bits == 8 ? FramePixel::UnsignedChar : FramePixel::UnsignedShort;
+    const Codes       codes = SomeCodes(160, bits);
+    const std::string bytes = PixelsOf(codes, bits);
+    Write("a.mraw", bytes);
+    const FrameFile byHeader = IsFrames("a.cihx", header.Bytes(), pixel, 8, 5, 4);
+    const FrameFile byPixels = IsFrames("a.mraw", bytes, pixel, 8, 5, 4);
+    for (const FrameFile & file : { byHeader, byPixels })
+    {
+      EXPECT_EQ(bits == 8 ? Read<unsigned char>(file) : Read<unsigned short>(file), codes) << bits;
+      EXPECT_EQ(file.camera.bitDepth, bits);
+      EXPECT_EQ(file.camera.camera, "FASTCAM Mini");
+      EXPECT_DOUBLE_EQ(file.camera.exposureSeconds, 1.0 / 5000.0);
+      EXPECT_EQ(file.identities.size(), 2u);
+    }
+  }
+}
+
+TEST_F(MrawFile, AnOlderHeaderIsReadToo)
+{
+  const Codes codes = SomeCodes(160, 12);
+  Write("a.mraw", BitStream(codes, 12, true));
+  const std::string header = "#Camera Information Header\r\nCamera Type : SA5\r\nShutter Speed(s) : 1/1000.0\r\n"
+                             "Total Frame : 4\r\nImage Width : 8\r\nImage Height : 5\r\nColor Type : Mono\r\n"
+                             "Color Bit : 12\r\nFile Format : MRaw\r\nEffectiveBit Depth : 12\r\n"
+                             "EffectiveBit Side : Lower\r\nEND\r\n";
+  const FrameFile   file = IsFrames("a.cih", header, FramePixel::UnsignedShort, 8, 5, 4);
+  EXPECT_EQ(Read<unsigned short>(file), codes);
+  EXPECT_EQ(file.camera.camera, "SA5");
+  EXPECT_EQ(file.camera.exposureSeconds, 0.001);
+}
+
+TEST_F(MrawFile, CodesThatWereMovedUpStayAsTheyAre)
+{
+  CihxOf header;
+  header.bits = 16;
+  header.side = "Higher";
+  Write("a.mraw", BytesOfCodes(Codes(160, 0xABC0), 2));
+  const FrameFile file = IsFrames("a.cihx", header.Bytes(), FramePixel::UnsignedShort, 8, 5, 4);
+  EXPECT_EQ(Read<unsigned short>(file), Codes(160, 0xABC0));
+  EXPECT_EQ(file.camera.bitDepth, 16u);
+  header.side = "Lower";
+  EXPECT_EQ(IsFrames("a.cihx", header.Bytes(), FramePixel::UnsignedShort, 8, 5, 4).camera.bitDepth, 12u);
+}
+
+TEST_F(MrawFile, WhatIsMissingOrLeftOverIsRefused)
+{
+  const std::string pixels(240, '\1');
+  IsRefused("alone.mraw", pixels, { "has no header beside it; expected the file ", "alone.cihx", "ends in .cih" });
+  IsRefused("other.cihx", CihxOf{}.Bytes(), { "has no pixels beside it", "other.mraw" });
+  Write("a.mraw", pixels);
+  IsFrames("a.cihx", CihxOf{}.Bytes(), FramePixel::UnsignedShort, 8, 5, 4);
+  HeaderIsRefused(CihxOf{}, pixels + "a", { "241 bytes of pixels in its data file ", "a.mraw; expected 240" });
+  HeaderIsRefused(CihxOf{}, pixels.substr(1), { "truncated: 239 bytes of pixels in its data file " });
+  HeaderIsRefused(CihxOf{}, "", { "truncated: 0 bytes of pixels" });
+  std::filesystem::remove(Path("a.mraw"));
+  std::filesystem::create_directories(Path("a.mraw"));
+  IsRefused("a.cihx", CihxOf{}.Bytes(), { "its data file ", "is a folder" });
+}
+
+TEST_F(MrawFile, HeadersThatCannotBeTrueAreRefused)
+{
+  const std::string pixels(240, '\1');
+  const auto        refused = [&](const auto & change, const std::vector<std::string> & parts) {
+    CihxOf header;
+    change(header);
+    HeaderIsRefused(header, pixels, parts);
+  };
+  refused([](CihxOf & h) { h.bits = 36; }, { "colours of 36 bits a pixel" });
+  refused([](CihxOf & h) { h.bits = 11; }, { "says 11 bits a pixel; expected 8, 10, 12 or 16" });
+  refused([](CihxOf & h) { h.width = 0; }, { "size 0 along axis 0" });
+  refused([](CihxOf & h) { h.frames = 0; }, { "size 0 along axis 2" });
+  refused([](CihxOf & h) { h.width = 7; }, { "7 x 5 pixels, of which 2 are packed in 3 bytes" });
+  refused([](CihxOf & h) { h.frames = 3; }, { "240 bytes of pixels", "expected 180" });
+  refused([](CihxOf & h) { h.more = "<frameInfo><totalFrame>5</totalFrame></frameInfo>"; },
+          { "says \"two values\" for frameInfo/totalFrame" });
+  refused([](CihxOf & h) { h.more = "<open>"; }, { "</cih> where </open> has to be" });
+  const std::string sound = CihxOf{}.Bytes();
+  Write("a.mraw", pixels);
+  IsRefused("a.cihx", sound.substr(0, sound.find("</cih>")), { "ends within its elements" });
+  IsRefused("a.cihx", "<?xml version=\"1.0\"?><a></a>", { "has no element <cih>" });
+  IsRefused("a.cihx", "nothing", { "its header says \"\" for imageDataInfo/colorInfo/bit (Color Bit)" });
+  IsRefused("a.cihx", Replaced(sound, "MRaw", "TIFF"), { "in the format tiff; expected mraw" });
+  IsRefused("a.cihx", Replaced(sound, ">4<", ">-4<"), { "says \"-4\" for frameInfo/totalFrame" });
+  std::string deep = "<cih>";
+  for (int i = 0; i < 70; ++i)
+  {
+    deep += "<a>";
+  }
+  IsRefused("a.cihx", deep, { "64 deep" });
+}
+} // namespace
