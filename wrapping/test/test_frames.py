@@ -22,7 +22,10 @@ WRONG_FRAMES = {
     "masked": (np.ma.masked_less(STACK, 3), "frames is a masked array, expected a plain one"),
     "T = 0": (STACK[:0], "frames has shape (0, 8, 9), which holds no pixel; expected at least 1"),
     "empty list": ([], "frames is an empty list; expected at least 5 frames"),
-    "generator": ((frame for frame in STACK), "frames is of type generator; expected an array (t, y, x)"),
+    "generator": (
+        (frame for frame in STACK),
+        "frames is of type generator, and item 0 of it of type ndarray; expected file names",
+    ),
     "number": (3, "frames is of type int; expected an array"),
     "None": (None, "frames is of type NoneType; expected an array"),
     "no file": ("no-such.mha", "no-such.mha: does not exist"),

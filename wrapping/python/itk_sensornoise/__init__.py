@@ -18,7 +18,12 @@ from ._check import NoiseModelCheck, check_noise_model
 from ._correlation import NoiseCorrelation, noise_correlation_estimator
 from ._denoise import denoise_with_noise_model
 from ._estimate import estimate_sensor_noise
-from ._estimators import noise_regression_estimator, sensor_noise_estimator, vibration_covariance_estimator
+from ._estimators import (
+    noise_regression_estimator,
+    sensor_noise_estimator,
+    temporal_statistics_image_filter,
+    vibration_covariance_estimator,
+)
 from ._report import Report
 from ._simulate import simulate_sensor_noise
 from ._source import sensor_noise_frame_list_source
@@ -39,6 +44,7 @@ __all__ = [
     "sensor_noise_estimator",
     "sensor_noise_frame_list_source",
     "simulate_sensor_noise",
+    "temporal_statistics_image_filter",
     "vibration_covariance_estimator",
     "warning_table",
 ]

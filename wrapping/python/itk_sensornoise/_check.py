@@ -105,7 +105,7 @@ def check_noise_model(frames: Any, report: Any, *, mask: Any = None, **parameter
     if mask is not None:
         mask_array = as_mask(mask, "mask")
         estimator.SetMask(frame_image(mask_array, opened.image))
-    with at_work(estimator), itk_errors():
+    with at_work(estimator, False, opened), itk_errors():
         estimator.Update()
     model = (
         slope,

@@ -158,7 +158,7 @@ def noise_correlation_estimator(
     if quantisation_step is not None:
         expected = "a number above 0 [DN]"
         estimator.SetQuantisationStep(_options.number("quantisation_step", quantisation_step, expected, above=0.0))
-    with at_work(estimator), itk_errors():
+    with at_work(estimator, False, opened), itk_errors():
         estimator.Update()
     return NoiseCorrelation(estimator.GetResultAsJson())
 

@@ -9,8 +9,9 @@ import numpy as np
 from . import _options
 from ._arrays import as_mask
 from ._errors import itk_errors
-from ._frames import Stack, crop, frame_image, is_name, open_frames
+from ._frames import Stack, crop, frame_image, open_frames
 from ._maps import arrays_of, maps_folder, require_apart, write_maps
+from ._names import expand, is_name
 from ._progress import at_work
 from ._report import Report
 from ._source import raw_stack, read_image
@@ -120,6 +121,7 @@ def estimate_sensor_noise(
     levels = None if level_range is None else _level_range(level_range, method)
     span = None if frame_range is None else _frame_range(frame_range)
     folder = None if maps is None or isinstance(maps, bool) else maps_folder(maps)
+    frames, dark = expand(frames), expand(dark, "dark")
     if folder is not None:
         require_apart(folder, frames=frames, dark=dark, mask=mask)
     kept = []  # an itk.Image does not keep alive what makes it
@@ -130,7 +132,7 @@ def estimate_sensor_noise(
             dark, source = raw_stack(dark, raw, "dark")
             kept.append(source)
     stack = open_frames(frames, span)
-    corner, size = _region(stack, roi, None if _is_cut(frames) else span)
+    corner, size = _region(stack, roi, None if stack.is_cut else span)
     mask_array = None if mask is None else _mask_of(mask, stack.size[:2])
     dark_stack = None if dark is None else _dark_of(dark, stack, corner, size)
     if size != stack.size:
@@ -157,7 +159,7 @@ def estimate_sensor_noise(
         count = _options.integer("threads", threads, 1, 1024)
         estimator.GetMultiThreader().SetMaximumNumberOfThreads(count)
         estimator.SetNumberOfWorkUnits(count)
-    with at_work(estimator, progress), itk_errors():
+    with at_work(estimator, progress, *filter(None, (stack, dark_stack))), itk_errors():
         estimator.Update()
     if folder is not None:
         write_maps(estimator, folder)
@@ -206,11 +208,6 @@ def _dark_of(dark: Frames, stack: Stack, corner: tuple[int, ...], size: tuple[in
         raise ValueError(f"dark has {found}; expected {expected}, as the frames")
     corner, size = (*corner[:2], 0), (*size[:2], opened.size[2])
     return opened if size == opened.size else crop(opened, corner, size)
-
-
-def _is_cut(frames: Frames) -> bool:
-    """Whether open_frames() opens no more than the frames asked for."""
-    return isinstance(frames, (list, tuple)) and len(frames) > 1
 
 
 def _frame_range(frame_range: tuple[int, int]) -> tuple[int, int]:

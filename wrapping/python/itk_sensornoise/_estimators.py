@@ -45,6 +45,7 @@ def sensor_noise_estimator(
     import itk
 
     opened = open_frames(stack)
+    stacks = [opened]
     estimator = opened.estimator(itk.SensorNoiseEstimator)
     _set_parameters(estimator, parameters)
     if mask is not None:
@@ -52,12 +53,36 @@ def sensor_noise_estimator(
         estimator.SetMask(view(mask_array))
     if dark is not None:
         dark_stack = open_frames(dark, name="dark")
+        stacks.append(dark_stack)
         if dark_stack.pixel != opened.pixel:
             raise ValueError(f"dark has pixels of type {dark_stack.pixel}; expected {opened.pixel}, as the stack")
         estimator.SetDark(dark_stack.image)
-    with at_work(estimator), itk_errors():
+    with at_work(estimator, False, *stacks), itk_errors():
         estimator.Update()
     return Report.of(estimator)
+
+
+def temporal_statistics_image_filter(stack: Frames, **parameters: Any) -> tuple[Any, Any, Any]:
+    """Mean and unbiased variance over time of every pixel of a stack, and the mask of valid pixels.
+
+    `stack` as `frames` of estimate_sensor_noise(). `parameters`: those of itk.TemporalStatisticsImageFilter in snake
+    case, for example `bit_depth=12`.
+
+    Returns mean [DN], variance [DN^2] and the valid mask (1: finite and never clipped), arrays (y, x); images where the
+    stack is an itk.Image. Raises ValueError for wrong use, RuntimeError for what ITK threw.
+    """
+    import itk
+
+    opened = open_frames(stack, name="stack")
+    statistics = opened.estimator(itk.TemporalStatisticsImageFilter)
+    _set_parameters(statistics, parameters)
+    with at_work(statistics, False, opened), itk_errors():
+        statistics.Update()
+    images = statistics.GetMean(), statistics.GetVariance(), statistics.GetValidMask()
+    if hasattr(stack, "GetLargestPossibleRegion"):
+        return images
+    mean, variance, valid = map(itk.array_from_image, images)
+    return mean, variance, valid
 
 
 def noise_regression_estimator(

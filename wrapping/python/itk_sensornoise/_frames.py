@@ -2,20 +2,23 @@
 # SPDX-License-Identifier: Apache-2.0
 """Whatever a user has as frames, as one ITK stack (x, y, time) without a second copy of it."""
 
-import os
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from typing import Any, TypeGuard
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
 from ._arrays import PIXEL_NAMES, PIXEL_TYPES, as_array, as_itk_order, require_pixel_type, require_shape, view
 from ._errors import itk_errors
+from ._lazy import LazyStack, ListOfFrames, is_lazy, source_of
+from ._names import expand, is_name, refuse_other_formats
+from ._rawpy import RawFiles, is_raw
 from ._source import open_files
-from ._types import FileName, Frames, ItkObject
+from ._types import FileName, Frames, ItkObject, LazyFrames
 
 EXPECTED = (
-    "expected an array (t, y, x), an itk.Image of 3 dimensions, a list of file names or of 2-D arrays, or a file name"
+    "expected an array (t, y, x), an itk.Image of 3 dimensions, an object with shape, dtype and slices along time, a "
+    "list of file names or of 2-D arrays, or a file name, a pattern of names or a folder"
 )
 
 
@@ -26,6 +29,8 @@ class Stack:
     image: ItkObject
     pixel: str  # a key of PIXEL_TYPES
     kept: list[Any]
+    failed: list[BaseException] = field(default_factory=list)  # while lazy frames were read; see at_work()
+    is_cut: bool = False  # to the frames that were asked for
 
     @property
     def size(self) -> tuple[int, int, int]:
@@ -40,24 +45,23 @@ class Stack:
         return instance
 
 
-def is_name(value: object) -> TypeGuard[FileName]:
-    return isinstance(value, (str, os.PathLike))
-
-
 def open_frames(frames: Frames, frame_range: tuple[int, int] | None = None, name: str = "frames") -> Stack:
-    """The frames as a stack: arrays are shared, files are read later, a few at a time.
+    """The frames as a stack: arrays are shared, files and lazy frames are read later, a few at a time.
 
     An array that is not C-contiguous or not in the machine's byte order is copied once. Of a list, the files outside
     `frame_range` (first, one past the last) are not opened; a stack is left whole. Raises ValueError, with the `name`
     of the parameter, for anything else.
     """
+    frames = expand(frames, name)
     if is_name(frames):
         return _from_files([frames], None)
     if isinstance(frames, (list, tuple)):
         return _from_list(frames, frame_range, name)
     if hasattr(frames, "GetLargestPossibleRegion"):
         return _from_image(frames, name)
-    if isinstance(frames, Iterator) or not hasattr(frames, "__array__"):
+    if is_lazy(frames):
+        return _from_lazy(frames, name)  # type: ignore[arg-type]  # told by what it has
+    if not hasattr(frames, "__array__"):
         raise ValueError(f"{name} is of type {type(frames).__name__}; {EXPECTED}")
     array = as_array(frames, name)
     pixel = require_pixel_type(array, name)
@@ -78,7 +82,7 @@ def crop(stack: Stack, corner: tuple[int, ...], size: tuple[int, ...]) -> Stack:
     extract.SetInput(stack.image)
     extract.SetExtractionRegion(region)
     extract.SetDirectionCollapseToSubmatrix()
-    return Stack(_with_information(extract), stack.pixel, [extract, stack])
+    return Stack(_with_information(extract), stack.pixel, [extract, stack], stack.failed)
 
 
 def frame_image(array: np.ndarray, stack_image: ItkObject) -> ItkObject:
@@ -115,10 +119,17 @@ def _from_image(image: ItkObject, name: str) -> Stack:
 
 
 def _from_files(names: Sequence[FileName], frame_range: tuple[int, int] | None) -> Stack:
-    if frame_range is not None and len(names) > 1:
+    is_cut = frame_range is not None and len(names) > 1
+    if frame_range is not None and is_cut:
         names = names[frame_range[0] : frame_range[1]]
-    source, pixel = open_files(names)
-    return Stack(source.GetOutput(), pixel, [source])
+    if all(map(is_raw, names)):
+        stack = _from_lazy(RawFiles(names), "frames")
+    else:
+        refuse_other_formats(names)
+        source, pixel = open_files(names)
+        stack = Stack(source.GetOutput(), pixel, [source])
+    stack.is_cut = is_cut
+    return stack
 
 
 def _from_list(frames: Sequence[Any], frame_range: tuple[int, int] | None, name: str) -> Stack:
@@ -132,9 +143,20 @@ def _from_list(frames: Sequence[Any], frame_range: tuple[int, int] | None, name:
         return _from_files(frames, frame_range)
     if named > 0:
         raise ValueError(f"{name} holds {named} file names and {len(frames) - named} others; expected one kind")
-    if frame_range is not None and len(frames) > 1:
+    is_cut = frame_range is not None and len(frames) > 1
+    if frame_range is not None and is_cut:
         frames = frames[frame_range[0] : frame_range[1]]
-    return _from_arrays(frames, name)
+    are_lazy = any(is_lazy(frame) and not isinstance(frame, np.ndarray) for frame in frames)
+    stack = _from_lazy(ListOfFrames(frames, name), name) if are_lazy else _from_arrays(frames, name)
+    stack.is_cut = is_cut
+    return stack
+
+
+def _from_lazy(frames: LazyFrames, name: str) -> Stack:
+    stack = LazyStack(frames, name)
+    failed: list[BaseException] = []
+    image, kept = source_of(stack, failed)
+    return Stack(image, stack.pixel, kept, failed)
 
 
 def _from_arrays(frames: Sequence[Any], name: str) -> Stack:

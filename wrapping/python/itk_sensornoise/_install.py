@@ -16,6 +16,7 @@ _REPLACED = (
     "noise_regression_estimator",
     "sensor_noise_estimator",
     "sensor_noise_frame_list_source",
+    "temporal_statistics_image_filter",
     "vibration_covariance_estimator",
 )
 _MODULE = "SensorNoise"

@@ -44,7 +44,15 @@ def _make_bar() -> _Bar:
     return bar
 
 
-def _watch(instance: ItkObject, bar: _Bar | None, caught: list[BaseException]) -> Generator[None, None, None]:
+class _Reads(Protocol):
+    """A stack, with what was raised while its frames were read."""
+
+    failed: list[BaseException]
+
+
+def _watch(
+    instance: ItkObject, bar: _Bar | None, caught: list[BaseException], stacks: tuple[_Reads, ...]
+) -> Generator[None, None, None]:
     """Each turn, which ITK asks for as the work goes on, runs Python: pending signals are handled, and the bar moves.
 
     What they raise would end as a text in ITK's own exception: it is kept in `caught`, and `instance` is told to stop.
@@ -53,6 +61,8 @@ def _watch(instance: ItkObject, bar: _Bar | None, caught: list[BaseException]) -
     while True:
         try:
             yield
+            if any(stack.failed for stack in stacks):
+                instance.AbortGenerateDataOn()
             if bar is not None and not caught:
                 bar.update(max(int(100 * instance.GetProgress()) - int(bar.n), 0))
         except GeneratorExit:
@@ -63,15 +73,16 @@ def _watch(instance: ItkObject, bar: _Bar | None, caught: list[BaseException]) -
 
 
 @contextmanager
-def at_work(instance: ItkObject, progress: bool = False) -> Iterator[None]:
+def at_work(instance: ItkObject, progress: bool = False, *stacks: _Reads) -> Iterator[None]:
     """While the context lasts, Ctrl-C stops the update of `instance`, a filter that reads a stack, within the time of a
-    chunk and raises KeyboardInterrupt. With `progress` a bar is shown: tqdm's if that is installed.
+    chunk and raises KeyboardInterrupt. With `progress` a bar is shown: tqdm's if that is installed. What was raised
+    while the frames of `stacks` were read stops it, too, and is raised again: nothing was measured.
     """
     import itk
 
     bar = _make_bar() if progress else None
     caught: list[BaseException] = []
-    watch = _watch(instance, bar, caught)
+    watch = _watch(instance, bar, caught, stacks)
     next(watch)
     tag = instance.AddObserver(itk.ProgressEvent(), watch.__next__)
     try:
@@ -79,7 +90,7 @@ def at_work(instance: ItkObject, progress: bool = False) -> Iterator[None]:
         if bar is not None and not caught:
             bar.update(100 - int(bar.n))
     except RuntimeError:  # ITK's "aborted", if _watch() told the filter to stop
-        if not caught:
+        if not caught and not any(stack.failed for stack in stacks):
             raise
     finally:
         # The observer holds the filter that holds it.
@@ -87,5 +98,5 @@ def at_work(instance: ItkObject, progress: bool = False) -> Iterator[None]:
         watch.close()
         if bar is not None:
             bar.close()
-    if caught:
-        raise caught[0] from None
+    for error in [*caught, *(error for stack in stacks for error in stack.failed)]:
+        raise error

@@ -10,6 +10,7 @@ import numpy as np
 
 from ._arrays import PIXEL_TYPES
 from ._errors import itk_errors
+from ._names import expand
 from ._types import FileName, ItkObject
 
 
@@ -90,15 +91,17 @@ def sensor_noise_frame_list_source(
 ) -> ItkObject:
     """itk.SensorNoiseFrameListSource in functional style: frames on files as an itk.Image (x, y, t), all read.
 
-    `file_names`: 2-D images in time order, of the formats that README.md names, or the name of one stack. `ttype`: the
-    type of the image, itk.Image[itk.US, 3] for instance; default: that of the files, and nothing is converted. `raw`:
-    how frames lie in files without a header, as estimate_sensor_noise() has it.
+    `file_names`: 2-D images in time order, of the formats that README.md names, or the name of one stack; a pattern of
+    names or a folder, as `frames` of estimate_sensor_noise(). `ttype`: the type of the image, itk.Image[itk.US, 3] for
+    instance; default: that of the files, and nothing is converted. `raw`: how frames lie in files without a header, as
+    estimate_sensor_noise() has it.
 
     Raises ValueError for files that are not complete, not all alike or not of grey values, RuntimeError where their
     pixels cannot be read. To read a few frames at a time, use the class, as an input of a filter.
     """
     import itk
 
+    file_names = expand(file_names, "file_names")
     if ttype is None:
         source, _ = open_files([file_names] if isinstance(file_names, (str, os.PathLike)) else file_names, raw)
     else:

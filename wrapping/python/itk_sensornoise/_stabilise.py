@@ -13,7 +13,7 @@ import numpy as np
 from . import _options
 from ._arrays import PIXEL_NAMES, PIXEL_TYPES, as_array, as_itk_order, require_pixel_type, view
 from ._errors import itk_errors
-from ._frames import is_name
+from ._names import is_name
 
 _SCHEMA = "itk-sensornoise-report/1"
 _REPORT = "a report of estimate_sensor_noise(), a mapping like it, or the name of its JSON file"

@@ -3,7 +3,8 @@
 """The types of what people give, by name: what a checker and a reader of the signatures want to know."""
 
 import os
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from collections.abc import Set as AbstractSet
 from typing import Any, Protocol, TypeAlias
 
 import numpy as np
@@ -18,8 +19,30 @@ class HasArray(Protocol):
     def __array__(self) -> np.ndarray: ...
 
 
-# A stack: an array or image (t, y, x), one file name, or a list of file names or of arrays (y, x) in time order.
-Frames: TypeAlias = FileName | HasArray | Sequence[FileName] | Sequence[HasArray]
+class LazyFrames(Protocol):
+    """Frames (t, y, x) that are read as they are sliced along time, frames[first:end]: of h5py, zarr, dask, xarray,
+    astropy's sections, or a class of one's own."""
+
+    @property
+    def shape(self) -> tuple[int, ...]: ...
+
+    @property
+    def dtype(self) -> Any: ...
+
+    def __getitem__(self, times: slice, /) -> Any: ...
+
+
+# A stack: an array, an image or lazy frames (t, y, x), a file name, a pattern of names or a folder; a list of file
+# names or of arrays (y, x) in time order; a set or a generator of file names.
+Frames: TypeAlias = (
+    FileName
+    | HasArray
+    | LazyFrames
+    | Sequence[FileName]
+    | Sequence[HasArray]
+    | AbstractSet[FileName]
+    | Iterator[FileName]
+)
 
 # A map of a frame's size: an array (y, x), an itk.Image or nested lists of numbers.
 Frame: TypeAlias = ArrayLike

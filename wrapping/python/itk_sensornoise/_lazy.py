@@ -1,0 +1,170 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Frames that are read as they are sliced along time: by ITK, a few at a time, and never held together."""
+
+import mmap
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from ._arrays import PIXEL_TYPES, require_pixel_type, require_shape
+from ._axes import in_time_order
+from ._chunks import frames_of_chunk, is_closed, require_chunks
+from ._types import ItkObject
+
+# Bytes that are asked for at a time, beside the chunk of 64 MiB that ITK asks for; more where what is stored has larger
+# chunks, so that each is read once, up to _LARGEST.
+_PIECE_BYTES = 8 << 20
+_LARGEST = 64 << 20
+
+
+def mapping_of(array: object) -> mmap.mmap | None:
+    """The file's memory map that an array lies in, numpy.memmap's for instance; None: it lies elsewhere."""
+    while isinstance(array, np.ndarray):
+        array = array.base
+    return array if isinstance(array, mmap.mmap) else None
+
+
+def is_lazy(value: object) -> bool:
+    """Whether it has a shape, a dtype of NumPy's, and slices, and is not in memory: numpy.memmap is not."""
+    if isinstance(value, np.ndarray):
+        return mapping_of(value) is not None
+    if is_closed(value):
+        return True  # refused by name
+    if isinstance(value, np.generic) or not all(hasattr(value, name) for name in ("shape", "dtype", "__getitem__")):
+        return False
+    try:
+        np.dtype(value.dtype)  # type: ignore[attr-defined]
+    except TypeError:
+        return False  # a tensor's, of another library
+    return True
+
+
+class ListOfFrames:
+    """Frames (y, x), each of which is lazy, as lazy frames (t, y, x)."""
+
+    def __init__(self, frames: Sequence[Any], name: str) -> None:
+        self.frames = frames
+        self.dtype = np.dtype(frames[0].dtype)
+        self.shape = (len(frames), *frames[0].shape)
+        for number, frame in enumerate(frames):
+            this = f"{name}[{number}]"
+            require_shape(_like(frame, this), this, "y, x")
+            if frame.shape != frames[0].shape or np.dtype(frame.dtype) != self.dtype:
+                raise ValueError(
+                    f"{this} has shape {frame.shape} and dtype {frame.dtype}, but {name}[0] has {frames[0].shape} and "
+                    f"{self.dtype}; expected one shape and dtype for all"
+                )
+            require_chunks(frame, this)
+
+    def __getitem__(self, times: slice) -> np.ndarray:
+        return np.stack([np.asarray(frame[...]) for frame in self.frames[times]])
+
+
+class LazyStack:
+    """Reads lazy frames piece by piece, and checks that each is as was said."""
+
+    def __init__(self, frames: Any, name: str) -> None:
+        """Raises ValueError for a shape or a type that no stack has, and where stored chunks are missing."""
+        if is_closed(frames):
+            raise ValueError(f"{name} is a dataset of a closed HDF5 file; expected an open one")
+        self._frames = in_time_order(frames, name)
+        self._name = name
+        like = _like(self._frames, name)
+        self.pixel = require_pixel_type(like, name)
+        require_shape(like, name, "t, y, x")
+        require_chunks(frames, name)
+        self.shape = like.shape
+        self._piece = self._frames_of_piece(like.dtype.itemsize)
+        self._map = mapping_of(self._frames)
+        # What was changed in a private map is there alone.
+        self._can_forget = self._map is not None and _is_of_file(self._frames)
+
+    def read(self, first: int, end: int, take: Callable[[int, np.ndarray], None]) -> None:
+        """Hands the frames first ... end - 1 to `take`, with the number of the first of each piece. Raises ValueError
+        where a piece is not what was said."""
+        while first < end:
+            stop = min(end, (first // self._piece + 1) * self._piece)
+            piece = np.asarray(self._frames[first:stop])
+            expected = (stop - first, *self.shape[1:])
+            if piece.shape != expected or piece.dtype.newbyteorder("=").name != self.pixel:
+                raise ValueError(
+                    f"{self._name}[{first}:{stop}] has shape {piece.shape} and dtype {piece.dtype.name}; expected "
+                    f"{expected} and {self.pixel}, as {self._name} says of itself"
+                )
+            take(first, piece)
+            del piece
+            if self._map is not None and self._can_forget:
+                self._map.madvise(mmap.MADV_DONTNEED)
+            first = stop
+
+    def _frames_of_piece(self, item_bytes: int) -> int:
+        frame_bytes = item_bytes * int(self.shape[1]) * int(self.shape[2])
+        stored = frames_of_chunk(self._frames)
+        wanted = max(_PIECE_BYTES // frame_bytes, 1)
+        return max(1, min(-(-wanted // stored) * stored, max(_LARGEST // frame_bytes, 1)))
+
+
+def source_of(stack: LazyStack, failed: list[BaseException]) -> tuple[ItkObject, list[Any]]:
+    """An image (x, y, t) that is read as ITK asks for it, and what must outlive it.
+
+    An exception while reading would be printed by ITK and lost: it is put into `failed`, and zeros stand for frames
+    from then on; see at_work()."""
+    import itk
+
+    kind = itk.Image[getattr(itk, PIXEL_TYPES[stack.pixel][0]), 3]
+    region = itk.ImageRegion[3]()
+    region.SetSize(list(stack.shape[::-1]))
+    size_only = kind.New()  # whose pixels nobody looks at
+    size_only.SetRegions(region)
+    source = itk.PyImageFilter[kind, kind].New()
+    source.SetInput(size_only)
+    output = source.GetOutput()
+
+    def generate(_: object) -> None:
+        wanted = output.GetRequestedRegion()
+        output.Initialize()  # else ITK keeps the pixels of the last chunk while it makes room for these
+        output.SetBufferedRegion(wanted)
+        output.Allocate()
+        x, y, t = (slice(at, at + size) for at, size in zip(wanted.GetIndex(), wanted.GetSize(), strict=True))
+        pixels = itk.array_view_from_image(output)
+        try:
+            if not failed:
+                stack.read(t.start, t.stop, lambda at, piece: _put(pixels, at - t.start, piece[:, y, x]))
+        except BaseException as error:  # noqa: BLE001 - of whatever package reads, and Ctrl-C; at_work() raises it again
+            failed.append(error)
+        if failed:
+            pixels[...] = 0
+
+    # ITK hands itself to the function, by a pointer that it does not own; nothing is needed of it.
+    source._SetSelf(None)
+    source.SetPyGenerateData(generate)
+    source.UpdateOutputInformation()
+    source._SetSelf(None)
+    return output, [source, size_only, stack]
+
+
+def _put(pixels: np.ndarray, at: int, piece: np.ndarray) -> None:
+    pixels[at : at + len(piece)] = piece
+
+
+def _like(frames: Any, name: str) -> np.ndarray:
+    """An array of the same shape and dtype that takes no memory."""
+    shape = tuple(frames.shape)
+    try:
+        return np.broadcast_to(np.empty((), frames.dtype), [int(size) for size in shape])
+    except ValueError:
+        # dask's, where an operation has left the size open: NaN.
+        raise ValueError(f"{name} has shape {shape}; expected numbers: dask's compute_chunk_sizes()") from None
+
+
+def _is_of_file(array: np.ndarray) -> bool:
+    """Whether what a mapped array holds is in the file, too: then the memory may forget it."""
+    mode = getattr(array, "mode", None)
+    if mode is not None:
+        return bool(mode != "c")
+    root = array
+    while isinstance(root.base, np.ndarray):
+        root = root.base
+    return not root.flags.writeable

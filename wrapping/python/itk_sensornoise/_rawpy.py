@@ -1,0 +1,141 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Raw files of cameras through the package rawpy (LibRaw): codes as they are, and what the file says of the camera."""
+
+import os
+import struct
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ._types import FileName
+
+ENDINGS = (
+    *(".3fr", ".arw", ".cr2", ".cr3", ".crw", ".dng", ".erf", ".iiq", ".mef", ".mos", ".mrw", ".nef", ".nrw", ".orf"),
+    *(".pef", ".raf", ".rw2", ".rwl", ".srw"),
+)
+
+# Tags of a TIFF, which most raw files are.
+_MAKE, _MODEL, _TEXT = 271, 272, 2
+
+
+def is_raw(name: FileName) -> bool:
+    """Whether the name ends as a raw file's of a camera."""
+    return os.fsdecode(name).lower().endswith(ENDINGS)
+
+
+def read_codes(name: FileName) -> np.ndarray:
+    """The codes (y, x) of the active area, unprocessed, of one raw file."""
+    with _open(name) as raw:
+        return _codes_of(raw, name).copy()
+
+
+def raw_metadata(name: FileName) -> dict[str, Any]:
+    """What a raw file says of its codes: the keys
+
+        bayer             "RGGB", "GRBG", "GBRG" or "BGGR", at the first pixel of the active area; None: other filters
+        black_level       level without light [DN], the mean over the four channels, whose own are in black_levels
+        white_level       highest level of the converter, as the file says [DN]
+        iso_speed, exposure_seconds, camera
+
+    None where the file, or rawpy, does not say. Raises ValueError for what is no raw file, ImportError without rawpy.
+    """
+    with _open(name) as raw:
+        other = getattr(raw, "other", None)
+        black = [float(level) for level in raw.black_level_per_channel]
+        _codes_of(raw, name)  # is a mosaic
+        return {
+            "bayer": _bayer(raw),
+            "black_level": sum(black) / len(black) if black else None,
+            "black_levels": black,
+            "white_level": float(raw.white_level) or None,
+            "iso_speed": _positive(other, "iso_speed"),
+            "exposure_seconds": _positive(other, "shutter_speed"),
+            "camera": _camera(name),
+        }
+
+
+class RawFiles:
+    """Raw files, one a frame, as lazy frames (t, y, x): shape, dtype and slices along time."""
+
+    def __init__(self, names: Sequence[FileName]) -> None:
+        self.names = list(names)
+        first = read_codes(self.names[0])
+        self.shape = (len(self.names), *first.shape)
+        self.dtype = first.dtype
+
+    def __getitem__(self, times: slice) -> np.ndarray:
+        frames = np.empty((len(self.names[times]), *self.shape[1:]), self.dtype)
+        for frame, name in zip(frames, self.names[times], strict=True):
+            codes = read_codes(name)
+            if codes.shape != frame.shape or codes.dtype != frame.dtype:
+                raise ValueError(
+                    f"{os.fsdecode(name)}: {codes.shape[1]} x {codes.shape[0]} pixels of type {codes.dtype}, but "
+                    f"{os.fsdecode(self.names[0])} has {self.shape[2]} x {self.shape[1]} of type {self.dtype}; all "
+                    "frames must be alike"
+                )
+            frame[...] = codes
+        return frames
+
+
+def _open(name: FileName) -> Any:
+    text = os.fsdecode(name)
+    if not os.path.exists(text):
+        raise ValueError(f"{text}: does not exist")
+    try:
+        import rawpy
+    except ImportError as error:
+        raise ImportError(
+            f"{text}: raw files of cameras are read by rawpy: pip install itk-sensornoise[raw]"
+        ) from error
+    try:
+        return rawpy.imread(text)
+    except rawpy.LibRawError as error:
+        reason = error.args[0].decode() if error.args and isinstance(error.args[0], bytes) else error
+        raise ValueError(f"{text}: rawpy cannot read it ({reason}); expected a raw file of a camera") from error
+
+
+def _codes_of(raw: Any, name: FileName) -> np.ndarray:
+    codes: np.ndarray | None = raw.raw_image_visible
+    if codes is None or codes.ndim != 2:
+        raise ValueError(
+            f"{os.fsdecode(name)}: is no mosaic, but has several colours a pixel; expected what a raw sensor gives, one"
+        )
+    return codes
+
+
+def _bayer(raw: Any) -> str | None:
+    if raw.raw_pattern is None or raw.raw_pattern.shape != (2, 2):
+        return None
+    letters = raw.color_desc.decode()
+    found = "".join(letters[colour] for colour in raw.raw_colors_visible[:2, :2].ravel())
+    return found if found in ("RGGB", "GRBG", "GBRG", "BGGR") else None
+
+
+def _positive(other: Any, name: str) -> float | None:
+    value = getattr(other, name, None)
+    return float(value) if value else None
+
+
+def _camera(name: FileName) -> str | None:
+    """Make and model, of which rawpy says nothing, by the first directory of a TIFF; None: it is none, or they are not
+    there."""
+    with open(name, "rb") as file:
+        head = file.read(8)
+        order = {b"II": "<", b"MM": ">"}.get(head[:2])
+        if order is None or len(head) < 8:
+            return None
+        file.seek(struct.unpack(order + "I", head[4:])[0])
+        count = struct.unpack(order + "H", file.read(2).ljust(2, b"\0"))[0]
+        entries = file.read(12 * count)
+        words = {}
+        for at in range(0, len(entries) - 11, 12):
+            tag, kind, size, place = struct.unpack_from(order + "HHII", entries, at)
+            if tag in (_MAKE, _MODEL) and kind == _TEXT and size <= 256:
+                if size > 4:
+                    file.seek(place)
+                text = file.read(size) if size > 4 else entries[at + 8 : at + 8 + size]
+                words[tag] = text.split(b"\0")[0].decode("latin-1").strip()
+    make, model = words.get(_MAKE, ""), words.get(_MODEL, "")
+    return (model if model.lower().startswith(make.lower()) else f"{make} {model}") or None
