@@ -16,16 +16,21 @@ namespace sensornoise::tools
 {
 namespace
 {
-/** What the refined method says of the frames to be checked. What was told of the report's frames, but for those that
- * were chosen and for dark frames, is true of them, too. */
+/** What the refined method says of the frames to be checked: no other method tells every pixel's variance without what
+ * flicker and motion add. What was told of the report's frames, but for those that were chosen and for dark frames, is
+ * true of them, too. */
 Report
 MeasureFramesToCheck(const EstimateOptions & options)
 {
   EstimateOptions other = options;
+  other.method = "refined";
+  if (options.check.empty())
+  {
+    return EstimateStack(other, OpenFrames(other.files), nullptr);
+  }
   other.files = options.check;
   other.frames.reset();
   other.dark.clear();
-  other.method = "refined";
   const FrameList frames = OpenFrames(other.files);
   TellWarningOf(frames);
   return EstimateStack(other, frames, nullptr);
@@ -44,7 +49,8 @@ CheckModel(const EstimateOptions & options, const Report & report)
     std::cerr << "error: the noise model cannot be checked: " << error.what() << '\n';
     return std::nullopt;
   }
-  return CheckReport(options.check.empty() ? report : MeasureFramesToCheck(options), report);
+  const bool isMeasured = options.check.empty() && options.method == "refined";
+  return CheckReport(isMeasured ? report : MeasureFramesToCheck(options), report);
 }
 
 std::string

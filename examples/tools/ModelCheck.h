@@ -13,8 +13,9 @@ namespace sensornoise::tools
 {
 struct EstimateOptions;
 
-/** Reads the frames of --check, or takes those of the report, and holds the report's model against them. Null, and a
- * sentence on standard error, where the report has no model. */
+/** Reads the frames of --check, or takes those of the report, and holds the report's model against them. Whatever
+ * method the report is of, the frames are measured by the refined one. Null, and a sentence on standard error, where
+ * the report has no model. */
 std::optional<NoiseModelCheck>
 CheckModel(const EstimateOptions & options, const Report & report);
 
