@@ -3,10 +3,12 @@
 // OpenCV's frames in, a report out, and a cv::Mat whose noise has variance 1:
 //   stabilise-mats report.json frame_*.png        stabilise-mats report.json --video camera.avi
 // --video takes 100 frames of a file, of a sequence of images (its first file's name, or a pattern like frame_%03d.png,
-// which has to begin near 0) or of a camera (its number). What was tried with OpenCV 4.6: of images it makes the same
-// report as of the Mats, 16 bits and all, by the back end for images (CAP_IMAGES); FFmpeg, which opens files and
-// sequences if nothing is said, makes them 8-bit colour whatever CAP_PROP_CONVERT_RGB says, and is refused. No camera
-// was tried.
+// which has to begin near 0) or of a camera (its number).
+//
+// What was tried: of images it makes the same report as of the Mats, 16 bits and all, by the back end for images
+// (CAP_IMAGES; OpenCV 4.6 here, 4.14 and 5.0 in Python). FFmpeg, which takes files, and sequences if nothing is said,
+// is not for raw frames: that of 4.6 makes them 8-bit colour whatever CAP_PROP_CONVERT_RGB says, and is refused; those
+// of 4.14 and 5.0 take frames of 16 bits for 8, with no more than a warning of their own. No camera was tried.
 
 #include "opencv/MatImage.h"
 #include "opencv/MatStackSource.h"
