@@ -82,11 +82,15 @@ def measure(camera, scene, denoiser, size, frames):
     slope, intercept = gain, record["read_noise"] ** 2 - gain * record["offset"] + 1 / 12
     measured = {name: report[name]["value"] for name in ("variance_slope", "total_intercept")}
     remove = named(denoiser)
-    return truth, record, (
-        noisy,
-        alone(noisy, truth, slope, intercept, denoiser),
-        itk.denoise_with_noise_model(noisy, None, remove, **measured),
-        itk.denoise_with_noise_model(noisy, None, remove, variance_slope=slope, total_intercept=intercept),
+    return (
+        truth,
+        record,
+        (
+            noisy,
+            alone(noisy, truth, slope, intercept, denoiser),
+            itk.denoise_with_noise_model(noisy, None, remove, **measured),
+            itk.denoise_with_noise_model(noisy, None, remove, variance_slope=slope, total_intercept=intercept),
+        ),
     )
 
 

@@ -14,7 +14,7 @@ camera, without flicker, in the same light and in a dim one of 40 electrons at m
   or 3 standard errors.
 
 The variance's standard error has two parts: that of the held-out frames, and the report's own, which its covariance of
-slope and intercept makes of the variance at the band's level (none for the published method, which tells no errors). The
+slope and intercept makes of the variance at the band's level (0 for the published method, which tells no errors). The
 mean's is that of the held-out frames, as it hardly hangs on the model. * marks what does not hold, ~ what holds by the
 report's own error alone.
 """
