@@ -2,7 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // OpenCV's frames in, a report out, and a cv::Mat whose noise has variance 1:
 //   stabilise-mats report.json frame_*.png        stabilise-mats report.json --video camera.avi
-// --video takes a file, or the number of a camera: 100 frames of it.
+// --video takes 100 frames of a file, of a sequence of images (its first file's name, or a pattern like frame_%03d.png,
+// which has to begin near 0) or of a camera (its number).
+//
+// What was tried: of images it makes the same report as of the Mats, 16 bits and all, by the back end for images
+// (CAP_IMAGES; OpenCV 4.6 here, 4.14 and 5.0 in Python). FFmpeg, which takes files, and sequences if nothing is said,
+// is not for raw frames: that of 4.6 makes them 8-bit colour whatever CAP_PROP_CONVERT_RGB says, and is refused; those
+// of 4.14 and 5.0 take frames of 16 bits for 8, with no more than a warning of their own. No camera was tried.
 
 #include "opencv/MatImage.h"
 #include "opencv/MatStackSource.h"
@@ -45,25 +51,40 @@ ReadImages(const std::vector<std::string> & names)
   return frames;
 }
 
+#ifdef SENSORNOISE_VIDEOIO
+cv::VideoCapture
+OpenVideo(const std::string & name)
+{
+  cv::VideoCapture video;
+  const bool       isNumber = name.find_first_not_of("0123456789") == std::string::npos;
+  const bool       isImages = name.find('%') != std::string::npos || cv::haveImageReader(name);
+  // left to itself, OpenCV would take FFmpeg for images, too
+  if (!(isNumber ? video.open(std::stoi(name)) : video.open(name, isImages ? cv::CAP_IMAGES : cv::CAP_ANY)))
+  {
+    throw std::runtime_error(name + " cannot be opened as a video; expected a file, the first image of a "
+                                    "sequence, a pattern like frame_%03d.png, or the number of a camera");
+  }
+  return video;
+}
+#endif
+
 std::vector<cv::Mat>
 ReadVideo([[maybe_unused]] const std::string & name)
 {
 #ifdef SENSORNOISE_VIDEOIO
   constexpr std::size_t most = 100;
-  cv::VideoCapture      video;
-  const bool            isNumber = name.find_first_not_of("0123456789") == std::string::npos;
-  if (!(isNumber ? video.open(std::stoi(name)) : video.open(name)))
-  {
-    throw std::runtime_error(name + " cannot be opened as a video; expected a file, or the number of a camera");
-  }
-  const bool           isLeftAsItIs = video.set(cv::CAP_PROP_CONVERT_RGB, 0.0);
-  std::vector<cv::Mat> frames;
+  cv::VideoCapture      video = OpenVideo(name);
+  const bool            isLeftAsItIs = video.set(cv::CAP_PROP_CONVERT_RGB, 0.0);
+  const bool            isImages = video.get(cv::CAP_PROP_BACKEND) == cv::CAP_IMAGES; // which leaves them as they are
+  std::vector<cv::Mat>  frames;
   for (cv::Mat frame; frames.size() < most && video.read(frame); frame = cv::Mat())
   {
-    if (!isLeftAsItIs && frame.channels() != 1)
+    if (!isLeftAsItIs && !isImages && frame.channels() != 1)
     {
-      throw std::runtime_error(name + " is made colour by OpenCV " CV_VERSION "'s " + video.getBackendName() +
-                               ", which has no CAP_PROP_CONVERT_RGB; expected raw frames, for example as PNG or TIFF");
+      throw std::runtime_error(
+        name + " is made colour by OpenCV " CV_VERSION "'s " + video.getBackendName() +
+        ", which has no CAP_PROP_CONVERT_RGB; expected raw frames, for example PNG or TIFF files by a "
+        "pattern like frame_%03d.png");
     }
     RequireRaw(frame, name);
     frames.push_back(frame); // a new Mat each time: read() would write into the last one's memory
@@ -145,7 +166,7 @@ Run(const std::vector<std::string> & arguments)
   const bool isVideo = arguments.size() == 3 && arguments[1] == "--video";
   if (arguments.size() < 3)
   {
-    throw std::runtime_error("expected REPORT.json FRAME FRAME..., or REPORT.json --video FILE|NUMBER");
+    throw std::runtime_error("expected REPORT.json FRAME FRAME..., or REPORT.json --video FILE|PATTERN|NUMBER");
   }
   sensornoise::tools::RequireReportName(arguments[0], "the report");
   sensornoise::tools::PendingFile file(arguments[0]);

@@ -2,19 +2,25 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a measured noise model is worth to a denoiser, on frames that it was not measured on.
 
-    measure_denoising.py [--denoiser nlm|itk] [--size 256] [--frames 60]
+    measure_denoising.py [--denoiser nlm|itk|scikit-image] [--size 256] [--frames 60]
 
 For the cameras A, B and C of Sur & Grédiac 2015 and two scenes, PSNR [dB, against the range of the levels] and SSIM of
 one frame: noisy; through the denoiser alone, at the strength that is best by the truth; through it between transform
 and inverse, with the report of a burst; and with the true parameters. The burst is of condition 3, which flickers.
+
+Then the bias: the mean of each picture less the truth per band of the light [e-]. That of the noisy frame is chance,
+which the others share.
 """
 
 import argparse
+from itertools import pairwise
 
 import itk
 import numpy as np
 
 STRENGTHS = 0.4 * 1.15 ** np.arange(14)  # of the denoiser alone, in units of the noise at the mean level
+EDGES = np.array([0, 10, 30, 100, 300, 1000, 3100, 10100])  # of the bands [e-]
+FEWEST_PIXELS = 100
 HEAD = ("noisy", "denoiser alone", "our report", "true parameters")
 
 
@@ -37,13 +43,30 @@ def ssim(image, truth):
     return np.mean((2 * a * b + c1) * (2 * covariance + c2) / ((a**2 + b**2 + c1) * (variances + c2)))
 
 
-def alone(noisy, truth, slope, intercept, denoiser):
-    """The denoiser on the levels themselves, divided by the noise at their mean, at the best strength."""
+def total_variation(strength):
+    from skimage.restoration import denoise_tv_chambolle
+
+    return lambda image: denoise_tv_chambolle(image.astype(np.float64), weight=strength).astype(np.float32)
+
+
+def named(denoiser, strength=1.0):
+    """What takes noise of standard deviation 1 out of an array (y, x)."""
     from itk_sensornoise._denoise import named_denoiser
 
+    return total_variation(strength) if denoiser == "scikit-image" else named_denoiser(denoiser, strength)
+
+
+def biases(image, truth, light):
+    """Mean error per band of the light [DN]; None where a band has few pixels."""
+    bands = [(light >= low) & (light < high) for low, high in pairwise(EDGES)]
+    return [(image - truth)[band].mean() if band.sum() >= FEWEST_PIXELS else None for band in bands]
+
+
+def alone(noisy, truth, slope, intercept, denoiser):
+    """The denoiser on the levels themselves, divided by the noise at their mean, at the best strength."""
     sigma = np.sqrt(slope * truth.mean() + intercept)
     scaled = (noisy / sigma).astype(np.float32)
-    results = (sigma * named_denoiser(denoiser, float(strength))(scaled) for strength in STRENGTHS)
+    results = (sigma * named(denoiser, float(strength))(scaled) for strength in STRENGTHS)
     return max(results, key=lambda clean: psnr(clean, truth))
 
 
@@ -55,29 +78,43 @@ def measure(camera, scene, denoiser, size, frames):
     noisy = itk.simulate_sensor_noise(**still)[0][0].astype(np.float64)
     gain = record["gain"]
     bright = {"electrons": 1e5 * record["electrons"], "gain": 1e-5 * gain, "read_noise": 0.0}
-    truth = itk.simulate_sensor_noise(**still, **bright)[0][0].astype(np.float64)
+    truth = itk.simulate_sensor_noise(**still, **bright, dtype="float64")[0][0]  # unrounded
     slope, intercept = gain, record["read_noise"] ** 2 - gain * record["offset"] + 1 / 12
     measured = {name: report[name]["value"] for name in ("variance_slope", "total_intercept")}
-    return truth, (
-        noisy,
-        alone(noisy, truth, slope, intercept, denoiser),
-        itk.denoise_with_noise_model(noisy, None, denoiser, **measured),
-        itk.denoise_with_noise_model(noisy, None, denoiser, variance_slope=slope, total_intercept=intercept),
+    remove = named(denoiser)
+    return (
+        truth,
+        record,
+        (
+            noisy,
+            alone(noisy, truth, slope, intercept, denoiser),
+            itk.denoise_with_noise_model(noisy, None, remove, **measured),
+            itk.denoise_with_noise_model(noisy, None, remove, variance_slope=slope, total_intercept=intercept),
+        ),
     )
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--denoiser", default="nlm", choices=["nlm", "itk"])
+    parser.add_argument("--denoiser", default="nlm", choices=["nlm", "itk", "scikit-image"])
     parser.add_argument("--size", type=int, default=256)
     parser.add_argument("--frames", type=int, default=60)
     options = parser.parse_args()
     print("camera  scene    " + "".join(f"{name:>22}" for name in HEAD))
+    rows = []
     for camera in "ABC":
         for scene in ("target", "texture"):
-            truth, images = measure(camera, scene, options.denoiser, options.size, options.frames)
+            truth, record, images = measure(camera, scene, options.denoiser, options.size, options.frames)
             cells = [f"{psnr(image, truth):.2f} dB {ssim(image, truth):.4f}" for image in images]
             print(f"{camera:<8}{scene:<9}" + "".join(f"{cell:>22}" for cell in cells), flush=True)
+            light = (truth - record["offset"]) / record["gain"]
+            for name, image in zip(HEAD, images, strict=True):
+                rows.append((f"{camera:<8}{scene:<9}{name}", biases(image, truth, light), record["gain"]))
+    print("\nmean error per band of the light [e-]\n" + " " * 33, end="")
+    print("".join(f"{low}-{high}".rjust(11) for low, high in pairwise(EDGES)))
+    for name, errors, gain in rows:
+        cells = [f"{error / gain:+.2f}" if error is not None else "" for error in errors]
+        print(f"{name:<33}" + "".join(f"{cell:>11}" for cell in cells).rstrip())
 
 
 if __name__ == "__main__":

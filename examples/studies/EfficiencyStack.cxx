@@ -12,6 +12,7 @@
 #include "sensornoise/report/Report.h"
 #include "sensornoise/simulation/SimulationTruth.h"
 #include "sensornoise/simulation/Simulator.h"
+#include "studies/RenderedStack.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -73,21 +74,6 @@ Limits(const Scene & scene, const SimulationTruth & truth, const std::vector<std
                                                         truth.realisedFlickerSd });
   return { closed, isFullBound ? ComputeCramerRaoBound(input) : closed };
 }
-/** All frames, one after the other. */
-std::vector<std::uint16_t>
-RenderStack(const StackSimulator & simulator, const Scene & scene, std::size_t frames)
-{
-  const std::size_t          pixels = scene.values.size();
-  std::vector<std::uint16_t> stack(pixels * frames);
-  for (std::size_t t = 0; t < frames; ++t)
-  {
-    for (std::size_t y = 0; y < scene.height; ++y)
-    {
-      simulator.RenderRow(t, y, stack.data() + t * pixels + y * scene.width);
-    }
-  }
-  return stack;
-}
 
 /** The pixels that no clipping touches, which the bound is for; what else the method leaves out is its own loss. */
 std::vector<std::uint8_t>
@@ -113,7 +99,7 @@ MeasureStack(const Scene & scene, const SimulationSettings & settings, const std
   const StackSimulator             simulator(scene.values, scene.width, scene.height, settings);
   const SimulationTruth &          truth = simulator.GetTruth();
   const std::size_t                pixels = scene.values.size();
-  const std::vector<std::uint16_t> stack = RenderStack(simulator, scene, frames);
+  const std::vector<std::uint16_t> stack = RenderStack(simulator, scene.width, scene.height, frames);
   const FrameGeometry              geometry{ scene.width, scene.height, 1 };
   const auto [report, use] = methodName == "refined"
                                ? Measure(RefinedMethod<std::uint16_t>({}, geometry, frames), stack, frames)

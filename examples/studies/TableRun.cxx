@@ -7,6 +7,7 @@
 #include "sensornoise/simulation/Scenes.h"
 #include "sensornoise/simulation/SimulationSettings.h"
 #include "sensornoise/simulation/Simulator.h"
+#include "studies/RenderedStack.h"
 
 #include <atomic>
 
@@ -32,16 +33,8 @@ Execute(TableRun & run, const TableOptions & options, const std::vector<double> 
   }
   settings.frames = run.frames;
   settings.seed = run.seed;
-  const StackSimulator       simulator(scene, options.size, options.size, settings);
-  const std::size_t          pixels = options.size * options.size;
-  std::vector<std::uint16_t> stack(pixels * run.frames);
-  for (std::size_t t = 0; t < run.frames; ++t)
-  {
-    for (std::size_t y = 0; y < options.size; ++y)
-    {
-      simulator.RenderRow(t, y, stack.data() + t * pixels + y * options.size);
-    }
-  }
+  const StackSimulator             simulator(scene, options.size, options.size, settings);
+  const std::vector<std::uint16_t> stack = RenderStack(simulator, options.size, options.size, run.frames);
 
   PublishedMethod<std::uint16_t> method({}, { options.size, options.size, 1 }, run.frames);
   for (unsigned int pass = 0; pass < method.NumberOfPasses; ++pass)

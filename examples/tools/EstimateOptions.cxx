@@ -72,6 +72,15 @@ AddOptions(CLI::App & app, EstimateOptions & options, Texts & texts)
   app.add_option("--method", options.method, "refined, or published: Figure 2 of Sur & Grediac 2015")
     ->check(CLI::IsMember({ "refined", "published" }))
     ->capture_default_str();
+  app
+    .add_option(
+      "--bayer",
+      options.bayer,
+      "colour filters of the sensor: RGGB, GRBG, GBRG or BGGR, from the upper left pixel on, whose four planes "
+      "are measured each by itself; none: a monochrome sensor; auto: as the file says, else as the levels "
+      "tell, which cannot tell red from blue")
+    ->check(CLI::IsMember({ "auto", "none", "RGGB", "GRBG", "GBRG", "BGGR" }))
+    ->capture_default_str();
   app.add_option("--bit-depth", texts.bitDepth, "bits of the sensor's codes, 1 to 16, or auto")->capture_default_str();
   app.add_option("--clip", texts.clip, "LOW,HIGH: lowest and highest level that the sensor attains [DN]; else found");
   app.add_option("--step", texts.step, "spacing of the codes [DN]; else found");

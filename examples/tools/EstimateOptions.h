@@ -21,6 +21,7 @@ struct EstimateOptions
 {
   std::vector<std::string>                           files;
   std::string                                        raw; ///< how frames lie in files without a header; empty: none
+  std::string                                        bayer{ "auto" };
   std::string                                        method{ "refined" };
   unsigned int                                       bitDepth{ 0 }; ///< 0: found
   double                                             clipLow{ std::numeric_limits<double>::quiet_NaN() };

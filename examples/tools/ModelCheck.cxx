@@ -2,60 +2,146 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/ModelCheck.h"
 
+#include "sensornoise/report/ChannelRecord.h"
+#include "sensornoise/report/JsonWriter.h"
 #include "sensornoise/report/ReportJson.h"
+#include "sensornoise/report/ReportTable.h"
 #include "sensornoise/stabilise/NoiseModel.h"
 #include "tools/CompanionFiles.h"
 #include "tools/EstimateOptions.h"
-#include "tools/StackEstimate.h"
 #include "itkSensorNoiseFrameFiles.h"
 
+#include <cstddef>
 #include <iostream>
 #include <stdexcept>
+#include <variant>
 
 namespace sensornoise::tools
 {
 namespace
 {
-/** What the refined method says of the frames to be checked. What was told of the report's frames, but for those that
- * were chosen and for dark frames, is true of them, too. */
-Report
-MeasureFramesToCheck(const EstimateOptions & options)
+/** The reports of the channels, or the only one. */
+std::vector<const Report *>
+ReportsOf(const MeasuredStack & measured)
+{
+  if (const auto * const report = std::get_if<Report>(&measured))
+  {
+    return { report };
+  }
+  std::vector<const Report *> reports;
+  for (const Report & channel : std::get<ChannelReports>(measured).channels)
+  {
+    reports.push_back(&channel);
+  }
+  return reports;
+}
+
+/** What the refined method says of the frames to be checked: no other method tells every pixel's variance without what
+ * flicker and motion add. What was told of the report's frames, but for those that were chosen and for dark frames, is
+ * true of them, too. */
+MeasuredStack
+MeasureFramesToCheck(const EstimateOptions & options, const MeasuredStack & measured)
 {
   EstimateOptions other = options;
+  other.method = "refined";
+  other.bayer = PatternOf(options, measured);
+  if (options.check.empty())
+  {
+    return EstimateStack(other, OpenFrames(other.files, {}, other.raw), nullptr);
+  }
   other.files = options.check;
   other.frames.reset();
   other.dark.clear();
-  other.method = "refined";
   const FrameList frames = OpenFrames(other.files, {}, other.raw);
   TellWarningOf(frames);
   return EstimateStack(other, frames, nullptr);
 }
-} // namespace
 
-std::optional<NoiseModelCheck>
-CheckModel(const EstimateOptions & options, const Report & report)
+bool
+HasModel(const Report & report)
 {
   try
   {
     NoiseModelOf(report);
+    return true;
   }
   catch (const std::invalid_argument & error)
   {
-    std::cerr << "error: the noise model cannot be checked: " << error.what() << '\n';
-    return std::nullopt;
+    const std::string channel = report.channel == "mono" ? "" : " of channel " + report.channel;
+    std::cerr << "error: the noise model" << channel << " cannot be checked: " << error.what() << '\n';
+    return false;
   }
-  return CheckReport(options.check.empty() ? report : MeasureFramesToCheck(options), report);
 }
 
 std::string
-ToJson(const Report & report, const std::optional<NoiseModelCheck> & check)
+JsonOf(const std::optional<NoiseModelCheck> & check)
 {
-  std::string text = sensornoise::ToJson(report);
-  if (check)
+  std::string text = check ? ToJson(*check) : "null";
+  text.erase(text.find_last_not_of('\n') + 1);
+  return text;
+}
+} // namespace
+
+ModelChecks
+CheckModel(const EstimateOptions & options, const MeasuredStack & measured)
+{
+  const std::vector<const Report *> models = ReportsOf(measured);
+  std::vector<bool>                 hasModel;
+  bool                              hasAny = false;
+  for (const Report * const model : models)
   {
-    std::string member = sensornoise::ToJson(*check);
-    member.erase(member.find_last_not_of('\n') + 1);
-    text.insert(text.rfind('}'), ", \"check\": " + member);
+    hasModel.push_back(HasModel(*model));
+    hasAny = hasAny || hasModel.back();
+  }
+  ModelChecks checks(models.size());
+  if (!hasAny)
+  {
+    return checks;
+  }
+  const bool                        isMeasured = options.check.empty() && options.method == "refined";
+  const MeasuredStack               other = isMeasured ? measured : MeasureFramesToCheck(options, measured);
+  const std::vector<const Report *> frames = ReportsOf(other);
+  for (std::size_t k = 0; k < models.size(); ++k)
+  {
+    if (hasModel[k])
+    {
+      checks[k] = CheckReport(*frames.at(k), *models[k]);
+    }
+  }
+  return checks;
+}
+
+std::string
+ToJson(const MeasuredStack & measured, const ModelChecks & checks)
+{
+  std::string text = std::visit([](const auto & reports) { return sensornoise::ToJson(reports); }, measured);
+  if (checks.size() == 1 && checks.front())
+  {
+    text.insert(text.rfind('}'), ", \"check\": " + JsonOf(checks.front()));
+  }
+  if (checks.size() > 1)
+  {
+    std::string list;
+    for (const auto & check : checks)
+    {
+      list += (list.empty() ? "" : ", ") + JsonOf(check);
+    }
+    text.insert(text.rfind('}'), ", \"checks\": [" + list + "]");
+  }
+  return text;
+}
+
+std::string
+MakeTable(const MeasuredStack & measured, const ModelChecks & checks)
+{
+  std::string text = std::visit([](const auto & reports) { return sensornoise::MakeTable(reports); }, measured);
+  for (std::size_t k = 0; k < checks.size(); ++k)
+  {
+    if (checks[k])
+    {
+      text += (checks.size() > 1 ? "\nchannel " + std::string(NameOf(BayerPlanes.at(k))) + ":" : "") + '\n' +
+              sensornoise::MakeTable(*checks[k]);
+    }
   }
   return text;
 }

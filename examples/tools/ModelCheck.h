@@ -3,24 +3,33 @@
 #ifndef ModelCheck_h
 #define ModelCheck_h
 
-#include "sensornoise/report/Report.h"
 #include "sensornoise/stabilise/NoiseModelCheck.h"
+#include "tools/StackEstimate.h"
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace sensornoise::tools
 {
 struct EstimateOptions;
 
-/** Reads the frames of --check, or takes those of the report, and holds the report's model against them. Null, and a
- * sentence on standard error, where the report has no model. */
-std::optional<NoiseModelCheck>
-CheckModel(const EstimateOptions & options, const Report & report);
+/** The check of a report, or of each channel's; null where a report has no model. */
+using ModelChecks = std::vector<std::optional<NoiseModelCheck>>;
 
-/** The report as JSON, with the check as a member "check". */
+/** Reads the frames of --check, or takes those of the report, and holds the report's model against them; channel by
+ * channel, where it has some. Says on standard error where a report has no model. */
+ModelChecks
+CheckModel(const EstimateOptions & options, const MeasuredStack & measured);
+
+/** The report as JSON, with the check as a member "check"; of channels "checks", one each. None, if \a checks is empty.
+ */
 std::string
-ToJson(const Report & report, const std::optional<NoiseModelCheck> & check);
+ToJson(const MeasuredStack & measured, const ModelChecks & checks);
+
+/** The report as a table, then its checks. */
+std::string
+MakeTable(const MeasuredStack & measured, const ModelChecks & checks);
 
 } // namespace sensornoise::tools
 

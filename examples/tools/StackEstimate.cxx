@@ -9,7 +9,9 @@
 #include "itkExtractImageFilter.h"
 #include "itkSensorNoiseEstimator.h"
 #include "itkSensorNoiseFrameListSource.h"
+#include "itkSensorNoiseMetaData.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdio>
 #include <stdexcept>
@@ -105,8 +107,38 @@ MakeReader(const FrameList & list)
   return reader;
 }
 
+/** How many columns and rows of the frame are cut off before its mosaic. */
+std::array<std::size_t, 2>
+CutOff(const EstimateOptions & options)
+{
+  const auto number = [&options](std::size_t i) { return static_cast<std::size_t>((*options.roi)[i]); };
+  return options.roi ? std::array<std::size_t, 2>{ number(0), number(1) } : std::array<std::size_t, 2>{ 0, 0 };
+}
+
+/** The pattern, given or of the file, as it is where the region begins: an image that was cut out has no metadata. */
+template <typename TStack>
+void
+SetPattern(const EstimateOptions &             options,
+           const TStack &                      whole,
+           TStack &                            cut,
+           itk::SensorNoiseEstimator<TStack> & estimator)
+{
+  const auto [columns, rows] = CutOff(options);
+  const auto cutPattern = [columns = columns, rows = rows](const std::string & name) {
+    return NameOf(CutPattern(BayerPatternOf(name), columns, rows));
+  };
+  const bool isName = options.bayer != "none" && options.bayer != "auto";
+  estimator.SetBayerPattern(isName ? cutPattern(options.bayer) : options.bayer);
+  CameraSettings camera = CameraSettingsOf(whole.GetMetaDataDictionary());
+  if (&whole != &cut && !camera.bayerPattern.empty())
+  {
+    camera.bayerPattern = cutPattern(camera.bayerPattern);
+    SetCameraSettings(cut.GetMetaDataDictionary(), camera);
+  }
+}
+
 template <typename TPixel>
-Report
+MeasuredStack
 Estimate(const EstimateOptions & options, const FrameList & list, MapFiles * maps)
 {
   using StackType = itk::Image<TPixel, 3>;
@@ -117,9 +149,11 @@ Estimate(const EstimateOptions & options, const FrameList & list, MapFiles * map
   const itk::ImageRegion<3> region = SelectRegion(options, list, whole);
   const auto                crop = Crop<StackType>(stack, region);
 
-  const auto estimator = itk::SensorNoiseEstimator<StackType>::New();
-  estimator->SetInput(region == whole ? stack : crop->GetOutput());
+  const auto        estimator = itk::SensorNoiseEstimator<StackType>::New();
+  StackType * const selected = region == whole ? stack : crop->GetOutput();
+  estimator->SetInput(selected);
   options.ApplyTo(*estimator);
+  SetPattern<StackType>(options, *stack, *selected, *estimator);
   if (!options.mask.empty())
   {
     estimator->SetMask(SelectMask(options.mask, list, region));
@@ -153,11 +187,23 @@ Estimate(const EstimateOptions & options, const FrameList & list, MapFiles * map
     maps->Write(
       estimator->GetMean(), estimator->GetVariance(), estimator->GetCorrectedVariance(), estimator->GetPixelUse());
   }
+  if (estimator->HasChannelReports())
+  {
+    return estimator->GetChannelReports();
+  }
   return estimator->GetReport();
 }
 } // namespace
 
-Report
+std::string
+PatternOf(const EstimateOptions & options, const MeasuredStack & measured)
+{
+  const auto * const channels = std::get_if<ChannelReports>(&measured);
+  const auto         cut = CutOff(options); // twice cut off is as it was
+  return channels == nullptr ? "none" : NameOf(CutPattern(channels->pattern, cut[0], cut[1]));
+}
+
+MeasuredStack
 EstimateStack(const EstimateOptions & options, const FrameList & list, MapFiles * maps)
 {
   switch (list.pixel)

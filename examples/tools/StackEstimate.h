@@ -3,7 +3,11 @@
 #ifndef StackEstimate_h
 #define StackEstimate_h
 
+#include "sensornoise/report/ChannelReports.h"
 #include "sensornoise/report/Report.h"
+
+#include <string>
+#include <variant>
 
 namespace sensornoise
 {
@@ -15,9 +19,16 @@ namespace sensornoise::tools
 class MapFiles;
 struct EstimateOptions;
 
+/** What was measured: of a monochrome sensor, or of the channels of a mosaic. */
+using MeasuredStack = std::variant<Report, ChannelReports>;
+
 /** Reads the frames, in parts, and measures what the options select of them. Writes the maps unless \a maps is null. */
-Report
+MeasuredStack
 EstimateStack(const EstimateOptions & options, const FrameList & list, MapFiles * maps);
+
+/** The option --bayer that gives the same channels again: the pattern of the whole frame, or "none". */
+std::string
+PatternOf(const EstimateOptions & options, const MeasuredStack & measured);
 
 } // namespace sensornoise::tools
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures the noise of a camera from a burst of raw frames on files. See --help, and README.md.
 
+#include "sensornoise/report/ChannelRecord.h"
 #include "sensornoise/report/Report.h"
 #include "sensornoise/report/ReportTable.h"
 #include "tools/ErrorSentence.h"
@@ -15,12 +16,14 @@
 #include "tools/ItkThreads.h"
 #include "itkSensorNoiseFrameFiles.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <exception>
 #include <iostream>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace
@@ -45,12 +48,12 @@ TellWhetherHeldInMemory(const sensornoise::FrameList & frames)
 /** The report to its file first, which is there even if nobody takes the table; then the table, and JSON for standard
  * output. */
 void
-WriteReport(const sensornoise::Report &                         report,
-            const std::optional<sensornoise::NoiseModelCheck> & check,
-            const EstimateOptions &                             options,
-            std::optional<PendingFile> &                        json)
+WriteReport(const MeasuredStack &        measured,
+            const ModelChecks &          checks,
+            const EstimateOptions &      options,
+            std::optional<PendingFile> & json)
 {
-  const std::string text = ToJson(report, check);
+  const std::string text = ToJson(measured, checks);
   const bool        isFile = json && json->Target().kind == OutputTarget::Kind::File;
   if (json)
   {
@@ -62,7 +65,7 @@ WriteReport(const sensornoise::Report &                         report,
   }
   if (!options.quiet)
   {
-    std::cout << MakeTable(report) << (check ? '\n' + MakeTable(*check) : "");
+    std::cout << MakeTable(measured, checks);
   }
   if (options.json == "-")
   {
@@ -110,9 +113,11 @@ RequireOutputsApart(const EstimateOptions & options)
 }
 
 void
-TellWarnings(const sensornoise::Report & report)
+TellWarnings(const MeasuredStack & measured)
 {
-  for (const sensornoise::Warning & warning : report.warnings)
+  const auto * const channels = std::get_if<sensornoise::ChannelReports>(&measured);
+  const auto warnings = channels != nullptr ? WarningsOf(*channels) : std::get<sensornoise::Report>(measured).warnings;
+  for (const sensornoise::Warning & warning : warnings)
   {
     std::cerr << sensornoise::TextOf(warning);
   }
@@ -140,11 +145,14 @@ Run(EstimateOptions & options)
   TellWarningOf(frames);
   TellWhetherHeldInMemory(frames);
 
-  const sensornoise::Report report = EstimateStack(options, frames, maps ? &*maps : nullptr);
-  const auto                check = options.hasCheck ? CheckModel(options, report) : std::nullopt;
-  WriteReport(report, check, options, json);
-  TellWarnings(report);
-  return report.IsUsable() && (check || !options.hasCheck) ? ExitDone : ExitNothingEstimated;
+  const MeasuredStack measured = EstimateStack(options, frames, maps ? &*maps : nullptr);
+  const ModelChecks   checks = options.hasCheck ? CheckModel(options, measured) : ModelChecks();
+  WriteReport(measured, checks, options, json);
+  TellWarnings(measured);
+  const bool isUsable = std::visit([](const auto & reports) { return reports.IsUsable(); }, measured);
+  const bool isChecked =
+    checks.empty() || std::any_of(checks.begin(), checks.end(), [](const auto & check) { return check.has_value(); });
+  return isUsable && isChecked ? ExitDone : ExitNothingEstimated;
 }
 } // namespace
 

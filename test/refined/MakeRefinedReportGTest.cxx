@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/refined/RefinedReport.h"
+#include "sensornoise/report/ReportJson.h"
 #include "sensornoise/report/ReportTable.h"
 #include "helpers/RefinedResultsTestHelper.h"
 #include "helpers/ReportTestHelper.h"
 
 #include <cmath>
+#include <cstddef>
 #include <gtest/gtest.h>
 
 // The report of results made by hand: every number follows from them.
@@ -37,6 +39,28 @@ TEST(SensorNoiseMakeRefinedReport, NumbersAreThoseOfTheLineAndTheFlicker)
   ASSERT_TRUE(report.covariance);
   EXPECT_DOUBLE_EQ((*report.covariance)[0][0], 1e-4);
   EXPECT_DOUBLE_EQ((*report.covariance)[2][2], 0.25);
+}
+
+// What a transform's error needs is there without an offset, too, and is the same.
+TEST(SensorNoiseMakeRefinedReport, ErrorsOfTheLineNeedNoOffset)
+{
+  HandMadeResults results;
+  const Report    known = MakeRefinedReport(results.Get());
+  results.polished.line.flickerZ = 0.1;
+  const Report report = MakeRefinedReport(results.Get());
+  EXPECT_EQ(report.offset.status, EstimateStatus::NotIdentifiable);
+  ASSERT_TRUE(known.covariance && report.covariance);
+  for (const std::size_t i : { 0U, 1U })
+  {
+    EXPECT_EQ((*report.covariance)[i][0], (*known.covariance)[i][0]);
+    EXPECT_EQ((*report.covariance)[i][1], (*known.covariance)[i][1]);
+  }
+  for (const std::size_t i : { 0U, 1U, 2U })
+  {
+    EXPECT_TRUE(std::isnan((*report.covariance)[i][2]));
+    EXPECT_TRUE(std::isnan((*report.covariance)[2][i]));
+  }
+  EXPECT_NE(ToJson(report).find("null]"), std::string::npos);
 }
 
 TEST(SensorNoiseMakeRefinedReport, PixelsThatAreLeftOutAreSaidFromOneInAHundredOn)

@@ -12,11 +12,13 @@ class EstimateCheckTool : public EstimateToolTest
 protected:
   /** A burst of the same camera, or of one with other options. */
   std::string
-  Burst(const std::string & name, int seed, const std::string & options = "")
+  Burst(const std::string & name,
+        int                 seed,
+        const std::string & options = "",
+        const std::string & stack = "--reference texture --size 128x96 --frames 40")
   {
-    EXPECT_EQ(RunCommand("\"" SENSORNOISE_BIN "/simulate-sensor-noise\" --reference texture --size 128x96 --frames 40 "
-                         "--output " +
-                         name + " --seed " + std::to_string(seed) + " " + options),
+    EXPECT_EQ(RunCommand("\"" SENSORNOISE_BIN "/simulate-sensor-noise\" --output " + name + " --seed " +
+                         std::to_string(seed) + " " + stack + " " + options),
               0)
       << m_Message;
     return name;
@@ -48,6 +50,40 @@ TEST_F(EstimateCheckTool, WithoutANameOfTheFramesThemselves)
   EXPECT_EQ(Run(frames + " --check"), 0) << m_Message;
   EXPECT_NE(m_Output.find("variance/model"), std::string::npos) << m_Output;
   EXPECT_NE(m_Output.find("DN: this model can be used\n"), std::string::npos) << m_Output;
+}
+
+// The published method's scatter has its own errors on both sides: frames are measured by the refined method.
+TEST_F(EstimateCheckTool, ReportOfThePublishedMethodIsHeldAgainstTheSameVariance)
+{
+  const std::string frames = Burst("a.mha", 3, "--camera B --condition 3");
+  const auto        published = ReportOf(frames + " --method published --check");
+  EXPECT_EQ(published["check"], ReportOf(frames + " --method published --check " + frames)["check"]);
+  // same frames, same bands as those of the refined report's check, and the models' quotient between the ratios
+  const auto   refined = ReportOf(frames + " --check");
+  const auto & bands = published["check"]["bands"];
+  const auto & others = refined["check"]["bands"];
+  ASSERT_EQ(bands.size(), others.size());
+  const auto variance = [](const nlohmann::json & report, const nlohmann::json & band) {
+    const double level = 0.5 * (band["low"].get<double>() + band["high"].get<double>());
+    const double slope = report["variance_slope"]["value"];
+    const double intercept = report["total_intercept"]["value"];
+    return slope * level + intercept;
+  };
+  for (std::size_t i = 0; i < bands.size(); ++i)
+  {
+    EXPECT_EQ(bands[i]["pixels"], others[i]["pixels"]);
+    const double quotient = variance(refined, bands[i]) / variance(published, bands[i]);
+    const double found = bands[i]["variance"].get<double>() / others[i]["variance"].get<double>();
+    EXPECT_NEAR(found, quotient, 0.01) << bands[i]; // the band's pixels are not all at its middle
+  }
+}
+
+TEST_F(EstimateCheckTool, PublishedReportThatIsRightFits)
+{
+  // a strong and even flicker, on a floor that rests
+  const std::string frames = Burst("a.mha", 3, "--flicker-sd 0.05 --vibration-sd 0,0", "--size 160x128 --frames 60");
+  const auto        report = ReportOf(frames + " --method published --check");
+  EXPECT_EQ(report["check"]["verdict"], "fits") << report["check"];
 }
 
 TEST_F(EstimateCheckTool, FramesThatAreNotThereOrGetOverwrittenAreRefused)

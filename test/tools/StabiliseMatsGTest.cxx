@@ -34,6 +34,30 @@ TEST_F(StabiliseMatsTest, MeasuresAsTheTool)
   }
 }
 
+// As a video, by the first file's name and by a pattern, the same 16-bit frames: nothing becomes colour, or 8 bits.
+TEST_F(StabiliseMatsTest, VideoOfImagesMeasuresAsTheImages)
+{
+  const auto names = WriteList<unsigned short>(MakeBurst(24, "96x96"), ".png");
+  ASSERT_EQ(RunMats("mats.json " + Joined(names)), 0) << m_Message;
+  if (RunMats("first.json --video " + names[0]) != 0 && m_Message.find("videoio, which") != std::string::npos)
+  {
+    GTEST_SKIP() << m_Message;
+  }
+  EXPECT_EQ(ReadText(Path("first.json")), ReadText(Path("mats.json"))) << m_Message;
+  for (std::size_t t = 0; t < names.size(); ++t)
+  {
+    std::filesystem::rename(Path(names[t]), Path("from_0_" + std::to_string(t) + ".png"));
+  }
+  ASSERT_EQ(RunMats("pattern.json --video from_0_%d.png"), 0) << m_Message;
+  EXPECT_EQ(ReadText(Path("pattern.json")), ReadText(Path("mats.json")));
+  using ColourType = itk::Image<itk::RGBPixel<unsigned char>, 2>;
+  Write<ColourType>("c_00.png", Make<ColourType>({ { 16, 16 } }, ColourType::PixelType()));
+  EXPECT_EQ(RunMats("none.json --video c_00.png"), 2);
+  SaysInOneSentence({ "c_00.png", "3 channels", "not raw" });
+  EXPECT_EQ(RunMats("none.json --video none_%03d.png"), 2);
+  SaysInOneSentence({ "none_%03d.png", "cannot be opened", "expected a file" });
+}
+
 TEST_F(StabiliseMatsTest, ColourIsNotRaw)
 {
   using ColourType = itk::Image<itk::RGBPixel<unsigned char>, 2>;

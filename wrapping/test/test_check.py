@@ -43,6 +43,18 @@ def test_wrong_models_are_seen(report):
     assert not scaled and scaled["sentence"].endswith("those of these frames 16 DN: it may be of another scale")
 
 
+def test_published_report_is_held_against_what_the_refined_method_finds(report):
+    frames = simulated(1)
+    published = itk.estimate_sensor_noise(frames, method="published")
+    found, other = itk.check_noise_model(frames, published), itk.check_noise_model(frames, report)
+    assert [band["pixels"] for band in found["bands"]] == [band["pixels"] for band in other["bands"]]
+    slope, intercept = (published[name]["value"] for name in ("variance_slope", "total_intercept"))
+    for band, fits in zip(found["bands"], other["bands"], strict=True):
+        level = (band["low"] + band["high"]) / 2
+        model = report["variance_slope"]["value"] * level + report["total_intercept"]["value"]
+        assert band["variance"] / fits["variance"] == pytest.approx(model / (slope * level + intercept), abs=0.01)
+
+
 def test_wrong_use_is_refused(report):
     frames = simulated(2)
     with pytest.raises(ValueError, match="the report's total_intercept has no value"):
@@ -51,5 +63,7 @@ def test_wrong_use_is_refused(report):
         itk.check_noise_model(frames, {})
     with pytest.raises(ValueError, match="bits is not a parameter"):
         itk.check_noise_model(frames, report, bits=12)
+    with pytest.raises(ValueError, match='method is .*published.*; expected "refined"'):
+        itk.check_noise_model(frames, report, method="published")
     with pytest.raises(ValueError, match="frames has 2 dimensions"):
         itk.check_noise_model(frames[0], report)

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -102,6 +103,23 @@ FillBrackets(Report & report, const OffsetLimits & limits, double gain)
   report.readNoise.bracket = Interval{ 0.0, largest };
   report.readNoiseElectrons = Quantity::Without(EstimateStatus::NotIdentifiable);
   report.readNoiseElectrons.bracket = Interval{ 0.0, largest / gain };
+}
+
+/** The offset's error has nothing to do with the line's; without an offset, NaN stands for it. */
+void
+FillCovariance(Report & report, const GainEstimate & gain, std::optional<double> offsetVarianceDn2)
+{
+  // The error of taking the response for straight turns the line about its pivot.
+  const double    ofModel = 0.5 * (gain.below + gain.above);
+  const double    pivotDn = gain.line.pivotDn;
+  Eigen::Matrix2d covariance;
+  covariance << 1.0, -pivotDn, -pivotDn, pivotDn * pivotDn;
+  covariance = gain.covariance + ofModel * ofModel * covariance;
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  const double other = offsetVarianceDn2 ? 0.0 : unknown;
+  report.covariance = std::array<std::array<double, 3>, 3>{ { { covariance(0, 0), covariance(0, 1), other },
+                                                              { covariance(0, 1), covariance(1, 1), other },
+                                                              { other, other, offsetVarianceDn2.value_or(unknown) } } };
 }
 
 /** Files the read noise at the offset, which is identified. */
@@ -277,6 +295,7 @@ FillOffsetAndReadNoise(Report &               report,
     report.Warn(WarningCode::OffsetNotIdentifiable,
                 flicker.obstacle + ": more flicker or more frames would help, or dark frames, or a known offset");
     FillBrackets(report, limits, gain.line.gain);
+    FillCovariance(report, gain, std::nullopt);
     return;
   }
   double offsetDn = flicker.valueDn;
@@ -299,15 +318,7 @@ FillOffsetAndReadNoise(Report &               report,
   {
     report.offset.bracket->low = std::min(*limits.lowestDn, offsetDn - offsetErrorDn);
   }
-  // The error of taking the response for straight turns the line about its pivot.
-  const double    ofModel = 0.5 * (gain.below + gain.above);
-  const double    pivotDn = gain.line.pivotDn;
-  Eigen::Matrix2d covariance;
-  covariance << 1.0, -pivotDn, -pivotDn, pivotDn * pivotDn;
-  covariance = gain.covariance + ofModel * ofModel * covariance;
-  report.covariance = std::array<std::array<double, 3>, 3>{ { { covariance(0, 0), covariance(0, 1), 0.0 },
-                                                              { covariance(0, 1), covariance(1, 1), 0.0 },
-                                                              { 0.0, 0.0, offsetErrorDn * offsetErrorDn } } };
+  FillCovariance(report, gain, offsetErrorDn * offsetErrorDn);
 }
 
 } // namespace sensornoise

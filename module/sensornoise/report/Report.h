@@ -127,9 +127,10 @@ struct Report
   /** Of the median pixel, where pixels differ: only dark frames tell it. */
   Quantity readNoiseMedian{ Quantity::Without(EstimateStatus::NotIdentifiable) };
   Quantity readNoiseElectrons;
-  Quantity intercept;                                             ///< sigma^2 - g mu
-  Quantity totalIntercept;                                        ///< with the codes' noise
-  std::optional<std::array<std::array<double, 3>, 3>> covariance; ///< of gain, intercept, offset
+  Quantity intercept;      ///< sigma^2 - g mu
+  Quantity totalIntercept; ///< with the codes' noise
+  /** Of gain, intercept and offset; where there is no offset, NaN in its row and column. */
+  std::optional<std::array<std::array<double, 3>, 3>> covariance;
 
   Quantity flickerSd;
   Quantity vibrationSdX;

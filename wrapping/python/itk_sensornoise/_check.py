@@ -7,6 +7,7 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from . import _options
 from ._arrays import as_mask
 from ._errors import itk_errors
 from ._estimators import _set_parameters
@@ -80,7 +81,8 @@ def check_noise_model(frames: Any, report: Any, *, mask: Any = None, **parameter
     mask
         Only pixels where this is not 0: an array (y, x), or an image, of a frame's size.
     parameters
-        Those of itk.SensorNoiseEstimator in snake case, for example `bit_depth=12`.
+        Those of itk.SensorNoiseEstimator in snake case, for example `bit_depth=12`. Not the method: the frames are
+        measured by the refined one, whatever method the report is of.
 
     Returns
     -------
@@ -100,6 +102,8 @@ def check_noise_model(frames: Any, report: Any, *, mask: Any = None, **parameter
     record = open_report(report)
     slope, intercept = noise_model(record)
     opened = open_frames(frames)
+    if parameters.get("method", "refined") != "refined":
+        raise _options.refuse("method", parameters["method"], '"refined", which measures frames of any report')
     estimator = opened.estimator(itk.SensorNoiseEstimator)
     _set_parameters(estimator, parameters)
     if mask is not None:
