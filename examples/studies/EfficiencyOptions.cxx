@@ -38,8 +38,12 @@ EfficiencyOptions::Parse(int argc, char ** argv)
   auto * shutter = app.add_option("--rolling-shutter",
                                   rollingShutterPeriod,
                                   "bands of the flicker [rows]; 0: global. The limit is that of global flicker");
+  auto * mosaic =
+    app.add_option("--bayer", bayer, "pattern of colour filters: each plane by itself, a group of lines each")
+      ->check(CLI::IsMember({ "none", "RGGB", "GRBG", "GBRG", "BGGR" }));
   app.add_flag("--full-bound", isFullBound, "the Cramer-Rao bound itself: 4 s a stack; else closed forms, 3 % off")
-    ->excludes(shutter);
+    ->excludes(shutter)
+    ->excludes(mosaic);
   app.add_option("--threads", threads, "stacks at the same time")->check(CLI::Range(1, 1024));
   app.add_option("--csv", csv, "every single stack, one line a parameter");
   try

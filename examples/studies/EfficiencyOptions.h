@@ -33,6 +33,7 @@ struct EfficiencyOptions
   std::optional<double>    offset;
   std::optional<double>    readNoise;
   std::optional<double>    electrons;
+  std::string              bayer{ "none" };
   double                   rollingShutterPeriod{ 0.0 };
   bool                     isFullBound{ false };
   unsigned int             threads{ std::max(1U, std::thread::hardware_concurrency()) };

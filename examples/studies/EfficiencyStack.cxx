@@ -7,6 +7,7 @@
 #include "sensornoise/limits/CramerRaoBound.h"
 #include "sensornoise/limits/CramerRaoInformation.h"
 #include "sensornoise/limits/PrecisionLimit.h"
+#include "sensornoise/mosaic/MosaicMethod.h"
 #include "sensornoise/published/PublishedMethod.h"
 #include "sensornoise/refined/RefinedMethod.h"
 #include "sensornoise/report/Report.h"
@@ -50,29 +51,26 @@ ElectronsAtRest(const Scene & scene, SimulationSettings settings)
   return electrons;
 }
 
-/** Closed forms first, then what the table compares with: the same, or the full bound. */
-std::pair<PrecisionLimit, PrecisionLimit>
-Limits(const Scene & scene, const SimulationTruth & truth, const std::vector<std::uint8_t> & mask, bool isFullBound)
+/** Closed forms of the limit, for pixels with these expected electrons. */
+PrecisionLimit
+ClosedLimit(const CramerRaoInput & input)
 {
-  const std::vector<double> electrons = ElectronsAtRest(scene, truth.settings);
-  const CramerRaoInput      input{ electrons.data(), mask.data(), scene.width, scene.height, &truth };
-  const CameraModel &       camera = truth.settings.camera;
-  std::vector<double>       meanDn;
-  for (const double value : electrons)
+  const CameraModel & camera = input.truth->settings.camera;
+  std::vector<double> meanDn;
+  for (std::size_t p = 0; p < input.width * input.height; ++p)
   {
-    meanDn.push_back(camera.offsetDn + input.MeanFluxPerElectronDn() * value);
+    meanDn.push_back(camera.offsetDn + input.MeanFluxPerElectronDn() * input.electrons[p]);
   }
-  const PrecisionLimit closed = ComputePrecisionLimit({ meanDn.data(),
-                                                        mask.data(),
-                                                        scene.width,
-                                                        scene.height,
-                                                        camera.gainDnPerElectron,
-                                                        camera.offsetDn,
-                                                        input.TotalReadVarianceDn2(),
-                                                        input.quantisationStepDn,
-                                                        truth.settings.frames,
-                                                        truth.realisedFlickerSd });
-  return { closed, isFullBound ? ComputeCramerRaoBound(input) : closed };
+  return ComputePrecisionLimit({ meanDn.data(),
+                                 input.mask,
+                                 input.width,
+                                 input.height,
+                                 camera.gainDnPerElectron,
+                                 camera.offsetDn,
+                                 input.TotalReadVarianceDn2(),
+                                 input.quantisationStepDn,
+                                 input.truth->settings.frames,
+                                 input.truth->realisedFlickerSd });
 }
 
 /** The pixels that no clipping touches, which the bound is for; what else the method leaves out is its own loss. */
@@ -90,6 +88,59 @@ MaskOfUnclipped(const std::vector<std::uint8_t> & use, std::size_t pixels)
   }
   return mask;
 }
+
+/** What a report says beside the truth and its limit. \a pixelSize: of its pixels, in those of the simulated frames. */
+EfficiencyRun
+Compare(const Report & report, const CramerRaoInput & input, bool isFullBound, double pixelSize)
+{
+  const SimulationTruth & truth = *input.truth;
+  const PrecisionLimit    closed = ClosedLimit(input);
+  const PrecisionLimit    limit = isFullBound ? ComputeCramerRaoBound(input) : closed;
+  const CameraModel &     camera = truth.settings.camera;
+  const double  intercept = camera.readNoiseDn * camera.readNoiseDn - camera.gainDnPerElectron * camera.offsetDn;
+  const auto    pixels = static_cast<double>(input.width * input.height);
+  EfficiencyRun run;
+  run.seed = truth.settings.seed;
+  run.samples = { { { camera.gainDnPerElectron, limit.gain, report.gain },
+                    { intercept, limit.intercept, report.intercept },
+                    { camera.offsetDn, limit.offset, report.offset },
+                    { camera.readNoiseDn, limit.readNoise, report.readNoise },
+                    { truth.realisedFlickerSd, limit.flickerSd, report.flickerSd },
+                    { truth.realisedVibrationSdXPixels / pixelSize, limit.vibrationSdX, report.vibrationSdX },
+                    { truth.realisedVibrationSdYPixels / pixelSize, limit.vibrationSdY, report.vibrationSdY } } };
+  run.offsetLimitOfRange = closed.offset / (camera.gainDnPerElectron * camera.electrons);
+  run.usedFraction = static_cast<double>(report.pixels.used) / pixels;
+  run.keptFraction = static_cast<double>(std::count(input.mask, input.mask + input.width * input.height, 1)) / pixels;
+  return run;
+}
+
+template <typename TMethod>
+std::vector<EfficiencyRun>
+CompareMosaic(const MosaicGeometry & mosaic, const Scene & scene, const StackSimulator & simulator)
+{
+  const SimulationTruth &              truth = simulator.GetTruth();
+  const std::size_t                    frames = truth.settings.frames;
+  const std::vector<std::uint16_t>     stack = RenderStack(simulator, scene.width, scene.height, frames);
+  MosaicMethod<std::uint16_t, TMethod> method(mosaic, [&](BayerPlane) { return TMethod({}, mosaic.Plane(), frames); });
+  for (unsigned int pass = 0; pass < TMethod::NumberOfPasses; ++pass)
+  {
+    method.AddFrames(stack.data(), frames);
+    method.EndPass();
+  }
+  const std::vector<double>       electrons = ElectronsAtRest(scene, truth.settings);
+  const std::vector<std::uint8_t> mask = MaskOfUnclipped(method.GetPixelUse(), scene.values.size());
+  std::vector<EfficiencyRun>      runs;
+  for (const BayerPlane plane : BayerPlanes)
+  {
+    const auto           ofPlane = mosaic.Take(electrons, plane);
+    const auto           maskOfPlane = mosaic.Take(mask, plane);
+    const FrameGeometry  size = mosaic.Plane();
+    const CramerRaoInput input{ ofPlane.data(), maskOfPlane.data(), size.width, size.height, &truth };
+    runs.push_back(Compare(method.GetReports().at(static_cast<std::size_t>(plane)), input, false, 2.0));
+    runs.back().experiment = NameOf(plane);
+  }
+  return runs;
+}
 } // namespace
 
 EfficiencyRun
@@ -97,31 +148,25 @@ MeasureStack(const Scene & scene, const SimulationSettings & settings, const std
 {
   const std::size_t                frames = settings.frames;
   const StackSimulator             simulator(scene.values, scene.width, scene.height, settings);
-  const SimulationTruth &          truth = simulator.GetTruth();
   const std::size_t                pixels = scene.values.size();
   const std::vector<std::uint16_t> stack = RenderStack(simulator, scene.width, scene.height, frames);
   const FrameGeometry              geometry{ scene.width, scene.height, 1 };
   const auto [report, use] = methodName == "refined"
                                ? Measure(RefinedMethod<std::uint16_t>({}, geometry, frames), stack, frames)
                                : Measure(PublishedMethod<std::uint16_t>({}, geometry, frames), stack, frames);
-
   const std::vector<std::uint8_t> mask = MaskOfUnclipped(use, pixels);
-  const auto [closed, limit] = Limits(scene, truth, mask, isFullBound);
-  const CameraModel & camera = truth.settings.camera;
-  const double        intercept = camera.readNoiseDn * camera.readNoiseDn - camera.gainDnPerElectron * camera.offsetDn;
-  EfficiencyRun       run;
-  run.seed = settings.seed;
-  run.samples = { { { camera.gainDnPerElectron, limit.gain, report.gain },
-                    { intercept, limit.intercept, report.intercept },
-                    { camera.offsetDn, limit.offset, report.offset },
-                    { camera.readNoiseDn, limit.readNoise, report.readNoise },
-                    { truth.realisedFlickerSd, limit.flickerSd, report.flickerSd },
-                    { truth.realisedVibrationSdXPixels, limit.vibrationSdX, report.vibrationSdX },
-                    { truth.realisedVibrationSdYPixels, limit.vibrationSdY, report.vibrationSdY } } };
-  run.offsetLimitOfRange = closed.offset / (camera.gainDnPerElectron * camera.electrons);
-  run.usedFraction = static_cast<double>(report.pixels.used) / static_cast<double>(pixels);
-  run.keptFraction = static_cast<double>(std::count(mask.begin(), mask.end(), 1)) / static_cast<double>(pixels);
-  return run;
+  const std::vector<double>       electrons = ElectronsAtRest(scene, settings);
+  return Compare(
+    report, { electrons.data(), mask.data(), scene.width, scene.height, &simulator.GetTruth() }, isFullBound, 1.0);
+}
+
+std::vector<EfficiencyRun>
+MeasureMosaic(const Scene & scene, const SimulationSettings & settings, const std::string & methodName)
+{
+  const StackSimulator simulator(scene.values, scene.width, scene.height, settings);
+  const MosaicGeometry mosaic{ { scene.width, scene.height, 1 }, settings.flaws.filters.pattern.value() };
+  return methodName == "refined" ? CompareMosaic<RefinedMethod<std::uint16_t>>(mosaic, scene, simulator)
+                                 : CompareMosaic<PublishedMethod<std::uint16_t>>(mosaic, scene, simulator);
 }
 
 } // namespace sensornoise::tools

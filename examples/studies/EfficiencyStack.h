@@ -30,6 +30,11 @@ MeasureStack(const Scene &              scene,
              const std::string &        methodName,
              bool                       isFullBound);
 
+/** The same of the four planes of a mosaic, of the pattern that the settings have, by the closed forms; experiment says
+ * the plane. Vibration is in pixels of the plane. */
+std::vector<EfficiencyRun>
+MeasureMosaic(const Scene & scene, const SimulationSettings & settings, const std::string & methodName);
+
 } // namespace sensornoise::tools
 
 #endif

@@ -70,6 +70,10 @@ MakeSettings(const EfficiencyOptions & options, const std::string & experiment, 
     conditions.vibrationSdXPixels = options.vibrationSd[0];
     conditions.vibrationSdYPixels = options.vibrationSd[1];
   }
+  if (options.bayer != "none")
+  {
+    settings.flaws.filters.pattern = BayerPatternOf(options.bayer);
+  }
   settings.rollingShutterPeriodRows = options.rollingShutterPeriod;
   settings.frames = options.frames;
   settings.seed = seed;
@@ -80,7 +84,8 @@ MakeSettings(const EfficiencyOptions & options, const std::string & experiment, 
 std::vector<EfficiencyRun>
 MeasureAll(const EfficiencyOptions & options, const Scene & scene, const std::string & experiment)
 {
-  std::vector<EfficiencyRun> runs(options.seeds);
+  const std::size_t          planes = options.bayer == "none" ? 1 : BayerPlanes.size();
+  std::vector<EfficiencyRun> runs(options.seeds * planes);
   std::atomic<std::size_t>   next{ 0 };
   std::exception_ptr         error;
   std::mutex                 errorMutex;
@@ -90,16 +95,26 @@ MeasureAll(const EfficiencyOptions & options, const Scene & scene, const std::st
     workers.emplace_back([&] {
       try
       {
-        for (std::size_t k = next++; k < runs.size(); k = next++)
+        for (std::size_t k = next++; k < options.seeds; k = next++)
         {
           const SimulationSettings settings = MakeSettings(options, experiment, options.firstSeed + k);
-          runs[k] = tools::MeasureStack(scene, settings, options.method, options.isFullBound);
-          runs[k].experiment = experiment;
+          if (planes == 1)
+          {
+            runs[k] = tools::MeasureStack(scene, settings, options.method, options.isFullBound);
+            runs[k].experiment = experiment;
+            continue;
+          }
+          const auto ofPlanes = tools::MeasureMosaic(scene, settings, options.method);
+          for (std::size_t plane = 0; plane < planes; ++plane)
+          {
+            runs[plane * options.seeds + k] = ofPlanes[plane];
+            runs[plane * options.seeds + k].experiment = experiment + "/" + ofPlanes[plane].experiment;
+          }
         }
       }
       catch (...)
       {
-        next = runs.size();
+        next = options.seeds;
         const std::lock_guard<std::mutex> lock(errorMutex);
         error = std::current_exception();
       }
@@ -149,7 +164,13 @@ MeasureEfficiency(const EfficiencyOptions & options)
   for (const std::string & experiment : options.experiments)
   {
     const std::vector<EfficiencyRun> runs = MeasureAll(options, scene, experiment);
-    tools::PrintEfficiencyRows(Select(runs), experiment, false);
+    const auto                       seeds = static_cast<std::size_t>(options.seeds);
+    for (std::size_t first = 0; first < runs.size(); first += seeds)
+    {
+      const auto                       begin = runs.begin() + static_cast<std::ptrdiff_t>(first);
+      const std::vector<EfficiencyRun> group(begin, begin + static_cast<std::ptrdiff_t>(seeds));
+      tools::PrintEfficiencyRows(Select(group), group.front().experiment, false);
+    }
     all.insert(all.end(), runs.begin(), runs.end());
     if (!options.csv.empty())
     {

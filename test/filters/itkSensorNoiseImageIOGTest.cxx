@@ -36,7 +36,7 @@ CodesOfStack(std::size_t columns)
     {
       for (std::size_t x = 0; x < columns; ++x)
       {
-        codes.push_back(1 + x + columns * (y + height * t));
+        codes.push_back(static_cast<unsigned int>(1 + x + columns * (y + height * t)));
       }
     }
   }

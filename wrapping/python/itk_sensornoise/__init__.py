@@ -14,6 +14,7 @@ Imaging Sci. 8(1), 2015, https://doi.org/10.1137/140977035.
 """
 
 from ._catalogue import quantity_list, warning_table
+from ._channels import ChannelReports
 from ._check import NoiseModelCheck, check_noise_model
 from ._correlation import NoiseCorrelation, noise_correlation_estimator
 from ._denoise import denoise_with_noise_model
@@ -30,6 +31,7 @@ from ._source import sensor_noise_frame_list_source
 from ._stabilise import generalized_anscombe_image_filter, inverse_generalized_anscombe_image_filter
 
 __all__ = [
+    "ChannelReports",
     "NoiseCorrelation",
     "NoiseModelCheck",
     "Report",

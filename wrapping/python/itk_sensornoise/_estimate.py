@@ -8,6 +8,8 @@ import numpy as np
 
 from . import _options
 from ._arrays import as_mask
+from ._bayer import set_pattern
+from ._channels import ChannelReports, report_of
 from ._errors import itk_errors
 from ._frames import Stack, crop, frame_image, open_frames
 from ._maps import arrays_of, maps_folder, require_apart, write_maps
@@ -24,6 +26,7 @@ def estimate_sensor_noise(
     method: Literal["refined", "published"] = "refined",
     offset: float | tuple[float, float] | None = None,
     dark: Frames | None = None,
+    bayer: Literal["auto", "none", "RGGB", "GRBG", "GBRG", "BGGR"] = "auto",
     bit_depth: int | None = None,
     clip: tuple[float, float] | None = None,
     step: float | None = None,
@@ -39,7 +42,7 @@ def estimate_sensor_noise(
     raw: str | None = None,
     threads: int | None = None,
     progress: bool = False,
-) -> Report:
+) -> Report | ChannelReports:
     """Measures gain, offset and read noise of a camera, flicker and vibration, from frames of a static scene.
 
     Parameters
@@ -59,6 +62,10 @@ def estimate_sensor_noise(
     dark
         Frames without light, as `frames`, of the same size and type and at the same exposure, gain and temperature:
         they give the offset and, from two frames on, the read noise. Not together with `offset`. "refined" only.
+    bayer
+        Colour filters in front of the pixels. "none": a monochrome sensor. "RGGB", "GRBG", "GBRG" or "BGGR", the
+        colours of the upper left pixels: each of the four planes is measured by itself. "auto": as the file says, if
+        it does, else as the levels of the first frame tell, which cannot tell red from blue.
     bit_depth
         Bits of the sensor's codes, 1 to 16. Default: found.
     clip
@@ -100,7 +107,7 @@ def estimate_sensor_noise(
 
     Returns
     -------
-    Report
+    Report, or ChannelReports of a mosaic
         A dict, the same record as the JSON of `estimate-sensor-noise`; `settings` holds all of the options above that
         were given and change a number. Data that cannot be measured give quantities that are `failed` or
         `not-identifiable`, and a warning that says why.
@@ -132,6 +139,7 @@ def estimate_sensor_noise(
             dark, source = raw_stack(dark, raw, "dark")
             kept.append(source)
     stack = open_frames(frames, span)
+    whole = stack.image
     corner, size = _region(stack, roi, None if stack.is_cut else span)
     mask_array = None if mask is None else _mask_of(mask, stack.size[:2])
     dark_stack = None if dark is None else _dark_of(dark, stack, corner, size)
@@ -143,6 +151,7 @@ def estimate_sensor_noise(
     if span is not None:
         estimator.SetSourceFrames(*span)
     estimator.SetMethod(method)
+    set_pattern(estimator, bayer, whole, corner)
     if offset is not None:
         _set_offset(estimator, offset)
     if dark_stack is not None:
@@ -163,7 +172,7 @@ def estimate_sensor_noise(
         estimator.Update()
     if folder is not None:
         write_maps(estimator, folder)
-    return Report.of(estimator, arrays_of(estimator) if maps is True else None)
+    return report_of(estimator, arrays_of(estimator) if maps is True else None)
 
 
 def _check_what_is_known(method: str, offset: object, dark: object) -> None:

@@ -8,6 +8,7 @@ import numpy as np
 
 from . import _options
 from ._arrays import as_frame, as_mask, view
+from ._channels import ChannelReports, report_of
 from ._errors import itk_errors
 from ._frames import open_frames
 from ._progress import at_work
@@ -34,7 +35,7 @@ def _frames_of_one_shape(**arrays: np.ndarray | None) -> None:
 
 def sensor_noise_estimator(
     stack: Frames, *, mask: Frame | None = None, dark: Frames | None = None, **parameters: Any
-) -> Report:
+) -> Report | ChannelReports:
     """itk.SensorNoiseEstimator in functional style; estimate_sensor_noise() checks more and says it in its own words.
 
     `stack` as `frames` there; `mask` an array (y, x), or an image, of a frame's size: pixels of value 0 are left out;
@@ -59,7 +60,7 @@ def sensor_noise_estimator(
         estimator.SetDark(dark_stack.image)
     with at_work(estimator, False, *stacks), itk_errors():
         estimator.Update()
-    return Report.of(estimator)
+    return report_of(estimator)
 
 
 def temporal_statistics_image_filter(stack: Frames, **parameters: Any) -> tuple[Any, Any, Any]:

@@ -9,10 +9,11 @@ from typing import Any
 import numpy as np
 
 from ._arrays import PIXEL_NAMES, PIXEL_TYPES, as_array, as_itk_order, require_pixel_type, require_shape, view
+from ._bayer import note_pattern
 from ._errors import itk_errors
 from ._lazy import LazyStack, ListOfFrames, is_lazy, source_of
 from ._names import expand, is_name, refuse_other_formats
-from ._rawpy import RawFiles, is_raw
+from ._rawpy import RawFiles, is_raw, raw_metadata
 from ._source import open_files
 from ._types import FileName, Frames, ItkObject, LazyFrames
 
@@ -124,6 +125,7 @@ def _from_files(names: Sequence[FileName], frame_range: tuple[int, int] | None) 
         names = names[frame_range[0] : frame_range[1]]
     if all(map(is_raw, names)):
         stack = _from_lazy(RawFiles(names), "frames")
+        note_pattern(stack.image, raw_metadata(names[0])["bayer"])
     else:
         refuse_other_formats(names)
         source, pixel = open_files(names)
