@@ -61,10 +61,10 @@ SensorNoiseImageIOFactory::RegisterOneFactory()
 }
 
 // By this name ITK's registration of factories calls it (itk-module.cmake, FACTORY_NAMES).
-void SensorNoise_EXPORT SensorNoiseImageIOFactoryRegister__Private();
+void SensorNoise_EXPORT SensorNoiseImageIOFactoryRegister__Private(); // NOLINT(bugprone-reserved-identifier)
 
 void
-SensorNoiseImageIOFactoryRegister__Private()
+SensorNoiseImageIOFactoryRegister__Private() // NOLINT(bugprone-reserved-identifier)
 {
   SensorNoiseImageIOFactory::RegisterOneFactory();
 }

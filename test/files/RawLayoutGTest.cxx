@@ -93,6 +93,22 @@ TEST_F(RawFile, RowsMayHaveAGapBehindThem)
             (std::vector<unsigned short>{ 1, 2, 3, 4, 5, 6, 7, 1023 }));
 }
 
+// More than is held at a time.
+TEST_F(RawFile, LargeFramesAreReadInPieces)
+{
+  const std::size_t gap = 1500000;
+  std::string       rows = "ab" + std::string(gap - 2, '-') + "cd" + std::string(gap - 2, '-');
+  EXPECT_EQ(Read<unsigned char>(rows, "2x2:uint8:0:" + std::to_string(gap), 0, 1),
+            (std::vector<unsigned char>{ 'a', 'b', 'c', 'd' }));
+  Codes codes;
+  for (unsigned i = 0; i < 1024 * 1024; ++i)
+  {
+    codes.push_back(i * 2654435761U >> 20);
+  }
+  EXPECT_EQ(Read<unsigned short>(BitStream(codes, 12, false), "1024x1024:Mono12p", 0, 1),
+            (std::vector<unsigned short>(codes.begin(), codes.end())));
+}
+
 TEST_F(RawFile, SaysWhatTheTypeSaysOfTheCamera)
 {
   const auto camera = [](const std::string & type) { return ReadRawLayout("4x4:" + type).camera; };

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -180,6 +181,68 @@ TEST_F(SensorNoiseImageIO, APixelOfATiffIsWhatItksReaderMakesOfIt)
           const auto size = static_cast<std::ptrdiff_t>(all.size() / 3);
           const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first) * size;
           EXPECT_EQ(CodesOf(ReadPart<unsigned short>(part, first, 1)), Codes(begin, begin + size));
+        }
+      }
+    }
+  }
+}
+
+/** The bytes of a stack, as this source and as ITK's TIFFImageIO read it. */
+template <typename TPixel>
+void
+IsReadAsByItk(const std::string & file)
+{
+  using ImageType = itk::Image<TPixel, 3>;
+  const auto reader = itk::ImageFileReader<ImageType>::New();
+  reader->SetFileName(file);
+  reader->SetImageIO(itk::TIFFImageIO::New());
+  reader->Update();
+  const auto source = MakeSource<TPixel>({ file });
+  source->Update();
+  const std::size_t pixels = reader->GetOutput()->GetBufferedRegion().GetNumberOfPixels();
+  ASSERT_EQ(source->GetOutput()->GetBufferedRegion().GetNumberOfPixels(), pixels);
+  EXPECT_EQ(std::memcmp(source->GetOutput()->GetBufferPointer(),
+                        reader->GetOutput()->GetBufferPointer(),
+                        pixels * sizeof(TPixel)),
+            0);
+}
+
+TEST_F(SensorNoiseImageIO, PredictorsOfATiffAreUndoneAsItksReaderDoes)
+{
+  for (const unsigned predictor : { 2U, 3U })
+  {
+    for (const unsigned bits : { 8U, 16U, 32U })
+    {
+      for (const unsigned compression : { 5U, 8U })
+      {
+        for (const bool isBigEndian : { false, true })
+        {
+          if (predictor == 3 && bits != 32)
+          {
+            continue;
+          }
+          SCOPED_TRACE(std::to_string(predictor) + " " + std::to_string(bits) + " " + std::to_string(compression) +
+                       (isBigEndian ? " big" : " little"));
+          TiffOf tiff = TiffWith({ { 317, { 3, { predictor } } }, { 339, { 3, { bits == 32 ? 3U : 1U } } } });
+          tiff.bits = bits;
+          tiff.predictor = predictor;
+          tiff.compression = compression;
+          tiff.isBigEndian = isBigEndian;
+          tiff.width = 300; // enough for codes of more than nine bits
+          tiff.fillUp = 3;
+          const std::string file = WriteText("a.tif", tiff.Bytes());
+          if (bits == 8)
+          {
+            IsReadAsByItk<unsigned char>(file);
+          }
+          else if (bits == 16)
+          {
+            IsReadAsByItk<unsigned short>(file);
+          }
+          else
+          {
+            IsReadAsByItk<float>(file);
+          }
         }
       }
     }

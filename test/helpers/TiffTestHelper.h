@@ -34,6 +34,7 @@ struct TiffOf
   std::size_t           rowsPerStrip{ 4 };
   unsigned              bits{ 16 };
   unsigned              compression{ 1 };
+  unsigned              predictor{ 1 };                   // of the pixels; the tag is one of `pages`
   std::vector<TiffTags> pages = std::vector<TiffTags>(3); // what each says beyond that or otherwise
   std::string           strip{};                          // instead of the first strip
   std::size_t           fillUp{ 0 };                      // rows added to the last strip
@@ -48,6 +49,35 @@ struct TiffOf
     return text;
   }
 
+  /** The differences that a predictor leaves of a row: of its samples (2), or of the bytes of all samples, the highest
+   * of each first (3). */
+  std::string
+  Predicted(const std::vector<std::uint64_t> & samples) const
+  {
+    std::string row;
+    if (predictor == 3)
+    {
+      std::string planes;
+      for (std::size_t byte = 0; byte < bits / 8; ++byte)
+      {
+        for (const std::uint64_t sample : samples)
+        {
+          planes += static_cast<char>((sample >> (bits - 8 - 8 * byte)) & 255);
+        }
+      }
+      for (std::size_t i = 0; i < planes.size(); ++i)
+      {
+        row += static_cast<char>(planes[i] - (i > 0 ? planes[i - 1] : 0));
+      }
+      return row;
+    }
+    for (std::size_t x = 0; x < samples.size(); ++x)
+    {
+      row += Number(samples[x] - (predictor == 2 && x > 0 ? samples[x - 1] : 0), bits / 8);
+    }
+    return row;
+  }
+
   std::string
   StripOf(std::size_t page, std::size_t firstRow, std::size_t rows) const
   {
@@ -55,11 +85,12 @@ struct TiffOf
     std::string plain;
     for (std::size_t y = firstRow; y < firstRow + rows; ++y)
     {
-      std::string row;
+      std::vector<std::uint64_t> samples;
       for (std::size_t x = 0; x < width; ++x)
       {
-        row += Number(100 + x * y + 3 * page, bits / 8);
+        samples.push_back(100 + x * y + 3 * page);
       }
+      const std::string row = Predicted(samples);
       plain += row;
       packed += PackedBits(row);
     }
