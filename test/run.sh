@@ -58,6 +58,7 @@ test_wheel() (
   export PYTHONDONTWRITEBYTECODE=1 SENSORNOISE_BIN="$here/build/bin"
   "$venv/bin/python" "$here/examples/python/estimate.py"
   "$venv/bin/python" "$here/examples/python/denoise.py" --picture denoised.png
+  "$venv/bin/python" "$here/examples/python/lazy.py"
   "$venv/bin/python" "$here/examples/python/pipeline.py"
   "$venv/bin/python" "$here/examples/python/run_notebook.py" executed.ipynb
   "$venv/bin/python" -m pytest -p no:cacheprovider "$here/wrapping/test"

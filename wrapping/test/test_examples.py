@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import itk
+import numpy as np
 import pytest
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "python"
@@ -38,6 +39,35 @@ def test_estimate_ends_with_what_it_says(few, tmp_path):
     assert run("estimate.py", few).returncode == 0
     result = run("estimate.py", tmp_path / "no-such.mha")
     assert result.returncode == 2 and "does not exist" in result.stderr and result.stdout == ""
+
+
+def test_lazy_frames_are_read_by_other_packages(tmp_path):
+    cv2 = pytest.importorskip("cv2")
+    stack = itk.simulate_sensor_noise(frames=20, size=(96, 64), dtype="uint8", gain=0.07)[0]
+    names = [tmp_path / f"{number:02}.png" for number in range(20)]
+    for name, frame in zip(names, stack, strict=True):
+        cv2.imwrite(str(name), frame)
+    np.save(tmp_path / "a.npy", stack)
+    expected = f"{itk.estimate_sensor_noise(stack)}\n"
+    assert run("lazy.py", *names).stdout == run("lazy.py", tmp_path / "a.npy").stdout == expected
+    result = run("lazy.py", tmp_path / "no-such.png")
+    assert result.returncode == 2 and "cannot be read" in result.stderr
+
+
+def test_a_video_is_read_frame_by_frame(tmp_path):
+    cv2 = pytest.importorskip("cv2")
+    stack = itk.simulate_sensor_noise(frames=20, size=(96, 64), dtype="uint8", gain=0.07)[0]
+    name = tmp_path / "a.avi"
+    video = cv2.VideoWriter(str(name), cv2.VideoWriter_fourcc(*"FFV1"), 20, (96, 64))
+    if not video.isOpened():
+        pytest.skip("OpenCV has no lossless codec here")
+    for frame in stack:
+        video.write(np.repeat(frame[..., None], 3, axis=2))
+    video.release()
+    result = run("lazy.py", name)
+    assert "20 frames of 96 x 64 pixels" in result.stdout, (
+        result.stderr
+    )  # the codec's colours are not the sensor's codes
 
 
 def test_held_out_frames_are_stabilised():

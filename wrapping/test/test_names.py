@@ -71,16 +71,13 @@ def refused(frames, kind=ValueError):
 
 
 def test_what_means_no_list_is_refused(folder, tmp_path):
-    assert (
-        refused(f"{folder}/*.tif")
-        == f"{folder}/*.tif: no file matches this pattern; expected the frames, one file each"
-    )
-    (folder / "notes.txt").touch()
-    (folder / "README").touch()
-    (folder / ".hidden").touch()
+    each = "expected the frames, one file each"
+    assert refused(f"{folder}/*.tif") == f"{folder}/*.tif: no file matches this pattern; {each}"
+    for name in ("notes.txt", "README", ".hidden"):
+        (folder / name).touch()
+    kinds = "(1 without an ending, 12 .png, 1 .txt)"
     assert refused(folder) == (
-        f"{folder}: is a folder of files of several kinds (1 without an ending, 12 .png, 1 .txt); expected one kind, "
-        f"or a pattern as '{folder}/*.png'"
+        f"{folder}: is a folder of files of several kinds {kinds}; expected one kind, or a pattern as '{folder}/*.png'"
     )
     (tmp_path / "empty").mkdir()
     assert refused(tmp_path / "empty") == f"{tmp_path}/empty: is a folder without files; {each}"

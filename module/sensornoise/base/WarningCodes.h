@@ -47,6 +47,7 @@ enum class WarningCode : std::uint8_t
   CorrectedVarianceCurved,
   BrightSetWidened,
   DarkSetWidened,
+  SceneChanges,
   NothingToMeasure,
   TooLittleToMeasure,
   CodesTooCoarse,
@@ -80,7 +81,7 @@ struct WarningKind
 
 /** All that a report can warn of, in the order of WarningCode. README and Python show this table; a warning's own
  * message has the numbers. */
-inline constexpr std::array<WarningKind, 40> WarningTable{ {
+inline constexpr std::array<WarningKind, 41> WarningTable{ {
   { WarningCode::FewFrames, "few-frames", Severity::Warning, "Fewer than 20 different frames: indicative only." },
   { WarningCode::Mosaic,
     "mosaic",
@@ -236,6 +237,11 @@ inline constexpr std::array<WarningKind, 40> WarningTable{ {
     "dark-set-widened",
     Severity::Note,
     "Too few pixels had the dark intensity, and more levels were taken (published method)." },
+  { WarningCode::SceneChanges,
+    "scene-changes",
+    Severity::Error,
+    "The frames do not show one still scene: another axis than time was taken for time, or the scene changes, or the "
+    "camera moves by many pixels." },
   { WarningCode::NothingToMeasure,
     "nothing-to-measure",
     Severity::Error,

@@ -97,6 +97,22 @@ struct MomentsConstants
    * Set by hand; half and twice as above. */
   double leastMosaicContrast{ 0.12 };
   ///@}
+
+  /** \name Whether the frames show one scene */
+  ///@{
+  /** Cells of a frame along each axis, at most. Set by hand: of 16 x 16 cells a motion of a few pixels changes little.
+   */
+  std::size_t thumbnailCells{ 16 };
+  /** Cells that tell. Set by hand: two numbers of the mean frame's are fitted to them. */
+  std::size_t fewestThumbnailCells{ 9 };
+  /** Variance over the cells that is not as in the mean frame, relative to all of it, from which on the scene changes
+   * [1]. Set by hand: a block that crosses a third of the frame makes 0.06, another axis than time 0.33 and more of
+   * all scenes tried. */
+  double sceneChangeShare{ 0.15 };
+  /** The root of that variance over the mean level from which on the scene changes [1]. Set by hand: a rolling shutter
+   * under a lamp that flickers by 5 % makes 5 % of a flat field. */
+  double sceneChangeOfTheLevel{ 0.1 };
+  ///@}
 };
 
 SENSORNOISE_CONSTANT MomentsConstants InMoments;

@@ -6,6 +6,7 @@
 #include "sensornoise/moments/StackMaps.h"
 #include "sensornoise/moments/StackRequirements.h"
 #include "sensornoise/report/RepeatedFrames.h"
+#include "sensornoise/report/SceneChangeReport.h"
 #include "sensornoise/report/StackReport.h"
 #include "sensornoise/report/StackSettings.h"
 
@@ -28,6 +29,7 @@ PublishedMethod<TPixel>::PublishedMethod(const PublishedSettings &         setti
   , m_ParallelFor(std::move(parallelFor))
   , m_InPass(frames)
   , m_Moments(geometry.Pixels(), frames)
+  , m_Thumbnails(geometry, frames, mask)
 {
   RequireStack(geometry, frames, mask.size());
   settings.Validate();
@@ -43,6 +45,7 @@ PublishedMethod<TPixel>::AddFrames(const TPixel * chunk, std::size_t frames)
   if (pass == 0)
   {
     m_Moments.AddFrames(chunk, first, frames, m_ParallelFor);
+    m_Thumbnails.AddFrames(chunk, first, frames, m_ParallelFor);
   }
   else if (m_Sums || m_Correction)
   {
@@ -88,6 +91,7 @@ PublishedMethod<TPixel>::EndPass()
     m_Report = MakePublishedReport({ m_Settings, m_Geometry, m_Distinct.Count(), m_Scene, m_Flicker, m_Corrected });
     WarnOfMosaic(m_Report, m_Scene.mean, m_Geometry, m_ParallelFor);
     NoteMask(m_Report, m_Geometry, m_UserMask);
+    ReportSceneChange(m_Report, m_Thumbnails.FindChange());
     ReportAllFrames(m_Report, m_Distinct);
   }
 }

@@ -7,6 +7,7 @@
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/moments/DistinctFrames.h"
+#include "sensornoise/moments/FrameThumbnails.h"
 #include "sensornoise/moments/PassFrames.h"
 #include "sensornoise/moments/StackMoments.h"
 #include "sensornoise/published/CorrectedVariance.h"
@@ -116,6 +117,7 @@ private:
 
   // What the passes gather; there are no sums of passes 2 and 3 if the stack cannot be measured.
   StackMoments<TPixel>             m_Moments;
+  FrameThumbnails                  m_Thumbnails;
   std::optional<FlickerSums>       m_Sums;
   std::optional<CorrectedVariance> m_Correction;
 

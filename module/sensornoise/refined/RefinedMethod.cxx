@@ -12,6 +12,7 @@
 #include "sensornoise/refined/PixelsOfVariance.h"
 #include "sensornoise/refined/RefinedReport.h"
 #include "sensornoise/report/RepeatedFrames.h"
+#include "sensornoise/report/SceneChangeReport.h"
 #include "sensornoise/report/StackReport.h"
 #include "sensornoise/report/StackSettings.h"
 #include "sensornoise/series/FrameProducts.h"
@@ -82,6 +83,7 @@ RefinedMethod<TPixel>::RefinedMethod(const RefinedSettings &           settings,
   , m_ParallelFor(std::move(parallelFor))
   , m_InPass(frames)
   , m_Moments(geometry.Pixels(), frames)
+  , m_Thumbnails(geometry, frames, mask)
   , m_Scene(std::make_unique<const StillScene>())
 {
   RequireStack(geometry, frames, mask.size());
@@ -102,6 +104,7 @@ RefinedMethod<TPixel>::AddFrames(const TPixel * chunk, std::size_t frames)
   if (pass == 0)
   {
     m_Moments.AddFrames(chunk, first, frames, m_ParallelFor);
+    m_Thumbnails.AddFrames(chunk, first, frames, m_ParallelFor);
   }
   else if (m_FrameSums)
   {
@@ -149,6 +152,7 @@ RefinedMethod<TPixel>::SaveSums(std::ostream & out) const
   WriteCount(out, this->FingerprintOfPass());
   if (m_InPass.GetPass() == 0)
   {
+    m_Thumbnails.Save(out);
     m_Moments.Save(out);
   }
   else if (m_FrameSums)
@@ -180,7 +184,9 @@ RefinedMethod<TPixel>::MergeSums(std::istream & in)
   }
   if (m_InPass.GetPass() == 0)
   {
+    const FrameThumbnails thumbnails = m_Thumbnails.ReadOther(in);
     m_Moments.Merge(in);
+    m_Thumbnails.Merge(thumbnails);
   }
   else if (m_FrameSums && m_InPass.GetPass() == 1)
   {
@@ -351,6 +357,7 @@ RefinedMethod<TPixel>::MakeReport()
                                               m_Correlation });
   WarnOfMosaic(m_Report, m_Scene->mean, m_Geometry, m_ParallelFor);
   NoteMask(m_Report, m_Geometry, m_UserMask);
+  ReportSceneChange(m_Report, m_Thumbnails.FindChange());
   ReportAllFrames(m_Report, m_Distinct);
 }
 

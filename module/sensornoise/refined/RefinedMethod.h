@@ -10,6 +10,7 @@
 #include "sensornoise/correlation/NoiseCorrelation.h"
 #include "sensornoise/correlation/NoiseSample.h"
 #include "sensornoise/moments/DistinctFrames.h"
+#include "sensornoise/moments/FrameThumbnails.h"
 #include "sensornoise/moments/PassFrames.h"
 #include "sensornoise/moments/StackMoments.h"
 #include "sensornoise/pixels/ProjectionSums.h"
@@ -160,6 +161,7 @@ private:
 
   // The sums of the passes, and what each pass found. The scene stays where it is: FrameSums points to its frame.
   StackMoments<TPixel>                  m_Moments;
+  FrameThumbnails                       m_Thumbnails;
   DistinctFrames                        m_Distinct;
   std::unique_ptr<const StillScene>     m_Scene;
   std::unique_ptr<FrameSums>            m_FrameSums; // null: the stack cannot be measured

@@ -25,6 +25,7 @@ from ._estimators import (
     temporal_statistics_image_filter,
     vibration_covariance_estimator,
 )
+from ._rawpy import raw_metadata
 from ._report import Report
 from ._simulate import simulate_sensor_noise
 from ._source import sensor_noise_frame_list_source
@@ -43,6 +44,7 @@ __all__ = [
     "noise_correlation_estimator",
     "noise_regression_estimator",
     "quantity_list",
+    "raw_metadata",
     "sensor_noise_estimator",
     "sensor_noise_frame_list_source",
     "simulate_sensor_noise",

@@ -49,10 +49,16 @@ def estimate_sensor_noise(
     ----------
     frames
         Raw frames in time order, at least 5 of at least 3 x 3 pixels: a NumPy array (t, y, x); an itk.Image of 3
-        dimensions (x, y, t); a list of file names or of 2-D arrays (y, x), or of what has `__array__`; or the name of
-        one stack file. uint8, uint16, int16, float32 or float64 [DN]. Files are read a few frames at a time and never
-        held together (a stack in NRRD or a compressed MetaImage, which ITK cannot read in parts, is).
-        Arrays are shared; one that is not C-contiguous or not in the machine's byte order is copied once.
+        dimensions (x, y, t); a list of file names or of 2-D arrays (y, x), or of what has `__array__`; the name of one
+        stack file; a pattern of names ("frames/*.png"), a folder of files of one kind, a set or a generator of names,
+        which are sorted with numbers as numbers (frame_2 before frame_10; a list keeps its order); or anything with
+        `shape` (t, y, x), `dtype` and slices along time, frames[first:end]: h5py, zarr, dask, memory maps, astropy's
+        sections, your own class; axes of xarray may be in any order, as their names are honoured. uint8, uint16, int16,
+        float32 or float64 [DN]. Files and such objects are read a few frames at a time and never held together (a stack
+        in NRRD or a compressed MetaImage, which ITK cannot read in parts, is). Stored chunks that are
+        missing are an error, as far as h5py and zarr say so. Raw files of cameras (.dng, .cr2, .nef, ...) are read by
+        rawpy, if installed: unprocessed codes. Arrays are shared; one that is not C-contiguous or not in the machine's
+        byte order is copied once.
     method
         "refined": all pixels of a still scene, textured or not; what is `identified` has a standard error and a 95 %
         interval. "published": Figure 2 of Sur & Grédiac 2015, even areas only, without errors.
@@ -118,6 +124,8 @@ def estimate_sensor_noise(
         Ctrl-C, within the time that a chunk of 64 MiB takes; the next call starts afresh.
     ValueError
         Wrong use; says what was found and what was expected.
+    ImportError
+        A raw file of a camera without rawpy. What a reader of lazy frames raises is raised as it is.
     RuntimeError
         What ITK threw, in one sentence.
     """

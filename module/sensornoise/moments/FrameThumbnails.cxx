@@ -1,0 +1,204 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/moments/FrameThumbnails.h"
+
+#include "sensornoise/base/BinaryStream.h"
+#include "sensornoise/base/Quantiles.h"
+#include "sensornoise/moments/Constants.h"
+#include "sensornoise/moments/StackRequirements.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** The variances over the cells of a frame [DN^2]. */
+struct FrameVariances
+{
+  double changed{ 0.0 }; ///< of what is not as in the mean frame, up to a factor and a level; by the median cell
+  double whole{ 0.0 };
+};
+
+FrameVariances
+VariancesOf(const std::vector<double> & mean, const std::vector<double> & frame)
+{
+  const auto   count = static_cast<double>(mean.size());
+  const double centre = std::accumulate(mean.begin(), mean.end(), 0.0) / count;
+  const double level = std::accumulate(frame.begin(), frame.end(), 0.0) / count;
+  double       ofMean = 0.0;
+  double       ofFrame = 0.0;
+  double       ofBoth = 0.0;
+  for (std::size_t i = 0; i < mean.size(); ++i)
+  {
+    ofMean += (mean[i] - centre) * (mean[i] - centre);
+    ofFrame += (frame[i] - level) * (frame[i] - level);
+    ofBoth += (mean[i] - centre) * (frame[i] - level);
+  }
+  const double        slope = ofMean > 0.0 ? ofBoth / ofMean : 0.0;
+  std::vector<double> residuals;
+  for (std::size_t i = 0; i < mean.size(); ++i)
+  {
+    residuals.push_back(std::abs(frame[i] - level - slope * (mean[i] - centre)));
+  }
+  constexpr double medianOfNormal = 0.6745; // of the absolute value, over the standard deviation
+  const double     sd = Quantile(residuals, 0.5) / medianOfNormal;
+  return { sd * sd, ofFrame / (count - 1.0) };
+}
+} // namespace
+
+bool
+SceneChange::IsLarge() const
+{
+  return share > InMoments.sceneChangeShare && ofTheLevel > InMoments.sceneChangeOfTheLevel;
+}
+
+FrameThumbnails::FrameThumbnails(const FrameGeometry &             geometry,
+                                 std::size_t                       frames,
+                                 const std::vector<std::uint8_t> & mask)
+  : m_Pixels(geometry.Pixels())
+  , m_Frames(frames)
+  , m_Mask(mask)
+{
+  const std::size_t columns = std::min(geometry.width, InMoments.thumbnailCells);
+  const std::size_t rows = std::min(geometry.height, InMoments.thumbnailCells);
+  m_Cells = columns * rows;
+  for (std::size_t row = 0; row < rows; ++row)
+  {
+    const std::size_t top = row * geometry.height / rows;
+    const std::size_t height = (row + 1) * geometry.height / rows - top;
+    for (std::size_t column = 0; column < columns; ++column)
+    {
+      for (std::size_t third = height > 1 ? 1 : 2; third <= 2; ++third)
+      {
+        const std::size_t line = (top + (height > 1 ? third * height / 3 : 0)) * geometry.width;
+        m_Runs.push_back({ row * columns + column,
+                           line + column * geometry.width / columns,
+                           line + (column + 1) * geometry.width / columns });
+      }
+    }
+  }
+  m_Means.resize(m_Cells * frames, 0.0);
+  m_Noise.resize(frames, 0.0);
+}
+
+template <typename TPixel>
+void
+FrameThumbnails::AddFrames(const TPixel * frames, std::size_t first, std::size_t count, const ParallelFor & parallelFor)
+{
+  parallelFor(count, [&](std::size_t k) {
+    const TPixel * const frame = frames + k * m_Pixels;
+    std::vector<double>  sums(m_Cells, 0.0);
+    std::vector<double>  counts(m_Cells, 0.0);
+    std::vector<double>  steps(m_Cells, 0.0); // squares of differences of neighbours
+    std::vector<double>  pairs(m_Cells, 0.0);
+    for (const Run & run : m_Runs)
+    {
+      double last = std::numeric_limits<double>::quiet_NaN();
+      for (std::size_t p = run.begin; p < run.end; ++p)
+      {
+        const auto level = static_cast<double>(frame[p]);
+        if (std::isfinite(level) && (m_Mask.empty() || m_Mask[p] != 0))
+        {
+          sums[run.cell] += level;
+          counts[run.cell] += 1.0;
+          steps[run.cell] += std::isfinite(last) ? (level - last) * (level - last) : 0.0;
+          pairs[run.cell] += std::isfinite(last) ? 1.0 : 0.0;
+          last = level;
+        }
+      }
+    }
+    double noise = 0.0;
+    double cells = 0.0;
+    for (std::size_t cell = 0; cell < m_Cells; ++cell)
+    {
+      m_Means[(first + k) * m_Cells + cell] = sums[cell] / counts[cell]; // NaN: nothing there
+      if (pairs[cell] > 0.0)
+      {
+        noise += steps[cell] / (2.0 * pairs[cell] * counts[cell]);
+        cells += 1.0;
+      }
+    }
+    m_Noise[first + k] = cells > 0.0 ? noise / cells : 0.0;
+  });
+}
+
+void
+FrameThumbnails::Save(std::ostream & out) const
+{
+  WriteNumbers(out, m_Means);
+  WriteNumbers(out, m_Noise);
+}
+
+FrameThumbnails
+FrameThumbnails::ReadOther(std::istream & in) const
+{
+  FrameThumbnails other = *this;
+  ReadNumbers(in, other.m_Means);
+  ReadNumbers(in, other.m_Noise);
+  return other;
+}
+
+void
+FrameThumbnails::Merge(const FrameThumbnails & other)
+{
+  std::transform(m_Means.begin(), m_Means.end(), other.m_Means.begin(), m_Means.begin(), std::plus<double>());
+  std::transform(m_Noise.begin(), m_Noise.end(), other.m_Noise.begin(), m_Noise.begin(), std::plus<double>());
+}
+
+SceneChange
+FrameThumbnails::FindChange() const
+{
+  std::vector<std::size_t> cells;
+  std::vector<double>      means;
+  double                   level = 0.0;
+  for (std::size_t cell = 0; cell < m_Cells; ++cell)
+  {
+    double sum = 0.0;
+    for (std::size_t t = 0; t < m_Frames; ++t)
+    {
+      sum += m_Means[t * m_Cells + cell];
+    }
+    if (std::isfinite(sum))
+    {
+      cells.push_back(cell);
+      means.push_back(sum / static_cast<double>(m_Frames));
+      level += means.back();
+    }
+  }
+  if (m_Frames < MinimumFrames || cells.size() < InMoments.fewestThumbnailCells)
+  {
+    return {};
+  }
+  level = std::abs(level / static_cast<double>(cells.size()));
+  std::vector<double> changed;
+  std::vector<double> shares;
+  std::vector<double> frame(cells.size());
+  for (std::size_t t = 0; t < m_Frames; ++t)
+  {
+    std::transform(
+      cells.begin(), cells.end(), frame.begin(), [&](std::size_t cell) { return m_Means[t * m_Cells + cell]; });
+    const FrameVariances variances = VariancesOf(means, frame);
+    changed.push_back(std::max(0.0, variances.changed - m_Noise[t]));
+    shares.push_back(variances.whole > 0.0 ? std::min(1.0, changed.back() / variances.whole) : 0.0);
+  }
+  return { Quantile(shares, 0.5), level > 0.0 ? std::sqrt(Quantile(changed, 0.5)) / level : 0.0 };
+}
+
+template void
+FrameThumbnails::AddFrames(const unsigned char *, std::size_t, std::size_t, const ParallelFor &);
+template void
+FrameThumbnails::AddFrames(const unsigned short *, std::size_t, std::size_t, const ParallelFor &);
+template void
+FrameThumbnails::AddFrames(const short *, std::size_t, std::size_t, const ParallelFor &);
+template void
+FrameThumbnails::AddFrames(const float *, std::size_t, std::size_t, const ParallelFor &);
+template void
+FrameThumbnails::AddFrames(const double *, std::size_t, std::size_t, const ParallelFor &);
+
+} // namespace sensornoise

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_moments_FrameThumbnails_h
+#define sensornoise_moments_FrameThumbnails_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/Parallel.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <istream>
+#include <ostream>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** How much of what frames show differs from frame to frame, without flicker and noise: by the median cell, as if the
+ * differences were normal, so that things which cross a smaller part count little; medians over the frames. */
+struct SceneChange
+{
+  double share{ 0.0 };      ///< of the variance over the cells of a frame, at most 1 [1]
+  double ofTheLevel{ 0.0 }; ///< root of that variance over the mean level of the frames [1]
+
+  /** Whether the frames show one scene no more, or never did. */
+  bool
+  IsLarge() const;
+};
+
+/** \class FrameThumbnails
+ * \brief The means of each frame over up to 16 x 16 cells: whether all frames show one scene.
+ *
+ * Of a static scene the cells of a frame follow those of the mean frame, up to flicker, a level, noise, and light that
+ * is not the same everywhere. Where another axis was taken for time, or the scene changes, or the camera moves by many
+ * pixels, they do not. Two rows of each cell are looked at. */
+class SensorNoise_EXPORT FrameThumbnails
+{
+public:
+  /** \a mask, if not empty, has a nonzero value at the pixels to be used. */
+  FrameThumbnails(const FrameGeometry & geometry, std::size_t frames, const std::vector<std::uint8_t> & mask);
+
+  /** Adds frames first ... first + count - 1, stored one after the other. */
+  template <typename TPixel>
+  void
+  AddFrames(const TPixel * frames, std::size_t first, std::size_t count, const ParallelFor & parallelFor);
+
+  void
+  Save(std::ostream & out) const;
+  /** What Save() wrote of other frames. Throws std::runtime_error if the stream ends early. */
+  FrameThumbnails
+  ReadOther(std::istream & in) const;
+  /** Adds frames that were not added here. */
+  void
+  Merge(const FrameThumbnails & other);
+
+  /** When all frames have been added. Nothing changes where fewer than 5 frames or 9 cells tell. */
+  SceneChange
+  FindChange() const;
+
+private:
+  /** A part of a row of a cell. */
+  struct Run
+  {
+    std::size_t cell;
+    std::size_t begin; ///< pixels of a frame
+    std::size_t end;
+  };
+
+  std::size_t               m_Pixels;
+  std::size_t               m_Frames;
+  std::size_t               m_Cells;
+  std::vector<Run>          m_Runs;
+  std::vector<std::uint8_t> m_Mask;
+  std::vector<double>       m_Means; // of the cells, frame by frame [DN]; NaN: nothing finite
+  std::vector<double>       m_Noise; // of these means, the mean over the cells [DN^2]
+};
+
+extern template SensorNoise_EXPORT void
+FrameThumbnails::AddFrames(const unsigned char *, std::size_t, std::size_t, const ParallelFor &);
+extern template SensorNoise_EXPORT void
+FrameThumbnails::AddFrames(const unsigned short *, std::size_t, std::size_t, const ParallelFor &);
+extern template SensorNoise_EXPORT void
+FrameThumbnails::AddFrames(const short *, std::size_t, std::size_t, const ParallelFor &);
+extern template SensorNoise_EXPORT void
+FrameThumbnails::AddFrames(const float *, std::size_t, std::size_t, const ParallelFor &);
+extern template SensorNoise_EXPORT void
+FrameThumbnails::AddFrames(const double *, std::size_t, std::size_t, const ParallelFor &);
+
+} // namespace sensornoise
+
+#endif

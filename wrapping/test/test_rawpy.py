@@ -1,0 +1,116 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Raw files of cameras through rawpy: codes as they are, and what the file says of the camera."""
+
+import struct
+
+import itk
+import itk_sensornoise
+import pytest
+
+pytest.importorskip("rawpy")
+
+BYTE, ASCII, SHORT, LONG, RATIONAL, SRATIONAL = 1, 2, 3, 4, 5, 10
+SIZES = {BYTE: 1, ASCII: 1, SHORT: 2, LONG: 4, RATIONAL: 8, SRATIONAL: 8}
+FORMATS = {BYTE: "B", SHORT: "H", LONG: "I", RATIONAL: "I", SRATIONAL: "i"}
+
+
+def write_dng(name, codes, cfa=(0, 1, 1, 2), black=100, white=4095):
+    """An uncompressed DNG of 16 bits. `cfa`: 0 red, 1 green, 2 blue."""
+    height, width = codes.shape
+    tags = [
+        (254, LONG, [0]),
+        (256, LONG, [width]),
+        (257, LONG, [height]),
+        (258, SHORT, [16]),
+        (259, SHORT, [1]),
+        (262, SHORT, [32803]),
+        (271, ASCII, b"Maker\0"),
+        (272, ASCII, b"Model 5\0"),
+        (273, LONG, [8]),
+        (274, SHORT, [1]),
+        (277, SHORT, [1]),
+        (278, LONG, [height]),
+        (279, LONG, [codes.nbytes]),
+        (33421, SHORT, [2, 2]),
+        (33422, BYTE, list(cfa)),
+        (34665, LONG, [0]),
+        (50706, BYTE, [1, 4, 0, 0]),
+        (50708, ASCII, b"Maker Model 5\0"),
+        (50714, LONG, [black]),
+        (50717, LONG, [white]),
+        (50721, SRATIONAL, [1, 1, 0, 1, 0, 1, 0, 1, 1, 1, 0, 1, 0, 1, 0, 1, 1, 1]),
+        (50778, SHORT, [21]),
+    ]
+    exif = [(33434, RATIONAL, [1, 50]), (34855, SHORT, [400])]
+    start = 8 + codes.nbytes
+    after = start + len(directory(tags, start))
+    tags = [(tag, kind, [after] if tag == 34665 else values) for tag, kind, values in tags]
+    head = b"II*\0" + struct.pack("<I", start)
+    name.write_bytes(head + codes.astype("<u2").tobytes() + directory(tags, start) + directory(exif, after))
+
+
+def directory(tags, start):
+    """A directory of a TIFF that stands at `start`, with its values behind it."""
+    entries, extra = b"", b""
+    for tag, kind, values in tags:
+        data = values if kind == ASCII else struct.pack(f"<{len(values)}{FORMATS[kind]}", *values)
+        count = len(data) // SIZES[kind]
+        if len(data) > 4:
+            at = start + 2 + 12 * len(tags) + 4 + len(extra)
+            extra += data + b"\0" * (len(data) % 2)
+            data = struct.pack("<I", at)
+        entries += struct.pack("<HHI", tag, kind, count) + data.ljust(4, b"\0")
+    return struct.pack("<H", len(tags)) + entries + b"\0\0\0\0" + extra
+
+
+@pytest.fixture
+def names(burst, tmp_path):
+    names = [tmp_path / f"a{number}.dng" for number in range(12)]
+    for name, codes in zip(names, burst, strict=False):
+        write_dng(name, codes)
+    return names
+
+
+def test_codes_are_those_of_the_file(burst, names):
+    expected = itk.estimate_sensor_noise(burst[:12])
+    assert itk.estimate_sensor_noise(names) == expected
+    assert itk.estimate_sensor_noise(f"{names[0].parent}/*.dng") == expected
+    assert itk.estimate_sensor_noise(names, frame_range=(2, 9)) == itk.estimate_sensor_noise(
+        burst[:12], frame_range=(2, 9)
+    )
+
+
+@pytest.mark.parametrize("pattern", ["RGGB", "GRBG", "GBRG", "BGGR"])
+def test_metadata_are_what_the_file_says(burst, tmp_path, pattern):
+    write_dng(tmp_path / "a.dng", burst[0], cfa=["RGB".index(letter) for letter in pattern], black=128, white=4000)
+    assert itk_sensornoise.raw_metadata(tmp_path / "a.dng") == {
+        "bayer": pattern,
+        "black_level": 128.0,
+        "black_levels": [128.0] * 4,
+        "white_level": 4000.0,
+        "iso_speed": 400.0,
+        "exposure_seconds": pytest.approx(0.02),
+        "camera": "Maker Model 5",
+    }
+
+
+def refused(names):
+    with pytest.raises(ValueError) as error:
+        itk.estimate_sensor_noise(names)
+    assert "\n" not in str(error.value)
+    return str(error.value)
+
+
+def test_what_is_no_raw_file_is_refused_by_name(names, burst):
+    write_dng(names[3], burst[0][:, :-2])
+    assert refused(names).startswith(f"{names[3]}: 126 x 96 pixels of type uint16, but {names[0]} has 128 x 96")
+    names[3].write_bytes(b"no raw file")
+    assert refused(names).startswith(f"{names[3]}: rawpy cannot read it (")
+    names[3].unlink()
+    assert refused(names) == f"{names[3]}: does not exist"
+
+
+def test_truncated_raw_file_is_refused(names):
+    names[3].write_bytes(names[3].read_bytes()[:3000])
+    assert refused(names).startswith(f"{names[3]}: ")
