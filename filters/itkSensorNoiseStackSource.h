@@ -208,7 +208,7 @@ public:
     return m_Flaws.filters.pattern ? sensornoise::NameOf(*m_Flaws.filters.pattern) : "none";
   }
 
-  /** What the filters let through of the scene's electrons [1], 0 to 1. Defaults 0.5, 1, 0.6. */
+  /** What the filters let through of the scene's electrons [1], 0 to 1. Defaults 0.6, 1, 0.5. */
   itkSensorFlawMacro(TransmissionR, double, filters.transmissionR);
   itkSensorFlawMacro(TransmissionG, double, filters.transmissionG);
   itkSensorFlawMacro(TransmissionB, double, filters.transmissionB);

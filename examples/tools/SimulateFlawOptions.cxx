@@ -30,7 +30,7 @@ SimulateFlawOptions::AddTo(CLI::App & app)
     ->group(SensorGroup);
   app
     .add_option(
-      "--transmission", transmission, "R,G,B: what each filter lets through of the scene's electrons; 0.5,1,0.6")
+      "--transmission", transmission, "R,G,B: what each filter lets through of the scene's electrons; 0.6,1,0.5")
     ->delimiter(',')
     ->expected(3)
     ->default_str("")

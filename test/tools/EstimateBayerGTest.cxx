@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "helpers/EstimateToolTestHelper.h"
 
+#include <cstddef>
 #include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <string>
 
@@ -86,8 +88,10 @@ TEST_F(EstimateBayerTool, RegionShiftsThePattern)
 TEST_F(EstimateBayerTool, PatternIsTheFilesIfItHasOne)
 {
   // Frames without a header, of a type whose name has the pattern: what the levels say, GRBG, is not asked.
-  Mosaic("m.mhd");
-  ASSERT_TRUE(std::filesystem::exists(Path("m.raw")));
+  const std::string file = ReadText(Path(Mosaic("m.mha")));
+  const std::size_t bytes = std::size_t{ 128 } * 96 * 40 * 2;
+  ASSERT_GT(file.size(), bytes);
+  std::ofstream(Path("m.raw"), std::ios::binary) << file.substr(file.size() - bytes);
   const auto record = ReportOf("--raw 128x96:SGBRG12 m.raw");
   EXPECT_EQ(record["bayer"]["pattern"], "GBRG");
   EXPECT_EQ(record["bayer"]["source"], "file");

@@ -18,9 +18,9 @@ namespace sensornoise
 struct ColourFilterSettings
 {
   std::optional<BayerPattern> pattern;              ///< null: no filters
-  double                      transmissionR{ 0.5 }; ///< [1], 0 to 1, under the light of the scene
+  double                      transmissionR{ 0.6 }; ///< [1], 0 to 1, under the light of the scene
   double                      transmissionG{ 1.0 }; ///< of both greens
-  double                      transmissionB{ 0.6 };
+  double                      transmissionB{ 0.5 };
 };
 
 /** \throws std::invalid_argument if a transmission is not from 0 to 1. */
