@@ -62,7 +62,9 @@ TEST_F(RawCameraFile, UncompressedAndPackedCodesAreReadAsTheyAre)
         DngOf dng = DngOf::Sound(bits);
         dng.isBigEndian = isBigEndian;
         dng.isBelow = isBelow;
-        EXPECT_EQ(Read(IsSound(dng)), dng.codes) << bits << isBigEndian << isBelow;
+        const FrameFile file = IsSound(dng);
+        EXPECT_EQ(Read(file), dng.codes) << bits << isBigEndian << isBelow;
+        EXPECT_EQ(file.camera.blackLevelDn, 64.0) << bits << isBigEndian << isBelow;
       }
     }
   }
@@ -174,6 +176,9 @@ TEST_F(RawCameraFile, TruncatedAndOtherSizesAreRefused)
     dng.tags[273] = { 4, { 4000 } };
     IsRefused(dng, { "truncated: has" });
   }
+  DngOf moved = DngOf::Sound(16);
+  moved.tags[273] = { 4, { 60 } }; // into the directory
+  IsRefused(moved, { "holds pixels twice, or pixels and something else" });
   DngOf dng = DngOf::Sound(12);
   dng.isJpeg = true;
   dng.tags[257] = { 4, { dng.height + 1 } };

@@ -187,6 +187,8 @@ struct DngOf
       add(Chunk(codes, width, height));
     }
     pixels.append(pixels.size() % 2, '\0');
+    const std::size_t preview = 8 + pixels.size();
+    pixels += "colour"; // of two pixels
     const std::size_t exif = 8 + pixels.size();
     pixels += tiff.Directory(
       { { 33434, { 5, { isBigEndian ? (1ULL << 32) + 50 : 1 + (50ULL << 32) } } }, { 34855, { 3, { 400 } } } }, exif);
@@ -240,7 +242,7 @@ struct DngOf
                    { 258, { 3, { 8, 8, 8 } } },
                    { 259, { 3, { 1 } } },
                    { 262, { 3, { 2 } } },
-                   { 273, { 4, { 8 } } },
+                   { 273, { 4, { preview } } },
                    { 277, { 3, { 3 } } },
                    { 278, { 4, { 1 } } },
                    { 279, { 4, { 6 } } },

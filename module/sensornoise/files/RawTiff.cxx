@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/files/RawTiff.h"
 
+#include "sensornoise/files/ByteRanges.h"
 #include "sensornoise/files/FileError.h"
 #include "sensornoise/files/LosslessJpeg.h"
 #include "sensornoise/files/TiffDirectory.h"
 #include "sensornoise/files/TiffTags.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -230,6 +232,30 @@ private:
   std::uint64_t         m_Bits;
 };
 
+/** Throws where bytes would be read as pixels twice, or are those of a directory. */
+void
+RequireApart(const std::string & file, const std::vector<RawChunk> & chunks, const std::vector<TiffDirectory> & all)
+{
+  ByteRanges ranges;
+  bool       areFew = ranges.AddTable(0, 8);
+  for (const TiffDirectory & directory : all)
+  {
+    areFew = ranges.AddTable(directory.offset, directory.bytes) && areFew;
+  }
+  for (const RawChunk & chunk : chunks)
+  {
+    areFew = ranges.AddPixels(chunk.offset, chunk.bytes) && areFew;
+  }
+  const std::optional<std::uint64_t> twice = ranges.FirstConflict();
+  if (!areFew || twice)
+  {
+    throw FileError(file,
+                    areFew ? "damaged: its byte " + std::to_string(*twice) +
+                               " holds pixels twice, or pixels and something else; expected it once"
+                           : "its pixels are in too many pieces to be checked");
+  }
+}
+
 bool
 IsRawImage(const std::string & file, TiffBytes & tiff, const TiffDirectory & directory)
 {
@@ -274,6 +300,7 @@ RequireWholeRawTiff(const std::string & file, FileBytes & bytes, std::uint64_t w
         tiff.Number(file, directory, 257, "ImageLength") == height)
     {
       DngImage(file, tiff, directory).RequireWhole();
+      RequireApart(file, ChunksOf(file, tiff, directory), directories);
       isFound = true;
     }
     else if (!isDng)
