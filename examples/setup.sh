@@ -3,14 +3,14 @@
 # Functions of the start scripts (examples/quickstart.sh, test/run.sh): install what is missing, build. For sourcing.
 
 # Debian's or Ubuntu's packages; on other systems, the same by their own means. OpenCV's photo, 6 MB to download and 36 MB
-# on the disk with what it needs, is for denoising; without it the tool has ITK's denoiser.
+# on the disk with what it needs, is for denoising; without it the tool has ITK's denoiser. LibRaw is for raw files of cameras.
 sensornoise_packages=(g++ cmake ninja-build python3 libinsighttoolkit5-dev libgdcm-dev libfftw3-dev libtiff-dev
-  libcli11-dev nlohmann-json3-dev zlib1g-dev libgtest-dev libbenchmark-dev libopencv-photo-dev)
+  libcli11-dev nlohmann-json3-dev zlib1g-dev libgtest-dev libbenchmark-dev libopencv-photo-dev libraw-dev)
 
 sensornoise_install() {
   local missing=()
   if ! command -v dpkg-query >/dev/null; then
-    echo "not a Debian system: expecting ITK >= 5.2.1, CLI11, nlohmann-json, zlib, GoogleTest and Google Benchmark; OpenCV for denoising" >&2
+    echo "not a Debian system: expecting ITK >= 5.2.1, CLI11, nlohmann-json, zlib, GoogleTest and Google Benchmark; OpenCV for denoising, LibRaw for raw files of cameras" >&2
     return
   fi
   for package in "${sensornoise_packages[@]}"; do

@@ -66,15 +66,15 @@ ComponentOf(sensornoise::FramePixel pixel)
   }
 }
 
-/** Whether the file is of a format that this library reads itself, by its head and name. */
-bool
-MayBeOurs(const std::string & name)
+/** The file's format by its head and name, if this library reads it itself; null: it does not. */
+const sensornoise::FrameFormat *
+OurFormatOf(const std::string & name)
 {
   sensornoise::FileBytes bytes(name);
   std::string            head(512, '\0');
   head.resize(bytes.ReadSome(0, head.data(), head.size()));
   const sensornoise::FrameFormat * const format = sensornoise::FindFrameFormat(head, name);
-  return format != nullptr && format->imageIO == nullptr;
+  return format != nullptr && format->imageIO == nullptr ? format : nullptr;
 }
 } // namespace
 
@@ -83,7 +83,25 @@ SensorNoiseImageIO::SensorNoiseImageIO()
   this->SetNumberOfDimensions(3);
   this->SetNumberOfComponents(1);
   this->SetPixelType(IOPixelEnum::SCALAR);
-  for (const char * const ending : { ".ser", ".mraw", ".cihx", ".cih", ".tif", ".tiff" })
+  for (const char * const ending : { ".ser",
+                                     ".mraw",
+                                     ".cihx",
+                                     ".cih",
+                                     ".tif",
+                                     ".tiff",
+                                     ".dng",
+                                     ".cr2",
+                                     ".cr3",
+                                     ".nef",
+                                     ".nrw",
+                                     ".arw",
+                                     ".raf",
+                                     ".orf",
+                                     ".rw2",
+                                     ".pef",
+                                     ".srw",
+                                     ".3fr",
+                                     ".iiq" })
   {
     this->AddSupportedReadExtension(ending);
   }
@@ -129,9 +147,14 @@ SensorNoiseImageIO::CanReadFile(const char * name)
       this->Inspect(name);
       return true;
     }
-    if (!MayBeOurs(name))
+    const sensornoise::FrameFormat * const format = OurFormatOf(name);
+    if (format == nullptr)
     {
       return false;
+    }
+    if (format->name == std::string("camera raw"))
+    {
+      return true; // also one that cannot be read: ITK would take its preview for it
     }
     this->Inspect(name);
     return m_File.format->name != std::string("TIFF") || m_File.frames > 1;
@@ -149,7 +172,7 @@ SensorNoiseImageIO::ReadImageInformation()
   if (!m_File.reader)
   {
     itkExceptionMacro(<< m_File.name << ": of format " << m_File.format->name << ", which ITK's "
-                      << m_File.format->imageIO << " reads; expected SER, MRAW, TIFF or raw frames");
+                      << m_File.format->imageIO << " reads; expected camera raw, SER, MRAW, TIFF or raw frames");
   }
   const unsigned int dimensions = m_File.frames > 1 ? 3 : 2;
   this->SetNumberOfDimensions(dimensions);

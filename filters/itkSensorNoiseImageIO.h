@@ -30,7 +30,7 @@ namespace itk
 
 /** \class SensorNoiseImageIO
  * \brief Reads bursts that ITK has no reader for, or none that reads them in parts: SER, Photron's MRAW, stacks on
- * multi-page TIFF, and, if their layout is given, raw frames without a header.
+ * multi-page TIFF, raw files of cameras (with LibRaw), and, if their layout is given, raw frames without a header.
  *
  * Each file is checked whole before a pixel is read (sensornoise::InspectFrameFile()), so that a damaged one is an
  * error of one sentence. Codes stand as the sensor gave them: those of 10 and 12 bits that are packed in the file come
@@ -39,8 +39,9 @@ namespace itk
  * An image of several frames has three dimensions, the last of which is time; one frame has two. Frames are read whole,
  * no more of them than are asked for.
  *
- * CanReadFile() takes of TIFFs only those of several pages of one grey value a pixel; others are left to ITK. Nothing
- * is written.
+ * CanReadFile() takes of TIFFs only those of several pages of one grey value a pixel; others are left to ITK. Raw files
+ * of cameras it takes always, DNG among them, of which ITK's reader of TIFF would read the preview: what is wrong with
+ * one, or that this build has no LibRaw, is then an error. Nothing is written.
  * \ingroup SensorNoise
  */
 class SensorNoise_EXPORT SensorNoiseImageIO : public ImageIOBase

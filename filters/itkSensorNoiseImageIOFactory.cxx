@@ -30,7 +30,7 @@ SensorNoiseImageIOFactory::SensorNoiseImageIOFactory()
 {
   this->RegisterOverride("itkImageIOBase",
                          "itkSensorNoiseImageIO",
-                         "Bursts of frames: SER, MRAW, multi-page TIFF",
+                         "Bursts of frames: raw files of cameras, SER, MRAW, multi-page TIFF",
                          true,
                          CreateObjectFunction<SensorNoiseImageIO>::New());
 }
@@ -44,7 +44,7 @@ SensorNoiseImageIOFactory::GetITKSourceVersion() const
 const char *
 SensorNoiseImageIOFactory::GetDescription() const
 {
-  return "Reads bursts of frames: SER, MRAW, multi-page TIFF in parts";
+  return "Reads bursts of frames: raw files of cameras, SER, MRAW, multi-page TIFF in parts";
 }
 
 void

@@ -56,6 +56,8 @@ SetCameraSettings(itk::MetaDataDictionary & dictionary, const CameraSettings & c
   SetNumber(dictionary, MetaDataKeys::WhiteLevel, camera.whiteLevelDn);
   SetNumber(dictionary, MetaDataKeys::IsoSpeed, camera.isoSpeed);
   SetNumber(dictionary, MetaDataKeys::ExposureSeconds, camera.exposureSeconds);
+  SetNumber(dictionary, MetaDataKeys::OpticalBlack, camera.opticalBlackDn);
+  SetNumber(dictionary, MetaDataKeys::OpticalBlackError, camera.opticalBlackErrorDn);
   SetEntry(dictionary, MetaDataKeys::Camera, camera.camera, !camera.camera.empty());
 }
 
@@ -69,6 +71,8 @@ CameraSettingsOf(const itk::MetaDataDictionary & dictionary)
   itk::ExposeMetaData(dictionary, MetaDataKeys::WhiteLevel, camera.whiteLevelDn);
   itk::ExposeMetaData(dictionary, MetaDataKeys::IsoSpeed, camera.isoSpeed);
   itk::ExposeMetaData(dictionary, MetaDataKeys::ExposureSeconds, camera.exposureSeconds);
+  itk::ExposeMetaData(dictionary, MetaDataKeys::OpticalBlack, camera.opticalBlackDn);
+  itk::ExposeMetaData(dictionary, MetaDataKeys::OpticalBlackError, camera.opticalBlackErrorDn);
   itk::ExposeMetaData(dictionary, MetaDataKeys::Camera, camera.camera);
   return camera;
 }

@@ -28,13 +28,15 @@ namespace sensornoise
 /** Under which keys a MetaDataDictionary has the CameraSettings; what is not known has none. */
 namespace MetaDataKeys
 {
-constexpr const char * BayerPattern = "SensorNoise.BayerPattern";       ///< std::string
-constexpr const char * BitDepth = "SensorNoise.BitDepth";               ///< unsigned int [bit]
-constexpr const char * BlackLevel = "SensorNoise.BlackLevel";           ///< double [DN]
-constexpr const char * WhiteLevel = "SensorNoise.WhiteLevel";           ///< double [DN]
-constexpr const char * IsoSpeed = "SensorNoise.IsoSpeed";               ///< double [1]
-constexpr const char * ExposureSeconds = "SensorNoise.ExposureSeconds"; ///< double [s]
-constexpr const char * Camera = "SensorNoise.Camera";                   ///< std::string
+constexpr const char * BayerPattern = "SensorNoise.BayerPattern";           ///< std::string
+constexpr const char * BitDepth = "SensorNoise.BitDepth";                   ///< unsigned int [bit]
+constexpr const char * BlackLevel = "SensorNoise.BlackLevel";               ///< double [DN]
+constexpr const char * WhiteLevel = "SensorNoise.WhiteLevel";               ///< double [DN]
+constexpr const char * IsoSpeed = "SensorNoise.IsoSpeed";                   ///< double [1]
+constexpr const char * ExposureSeconds = "SensorNoise.ExposureSeconds";     ///< double [s]
+constexpr const char * OpticalBlack = "SensorNoise.OpticalBlack";           ///< double [DN]
+constexpr const char * OpticalBlackError = "SensorNoise.OpticalBlackError"; ///< double [DN]
+constexpr const char * Camera = "SensorNoise.Camera";                       ///< std::string
 } // namespace MetaDataKeys
 
 /** Replaces what \a dictionary says of the camera by \a camera. Its other entries stay. */

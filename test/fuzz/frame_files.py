@@ -303,6 +303,65 @@ def raws(frames: list[bytes]) -> list[Case]:
     ]
 
 
+def _lossless_jpeg(codes: list[int], bits: int) -> bytes:
+    """ITU-T T.81, Annex H: each code by its left neighbour, lengths of differences as codes of 5 bits."""
+
+    def segment(marker: int, content: bytes) -> bytes:
+        return struct.pack(">BBH", 0xFF, marker, len(content) + 2) + content
+
+    number = "".join(_difference(codes, i, bits) for i in range(len(codes)))
+    number += "1" * (-len(number) % 8)
+    pixels = int(number, 2).to_bytes(len(number) // 8, "big").replace(b"\xff", b"\xff\0")
+    table = bytes([0] * 5 + [17] + [0] * 11) + bytes(range(17))
+    size = struct.pack(">BHHBBBB", bits, HEIGHT, WIDTH, 1, 0, 0x11, 0)
+    scan = segment(0xDA, bytes([1, 0, 0, 1, 0, 0]))
+    return b"\xff\xd8" + segment(0xC4, table) + segment(0xC3, size) + scan + pixels + b"\xff\xd9"
+
+
+def _difference(codes: list[int], i: int, bits: int) -> str:
+    first = 1 << bits - 1 if i < WIDTH else codes[i - WIDTH]
+    value = codes[i] - (codes[i - 1] if i % WIDTH else first)
+    length = abs(value).bit_length()
+    low = value if value >= 0 else value + (1 << length) - 1
+    return f"{length:05b}" + (f"{low:0{length}b}" if length else "")
+
+
+def _dng(name: str, frame: bytes, bits: int, jpeg: bool = False) -> File:
+    """One strip before the directory."""
+    codes = _codes([frame], bits)
+    if jpeg:
+        pixels = _lossless_jpeg(codes, bits)
+    elif bits == 16:
+        pixels = frame
+    else:
+        pixels = b"".join(_highest_first(codes[y : y + WIDTH], bits) for y in range(0, len(codes), WIDTH))
+    texts = b"Maker\0Model 1\0"
+    made = _parts(name, ("header", b""), ("raw", pixels))
+    made.raw = [(8, 8 + len(pixels))]
+    end = 8 + len(pixels) + len(texts)
+    made.data = struct.pack("<2sHI", b"II", 42, end) + pixels + texts
+    entries = [(254, 4, 1, 0), (256, 4, 1, WIDTH), (257, 4, 1, HEIGHT), (258, 3, 1, bits), (259, 3, 1, 7 if jpeg else 1)]
+    entries += [(262, 3, 1, 32803), (271, 2, 6, 8 + len(pixels)), (272, 2, 8, 14 + len(pixels)), (273, 4, 1, 8)]
+    entries += [(277, 3, 1, 1), (278, 4, 1, HEIGHT), (279, 4, 1, len(pixels)), (33421, 3, 2, 0x20002)]
+    entries += [(33422, 1, 4, 0x02010100), (50706, 1, 4, 0x401), (50714, 4, 1, 0), (50717, 4, 1, (1 << bits) - 1)]
+    made.data += struct.pack("<H", len(entries)) + b"".join(struct.pack("<HHII", *entry) for entry in entries)
+    made.data += struct.pack("<I", 0)
+    return made
+
+
+def dngs(frames: list[bytes]) -> list[Case]:
+    """Raw files of a camera: 16 bits, packed, JPEG without loss."""
+    names = [f"f{t}.dng" for t in range(len(frames))]
+    return [
+        Case(
+            f"dng {bits}{' jpeg' * jpeg}",
+            [_dng(name, frame, bits, jpeg) for name, frame in zip(names, frames, strict=True)],
+            names,
+        )
+        for bits, jpeg in ((16, False), (14, False), (12, False), (12, True))
+    ]
+
+
 def others(frames: list[bytes]) -> list[Case]:
     """Formats without a check of their own."""
     pixels = b"".join(frames)
@@ -328,6 +387,6 @@ def others(frames: list[bytes]) -> list[Case]:
 def all_cases(frames: list[bytes]) -> list[Case]:
     """Every format, of the same frames: bytes of little-endian unsigned 16-bit pixels."""
     made: list[Case] = []
-    for make in (meta_images, nrrds, tiffs, pngs, sers, mraws, raws, others):
+    for make in (meta_images, nrrds, tiffs, pngs, sers, mraws, raws, dngs, others):
         made += make(frames)
     return made

@@ -20,6 +20,8 @@ struct CameraSettings
   double       whiteLevelDn{ std::numeric_limits<double>::quiet_NaN() }; ///< level at which the sensor saturates
   double       isoSpeed{ std::numeric_limits<double>::quiet_NaN() };     ///< [1]
   double       exposureSeconds{ std::numeric_limits<double>::quiet_NaN() };
+  double       opticalBlackDn{ std::numeric_limits<double>::quiet_NaN() };      ///< mean of the frame's masked pixels
+  double       opticalBlackErrorDn{ std::numeric_limits<double>::quiet_NaN() }; ///< its standard error, rows apart
 };
 
 } // namespace sensornoise

@@ -6,6 +6,7 @@
 #include "sensornoise/files/MrawFile.h"
 #include "sensornoise/files/NrrdFile.h"
 #include "sensornoise/files/PngFile.h"
+#include "sensornoise/files/RawCameraFile.h"
 #include "sensornoise/files/SerFile.h"
 #include "sensornoise/files/TiffFile.h"
 
@@ -19,6 +20,8 @@ const std::vector<FrameFormat> &
 FrameFormats()
 {
   static const std::vector<FrameFormat> formats{
+    // before TIFF, as which most raw files begin
+    { "camera raw", nullptr, nullptr, IsHeadOfRawCamera, InspectRawCamera },
     { "TIFF", nullptr, nullptr, IsHeadOfTiff, InspectTiff },
     { "PNG", "PNGImageIO", "ITKIOPNG", IsHeadOfPng, InspectPng },
     { "MetaImage", "MetaImageIO", "ITKIOMeta", IsHeadOfMetaImage, InspectMetaImage },
