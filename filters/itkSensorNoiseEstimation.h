@@ -61,9 +61,9 @@ struct SensorNoiseEstimation
   std::optional<SensorNoiseMosaic>                                 mosaic{};
   std::vector<DarkMapsPointer> dark{}; ///< of each plane; null: fewer than two frames
 
-  /** Of the stack, or of each of its channels; \a selection is noted in each. */
+  /** Of the stack, or of each of its channels; \a selection, and what is known of the \a camera, are noted in each. */
   std::variant<sensornoise::Report, sensornoise::ChannelReports>
-  GetReport(const sensornoise::StackSelection & selection) const
+  GetReport(const sensornoise::StackSelection & selection, const sensornoise::CameraSettings & camera) const
   {
     using Result = std::variant<sensornoise::Report, sensornoise::ChannelReports>;
     return std::visit(
@@ -73,6 +73,7 @@ struct SensorNoiseEstimation
         {
           sensornoise::Report report = atWork.GetReport();
           sensornoise::NoteSelection(report, selection);
+          report.camera = camera;
           return report;
         }
         else
@@ -81,6 +82,7 @@ struct SensorNoiseEstimation
           for (sensornoise::Report & report : reports)
           {
             sensornoise::NoteSelection(report, selection);
+            report.camera = camera;
           }
           return sensornoise::MakeChannelReports(mosaic->geometry.pattern, mosaic->source, std::move(reports));
         }

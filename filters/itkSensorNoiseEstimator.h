@@ -213,11 +213,13 @@ public:
   itkSetMacro(ShutterAxis, unsigned int);
   itkGetConstMacro(ShutterAxis, unsigned int);
 
-  /** Bits of the sensor's codes, 1 to 16; 0 (default): found. Data beyond them are refused. */
+  /** Bits of the sensor's codes, 1 to 16; 0 (default): as the input's metadata say (sensornoise::MetaDataKeys), else
+   * found. Data beyond them are refused. */
   itkSetMacro(BitDepth, unsigned int);
   itkGetConstMacro(BitDepth, unsigned int);
 
-  /** Lowest and highest level that the sensor attains [DN]; NaN (default): found. */
+  /** Lowest and highest level that the sensor attains [DN]; NaN (default): the highest as the input's metadata say,
+   * else found. */
   itkSetMacro(ClipLow, double);
   itkGetConstMacro(ClipLow, double);
   itkSetMacro(ClipHigh, double);
@@ -475,6 +477,11 @@ private:
   HasLevelRange() const;
   sensornoise::PublishedSettings
   MakePublishedSettings() const;
+  /** What the input's metadata say, and what follows from it where nothing else was set. */
+  sensornoise::CameraSettings
+  GetCamera() const;
+  sensornoise::CodeSettings
+  MakeCodeSettings() const;
   sensornoise::RefinedSettings
   MakeRefinedSettings() const;
   void

@@ -347,8 +347,26 @@ SensorNoiseEstimator<TStack>::MakePublishedSettings() const
   settings.rollingShutter = m_RollingShutter;
   settings.sigmaRows = m_SigmaRows;
   settings.shutterAxis = m_ShutterAxis;
-  settings.codes = sensornoise::MakeCodeSettings(m_BitDepth, m_ClipLow, m_ClipHigh, m_QuantisationStep);
+  settings.codes = this->MakeCodeSettings();
   return settings;
+}
+
+template <typename TStack>
+sensornoise::CameraSettings
+SensorNoiseEstimator<TStack>::GetCamera() const
+{
+  return sensornoise::CameraSettingsOf(this->GetInput()->GetMetaDataDictionary());
+}
+
+template <typename TStack>
+sensornoise::CodeSettings
+SensorNoiseEstimator<TStack>::MakeCodeSettings() const
+{
+  const sensornoise::CameraSettings camera = this->GetCamera();
+  return sensornoise::MakeCodeSettings(m_BitDepth > 0 ? m_BitDepth : camera.bitDepth,
+                                       m_ClipLow,
+                                       std::isnan(m_ClipHigh) ? camera.whiteLevelDn : m_ClipHigh,
+                                       m_QuantisationStep);
 }
 
 template <typename TStack>
@@ -357,7 +375,7 @@ SensorNoiseEstimator<TStack>::MakeRefinedSettings() const
 {
   sensornoise::RefinedSettings settings;
   settings.rollingShutter = m_RollingShutter;
-  settings.codes = sensornoise::MakeCodeSettings(m_BitDepth, m_ClipLow, m_ClipHigh, m_QuantisationStep);
+  settings.codes = this->MakeCodeSettings();
   if (this->HasLevelRange())
   {
     settings.levelRangeDn = sensornoise::LevelRange{ m_LevelRangeLow, m_LevelRangeHigh };
@@ -416,7 +434,7 @@ SensorNoiseEstimator<TStack>::FindMosaic()
     return SensorNoiseMosaic{ { frame, sensornoise::BayerPatternOf(m_BayerPattern) }, BayerSource::Given };
   }
   auto * const      stack = const_cast<TStack *>(this->GetInput());
-  const std::string inFile = sensornoise::CameraSettingsOf(stack->GetMetaDataDictionary()).bayerPattern;
+  const std::string inFile = this->GetCamera().bayerPattern;
   if (!inFile.empty())
   {
     const auto pattern = WithItkErrors(this, [&inFile] { return sensornoise::BayerPatternOf(inFile); });
@@ -530,7 +548,7 @@ SensorNoiseEstimator<TStack>::FillOutputs()
       std::copy(values.begin(), values.end(), image->GetBufferPointer());
     }
   };
-  auto report = m_Estimation->GetReport(m_Source);
+  auto report = m_Estimation->GetReport(m_Source, this->GetCamera());
   if (auto * const channels = std::get_if<sensornoise::ChannelReports>(&report))
   {
     this->GetChannelReportsOutput()->Set(std::move(*channels));

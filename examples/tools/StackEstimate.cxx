@@ -130,9 +130,9 @@ SetPattern(const EstimateOptions &             options,
   const bool isName = options.bayer != "none" && options.bayer != "auto";
   estimator.SetBayerPattern(isName ? cutPattern(options.bayer) : options.bayer);
   CameraSettings camera = CameraSettingsOf(whole.GetMetaDataDictionary());
-  if (&whole != &cut && !camera.bayerPattern.empty())
+  if (&whole != &cut)
   {
-    camera.bayerPattern = cutPattern(camera.bayerPattern);
+    camera.bayerPattern = camera.bayerPattern.empty() ? "" : cutPattern(camera.bayerPattern);
     SetCameraSettings(cut.GetMetaDataDictionary(), camera);
   }
 }

@@ -36,7 +36,7 @@ constexpr std::size_t  Height = 1040;
 constexpr std::size_t  Frames = 100;
 
 StackType::Pointer
-GetStack(double rollingShutterPeriod)
+GetStack(double rollingShutterPeriod, const char * bayer = "none")
 {
   auto                                  reference = itk::Image<double, 2>::New();
   const itk::Image<double, 2>::SizeType size{ { Width, Height } };
@@ -50,6 +50,7 @@ GetStack(double rollingShutterPeriod)
   source->SetConditions(3);
   source->SetNumberOfFrames(Frames);
   source->SetRollingShutterPeriod(rollingShutterPeriod);
+  source->SetBayerPattern(bayer);
   source->Update();
   StackType::Pointer stack = source->GetOutput();
   stack->DisconnectPipeline();
@@ -151,6 +152,34 @@ Estimate(benchmark::State & state, const char * method)
   });
 }
 
+double
+SecondsToEstimate(const StackType * stack, const char * method, const char * bayer)
+{
+  auto estimator = itk::SensorNoiseEstimator<StackType>::New();
+  estimator->SetInput(stack);
+  estimator->SetMethod(method);
+  estimator->SetBayerPattern(bayer);
+  estimator->SetNumberOfWorkUnits(Threads);
+  return SecondsOf([&] { estimator->Update(); });
+}
+
+/** The four channels of a mosaic, each time after the estimate of a monochrome stack of the same size. */
+void
+Mosaic(benchmark::State & state, const char * method)
+{
+  const auto          mosaic = GetStack(0.0, "RGGB");
+  const auto          mono = GetStack(0.0);
+  std::vector<double> monos;
+  for (auto _ : state)
+  {
+    const double ofMono = SecondsToEstimate(mono, method, "none");
+    const double seconds = SecondsToEstimate(mosaic, method, "RGGB");
+    state.SetIterationTime(seconds);
+    monos.push_back(seconds / ofMono);
+  }
+  state.counters["monos"] = MedianOf(monos);
+}
+
 using RealStackType = itk::Image<float, 3>;
 
 /** A filter's run over \a input, with its output made anew. */
@@ -224,6 +253,8 @@ BENCHMARK_CAPTURE(Estimate, Refined, "refined")
   ->UseManualTime()
   ->Iterations(5)
   ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Mosaic, Published, "published")->UseManualTime()->Iterations(5)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Mosaic, Refined, "refined")->UseManualTime()->Iterations(5)->Unit(benchmark::kMillisecond);
 } // namespace
 
 int

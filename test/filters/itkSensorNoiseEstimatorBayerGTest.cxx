@@ -126,7 +126,7 @@ TEST(SensorNoiseEstimatorBayer, AutoGoesByTheLevels)
 
 TEST(SensorNoiseEstimatorBayer, AutoGoesByTheFileFirst)
 {
-  const auto stack = MakeMosaicStack();
+  const auto                  stack = MakeMosaicStack();
   sensornoise::CameraSettings camera;
   camera.bayerPattern = "GBRG"; // the levels say GRBG
   sensornoise::SetCameraSettings(stack->GetMetaDataDictionary(), camera);

@@ -3,6 +3,7 @@
 #ifndef sensornoise_files_CameraSettings_h
 #define sensornoise_files_CameraSettings_h
 
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -22,6 +23,15 @@ struct CameraSettings
   double       exposureSeconds{ std::numeric_limits<double>::quiet_NaN() };
   double       opticalBlackDn{ std::numeric_limits<double>::quiet_NaN() };      ///< mean of the frame's masked pixels
   double       opticalBlackErrorDn{ std::numeric_limits<double>::quiet_NaN() }; ///< its standard error, rows apart
+
+  /** Whether a file says anything. */
+  bool
+  IsKnown() const
+  {
+    return !camera.empty() || !bayerPattern.empty() || bitDepth > 0 || std::isfinite(blackLevelDn) ||
+           std::isfinite(whiteLevelDn) || std::isfinite(isoSpeed) || std::isfinite(exposureSeconds) ||
+           std::isfinite(opticalBlackDn);
+  }
 };
 
 } // namespace sensornoise

@@ -3,6 +3,7 @@
 #ifndef sensornoise_report_Report_h
 #define sensornoise_report_Report_h
 #include "sensornoise/base/WarningCodes.h"
+#include "sensornoise/files/CameraSettings.h"
 
 #include <array>
 #include <cstddef>
@@ -102,6 +103,7 @@ struct Report
   std::size_t           width{ 0 };
   std::size_t           height{ 0 };
   std::string           channel{ "mono" };
+  CameraSettings        camera; ///< what the frames' file says of it
   std::optional<int>    bitDepth;
   std::string           bitDepthSource{ "none" };
   std::optional<double> quantisationStepDn; ///< null: the data have no codes

@@ -126,6 +126,26 @@ WriteBaseline(JsonWriter & json, const char * name, const std::optional<Report::
   });
 }
 
+/** What the frames' file says of the camera, if anything; numbers that it does not say are null. */
+void
+WriteCamera(JsonWriter & json, const CameraSettings & camera)
+{
+  if (!camera.IsKnown())
+  {
+    return;
+  }
+  const auto text = [](const std::string & said) {
+    return said.empty() ? std::nullopt : std::optional<std::string>(said);
+  };
+  json.ObjectMember("camera", [&] {
+    json.Member("name", text(camera.camera)).Member("bayer_pattern", text(camera.bayerPattern));
+    json.Member("bit_depth", camera.bitDepth > 0 ? std::optional<unsigned int>(camera.bitDepth) : std::nullopt);
+    json.Member("black_level", camera.blackLevelDn).Member("white_level", camera.whiteLevelDn);
+    json.Member("masked_level", camera.opticalBlackDn).Member("masked_level_error", camera.opticalBlackErrorDn);
+    json.Member("iso_speed", camera.isoSpeed).Member("exposure_seconds", camera.exposureSeconds);
+  });
+}
+
 /** The stack itself and its pixels. */
 void
 WriteStack(JsonWriter & json, const Report & report)
@@ -133,6 +153,7 @@ WriteStack(JsonWriter & json, const Report & report)
   json.Member("frames", report.frames).Member("frames_distinct", report.framesDistinct);
   json.Member("width", report.width).Member("height", report.height);
   json.Member("channel", report.channel);
+  WriteCamera(json, report.camera);
   json.Member("bit_depth", report.bitDepth).Member("bit_depth_source", report.bitDepthSource);
   json.Member("quantisation_step", report.quantisationStepDn);
   json.Member("clip_low", report.clipLowDn).Member("clip_high", report.clipHighDn);

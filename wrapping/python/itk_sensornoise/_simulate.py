@@ -135,8 +135,8 @@ def simulate_sensor_noise(
     clip
         Levels (low, high) between which the sensor itself is limited [DN]. Default: none.
     bayer, transmission
-        Mosaic of colour filters by its pattern, and what its filters (R, G, B) let through of the scene's electrons [1].
-        Default: no filters; (0.6, 1, 0.5).
+        Mosaic of colour filters by its pattern, and what its filters (R, G, B) let through of the scene's electrons
+        [1]. Default: no filters; (0.6, 1, 0.5).
     prnu, dsnu
         Standard deviations of the pixels' efficiency, relative [1], and of their offset [DN].
     hot_pixels

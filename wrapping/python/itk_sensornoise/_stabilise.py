@@ -167,7 +167,9 @@ def open_report(report: Any) -> Mapping[str, Any]:
     if report.get("schema") != _SCHEMA:
         raise ValueError(f'{name} has the schema {report.get("schema")!r}; expected "{_SCHEMA}"')
     if "channels" in report:
-        raise ValueError(f'{name} has several channels; expected the report of one, as ChannelReports.channel() gives it')
+        raise ValueError(
+            f"{name} has several channels; expected the report of one, as ChannelReports.channel() gives it"
+        )
     return report
 
 
