@@ -132,6 +132,16 @@ TEST_F(RawCameraFile, PatternIsThatOfTheFirstVisiblePixel)
   EXPECT_EQ(Read(file).front(), inside.codes[2 * 48 + 4]);
 }
 
+TEST_F(RawCameraFile, MonochromeSensorsHaveNoPattern)
+{
+  DngOf dng = DngOf::Sound(12);
+  dng.tags = { { 262, { 3, { 34892 } } }, { 33421, {} }, { 33422, {} } };
+  const FrameFile file = IsSound(dng);
+  EXPECT_EQ(file.camera.bayerPattern, "");
+  EXPECT_EQ(file.camera.blackLevelDn, 64.0);
+  EXPECT_EQ(Read(file), dng.codes);
+}
+
 TEST_F(RawCameraFile, BlackLevelsThatDifferAreNone)
 {
   DngOf dng = DngOf::Sound();

@@ -327,7 +327,7 @@ def _difference(codes: list[int], i: int, bits: int) -> str:
 
 
 def _dng(name: str, frame: bytes, bits: int, jpeg: bool = False) -> File:
-    """One strip before the directory."""
+    """One strip before the directory, of a monochrome sensor, which has one report."""
     codes = _codes([frame], bits)
     if jpeg:
         pixels = _lossless_jpeg(codes, bits)
@@ -340,16 +340,11 @@ def _dng(name: str, frame: bytes, bits: int, jpeg: bool = False) -> File:
     made.raw = [(8, 8 + len(pixels))]
     end = 8 + len(pixels) + len(texts)
     made.data = struct.pack("<2sHI", b"II", 42, end) + pixels + texts
-    entries = [
-        (254, 4, 1, 0),
-        (256, 4, 1, WIDTH),
-        (257, 4, 1, HEIGHT),
-        (258, 3, 1, bits),
-        (259, 3, 1, 7 if jpeg else 1),
-    ]
-    entries += [(262, 3, 1, 32803), (271, 2, 6, 8 + len(pixels)), (272, 2, 8, 14 + len(pixels)), (273, 4, 1, 8)]
-    entries += [(277, 3, 1, 1), (278, 4, 1, HEIGHT), (279, 4, 1, len(pixels)), (33421, 3, 2, 0x20002)]
-    entries += [(33422, 1, 4, 0x02010100), (50706, 1, 4, 0x401), (50714, 4, 1, 0), (50717, 4, 1, (1 << bits) - 1)]
+    entries = [(254, 4, 1, 0), (256, 4, 1, WIDTH), (257, 4, 1, HEIGHT), (258, 3, 1, bits)]
+    entries += [(259, 3, 1, 7 if jpeg else 1)]
+    entries += [(262, 3, 1, 34892), (271, 2, 6, 8 + len(pixels)), (272, 2, 8, 14 + len(pixels)), (273, 4, 1, 8)]
+    entries += [(277, 3, 1, 1), (278, 4, 1, HEIGHT), (279, 4, 1, len(pixels))]
+    entries += [(50706, 1, 4, 0x401), (50714, 4, 1, 0), (50717, 4, 1, (1 << bits) - 1)]
     made.data += struct.pack("<H", len(entries)) + b"".join(struct.pack("<HHII", *entry) for entry in entries)
     made.data += struct.pack("<I", 0)
     return made

@@ -135,6 +135,8 @@ TEST(ChannelReports, TableHasALineAChannel)
   auto channels = WithOffsets({ 100.0, 100.0, 100.0, 100.0 });
   channels[0].vibrationSdX = UpperLimit(0.0123);
   channels[3].warnings.push_back({ WarningCode::FewFrames, "only 8 frames" });
+  channels[0].warnings.push_back({ WarningCode::FewFrames, "only 8 frames" });
+  channels[0].warnings.push_back({ WarningCode::NotStatic, "2 % of the pixels" });
   const ChannelReports reports = Join(channels);
   const std::string    table = MakeTable(reports);
   for (const char * expected : { "planes of 0 x 0 pixels of a GBRG mosaic",
@@ -148,7 +150,7 @@ TEST(ChannelReports, TableHasALineAChannel)
   {
     EXPECT_NE(table.find(expected), std::string::npos) << expected << "\n" << table;
   }
-  EXPECT_NE(MakeText(reports).find("warning: B: only 8 frames [few-frames]"), std::string::npos);
+  EXPECT_NE(MakeText(reports).find("warning: R, B: only 8 frames [few-frames]"), std::string::npos);
   EXPECT_FALSE(Join(std::array<Report, 4>{}).IsUsable());
   EXPECT_TRUE(reports.IsUsable());
 }

@@ -66,7 +66,7 @@ KindOfTiff(const std::string & head, const std::string & name)
   {
     return "CR2";
   }
-  const std::string byName = KindByName(name);
+  std::string byName = KindByName(name);
   try
   {
     FileBytes bytes(name);

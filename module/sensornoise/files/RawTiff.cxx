@@ -135,7 +135,7 @@ public:
   void
   RequireWhole()
   {
-    m_Tags.RequireEachOnce();
+    RequireStructureOnce();
     RequireCodes();
     const bool          isTiled = m_Tags.Has(324);
     const std::uint64_t across = isTiled ? m_Tags.Required(322, "TileWidth") : m_Width;
@@ -168,6 +168,20 @@ public:
   }
 
 private:
+  /** PiDNG writes its version twice: it is only where and how codes lie that has to be there once. */
+  void
+  RequireStructureOnce() const
+  {
+    for (const unsigned tag : { 256U, 257U, 258U, 259U, 262U, 273U, 277U, 278U, 279U, 322U, 323U, 324U, 325U })
+    {
+      const auto & entries = m_Directory.entries;
+      if (std::count_if(entries.begin(), entries.end(), [tag](const TiffEntry & e) { return e.tag == tag; }) > 1)
+      {
+        m_Tags.Refuse("damaged: its tag " + std::to_string(tag) + " comes twice; expected each once");
+      }
+    }
+  }
+
   /** Whole numbers, one a pixel, without loss. */
   void
   RequireCodes() const

@@ -154,13 +154,30 @@ MakeTable(const ChannelReports & reports)
 std::vector<Warning>
 WarningsOf(const ChannelReports & reports)
 {
-  std::vector<Warning> all = reports.warnings;
+  std::vector<Warning>     all = reports.warnings;
+  std::vector<std::string> channels; // that have it, of each warning of a channel
+  std::vector<Warning>     ofChannels;
   for (const Report & channel : reports.channels)
   {
     for (const Warning & warning : channel.warnings)
     {
-      all.push_back({ warning.code, channel.channel + ": " + warning.message });
+      const auto same = std::find_if(ofChannels.begin(), ofChannels.end(), [&warning](const Warning & other) {
+        return other.code == warning.code && other.message == warning.message;
+      });
+      if (same == ofChannels.end())
+      {
+        ofChannels.push_back(warning);
+        channels.push_back(channel.channel);
+      }
+      else
+      {
+        channels.at(static_cast<std::size_t>(same - ofChannels.begin())) += ", " + channel.channel;
+      }
     }
+  }
+  for (std::size_t k = 0; k < ofChannels.size(); ++k)
+  {
+    all.push_back({ ofChannels[k].code, channels[k] + ": " + ofChannels[k].message });
   }
   return all;
 }

@@ -26,7 +26,7 @@ MakeTable(const ChannelReports & reports);
 SensorNoise_EXPORT std::string
 MakeText(const ChannelReports & reports);
 
-/** All warnings, those of a channel with its name before the sentence. */
+/** All warnings, those of a channel with its name before the sentence; what several say alike is said once. */
 SensorNoise_EXPORT std::vector<Warning>
 WarningsOf(const ChannelReports & reports);
 
