@@ -213,13 +213,12 @@ public:
   itkSetMacro(ShutterAxis, unsigned int);
   itkGetConstMacro(ShutterAxis, unsigned int);
 
-  /** Bits of the sensor's codes, 1 to 16; 0 (default): as the input's metadata say (sensornoise::MetaDataKeys), else
-   * found. Data beyond them are refused. */
+  /** Bits of the sensor's codes, 1 to 16; 0 (default): found. Data beyond them are refused. What the input's metadata
+   * say of the camera (sensornoise::MetaDataKeys) goes before what is found, here and for the highest level. */
   itkSetMacro(BitDepth, unsigned int);
   itkGetConstMacro(BitDepth, unsigned int);
 
-  /** Lowest and highest level that the sensor attains [DN]; NaN (default): the highest as the input's metadata say,
-   * else found. */
+  /** Lowest and highest level that the sensor attains [DN]; NaN (default): found. */
   itkSetMacro(ClipLow, double);
   itkGetConstMacro(ClipLow, double);
   itkSetMacro(ClipHigh, double);

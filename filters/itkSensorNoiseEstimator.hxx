@@ -440,10 +440,9 @@ SensorNoiseEstimator<TStack>::FindMosaic()
     const auto pattern = WithItkErrors(this, [&inFile] { return sensornoise::BayerPatternOf(inFile); });
     return SensorNoiseMosaic{ { frame, pattern }, BayerSource::File };
   }
-  auto first = stack->GetLargestPossibleRegion();
-  first.SetSize(2, 1);
-  stack->SetRequestedRegion(first);
+  this->GenerateNthInputRequestedRegion(0); // the first chunk, which the first pass then need not read again
   stack->Update();
+  const auto                first = stack->GetLargestPossibleRegion();
   const PixelType * const   pixels = stack->GetBufferPointer() + stack->ComputeOffset(first.GetIndex());
   const std::vector<double> levels(pixels, pixels + frame.Pixels());
   if (const auto pattern = sensornoise::RecogniseMosaic(levels, frame.width, frame.height, this->GetParallelFor()))

@@ -91,7 +91,7 @@ TEST_F(EstimateFailureTool, UnknownAndMalformedOptionsAreRefused)
 {
   const std::string stack = Write("s.mha", MakeBurst().GetPointer());
   IsRefused(stack + " --colour red", { "--colour" });
-  IsRefused(stack + " --bayer RGGB", { "--bayer" });
+  IsRefused(stack + " --bayer RGBW", { "--bayer" });
   IsRefused(stack + " --method best", { "--method", "best", "refined", "published" });
   IsRefused(stack + " --bit-depth 17", { "--bit-depth", "17", "1 to 16" });
   IsRefused(stack + " --bit-depth many", { "--bit-depth", "many" });

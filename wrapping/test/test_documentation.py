@@ -23,14 +23,14 @@ def sentence_of(name):
 
 def test_all_classes_are_looked_at():
     wrapped = sorted(path.stem.removeprefix("itk") for path in (HEADERS.parent / "wrapping").glob("*.wrap"))
-    assert wrapped == NAMES
+    assert wrapped == [name for name in NAMES if name != "SensorNoiseImageIOFactory"]  # in its ImageIO's file
     assert len(NAMES) >= 11
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_help_is_the_header_s(name):
     template = getattr(itk, name)
-    for described in [template, *template.values()]:
+    for described in [template, *(template.values() if hasattr(template, "values") else ())]:
         text = described.__doc__
         assert text.startswith(sentence_of(name)) and len(text) > 200
         assert "Proxy of" not in text and not re.search(r"\\\\[a-z]+|^ ?\*", text, re.MULTILINE)

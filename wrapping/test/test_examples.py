@@ -74,8 +74,8 @@ def test_held_out_frames_are_stabilised():
     result = run("measure_held_out.py", "--size", 96, "--frames", 40, "--cameras", "B", "--scenes", "target")
     assert result.returncode == 0, result.stderr
     table = [line.split() for line in result.stdout.splitlines()[-9:]]
-    rows = {(quantity, method): list(map(int, counts)) for quantity, method, *counts in table}
+    rows = {(quantity, method): list(map(int, counts)) for quantity, method, _, *counts in table}
     for row in [("variance", "true"), ("exact-unbiased", "true"), ("exact-unbiased", "refined")]:
         assert rows[row][0] == rows[row][2] > 0
     assert rows["algebraic", "refined"][0] < rows["algebraic", "refined"][2]
-    assert rows["variance", "published"][1] < rows["variance", "refined"][1]
+    assert rows["variance", "published"][0] < rows["variance", "refined"][0]

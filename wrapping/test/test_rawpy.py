@@ -73,12 +73,13 @@ def names(burst, tmp_path):
 
 
 def test_codes_are_those_of_the_file(burst, names):
-    expected = itk.estimate_sensor_noise(burst[:12])
-    assert itk.estimate_sensor_noise(names) == expected
-    assert itk.estimate_sensor_noise(f"{names[0].parent}/*.dng") == expected
-    assert itk.estimate_sensor_noise(names, frame_range=(2, 9)) == itk.estimate_sensor_noise(
-        burst[:12], frame_range=(2, 9)
-    )
+    mono = {"bayer": "none"}  # the files say RGGB, of a burst that is none
+    expected = itk.estimate_sensor_noise(burst[:12], **mono)
+    assert itk.estimate_sensor_noise(names, **mono) == expected
+    assert itk.estimate_sensor_noise(f"{names[0].parent}/*.dng", **mono) == expected
+    part = {"frame_range": (2, 9), **mono}
+    assert itk.estimate_sensor_noise(names, **part) == itk.estimate_sensor_noise(burst[:12], **part)
+    assert itk.estimate_sensor_noise(names)["bayer"] == {"pattern": "RGGB", "source": "file"}
 
 
 @pytest.mark.parametrize("pattern", ["RGGB", "GRBG", "GBRG", "BGGR"])

@@ -69,7 +69,8 @@ def test_flaw_is_the_tool_s(tool, plain, tmp_path, name):
 def test_manner_of_a_flaw_is_the_tool_s(tool, tmp_path, name):
     value, flaw = MANNERS[name]
     file, truth_file = tmp_path / "stack.mha", tmp_path / "truth.json"
-    flags = ["--frames", "4", "--size", "64x48", "--seed", "4", "--" + name.replace("_", "-"), value]
+    text = ",".join(map(str, value)) if isinstance(value, tuple) else value
+    flags = ["--frames", "4", "--size", "64x48", "--seed", "4", "--" + name.replace("_", "-"), text]
     for other, number in flaw.items():
         flags += ["--" + other, ",".join(map(str, number)) if isinstance(number, tuple) else number]
     tool("simulate-sensor-noise", "--output", file, "--truth", truth_file, *flags)

@@ -29,8 +29,7 @@ RequireGrey(const TiffTags & tags)
   {
     tags.Refuse(photometric == 65536
                   ? "has no tag 262 (PhotometricInterpretation); expected grey values, 0 or 1"
-                  : "the photometric interpretation " + std::to_string(photometric) +
-                      (photometric == 32803 ? " (a mosaic of colour filters)" : "") + "; expected grey values, 0 or 1");
+                  : "the photometric interpretation " + std::to_string(photometric) + "; expected grey values, 0 or 1");
   }
 }
 
