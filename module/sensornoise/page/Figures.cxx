@@ -75,7 +75,7 @@ VarianceAxis(const FigureData & data, std::size_t & above)
   {
     range.Add(HighestFactor * highest);
   }
-  return range.Axis(6);
+  return range.Axis(8);
 }
 
 PlotAxis
@@ -96,7 +96,7 @@ DrawResiduals(std::string & svg, const FigureData & data, double top)
   SvgPanel       panel(svg,
                        { PanelLeft, top, PanelWidth, 90.0 },
                  MeanAxis(data),
-                 range.Axis(4),
+                 range.Axis(6),
                  "mean [DN]",
                  "residual [standard errors of the point]");
   const PlotAxis across = MeanAxis(data);

@@ -43,14 +43,17 @@ HasRow(const QuantityEntry & entry, const Report & report)
 std::string
 QuantityRow(const QuantityEntry & entry, const Quantity & quantity)
 {
-  const std::string value = Escaped(ValueText(quantity));
-  const std::string unit = UnitText(entry.unit);
-  const bool        hasNumber = quantity.value || value.rfind("&lt;", 0) == 0;
-  const bool        isPlain = quantity.status == EstimateStatus::Identified;
-  return "<tr><th scope=\"row\">" + Escaped(entry.label) + "<small>" + Escaped(entry.meaning) + "</small></th><td>" +
-         value + (hasNumber && !unit.empty() ? " <span class=\"nowrap\">" + unit + "</span>" : "") +
-         (isPlain ? "" : "<small>" + std::string(NameOf(quantity.status)) + "</small>") + "</td><td>" +
-         Escaped(RangeText(quantity)) + "</td></tr>\n";
+  const std::string  value = Escaped(ValueText(quantity));
+  const std::string  unit = UnitText(entry.unit);
+  const bool         hasNumber = quantity.value || value.rfind("&lt;", 0) == 0;
+  const bool         isPlain = quantity.status == EstimateStatus::Identified;
+  const std::string  range = RangeText(quantity);
+  const char * const kindOfRange = quantity.interval95 ? "95 %: " : "limits: ";
+  return "<tr><th scope=\"row\">" + Escaped(entry.label) + "<small>" + Escaped(entry.meaning) +
+         "</small></th><td><span class=\"nowrap\">" + value + "</span>" +
+         (hasNumber && !unit.empty() ? " <span class=\"nowrap\">" + unit + "</span>" : "") +
+         (isPlain ? "" : "<small>" + std::string(NameOf(quantity.status)) + "</small>") +
+         (range.empty() ? "" : "<small>" + (kindOfRange + Escaped(range)) + "</small>") + "</td></tr>\n";
 }
 
 /** "DN" with indices: "mu_y.dark" is mu with y.dark below the line. */
@@ -94,8 +97,8 @@ QuantityTable(const Report & report)
   {
     rows += HasRow(entry, report) ? QuantityRow(entry, *entry.of(report)) : "";
   }
-  return "<table><thead><tr><th scope=\"col\">Quantity</th><th scope=\"col\">Value and standard error</th><th "
-         "scope=\"col\">95 % interval, or limits</th></tr></thead><tbody>\n" +
+  return "<table><thead><tr><th scope=\"col\">Quantity</th><th scope=\"col\">Value and standard error</th></tr></thead>"
+         "<tbody>\n" +
          rows + "</tbody></table>\n";
 }
 
@@ -139,7 +142,7 @@ SettingsTable(const Report & report)
   {
     rows += "<tr><th scope=\"row\">" + Escaped(name) + "</th><td>" + Escaped(TextOfSetting(value)) + "</td></tr>\n";
   }
-  return "<table><tbody>\n" + rows + "</tbody></table>\n";
+  return "<table class=\"settings\"><tbody>\n" + rows + "</tbody></table>\n";
 }
 
 } // namespace sensornoise

@@ -14,7 +14,7 @@ inline constexpr const char * PageStyle = R"(
 --good:#2fc79a;--doubt:#e6a94a;--bad:#f58a4b}}
 *{box-sizing:border-box}
 body{margin:0 auto;padding:1rem;max-width:48rem;background:var(--paper);color:var(--ink);
-font:16px/1.5 system-ui,sans-serif;overflow-wrap:anywhere}
+font:16px/1.5 system-ui,sans-serif;overflow-wrap:break-word}
 h1{font-size:1.5rem;line-height:1.25;margin:.5rem 0}
 h2{font-size:1.2rem;margin:2rem 0 .5rem}
 h3{font-size:1rem;margin:1.5rem 0 .5rem}
@@ -34,6 +34,7 @@ th,td{text-align:left;vertical-align:top;padding:.35rem .5rem .35rem 0;border-bo
 thead th{color:var(--soft);font-weight:600;font-size:.875rem}
 tbody th{font-weight:400}
 td small,th small{display:block}
+.settings td{overflow-wrap:anywhere}
 .nowrap{white-space:nowrap}
 figure{margin:1rem 0}
 figure>svg{width:100%;max-width:640px;height:auto;display:block}
