@@ -139,7 +139,7 @@ TEST(SensorNoiseReportPage, HoldsEveryWarningAndWhatWouldHelp)
   ExpectSound(page);
   for (const WarningKind & kind : WarningTable)
   {
-    EXPECT_TRUE(Contains(page, "found &lt;" + std::string(kind.name) + "&gt; &amp; &quot;more&quot;")) << kind.name;
+    EXPECT_TRUE(Contains(page, "Found &lt;" + std::string(kind.name) + "&gt; &amp; &quot;more&quot;.")) << kind.name;
     EXPECT_TRUE(Contains(page, std::string(kind.sentence).substr(0, 20))) << kind.name;
   }
 }
@@ -152,7 +152,7 @@ TEST(SensorNoiseReportPage, AnEmptyReportSaysThatThereIsNothing)
   ExpectSound(page);
   EXPECT_FALSE(Contains(page, "<svg"));
   for (const char * const part : { "Not measured.",
-                                   "No gain could be measured: there are 3 different frames; expected 5",
+                                   "No gain could be measured: there are 3 different frames; expected 5.",
                                    "No point of the noise curve was measured.",
                                    "Neither flicker nor motion was measured." })
   {
@@ -213,7 +213,7 @@ TEST(SensorNoiseReportPage, OfAMosaicItHasAllChannels)
   {
     EXPECT_TRUE(Contains(page, part)) << part;
   }
-  EXPECT_TRUE(Contains(page, "the blue plane has one level"));
+  EXPECT_TRUE(Contains(page, "The blue plane has one level."));
 }
 
 TEST(SensorNoiseReportPage, TheFigureIsAFileOfItsOwn)

@@ -116,12 +116,12 @@ DrawCurve(const FigureData & data, const std::string & attributes)
   const std::string  disc = "<path class=\"after point full\" d=\"M7 0a2.5 2.5 0 1 0 5 0a2.5 2.5 0 1 0-5 0\"/>";
   const std::string  ring = "<path class=\"before point\" d=\"M7 0a2.5 2.5 0 1 0 5 0a2.5 2.5 0 1 0-5 0\"/>";
   const std::string  higher = above > 0 ? " (" + std::to_string(above) + " points are higher)" : "";
-  double             next = LegendEntry(svg, 4.0, 12.0, ring, "as it is" + higher);
-  LegendEntry(svg, next, 12.0, disc, "without flicker and motion");
+  LegendEntry(svg, 4.0, 12.0, ring, "as it is" + higher);
+  const double next = LegendEntry(svg, 4.0, 32.0, disc, "without flicker and motion");
   if (!data.lineMean.empty())
   {
     const std::string band = data.bandLow.empty() ? "" : ", 95 % band";
-    LegendEntry(svg, 4.0, 32.0, LineSign(line), (data.isIndicative ? "line, indicative: no gain" : "line") + band);
+    LegendEntry(svg, next, 32.0, LineSign(line), (data.isIndicative ? "line, indicative: no gain" : "line") + band);
   }
   {
     SvgPanel panel(svg,

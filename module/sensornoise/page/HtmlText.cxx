@@ -33,7 +33,35 @@ RoundedTo(double number, const std::optional<double> & error)
   const std::string text = Measured(number, *error);
   return WithMinus(text.substr(0, text.find(PlusMinus)));
 }
+std::string
+WithReplaced(std::string text, const std::string & found, const std::string & replacement)
+{
+  for (std::size_t at = text.find(found); at != std::string::npos; at = text.find(found, at + replacement.size()))
+  {
+    text.replace(at, found.size(), replacement);
+  }
+  return text;
+}
 } // namespace
+
+std::string
+LabelText(const std::string & label)
+{
+  const std::string squares = WithReplaced(WithReplaced(label, "^2", "\u00B2"), " - ", " \u2212 ");
+  return WithReplaced(WithReplaced(squares, "sigma", "\u03C3"), " mu", " \u03BC");
+}
+
+std::string
+SentenceText(const std::string & message)
+{
+  std::string text = WithReplaced(message, PlusMinus, " \u00B1 ");
+  if (!text.empty() && text.front() >= 'a' && text.front() <= 'z')
+  {
+    text.front() = static_cast<char>(text.front() - 'a' + 'A');
+  }
+  const bool isEnded = text.empty() || text.back() == '.' || text.back() == '!' || text.back() == '?';
+  return isEnded ? text : text + ".";
+}
 
 std::string
 Escaped(const std::string & text)

@@ -18,6 +18,14 @@ Escaped(const std::string & text);
 std::string
 UnitText(const std::string & unit);
 
+/** A label of QuantityList() as people write it: "offset μ", "intercept σ² - g μ". */
+std::string
+LabelText(const std::string & label);
+
+/** A message of a warning as a sentence: with a capital, a full stop, and ± for "+-". */
+std::string
+SentenceText(const std::string & message);
+
 /** "5.0004 ± 0.0026", both to two digits of the error; "< 1.3" of an upper limit; "–" where there is no value. */
 std::string
 ValueText(const Quantity & quantity);

@@ -49,7 +49,7 @@ QuantityRow(const QuantityEntry & entry, const Quantity & quantity)
   const bool         isPlain = quantity.status == EstimateStatus::Identified;
   const std::string  range = RangeText(quantity);
   const char * const kindOfRange = quantity.interval95 ? "95 %: " : "limits: ";
-  return "<tr><th scope=\"row\">" + Escaped(entry.label) + "<small>" + Escaped(entry.meaning) +
+  return "<tr><th scope=\"row\">" + Escaped(LabelText(entry.label)) + "<small>" + Escaped(entry.meaning) +
          "</small></th><td><span class=\"nowrap\">" + value + "</span>" +
          (hasNumber && !unit.empty() ? " <span class=\"nowrap\">" + unit + "</span>" : "") +
          (isPlain ? "" : "<small>" + std::string(NameOf(quantity.status)) + "</small>") +
@@ -111,8 +111,8 @@ WarningList(const std::vector<Warning> & warnings)
     const WarningKind & kind = KindOf(warning.code);
     const std::string   severity = NameOf(kind.severity);
     items += "<li class=\"warning is-" + severity + "\"><p><span class=\"word\">" + severity + "</span> <span " +
-             "class=\"soft\">" + kind.name + "</span></p><p>" + Escaped(warning.message) + "</p><p class=\"soft\">" +
-             Escaped(kind.sentence) + "</p></li>\n";
+             "class=\"soft\">" + kind.name + "</span></p><p>" + Escaped(SentenceText(warning.message)) +
+             "</p><p class=\"soft\">" + Escaped(kind.sentence) + "</p></li>\n";
   }
   return items.empty() ? "" : "<ul class=\"warnings\">\n" + items + "</ul>\n";
 }

@@ -48,7 +48,7 @@ VerdictOf(const Report & report)
 {
   if (!report.gain.value)
   {
-    return { Severity::Error, "No gain could be measured: " + WhyNot(report) };
+    return { Severity::Error, SentenceText("No gain could be measured: " + WhyNot(report)) };
   }
   std::string sentence = "The gain is " + ValueText(report.gain) + " DN/e\u207B";
   if (report.readNoiseElectrons.value)
