@@ -5,6 +5,7 @@
 #include "sensornoise/report/ChannelReports.h"
 #include "sensornoise/report/Report.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>

@@ -40,6 +40,20 @@ HasRow(const QuantityEntry & entry, const Report & report)
   return quantity != nullptr && (entry.shown == ShownIn::EveryTable || quantity->value);
 }
 
+/** Escaped, and `names` as code. */
+std::string
+WithCode(const std::string & sentence)
+{
+  std::string text;
+  bool        isCode = false;
+  for (const char c : Escaped(sentence))
+  {
+    text += c == '`' ? std::string(isCode ? "</code>" : "<code>") : std::string(1, c);
+    isCode = c == '`' ? !isCode : isCode;
+  }
+  return isCode ? text + "</code>" : text;
+}
+
 std::string
 QuantityRow(const QuantityEntry & entry, const Quantity & quantity)
 {
@@ -49,14 +63,14 @@ QuantityRow(const QuantityEntry & entry, const Quantity & quantity)
   const bool         isPlain = quantity.status == EstimateStatus::Identified;
   const std::string  range = RangeText(quantity);
   const char * const kindOfRange = quantity.interval95 ? "95 %: " : "limits: ";
-  return "<tr><th scope=\"row\">" + Escaped(LabelText(entry.label)) + "<small>" + Escaped(entry.meaning) +
+  return "<tr><th scope=\"row\">" + Escaped(LabelText(entry.label)) + "<small>" + WithCode(entry.meaning) +
          "</small></th><td><span class=\"nowrap\">" + value + "</span>" +
          (hasNumber && !unit.empty() ? " <span class=\"nowrap\">" + unit + "</span>" : "") +
          (isPlain ? "" : "<small>" + std::string(NameOf(quantity.status)) + "</small>") +
          (range.empty() ? "" : "<small>" + (kindOfRange + Escaped(range)) + "</small>") + "</td></tr>\n";
 }
 
-/** "DN" with indices: "mu_y.dark" is mu with y.dark below the line. */
+/** With indices: "mu_y.dark" is mu with y.dark below the line. */
 std::string
 WithIndex(const std::string & symbol)
 {
@@ -112,7 +126,7 @@ WarningList(const std::vector<Warning> & warnings)
     const std::string   severity = NameOf(kind.severity);
     items += "<li class=\"warning is-" + severity + "\"><p><span class=\"word\">" + severity + "</span> <span " +
              "class=\"soft\">" + kind.name + "</span></p><p>" + Escaped(SentenceText(warning.message)) +
-             "</p><p class=\"soft\">" + Escaped(kind.sentence) + "</p></li>\n";
+             "</p><p class=\"soft\">" + WithCode(kind.sentence) + "</p></li>\n";
   }
   return items.empty() ? "" : "<ul class=\"warnings\">\n" + items + "</ul>\n";
 }

@@ -56,9 +56,8 @@ VerdictOf(const Report & report)
     sentence += ", and the read noise " + ValueText(report.readNoiseElectrons) + " e\u207B";
   }
   const Severity worst = std::min(WorstOf(report.warnings), Severity::Warning);
-  sentence += worst == Severity::Note
-                ? "; every number below stands."
-                : "; " + NumberOfWarnings(report.warnings) + " what is missing, or rests on something not seen.";
+  sentence += worst == Severity::Note ? "; every number below stands."
+                                      : "; " + NumberOfWarnings(report.warnings) + " what is missing or does not fit.";
   return { worst, sentence };
 }
 
@@ -81,8 +80,8 @@ VerdictOf(const ChannelReports & reports)
   }
   return { worst,
            worst == Severity::Note ? "All four channels of the mosaic have a gain; every number below stands."
-                                   : "All four channels of the mosaic have a gain; the warnings say what is missing, "
-                                     "or rests on something not seen." };
+                                   : "All four channels of the mosaic have a gain; the warnings say what is missing "
+                                     "or does not fit." };
 }
 
 } // namespace sensornoise
