@@ -322,6 +322,14 @@ public:
                                      : sensornoise::MakeText(this->GetReport());
   }
 
+  /** The report as one HTML page with figures and maps, which needs no other file. \see sensornoise::ToHtml */
+  std::string
+  GetReportAsHtml() const;
+
+  /** Variance against mean as an SVG file; of a mosaic that of the channel "G1". \see sensornoise::ToSvg */
+  std::string
+  GetReportAsSvg() const;
+
   /** All warnings and quantities that a report may have, as JSON. \see sensornoise::CatalogueAsJson */
   static std::string
   GetCatalogueAsJson()

@@ -29,6 +29,7 @@
 #include "sensornoise/moments/MosaicLevels.h"
 #include "sensornoise/moments/KnownOffset.h"
 #include "sensornoise/moments/TemporalMoments.h"
+#include "sensornoise/page/ReportPage.h"
 #include "sensornoise/published/PublishedSettings.h"
 #include "sensornoise/refined/RefinedSettings.h"
 
@@ -307,6 +308,33 @@ SensorNoiseEstimator<TStack>::CheckModel(double varianceSlope,
     of.quantisationStepDn = quantisationStep;
   }
   return WithItkErrors(this, [&] { return sensornoise::CheckReport(this->GetReport(), of); });
+}
+
+template <typename TStack>
+std::string
+SensorNoiseEstimator<TStack>::GetReportAsHtml() const
+{
+  const bool         isMosaic = this->HasChannelReports(); // first: says whether there is a result
+  const auto * const mean = static_cast<const FrameImageType *>(this->ProcessObject::GetOutput(1));
+  const auto * const pixelUse = static_cast<const MaskImageType *>(this->ProcessObject::GetOutput(4));
+  const auto         size = mean->GetBufferedRegion().GetSize();
+
+  sensornoise::PageMaps maps;
+  if (pixelUse->GetBufferedRegion().GetSize() == size)
+  {
+    maps.width = size[0];
+    maps.height = size[1];
+    maps.mean = mean->GetBufferPointer();
+    maps.pixelUse = pixelUse->GetBufferPointer();
+  }
+  return isMosaic ? sensornoise::ToHtml(this->GetChannelReports(), maps) : sensornoise::ToHtml(this->GetReport(), maps);
+}
+
+template <typename TStack>
+std::string
+SensorNoiseEstimator<TStack>::GetReportAsSvg() const
+{
+  return sensornoise::ToSvg(this->HasChannelReports() ? this->GetChannelReport("G1") : this->GetReport());
 }
 
 template <typename TStack>

@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/RollingShutter.h"
 #include "sensornoise/report/Version.h"
+#include "tools/LowerCase.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -113,6 +114,10 @@ AddOptions(CLI::App & app, EstimateOptions & options, Texts & texts)
   app.add_option("--frames", texts.frames, "A:B: only the frames A, A+1, ... B-1, counted from 0");
   app.add_option("--threads", options.threads, "number of threads; else all")->check(CLI::Range(1, 1024));
   app.add_option("--json", options.json, "file for the report, or - for standard output");
+  app.add_option("--plot",
+                 options.plot,
+                 "file.html: the report as a page to look at, with figures and maps, that needs no other file; "
+                 "file.svg: variance against mean alone");
   app.add_option(
     "--maps",
     options.maps,
@@ -207,6 +212,16 @@ ReadRollingShutter(EstimateOptions & options, const std::string & text)
 }
 
 void
+RequirePlotName(const std::string & name)
+{
+  const std::string ending = LowerCaseEnding(name);
+  if (!name.empty() && ending != ".html" && ending != ".htm" && ending != ".svg")
+  {
+    throw CLI::ValidationError("--plot", name + " ends in neither .html nor .svg; expected for example report.html");
+  }
+}
+
+void
 ReadRegion(EstimateOptions & options, const Texts & texts)
 {
   if (!texts.roi.empty())
@@ -253,6 +268,7 @@ EstimateOptions::Parse(int argc, char ** argv)
   ReadOffset(*this, texts);
   ReadRollingShutter(*this, texts.rollingShutter);
   ReadRegion(*this, texts);
+  RequirePlotName(plot);
   return std::nullopt;
 }
 
@@ -271,6 +287,12 @@ EstimateOptions::SelectFiles()
   }
   files = { files.begin() + static_cast<std::ptrdiff_t>(frames->first),
             files.begin() + static_cast<std::ptrdiff_t>(frames->second) };
+}
+
+bool
+EstimateOptions::IsPlotFigure() const
+{
+  return LowerCaseEnding(plot) == ".svg";
 }
 
 std::string

@@ -42,6 +42,7 @@ struct EstimateOptions
   unsigned int                                       threads{ 0 }; ///< 0: all
   std::string                                        json;
   std::string                                        maps;
+  std::string                                        plot; ///< .html: the page; .svg: its first figure
   bool                                               quiet{ false };
 
   /** Reads the command line; the exit code if there is nothing left to do (--help, --version). Throws std::exception on
@@ -60,6 +61,10 @@ struct EstimateOptions
   {
     return !json.empty() && json != "-";
   }
+
+  /** Whether the plot is one figure, not a page. */
+  bool
+  IsPlotFigure() const;
 
   /** What is to be cut out of the stack. */
   std::string

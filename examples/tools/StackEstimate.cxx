@@ -139,7 +139,7 @@ SetPattern(const EstimateOptions &             options,
 
 template <typename TPixel>
 MeasuredStack
-Estimate(const EstimateOptions & options, const FrameList & list, MapFiles * maps)
+Estimate(const EstimateOptions & options, const FrameList & list, MapFiles * maps, std::string * plot)
 {
   using StackType = itk::Image<TPixel, 3>;
   const auto reader = MakeReader<StackType>(list);
@@ -187,6 +187,10 @@ Estimate(const EstimateOptions & options, const FrameList & list, MapFiles * map
     maps->Write(
       estimator->GetMean(), estimator->GetVariance(), estimator->GetCorrectedVariance(), estimator->GetPixelUse());
   }
+  if (plot != nullptr)
+  {
+    *plot = options.IsPlotFigure() ? estimator->GetReportAsSvg() : estimator->GetReportAsHtml();
+  }
   if (estimator->HasChannelReports())
   {
     return estimator->GetChannelReports();
@@ -204,20 +208,20 @@ PatternOf(const EstimateOptions & options, const MeasuredStack & measured)
 }
 
 MeasuredStack
-EstimateStack(const EstimateOptions & options, const FrameList & list, MapFiles * maps)
+EstimateStack(const EstimateOptions & options, const FrameList & list, MapFiles * maps, std::string * plot)
 {
   switch (list.pixel)
   {
     case FramePixel::UnsignedChar:
-      return Estimate<unsigned char>(options, list, maps);
+      return Estimate<unsigned char>(options, list, maps, plot);
     case FramePixel::UnsignedShort:
-      return Estimate<unsigned short>(options, list, maps);
+      return Estimate<unsigned short>(options, list, maps, plot);
     case FramePixel::Short:
-      return Estimate<short>(options, list, maps);
+      return Estimate<short>(options, list, maps, plot);
     case FramePixel::Float:
-      return Estimate<float>(options, list, maps);
+      return Estimate<float>(options, list, maps, plot);
     default:
-      return Estimate<double>(options, list, maps);
+      return Estimate<double>(options, list, maps, plot);
   }
 }
 

@@ -22,9 +22,10 @@ struct EstimateOptions;
 /** What was measured: of a monochrome sensor, or of the channels of a mosaic. */
 using MeasuredStack = std::variant<Report, ChannelReports>;
 
-/** Reads the frames, in parts, and measures what the options select of them. Writes the maps unless \a maps is null. */
+/** Reads the frames, in parts, and measures what the options select of them. Writes the maps unless \a maps is null,
+ * and makes the text of the plot that the options ask for unless \a plot is null. */
 MeasuredStack
-EstimateStack(const EstimateOptions & options, const FrameList & list, MapFiles * maps);
+EstimateStack(const EstimateOptions & options, const FrameList & list, MapFiles * maps, std::string * plot = nullptr);
 
 /** The option --bayer that gives the same channels again: the pattern of the whole frame, or "none". */
 std::string

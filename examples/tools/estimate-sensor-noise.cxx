@@ -103,6 +103,10 @@ RequireOutputsApart(const EstimateOptions & options)
   {
     files.Write(options.json, "--json");
   }
+  if (!options.plot.empty())
+  {
+    files.Write(options.plot, "--plot");
+  }
   if (!options.maps.empty())
   {
     for (const std::string & map : MapFiles::NamesIn(options.maps, !options.dark.empty()))
@@ -134,6 +138,11 @@ Run(EstimateOptions & options)
     RequireReportName(options.json, "--json");
     json.emplace(options.json);
   }
+  std::optional<PendingFile> plot;
+  if (!options.plot.empty())
+  {
+    plot.emplace(options.plot);
+  }
   std::optional<MapFiles> maps;
   if (!options.maps.empty())
   {
@@ -145,8 +154,14 @@ Run(EstimateOptions & options)
   TellWarningOf(frames);
   TellWhetherHeldInMemory(frames);
 
-  const MeasuredStack measured = EstimateStack(options, frames, maps ? &*maps : nullptr);
+  std::string         plotText;
+  const MeasuredStack measured = EstimateStack(options, frames, maps ? &*maps : nullptr, plot ? &plotText : nullptr);
   const ModelChecks   checks = options.hasCheck ? CheckModel(options, measured) : ModelChecks();
+  if (plot)
+  {
+    plot->Write(plotText);
+    plot->Commit();
+  }
   WriteReport(measured, checks, options, json);
   TellWarnings(measured);
   const bool isUsable = std::visit([](const auto & reports) { return reports.IsUsable(); }, measured);

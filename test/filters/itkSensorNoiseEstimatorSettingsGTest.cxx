@@ -109,6 +109,8 @@ TEST(SensorNoiseEstimatorSettings, WithoutAnUpdateThereIsNoReport)
   const auto estimator = EstimatorOf<StackType>(SimulatedStack());
   EXPECT_SAYS(ErrorWhen([&] { estimator->GetReportAsJson(); }), NoResult);
   EXPECT_SAYS(ErrorWhen([&] { estimator->GetReportAsText(); }), NoResult);
+  EXPECT_SAYS(ErrorWhen([&] { estimator->GetReportAsHtml(); }), NoResult);
+  EXPECT_SAYS(ErrorWhen([&] { estimator->GetReportAsSvg(); }), NoResult);
   EXPECT_SAYS(ErrorWhen([&] { estimator->GetNoiseKind(); }), NoResult);
   const auto regression = itk::NoiseRegressionEstimator<>::New();
   EXPECT_SAYS(ErrorWhen([&] { regression->GetReportAsJson(); }), NoResult);
@@ -124,6 +126,7 @@ TEST(SensorNoiseEstimatorSettings, AfterAFailureThereIsNoReportOfBefore)
   const auto estimator = EstimatorOf<StackType>(reader->GetOutput());
   estimator->Update();
   EXPECT_NE(estimator->GetReportAsJson(), "");
+  EXPECT_EQ(estimator->GetReportAsHtml().rfind("<!DOCTYPE html>", 0), 0U);
   reader->Break(20);
   estimator->SetBitDepth(14);
   EXPECT_SAYS(ErrorOf(estimator), "frame 20 is broken");

@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/page/FigureData.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace sensornoise
+{
+namespace
+{
+constexpr double TwoSided95 = 1.959963984540054;
+constexpr int    LinePieces = 32;
+
+double
+ElementOrNaN(const std::vector<double> & values, std::size_t i)
+{
+  return i < values.size() ? values[i] : std::numeric_limits<double>::quiet_NaN();
+}
+
+bool
+IsFinite(const Report::Baseline & line)
+{
+  return std::isfinite(line.gain) && std::isfinite(line.intercept);
+}
+
+/** Relative standard error of a variance that is the mean over \a count pixels [1]: Var(s^2) / sigma^4 is 2 / (T - 1)
+ * of normal noise, and the excess kurtosis over T more. */
+double
+RelativeErrorOfBin(const Report & report, std::size_t count)
+{
+  if (report.framesDistinct < 2 || count == 0)
+  {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  const auto   frames = static_cast<double>(report.framesDistinct);
+  const double kurtosis = report.noiseCorrelation ? report.noiseCorrelation->excessKurtosis.value.value_or(0.0) : 0.0;
+  const double ofPixel = std::max(2.0 / (frames - 1.0) + kurtosis / frames, 0.0);
+  return std::sqrt(ofPixel / static_cast<double>(count));
+}
+
+void
+AddCurve(FigureData & data, const Report & report)
+{
+  const Report::Scatter & scatter = report.scatter;
+  const bool              hasLine = report.fit.line && IsFinite(*report.fit.line);
+  for (std::size_t i = 0; i < scatter.mean.size(); ++i)
+  {
+    const double mean = scatter.mean[i];
+    const double corrected = ElementOrNaN(scatter.correctedVariance, i);
+    if (!std::isfinite(mean) || !std::isfinite(corrected))
+    {
+      continue;
+    }
+    data.mean.push_back(mean);
+    data.variance.push_back(ElementOrNaN(scatter.variance, i));
+    data.corrected.push_back(corrected);
+    if (!hasLine || i >= scatter.count.size())
+    {
+      continue;
+    }
+    const double expected = report.fit.line->gain * mean + report.fit.line->intercept;
+    const double error = std::abs(expected) * RelativeErrorOfBin(report, scatter.count[i]);
+    if (error > 0.0)
+    {
+      data.meanResiduals.push_back(mean);
+      data.residuals.push_back((corrected - expected) / error);
+    }
+  }
+}
+
+/** Half the width of the 95 % interval of the line at a level; none where an error is not known. Slope and intercept of
+ * the frames are taken to be as correlated as the sensor's. */
+std::optional<double>
+HalfWidthAt(const Report & report, double mean)
+{
+  const std::optional<double> slopeError = report.varianceSlope.standardError;
+  const std::optional<double> interceptError = report.totalIntercept.standardError;
+  if (!report.covariance || !slopeError || !interceptError)
+  {
+    return std::nullopt;
+  }
+  const auto & matrix = *report.covariance;
+  const double correlation = matrix[0][1] / std::sqrt(matrix[0][0] * matrix[1][1]);
+  const double ofSlope = mean * *slopeError;
+  const double variance =
+    ofSlope * ofSlope + *interceptError * *interceptError + 2.0 * correlation * ofSlope * *interceptError;
+  return std::isfinite(variance) ? std::optional<double>(TwoSided95 * std::sqrt(std::max(variance, 0.0)))
+                                 : std::nullopt;
+}
+
+void
+AddLine(FigureData & data, const Report & report)
+{
+  if (!report.fit.line || !IsFinite(*report.fit.line) || data.mean.empty())
+  {
+    return;
+  }
+  data.isIndicative = !report.gain.value;
+  const auto [darkest, brightest] = std::minmax_element(data.mean.begin(), data.mean.end());
+  for (int i = 0; i <= LinePieces; ++i)
+  {
+    const double mean = *darkest + (*brightest - *darkest) * i / LinePieces;
+    const double variance = report.fit.line->gain * mean + report.fit.line->intercept;
+    data.lineMean.push_back(mean);
+    data.lineVariance.push_back(variance);
+    const std::optional<double> half = data.isIndicative ? std::nullopt : HalfWidthAt(report, mean);
+    if (half)
+    {
+      data.bandLow.push_back(variance - *half);
+      data.bandHigh.push_back(variance + *half);
+    }
+  }
+}
+} // namespace
+
+FigureData
+MakeFigureData(const Report & report)
+{
+  FigureData data;
+  AddCurve(data, report);
+  AddLine(data, report);
+  data.flicker = report.flicker;
+  for (const auto & shift : report.motion)
+  {
+    data.motionX.push_back(shift[0]);
+    data.motionY.push_back(shift[1]);
+  }
+  if (report.noiseCorrelation)
+  {
+    data.lags = report.noiseCorrelation->space;
+    data.lags.insert(data.lags.end(), report.noiseCorrelation->time.begin(), report.noiseCorrelation->time.end());
+  }
+  return data;
+}
+
+} // namespace sensornoise

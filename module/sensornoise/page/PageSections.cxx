@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/page/PageSections.h"
+
+#include "sensornoise/base/Text.h"
+#include "sensornoise/page/Emva1288.h"
+#include "sensornoise/page/HtmlText.h"
+#include "sensornoise/report/QuantityList.h"
+#include "sensornoise/report/ReportJson.h"
+#include "sensornoise/report/Version.h"
+
+#include <cstddef>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace sensornoise
+{
+namespace
+{
+std::string
+TextOfSetting(const Report::SettingValue & value)
+{
+  if (const auto * const number = std::get_if<double>(&value))
+  {
+    return Text(*number);
+  }
+  if (const auto * const truth = std::get_if<bool>(&value))
+  {
+    return *truth ? "yes" : "no";
+  }
+  return std::get<std::string>(value);
+}
+
+/** Whether the page has a line for it: what has a value, and what every table has. */
+bool
+HasRow(const QuantityEntry & entry, const Report & report)
+{
+  const Quantity * const quantity = entry.of(report);
+  return quantity != nullptr && (entry.shown == ShownIn::EveryTable || quantity->value);
+}
+
+/** Escaped, and `names` as code. */
+std::string
+WithCode(const std::string & sentence)
+{
+  std::string text;
+  bool        isCode = false;
+  for (const char c : Escaped(sentence))
+  {
+    text += c == '`' ? std::string(isCode ? "</code>" : "<code>") : std::string(1, c);
+    isCode = c == '`' ? !isCode : isCode;
+  }
+  return isCode ? text + "</code>" : text;
+}
+
+std::string
+QuantityRow(const QuantityEntry & entry, const Quantity & quantity)
+{
+  const std::string  value = Escaped(ValueText(quantity));
+  const std::string  unit = UnitText(entry.unit);
+  const bool         hasNumber = quantity.value || value.rfind("&lt;", 0) == 0;
+  const bool         isPlain = quantity.status == EstimateStatus::Identified;
+  const std::string  range = RangeText(quantity);
+  const char * const kindOfRange = quantity.interval95 ? "95 %: " : "limits: ";
+  return "<tr><th scope=\"row\">" + Escaped(LabelText(entry.label)) + "<small>" + WithCode(entry.meaning) +
+         "</small></th><td><span class=\"nowrap\">" + value + "</span>" +
+         (hasNumber && !unit.empty() ? " <span class=\"nowrap\">" + unit + "</span>" : "") +
+         (isPlain ? "" : "<small>" + std::string(NameOf(quantity.status)) + "</small>") +
+         (range.empty() ? "" : "<small>" + (kindOfRange + Escaped(range)) + "</small>") + "</td></tr>\n";
+}
+
+/** With indices: "mu_y.dark" is mu with y.dark below the line. */
+std::string
+WithIndex(const std::string & symbol)
+{
+  const std::size_t line = symbol.find('_');
+  return line == std::string::npos
+           ? Escaped(symbol)
+           : Escaped(symbol.substr(0, line)) + "<sub>" + Escaped(symbol.substr(line + 1)) + "</sub>";
+}
+} // namespace
+
+std::string
+StackSentence(const Report & report)
+{
+  std::string text = std::to_string(report.frames) + " frames";
+  text += report.framesDistinct == report.frames ? "" : " (" + std::to_string(report.framesDistinct) + " different)";
+  text += " of " + std::to_string(report.width) + " \u00D7 " + std::to_string(report.height) + " pixels";
+  text += report.bitDepth ? ", " + std::to_string(*report.bitDepth) + " bits (" + report.bitDepthSource + ")" : "";
+  text += report.quantisationStepDn ? ", code step " + Text(*report.quantisationStepDn) + " DN" : "";
+  if (report.clipLowDn && report.clipHighDn)
+  {
+    text +=
+      ", levels " + Text(*report.clipLowDn) + " to " + Text(*report.clipHighDn) + " DN (" + report.clipSource + ")";
+  }
+  text += "; method " + report.method;
+  if (report.pixels.total > 0)
+  {
+    text += "; " + Percent(static_cast<double>(report.pixels.used) / static_cast<double>(report.pixels.total)) +
+            " of the pixels used";
+  }
+  return "<p class=\"soft\">" + Escaped(text) + ".</p>\n";
+}
+
+std::string
+QuantityTable(const Report & report)
+{
+  std::string rows;
+  for (const QuantityEntry & entry : QuantityList())
+  {
+    rows += HasRow(entry, report) ? QuantityRow(entry, *entry.of(report)) : "";
+  }
+  return "<table><thead><tr><th scope=\"col\">Quantity</th><th scope=\"col\">Value and standard error</th></tr></thead>"
+         "<tbody>\n" +
+         rows + "</tbody></table>\n";
+}
+
+std::string
+WarningList(const std::vector<Warning> & warnings)
+{
+  std::string items;
+  for (const Warning & warning : warnings)
+  {
+    const WarningKind & kind = KindOf(warning.code);
+    const std::string   severity = NameOf(kind.severity);
+    items += "<li class=\"warning is-" + severity + "\"><p><span class=\"word\">" + severity + "</span> <span " +
+             "class=\"soft\">" + kind.name + "</span></p><p>" + Escaped(SentenceText(warning.message)) +
+             "</p><p class=\"soft\">" + WithCode(kind.sentence) + "</p></li>\n";
+  }
+  return items.empty() ? "" : "<ul class=\"warnings\">\n" + items + "</ul>\n";
+}
+
+std::string
+EmvaTable(const Report & report)
+{
+  std::string rows;
+  for (const Emva1288Row & row : Emva1288Rows(report))
+  {
+    rows += "<tr><th scope=\"row\">" + WithIndex(row.symbol) + "</th><td>" + Escaped(row.name) + "</td><td>" +
+            Escaped(row.value) + "<small>" + Escaped(row.source) + "</small></td></tr>\n";
+  }
+  return "<p class=\"soft\">Symbols of EMVA 1288; values with \u2248 are computed from gain, read noise, offset and "
+         "the "
+         "highest level by the standard's linear model, not measured by its procedure.</p>\n<table><thead><tr><th "
+         "scope=\"col\">Symbol</th><th scope=\"col\">Name</th><th scope=\"col\">Value</th></tr></thead><tbody>\n" +
+         rows + "</tbody></table>\n";
+}
+
+std::string
+SettingsTable(const Report & report)
+{
+  std::string rows = "<tr><th scope=\"row\">version</th><td>ITKSensorNoise " + Escaped(GetModuleVersion()) +
+                     "</td></tr>\n<tr><th scope=\"row\">method</th><td>" + Escaped(report.method) + "</td></tr>\n";
+  for (const auto & [name, value] : report.settings)
+  {
+    rows += "<tr><th scope=\"row\">" + Escaped(name) + "</th><td>" + Escaped(TextOfSetting(value)) + "</td></tr>\n";
+  }
+  return "<table class=\"settings\"><tbody>\n" + rows + "</tbody></table>\n";
+}
+
+} // namespace sensornoise

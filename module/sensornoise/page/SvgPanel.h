@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_page_SvgPanel_h
+#define sensornoise_page_SvgPanel_h
+
+#include <string>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** A range of numbers with round ticks inside it. */
+struct PlotAxis
+{
+  double              low{ 0.0 };
+  double              high{ 1.0 };
+  std::vector<double> ticks;
+  int                 decimals{ 0 }; ///< of the ticks' labels
+
+  std::string
+  LabelOf(double tick) const;
+};
+
+/** The axis over [\a low, \a high], a little wider, with at most \a mostTicks ticks at multiples of 1, 2 or 5 times a
+ * power of ten. Ends that are not finite, or equal, are replaced by such as can be drawn. */
+PlotAxis
+MakeAxis(double low, double high, int mostTicks);
+
+/** The least and the largest finite number of lists. */
+class FiniteRange
+{
+public:
+  void
+  Add(const std::vector<double> & values);
+  void
+  Add(double value);
+  PlotAxis
+  Axis(int mostTicks) const;
+
+private:
+  double m_Low{ 0.0 };
+  double m_High{ 0.0 };
+  bool   m_IsEmpty{ true };
+};
+
+/** A number for an attribute: one decimal place, in any locale with a point. */
+std::string
+SvgNumber(double number);
+
+enum class PlotMarker
+{
+  Disc,
+  Ring,
+  Square
+};
+
+/** \class SvgPanel
+ * \brief Draws into one rectangle of an SVG figure, by the coordinates of its axes. What is not finite is left out, and
+ * what lies outside is cut off. Colours are classes of FigureStyle.
+ */
+class SvgPanel
+{
+public:
+  struct Box
+  {
+    double left;
+    double top;
+    double width;
+    double height;
+  };
+
+  /** Appends to \a svg the axes, their ticks and their names. \a xName "": the ticks of x have no labels. */
+  SvgPanel(std::string &       svg,
+           const Box &         box,
+           PlotAxis            x,
+           PlotAxis            y,
+           const std::string & xName,
+           const std::string & yName);
+  SvgPanel(const SvgPanel &) = delete;
+  SvgPanel &
+  operator=(const SvgPanel &) = delete;
+  /** Closes the rectangle. */
+  ~SvgPanel();
+
+  void
+  Points(const std::vector<double> & x, const std::vector<double> & y, const char * style, PlotMarker marker);
+  /** Through the points, with a gap where one is not finite. */
+  void
+  Line(const std::vector<double> & x, const std::vector<double> & y, const char * style);
+  void
+  Band(const std::vector<double> & x,
+       const std::vector<double> & low,
+       const std::vector<double> & high,
+       const char *                style);
+  /** From side to side at \a y. */
+  void
+  Level(double y, const char * style);
+
+  /** Inside the rectangle. */
+  double
+  X(double x) const;
+  double
+  Y(double y) const;
+
+private:
+  void
+  DrawAxes(const std::string & xName, const std::string & yName);
+
+  std::string & m_Svg;
+  Box           m_Box;
+  PlotAxis      m_X;
+  PlotAxis      m_Y;
+};
+
+} // namespace sensornoise
+
+#endif

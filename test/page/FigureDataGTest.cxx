@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/page/FigureData.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+#include <vector>
+
+using namespace sensornoise;
+
+namespace
+{
+Report
+MakeReport()
+{
+  Report report;
+  report.framesDistinct = 51;
+  report.gain = report.varianceSlope = Quantity::Identified(2.0);
+  report.totalIntercept = Quantity::Identified(10.0);
+  report.varianceSlope.standardError = 0.03;
+  report.totalIntercept.standardError = 4.0;
+  report.covariance = { { { 1.0, -0.5, 0.0 }, { -0.5, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } } };
+  report.fit.line = Report::Baseline{ 0.0, 2.0, 10.0 };
+  report.scatter = { { 100.0, 200.0 }, { 300.0, 700.0 }, { 214.2, 410.0 }, { 100, 400 } };
+  return report;
+}
+} // namespace
+
+TEST(SensorNoiseFigureData, ResidualsAreInUnitsOfTheBinsError)
+{
+  // of normal noise in 51 frames a variance has the relative error sqrt(2 / 50) = 0.2, and a mean of 100 of them 0.02:
+  // 4.2 DN^2 of 210
+  const FigureData data = MakeFigureData(MakeReport());
+  ASSERT_EQ(data.residuals.size(), 2U);
+  EXPECT_NEAR(data.residuals[0], 1.0, 1e-9);
+  EXPECT_NEAR(data.residuals[1], 0.0, 1e-9);
+  EXPECT_EQ(data.meanResiduals, (std::vector<double>{ 100.0, 200.0 }));
+}
+
+TEST(SensorNoiseFigureData, TheBandIsOfSlopeAndInterceptTogether)
+{
+  const FigureData data = MakeFigureData(MakeReport());
+  ASSERT_EQ(data.bandLow.size(), data.lineMean.size());
+  EXPECT_FALSE(data.isIndicative);
+  EXPECT_DOUBLE_EQ(data.lineMean.front(), 100.0);
+  EXPECT_DOUBLE_EQ(data.lineVariance.back(), 410.0);
+  // at 100 DN the errors are 3 and 4 DN^2, correlated by -0.5: 9 + 16 - 12
+  EXPECT_NEAR(data.bandHigh.front() - data.lineVariance.front(), 1.959964 * std::sqrt(13.0), 1e-5);
+  EXPECT_NEAR(data.lineVariance.front() - data.bandLow.front(), 1.959964 * std::sqrt(13.0), 1e-5);
+}
+
+TEST(SensorNoiseFigureData, WithoutAGainTheLineIsIndicativeAndHasNoBand)
+{
+  Report report = MakeReport();
+  report.gain = Quantity::Without(EstimateStatus::Failed);
+  EXPECT_TRUE(MakeFigureData(report).isIndicative);
+  EXPECT_TRUE(MakeFigureData(report).bandLow.empty());
+  report.fit.line.reset();
+  EXPECT_TRUE(MakeFigureData(report).lineMean.empty());
+  EXPECT_TRUE(MakeFigureData(report).residuals.empty());
+}
+
+TEST(SensorNoiseFigureData, WhatIsNotKnownIsLeftOut)
+{
+  Report report = MakeReport();
+  report.scatter.correctedVariance[0] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(MakeFigureData(report).mean, std::vector<double>{ 200.0 });
+  EXPECT_FALSE(MakeFigureData(Report()).HasCurve());
+}

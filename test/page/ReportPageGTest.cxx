@@ -1,0 +1,227 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/page/ReportPage.h"
+#include "sensornoise/base/WarningCodes.h"
+#include "sensornoise/report/ChannelReports.h"
+#include "sensornoise/report/Report.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <gtest/gtest.h>
+#include <limits>
+#include <set>
+#include <string>
+#include <vector>
+
+using namespace sensornoise;
+
+namespace
+{
+constexpr double NotANumber = std::numeric_limits<double>::quiet_NaN();
+
+/** Variance is 0.5 mean + 20; with flicker it is above that. */
+Report
+MakeGoodReport(std::size_t frames)
+{
+  Report report;
+  report.method = "refined";
+  report.frames = report.framesDistinct = frames;
+  report.width = 6000;
+  report.height = 4000;
+  report.clipHighDn = 4095.0;
+  report.quantisationStepDn = 1.0;
+  report.gain = report.varianceSlope = Quantity::Identified(0.5);
+  report.gain.standardError = report.varianceSlope.standardError = 0.001;
+  report.gain.interval95 = Interval{ 0.498, 0.502 };
+  report.offset = Quantity::Identified(95.0);
+  report.offset.standardError = 0.5;
+  report.readNoise = Quantity::Identified(4.0);
+  report.readNoise.standardError = 0.05;
+  report.readNoiseElectrons = Quantity::Identified(8.0);
+  report.intercept = report.totalIntercept = Quantity::Identified(20.0);
+  report.intercept.standardError = report.totalIntercept.standardError = 0.2;
+  report.covariance = { { { 1e-6, 0.0, 0.0 }, { 0.0, 0.04, 0.0 }, { 0.0, 0.0, 0.25 } } };
+  report.fit.line = Report::Baseline{ 0.0, 0.5, 20.0 };
+  for (int i = 0; i < 100; ++i)
+  {
+    const double mean = 100.0 + 30.0 * i;
+    report.scatter.mean.push_back(mean);
+    report.scatter.variance.push_back(0.5 * mean + 20.0 + 1e-4 * mean * mean);
+    report.scatter.correctedVariance.push_back(0.5 * mean + 20.0 + (i % 2 == 0 ? 1.0 : -1.0));
+    report.scatter.count.push_back(1000);
+  }
+  for (std::size_t t = 0; t < frames; ++t)
+  {
+    report.flicker.push_back(0.01 * std::sin(static_cast<double>(t)));
+    report.motion.push_back({ 0.02 * std::cos(static_cast<double>(t)), -0.01 });
+  }
+  report.noiseCorrelation.emplace();
+  report.noiseCorrelation->kind = "white";
+  report.noiseCorrelation->space.push_back({ 1, 0, 0, 0.001, 0.002 });
+  report.noiseCorrelation->time.push_back({ 0, 0, 1, -0.001, 0.002 });
+  report.settings = { { "rolling_shutter", std::string("auto") }, { "offset", 1.5 }, { "any", true } };
+  return report;
+}
+
+bool
+Contains(const std::string & text, const std::string & part)
+{
+  return text.find(part) != std::string::npos;
+}
+
+/** "" if every tag is closed in its order, else what is wrong. */
+std::string
+FaultOfTags(const std::string & text)
+{
+  static const std::set<std::string> alone{ "meta", "img", "!DOCTYPE" };
+  std::vector<std::string>           open;
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at + 1))
+  {
+    const std::size_t end = text.find('>', at);
+    const std::string tag = text.substr(at + 1, end - at - 1);
+    const std::string name = tag.substr(0, tag.find_first_of(" /\n", 1));
+    if (tag.front() == '/')
+    {
+      if (open.empty() || tag.substr(1) != open.back())
+      {
+        return "</" + tag.substr(1) + "> closes " + (open.empty() ? "nothing" : open.back());
+      }
+      open.pop_back();
+    }
+    else if (tag.back() != '/' && alone.count(name) == 0)
+    {
+      open.push_back(name);
+    }
+  }
+  return open.empty() ? "" : open.back() + " stays open";
+}
+
+/** What no page may have: another file's address, numbers that are none, tags that do not close. */
+void
+ExpectSound(const std::string & page)
+{
+  EXPECT_EQ(FaultOfTags(page), "");
+  for (const char * const part : { "nan", "inf\"", "-inf", "http", "<script", "@import", "url(" })
+  {
+    const std::size_t at = page.find(part);
+    EXPECT_EQ(at, std::string::npos) << page.substr(at - std::min<std::size_t>(at, 60), 120);
+  }
+}
+} // namespace
+
+TEST(SensorNoiseReportPage, HoldsWhatWasFoundToItsErrors)
+{
+  const std::string page = ToHtml(MakeGoodReport(100));
+  ExpectSound(page);
+  for (const char * const part : { "The gain is 0.5000 \u00B1 0.0010 DN/e\u207B",
+                                   "95 %: 0.4980 to 0.5020",
+                                   "95.00 \u00B1 0.50",
+                                   "every number below stands",
+                                   "rolling_shutter",
+                                   "not given by this method",
+                                   "<sub>e.sat</sub>",
+                                   "\u2248 8000 e\u207B" }) // (4095 - 95) / 0.5
+  {
+    EXPECT_TRUE(Contains(page, part)) << part;
+  }
+}
+
+TEST(SensorNoiseReportPage, HoldsEveryWarningAndWhatWouldHelp)
+{
+  Report report = MakeGoodReport(20);
+  for (const WarningKind & kind : WarningTable)
+  {
+    report.Warn(kind.code, "found <" + std::string(kind.name) + "> & \"more\"");
+  }
+  const std::string page = ToHtml(report);
+  ExpectSound(page);
+  for (const WarningKind & kind : WarningTable)
+  {
+    EXPECT_TRUE(Contains(page, "Found &lt;" + std::string(kind.name) + "&gt; &amp; &quot;more&quot;.")) << kind.name;
+    EXPECT_TRUE(Contains(page, std::string(kind.sentence).substr(0, 20))) << kind.name;
+  }
+}
+
+TEST(SensorNoiseReportPage, AnEmptyReportSaysThatThereIsNothing)
+{
+  Report report;
+  report.Warn(WarningCode::NothingToMeasure, "there are 3 different frames; expected 5");
+  const std::string page = ToHtml(report);
+  ExpectSound(page);
+  EXPECT_FALSE(Contains(page, "<svg"));
+  for (const char * const part : { "Not measured.",
+                                   "No gain could be measured: there are 3 different frames; expected 5.",
+                                   "No point of the noise curve was measured.",
+                                   "Neither flicker nor motion was measured." })
+  {
+    EXPECT_TRUE(Contains(page, part)) << part;
+  }
+  EXPECT_EQ(FaultOfTags(ToSvg(report)), "");
+}
+
+TEST(SensorNoiseReportPage, WhatIsNotANumberIsNotDrawn)
+{
+  Report report = MakeGoodReport(50);
+  report.scatter.mean[3] = NotANumber;
+  report.scatter.variance[4] = std::numeric_limits<double>::infinity();
+  report.scatter.variance[8] = NotANumber;
+  report.scatter.correctedVariance[5] = NotANumber;
+  report.flicker[6] = NotANumber;
+  report.motion[7] = { NotANumber, -std::numeric_limits<double>::infinity() };
+  report.noiseCorrelation->space.push_back({ 0, 1, 0, NotANumber, NotANumber });
+  (*report.covariance)[0][1] = NotANumber;
+  report.gain = Quantity::Without(EstimateStatus::Failed);
+  ExpectSound(ToHtml(report));
+  report.fit.line->gain = NotANumber;
+  ExpectSound(ToHtml(report));
+  for (auto & flicker : report.flicker)
+  {
+    flicker = NotANumber;
+  }
+  ExpectSound(ToHtml(report));
+}
+
+TEST(SensorNoiseReportPage, OfManyPixelsAndFramesItStaysSmall)
+{
+  const Report              report = MakeGoodReport(60000);
+  std::vector<double>       mean(report.width * report.height);
+  std::vector<std::uint8_t> use(mean.size());
+  for (std::size_t i = 0; i < mean.size(); ++i)
+  {
+    const std::size_t mixed = i * 2654435761U % 4096; // a picture that no compression makes small
+    mean[i] = static_cast<double>(mixed);
+    use[i] = static_cast<std::uint8_t>(mixed % 14);
+  }
+  const std::string page = ToHtml(report, { report.width, report.height, mean.data(), use.data() });
+  EXPECT_LT(page.size(), 1000000U);
+  EXPECT_TRUE(Contains(page, "width=\"250\" height=\"167\" src=\"data:image/png;base64,iVBORw0KGgo"));
+  EXPECT_TRUE(Contains(page, "near a clip level, 7.1"));
+  EXPECT_EQ(FaultOfTags(page), "");
+}
+
+TEST(SensorNoiseReportPage, OfAMosaicItHasAllChannels)
+{
+  std::array<Report, 4> channels;
+  channels.fill(MakeGoodReport(30));
+  channels[3] = Report();
+  channels[3].Warn(WarningCode::IntensityRangeTooSmall, "the blue plane has one level");
+  const std::string page = ToHtml(MakeChannelReports(BayerPattern::RGGB, BayerSource::Given, channels));
+  ExpectSound(page);
+  for (const char * const part : { "Channel R<", "Channel G1", "Channel G2", "Channel B", "of the channels B." })
+  {
+    EXPECT_TRUE(Contains(page, part)) << part;
+  }
+  EXPECT_TRUE(Contains(page, "The blue plane has one level."));
+}
+
+TEST(SensorNoiseReportPage, TheFigureIsAFileOfItsOwn)
+{
+  const std::string svg = ToSvg(MakeGoodReport(30));
+  EXPECT_EQ(svg.rfind("<svg ", 0), 0U);
+  EXPECT_EQ(FaultOfTags(svg), "");
+  EXPECT_TRUE(Contains(svg, "xmlns=\"http://www.w3.org/2000/svg\""));
+  EXPECT_FALSE(Contains(svg, "nan"));
+}
