@@ -23,7 +23,7 @@ def answer(request: dict) -> dict:
         frames = files if request["role"] == "frames" else request["stack"]
         if request["role"] == "frames" and request["raw"]:
             options["raw"] = request["raw"]
-        report = itk.estimate_sensor_noise(frames, **options)
+        report = itk.estimate_sensor_noise(frames, bayer="none", **options)
     except (ValueError, RuntimeError) as error:
         return {"code": 2, "text": "", "error": str(error)}
     return {"code": 0, "text": json.dumps(dict(report)), "error": ""}

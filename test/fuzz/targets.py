@@ -52,7 +52,8 @@ class ToolTarget:
     def ask(self, folder: str, case: Case, role: str, good: str) -> Answer:
         files = [os.path.join(folder, name) for name in case.frames]
         tool = os.path.join(self.tools, "estimate-sensor-noise")
-        command = [tool, "--quiet", "--threads", "1", "--json", "-"]
+        # what is read is looked at, not channels: a mosaic's file, too, gives one report
+        command = [tool, "--quiet", "--threads", "1", "--json", "-", "--bayer", "none"]
         stack = os.path.join(good, "s.mha")
         if role == "frames":
             command += files + (["--raw", case.raw] if case.raw else [])
