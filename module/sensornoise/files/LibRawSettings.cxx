@@ -191,7 +191,7 @@ LossOf(LibRaw & raw)
 {
   libraw_decoder_info_t decoder{};
   const bool            isKnown = raw.get_decoder_info(&decoder) == LIBRAW_SUCCESS && decoder.decoder_name != nullptr;
-  const std::string     name = isKnown ? decoder.decoder_name : "";
+  std::string           name = isKnown ? decoder.decoder_name : "";
   const auto            has = [&name](const char * part) { return name.find(part) != std::string::npos; };
   if (has("sony_arw2"))
   {
