@@ -166,7 +166,8 @@ public:
   }
 
   /** The offset [DN], if it is known (Refined only): offset and read noise then need no flicker, and steady light is
-   * told from the offset. NaN (default): not known. */
+   * told from the offset. NaN (default): not known, but for the level of masked pixels, where the input's metadata have
+   * it with its error (sensornoise::MetaDataKeys) and there are no dark frames. */
   itkSetMacro(Offset, double);
   itkGetConstMacro(Offset, double);
 

@@ -443,6 +443,12 @@ SensorNoiseEstimator<TStack>::FindOffsets(const std::vector<std::uint8_t> &     
     const std::vector<sensornoise::KnownOffset> measured = sink->Measure(settings.codes);
     std::copy(measured.begin(), measured.end(), offsets.begin());
   }
+  else if (const auto camera = this->GetCamera();
+           m_Method == MethodEnum::Refined && std::isfinite(camera.opticalBlackDn + camera.opticalBlackErrorDn))
+  {
+    const sensornoise::KnownOffset masked{ camera.opticalBlackDn, camera.opticalBlackErrorDn };
+    std::fill(offsets.begin(), offsets.end(), masked);
+  }
   return offsets;
 }
 
