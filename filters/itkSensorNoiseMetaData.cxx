@@ -20,6 +20,7 @@
 #include "itkMetaDataObject.h"
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace sensornoise
@@ -45,6 +46,29 @@ SetNumber(itk::MetaDataDictionary & dictionary, const char * key, double value)
 {
   SetEntry(dictionary, key, value, !std::isnan(value));
 }
+
+template <typename TNumber>
+bool
+FindNumber(const itk::MetaDataDictionary & dictionary, const char * key, double & value)
+{
+  TNumber number{};
+  if (itk::ExposeMetaData(dictionary, key, number))
+  {
+    value = static_cast<double>(number);
+    return true;
+  }
+  return false;
+}
+
+/** A number of any of the types that programs, or Python, write; NaN: none. */
+double
+NumberIn(const itk::MetaDataDictionary & dictionary, const char * key)
+{
+  double value = std::numeric_limits<double>::quiet_NaN();
+  FindNumber<double>(dictionary, key, value) || FindNumber<float>(dictionary, key, value) ||
+    FindNumber<int>(dictionary, key, value) || FindNumber<unsigned int>(dictionary, key, value);
+  return value;
+}
 } // namespace
 
 void
@@ -66,13 +90,14 @@ CameraSettingsOf(const itk::MetaDataDictionary & dictionary)
 {
   CameraSettings camera;
   itk::ExposeMetaData(dictionary, MetaDataKeys::BayerPattern, camera.bayerPattern);
-  itk::ExposeMetaData(dictionary, MetaDataKeys::BitDepth, camera.bitDepth);
-  itk::ExposeMetaData(dictionary, MetaDataKeys::BlackLevel, camera.blackLevelDn);
-  itk::ExposeMetaData(dictionary, MetaDataKeys::WhiteLevel, camera.whiteLevelDn);
-  itk::ExposeMetaData(dictionary, MetaDataKeys::IsoSpeed, camera.isoSpeed);
-  itk::ExposeMetaData(dictionary, MetaDataKeys::ExposureSeconds, camera.exposureSeconds);
-  itk::ExposeMetaData(dictionary, MetaDataKeys::OpticalBlack, camera.opticalBlackDn);
-  itk::ExposeMetaData(dictionary, MetaDataKeys::OpticalBlackError, camera.opticalBlackErrorDn);
+  const double bits = NumberIn(dictionary, MetaDataKeys::BitDepth);
+  camera.bitDepth = bits >= 1.0 && bits <= 64.0 ? static_cast<unsigned int>(bits) : 0;
+  camera.blackLevelDn = NumberIn(dictionary, MetaDataKeys::BlackLevel);
+  camera.whiteLevelDn = NumberIn(dictionary, MetaDataKeys::WhiteLevel);
+  camera.isoSpeed = NumberIn(dictionary, MetaDataKeys::IsoSpeed);
+  camera.exposureSeconds = NumberIn(dictionary, MetaDataKeys::ExposureSeconds);
+  camera.opticalBlackDn = NumberIn(dictionary, MetaDataKeys::OpticalBlack);
+  camera.opticalBlackErrorDn = NumberIn(dictionary, MetaDataKeys::OpticalBlackError);
   itk::ExposeMetaData(dictionary, MetaDataKeys::Camera, camera.camera);
   return camera;
 }

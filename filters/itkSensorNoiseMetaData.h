@@ -43,7 +43,8 @@ constexpr const char * Camera = "SensorNoise.Camera";                       ///<
 SensorNoise_EXPORT void
 SetCameraSettings(itk::MetaDataDictionary & dictionary, const CameraSettings & camera);
 
-/** What a dictionary says of the camera; entries of another type count as none. */
+/** What a dictionary says of the camera; numbers may be of any type that Python or programs
+ * write; entries of another type count as none. */
 SensorNoise_EXPORT CameraSettings
 CameraSettingsOf(const itk::MetaDataDictionary & dictionary);
 

@@ -3,6 +3,7 @@
 #include "sensornoise/files/CameraSettings.h"
 #include "sensornoise/report/ReportJson.h"
 #include "itkImage.h"
+#include "itkMetaDataObject.h"
 #include "itkSensorNoiseEstimator.h"
 #include "itkSensorNoiseMetaData.h"
 #include "helpers/PipelineTestHelper.h"
@@ -55,6 +56,19 @@ TEST(SensorNoiseEstimatorCamera, CodesAreThoseThatTheFileSays)
   JsonOf(estimator);
   EXPECT_EQ(estimator->GetReport().bitDepth, 13);
   EXPECT_EQ(estimator->GetReport().clipHighDn, 2900.0);
+}
+
+TEST(SensorNoiseEstimatorCamera, NumbersMayBeOfAnyType)
+{
+  const auto stack = StackOf({});
+  auto &     dictionary = stack->GetMetaDataDictionary();
+  itk::EncapsulateMetaData(dictionary, sensornoise::MetaDataKeys::WhiteLevel, 3000.0F); // as Python writes them
+  itk::EncapsulateMetaData(dictionary, sensornoise::MetaDataKeys::BitDepth, 14);
+  const auto camera = sensornoise::CameraSettingsOf(dictionary);
+  EXPECT_EQ(camera.whiteLevelDn, 3000.0);
+  EXPECT_EQ(camera.bitDepth, 14U);
+  itk::EncapsulateMetaData(dictionary, sensornoise::MetaDataKeys::BitDepth, std::string("14"));
+  EXPECT_EQ(sensornoise::CameraSettingsOf(dictionary).bitDepth, 0U);
 }
 
 TEST(SensorNoiseEstimatorCamera, MaskedPixelsTellTheOffset)
