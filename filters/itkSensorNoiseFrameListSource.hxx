@@ -19,6 +19,7 @@
 #define itkSensorNoiseFrameListSource_hxx
 
 #include "itkSensorNoiseFrameListSource.h"
+#include "itkSensorNoiseFileErrors.h"
 #include "itkSensorNoiseMetaData.h"
 
 #include <algorithm>
@@ -30,47 +31,6 @@
 
 namespace itk
 {
-namespace
-{
-/** Calls \a function for its value; an error about files becomes ITK's, with the same sentence and nothing before it.
- */
-template <typename TFunction>
-auto
-WithFileErrors(TFunction function) -> decltype(function())
-{
-  try
-  {
-    return function();
-  }
-  catch (const ExceptionObject &)
-  {
-    throw;
-  }
-  catch (const std::exception & error)
-  {
-    throw ExceptionObject(__FILE__, __LINE__, error.what(), ITK_LOCATION);
-  }
-}
-
-inline IOComponentEnum
-ComponentTypeOf(sensornoise::FramePixel pixel)
-{
-  switch (pixel)
-  {
-    case sensornoise::FramePixel::UnsignedChar:
-      return IOComponentEnum::UCHAR;
-    case sensornoise::FramePixel::UnsignedShort:
-      return IOComponentEnum::USHORT;
-    case sensornoise::FramePixel::Short:
-      return IOComponentEnum::SHORT;
-    case sensornoise::FramePixel::Float:
-      return IOComponentEnum::FLOAT;
-    default:
-      return IOComponentEnum::DOUBLE;
-  }
-}
-} // namespace
-
 template <typename TOutputStack>
 void
 SensorNoiseFrameListSource<TOutputStack>::SetFileNames(const std::vector<std::string> & names)

@@ -17,6 +17,7 @@
  *=========================================================================*/
 #include "itkSensorNoiseImageIO.h"
 
+#include "itkSensorNoiseFileErrors.h"
 #include "itkSensorNoiseMetaData.h"
 #include "sensornoise/files/FileBytes.h"
 #include "sensornoise/files/FrameFormats.h"
@@ -29,43 +30,6 @@ namespace itk
 {
 namespace
 {
-/** Throws what \a function throws as ITK's exception, with the same sentence. */
-template <typename TFunction>
-void
-AsItk(TFunction function)
-{
-  try
-  {
-    function();
-  }
-  catch (const ExceptionObject &)
-  {
-    throw;
-  }
-  catch (const std::exception & error)
-  {
-    throw ExceptionObject(__FILE__, __LINE__, error.what(), ITK_LOCATION);
-  }
-}
-
-IOComponentEnum
-ComponentOf(sensornoise::FramePixel pixel)
-{
-  switch (pixel)
-  {
-    case sensornoise::FramePixel::UnsignedChar:
-      return IOComponentEnum::UCHAR;
-    case sensornoise::FramePixel::UnsignedShort:
-      return IOComponentEnum::USHORT;
-    case sensornoise::FramePixel::Short:
-      return IOComponentEnum::SHORT;
-    case sensornoise::FramePixel::Float:
-      return IOComponentEnum::FLOAT;
-    default:
-      return IOComponentEnum::DOUBLE;
-  }
-}
-
 /** The file's format by its head and name, if this library reads it itself; null: it does not. */
 const sensornoise::FrameFormat *
 OurFormatOf(const std::string & name)
@@ -168,7 +132,7 @@ SensorNoiseImageIO::CanReadFile(const char * name)
 void
 SensorNoiseImageIO::ReadImageInformation()
 {
-  AsItk([this] { this->Inspect(this->GetFileName()); });
+  WithFileErrors([this] { this->Inspect(this->GetFileName()); });
   if (!m_File.reader)
   {
     itkExceptionMacro(<< m_File.name << ": of format " << m_File.format->name << ", which ITK's "
@@ -178,7 +142,7 @@ SensorNoiseImageIO::ReadImageInformation()
   this->SetNumberOfDimensions(dimensions);
   this->SetNumberOfComponents(1);
   this->SetPixelType(IOPixelEnum::SCALAR);
-  this->SetComponentType(ComponentOf(m_File.pixel));
+  this->SetComponentType(ComponentTypeOf(m_File.pixel));
   this->SetDimensions(0, m_File.width);
   this->SetDimensions(1, m_File.height);
   if (dimensions == 3)
@@ -216,7 +180,7 @@ SensorNoiseImageIO::Read(void * buffer)
   const bool          isPart = m_File.frames > 1 && region.GetImageDimension() > 2 && this->GetUseStreamedReading();
   const auto          first = isPart ? static_cast<std::size_t>(region.GetIndex(2)) : 0;
   const auto          count = isPart ? static_cast<std::size_t>(region.GetSize(2)) : m_File.frames;
-  AsItk([&] {
+  WithFileErrors([&] {
     sensornoise::RequireUnchanged(m_File);
     m_File.reader->Read(m_File, first, count, buffer);
     sensornoise::RequireUnchanged(m_File);

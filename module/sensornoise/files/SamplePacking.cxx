@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/files/SamplePacking.h"
 
+#include "sensornoise/files/ByteOrder.h"
+
 #include <algorithm>
 #include <cstring>
 
@@ -26,17 +28,6 @@ UnpackGroups(const SampleFormat &  format,
     bytes += bytesInGroup;
     pixels += samples;
   }
-}
-
-std::uint64_t
-NumberOf(const unsigned char * bytes, std::size_t count, bool isBigEndian)
-{
-  std::uint64_t number = 0;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    number = (number << 8) | bytes[isBigEndian ? i : count - 1 - i];
-  }
-  return number;
 }
 
 bool
@@ -105,7 +96,7 @@ UnpackSamples(const SampleFormat & format, const unsigned char * bytes, std::siz
       return;
     case SamplePacking::LowestFirst:
       UnpackGroups(format, bytes, groups, out, [=](const unsigned char * from, unsigned short * to) {
-        const std::uint64_t number = NumberOf(from, bytesInGroup, false);
+        const std::uint64_t number = NumberInBytes(from, bytesInGroup, false);
         for (std::size_t k = 0; k < samples; ++k)
         {
           to[k] = static_cast<unsigned short>((number >> (bits * k)) & mask);
@@ -114,7 +105,7 @@ UnpackSamples(const SampleFormat & format, const unsigned char * bytes, std::siz
       return;
     case SamplePacking::HighestFirst:
       UnpackGroups(format, bytes, groups, out, [=](const unsigned char * from, unsigned short * to) {
-        const std::uint64_t number = NumberOf(from, bytesInGroup, true);
+        const std::uint64_t number = NumberInBytes(from, bytesInGroup, true);
         for (std::size_t k = 0; k < samples; ++k)
         {
           to[k] = static_cast<unsigned short>((number >> (bits * (samples - 1 - k))) & mask);
@@ -129,7 +120,7 @@ UnpackSamples(const SampleFormat & format, const unsigned char * bytes, std::siz
       return;
     case SamplePacking::Mipi:
       UnpackGroups(format, bytes, groups, out, [=](const unsigned char * from, unsigned short * to) {
-        const std::uint64_t low = NumberOf(from + samples, bytesInGroup - samples, false);
+        const std::uint64_t low = NumberInBytes(from + samples, bytesInGroup - samples, false);
         for (std::size_t k = 0; k < samples; ++k)
         {
           to[k] = static_cast<unsigned short>((from[k] << lowBits) | ((low >> (lowBits * k)) & lowMask));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/files/TiffDirectory.h"
 
+#include "sensornoise/files/ByteOrder.h"
 #include "sensornoise/files/FileError.h"
 
 #include <algorithm>
@@ -13,17 +14,6 @@ namespace
 {
 // as many as libtiff believes
 constexpr std::uint64_t MaximumEntries = 4096;
-
-std::uint64_t
-TiffNumber(const unsigned char * bytes, std::size_t width, bool isBigEndian)
-{
-  std::uint64_t number = 0;
-  for (std::size_t i = 0; i < width; ++i)
-  {
-    number = (number << 8) | bytes[isBigEndian ? i : width - 1 - i];
-  }
-  return number;
-}
 
 bool
 IsWholeNumberType(unsigned type)
@@ -56,7 +46,7 @@ TiffBytes::IsTiff(const unsigned char * head, std::size_t count)
     return false;
   }
   const bool isBigEndian = head[0] == 'M' && head[1] == 'M';
-  const auto version = TiffNumber(head + 2, 2, isBigEndian);
+  const auto version = NumberInBytes(head + 2, 2, isBigEndian);
   return (isBigEndian || (head[0] == 'I' && head[1] == 'I')) && (version == 42 || version == 43);
 }
 
@@ -83,7 +73,7 @@ TiffBytes::TiffBytes(const std::string & file, FileBytes & bytes)
 std::uint64_t
 TiffBytes::At(const unsigned char * bytes, std::size_t width) const
 {
-  return TiffNumber(bytes, width, m_IsBigEndian);
+  return NumberInBytes(bytes, width, m_IsBigEndian);
 }
 
 void
@@ -233,7 +223,7 @@ TiffBytes::Numbers::Next()
   {
     bytes[i] = static_cast<unsigned char>(m_Reader.Next());
   }
-  return TiffNumber(bytes.data(), m_Width, m_IsBigEndian);
+  return NumberInBytes(bytes.data(), m_Width, m_IsBigEndian);
 }
 
 } // namespace sensornoise
