@@ -187,6 +187,10 @@ TEST_F(MetaImageFile, AListThatIsNotOfAFileForEachFrameIsRefused)
   IsStack("a.mhd", header + list);
   IsRefused(
     "a.mhd", header + list.substr(0, list.size() - 1), { "truncated: 3 whole lines in its list", "expected 4" });
+  IsStack("a.mhd", header + list + "\n \n");
+  IsRefused(
+    "a.mhd", header + Replaced(list, "p2\n", "p2\n\n"), { "an empty line in its list", "expected a name in each" });
+  IsRefused("a.mhd", header + " \n" + list, { "an empty line in its list of data files" });
   IsRefused("a.mhd", header + list + "p3\n", { "5 whole lines in its list of data files, expected 4" });
   IsRefused("a.mhd", header + Replaced(list, "p3", "p2"), { "p2 comes twice in its list; expected each once" });
   IsRefused("a.mhd", header + Replaced(list, "p3", "p4"), { "p4: does not exist" });

@@ -176,10 +176,17 @@ ReadMetaImageHeader(const std::string & file, FileBytes & bytes)
   }
   if (header.Field("ElementDataFile").rfind("LIST", 0) == 0)
   {
+    bool isBlankBefore = false;
     while ((line = text.Next()))
     {
+      const bool isBlank = WithoutBlanks(*line).empty();
+      if (isBlankBefore && !isBlank)
+      {
+        throw FileError(file, "has an empty line in its list of data files; expected a name in each"); // MetaIO crashes
+      }
+      isBlankBefore = isBlank;
       // MetaIO drops a last line without an end
-      if (text.LineWasEnded() && !line->empty())
+      if (text.LineWasEnded() && !isBlank)
       {
         header.list.push_back(*line);
       }
