@@ -22,6 +22,7 @@
 #include "sensornoise/files/FileBytes.h"
 #include "sensornoise/files/FrameFormats.h"
 #include "sensornoise/files/RawLayout.h"
+#include "sensornoise/files/RawTiff.h"
 
 #include <exception>
 #include <vector>
@@ -99,6 +100,15 @@ SensorNoiseImageIO::Inspect(const std::string & name)
   }
   m_File = m_RawLayout.empty() ? sensornoise::InspectFrameFile(name)
                                : sensornoise::InspectRawFile(name, sensornoise::ReadRawLayout(m_RawLayout));
+}
+
+void
+SensorNoiseImageIO::RequireWholeRawTiff(const std::string & name, unsigned int width, unsigned int height)
+{
+  WithFileErrors([&] {
+    sensornoise::FileBytes bytes(name);
+    sensornoise::RequireWholeRawTiff(name, bytes, width, height);
+  });
 }
 
 bool

@@ -72,6 +72,11 @@ public:
     return m_RawLayout;
   }
 
+  /** Throws unless all codes of a raw file that is a TIFF, a DNG above all, are in the file, whole numbers without
+   * loss: for readers that do not look. \a width, \a height: of the codes that LibRaw finds, margins too [pixels]. */
+  static void
+  RequireWholeRawTiff(const std::string & name, unsigned int width, unsigned int height);
+
   bool
   CanReadFile(const char * name) override;
   bool

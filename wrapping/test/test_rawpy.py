@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Raw files of cameras through rawpy: codes as they are, and what the file says of the camera."""
 
+import os
 import struct
 
 import itk
@@ -120,3 +121,16 @@ def test_what_is_no_raw_file_is_refused_by_name(names, burst):
 def test_truncated_raw_file_is_refused(names):
     names[3].write_bytes(names[3].read_bytes()[:3000])
     assert refused(names).startswith(f"{names[3]}: ")
+
+
+def test_codes_that_are_not_there_are_told(names):
+    whole = names[3].read_bytes()
+    names[3].write_bytes(whole.replace(struct.pack("<HHIH", 259, SHORT, 1, 1), struct.pack("<HHIH", 259, SHORT, 1, 7)))
+    assert names[3].read_bytes() != whole
+    assert refused(names).startswith(f"{names[3]}: ")
+
+
+def test_what_is_no_regular_file_is_refused(names):
+    names[3].unlink()
+    os.mkfifo(names[3])
+    assert refused(names) == f"{names[3]}: is no regular file"

@@ -154,16 +154,11 @@ ReadsRawCameraFiles()
 void
 InspectRawCamera(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating)
 {
-  std::string head(16, '\0');
-  head.resize(bytes.ReadSome(0, head.data(), head.size()));
 #ifdef SENSORNOISE_LIBRAW
   LibRawFrame frame(file.name);
   file.pixel = FramePixel::UnsignedShort;
   SetFrameSizes(file, { frame.Width(), frame.Height() });
-  if (IsTiffHead(head))
-  {
-    RequireWholeRawTiff(file.name, bytes, frame.RawWidth(), frame.RawHeight());
-  }
+  RequireWholeRawTiff(file.name, bytes, frame.RawWidth(), frame.RawHeight());
   if (beforeInflating)
   {
     beforeInflating(file);
@@ -173,6 +168,8 @@ InspectRawCamera(FileBytes & bytes, FrameFile & file, const BeforeInflating & be
   file.reader = std::make_shared<RawCameraReader>();
 #else
   static_cast<void>(beforeInflating);
+  std::string head(16, '\0');
+  head.resize(bytes.ReadSome(0, head.data(), head.size()));
   throw FileError(file.name,
                   "a raw file of a camera (" + KindOf(head, file.name) +
                     "), for which this build has no LibRaw; expected its codes as TIFF (LibRaw's unprocessed_raw -T), "

@@ -304,6 +304,11 @@ RawTiffKindOf(const std::string & file, FileBytes & bytes)
 void
 RequireWholeRawTiff(const std::string & file, FileBytes & bytes, std::uint64_t width, std::uint64_t height)
 {
+  unsigned char head[4] = {};
+  if (!TiffBytes::IsTiff(head, bytes.ReadSome(0, head, sizeof(head))))
+  {
+    return;
+  }
   TiffBytes                        tiff(file, bytes);
   const std::vector<TiffDirectory> directories = AllDirectories(file, tiff);
   const bool                       isDng = directories.front().Find(50706) != nullptr;

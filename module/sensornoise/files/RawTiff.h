@@ -23,7 +23,8 @@ enum class RawTiffKind
 RawTiffKind
 RawTiffKindOf(const std::string & file, FileBytes & bytes);
 
-/** Throws FileError unless the pixels of a raw file that is a TIFF are all in the file. Of every raw file: its strips
+/** Throws FileError unless the pixels of a raw file that is a TIFF are all in the file; nothing is said of others. Of
+ * every TIFF: its strips
  * and tiles, as far as its directories list them. Of a DNG, beyond that: a directory declares an image of \a width x
  * \a height codes, as LibRaw would read it [pixels]; its codes are whole numbers, uncompressed or as JPEG without loss,
  * and not rounded through a table; and its strips or tiles hold exactly as many of them, each JPEG to its end. */

@@ -4,11 +4,13 @@
 
 import os
 import struct
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
 
+from ._errors import itk_errors
 from ._types import FileName
 
 ENDINGS = (
@@ -25,9 +27,9 @@ def is_raw(name: FileName) -> bool:
     return os.fsdecode(name).lower().endswith(ENDINGS)
 
 
-def read_codes(name: FileName) -> np.ndarray:
-    """The codes (y, x) of the active area, unprocessed, of one raw file."""
-    with _open(name) as raw:
+def read_codes(name: FileName, is_new: bool = True) -> np.ndarray:
+    """The codes (y, x) of the active area, unprocessed, of one raw file; one that is new is checked."""
+    with _open(name, is_new) as raw:
         return _codes_of(raw, name).copy()
 
 
@@ -62,13 +64,15 @@ class RawFiles:
     def __init__(self, names: Sequence[FileName]) -> None:
         self.names = list(names)
         first = read_codes(self.names[0])
+        self._checked = {os.fsdecode(self.names[0])}
         self.shape = (len(self.names), *first.shape)
         self.dtype = first.dtype
 
     def __getitem__(self, times: slice) -> np.ndarray:
         frames = np.empty((len(self.names[times]), *self.shape[1:]), self.dtype)
         for frame, name in zip(frames, self.names[times], strict=True):
-            codes = read_codes(name)
+            codes = read_codes(name, is_new=os.fsdecode(name) not in self._checked)
+            self._checked.add(os.fsdecode(name))
             if codes.shape != frame.shape or codes.dtype != frame.dtype:
                 raise ValueError(
                     f"{os.fsdecode(name)}: {codes.shape[1]} x {codes.shape[0]} pixels of type {codes.dtype}, but "
@@ -79,10 +83,15 @@ class RawFiles:
         return frames
 
 
-def _open(name: FileName) -> Any:
+@contextmanager
+def _open(name: FileName, is_new: bool = True) -> Iterator[Any]:
+    """The file as rawpy has it; one that is new is checked. Raises ValueError for what is found wrong, by LibRaw at
+    opening or when the codes are asked for, which it decodes only then."""
     text = os.fsdecode(name)
     if not os.path.exists(text):
         raise ValueError(f"{text}: does not exist")
+    if not os.path.isfile(text):  # LibRaw would wait for what comes out of a pipe
+        raise ValueError(f"{text}: is no regular file")
     try:
         import rawpy
     except ImportError as error:
@@ -90,10 +99,21 @@ def _open(name: FileName) -> Any:
             f"{text}: raw files of cameras are read by rawpy: pip install itk-sensornoise[raw]"
         ) from error
     try:
-        return rawpy.imread(text)
+        with rawpy.imread(text) as raw:
+            if is_new:
+                _require_whole(text, raw)
+            yield raw
     except rawpy.LibRawError as error:
         reason = error.args[0].decode() if error.args and isinstance(error.args[0], bytes) else error
         raise ValueError(f"{text}: rawpy cannot read it ({reason}); expected a raw file of a camera") from error
+
+
+def _require_whole(name: str, raw: Any) -> None:
+    """LibRaw believes a DNG whose codes are not all there, and rawpy does not hand on what it noticed."""
+    import itk
+
+    with itk_errors(kind=ValueError):
+        itk.SensorNoiseImageIO.RequireWholeRawTiff(name, raw.sizes.raw_width, raw.sizes.raw_height)
 
 
 def _codes_of(raw: Any, name: FileName) -> np.ndarray:
