@@ -26,6 +26,7 @@ took() {
 # OpenCV that reads images and videos, for examples/opencv: 60 MB to download, 230 MB on the disk.
 sensornoise_packages+=(libopencv-imgcodecs-dev libopencv-videoio-dev)
 
+rm -f "$here/build/pytest.log" "$here/build/fuzz.log"
 SECONDS=0
 sensornoise_install
 sensornoise_build "$here/build" -DBUILD_TESTING=ON -DSensorNoise_BUILD_STUDIES=ON
@@ -61,9 +62,9 @@ test_wheel() (
   "$venv/bin/python" "$here/examples/python/lazy.py"
   "$venv/bin/python" "$here/examples/python/pipeline.py"
   "$venv/bin/python" "$here/examples/python/run_notebook.py" executed.ipynb
-  "$venv/bin/python" -m pytest -p no:cacheprovider "$here/wrapping/test"
+  "$venv/bin/python" -m pytest -p no:cacheprovider "$here/wrapping/test" 2>&1 | tee pytest.log
   "$venv/bin/python" "$here/test/fuzz/fuzz_files.py" --bin "$SENSORNOISE_BIN" --python "$venv/bin/python" --count 1000 \
-    --seconds 120
+    --seconds 120 2>&1 | tee fuzz.log
 )
 untested=
 if [ "${SENSORNOISE_PYTHON:-}" != 0 ]; then
@@ -96,6 +97,11 @@ if [ "${SENSORNOISE_SANITIZE:-}" != 0 ]; then
   took "C++ tests with sanitizers"
 fi
 
+# What failed once more, where it is seen: hundreds of lines may stand between.
+grep -hE '^(FAILED|ERROR) ' "$here/build/pytest.log" 2>/dev/null || true
+grep -hE '^(CRASH|HANG|[A-Z ]+): number ' "$here/build/fuzz.log" 2>/dev/null || true
+cat "$here"/build/Testing/Temporary/LastTestsFailed*.log "$here"/build/sanitized/Testing/Temporary/LastTestsFailed*.log \
+  2>/dev/null || true
 printf 'took: %s\n' "${times[@]}"
 [ -z "$untested" ] || echo "Python: not tested, $untested" >&2
 [ -z "$unchecked" ] || echo "style: not checked, $unchecked" >&2
