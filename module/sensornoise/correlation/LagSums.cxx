@@ -92,7 +92,23 @@ SumProducts(const NoiseResiduals & residuals, std::size_t tile, const Lag & lag,
   const std::size_t    first = shift < 0 ? static_cast<std::size_t>(-shift) : 0;
   const std::size_t    last = shift < 0 ? size : size - static_cast<std::size_t>(shift);
   products.assign(size, 0.0F);
-  for (std::size_t t = 0; t + later < tiles.frames; ++t)
+  const std::size_t frames = tiles.frames > later ? tiles.frames - later : 0;
+  std::size_t       t = 0;
+  for (; t + 4 <= frames; t += 4) // four at once, in order: the sums are loaded and stored a quarter as often
+  {
+    const float * here = values + t * size;
+    const float * there = values + (t + later) * size + shift;
+    for (std::size_t p = first; p < last; ++p)
+    {
+      float sum = products[p];
+      sum += here[p] * there[p];
+      sum += here[p + size] * there[p + size];
+      sum += here[p + 2 * size] * there[p + 2 * size];
+      sum += here[p + 3 * size] * there[p + 3 * size];
+      products[p] = sum;
+    }
+  }
+  for (; t < frames; ++t)
   {
     const float * here = values + t * size;
     const float * there = values + (t + later) * size + shift;

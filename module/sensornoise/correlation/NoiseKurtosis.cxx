@@ -4,6 +4,7 @@
 
 #include "sensornoise/correlation/Constants.h"
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -12,51 +13,82 @@ namespace sensornoise
 
 namespace
 {
-/** Pixels that are added with alternating signs: \a x by \a y of them. */
-struct Alternation
+/** Of every pixel of a tile: sums over time of the squares and fourth powers of the alternating sum of the \a X by \a Y
+ * pixels that begin there. Where these run over the end of a row they mean nothing. */
+struct PowerSums
 {
-  std::size_t x;
-  std::size_t y;
-};
-constexpr std::array<Alternation, KurtosisSums::Kinds> Alternations{
-  { { 1, 1 }, { 2, 1 }, { 1, 2 }, { 2, 2 }, { 8, 1 }, { 1, 8 } }
+  using OfPixels = std::array<float, SampleTiles::Side * SampleTiles::Side>;
+  OfPixels squares;
+  OfPixels fourths;
 };
 
-/** Adds the alternating sum of one frame of a tile, for every pixel at which one begins. */
-void
-Alternate(const float * values, std::size_t side, const Alternation & of, std::vector<float> & sums)
+template <std::size_t X, std::size_t Y>
+PowerSums
+SumPowers(const SampleTiles & tiles, const float * values)
 {
-  std::fill(sums.begin(), sums.end(), 0.0F);
-  const std::size_t last = side * side - (of.y - 1) * side - (of.x - 1);
-  for (std::size_t y = 0; y < of.y; ++y)
+  // No pointer can point into them: the loop over pixels becomes vector instructions.
+  PowerSums::OfPixels squares{};
+  PowerSums::OfPixels fourths{};
+  const std::size_t   last = tiles.Pixels() - (Y - 1) * tiles.side - (X - 1);
+  for (std::size_t t = 0; t < tiles.frames; ++t)
   {
-    for (std::size_t x = 0; x < of.x; ++x)
+    const float * frame = values + t * tiles.Pixels();
+    for (std::size_t p = 0; p < last; ++p)
     {
-      const float   sign = (x + y) % 2 == 0 ? 1.0F : -1.0F;
-      const float * there = values + y * side + x;
-      for (std::size_t p = 0; p < last; ++p)
+      float sum = 0.0F;
+      for (std::size_t y = 0; y < Y; ++y)
       {
-        sums[p] += sign * there[p];
+        for (std::size_t x = 0; x < X; ++x)
+        {
+          const float value = frame[p + y * tiles.side + x];
+          sum += (x + y) % 2 == 0 ? value : -value;
+        }
       }
+      const float square = sum * sum;
+      squares[p] += square;
+      fourths[p] += square * square;
     }
   }
+  return { squares, fourths };
 }
 
+template <std::size_t X, std::size_t Y>
 bool
-AllAreTaken(const float * weight, std::size_t side, const Alternation & of, std::size_t p)
+AllAreTaken(const float * weight, std::size_t side, std::size_t p)
 {
-  if (p % side + of.x > side || p / side + of.y > side)
+  if (p % side + X > side || p / side + Y > side)
   {
     return false;
   }
-  for (std::size_t k = 0; k < of.x * of.y; ++k)
+  for (std::size_t k = 0; k < X * Y; ++k)
   {
-    if (!(weight[p + k / of.x * side + k % of.x] > 0.0F))
+    if (!(weight[p + k / X * side + k % X] > 0.0F))
     {
       return false;
     }
   }
   return true;
+}
+
+/** Adds the ratios of one kind of series of tile \a i; \a normal: of sum r^4 over (sum r^2)^2, of normal noise. */
+template <std::size_t X, std::size_t Y>
+void
+AddRatios(const NoiseResiduals & residuals, std::size_t i, double normal, std::size_t kind, KurtosisSums & sums)
+{
+  const SampleTiles & tiles = residuals.GetTiles();
+  const PowerSums     powers = SumPowers<X, Y>(tiles, residuals.OfTile(i));
+  const float *       weight = residuals.WeightOf(i);
+  const auto          least = InCorrelation.leastNoise * static_cast<float>(residuals.GetFreedom());
+  for (std::size_t p = 0; p < tiles.Pixels(); ++p)
+  {
+    // Of pixels that are copies of each other nothing is left but rounding.
+    if (powers.squares[p] * weight[p] > least && AllAreTaken<X, Y>(weight, tiles.side, p))
+    {
+      const double square = powers.squares[p];
+      sums.series[kind] += 1.0;
+      sums.ratio[kind] += powers.fourths[p] / (square * square) / normal;
+    }
+  }
 }
 } // namespace
 
@@ -74,43 +106,17 @@ KurtosisSums::operator+=(const KurtosisSums & other)
 std::vector<KurtosisSums>
 SumKurtosis(const NoiseResiduals & residuals, const ParallelFor & parallelFor)
 {
-  const SampleTiles &       tiles = residuals.GetTiles();
-  const std::size_t         size = tiles.Pixels();
   const double              freedom = residuals.GetFreedom();
   const Eigen::ArrayXd      kept = 1.0 - residuals.GetBasis().array().square().rowwise().sum();
   const double              normal = 3.0 * kept.square().sum() / (freedom * (freedom + 2.0));
-  std::vector<KurtosisSums> sums(tiles.origins.size());
+  std::vector<KurtosisSums> sums(residuals.GetTiles().origins.size());
   parallelFor(sums.size(), [&](std::size_t i) {
-    std::vector<float> values(size);
-    std::vector<float> squares(size);
-    std::vector<float> fourths(size);
-    for (std::size_t k = 0; k < KurtosisSums::Kinds; ++k)
-    {
-      std::fill(squares.begin(), squares.end(), 0.0F);
-      std::fill(fourths.begin(), fourths.end(), 0.0F);
-      for (std::size_t t = 0; t < tiles.frames; ++t)
-      {
-        Alternate(residuals.OfTile(i) + t * size, tiles.side, Alternations[k], values);
-        for (std::size_t p = 0; p < size; ++p)
-        {
-          const float square = values[p] * values[p];
-          squares[p] += square;
-          fourths[p] += square * square;
-        }
-      }
-      for (std::size_t p = 0; p < size; ++p)
-      {
-        // Of pixels that are copies of each other nothing is left but rounding.
-        const bool isNoise =
-          squares[p] * residuals.WeightOf(i)[p] > InCorrelation.leastNoise * static_cast<float>(freedom);
-        if (isNoise && AllAreTaken(residuals.WeightOf(i), tiles.side, Alternations[k], p))
-        {
-          const double square = squares[p];
-          sums[i].series[k] += 1.0;
-          sums[i].ratio[k] += fourths[p] / (square * square) / normal;
-        }
-      }
-    }
+    AddRatios<1, 1>(residuals, i, normal, 0, sums[i]);
+    AddRatios<2, 1>(residuals, i, normal, 1, sums[i]);
+    AddRatios<1, 2>(residuals, i, normal, 2, sums[i]);
+    AddRatios<2, 2>(residuals, i, normal, 3, sums[i]);
+    AddRatios<8, 1>(residuals, i, normal, 4, sums[i]);
+    AddRatios<1, 8>(residuals, i, normal, 5, sums[i]);
   });
   return sums;
 }
