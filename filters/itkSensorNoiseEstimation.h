@@ -26,6 +26,7 @@
 #include "sensornoise/report/ChannelReports.h"
 #include "sensornoise/report/StackSettings.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -55,6 +56,8 @@ struct SensorNoiseEstimation
   using MosaicRefined = sensornoise::MosaicMethod<TPixel, Refined>;
   using MosaicPublished = sensornoise::MosaicMethod<TPixel, Published>;
   using DarkMapsPointer = std::shared_ptr<const sensornoise::DarkMaps>;
+  template <typename T>
+  static constexpr bool IsOfWholeFrame = std::is_same_v<T, const Refined &> || std::is_same_v<T, const Published &>;
   static_assert(Refined::NumberOfPasses == Published::NumberOfPasses, "the methods read the stack equally often");
 
   std::variant<Refined, Published, MosaicRefined, MosaicPublished> method;
@@ -68,8 +71,7 @@ struct SensorNoiseEstimation
     using Result = std::variant<sensornoise::Report, sensornoise::ChannelReports>;
     return std::visit(
       [&](const auto & atWork) -> Result {
-        if constexpr (std::is_same_v<decltype(atWork), const Refined &> ||
-                      std::is_same_v<decltype(atWork), const Published &>)
+        if constexpr (IsOfWholeFrame<decltype(atWork)>)
         {
           sensornoise::Report report = atWork.GetReport();
           sensornoise::NoteSelection(report, selection);
@@ -85,6 +87,27 @@ struct SensorNoiseEstimation
             report.camera = camera;
           }
           return sensornoise::MakeChannelReports(mosaic->geometry.pattern, mosaic->source, std::move(reports));
+        }
+      },
+      method);
+  }
+
+  /** Writes a map of the method's to \a frame, of \a pixels pixels: mapOf(method) is one of its Get...() of a value for
+   * each. \a missing where there is none. */
+  template <typename T, typename TFunction>
+  void
+  WriteMap(TFunction mapOf, T missing, T * frame, std::size_t pixels) const
+  {
+    std::visit(
+      [&](const auto & atWork) {
+        if constexpr (IsOfWholeFrame<decltype(atWork)>)
+        {
+          const auto & map = mapOf(atWork);
+          map.empty() ? std::fill_n(frame, pixels, missing) : std::copy(map.begin(), map.end(), frame);
+        }
+        else
+        {
+          atWork.WriteMap(mapOf, missing, frame);
         }
       },
       method);
@@ -109,12 +132,12 @@ struct SensorNoiseEstimation
     {
       const auto plane = sensornoise::BayerPlanes[k];
       const auto pixels = sensornoise::MakePixelCalibration(*dark[k], parallelFor);
-      geometry.Put(pixels.offset.value, plane, joined.offset.value);
-      geometry.Put(pixels.offset.low, plane, joined.offset.low);
-      geometry.Put(pixels.offset.high, plane, joined.offset.high);
-      geometry.Put(pixels.readNoise.value, plane, joined.readNoise.value);
-      geometry.Put(pixels.readNoise.low, plane, joined.readNoise.low);
-      geometry.Put(pixels.readNoise.high, plane, joined.readNoise.high);
+      geometry.Put(pixels.offset.value, plane, joined.offset.value.data());
+      geometry.Put(pixels.offset.low, plane, joined.offset.low.data());
+      geometry.Put(pixels.offset.high, plane, joined.offset.high.data());
+      geometry.Put(pixels.readNoise.value, plane, joined.readNoise.value.data());
+      geometry.Put(pixels.readNoise.low, plane, joined.readNoise.low.data());
+      geometry.Put(pixels.readNoise.high, plane, joined.readNoise.high.data());
     }
     return joined;
   }

@@ -24,6 +24,7 @@
 #include "itkSensorNoiseMetaData.h"
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/FreeMemory.h"
+#include "sensornoise/base/PixelUse.h"
 #include "sensornoise/base/RollingShutter.h"
 #include "sensornoise/moments/Codes.h"
 #include "sensornoise/moments/MosaicLevels.h"
@@ -503,34 +504,35 @@ SensorNoiseEstimator<TStack>::StartPasses()
   }
   const auto mosaic = this->FindMosaic();
   const auto offsets = this->FindOffsets(userMask, mosaic);
-  const auto makeRefined = [&](std::size_t part, const sensornoise::FrameGeometry & frame, const auto & mask) {
+  const auto makeRefined = [&](std::size_t part, const auto & frame, const auto & mask, const auto & parallelFor) {
     sensornoise::RefinedSettings settings = this->MakeRefinedSettings();
     settings.offset = offsets[part];
-    return sensornoise::RefinedMethod<PixelType>(settings, frame, frames, mask, this->GetParallelFor());
+    return sensornoise::RefinedMethod<PixelType>(settings, frame, frames, mask, parallelFor);
   };
-  const auto makePublished = [&](std::size_t, const sensornoise::FrameGeometry & frame, const auto & mask) {
-    return sensornoise::PublishedMethod<PixelType>(
-      this->MakePublishedSettings(), frame, frames, mask, this->GetParallelFor());
+  const auto makePublished = [&](std::size_t, const auto & frame, const auto & mask, const auto & parallelFor) {
+    return sensornoise::PublishedMethod<PixelType>(this->MakePublishedSettings(), frame, frames, mask, parallelFor);
   };
   const auto ofPlane = [&](const auto & make) {
-    return [&](sensornoise::BayerPlane plane) {
+    return [&](sensornoise::BayerPlane plane, const sensornoise::ParallelFor & parallelFor) {
       const auto & planes = mosaic->geometry;
-      return make(static_cast<std::size_t>(plane), planes.Plane(), planes.Take(userMask, plane));
+      return make(static_cast<std::size_t>(plane), planes.Plane(), planes.Take(userMask, plane), parallelFor);
     };
   };
+  const auto parallelFor = this->GetParallelFor();
   using Work = SensorNoiseEstimation<PixelType>;
   using Method = decltype(Work::method);
   const bool isRefined = m_Method == MethodEnum::Refined;
   const auto makeMethod = [&]() -> Method {
     if (!mosaic)
     {
-      return isRefined ? Method(makeRefined(0, geometry, userMask)) : Method(makePublished(0, geometry, userMask));
+      return isRefined ? Method(makeRefined(0, geometry, userMask, parallelFor))
+                       : Method(makePublished(0, geometry, userMask, parallelFor));
     }
     if (isRefined)
     {
-      return typename Work::MosaicRefined(mosaic->geometry, ofPlane(makeRefined), this->GetParallelFor());
+      return typename Work::MosaicRefined(mosaic->geometry, ofPlane(makeRefined), parallelFor);
     }
-    return typename Work::MosaicPublished(mosaic->geometry, ofPlane(makePublished), this->GetParallelFor());
+    return typename Work::MosaicPublished(mosaic->geometry, ofPlane(makePublished), parallelFor);
   };
   m_Estimation = std::make_unique<Estimation>(Estimation{ { makeMethod(), mosaic, {} } });
   for (const auto & offset : offsets)
@@ -569,17 +571,10 @@ template <typename TStack>
 void
 SensorNoiseEstimator<TStack>::FillOutputs()
 {
-  const auto fill = [](auto * image, const auto & values, auto missing) {
+  const auto allocate = [](auto * image) {
     image->SetBufferedRegion(image->GetLargestPossibleRegion());
     image->Allocate();
-    if (values.empty())
-    {
-      image->FillBuffer(missing);
-    }
-    else
-    {
-      std::copy(values.begin(), values.end(), image->GetBufferPointer());
-    }
+    return image->GetBufferPointer();
   };
   auto report = m_Estimation->GetReport(m_Source, this->GetCamera());
   if (auto * const channels = std::get_if<sensornoise::ChannelReports>(&report))
@@ -590,23 +585,30 @@ SensorNoiseEstimator<TStack>::FillOutputs()
   {
     this->GetReportOutput()->Set(std::move(std::get<sensornoise::Report>(report)));
   }
-  std::visit(
-    [&](const auto & method) {
-      constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-      fill(this->GetMean(), method.GetMean(), nan);
-      fill(this->GetVariance(), method.GetVariance(), nan);
-      fill(this->GetCorrectedVariance(), method.GetCorrectedVariance(), nan);
-      fill(this->GetPixelUse(), method.GetPixelUse(), static_cast<unsigned char>(0));
-    },
-    m_Estimation->method);
-  if (const auto pixels = m_Estimation->MakeCalibration(this->GetParallelFor()))
+  const std::size_t pixels = this->GetMean()->GetLargestPossibleRegion().GetNumberOfPixels();
+  const auto        write = [&](auto * image, auto missing, const auto & mapOf) {
+    m_Estimation->WriteMap(mapOf, missing, allocate(image), pixels);
+  };
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  write(this->GetMean(), nan, [](const auto & method) -> const auto & { return method.GetMean(); });
+  write(this->GetVariance(), nan, [](const auto & method) -> const auto & { return method.GetVariance(); });
+  write(this->GetCorrectedVariance(), nan, [](const auto & method) -> const auto & {
+    return method.GetCorrectedVariance();
+  });
+  write(this->GetPixelUse(),
+        static_cast<unsigned char>(sensornoise::PixelUse::Border),
+        [](const auto & method) -> const auto & { return method.GetPixelUse(); });
+  if (const auto calibration = m_Estimation->MakeCalibration(this->GetParallelFor()))
   {
-    fill(this->GetPixelOffset(), pixels->offset.value, 0.0);
-    fill(this->GetPixelOffsetLow(), pixels->offset.low, 0.0);
-    fill(this->GetPixelOffsetHigh(), pixels->offset.high, 0.0);
-    fill(this->GetPixelReadNoise(), pixels->readNoise.value, 0.0);
-    fill(this->GetPixelReadNoiseLow(), pixels->readNoise.low, 0.0);
-    fill(this->GetPixelReadNoiseHigh(), pixels->readNoise.high, 0.0);
+    const auto copy = [&](auto * image, const auto & values) {
+      std::copy(values.begin(), values.end(), allocate(image));
+    };
+    copy(this->GetPixelOffset(), calibration->offset.value);
+    copy(this->GetPixelOffsetLow(), calibration->offset.low);
+    copy(this->GetPixelOffsetHigh(), calibration->offset.high);
+    copy(this->GetPixelReadNoise(), calibration->readNoise.value);
+    copy(this->GetPixelReadNoiseLow(), calibration->readNoise.low);
+    copy(this->GetPixelReadNoiseHigh(), calibration->readNoise.high);
   }
 }
 

@@ -3,6 +3,7 @@
 #include "studies/EfficiencyStack.h"
 
 #include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/PixelUse.h"
 #include "sensornoise/limits/CramerRaoBound.h"
 #include "sensornoise/limits/CramerRaoInformation.h"
@@ -121,14 +122,19 @@ CompareMosaic(const MosaicGeometry & mosaic, const Scene & scene, const StackSim
   const SimulationTruth &              truth = simulator.GetTruth();
   const std::size_t                    frames = truth.settings.frames;
   const std::vector<std::uint16_t>     stack = RenderStack(simulator, scene.width, scene.height, frames);
-  MosaicMethod<std::uint16_t, TMethod> method(mosaic, [&](BayerPlane) { return TMethod({}, mosaic.Plane(), frames); });
+  MosaicMethod<std::uint16_t, TMethod> method(
+    mosaic, [&](BayerPlane, const ParallelFor &) { return TMethod({}, mosaic.Plane(), frames); });
   for (unsigned int pass = 0; pass < TMethod::NumberOfPasses; ++pass)
   {
     method.AddFrames(stack.data(), frames);
     method.EndPass();
   }
+  std::vector<std::uint8_t> use(scene.values.size());
+  method.WriteMap([](const auto & ofPlane) -> const auto & { return ofPlane.GetPixelUse(); },
+                  static_cast<std::uint8_t>(PixelUse::Border),
+                  use.data());
   const std::vector<double>       electrons = ElectronsAtRest(scene, truth.settings);
-  const std::vector<std::uint8_t> mask = MaskOfUnclipped(method.GetPixelUse(), scene.values.size());
+  const std::vector<std::uint8_t> mask = MaskOfUnclipped(use, scene.values.size());
   std::vector<EfficiencyRun>      runs;
   for (const BayerPlane plane : BayerPlanes)
   {

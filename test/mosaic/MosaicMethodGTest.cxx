@@ -11,7 +11,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <gtest/gtest.h>
+#include <limits>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
@@ -88,15 +90,22 @@ TYPED_TEST(MosaicMethodOf, FindsOfEachPlaneWhatItFindsOfItAlone)
     const auto                     threads = Threads(3);
     MosaicMethod<Pixel, TypeParam> mosaic(
       geometry,
-      [&](BayerPlane plane) {
-        return MakeMethod<TypeParam>(geometry.Plane(), stack.frames, geometry.Take(mask, plane), threads);
+      [&](BayerPlane plane, const ParallelFor & parallelFor) {
+        return MakeMethod<TypeParam>(geometry.Plane(), stack.frames, geometry.Take(mask, plane), parallelFor);
       },
       threads);
     Run(mosaic, stack, 7);
-    const auto reports = mosaic.GetReports();
-    const auto mean = mosaic.GetMean();
-    const auto corrected = mosaic.GetCorrectedVariance();
-    const auto use = mosaic.GetPixelUse();
+    const auto                reports = mosaic.GetReports();
+    constexpr double          nan = std::numeric_limits<double>::quiet_NaN();
+    std::vector<double>       mean(mask.size());
+    std::vector<double>       corrected(mask.size());
+    std::vector<std::uint8_t> use(mask.size());
+    mosaic.WriteMap([](const auto & method) -> const auto & { return method.GetMean(); }, nan, mean.data());
+    mosaic.WriteMap(
+      [](const auto & method) -> const auto & { return method.GetCorrectedVariance(); }, nan, corrected.data());
+    mosaic.WriteMap([](const auto & method) -> const auto & { return method.GetPixelUse(); },
+                    static_cast<std::uint8_t>(PixelUse::Border),
+                    use.data());
     for (const BayerPlane plane : BayerPlanes)
     {
       Stack<Pixel> alone{ geometry.Plane().width, geometry.Plane().height, stack.frames, {} };
@@ -121,7 +130,9 @@ TYPED_TEST(MosaicMethodOf, FindsOfEachPlaneWhatItFindsOfItAlone)
 TEST(MosaicMethod, PlanesCountTheirOwnFrames)
 {
   const MosaicGeometry geometry{ { 64, 64, 1 }, BayerPattern::RGGB };
-  const auto           make = [&](BayerPlane) { return RefinedMethod<Pixel>(RefinedSettings(), geometry.Plane(), 8); };
+  const auto           make = [&](BayerPlane, const ParallelFor &) {
+    return RefinedMethod<Pixel>(RefinedSettings(), geometry.Plane(), 8);
+  };
   MosaicMethod<Pixel, RefinedMethod<Pixel>> method(geometry, make);
   const std::vector<Pixel>                  frames(64 * 64 * 9);
   EXPECT_THROW(method.AddFrames(frames.data(), 9), std::logic_error);
@@ -140,7 +151,7 @@ TEST(MosaicGeometry, SplitAndPutAreInverse)
   {
     const std::vector<int> ofPlane = geometry.Take(frame, plane);
     EXPECT_EQ(ofPlane.size(), 15U);
-    geometry.Put(ofPlane, plane, again);
+    geometry.Put(ofPlane, plane, again.data());
   }
   EXPECT_EQ(again, frame);
   EXPECT_TRUE(geometry.Take(std::vector<int>(), BayerPlane::R).empty());

@@ -46,7 +46,7 @@ struct MosaicGeometry
   /** Writes the plane's values where they stand in the frame. Nothing, if there are none. */
   template <typename T>
   void
-  Put(const std::vector<T> & ofPlane, BayerPlane plane, std::vector<T> & ofFrame) const
+  Put(const std::vector<T> & ofPlane, BayerPlane plane, T * ofFrame) const
   {
     this->ForPixels(plane, [&](std::size_t inPlane, std::size_t inFrame) {
       if (!ofPlane.empty())
@@ -56,28 +56,21 @@ struct MosaicGeometry
     });
   }
 
-  /** Copies the planes of \a count frames, one after the other, each into a buffer with room for them, in the order of
-   * BayerPlanes. */
+  /** Copies one plane of \a count frames, one after the other, to \a to, which has room for them. */
   template <typename TPixel>
   void
-  Split(const TPixel *                  frames,
-        std::size_t                     count,
-        const std::array<TPixel *, 4> & planes,
-        const ParallelFor &             parallelFor) const
+  TakeFrames(const TPixel * frames, std::size_t count, BayerPlane plane, TPixel * to, const ParallelFor & parallelFor)
+    const
   {
-    const FrameGeometry plane = this->Plane();
-    parallelFor(count * plane.height, [&](std::size_t row) {
-      const std::size_t y = row % plane.height;
-      const TPixel *    top = frames + row / plane.height * frame.Pixels() + 2 * y * frame.width;
-      for (std::size_t k = 0; k < planes.size(); ++k)
+    const FrameGeometry              size = this->Plane();
+    const std::array<std::size_t, 2> corner = CornerOf(pattern, plane);
+    parallelFor(count * size.height, [&](std::size_t row) {
+      const std::size_t y = 2 * (row % size.height) + corner[1];
+      const TPixel *    from = frames + row / size.height * frame.Pixels() + y * frame.width + corner[0];
+      TPixel *          toRow = to + row * size.width;
+      for (std::size_t x = 0; x < size.width; ++x)
       {
-        const auto     corner = CornerOf(pattern, BayerPlanes[k]);
-        const TPixel * from = top + corner[1] * frame.width + corner[0];
-        TPixel *       to = planes[k] + row * plane.width;
-        for (std::size_t x = 0; x < plane.width; ++x)
-        {
-          to[x] = from[2 * x];
-        }
+        toRow[x] = from[2 * x];
       }
     });
   }

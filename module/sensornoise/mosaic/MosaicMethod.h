@@ -4,17 +4,16 @@
 #define sensornoise_mosaic_MosaicMethod_h
 
 #include "sensornoise/base/Parallel.h"
-#include "sensornoise/base/PixelUse.h"
 #include "sensornoise/mosaic/MosaicGeometry.h"
 #include "sensornoise/mosaic/PlaneFrames.h"
 #include "sensornoise/report/Report.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
+#include <exception>
 #include <functional>
-#include <limits>
-#include <utility>
+#include <memory>
 #include <vector>
 
 namespace sensornoise
@@ -34,16 +33,23 @@ class MosaicMethod
 public:
   static constexpr unsigned int NumberOfPasses = TMethod::NumberOfPasses;
 
-  /** \a makeMethod(plane) makes the method of each plane, of the size MosaicGeometry::Plane(). */
-  MosaicMethod(const MosaicGeometry &                     geometry,
-               const std::function<TMethod(BayerPlane)> & makeMethod,
-               ParallelFor                                parallelFor = SerialFor)
-    : m_ParallelFor(std::move(parallelFor))
+  using MakeMethod = std::function<TMethod(BayerPlane plane, const ParallelFor & parallelFor)>;
+
+  /** \a makeMethod makes the method of each plane, of the size MosaicGeometry::Plane(); the ParallelFor that it is
+   * given is to spread its work. */
+  MosaicMethod(const MosaicGeometry & geometry,
+               const MakeMethod &     makeMethod,
+               const ParallelFor &    parallelFor = SerialFor)
+    : m_ParallelFor(parallelFor)
+    , m_IsByPlane(std::make_shared<bool>(false))
     , m_Planes(geometry)
   {
+    const ParallelFor withinPlane = [parallelFor, isByPlane = m_IsByPlane](std::size_t count, const auto & function) {
+      *isByPlane ? SerialFor(count, function) : parallelFor(count, function);
+    };
     for (const BayerPlane plane : BayerPlanes)
     {
-      m_Methods.push_back(makeMethod(plane));
+      m_Methods.push_back(makeMethod(plane, withinPlane));
     }
   }
 
@@ -56,14 +62,30 @@ public:
     });
   }
 
-  /** Ends the current pass, of one plane after the other. */
+  /** Ends the current pass, of all planes at once: much of what is left to do then are single sums and sorts. */
   void
   EndPass()
   {
     m_Planes.Release();
-    for (TMethod & method : m_Methods)
+    std::array<std::exception_ptr, BayerPlanes.size()> errors;
+    *m_IsByPlane = true;
+    m_ParallelFor(m_Methods.size(), [&](std::size_t k) {
+      try
+      {
+        m_Methods[k].EndPass();
+      }
+      catch (...)
+      {
+        errors[k] = std::current_exception();
+      }
+    });
+    *m_IsByPlane = false;
+    for (const std::exception_ptr & error : errors)
     {
-      method.EndPass();
+      if (error)
+      {
+        std::rethrow_exception(error);
+      }
     }
   }
 
@@ -76,49 +98,26 @@ public:
     };
   }
 
-  /** Maps of the mosaic, every pixel with the value of its plane; NaN, and PixelUse::Border, in a last column or row
-   * that is in no plane. */
-  std::vector<double>
-  GetMean() const
+  /** Writes a map to \a frame, every pixel with the value of its plane: mapOf(method) is the method's GetMean(),
+   * GetVariance(), GetCorrectedVariance() or GetPixelUse(). Where there is none, and in a last column or row that is in
+   * no plane, \a missing. */
+  template <typename T, typename TFunction>
+  void
+  WriteMap(TFunction mapOf, T missing, T * frame) const
   {
-    return this->Join(std::numeric_limits<double>::quiet_NaN(),
-                      [](const TMethod & method) -> const auto & { return method.GetMean(); });
-  }
-  std::vector<double>
-  GetVariance() const
-  {
-    return this->Join(std::numeric_limits<double>::quiet_NaN(),
-                      [](const TMethod & method) -> const auto & { return method.GetVariance(); });
-  }
-  std::vector<double>
-  GetCorrectedVariance() const
-  {
-    return this->Join(std::numeric_limits<double>::quiet_NaN(),
-                      [](const TMethod & method) -> const auto & { return method.GetCorrectedVariance(); });
-  }
-  std::vector<std::uint8_t>
-  GetPixelUse() const
-  {
-    return this->Join(static_cast<std::uint8_t>(PixelUse::Border),
-                      [](const TMethod & method) -> const auto & { return method.GetPixelUse(); });
+    const MosaicGeometry & geometry = m_Planes.GetGeometry();
+    std::fill_n(frame, geometry.frame.Pixels(), missing);
+    for (std::size_t k = 0; k < m_Methods.size(); ++k)
+    {
+      geometry.Put(mapOf(m_Methods[k]), BayerPlanes[k], frame);
+    }
   }
 
 private:
-  template <typename T, typename TFunction>
-  std::vector<T>
-  Join(T missing, TFunction mapOf) const
-  {
-    std::vector<T> joined(m_Planes.GetGeometry().frame.Pixels(), missing);
-    for (std::size_t k = 0; k < m_Methods.size(); ++k)
-    {
-      m_Planes.GetGeometry().Put(mapOf(m_Methods[k]), BayerPlanes[k], joined);
-    }
-    return joined;
-  }
-
-  ParallelFor          m_ParallelFor;
-  std::vector<TMethod> m_Methods;
-  PlaneFrames<TPixel>  m_Planes;
+  ParallelFor           m_ParallelFor;
+  std::shared_ptr<bool> m_IsByPlane; // the planes are worked on at the same time, and each by one thread
+  std::vector<TMethod>  m_Methods;
+  PlaneFrames<TPixel>   m_Planes;
 };
 
 } // namespace sensornoise

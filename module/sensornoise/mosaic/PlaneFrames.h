@@ -7,7 +7,6 @@
 #include "sensornoise/mosaic/MosaicGeometry.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -15,9 +14,9 @@ namespace sensornoise
 {
 
 /** \class PlaneFrames
- * \brief Hands on the frames of a mosaic plane by plane, a few at a time: the mosaic is read once.
+ * \brief Hands on the frames of a mosaic plane by plane, a few at a time.
  *
- * Holds at most 32 MiB, or one frame. */
+ * Holds those of one plane: at most 16 MiB, what it has of a chunk of 64 MiB, or one frame. */
 template <typename TPixel>
 class PlaneFrames
 {
@@ -38,22 +37,18 @@ public:
   void
   ForPlanes(const TPixel * mosaics, std::size_t count, const ParallelFor & parallelFor, TFunction function)
   {
-    constexpr std::size_t bytesTogether = std::size_t{ 32 } << 20;
+    constexpr std::size_t bytesTogether = std::size_t{ 16 } << 20;
     const std::size_t     pixels = m_Geometry.Plane().Pixels();
-    const std::size_t     most = std::max<std::size_t>(1, bytesTogether / (4 * pixels * sizeof(TPixel)));
+    const std::size_t     most = std::max<std::size_t>(1, bytesTogether / (pixels * sizeof(TPixel)));
     for (std::size_t first = 0; first < count; first += most)
     {
       const std::size_t now = std::min(most, count - first);
-      m_Buffer.resize(std::max(m_Buffer.size(), 4 * pixels * now));
-      std::array<TPixel *, 4> planes{};
-      for (std::size_t k = 0; k < planes.size(); ++k)
+      m_Buffer.resize(std::max(m_Buffer.size(), pixels * now));
+      for (std::size_t k = 0; k < BayerPlanes.size(); ++k)
       {
-        planes[k] = m_Buffer.data() + k * now * pixels;
-      }
-      m_Geometry.Split(mosaics + first * m_Geometry.frame.Pixels(), now, planes, parallelFor);
-      for (std::size_t k = 0; k < planes.size(); ++k)
-      {
-        function(k, planes[k], now);
+        m_Geometry.TakeFrames(
+          mosaics + first * m_Geometry.frame.Pixels(), now, BayerPlanes[k], m_Buffer.data(), parallelFor);
+        function(k, m_Buffer.data(), now);
       }
     }
   }
