@@ -5,6 +5,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
+#include <optional>
 #include <vector>
 
 using namespace sensornoise;
@@ -53,12 +54,27 @@ TEST(SensorNoiseFigureData, TheBandIsOfSlopeAndInterceptTogether)
 TEST(SensorNoiseFigureData, WithoutAGainTheLineIsIndicativeAndHasNoBand)
 {
   Report report = MakeReport();
-  report.gain = Quantity::Without(EstimateStatus::Failed);
+  report.gain = report.varianceSlope = Quantity::Without(EstimateStatus::Failed);
   EXPECT_TRUE(MakeFigureData(report).isIndicative);
+  EXPECT_DOUBLE_EQ(MakeFigureData(report).lineVariance.back(), 410.0);
   EXPECT_TRUE(MakeFigureData(report).bandLow.empty());
   report.fit.line.reset();
   EXPECT_TRUE(MakeFigureData(report).lineMean.empty());
   EXPECT_TRUE(MakeFigureData(report).residuals.empty());
+}
+
+TEST(SensorNoiseFigureData, TheLineIsTheIdentifiedOneWhateverTheFitWas)
+{
+  // none by the published method; with dark frames the identified line goes through their point, another one does not
+  for (const auto & fit : { std::optional<Report::Baseline>(), std::optional(Report::Baseline{ 0.0, 1.5, 60.0 }) })
+  {
+    Report report = MakeReport();
+    report.fit.line = fit;
+    const FigureData data = MakeFigureData(report);
+    ASSERT_EQ(data.residuals.size(), 2U);
+    EXPECT_NEAR(data.residuals[1], 0.0, 1e-9);
+    EXPECT_DOUBLE_EQ(data.lineVariance.back(), 410.0);
+  }
 }
 
 TEST(SensorNoiseFigureData, WhatIsNotKnownIsLeftOut)

@@ -22,10 +22,16 @@ ElementOrNaN(const std::vector<double> & values, std::size_t i)
   return i < values.size() ? values[i] : std::numeric_limits<double>::quiet_NaN();
 }
 
-bool
-IsFinite(const Report::Baseline & line)
+/** The line that the report tells of, if it has one: what was identified comes before what is indicative. */
+std::optional<Report::Baseline>
+LineOf(const Report & report)
 {
-  return std::isfinite(line.gain) && std::isfinite(line.intercept);
+  std::optional<Report::Baseline> line = report.fit.line;
+  if (report.varianceSlope.value && report.totalIntercept.value)
+  {
+    line = Report::Baseline{ 0.0, *report.varianceSlope.value, *report.totalIntercept.value };
+  }
+  return line && std::isfinite(line->gain) && std::isfinite(line->intercept) ? line : std::nullopt;
 }
 
 /** Relative standard error of a variance that is the mean over \a count pixels [1]: Var(s^2) / sigma^4 is 2 / (T - 1)
@@ -47,7 +53,7 @@ void
 AddCurve(FigureData & data, const Report & report)
 {
   const Report::Scatter & scatter = report.scatter;
-  const bool              hasLine = report.fit.line && IsFinite(*report.fit.line);
+  const auto              line = LineOf(report);
   for (std::size_t i = 0; i < scatter.mean.size(); ++i)
   {
     const double mean = scatter.mean[i];
@@ -59,11 +65,11 @@ AddCurve(FigureData & data, const Report & report)
     data.mean.push_back(mean);
     data.variance.push_back(ElementOrNaN(scatter.variance, i));
     data.corrected.push_back(corrected);
-    if (!hasLine || i >= scatter.count.size())
+    if (!line || i >= scatter.count.size())
     {
       continue;
     }
-    const double expected = report.fit.line->gain * mean + report.fit.line->intercept;
+    const double expected = line->gain * mean + line->intercept;
     const double error = std::abs(expected) * RelativeErrorOfBin(report, scatter.count[i]);
     if (error > 0.0)
     {
@@ -96,7 +102,8 @@ HalfWidthAt(const Report & report, double mean)
 void
 AddLine(FigureData & data, const Report & report)
 {
-  if (!report.fit.line || !IsFinite(*report.fit.line) || data.mean.empty())
+  const auto line = LineOf(report);
+  if (!line || data.mean.empty())
   {
     return;
   }
@@ -105,7 +112,7 @@ AddLine(FigureData & data, const Report & report)
   for (int i = 0; i <= LinePieces; ++i)
   {
     const double mean = *darkest + (*brightest - *darkest) * i / LinePieces;
-    const double variance = report.fit.line->gain * mean + report.fit.line->intercept;
+    const double variance = line->gain * mean + line->intercept;
     data.lineMean.push_back(mean);
     data.lineVariance.push_back(variance);
     const std::optional<double> half = data.isIndicative ? std::nullopt : HalfWidthAt(report, mean);

@@ -24,7 +24,8 @@ struct FigureData
   /** Corrected variance less the line [1], in units of the error that normal noise gives a bin of so many pixels. */
   std::vector<double> residuals;
 
-  /** The line through the corrected variance, from the darkest to the brightest level; empty: none was fitted. */
+  /** Variance slope and total intercept as a line, from the darkest to the brightest level; where they have no values,
+   * the line through all levels; empty: none was fitted. */
   std::vector<double> lineMean;     ///< [DN]
   std::vector<double> lineVariance; ///< [DN^2]
   /** Ends of the line's 95 % interval, level by level [DN^2]; empty: its errors are not known. */
