@@ -113,6 +113,14 @@ public:
   {
     return sensornoise::MakeText(this->GetReport());
   }
+  /** The same as a page, as an SVG file and as the numbers of its figures: without a noise curve, which is of a stack.
+   * \see SensorNoiseEstimator */
+  std::string
+  GetReportAsHtml() const;
+  std::string
+  GetReportAsSvg() const;
+  std::string
+  GetFigureAsJson() const;
 
   DataObject *
   GetOutput(unsigned int index)

@@ -20,12 +20,15 @@
 
 #include "itkSensorNoiseErrors.h"
 #include "sensornoise/base/PolynomialFit.h"
+#include "sensornoise/page/FigureJson.h"
+#include "sensornoise/page/ReportPage.h"
 #include "sensornoise/published/NoiseParameters.h"
 #include "sensornoise/report/Report.h"
 
 #include <cmath>
 #include <optional>
 #include <ostream>
+#include <string>
 
 namespace itk
 {
@@ -79,6 +82,27 @@ NoiseRegressionEstimator<TFrame>::GenerateData()
     sensornoise::FillFit(report, sensornoise::JudgeLine(data, line, m_NumberOfFrames));
   }
   this->GetReportOutput()->Set(report);
+}
+
+template <typename TFrame>
+std::string
+NoiseRegressionEstimator<TFrame>::GetReportAsHtml() const
+{
+  return sensornoise::ToHtml(this->GetReport());
+}
+
+template <typename TFrame>
+std::string
+NoiseRegressionEstimator<TFrame>::GetReportAsSvg() const
+{
+  return sensornoise::ToSvg(this->GetReport());
+}
+
+template <typename TFrame>
+std::string
+NoiseRegressionEstimator<TFrame>::GetFigureAsJson() const
+{
+  return sensornoise::FigureAsJson(this->GetReport());
 }
 
 template <typename TFrame>

@@ -331,6 +331,16 @@ public:
   std::string
   GetReportAsSvg() const;
 
+  /** The same of one channel of a mosaic; its page is without maps. */
+  std::string
+  GetChannelReportAsHtml(const std::string & channel) const;
+  std::string
+  GetChannelReportAsSvg(const std::string & channel) const;
+
+  /** The numbers of the figures as JSON; of a mosaic an object for each channel. \see sensornoise::FigureAsJson */
+  std::string
+  GetFigureAsJson() const;
+
   /** All warnings and quantities that a report may have, as JSON. \see sensornoise::CatalogueAsJson */
   static std::string
   GetCatalogueAsJson()

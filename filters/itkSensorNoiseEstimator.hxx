@@ -30,6 +30,7 @@
 #include "sensornoise/moments/MosaicLevels.h"
 #include "sensornoise/moments/KnownOffset.h"
 #include "sensornoise/moments/TemporalMoments.h"
+#include "sensornoise/page/FigureJson.h"
 #include "sensornoise/page/ReportPage.h"
 #include "sensornoise/published/PublishedSettings.h"
 #include "sensornoise/refined/RefinedSettings.h"
@@ -336,6 +337,28 @@ std::string
 SensorNoiseEstimator<TStack>::GetReportAsSvg() const
 {
   return sensornoise::ToSvg(this->HasChannelReports() ? this->GetChannelReport("G1") : this->GetReport());
+}
+
+template <typename TStack>
+std::string
+SensorNoiseEstimator<TStack>::GetChannelReportAsHtml(const std::string & channel) const
+{
+  return sensornoise::ToHtml(this->GetChannelReport(channel));
+}
+
+template <typename TStack>
+std::string
+SensorNoiseEstimator<TStack>::GetChannelReportAsSvg(const std::string & channel) const
+{
+  return sensornoise::ToSvg(this->GetChannelReport(channel));
+}
+
+template <typename TStack>
+std::string
+SensorNoiseEstimator<TStack>::GetFigureAsJson() const
+{
+  return this->HasChannelReports() ? sensornoise::FigureAsJson(this->GetChannelReports())
+                                   : sensornoise::FigureAsJson(this->GetReport());
 }
 
 template <typename TStack>

@@ -29,6 +29,8 @@ WriteJson(JsonWriter & json, const Warning & warning);
 SensorNoise_EXPORT void
 WriteQuantity(JsonWriter & json, const char * name, const Quantity & quantity, const char * unit);
 SensorNoise_EXPORT void
+WriteJson(JsonWriter & json, const NoiseCorrelationRecord::Lag & lag);
+SensorNoise_EXPORT void
 WriteJson(JsonWriter & json, const NoiseCorrelationRecord & correlation);
 
 /** The record as a value among others. */
