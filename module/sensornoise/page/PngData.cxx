@@ -45,8 +45,11 @@ Deflated(const std::string & text)
 {
   uLongf      size = compressBound(static_cast<uLong>(text.size()));
   std::string packed(size, '\0');
-  if (compress2(reinterpret_cast<Bytef *>(packed.data()), &size, BytesOf(text), static_cast<uLong>(text.size()), 9) !=
-      Z_OK)
+  if (compress2(reinterpret_cast<Bytef *>(packed.data()),
+                &size,
+                BytesOf(text),
+                static_cast<uLong>(text.size()),
+                Z_DEFAULT_COMPRESSION) != Z_OK)
   {
     throw std::runtime_error("zlib cannot compress a picture of " + std::to_string(text.size()) + " bytes");
   }
