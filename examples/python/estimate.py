@@ -5,7 +5,7 @@
 
     estimate.py                                            # a simulated burst, with its truth
     estimate.py frames/*.tif                               # 2-D frames in time order
-    estimate.py stack.mha --json report.json --plot report.png
+    estimate.py stack.mha --json report.json --plot report.html
 
 The options are those of itk.estimate_sensor_noise; the command-line tool estimate-sensor-noise has more of them.
 """
@@ -25,7 +25,12 @@ def parse_arguments() -> argparse.Namespace:
     parser.add_argument("frames", nargs="*", metavar="FRAME", help="image files or one stack file; default: simulated")
     parser.add_argument("--bit-depth", type=int, metavar="N", help="bits of the sensor's codes (default: found)")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the report as JSON")
-    parser.add_argument("--plot", type=Path, metavar="FILE", help="draw the report: .png, .svg, .pdf (matplotlib)")
+    parser.add_argument(
+        "--plot",
+        type=Path,
+        metavar="FILE",
+        help="the report as a page, .html, or its noise curve, .png, .svg, .pdf (matplotlib)",
+    )
     return parser.parse_args()
 
 
@@ -63,7 +68,9 @@ def main() -> int:
         print_truth(report, truth)
     if arguments.json:
         arguments.json.write_text(report.to_json(), encoding="utf-8")
-    if arguments.plot and report["scatter"]["mean"]:
+    if arguments.plot and arguments.plot.suffix == ".html":
+        report.to_html(arguments.plot)
+    elif arguments.plot and report["scatter"]["mean"]:
         report.plot().savefig(arguments.plot)
     return 0 if "identified" in (report["gain"]["status"], report["intercept"]["status"]) else 3
 

@@ -35,6 +35,11 @@ def test_estimate_tells_each_warning_once(few, tmp_path):
         assert (result.stdout + result.stderr).count(warning["message"]) == 1
 
 
+def test_estimate_writes_the_page(few, tmp_path):
+    assert run("estimate.py", few, "--plot", tmp_path / "report.html").returncode == 0
+    assert (tmp_path / "report.html").read_text(encoding="utf-8") == itk.estimate_sensor_noise(few).to_html()
+
+
 def test_estimate_ends_with_what_it_says(few, tmp_path):
     assert run("estimate.py", few).returncode == 0
     result = run("estimate.py", tmp_path / "no-such.mha")

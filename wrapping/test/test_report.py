@@ -3,11 +3,13 @@
 """The report: a dict that prints, draws, travels, compares and does not change."""
 
 import base64
-import builtins
 import copy
+import html
 import json
 import pickle
 import re
+import sys
+from xml.etree import ElementTree
 
 import itk
 import itk_sensornoise
@@ -131,19 +133,39 @@ def test_table_has_the_values(report):
     assert f"{report['gain']['value']:.5g} DN/e-" in repr(report)
 
 
-def test_plot_draws_the_scatter_and_the_line(report):
+def test_plot_draws_the_numbers_of_the_figures(report):
     matplotlib = pytest.importorskip("matplotlib")
     matplotlib.use("svg")
     figure = report.plot()
-    variance, corrected, line = figure.axes[0].get_lines()
-    np.testing.assert_array_equal(variance.get_xdata(), report["scatter"]["mean"])
-    np.testing.assert_array_equal(variance.get_ydata(), report["scatter"]["variance"])
-    np.testing.assert_array_equal(corrected.get_ydata(), report["scatter"]["corrected_variance"])
-    ends = np.array(line.get_xdata())
-    expected = report["variance_slope"]["value"] * ends + report["total_intercept"]["value"]
-    np.testing.assert_allclose(line.get_ydata(), expected)
-    assert line.get_linestyle() == "-" and figure.axes[0].get_legend().get_title().get_text() == ""
+    curve, below = figure.axes
+    data = report.figure_data
+    before, after, line = curve.get_lines()
+    residuals = below.get_lines()[-1]
+    for drawn, x, y in (
+        (before, "mean", "variance"),
+        (after, "mean", "corrected_variance"),
+        (line, "line_mean", "line_variance"),
+        (residuals, "residual_mean", "residual"),
+    ):
+        np.testing.assert_array_equal(drawn.get_xydata(), np.column_stack([data[x], data[y]]))
+    (band,) = curve.collections
+    corners = {tuple(corner) for corner in band.get_paths()[0].vertices}
+    for end in ("band_low", "band_high"):
+        assert corners.issuperset(zip(data["line_mean"], data[end], strict=True))
+    assert line.get_linestyle() == "-" and curve.get_legend().get_title().get_text() == ""
+    assert curve.get_ylabel() == "variance [DN$^2$]" and below.get_xlabel() == "mean [DN]"
     matplotlib.pyplot.close(figure)
+
+
+def test_plot_has_the_colours_of_the_page(report):
+    pytest.importorskip("matplotlib").use("svg")
+    from matplotlib.figure import Figure
+
+    axes = Figure().subplots()
+    report.plot(axes)
+    style = report.to_html()
+    for drawn, kind in zip(axes.get_lines(), ("before", "after", "third"), strict=True):
+        assert f"svg .{kind}{{stroke:{drawn.get_color()}}}" in style
 
 
 def test_plot_draws_into_given_axes(report):
@@ -174,7 +196,8 @@ def test_plot_dashes_the_line_where_the_gain_is_not_identified():
     axes = Figure().subplots()
     report.plot(axes)
     line = axes.get_lines()[2]
-    assert line.get_linestyle() == "--" and line.get_label().startswith("indicative: ")
+    assert line.get_linestyle() == "--" and line.get_label() == "line, indicative: no gain"
+    assert report.figure_data["is_indicative"] and not axes.collections
     fit = report["fit"]
     expected = fit["line"]["gain"] * np.array(line.get_xdata()) + fit["line"]["intercept"]
     np.testing.assert_allclose(line.get_ydata(), expected)
@@ -183,23 +206,16 @@ def test_plot_dashes_the_line_where_the_gain_is_not_identified():
     assert f"indicative: variance = {fit['line']['gain']:.5g} mean" in str(report)
 
 
-def test_notebook_shows_table_warnings_and_curve(report):
-    pytest.importorskip("matplotlib")
+def test_notebook_shows_table_and_curve(report, monkeypatch):
+    monkeypatch.setitem(sys.modules, "matplotlib", None)  # not needed, except by plot()
     text = report._repr_html_()
-    assert "gain g" in text
-    picture = re.search(r'src="data:image/svg\+xml;base64,([^"]+)"', text)
-    assert b"</svg>" in base64.b64decode(picture.group(1))
-
-
-def test_notebook_without_matplotlib_shows_the_table(report, monkeypatch):
-    def no_matplotlib(name, *arguments, **others):
-        if name.startswith("matplotlib"):
-            raise ImportError(name)
-        return original(name, *arguments, **others)
-
-    original = builtins.__import__
-    monkeypatch.setattr(builtins, "__import__", no_matplotlib)
-    assert "gain g" in report._repr_html_() and "<img" not in report._repr_html_()
+    assert html.escape(str(report)) in text
+    (picture,) = re.findall(r'<img [^>]*src="data:image/svg\+xml;base64,([^"]+)"', text)
+    curve = base64.b64decode(picture).decode()
+    root = ElementTree.fromstring(curve)
+    assert root.tag == "{http://www.w3.org/2000/svg}svg" and "prefers-color-scheme:dark" in curve
+    drawn = re.search("<svg [^>]*>(.*?)</svg>", report.to_html(), re.DOTALL)[1]
+    assert len(drawn) > 5000 and drawn in curve  # the page's own figure
     with pytest.raises(ImportError):
         report.plot()
 
@@ -207,7 +223,8 @@ def test_notebook_without_matplotlib_shows_the_table(report, monkeypatch):
 def test_report_of_nothing_is_shown_and_not_drawn():
     report = itk.estimate_sensor_noise(np.full((8, 16, 17), 7, np.uint8))
     assert report["gain"]["value"] is None
-    assert report["warnings"][0]["code"] in report._repr_html_()
+    assert report["warnings"][0]["code"] in report._repr_html_() and "<img" not in report._repr_html_()
+    assert "Not measured." in report.to_html() and report.figure_data["mean"] == []
     with pytest.raises(ValueError, match="^the report has no noise curve"):
         report.plot()
 

@@ -1,10 +1,8 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The noise curve, drawn with matplotlib, which is imported only when it is used."""
+"""The noise curve, drawn with matplotlib, which is imported only when it is used. Every number in it is of C++."""
 
-import base64
-import io
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -14,50 +12,53 @@ if TYPE_CHECKING:
 #: Codes of warnings that tell of a response that bends.
 BENDS = {"response-not-straight", "variance-not-affine"}
 
+#: Colours of the page, told apart without colour vision; markers and dashes differ, too.
+BEFORE, AFTER, LINE = "#b85c00", "#0072b2", "#00795a"
 
-def new_axes() -> "Axes":
-    """Axes in a new figure, which a notebook or plt.show() shows."""
+
+def new_axes(data: Mapping[str, Any]) -> "tuple[Axes, Axes | None]":
+    """Axes of the noise curve, and below them those of the residuals where there are any, in a new figure, which a
+    notebook or plt.show() shows."""
     import matplotlib.pyplot as plt
 
-    axes: Axes = plt.subplots(layout="constrained")[1]
-    return axes
+    if not data["residual"]:
+        return plt.subplots(layout="constrained")[1], None
+    heights = {"height_ratios": [3, 1]}
+    curve, residuals = plt.subplots(2, sharex=True, figsize=(6.4, 6), layout="constrained", gridspec_kw=heights)[1]
+    return curve, residuals
 
 
-def draw(report: Mapping[str, Any], axes: "Axes") -> "Figure":
-    """Variance and corrected variance against mean, each point an average over pixels, and the line through the latter.
+def draw(report: Mapping[str, Any], data: Mapping[str, Any], axes: "Axes", residuals: "Axes | None") -> "Figure":
+    """Variance and corrected variance against mean, each point an average over pixels, the line and its 95 % band.
 
-    The line has the total intercept: codes add their noise to the points, too. Where the gain is not identified, the
-    line through all levels is dashed: indicative, no measurement. Where the response bends, the legend says how far the
-    variance departs from its line.
-
-    Raises ValueError if no pixel was used.
+    Where there is no gain, the line is dashed: indicative, no measurement. Where the response bends, the legend says
+    how far the variance departs from its line.
     """
-    scatter = report["scatter"]
-    mean = scatter["mean"]
-    if not mean:
-        raise ValueError("the report has no noise curve: no pixel was used; its warnings say why")
-    for values, style, label in (
-        (scatter["variance"], "C1.", "variance"),
-        (scatter["corrected_variance"], "C0.", "variance, flicker corrected"),
-    ):
-        axes.plot(mean, [float("nan") if value is None else value for value in values], style, label=label)
-    gain, intercept = report["variance_slope"]["value"], report["total_intercept"]["value"]
-    indicative = report["fit"].get("line")
-    if gain is not None and intercept is not None:
-        _draw_line(axes, mean, gain, intercept, "k-", "")
-    elif indicative is not None:
-        _draw_line(axes, mean, indicative["gain"], indicative["intercept"], "k--", "indicative: ")
-    axes.set_xlabel("mean [DN]")
-    axes.set_ylabel("temporal variance [DN$^2$]")
+    before = [float("nan") if value is None else value for value in data["variance"]]
+    axes.plot(data["mean"], before, "o", color=BEFORE, markersize=4, markerfacecolor="none", label="as it is")
+    axes.plot(
+        data["mean"], data["corrected_variance"], "o", color=AFTER, markersize=4, label="without flicker and motion"
+    )
+    if data["line_mean"]:
+        style, label = ("--", "line, indicative: no gain") if data["is_indicative"] else ("-", "line")
+        axes.plot(data["line_mean"], data["line_variance"], style, color=LINE, linewidth=1.8, label=label)
+    if data["band_low"]:
+        ends = data["line_mean"], data["band_low"], data["band_high"]
+        axes.fill_between(*ends, color=LINE, alpha=0.22, linewidth=0, label="its 95 % band")
+    axes.set_ylabel("variance [DN$^2$]")
     axes.legend(title=_bend(report))
+    if residuals is not None:
+        _draw_residuals(data, residuals)
+    (axes if residuals is None else residuals).set_xlabel("mean [DN]")
     figure: Figure = axes.figure.figure  # the whole one, also of axes in a subfigure
     return figure
 
 
-def _draw_line(axes: "Axes", mean: Sequence[float], gain: float, intercept: float, style: str, what: str) -> None:
-    ends = [min(mean), max(mean)]
-    label = f"{what}{gain:.4g} mean {'+' if intercept >= 0 else '-'} {abs(intercept):.4g}"
-    axes.plot(ends, [gain * end + intercept for end in ends], style, linewidth=1, label=label)
+def _draw_residuals(data: Mapping[str, Any], axes: "Axes") -> None:
+    axes.axhspan(-2, 2, color=LINE, alpha=0.22, linewidth=0)
+    axes.axhline(0, color="0.4", linewidth=1)
+    axes.plot(data["residual_mean"], data["residual"], "o", color=AFTER, markersize=3)
+    axes.set_ylabel("residual\n[standard errors]")
 
 
 def _bend(report: Mapping[str, Any]) -> str | None:
@@ -67,14 +68,3 @@ def _bend(report: Mapping[str, Any]) -> str | None:
     if not bend or codes.isdisjoint(BENDS):
         return None
     return f"the response bends: variance off its line by up to {100 * bend:.2g} %"
-
-
-def as_svg(report: Mapping[str, Any]) -> str:
-    """The noise curve as an HTML element."""
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(6, 4), layout="constrained")
-    draw(report, figure.subplots())
-    buffer = io.BytesIO()
-    figure.savefig(buffer, format="svg")
-    return f'<img alt="noise curve" src="data:image/svg+xml;base64,{base64.b64encode(buffer.getvalue()).decode()}">'

@@ -1,0 +1,124 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""What C++ drew of a report: its page, its noise curve, and the numbers of its figures."""
+
+import base64
+import json
+import os
+import zlib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, overload
+
+from . import _options
+from ._names import is_name
+from ._record import Record
+from ._types import FileName, ItkObject
+
+_ENDINGS = (".html", ".htm")
+
+
+def pack(text: str) -> bytes:
+    """Text of a tenth of the size, or less: a page is 100 kB to 1 MB."""
+    return zlib.compress(text.encode())
+
+
+def unpack(packed: bytes) -> str:
+    return zlib.decompress(packed).decode()
+
+
+@dataclass(frozen=True)
+class Pictures:
+    """The pictures of one report, packed."""
+
+    page: bytes
+    curve: bytes
+    numbers: bytes
+
+    @classmethod
+    def of(cls, estimator: ItkObject) -> "Pictures":
+        """Those of an ITK estimator that is up to date and has one report."""
+        numbers = estimator.GetFigureAsJson()
+        return cls(pack(estimator.GetReportAsHtml()), pack(estimator.GetReportAsSvg()), pack(numbers))
+
+    @classmethod
+    def of_channels(cls, estimator: ItkObject) -> "dict[str, Pictures]":
+        """Those of each channel of a mosaic, by its name."""
+        return {
+            name: cls(
+                pack(estimator.GetChannelReportAsHtml(name)),
+                pack(estimator.GetChannelReportAsSvg(name)),
+                pack(json.dumps(numbers)),
+            )
+            for name, numbers in json.loads(estimator.GetFigureAsJson()).items()
+        }
+
+    def figure_data(self) -> dict[str, Any]:
+        """The numbers of the figures, as dicts and lists of the caller's own."""
+        data: dict[str, Any] = json.loads(unpack(self.numbers))
+        return data
+
+    def curve_element(self, width: int) -> str:
+        """The noise curve as an HTML element, light or dark as its reader is: an image, whose style is its own."""
+        source = base64.b64encode(unpack(self.curve).encode()).decode()
+        return f'<img alt="noise curve" width="{width}" src="data:image/svg+xml;base64,{source}">'
+
+
+class PagedRecord(Record):
+    """A record that has a page."""
+
+    def __init__(self, text: str, page: bytes | None) -> None:
+        """`text`: the record as JSON. `page`: packed."""
+        super().__init__(text)
+        self._page = page
+
+    @overload
+    def to_html(self, path: FileName) -> None: ...
+
+    @overload
+    def to_html(self, path: None = None) -> str: ...
+
+    def to_html(self, path: FileName | None = None) -> str | None:
+        """The page that `estimate-sensor-noise --plot report.html` writes: what was measured in a sentence, a table and
+        figures, the maps of the pixels, what the warnings mean and would help. It needs no other file, no network and
+        no matplotlib.
+
+        path: the name of a file, ending in .html or .htm, which has the whole page or is left as it was; its folder has
+        to exist. Default: the text of the page is returned. Raises ValueError for another name, OSError if the file
+        cannot be written.
+        """
+        if path is None:
+            return self._page_text()
+        target = _target(path)
+        _write(target, self._page_text())
+        return None
+
+    def _page_text(self) -> str:
+        if self._page is None:
+            raise ValueError("the record was made of its text alone and has no page; expected one of an estimator")
+        return unpack(self._page)
+
+
+def _target(path: FileName) -> Path:
+    """The file that is to be written; of a link, what it leads to."""
+    expected = "the name of a file that ends in .html or .htm"
+    if not is_name(path):
+        raise _options.refuse("path", path, expected)
+    name = os.fsdecode(path)
+    if os.path.isdir(name):
+        raise ValueError(f"path is {name!r}, a folder; expected {expected}")
+    if not name.lower().endswith(_ENDINGS):
+        raise _options.refuse("path", name, expected)
+    return Path(os.path.realpath(name))
+
+
+def _write(target: Path, text: str) -> None:
+    """All of the file, or none of it: it takes its name when it is complete."""
+    temporary = target.parent / f".{target.name}.{os.getpid()}"
+    try:
+        temporary.write_bytes(text.encode())
+        os.replace(temporary, target)
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(target)) from error  # the name that the caller knows
+    finally:
+        temporary.unlink(missing_ok=True)
