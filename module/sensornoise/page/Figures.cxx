@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
+#include <initializer_list>
 #include <iterator>
 #include <limits>
 #include <string>
@@ -21,8 +23,6 @@ namespace
 {
 /** Small enough that text is still read where a telephone shows the figure 350 pixels wide. */
 constexpr double      FigureWidth = 480.0;
-constexpr double      PanelLeft = 58.0;
-constexpr double      PanelWidth = FigureWidth - PanelLeft - 12.0;
 constexpr std::size_t MostPieces = 400; ///< of a series: more are not seen
 constexpr std::size_t MostBars = 16;
 
@@ -35,6 +35,22 @@ OpenSvg(double height, const std::string & label, const std::string & attributes
   return "<svg viewBox=\"0 0 " + SvgNumber(FigureWidth) + " " + SvgNumber(height) + "\" role=\"img\" aria-label=\"" +
          Escaped(label) + "\"" + attributes + ">\n";
 }
+
+/** Where the panels of a figure begin and how wide they are, with room for the labels of all their axes. */
+struct PanelPlace
+{
+  double left{ 0.0 };
+  double width{ 0.0 };
+
+  PanelPlace(const PlotAxis & across, std::initializer_list<PlotAxis> up)
+  {
+    for (const PlotAxis & axis : up)
+    {
+      left = std::max(left, axis.LabelWidth() + 10.0);
+    }
+    width = FigureWidth - left - std::max(12.0, 0.5 * across.LabelWidth() + 2.0);
+  }
+};
 
 /** A sign and a word of the legend, above the panel; returns where the next may begin. */
 double
@@ -86,20 +102,26 @@ MeanAxis(const FigureData & data)
   return range.Axis(6);
 }
 
-void
-DrawResiduals(std::string & svg, const FigureData & data, double top)
+PlotAxis
+ResidualAxis(const FigureData & data)
 {
   FiniteRange range;
   range.Add(data.residuals);
   range.Add(-3.0);
   range.Add(3.0);
+  return range.Axis(6);
+}
+
+void
+DrawResiduals(std::string & svg, const FigureData & data, const PanelPlace & place, double top)
+{
+  const PlotAxis across = MeanAxis(data);
   SvgPanel       panel(svg,
-                       { PanelLeft, top, PanelWidth, 90.0 },
-                 MeanAxis(data),
-                 range.Axis(6),
+                       { place.left, top, place.width, 90.0 },
+                 across,
+                 ResidualAxis(data),
                  "mean [DN]",
                  "residual [standard errors of the point]");
-  const PlotAxis across = MeanAxis(data);
   panel.Band({ across.low, across.high }, { -2.0, -2.0 }, { 2.0, 2.0 }, "third");
   panel.Level(0.0, "zero");
   panel.Points(data.meanResiduals, data.residuals, "after", PlotMarker::Disc);
@@ -111,12 +133,14 @@ DrawCurve(const FigureData & data, const std::string & attributes)
   const bool         hasResiduals = !data.residuals.empty();
   std::size_t        above = 0;
   const auto         axis = VarianceAxis(data, above);
+  const PanelPlace   place(MeanAxis(data), { axis, ResidualAxis(data) });
   std::string        svg = OpenSvg(hasResiduals ? 546.0 : 424.0, "temporal variance against mean", attributes);
   const char * const line = data.isIndicative ? "third dashed" : "third";
   const std::string  disc = "<path class=\"after point full\" d=\"M7 0a2.5 2.5 0 1 0 5 0a2.5 2.5 0 1 0-5 0\"/>";
   const std::string  ring = "<path class=\"before point\" d=\"M7 0a2.5 2.5 0 1 0 5 0a2.5 2.5 0 1 0-5 0\"/>";
-  const std::string  higher = above > 0 ? " (" + std::to_string(above) + " points are higher)" : "";
-  LegendEntry(svg, 4.0, 12.0, ring, "as it is" + higher);
+  const std::string  higher =
+    above > 0 ? " (" + std::to_string(above) + (above == 1 ? " point is higher)" : " points are higher)") : "";
+  LegendEntry(svg, 4.0, 12.0, ring, "as measured" + higher);
   const double next = LegendEntry(svg, 4.0, 32.0, disc, "without flicker and motion");
   if (!data.lineMean.empty())
   {
@@ -125,7 +149,7 @@ DrawCurve(const FigureData & data, const std::string & attributes)
   }
   {
     SvgPanel panel(svg,
-                   { PanelLeft, 68.0, PanelWidth, 308.0 },
+                   { place.left, 68.0, place.width, 308.0 },
                    MeanAxis(data),
                    axis,
                    hasResiduals ? "" : "mean [DN]",
@@ -137,7 +161,7 @@ DrawCurve(const FigureData & data, const std::string & attributes)
   }
   if (hasResiduals)
   {
-    DrawResiduals(svg, data, 412.0);
+    DrawResiduals(svg, data, place, 412.0);
   }
   return svg + "</svg>\n";
 }
@@ -195,7 +219,8 @@ std::string
 NameOfLag(const NoiseCorrelationRecord::Lag & lag)
 {
   return lag.frames > 0 ? std::to_string(lag.frames) + (lag.frames == 1 ? " frame" : " frames")
-                        : "x " + std::to_string(lag.x) + ", y " + std::to_string(lag.y);
+                        : "x " + std::string(lag.x < 0 ? "\u2212" : "") + std::to_string(std::abs(lag.x)) + ", y " +
+                            std::to_string(lag.y);
 }
 
 /** Those that differ most from 0, in units of their errors, in their order. */
@@ -231,15 +256,21 @@ SeriesFigure(const FigureData & data)
     return "<p>Neither flicker nor motion was measured.</p>\n";
   }
   std::string svg = OpenSvg(hasMotion && !data.flicker.empty() ? 410.0 : 210.0, "flicker and motion over the frames");
-  double      top = 26.0;
+  FiniteRange flicker;
+  flicker.Add(0.0);
+  flicker.Add(data.flicker);
+  FiniteRange motion;
+  motion.Add(0.0);
+  motion.Add(data.motionX);
+  motion.Add(data.motionY);
+  const PanelPlace place(FrameAxis(data), { flicker.Axis(5), motion.Axis(5) });
+  double           top = 26.0;
   if (!data.flicker.empty())
   {
-    FiniteRange range;
-    range.Add(data.flicker);
     SvgPanel panel(svg,
-                   { PanelLeft, top, PanelWidth, 140.0 },
+                   { place.left, top, place.width, 140.0 },
                    FrameAxis(data),
-                   range.Axis(5),
+                   flicker.Axis(5),
                    hasMotion ? "" : "frame",
                    "flicker \u03B3 [1], relative to the mean light");
     panel.Level(0.0, "zero");
@@ -248,13 +279,10 @@ SeriesFigure(const FigureData & data)
   }
   if (hasMotion)
   {
-    FiniteRange range;
-    range.Add(data.motionX);
-    range.Add(data.motionY);
     const double next = LegendEntry(svg, 150.0, top - 13.0, LineSign("third"), "along x");
     LegendEntry(svg, next, top - 13.0, LineSign("before dashed"), "along y");
     SvgPanel panel(
-      svg, { PanelLeft, top, PanelWidth, 140.0 }, FrameAxis(data), range.Axis(5), "frame", "motion [pixel]");
+      svg, { place.left, top, place.width, 140.0 }, FrameAxis(data), motion.Axis(5), "frame", "motion [pixel]");
     panel.Level(0.0, "zero");
     DrawSeries(panel, data.motionX, "third");
     DrawSeries(panel, data.motionY, "before dashed");
@@ -281,6 +309,7 @@ CorrelationFigure(const FigureData & data)
   const double height = rowHeight * static_cast<double>(lags.size());
   std::string  svg = OpenSvg(height + 72.0, "correlation of the noise by lag");
   const double left = 96.0;
+  const double right = 0.5 * range.Axis(5).LabelWidth() + 2.0;
   PlotAxis     rows;
   rows.low = 0.0;
   rows.high = height;
@@ -292,7 +321,7 @@ CorrelationFigure(const FigureData & data)
   }
   {
     SvgPanel panel(svg,
-                   { left, 26.0, FigureWidth - left - 12.0, height },
+                   { left, 26.0, FigureWidth - left - right, height },
                    range.Axis(5),
                    rows,
                    "correlation coefficient [1], \u00B1 2 standard errors",

@@ -55,14 +55,27 @@ std::string
 PlotAxis::LabelOf(double tick) const
 {
   const double largest = std::max(std::abs(low), std::abs(high));
+  std::string  text = Fixed(std::abs(tick), decimals);
   if (decimals > 5 || largest >= 1e7)
   {
-    char       buffer[40];
-    const auto end = std::to_chars(buffer, buffer + sizeof(buffer), tick, std::chars_format::general, 3).ptr;
-    return std::string(buffer, end);
+    char buffer[40];
+    text.assign(buffer,
+                std::to_chars(buffer, buffer + sizeof(buffer), std::abs(tick), std::chars_format::general, 3).ptr);
   }
-  const std::string text = Fixed(tick, decimals);
-  return tick < 0.0 ? "\u2212" + text.substr(1) : text; // a minus sign as wide as a plus
+  return tick < 0.0 ? "\u2212" + text : text; // a minus sign as wide as a plus
+}
+
+double
+PlotAxis::LabelWidth() const
+{
+  constexpr double digit = 9.0; // of 14 pixels; the minus is counted by its three bytes: it is wider
+  double           width = 0.0;
+  for (const double tick : ticks)
+  {
+    const std::string label = this->LabelOf(tick);
+    width = std::max(width, digit * static_cast<double>(label.size()) - (tick < 0.0 ? 1.5 * digit : 0.0));
+  }
+  return width;
 }
 
 PlotAxis

@@ -19,6 +19,10 @@ struct PlotAxis
 
   std::string
   LabelOf(double tick) const;
+
+  /** Room for the widest label, in a font of figures as wide as any common one has. */
+  double
+  LabelWidth() const;
 };
 
 /** The axis over [\a low, \a high], a little wider, with at most \a mostTicks ticks at multiples of 1, 2 or 5 times a
