@@ -23,6 +23,19 @@ def pytest_configure(config) -> None:
     config.addinivalue_line("filterwarnings", SWIG_WARNING)
 
 
+def pytest_addoption(parser) -> None:
+    parser.addoption("--screenshots", type=Path, help="folder for pictures of the pages that are looked at in a browser")
+
+
+@pytest.fixture(scope="session")
+def screenshots(request) -> Path | None:
+    """The folder for pictures of pages; None: none are wanted."""
+    folder = request.config.getoption("--screenshots")
+    if folder is not None:
+        folder.mkdir(parents=True, exist_ok=True)
+    return folder
+
+
 @pytest.fixture(params=PIXEL_TYPES)
 def pixel(request) -> str:
     """Each pixel type of the filters."""

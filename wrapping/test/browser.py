@@ -1,0 +1,166 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""A page in a real browser: Debian's Chromium, without a window, told what to do through a pair of pipes.
+
+The protocol is Chromium's own, of version 1.3 (https://chromedevtools.github.io/devtools-protocol/1-3/): records of JSON,
+each ended by a zero byte. Nothing is installed for it, no port is open, and no browser is downloaded.
+"""
+
+import base64
+import contextlib
+import fcntl
+import json
+import os
+import select
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+NAMES = ("chromium", "chromium-browser", "google-chrome")
+FLAGS = (
+    "--headless=new",
+    "--remote-debugging-pipe",
+    "--no-sandbox",  # containers have no user namespaces, and the pages are the test's own
+    "--disable-gpu",
+    "--disable-dev-shm-usage",
+    "--hide-scrollbars",  # as on a telephone
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--no-first-run",
+    "--no-default-browser-check",
+    "--no-proxy-server",
+    "--force-color-profile=srgb",
+)
+# The browser reads its descriptor 3 and writes 4, whatever numbers the pipes have here.
+AS_3_AND_4 = """
+import os, sys
+os.dup2(int(sys.argv[1]), 3)
+os.dup2(int(sys.argv[2]), 4)
+os.execvp(sys.argv[3], sys.argv[3:])
+"""
+
+
+class BrowserError(Exception):
+    """The browser did not start, did not answer in time, or refused."""
+
+
+def chromium() -> str | None:
+    """The browser's path: SENSORNOISE_CHROMIUM, else of the system; None: there is none."""
+    given = os.environ.get("SENSORNOISE_CHROMIUM")
+    return shutil.which(given) if given else next(filter(None, map(shutil.which, NAMES)), None)
+
+
+class Browser:
+    """One page of one browser. Every event since the last `open` is in `events`, by its method."""
+
+    def __init__(self, program: str, profile: Path, seconds: float = 30.0):
+        self.seconds = seconds
+        self.events: list[tuple[str, dict[str, Any]]] = []
+        self._number = 0
+        self._rest = b""
+        self._session: str | None = None
+        reads, self._write = os.pipe()
+        self._read, writes = os.pipe()
+        theirs = [fcntl.fcntl(end, fcntl.F_DUPFD, 10) for end in (reads, writes)]
+        command = [sys.executable, "-c", AS_3_AND_4, *map(str, theirs), program, f"--user-data-dir={profile}", *FLAGS]
+        self._log = (profile.parent / "chromium.log").open("w+")
+        self._process = subprocess.Popen(
+            command, pass_fds=theirs, stdin=subprocess.DEVNULL, stdout=self._log, stderr=self._log
+        )
+        for end in (reads, writes, *theirs):
+            os.close(end)
+        target = self.send("Target.createTarget", url="about:blank")["targetId"]
+        self._session = self.send("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+        for domain in ("Page", "Runtime", "Log", "Network"):
+            self.send(f"{domain}.enable")
+
+    def send(self, method: str, **parameters: object) -> dict[str, Any]:
+        """What the browser answers to a command."""
+        self._number += 1
+        record: dict[str, object] = {"id": self._number, "method": method, "params": parameters}
+        if self._session:
+            record["sessionId"] = self._session
+        try:
+            os.write(self._write, json.dumps(record).encode() + b"\0")
+        except BrokenPipeError:
+            raise BrowserError(f"the browser ended: {self._words()}") from None
+        while True:
+            answer = self._next(method)
+            if answer.get("id") == self._number:
+                if "error" in answer:
+                    raise BrowserError(f"{method}: {answer['error']}")
+                return answer["result"]
+
+    def _next(self, what: str) -> dict[str, Any]:
+        """The next record; events are kept."""
+        end = time.monotonic() + self.seconds
+        while b"\0" not in self._rest:
+            if not select.select([self._read], [], [], max(end - time.monotonic(), 0.0))[0]:
+                raise BrowserError(f"{what}: no answer within {self.seconds} s: {self._words()}")
+            part = os.read(self._read, 1 << 20)
+            if not part:
+                raise BrowserError(f"the browser ended: {self._words()}")
+            self._rest += part
+        text, self._rest = self._rest.split(b"\0", 1)
+        record = json.loads(text)
+        if "method" in record:
+            self.events.append((record["method"], record["params"]))
+        return record
+
+    def _words(self) -> str:
+        self._log.flush()
+        self._log.seek(0)
+        return self._log.read()[-500:]
+
+    def open(self, file: Path, width: int, scheme: str, height: int = 800) -> float:
+        """Shows a file in a window `width` CSS pixels wide, "light" or "dark"; the seconds until all of it is there."""
+        self.events.clear()
+        self.send("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+        self.send("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
+        begin = time.monotonic()
+        self.send("Page.navigate", url=file.resolve().as_uri())
+        while not any(method == "Page.loadEventFired" for method, _ in self.events):
+            self._next("load")
+        return time.monotonic() - begin
+
+    def run(self, expression: str) -> Any:
+        """The value of a JavaScript expression in the page."""
+        answer = self.send("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
+        if "exceptionDetails" in answer:
+            raise BrowserError(f"{expression[:80]}: {answer['exceptionDetails']}")
+        return answer["result"].get("value")
+
+    def picture(self, file: Path, height: int | None = None) -> None:
+        """A PNG of the page as it is shown: all of it, or its first `height` CSS pixels."""
+        size = self.run("({w: document.documentElement.clientWidth, h: document.documentElement.scrollHeight})")
+        clip = {"x": 0, "y": 0, "width": size["w"], "height": min(height or size["h"], size["h"]), "scale": 1}
+        answer = self.send("Page.captureScreenshot", format="png", captureBeyondViewport=True, clip=clip)
+        file.write_bytes(base64.b64decode(answer["data"]))
+
+    def close(self) -> None:
+        with contextlib.suppress(BrowserError):
+            self._session = None
+            self.send("Browser.close")
+        os.close(self._write)
+        try:
+            self._process.wait(10)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+        os.close(self._read)
+        self._log.close()
+
+
+@contextlib.contextmanager
+def started(program: str, profile: Path) -> Iterator[Browser]:
+    """A browser that is ended at the end."""
+    browser = Browser(program, profile)
+    try:
+        yield browser
+    finally:
+        browser.close()

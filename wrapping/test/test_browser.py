@@ -1,0 +1,154 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Pages of `estimate-sensor-noise --plot` in a real browser, as people see them: on a telephone and on a wide screen, light
+and dark. `pytest test_browser.py --screenshots DIR` keeps pictures of all of them, and makes those of documentation/."""
+
+import re
+import subprocess
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from browser import Browser, BrowserError, chromium, started
+
+CHECKS = (Path(__file__).parent / "page_checks.js").read_text()
+WIDTHS = {"telephone": 390, "desk": 1280}
+SCHEMES = ("light", "dark")
+
+# What the simulator is asked for, and the exit code of the estimator: 3 where there is no gain.
+SITUATIONS = {
+    "good": ("--size 256x192 --frames 60", 0),
+    "failed": ("--size 96x64 --frames 12 --clip 0,300", 3),  # nearly all of it is saturated
+    "flat-field": ("--size 256x192 --frames 60 --reference flat --prnu 0.3", 3),
+    "bayer": ("--size 384x256 --frames 60 --bayer RGGB", 0),
+    "bayer-failed": ("--size 192x128 --frames 12 --bayer RGGB --clip 0,300", 0),  # two channels have no gain
+    "smoothed": ("--size 256x192 --frames 60 --smoothing 0.7", 0),
+    "gamma": ("--size 256x192 --frames 60 --response gamma,0.6", 3),
+    "warnings": ("--size 256x192 --frames 15 --repeat 2 --flicker-sd 0 --response shoulder,0.2 --coupling 0.02", 3),
+}
+
+
+@pytest.fixture(scope="session")
+def chrome(tmp_path_factory):
+    program = chromium()
+    if program is None:
+        pytest.skip("no Chromium on this system (Debian: apt-get install chromium): pages were not looked at")
+    try:
+        with started(program, tmp_path_factory.mktemp("browser") / "profile") as browser:
+            yield browser
+    except BrowserError as error:
+        pytest.fail(str(error))
+
+
+def measured(tool, folder: Path, name: str, flags: str, code: int = 0) -> Path:
+    """The page of a simulated burst."""
+    stack, page = folder / f"{name}.mha", folder / f"{name}.html"
+    tool("simulate-sensor-noise", "--output", stack, *flags.split())
+    try:
+        tool("estimate-sensor-noise", stack, "--quiet", "--plot", page)
+        found = 0
+    except subprocess.CalledProcessError as error:
+        found = error.returncode
+    stack.unlink()
+    assert found == code
+    return page
+
+
+@pytest.fixture(scope="session")
+def pages(tool, tmp_path_factory):
+    """One page of each situation."""
+    folder = tmp_path_factory.mktemp("pages")
+    return {name: measured(tool, folder, name, *what) for name, what in SITUATIONS.items()}
+
+
+def outside(browser: Browser, file: Path) -> list[str]:
+    """What the page asked others for: neither itself nor "data:"."""
+    asked = [event["request"]["url"] for method, event in browser.events if method == "Network.requestWillBeSent"]
+    return [url for url in asked if url != file.resolve().as_uri() and not url.startswith("data:")]
+
+
+def complaints(browser: Browser) -> list[str]:
+    """What the browser says of errors in the page."""
+    kinds = ("Runtime.exceptionThrown", "Runtime.consoleAPICalled", "Log.entryAdded")
+    return [f"{method}: {event}" for method, event in browser.events if method in kinds]
+
+
+def faults(browser: Browser, file: Path) -> list[str]:
+    found = browser.run(CHECKS)
+    return [*found, *complaints(browser), *(f"asks for {url}" for url in outside(browser, file))]
+
+
+@pytest.mark.parametrize("scheme", SCHEMES)
+@pytest.mark.parametrize("screen", WIDTHS)
+@pytest.mark.parametrize("situation", SITUATIONS)
+def test_page_is_whole_and_readable(chrome, pages, situation, screen, scheme, screenshots):
+    page = pages[situation]
+    chrome.open(page, WIDTHS[screen], scheme)
+    if screenshots:
+        chrome.picture(screenshots / f"{situation}-{screen}-{scheme}.png")
+    assert faults(chrome, page) == []
+    dark = chrome.run("matchMedia('(prefers-color-scheme: dark)').matches")
+    ground = chrome.run("getComputedStyle(document.body).backgroundColor")
+    assert dark == (scheme == "dark") and (ground == "rgb(255, 255, 255)") == (scheme == "light")
+
+
+@pytest.mark.parametrize("scheme", SCHEMES)
+def test_svg_file_is_whole_and_readable(chrome, tool, tmp_path, scheme):
+    stack, file = tmp_path / "stack.mha", tmp_path / "figure.svg"
+    tool("simulate-sensor-noise", "--output", stack, *SITUATIONS["good"][0].split())
+    tool("estimate-sensor-noise", stack, "--quiet", "--plot", file)
+    assert ElementTree.parse(file).getroot().tag == "{http://www.w3.org/2000/svg}svg"
+    chrome.open(file, 1280, scheme)
+    assert faults(chrome, file) == []
+
+
+def test_figures_of_every_page_are_xml(pages):
+    for name, page in pages.items():
+        text = page.read_text()
+        for figure in re.findall(r"<svg.*?</svg>\s*(?=<figcaption)", text, re.DOTALL):
+            assert ElementTree.fromstring(figure).get("viewBox"), name
+        assert ("<svg" in text) == (name != "failed"), name
+
+
+def test_page_of_24_megapixels_is_small_and_opens_at_once(chrome, tool, tmp_path):
+    """Six frames, of 12 bits each: more of them make no larger page."""
+    page = measured(tool, tmp_path, "large", "--size 6000x4000 --frames 6")
+    assert page.stat().st_size < 1_000_000
+    seconds = min(chrome.open(page, 390, "light") for _ in range(2))  # of two: another program may have been in the way
+    assert seconds < 1.0
+    assert faults(chrome, page) == []
+
+
+# Pages that the checks must not let pass, and a word of what they say.
+BAD = {
+    "scrolls sideways": "<p style='width:2000px'>wide</p>",
+    "contrast": "<p style='color:#999'>pale</p>",
+    "contrast 1.0": "<svg viewBox='0 0 9 9'><text y='8' fill='#fff'>o</text></svg>",
+    "letters of": "<p style='font-size:8px'>small</p>",
+    "is cut off by its svg": "<svg viewBox='0 0 100 20' width='100'><text x='80' y='15'>too long a word</text></svg>",
+    "is cut off by its P": "<p style='height:10px'>one<br>two<br>three</p>",
+    "lie on each other": "<p>one</p><p style='margin-top:-28px'>two</p>",
+    "on the points": "<svg viewBox='0 0 90 90'><svg x='9' y='9' width='80' height='80'></svg><text x='20' y='50'>on"
+    "</text></svg>",
+    "no picture": "<img alt='nothing' src='data:image/png;base64,AAAA'><p>words</p>",
+    "asks for http": "<p>words</p><img alt='far' src='http://127.0.0.1:9/far.png'>",
+    "exceptionThrown": "<p>words</p><script>missing()</script>",
+    "consoleAPICalled": "<p>words</p><script>console.error('wrong')</script>",
+    "no text": "<style>p { color: red }</style>",
+}
+
+
+@pytest.mark.parametrize("word", BAD)
+def test_checks_see_what_is_wrong(chrome, tmp_path, word):
+    file = tmp_path / "bad.html"
+    file.write_text(f"<!DOCTYPE html><meta charset=utf-8><title>bad</title><body style='margin:8px'>{BAD[word]}</body>")
+    chrome.open(file, 390, "light")
+    found = faults(chrome, file)
+    assert any(word in fault for fault in found), found
+
+
+def test_checks_let_a_plain_page_pass(chrome, tmp_path):
+    file = tmp_path / "plain.html"
+    file.write_text("<!DOCTYPE html><meta charset=utf-8><title>plain</title><h1>Plain</h1><p>words</p>")
+    chrome.open(file, 390, "light")
+    assert faults(chrome, file) == []
