@@ -18,10 +18,21 @@ sensornoise_install() {
   done
   [ ${#missing[@]} -gt 0 ] || return 0
   echo "installing ${missing[*]}"
+  sensornoise_apt "${missing[@]}"
+}
+
+sensornoise_apt() {
   local sudo=
   [ "$(id -u)" = 0 ] || sudo=sudo
-  $sudo apt-get update -qq
-  $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends "${missing[@]}" >/dev/null
+  $sudo apt-get update -qq &&
+    $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends "$@" >/dev/null
+}
+
+# sensornoise_install_if_possible PACKAGE: what nothing but some tests needs, which are skipped without it.
+sensornoise_install_if_possible() {
+  command -v apt-get >/dev/null || return 0
+  echo "installing $1"
+  sensornoise_apt "$1" || echo "$1 cannot be installed: tests that need it are skipped" >&2
 }
 
 # sensornoise_build FOLDER [CMake options]: configures quietly and builds, with SENSORNOISE_WARNINGS_AS_ERRORS=ON so.

@@ -29,6 +29,8 @@ sensornoise_packages+=(libopencv-imgcodecs-dev libopencv-videoio-dev)
 rm -f "$here/build/pytest.log" "$here/build/fuzz.log"
 SECONDS=0
 sensornoise_install
+# A browser for the pages of --plot: 115 MB to download, 360 MB on the disk. Without it their tests are skipped.
+command -v chromium >/dev/null || sensornoise_install_if_possible chromium
 sensornoise_build "$here/build" -DBUILD_TESTING=ON -DSensorNoise_BUILD_STUDIES=ON
 took "build"
 ctest --test-dir "$here/build" --output-on-failure -j "$(nproc)" "$@" || failed+=(C++)
