@@ -157,9 +157,11 @@ FillFlicker(Report & report, const RefinedResults & found, double offset, double
   {
     report.flickerSd = Quantity::Without(EstimateStatus::NotIdentifiable);
     report.Warn(WarningCode::FlickerNotIdentifiable,
-                "the light is known to " + Percent(ofScale) + " only, and so is the flicker (expected " +
-                  Percent(InRefined.largestScaleError) +
-                  " at most): a known offset would tell, or a scene with dark and bright areas");
+                (std::isfinite(ofScale)
+                   ? "the light is known to " + Percent(ofScale) + " only, and so is the flicker (expected " +
+                       Percent(InRefined.largestScaleError) + " at most)"
+                   : std::string("the light is not known, and neither is the flicker")) +
+                  ": a known offset would tell, or a scene with dark and bright areas");
   }
   if (found.HasLocalLight())
   {

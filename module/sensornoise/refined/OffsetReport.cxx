@@ -260,7 +260,11 @@ EstimateOffset(const RefinedResults & found, const GainEstimate & gain, const Of
   {
     estimate.obstacle = "the light changes differently over the frame, and no part of it tells the offset";
   }
-  else if (!std::isfinite(low) || !std::isfinite(high) || high - low > InRefined.largestOffsetInterval * rangeDn)
+  else if (!std::isfinite(low) || !std::isfinite(high))
+  {
+    estimate.obstacle = "the offset's interval has no end";
+  }
+  else if (high - low > InRefined.largestOffsetInterval * rangeDn)
   {
     estimate.obstacle = "the offset's interval, " + Rounded(low + model.centreDn) + " to " +
                         Rounded(high + model.centreDn) + " DN, is wider than a quarter of the range of the scene, " +
