@@ -117,27 +117,56 @@ MostShared(const std::vector<NoiseCorrelationRecord::Lag> & lags)
     lags.begin(), lags.end(), [](const auto & a, const auto & b) { return std::abs(a.value) < std::abs(b.value); });
   return most == lags.end() ? "share some of it" : Format("share up to %.2g %% of it", 100.0 * most->value);
 }
+} // namespace
+
+std::string
+DescribeFit(const Report & report)
+{
+  if (!report.fit.reducedChi2)
+  {
+    return "";
+  }
+  return Format("fit: reduced chi2 %.4g (1: only sampling noise is left)", *report.fit.reducedChi2) +
+         (report.fit.offsetLinePhi ? Format(", offset line %.4g (1: one flicker for all)", *report.fit.offsetLinePhi)
+                                   : "");
+}
+
+std::string
+DescribeResponse(const Report & report)
+{
+  if (!report.fit.nonlinearity)
+  {
+    return "";
+  }
+  return *report.fit.nonlinearity > 0.0
+           ? Format("response: the variance departs from its line by up to %.2g %% of itself",
+                    100.0 * *report.fit.nonlinearity)
+           : "response: the variance departs from its line by no more than noise";
+}
 
 std::string
 DescribeNoise(const Report & report)
 {
+  if (!report.noiseCorrelation)
+  {
+    return "";
+  }
   const NoiseCorrelationRecord & noise = *report.noiseCorrelation;
   if (noise.kind == "white")
   {
     const bool hasLines = IsIdentified(noise.rowNoise) || IsIdentified(noise.columnNoise);
-    return hasLines ? "noise: white, but for rows and columns\n"
-                    : "noise: white (neighbours and frames share none of it)\n";
+    return hasLines ? "noise: white, but for rows and columns"
+                    : "noise: white (neighbours and frames share none of it)";
   }
   if (noise.kind == "not-linear")
   {
-    return "noise: not-linear (not as a sensor's or a linear filter's: what gain it had cannot be told)\n";
+    return "noise: not-linear (not as a sensor's or a linear filter's: what gain it had cannot be told)";
   }
   const std::string text =
     "noise: " + noise.kind +
     (noise.kind == "temporal" ? ", frames " + MostShared(noise.time) : ", neighbours " + MostShared(noise.space));
-  return text + (report.gain.value ? "; the gain is from the sum over all lags\n" : "\n");
+  return text + (report.gain.value ? "; the gain is from the sum over all lags" : "");
 }
-} // namespace
 
 std::string
 MakeTable(const Report & report)
@@ -172,23 +201,11 @@ MakeTable(const Report & report)
                     report.fit.line->gain,
                     report.fit.line->intercept);
   }
-  if (report.fit.reducedChi2)
+  bool isFirst = true;
+  for (const std::string & line : { DescribeFit(report), DescribeResponse(report), DescribeNoise(report) })
   {
-    table += Format("\nfit: reduced chi2 %.4g (1: only sampling noise is left)", *report.fit.reducedChi2);
-    table += report.fit.offsetLinePhi
-               ? Format(", offset line %.4g (1: one flicker for all)\n", *report.fit.offsetLinePhi)
-               : "\n";
-  }
-  if (report.fit.nonlinearity)
-  {
-    table += *report.fit.nonlinearity > 0.0
-               ? Format("response: the variance departs from its line by up to %.2g %% of itself\n",
-                        100.0 * *report.fit.nonlinearity)
-               : "response: the variance departs from its line by no more than noise\n";
-  }
-  if (report.noiseCorrelation)
-  {
-    table += (report.fit.reducedChi2 ? "" : "\n") + DescribeNoise(report);
+    table += line.empty() ? "" : (isFirst ? "\n" : "") + line + "\n";
+    isFirst = isFirst && line.empty();
   }
   return table;
 }

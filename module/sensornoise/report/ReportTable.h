@@ -15,6 +15,15 @@ namespace sensornoise
 SensorNoise_EXPORT std::string
 MakeTable(const Report & report);
 
+/** How well the line fits, how straight the response is, and what the noise is taken for, each as a line without its
+ * end; "" where the report has nothing of it. */
+std::string
+DescribeFit(const Report & report);
+std::string
+DescribeResponse(const Report & report);
+std::string
+DescribeNoise(const Report & report);
+
 /** A warning as a line: "warning: message [code]", with "note" or "error" where its severity is that. */
 SensorNoise_EXPORT std::string
 TextOf(const Warning & warning);
