@@ -39,6 +39,28 @@ TEST(SensorNoiseFigureData, ResidualsAreInUnitsOfTheBinsError)
   EXPECT_EQ(data.meanResiduals, (std::vector<double>{ 100.0, 200.0 }));
 }
 
+TEST(SensorNoiseFigureData, WhatFramesShareIsInTheErrorsOfResiduals)
+{
+  // frames one apart share 0.5: 1 + 2 * 0.25 = 1.5 times the variance of a variance
+  Report report = MakeReport();
+  report.noiseCorrelation.emplace();
+  report.noiseCorrelation->time.push_back({ 0, 0, 1, 0.5, 0.0 });
+  const FigureData data = MakeFigureData(report);
+  ASSERT_EQ(data.residuals.size(), 2U);
+  EXPECT_NEAR(data.residuals[0], 1.0 / std::sqrt(1.5), 1e-9);
+  EXPECT_EQ(data.residualSpread, 1.0);
+}
+
+TEST(SensorNoiseFigureData, WhatNeighboursShareIsTheSpreadOfResidualsLessWhatChanceMakes)
+{
+  Report report = MakeReport();
+  report.noiseCorrelation.emplace();
+  report.noiseCorrelation->space = { { 1, 0, 0, 0.5, 0.1 }, { 0, 1, 0, 0.01, 0.02 } };
+  const FigureData data = MakeFigureData(report);
+  EXPECT_NEAR(data.residualSpread, std::sqrt(1.0 + 2.0 * (0.25 - 0.01)), 1e-12); // nothing of the second
+  EXPECT_NEAR(data.residuals[0], 1.0, 1e-9);
+}
+
 TEST(SensorNoiseFigureData, TheBandIsOfSlopeAndInterceptTogether)
 {
   const FigureData data = MakeFigureData(MakeReport());

@@ -116,7 +116,7 @@ TEST(SensorNoiseReportPage, HoldsWhatWasFoundToItsErrors)
 {
   const std::string page = ToHtml(MakeGoodReport(100));
   ExpectSound(page);
-  for (const char * const part : { "The gain is 0.5000 \u00B1 0.0010 DN/e\u207B",
+  for (const char * const part : { "The gain is 0.5000 \u00B1&#160;0.0010 DN/e\u207B",
                                    "95 %: 0.4980 to 0.5020",
                                    "95.00 \u00B1 0.50",
                                    "every number below stands",
@@ -152,6 +152,7 @@ TEST(SensorNoiseReportPage, AnEmptyReportSaysThatThereIsNothing)
   const std::string page = ToHtml(report);
   ExpectSound(page);
   EXPECT_FALSE(Contains(page, "<svg"));
+  EXPECT_FALSE(Contains(page, "<td>\u2013"));
   for (const char * const part : { "Not measured.",
                                    "No gain could be measured: there are 3 different frames; expected 5.",
                                    "No point of the noise curve was measured.",
@@ -160,6 +161,40 @@ TEST(SensorNoiseReportPage, AnEmptyReportSaysThatThereIsNothing)
     EXPECT_TRUE(Contains(page, part)) << part;
   }
   EXPECT_EQ(FaultOfTags(ToSvg(report)), "");
+}
+
+TEST(SensorNoiseReportPage, OfAFailedReportTheErrorComesFirst)
+{
+  Report report = MakeGoodReport(20);
+  report.gain = Quantity::Without(EstimateStatus::Failed);
+  report.Warn(WarningCode::NotStatic, "many pixels move");
+  report.Warn(WarningCode::VarianceNotAffine, "the variance departs from its line");
+  const std::string page = ToHtml(report);
+  const std::size_t table = page.find("<table");
+  const std::size_t note = page.find("Many pixels move.");
+  EXPECT_LT(page.find("<span class=\"word\">error</span>"), note);
+  EXPECT_LT(note, table);
+}
+
+TEST(SensorNoiseReportPage, SaysHowWellItFits)
+{
+  Report report = MakeGoodReport(20);
+  report.fit.reducedChi2 = 0.9876;
+  report.fit.nonlinearity = 0.02;
+  report.noiseCorrelation->space[0] = { 1, 0, 0, 0.4, 0.01 };
+  report.noiseCorrelation->kind = "filtered";
+  report.pixels.total = 1000;
+  report.pixels.clipped = 125;
+  const std::string page = ToHtml(report);
+  for (const char * const part : { "Fit: reduced \u03C7\u00B2 0.9876 (1: only sampling noise is left).",
+                                   "by up to 2 % of itself.",
+                                   "Noise: filtered, neighbours share up to 40 % of it",
+                                   "up to 1.15 times as far.", // sqrt(1 + 2 * 0.16)
+                                   "12.5 % clipped" })
+  {
+    EXPECT_TRUE(Contains(page, part)) << part;
+  }
+  EXPECT_FALSE(Contains(ToHtml(MakeGoodReport(20)), "times as far"));
 }
 
 TEST(SensorNoiseReportPage, WhatIsNotANumberIsNotDrawn)
@@ -181,7 +216,9 @@ TEST(SensorNoiseReportPage, WhatIsNotANumberIsNotDrawn)
   {
     flicker = NotANumber;
   }
+  report.motion.assign(report.motion.size(), { NotANumber, NotANumber });
   ExpectSound(ToHtml(report));
+  EXPECT_TRUE(Contains(ToHtml(report), "Neither flicker nor motion was measured."));
 }
 
 TEST(SensorNoiseReportPage, OfManyPixelsAndFramesItStaysSmall)
@@ -215,6 +252,14 @@ TEST(SensorNoiseReportPage, OfAMosaicItHasAllChannels)
     EXPECT_TRUE(Contains(page, part)) << part;
   }
   EXPECT_TRUE(Contains(page, "The blue plane has one level."));
+  // three curves can be seen without opening anything
+  const std::string shown = page.substr(0, page.find("<details>"));
+  std::size_t       curves = 0;
+  for (std::size_t at = shown.find("<svg viewBox"); at != std::string::npos; at = shown.find("<svg viewBox", at + 1))
+  {
+    ++curves;
+  }
+  EXPECT_EQ(curves, 3U);
 }
 
 TEST(SensorNoiseReportPage, TheFigureIsAFileOfItsOwn)

@@ -101,7 +101,7 @@ Emva1288Rows(const Report & report)
     { "SNR_max", "largest signal to noise", Computed(computed.BestSnr(), ""), "\u221A\u03BC_e.sat, by the model" },
     { "SNR(\u03BC_p)", "measured SNR curve", NotGiven, "photons are not counted" },
     { "\u03B7", "quantum efficiency", NotGiven, "photons are not counted" },
-    { "LE", "linearity error", NotGiven, "the residuals of figure 1 show the variance's departure" },
+    { "LE", "linearity error", NotGiven, "the residuals above show the variance's departure" },
     { "DSNU, PRNU", "non-uniformity", NotGiven, "no dark and no flat field" },
     { "\u03BC_I", "dark current", NotGiven, "one exposure" },
   };

@@ -34,8 +34,22 @@ LineOf(const Report & report)
   return line && std::isfinite(line->gain) && std::isfinite(line->intercept) ? line : std::nullopt;
 }
 
+/** What the variance of a sample variance is multiplied by where its values share noise: 1 + 2 sum rho^2 over one of
+ * the two directions of each lag, less what chance adds to the squares. */
+double
+FactorOfLags(const std::vector<NoiseCorrelationRecord::Lag> & lags)
+{
+  double sum = 0.0;
+  for (const NoiseCorrelationRecord::Lag & lag : lags)
+  {
+    const double square = lag.value * lag.value - lag.standardError * lag.standardError;
+    sum += std::isfinite(square) ? std::max(square, 0.0) : 0.0;
+  }
+  return 1.0 + 2.0 * sum;
+}
+
 /** Relative standard error of a variance that is the mean over \a count pixels [1]: Var(s^2) / sigma^4 is 2 / (T - 1)
- * of normal noise, and the excess kurtosis over T more. */
+ * of normal noise, more where frames share theirs, and the excess kurtosis over T more. */
 double
 RelativeErrorOfBin(const Report & report, std::size_t count)
 {
@@ -45,7 +59,8 @@ RelativeErrorOfBin(const Report & report, std::size_t count)
   }
   const auto   frames = static_cast<double>(report.framesDistinct);
   const double kurtosis = report.noiseCorrelation ? report.noiseCorrelation->excessKurtosis.value.value_or(0.0) : 0.0;
-  const double ofPixel = std::max(2.0 / (frames - 1.0) + kurtosis / frames, 0.0);
+  const double shared = report.noiseCorrelation ? FactorOfLags(report.noiseCorrelation->time) : 1.0;
+  const double ofPixel = std::max(2.0 / (frames - 1.0) * shared + kurtosis / frames, 0.0);
   return std::sqrt(ofPixel / static_cast<double>(count));
 }
 
@@ -139,6 +154,7 @@ MakeFigureData(const Report & report)
   }
   if (report.noiseCorrelation)
   {
+    data.residualSpread = std::sqrt(FactorOfLags(report.noiseCorrelation->space));
     data.lags = report.noiseCorrelation->space;
     data.lags.insert(data.lags.end(), report.noiseCorrelation->time.begin(), report.noiseCorrelation->time.end());
   }

@@ -23,6 +23,9 @@ struct FigureData
   std::vector<double> meanResiduals; ///< levels of the residuals [DN]; empty: there is no line
   /** Corrected variance less the line [1], in units of the error that normal noise gives a bin of so many pixels. */
   std::vector<double> residuals;
+  /** How much further the residuals of bins scatter at most, because neighbours share their noise [1]: as far where all
+   * neighbours are in the same bin. What frames share is in the errors. */
+  double residualSpread{ 1.0 };
 
   /** Variance slope and total intercept as a line, from the darkest to the brightest level; where they have no values,
    * the line through all levels; empty: none was fitted. */

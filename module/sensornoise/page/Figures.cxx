@@ -250,12 +250,16 @@ CurveFigure(const FigureData & data)
 std::string
 SeriesFigure(const FigureData & data)
 {
-  const bool hasMotion = !data.motionX.empty();
-  if (data.flicker.empty() && !hasMotion)
+  const auto isKnown = [](const std::vector<double> & series) {
+    return std::any_of(series.begin(), series.end(), [](double number) { return std::isfinite(number); });
+  };
+  const bool hasMotion = isKnown(data.motionX) || isKnown(data.motionY);
+  const bool hasFlicker = isKnown(data.flicker);
+  if (!hasFlicker && !hasMotion)
   {
     return "<p>Neither flicker nor motion was measured.</p>\n";
   }
-  std::string svg = OpenSvg(hasMotion && !data.flicker.empty() ? 410.0 : 210.0, "flicker and motion over the frames");
+  std::string svg = OpenSvg(hasMotion && hasFlicker ? 410.0 : 210.0, "flicker and motion over the frames");
   FiniteRange flicker;
   flicker.Add(0.0);
   flicker.Add(data.flicker);
@@ -265,7 +269,7 @@ SeriesFigure(const FigureData & data)
   motion.Add(data.motionY);
   const PanelPlace place(FrameAxis(data), { flicker.Axis(5), motion.Axis(5) });
   double           top = 26.0;
-  if (!data.flicker.empty())
+  if (hasFlicker)
   {
     SvgPanel panel(svg,
                    { place.left, top, place.width, 140.0 },

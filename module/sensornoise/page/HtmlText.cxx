@@ -55,6 +55,8 @@ std::string
 SentenceText(const std::string & message)
 {
   std::string text = WithReplaced(message, PlusMinus, " \u00B1 ");
+  text = WithReplaced(WithReplaced(text, "chi2", "\u03C7\u00B2"), "^2", "\u00B2");
+  text = WithReplaced(text, "/e-", "/e\u207B");
   if (!text.empty() && text.front() >= 'a' && text.front() <= 'z')
   {
     text.front() = static_cast<char>(text.front() - 'a' + 'A');
@@ -143,7 +145,9 @@ std::string
 RangeText(const Quantity & quantity)
 {
   const std::optional<Interval> & range = quantity.interval95 ? quantity.interval95 : quantity.bracket;
-  if (!range || (!range->low && !range->high))
+  const bool                      isKnown = range && (!range->low || std::isfinite(*range->low)) &&
+                       (!range->high || std::isfinite(*range->high)) && (range->low || range->high);
+  if (!isKnown)
   {
     return "";
   }

@@ -22,7 +22,7 @@ UnitText(const std::string & unit);
 std::string
 LabelText(const std::string & label);
 
-/** A message of a warning as a sentence: with a capital, a full stop, and ± for "+-". */
+/** A message of a warning as a sentence: with a capital, a full stop, and signs for "+-", "chi2", "^2" and "/e-". */
 std::string
 SentenceText(const std::string & message);
 

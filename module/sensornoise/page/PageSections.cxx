@@ -9,6 +9,8 @@
 #include "sensornoise/report/ReportJson.h"
 #include "sensornoise/report/Version.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <variant>
@@ -37,7 +39,8 @@ bool
 HasRow(const QuantityEntry & entry, const Report & report)
 {
   const Quantity * const quantity = entry.of(report);
-  return quantity != nullptr && (entry.shown == ShownIn::EveryTable || quantity->value);
+  return quantity != nullptr &&
+         (entry.shown == ShownIn::EveryTable || (quantity->value && std::isfinite(*quantity->value)));
 }
 
 /** Escaped, and `names` as code. */
@@ -59,7 +62,7 @@ QuantityRow(const QuantityEntry & entry, const Quantity & quantity)
 {
   const std::string  value = Escaped(ValueText(quantity));
   const std::string  unit = UnitText(entry.unit);
-  const bool         hasNumber = quantity.value || value.rfind("&lt;", 0) == 0;
+  const bool         hasNumber = (quantity.value && std::isfinite(*quantity.value)) || value.rfind("&lt;", 0) == 0;
   const bool         isPlain = quantity.status == EstimateStatus::Identified;
   const std::string  range = RangeText(quantity);
   const char * const kindOfRange = quantity.interval95 ? "95 %: " : "limits: ";
@@ -70,14 +73,35 @@ QuantityRow(const QuantityEntry & entry, const Quantity & quantity)
          (range.empty() ? "" : "<small>" + (kindOfRange + Escaped(range)) + "</small>") + "</td></tr>\n";
 }
 
-/** With indices: "mu_y.dark" is mu with y.dark below the line. */
+/** With indices: "mu_y.dark" is mu with y.dark below the line, of letters and points. */
 std::string
-WithIndex(const std::string & symbol)
+WithIndices(const std::string & text)
 {
-  const std::size_t line = symbol.find('_');
-  return line == std::string::npos
-           ? Escaped(symbol)
-           : Escaped(symbol.substr(0, line)) + "<sub>" + Escaped(symbol.substr(line + 1)) + "</sub>";
+  const auto  isOfIndex = [](char c) { return c == '.' || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  std::string html;
+  for (std::size_t at = 0; at < text.size();)
+  {
+    const std::size_t line = std::min(text.find('_', at), text.size());
+    std::size_t       end = std::min(line + 1, text.size());
+    while (end < text.size() && isOfIndex(text[end]))
+    {
+      ++end;
+    }
+    html += Escaped(text.substr(at, line - at));
+    html += line < text.size() ? "<sub>" + Escaped(text.substr(line + 1, end - line - 1)) + "</sub>" : "";
+    at = end;
+  }
+  return html;
+}
+
+/** Whether any quantity has a value, or a limit. */
+bool
+HasValues(const Report & report)
+{
+  return std::any_of(QuantityList().begin(), QuantityList().end(), [&](const QuantityEntry & entry) {
+    const Quantity * const quantity = entry.of(report);
+    return quantity != nullptr && (quantity->value || quantity->status == EstimateStatus::UpperLimit);
+  });
 }
 } // namespace
 
@@ -99,6 +123,10 @@ StackSentence(const Report & report)
   {
     text += "; " + Percent(static_cast<double>(report.pixels.used) / static_cast<double>(report.pixels.total)) +
             " of the pixels used";
+    text += report.pixels.clipped > 0
+              ? ", " + Percent(static_cast<double>(report.pixels.clipped) / static_cast<double>(report.pixels.total)) +
+                  " clipped"
+              : "";
   }
   return "<p class=\"soft\">" + Escaped(text) + ".</p>\n";
 }
@@ -106,12 +134,17 @@ StackSentence(const Report & report)
 std::string
 QuantityTable(const Report & report)
 {
+  if (!HasValues(report))
+  {
+    return "<p>No quantity has a value.</p>\n";
+  }
   std::string rows;
   for (const QuantityEntry & entry : QuantityList())
   {
     rows += HasRow(entry, report) ? QuantityRow(entry, *entry.of(report)) : "";
   }
-  return "<table><thead><tr><th scope=\"col\">Quantity</th><th scope=\"col\">Value and standard error</th></tr></thead>"
+  return "<table class=\"quantities\"><thead><tr><th scope=\"col\">Quantity</th><th scope=\"col\">Value and standard "
+         "error</th></tr></thead>"
          "<tbody>\n" +
          rows + "</tbody></table>\n";
 }
@@ -119,8 +152,12 @@ QuantityTable(const Report & report)
 std::string
 WarningList(const std::vector<Warning> & warnings)
 {
+  std::vector<Warning> sorted = warnings;
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Warning & a, const Warning & b) {
+    return KindOf(a.code).severity > KindOf(b.code).severity;
+  });
   std::string items;
-  for (const Warning & warning : warnings)
+  for (const Warning & warning : sorted)
   {
     const WarningKind & kind = KindOf(warning.code);
     const std::string   severity = NameOf(kind.severity);
@@ -134,11 +171,15 @@ WarningList(const std::vector<Warning> & warnings)
 std::string
 EmvaTable(const Report & report)
 {
+  if (!HasValues(report))
+  {
+    return "<p>None of its quantities is known.</p>\n";
+  }
   std::string rows;
   for (const Emva1288Row & row : Emva1288Rows(report))
   {
-    rows += "<tr><th scope=\"row\">" + WithIndex(row.symbol) + "</th><td>" + Escaped(row.name) + "</td><td>" +
-            Escaped(row.value) + "<small>" + Escaped(row.source) + "</small></td></tr>\n";
+    rows += "<tr><th scope=\"row\">" + WithIndices(row.symbol) + "</th><td>" + Escaped(row.name) + "</td><td>" +
+            Escaped(row.value) + "<small>" + WithIndices(row.source) + "</small></td></tr>\n";
   }
   return "<p class=\"soft\">Symbols of EMVA 1288; values with \u2248 are computed from gain, read noise, offset and "
          "the "

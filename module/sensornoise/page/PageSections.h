@@ -20,7 +20,8 @@ StackSentence(const Report & report);
 std::string
 QuantityTable(const Report & report);
 
-/** Each with its severity, the numbers found, and what it means and what helps. "" where there are none. */
+/** Each with its severity, the numbers found, and what it means and what helps, errors first. "" where there are none.
+ */
 std::string
 WarningList(const std::vector<Warning> & warnings);
 

@@ -36,15 +36,25 @@ tbody th{font-weight:400}
 td small,th small{display:block}
 .settings td{overflow-wrap:anywhere}
 .nowrap{white-space:nowrap}
+.quantities th:first-child{width:58%;padding-right:1rem}
 figure{margin:1rem 0}
 figure>svg{width:100%;max-width:640px;height:auto;display:block}
-img{width:100%;max-width:512px;height:auto;image-rendering:pixelated;display:block;background:#000}
+img{width:100%;max-width:512px;height:auto;image-rendering:pixelated;display:block;background:#000;
+border:1px solid var(--edge)}
 .maps{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,18rem),1fr));gap:0 1rem}
 .legend{list-style:none;padding:0;margin:.3rem 0;columns:2}
+.legend li{padding-left:1.2rem;text-indent:-1.2rem;break-inside:avoid}
 .legend i{display:inline-block;width:.8rem;height:.8rem;margin-right:.4rem;border:1px solid var(--soft)}
 details{margin:.5rem 0}
 summary{cursor:pointer}
-@media(max-width:30rem){body{font-size:15px;padding:.75rem}table{font-size:.875rem}}
+@media(max-width:30rem){body{font-size:15px;padding:.75rem}table{font-size:.875rem}
+.quantities tr{display:grid;grid-template-columns:2fr 3fr;column-gap:.5rem;padding:.35rem 0;
+border-bottom:1px solid var(--edge)}
+.quantities th,.quantities td{border:0;padding:0}
+.quantities th:first-child{width:auto;padding:0}
+.quantities tbody th{display:contents}
+.quantities th small{grid-area:2/1/3/3}
+.quantities td{grid-area:1/2/2/3}}
 @media print{body{max-width:none}details{break-inside:avoid}figure,.warning{break-inside:avoid}}
 )";
 

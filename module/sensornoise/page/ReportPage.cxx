@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/page/ReportPage.h"
 
-
+#include "sensornoise/base/Text.h"
 #include "sensornoise/page/FigureData.h"
 #include "sensornoise/page/FigureStyle.h"
 #include "sensornoise/page/Figures.h"
@@ -10,8 +10,10 @@
 #include "sensornoise/page/PageSections.h"
 #include "sensornoise/page/PageStyle.h"
 #include "sensornoise/page/Verdict.h"
+#include "sensornoise/report/ReportTable.h"
 
-
+#include <algorithm>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -19,10 +21,24 @@ namespace sensornoise
 {
 namespace
 {
+constexpr double LeastSpread = 1.05; ///< of residuals, to be worth a sentence
+
 std::string
 Heading(const char * tag, const std::string & words)
 {
   return "<" + std::string(tag) + ">" + Escaped(words) + "</" + tag + ">\n";
+}
+
+/** Numbers stay with the signs that belong to them: a line ends in front of a "+-", not behind it. */
+std::string
+Unbroken(std::string text)
+{
+  const std::string sign = "\u00B1 ";
+  for (std::size_t at = text.find(sign); at != std::string::npos; at = text.find(sign, at + 1))
+  {
+    text.replace(at, sign.size(), "\u00B1&#160;");
+  }
+  return text;
 }
 
 std::string
@@ -32,54 +48,91 @@ VerdictBox(const Verdict & verdict)
                            : verdict.severity == Severity::Warning ? "Measured, with warnings."
                                                                    : "Not measured.";
   return "<p class=\"verdict is-" + std::string(NameOf(verdict.severity)) + "\"><span class=\"word\">" + word +
-         "</span> " + Escaped(verdict.sentence) + "</p>\n";
+         "</span> " + Unbroken(Escaped(verdict.sentence)) + "</p>\n";
 }
 
-/** A figure with its caption, or the sentence that stands in its place. */
+/** A figure with its caption, if it has one, or the sentence that stands in its place. */
 std::string
 FigureElement(const std::string & figure, const std::string & caption)
 {
-  return figure.rfind("<svg", 0) == 0
-           ? "<figure>" + figure + "<figcaption>" + Escaped(caption) + "</figcaption></figure>\n"
-           : figure;
+  if (figure.rfind("<svg", 0) != 0)
+  {
+    return figure;
+  }
+  return "<figure>" + figure + (caption.empty() ? "" : "<figcaption>" + Escaped(caption) + "</figcaption>") +
+         "</figure>\n";
+}
+
+const char * const CurveWords =
+  "Temporal variance against mean, each point a bin of the pixels used: flicker and motion "
+  "lift it, and without them a line is left.";
+
+/** Of the residuals below the curve. \a spread: FigureData's. */
+std::string
+ResidualWords(double spread)
+{
+  const std::string text =
+    " Below, what is left of the points without the line, in units of the error that normal noise "
+    "gives; shaded: two of them.";
+  return spread < LeastSpread ? text
+                              : text + " Neighbours share their noise, for which the points may scatter up to " +
+                                  Rounded(spread) + " times as far.";
 }
 
 std::string
 CurveCaption(const FigureData & data)
 {
-  std::string text = "Temporal variance against mean, each point a bin of the pixels used: flicker and motion lift it, "
-                     "and without them a line is left.";
-  if (data.lineMean.empty())
-  {
-    text += " No line was fitted.";
-  }
-  else if (data.isIndicative)
-  {
-    text += " The dashed line is no measurement.";
-  }
-  return data.residuals.empty() ? text
-                                : text + " Below, what is left of the points without the line, in units of the error "
-                                         "that normal noise gives; shaded: two of them.";
+  return CurveWords + std::string(data.lineMean.empty() ? " No line was fitted." : "") +
+         (data.isIndicative ? " The dashed line is no measurement." : "") +
+         (data.residuals.empty() ? "" : ResidualWords(data.residualSpread));
 }
 
+/** "" of none. */
 std::string
-NoiseSentence(const Report & report)
+Paragraph(const std::string & sentence)
 {
-  if (!report.noiseCorrelation)
-  {
-    return "";
-  }
-  return "<p>The noise is taken for: <b>" + Escaped(report.noiseCorrelation->kind) + "</b>.</p>\n";
+  return sentence.empty() ? "" : "<p>" + Escaped(SentenceText(sentence)) + "</p>\n";
 }
 
 std::string
-FiguresOf(const Report & report, const char * heading)
+FitSentences(const Report & report)
+{
+  return Paragraph(DescribeFit(report)) + Paragraph(DescribeResponse(report));
+}
+
+std::string
+CurveSection(const Report & report)
 {
   const FigureData data = MakeFigureData(report);
-  return Heading(heading, "Variance against mean") + FigureElement(CurveFigure(data), CurveCaption(data)) +
-         Heading(heading, "Light and motion") +
+  return Heading("h2", "Variance against mean") + FigureElement(CurveFigure(data), CurveCaption(data)) +
+         FitSentences(report);
+}
+
+/** All channels' curves side by side, where there is room for that. */
+std::string
+CurvesOfChannels(const ChannelReports & reports)
+{
+  std::string figures;
+  bool        hasResiduals = false;
+  double      spread = 1.0;
+  for (const Report & report : reports.channels)
+  {
+    const FigureData data = MakeFigureData(report);
+    figures += "<div>" + Heading("h3", report.channel) + FigureElement(CurveFigure(data), "") + "</div>\n";
+    hasResiduals = hasResiduals || !data.residuals.empty();
+    spread = std::max(spread, data.residualSpread);
+  }
+  return Heading("h2", "Variance against mean") + "<div class=\"maps\">\n" + figures + "</div>\n<p class=\"soft\">" +
+         CurveWords + (hasResiduals ? ResidualWords(spread) : "") + "</p>\n";
+}
+
+std::string
+SeriesAndNoise(const Report & report, const char * heading)
+{
+  const FigureData data = MakeFigureData(report);
+  return Heading(heading, "Light and motion") +
          FigureElement(SeriesFigure(data), "What every frame's light differs by from the mean, and its shift.") +
-         Heading(heading, "Correlation of the noise") + NoiseSentence(report) +
+         Heading(heading, "Correlation of the noise") + Paragraph(DescribeNoise(report)) +
          FigureElement(CorrelationFigure(data),
                        "What pixels x columns and y rows apart, or frames, share of their noise; of many lags those "
                        "that differ most from 0.");
@@ -113,8 +166,8 @@ ChannelSection(const Report & report)
 {
   return Heading("h2", "Channel " + report.channel) + VerdictBox(VerdictOf(report)) +
          "<details><summary>Everything of channel " + Escaped(report.channel) + "</summary>\n" + StackSentence(report) +
-         QuantityTable(report) + FiguresOf(report, "h3") + Heading("h3", "EMVA 1288") + EmvaTable(report) +
-         "</details>\n" + WarningsSection(report.warnings, "h3");
+         QuantityTable(report) + FitSentences(report) + SeriesAndNoise(report, "h3") + Heading("h3", "EMVA 1288") +
+         EmvaTable(report) + "</details>\n" + WarningsSection(report.warnings, "h3");
 }
 
 /** Four columns, one a channel. */
@@ -128,14 +181,14 @@ ChannelTable(const ChannelReports & reports)
     text += "<tr><th scope=\"row\">" + Escaped(report.channel) + "</th>";
     for (const Quantity * const quantity : { &report.gain, &report.offset, &report.readNoiseElectrons })
     {
-      text += "<td>" + Escaped(ValueText(*quantity)) + "</td>";
+      text += "<td>" + Unbroken(Escaped(ValueText(*quantity))) + "</td>";
     }
     text += "</tr>\n";
   }
   text += "</tbody></table>\n";
   if (reports.joint)
   {
-    text += "<p>Offset of all channels together: " + Escaped(ValueText(reports.joint->offset)) + " DN.</p>\n";
+    text += "<p>Offset of all channels together: " + Unbroken(Escaped(ValueText(reports.joint->offset))) + " DN.</p>\n";
   }
   return text;
 }
@@ -144,10 +197,13 @@ ChannelTable(const ChannelReports & reports)
 std::string
 ToHtml(const Report & report, const PageMaps & maps)
 {
+  const std::string table = QuantityTable(report);
+  const std::string warnings = WarningsSection(report.warnings, "h2");
   return Page("Noise of an image sensor",
-              VerdictBox(VerdictOf(report)) + StackSentence(report) + QuantityTable(report) +
-                WarningsSection(report.warnings, "h2") + FiguresOf(report, "h2") + MapsSection(maps) +
-                Heading("h2", "EMVA 1288") + EmvaTable(report) + Heading("h2", "Settings") + SettingsTable(report));
+              VerdictBox(VerdictOf(report)) + StackSentence(report) +
+                (report.gain.value ? table + warnings : warnings + Heading("h2", "Quantities") + table) +
+                CurveSection(report) + SeriesAndNoise(report, "h2") + MapsSection(maps) + Heading("h2", "EMVA 1288") +
+                EmvaTable(report) + Heading("h2", "Settings") + SettingsTable(report));
 }
 
 std::string
@@ -156,7 +212,7 @@ ToHtml(const ChannelReports & reports, const PageMaps & maps)
   std::string body = VerdictBox(VerdictOf(reports)) + "<p class=\"soft\">Bayer mosaic " +
                      std::string(NameOf(reports.pattern)) + " (" + NameOf(reports.source) +
                      "); widths, heights and motion of a channel are in its own pixels.</p>\n" + ChannelTable(reports) +
-                     WarningsSection(reports.warnings, "h2");
+                     WarningsSection(reports.warnings, "h2") + CurvesOfChannels(reports);
   for (const Report & report : reports.channels)
   {
     body += ChannelSection(report);
