@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """A page in a real browser: Debian's Chromium, without a window, told what to do through a pair of pipes.
 
-The protocol is Chromium's own, of version 1.3 (https://chromedevtools.github.io/devtools-protocol/1-3/): records of JSON,
-each ended by a zero byte. Nothing is installed for it, no port is open, and no browser is downloaded.
+The protocol is Chromium's own, of version 1.3 (https://chromedevtools.github.io/devtools-protocol/1-3/): records of
+JSON, each ended by a zero byte. Nothing is installed for it, no port is open, and no browser is downloaded.
 """
 
 import base64
@@ -28,6 +28,7 @@ FLAGS = (
     "--disable-gpu",
     "--disable-dev-shm-usage",
     "--hide-scrollbars",  # as on a telephone
+    "--disable-lcd-text",  # letters without coloured edges: smaller pictures, the same on every screen
     "--disable-background-networking",
     "--disable-component-update",
     "--disable-sync",
@@ -58,7 +59,7 @@ def chromium() -> str | None:
 class Browser:
     """One page of one browser. Every event since the last `open` is in `events`, by its method."""
 
-    def __init__(self, program: str, profile: Path, seconds: float = 30.0):
+    def __init__(self, program: str, profile: Path, seconds: float = 60.0):
         self.seconds = seconds
         self.events: list[tuple[str, dict[str, Any]]] = []
         self._number = 0
@@ -135,10 +136,10 @@ class Browser:
             raise BrowserError(f"{expression[:80]}: {answer['exceptionDetails']}")
         return answer["result"].get("value")
 
-    def picture(self, file: Path, height: int | None = None) -> None:
-        """A PNG of the page as it is shown: all of it, or its first `height` CSS pixels."""
-        size = self.run("({w: document.documentElement.clientWidth, h: document.documentElement.scrollHeight})")
-        clip = {"x": 0, "y": 0, "width": size["w"], "height": min(height or size["h"], size["h"]), "scale": 1}
+    def picture(self, file: Path, top: float = 0, height: float | None = None) -> None:
+        """A PNG of the page as it is shown: all of it, or `height` CSS pixels from `top` on."""
+        size = self.run("({w: document.documentElement.scrollWidth, h: document.documentElement.scrollHeight})")
+        clip = {"x": 0, "y": top, "width": size["w"], "height": height or size["h"] - top, "scale": 1}
         answer = self.send("Page.captureScreenshot", format="png", captureBeyondViewport=True, clip=clip)
         file.write_bytes(base64.b64decode(answer["data"]))
 

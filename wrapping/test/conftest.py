@@ -24,7 +24,7 @@ def pytest_configure(config) -> None:
 
 
 def pytest_addoption(parser) -> None:
-    parser.addoption("--screenshots", type=Path, help="folder for pictures of the pages that are looked at in a browser")
+    parser.addoption("--screenshots", type=Path, help="folder for pictures of pages, made in a browser")
 
 
 @pytest.fixture(scope="session")

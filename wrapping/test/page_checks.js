@@ -19,6 +19,9 @@
     pieces.push({ node, owner, lines, inSvg: owner.namespaceURI.endsWith("svg") });
   }
   if (!pieces.length) faults.push("no text is shown");
+  for (const { node } of pieces) {
+    if (/\b(nan|inf|null|undefined)\b/i.test(node.data)) faults.push(`is no number: ${words(node.data)}`);
+  }
 
   // 1: nothing is wider than the window. An SVG file is as large as it says.
   const page = document.scrollingElement;
@@ -60,6 +63,7 @@
   const boxes = "li, td, th, p, figcaption, summary, h1, h2, h3";
   for (const { node, owner, lines, inSvg } of pieces) {
     let box = inSvg ? owner.ownerSVGElement : owner.closest(boxes);
+    while (box && getComputedStyle(box).display === "contents") box = box.parentElement;
     while (inSvg && box.ownerSVGElement) box = box.ownerSVGElement;
     if (!box) {
       faults.push(`text outside of every box: ${words(node.data)}`);

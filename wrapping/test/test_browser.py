@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Pages of `estimate-sensor-noise --plot` in a real browser, as people see them: on a telephone and on a wide screen, light
-and dark. `pytest test_browser.py --screenshots DIR` keeps pictures of all of them, and makes those of documentation/."""
+"""Pages of `estimate-sensor-noise --plot` in a real browser, as people see them: on a telephone and on a wide screen,
+light and dark. `pytest test_browser.py --screenshots DIR` keeps pictures of all of them; `-k documentation
+--screenshots documentation` makes those of the documentation."""
 
 import re
 import subprocess
@@ -105,7 +106,7 @@ def test_svg_file_is_whole_and_readable(chrome, tool, tmp_path, scheme):
 def test_figures_of_every_page_are_xml(pages):
     for name, page in pages.items():
         text = page.read_text()
-        for figure in re.findall(r"<svg.*?</svg>\s*(?=<figcaption)", text, re.DOTALL):
+        for figure in re.findall(r"<figure>(<svg.*?</svg>)\s*(?:<figcaption|</figure>)", text, re.DOTALL):
             assert ElementTree.fromstring(figure).get("viewBox"), name
         assert ("<svg" in text) == (name != "failed"), name
 
@@ -117,6 +118,44 @@ def test_page_of_24_megapixels_is_small_and_opens_at_once(chrome, tool, tmp_path
     seconds = min(chrome.open(page, 390, "light") for _ in range(2))  # of two: another program may have been in the way
     assert seconds < 1.0
     assert faults(chrome, page) == []
+
+
+# Pictures in documentation/: what is simulated, the colours, and the words of the headings where they begin.
+PICTURES = {
+    "page-good": ("--camera A --frames 50", "light", ("Noise of", "Variance against", "Light and")),
+    "page-bayer": ("--size 384x256 --frames 60 --bayer RGGB", "light", ("Noise of", "Variance against", "Channel B")),
+    "page-smoothed": (
+        "--size 256x192 --frames 60 --smoothing 0.7",
+        "dark",
+        ("Noise of", "Warnings, and", "Correlation of"),
+    ),
+}
+SCREEN = (390, 800)  # of a telephone [CSS pixels]
+
+
+@pytest.mark.parametrize("name", PICTURES)
+def test_pictures_of_the_documentation(chrome, tool, tmp_path, name, screenshots):
+    """Three screens of a telephone side by side, each from a heading on."""
+    flags, scheme, headings = PICTURES[name]
+    page = measured(tool, tmp_path, name, flags)
+    chrome.open(page, SCREEN[0], scheme)
+    screens = []
+    for words in headings:
+        heading = f"[...document.querySelectorAll('h1, h2')].find((h) => h.innerText.startsWith('{words}'))"
+        top = chrome.run(f"{heading}.getBoundingClientRect().top")
+        screens.append(tmp_path / f"{len(screens)}.png")
+        chrome.picture(screens[-1], max(top - 12, 0), SCREEN[1])
+    images = "".join(f"<img alt='screen' src='{screen.name}'>" for screen in screens)
+    style = "body{margin:12px;display:flex;gap:12px;background:#8c959f}"
+    (tmp_path / "side.html").write_text(f"<!DOCTYPE html><title>side by side</title><style>{style}</style>{images}")
+    chrome.open(tmp_path / "side.html", 3 * SCREEN[0] + 4 * 12, "light")
+    file = (screenshots or tmp_path) / f"{name}.png"
+    chrome.picture(file, 0, SCREEN[1] + 24)
+    pillow = pytest.importorskip("PIL.Image")
+    with pillow.open(file) as picture:
+        few = picture.convert("RGB").quantize(256, method=pillow.Quantize.MAXCOVERAGE, kmeans=3)  # rare colours, too
+    few.save(file, optimize=True)  # a third of the size
+    assert file.stat().st_size < 200_000
 
 
 # Pages that the checks must not let pass, and a word of what they say.
@@ -134,6 +173,7 @@ BAD = {
     "asks for http": "<p>words</p><img alt='far' src='http://127.0.0.1:9/far.png'>",
     "exceptionThrown": "<p>words</p><script>missing()</script>",
     "consoleAPICalled": "<p>words</p><script>console.error('wrong')</script>",
+    "is no number": "<p>from -nan to 3</p>",
     "no text": "<style>p { color: red }</style>",
 }
 
