@@ -19,6 +19,7 @@ MakeReport()
   report.framesDistinct = 51;
   report.gain = report.varianceSlope = Quantity::Identified(2.0);
   report.totalIntercept = Quantity::Identified(10.0);
+  report.offset = Quantity::Identified(-5.0); // where the line has no variance
   report.varianceSlope.standardError = 0.03;
   report.totalIntercept.standardError = 4.0;
   report.covariance = { { { 1.0, -0.5, 0.0 }, { -0.5, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } } };
@@ -37,6 +38,19 @@ TEST(SensorNoiseFigureData, ResidualsAreInUnitsOfTheBinsError)
   EXPECT_NEAR(data.residuals[0], 1.0, 1e-9);
   EXPECT_NEAR(data.residuals[1], 0.0, 1e-9);
   EXPECT_EQ(data.meanResiduals, (std::vector<double>{ 100.0, 200.0 }));
+}
+
+TEST(SensorNoiseFigureData, MeansByWhichPixelsAreSortedHaveNoiseToo)
+{
+  // without light 105 DN^2, half of the variance at 100 DN: the mean of a pixel in 51 frames has the error
+  // sqrt(210 / 51), and the line rises by 2 DN^2 / DN
+  Report report = MakeReport();
+  report.offset = Quantity::Identified(47.5);
+  const double ofLevel = 2.0 * std::sqrt(210.0 / 51.0) * 0.5;
+  EXPECT_NEAR(MakeFigureData(report).residuals[0], 4.2 / std::hypot(4.2, ofLevel), 1e-9);
+  // the offset is not known: the darkest level has none of the photons' noise
+  report.offset = Quantity::Without(EstimateStatus::NotIdentifiable);
+  EXPECT_NEAR(MakeFigureData(report).residuals[0], 4.2 / std::hypot(4.2, 2.0 * ofLevel), 1e-9);
 }
 
 TEST(SensorNoiseFigureData, WhatFramesShareIsInTheErrorsOfResiduals)
@@ -105,4 +119,6 @@ TEST(SensorNoiseFigureData, WhatIsNotKnownIsLeftOut)
   report.scatter.correctedVariance[0] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(MakeFigureData(report).mean, std::vector<double>{ 200.0 });
   EXPECT_FALSE(MakeFigureData(Report()).HasCurve());
+  report.framesDistinct = 0;
+  EXPECT_TRUE(MakeFigureData(report).residuals.empty());
 }

@@ -64,11 +64,33 @@ RelativeErrorOfBin(const Report & report, std::size_t count)
   return std::sqrt(ofPixel / static_cast<double>(count));
 }
 
+/** What a point's mean may be off by because pixels are put into bins by means that have noise themselves [DN]: that of
+ * one. Photons' noise is skew, so that where a mean is too high its variance is too, along the line: what is left is
+ * the share of the noise without light. */
+double
+ErrorOfLevel(const Report & report, double expected, double dark)
+{
+  return std::sqrt(expected / static_cast<double>(report.framesDistinct)) * std::clamp(dark / expected, 0.0, 1.0);
+}
+
+/** The line's variance without light, or of the darkest level where the offset is not known [DN^2]. */
+double
+DarkVariance(const Report & report, const Report::Baseline & line)
+{
+  double level = report.offset.value.value_or(std::numeric_limits<double>::infinity());
+  for (const double mean : report.scatter.mean)
+  {
+    level = report.offset.value || !std::isfinite(mean) ? level : std::min(level, mean);
+  }
+  return line.gain * level + line.intercept;
+}
+
 void
 AddCurve(FigureData & data, const Report & report)
 {
   const Report::Scatter & scatter = report.scatter;
   const auto              line = LineOf(report);
+  const double            dark = line ? DarkVariance(report, *line) : 0.0;
   for (std::size_t i = 0; i < scatter.mean.size(); ++i)
   {
     const double mean = scatter.mean[i];
@@ -85,8 +107,9 @@ AddCurve(FigureData & data, const Report & report)
       continue;
     }
     const double expected = line->gain * mean + line->intercept;
-    const double error = std::abs(expected) * RelativeErrorOfBin(report, scatter.count[i]);
-    if (error > 0.0)
+    const double ofVariance = std::abs(expected) * RelativeErrorOfBin(report, scatter.count[i]);
+    const double error = std::hypot(ofVariance, line->gain * ErrorOfLevel(report, std::abs(expected), dark));
+    if (ofVariance > 0.0 && std::isfinite(error))
     {
       data.meanResiduals.push_back(mean);
       data.residuals.push_back((corrected - expected) / error);

@@ -21,7 +21,8 @@ struct FigureData
   std::vector<double> variance;      ///< over time, as it is [DN^2]; NaN where it is not known
   std::vector<double> corrected;     ///< without flicker and motion [DN^2]
   std::vector<double> meanResiduals; ///< levels of the residuals [DN]; empty: there is no line
-  /** Corrected variance less the line [1], in units of the error that normal noise gives a bin of so many pixels. */
+  /** Corrected variance less the line [1], in units of the error that normal noise gives a bin of so many pixels, and
+   * of what their means' own noise moves it by. */
   std::vector<double> residuals;
   /** How much further the residuals of bins scatter at most, because neighbours share their noise [1]: as far where all
    * neighbours are in the same bin. What frames share is in the errors. */

@@ -123,7 +123,7 @@ StackSentence(const Report & report)
   {
     text += "; " + Percent(static_cast<double>(report.pixels.used) / static_cast<double>(report.pixels.total)) +
             " of the pixels used";
-    text += report.pixels.clipped > 0
+    text += report.pixels.clipped * 100 >= report.pixels.total && report.pixels.total > 0
               ? ", " + Percent(static_cast<double>(report.pixels.clipped) / static_cast<double>(report.pixels.total)) +
                   " clipped"
               : "";

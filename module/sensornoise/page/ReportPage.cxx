@@ -73,7 +73,7 @@ ResidualWords(double spread)
 {
   const std::string text =
     " Below, what is left of the points without the line, in units of the error that normal noise "
-    "gives; shaded: two of them.";
+    "of variance and mean gives; shaded: two of them.";
   return spread < LeastSpread ? text
                               : text + " Neighbours share their noise, for which the points may scatter up to " +
                                   Rounded(spread) + " times as far.";
