@@ -251,7 +251,7 @@ TEST(SensorNoiseReportPage, OfAMosaicItHasAllChannels)
   {
     EXPECT_TRUE(Contains(page, part)) << part;
   }
-  EXPECT_TRUE(Contains(page, "The blue plane has one level."));
+  EXPECT_TRUE(Contains(page, "B: the blue plane has one level."));
   // three curves can be seen without opening anything
   const std::string shown = page.substr(0, page.find("<details>"));
   std::size_t       curves = 0;

@@ -10,6 +10,7 @@
 #include "sensornoise/page/PageSections.h"
 #include "sensornoise/page/PageStyle.h"
 #include "sensornoise/page/Verdict.h"
+#include "sensornoise/report/ChannelRecord.h"
 #include "sensornoise/report/ReportTable.h"
 
 #include <algorithm>
@@ -147,9 +148,9 @@ MapsSection(const PageMaps & maps)
 }
 
 std::string
-WarningsSection(const std::vector<Warning> & warnings, const char * heading)
+WarningsSection(const std::vector<Warning> & warnings)
 {
-  return warnings.empty() ? "" : Heading(heading, "Warnings, and what would help") + WarningList(warnings);
+  return warnings.empty() ? "" : Heading("h2", "Warnings, and what would help") + WarningList(warnings);
 }
 
 std::string
@@ -167,7 +168,7 @@ ChannelSection(const Report & report)
   return Heading("h2", "Channel " + report.channel) + VerdictBox(VerdictOf(report)) +
          "<details><summary>Everything of channel " + Escaped(report.channel) + "</summary>\n" + StackSentence(report) +
          QuantityTable(report) + FitSentences(report) + SeriesAndNoise(report, "h3") + Heading("h3", "EMVA 1288") +
-         EmvaTable(report) + "</details>\n" + WarningsSection(report.warnings, "h3");
+         EmvaTable(report) + "</details>\n";
 }
 
 /** Four columns, one a channel. */
@@ -198,7 +199,7 @@ std::string
 ToHtml(const Report & report, const PageMaps & maps)
 {
   const std::string table = QuantityTable(report);
-  const std::string warnings = WarningsSection(report.warnings, "h2");
+  const std::string warnings = WarningsSection(report.warnings);
   return Page("Noise of an image sensor",
               VerdictBox(VerdictOf(report)) + StackSentence(report) +
                 (report.gain.value ? table + warnings : warnings + Heading("h2", "Quantities") + table) +
@@ -212,7 +213,7 @@ ToHtml(const ChannelReports & reports, const PageMaps & maps)
   std::string body = VerdictBox(VerdictOf(reports)) + "<p class=\"soft\">Bayer mosaic " +
                      std::string(NameOf(reports.pattern)) + " (" + NameOf(reports.source) +
                      "); widths, heights and motion of a channel are in its own pixels.</p>\n" + ChannelTable(reports) +
-                     WarningsSection(reports.warnings, "h2") + CurvesOfChannels(reports);
+                     WarningsSection(WarningsOf(reports)) + CurvesOfChannels(reports);
   for (const Report & report : reports.channels)
   {
     body += ChannelSection(report);
