@@ -20,7 +20,7 @@
   }
   if (!pieces.length) faults.push("no text is shown");
   for (const { node } of pieces) {
-    if (/\b(nan|inf|null|undefined)\b/i.test(node.data)) faults.push(`is no number: ${words(node.data)}`);
+    if (/\b(nan|inf|null|undefined)\b/.test(node.data)) faults.push(`is no number: ${words(node.data)}`);
   }
 
   // 1: nothing is wider than the window. An SVG file is as large as it says.

@@ -4,6 +4,7 @@
 light and dark. `pytest test_browser.py --screenshots DIR` keeps pictures of all of them; `-k documentation
 --screenshots documentation` makes those of the documentation."""
 
+import json
 import re
 import subprocess
 from pathlib import Path
@@ -91,6 +92,34 @@ def test_page_is_whole_and_readable(chrome, pages, situation, screen, scheme, sc
     dark = chrome.run("matchMedia('(prefers-color-scheme: dark)').matches")
     ground = chrome.run("getComputedStyle(document.body).backgroundColor")
     assert dark == (scheme == "dark") and (ground == "rgb(255, 255, 255)") == (scheme == "light")
+
+
+def every_warning() -> list[tuple[str, str]]:
+    """Code and sentence of each, as the library has them."""
+    header = Path(__file__).resolve().parents[2] / "module/sensornoise/base/WarningCodes.h"
+    kinds = re.findall(r'"([a-z-]+)",\s*Severity::\w+,((?:\s*"[^"]*")+) }', header.read_text())
+    return [(code, "".join(re.findall(r'"([^"]*)"', parts))) for code, parts in kinds]
+
+
+@pytest.mark.parametrize("screen", WIDTHS)
+def test_every_warning_fits(chrome, pages, screen):
+    """No simulated burst has them all: the page's first warning is repeated with their words."""
+    kinds = every_warning()
+    assert len(kinds) > 40
+    name = "frame_" * 30  # of a file: nothing in it where a line could end
+    chrome.open(pages["warnings"], WIDTHS[screen], "light")
+    chrome.run(
+        f"""for (const [code, sentence] of {json.dumps(kinds)}) {{
+          const item = document.querySelector(".warning").cloneNode(true);
+          const [head, message, help] = item.querySelectorAll("p");
+          head.lastElementChild.innerText = code;
+          message.innerText = sentence + " {name}";
+          help.innerText = sentence;
+          document.querySelector(".warnings").append(item);
+        }}"""
+    )
+    assert chrome.run("document.querySelectorAll('.warning').length") > len(kinds)
+    assert faults(chrome, pages["warnings"]) == []
 
 
 @pytest.mark.parametrize("scheme", SCHEMES)
