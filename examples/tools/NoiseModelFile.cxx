@@ -2,15 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/NoiseModelFile.h"
 
-#include "sensornoise/report/ReportJson.h"
+#include "tools/ReportFile.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
-#include <system_error>
+#include <stdexcept>
 
 namespace sensornoise::tools
 {
@@ -18,54 +14,14 @@ namespace
 {
 using nlohmann::json;
 
-json
-ReadJson(const std::string & file)
-{
-  const std::string expected = "; expected the JSON file that estimate-sensor-noise --json wrote";
-  std::error_code   ignored;
-  if (std::filesystem::is_directory(file, ignored))
-  {
-    throw std::runtime_error("the report " + file + " is a folder" + expected);
-  }
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream)
-  {
-    throw std::runtime_error("the report " + file + " cannot be read: " + std::generic_category().message(errno) +
-                             expected);
-  }
-  const std::string text{ std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>() };
-  json              record = json::parse(text, nullptr, false);
-  if (record.is_discarded())
-  {
-    throw std::runtime_error("the report " + file + " is no JSON" + expected);
-  }
-  return record;
-}
-
 void
-RequireSchema(const json & record, const std::string & file)
+RequireOneChannel(const json & record, const std::string & file)
 {
-  if (!record.is_object() || !record.contains("schema") || record["schema"] != ReportSchema)
-  {
-    const std::string found =
-      record.is_object() && record.contains("schema") ? "the schema " + record["schema"].dump() : "no schema";
-    throw UnfitReport("the report " + file + " has " + found + "; expected \"" + ReportSchema +
-                      "\", a report of estimate-sensor-noise");
-  }
   if (record.contains("channels"))
   {
     throw UnfitReport("the report " + file +
                       " has several channels; expected the report of one, an item of its \"channels\"");
   }
-}
-
-/** A number, or nothing where there is null, another type, or no such member. */
-std::optional<double>
-NumberIn(const json & record, const char * name)
-{
-  const auto found = record.is_object() ? record.find(name) : record.end();
-  return record.is_object() && found != record.end() && found->is_number() ? std::optional<double>(found->get<double>())
-                                                                           : std::nullopt;
 }
 
 double
@@ -109,8 +65,8 @@ ReadLevels(const json & record, NoiseModelFile & file)
 NoiseModelFile
 ReadNoiseModel(const std::string & file)
 {
-  const json record = ReadJson(file);
-  RequireSchema(record, file);
+  const json record = ReadReportRecord(file);
+  RequireOneChannel(record, file);
   NoiseModelFile found;
   found.name = file;
   found.model = { ValueIn(record, "variance_slope", file), ValueIn(record, "total_intercept", file) };

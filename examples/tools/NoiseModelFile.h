@@ -6,18 +6,10 @@
 #include "sensornoise/stabilise/NoiseModel.h"
 
 #include <optional>
-#include <stdexcept>
 #include <string>
 
 namespace sensornoise::tools
 {
-
-/** A report that was read and does not serve: another schema, or a model without value. */
-class UnfitReport : public std::runtime_error
-{
-public:
-  using std::runtime_error::runtime_error;
-};
 
 /** What a report says to whoever transforms images: the noise model, and on which scale its levels are. */
 struct NoiseModelFile

@@ -9,6 +9,7 @@
 #include "tools/ErrorSentence.h"
 #include "tools/FilesInUse.h"
 #include "tools/NoiseModelFile.h"
+#include "tools/ReportFile.h"
 #include "tools/ItkThreads.h"
 
 #include <exception>

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/page/Figures.h"
 
-#include "sensornoise/page/FigureStyle.h"
 #include "sensornoise/page/HtmlText.h"
 #include "sensornoise/page/SvgPanel.h"
 
@@ -21,20 +20,11 @@ namespace sensornoise
 {
 namespace
 {
-/** Small enough that text is still read where a telephone shows the figure 350 pixels wide. */
-constexpr double      FigureWidth = 480.0;
 constexpr std::size_t MostPieces = 400; ///< of a series: more are not seen
 constexpr std::size_t MostBars = 16;
 
 /** Of what is higher by this factor than all corrected points, the axis does not show all. */
 constexpr double HighestFactor = 4.0;
-
-std::string
-OpenSvg(double height, const std::string & label, const std::string & attributes = "")
-{
-  return "<svg viewBox=\"0 0 " + SvgNumber(FigureWidth) + " " + SvgNumber(height) + "\" role=\"img\" aria-label=\"" +
-         Escaped(label) + "\"" + attributes + ">\n";
-}
 
 /** Where the panels of a figure begin and how wide they are, with room for the labels of all their axes. */
 struct PanelPlace
@@ -128,13 +118,13 @@ DrawResiduals(std::string & svg, const FigureData & data, const PanelPlace & pla
 }
 
 std::string
-DrawCurve(const FigureData & data, const std::string & attributes)
+DrawCurve(const FigureData & data)
 {
   const bool         hasResiduals = !data.residuals.empty();
   std::size_t        above = 0;
   const auto         axis = VarianceAxis(data, above);
   const PanelPlace   place(MeanAxis(data), { axis, ResidualAxis(data) });
-  std::string        svg = OpenSvg(hasResiduals ? 546.0 : 424.0, "temporal variance against mean", attributes);
+  std::string        svg = OpenSvg(hasResiduals ? 546.0 : 424.0, "temporal variance against mean");
   const char * const line = data.isIndicative ? "third dashed" : "third";
   const std::string  disc = "<path class=\"after point full\" d=\"M7 0a2.5 2.5 0 1 0 5 0a2.5 2.5 0 1 0-5 0\"/>";
   const std::string  ring = "<path class=\"before point\" d=\"M7 0a2.5 2.5 0 1 0 5 0a2.5 2.5 0 1 0-5 0\"/>";
@@ -244,7 +234,7 @@ ClearestLags(const FigureData & data)
 std::string
 CurveFigure(const FigureData & data)
 {
-  return data.HasCurve() ? DrawCurve(data, "") : "<p>No point of the noise curve was measured.</p>\n";
+  return data.HasCurve() ? DrawCurve(data) : "<p>No point of the noise curve was measured.</p>\n";
 }
 
 std::string
@@ -348,15 +338,11 @@ CorrelationFigure(const FigureData & data)
 std::string
 CurveAsSvgFile(const FigureData & data, const std::string & title)
 {
-  const std::string space = " xmlns=\"http://www.w3.org/2000/svg\" width=\"720\"";
-  const std::string style =
-    "<style>" + std::string(FigureStyle) + "</style>\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n";
-  std::string svg = data.HasCurve()
-                      ? DrawCurve(data, space)
-                      : OpenSvg(60.0, "nothing was measured", space) +
-                          "<text x=\"12\" y=\"34\">No point of the noise curve was measured.</text></svg>\n";
-  svg.insert(svg.find('>') + 1, "<title>" + Escaped(title) + "</title>" + style);
-  return svg;
+  return AsSvgFile(data.HasCurve()
+                     ? DrawCurve(data)
+                     : OpenSvg(60.0, "nothing was measured") +
+                         "<text x=\"12\" y=\"34\">No point of the noise curve was measured.</text></svg>\n",
+                   title);
 }
 
 } // namespace sensornoise

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/page/SvgPanel.h"
 
+#include "sensornoise/page/FigureStyle.h"
+#include "sensornoise/page/HtmlText.h"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -49,6 +52,23 @@ std::string
 SvgNumber(double number)
 {
   return Fixed(number, 1);
+}
+
+std::string
+OpenSvg(double height, const std::string & label)
+{
+  return "<svg viewBox=\"0 0 " + SvgNumber(FigureWidth) + " " + SvgNumber(height) + "\" role=\"img\" aria-label=\"" +
+         Escaped(label) + "\">\n";
+}
+
+std::string
+AsSvgFile(std::string figure, const std::string & title)
+{
+  const std::string style =
+    "<style>" + std::string(FigureStyle) + "</style>\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n";
+  figure.insert(figure.find('>') + 1, "<title>" + Escaped(title) + "</title>" + style);
+  figure.insert(figure.find('>'), " xmlns=\"http://www.w3.org/2000/svg\" width=\"720\"");
+  return figure;
 }
 
 std::string

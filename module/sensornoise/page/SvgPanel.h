@@ -51,6 +51,19 @@ private:
 std::string
 SvgNumber(double number);
 
+/** Width of every figure in its units: small enough that text is still read where a telephone shows it 350 pixels wide.
+ */
+inline constexpr double FigureWidth = 480.0;
+
+/** The first tag of a figure. \a label: what it shows, for those who do not see it. */
+std::string
+OpenSvg(double height, const std::string & label);
+
+/** A \a figure of a page as an SVG file of its own, light or dark as its viewer is. \a title: what was measured, in
+ * words. */
+std::string
+AsSvgFile(std::string figure, const std::string & title);
+
 enum class PlotMarker
 {
   Disc,
