@@ -3,14 +3,16 @@
 # Functions of the start scripts (examples/quickstart.sh, test/run.sh): install what is missing, build. For sourcing.
 
 # Debian's or Ubuntu's packages; on other systems, the same by their own means. OpenCV's photo, 6 MB to download and 36 MB
-# on the disk with what it needs, is for denoising; without it the tool has ITK's denoiser. LibRaw is for raw files of cameras.
+# on the disk with what it needs, is for denoising; without it the tool has ITK's denoiser. LibRaw is for raw files of cameras,
+# OpenSSL for the SHA-256 of the frames' files in reports, librsvg, 25 MB on the disk with what it needs, for --plot FILE.png.
 sensornoise_packages=(g++ cmake ninja-build python3 libinsighttoolkit5-dev libgdcm-dev libfftw3-dev libtiff-dev
-  libcli11-dev nlohmann-json3-dev zlib1g-dev libgtest-dev libbenchmark-dev libopencv-photo-dev libraw-dev)
+  libcli11-dev nlohmann-json3-dev zlib1g-dev libgtest-dev libbenchmark-dev libopencv-photo-dev libraw-dev
+  libssl-dev librsvg2-dev pkg-config)
 
 sensornoise_install() {
   local missing=()
   if ! command -v dpkg-query >/dev/null; then
-    echo "not a Debian system: expecting ITK >= 5.2.1, CLI11, nlohmann-json, zlib, GoogleTest and Google Benchmark; OpenCV for denoising, LibRaw for raw files of cameras" >&2
+    echo "not a Debian system: expecting ITK >= 5.2.1, CLI11, nlohmann-json, zlib, GoogleTest and Google Benchmark; OpenCV for denoising, LibRaw for raw files of cameras; OpenSSL and librsvg for reports" >&2
     return
   fi
   for package in "${sensornoise_packages[@]}"; do

@@ -117,7 +117,11 @@ AddOptions(CLI::App & app, EstimateOptions & options, Texts & texts)
   app.add_option("--plot",
                  options.plot,
                  "file.html: the report as a page to look at, with figures and maps, that needs no other file; "
-                 "file.svg: variance against mean alone");
+                 "file.svg or, where the program was built with librsvg, file.png: variance against mean alone");
+  app.add_flag("--hash",
+               options.hash,
+               "also the SHA-256 of the frames' files in the report, as a page always has it: that of cat FRAME... | "
+               "sha256sum, behind a header the files of its pixels. Reads the files once more");
   app.add_option(
     "--maps",
     options.maps,
@@ -215,9 +219,10 @@ void
 RequirePlotName(const std::string & name)
 {
   const std::string ending = LowerCaseEnding(name);
-  if (!name.empty() && ending != ".html" && ending != ".htm" && ending != ".svg")
+  if (!name.empty() && ending != ".html" && ending != ".htm" && ending != ".svg" && ending != ".png")
   {
-    throw CLI::ValidationError("--plot", name + " ends in neither .html nor .svg; expected for example report.html");
+    throw CLI::ValidationError("--plot",
+                               name + " ends in none of .html, .svg and .png; expected for example report.html");
   }
 }
 
@@ -289,10 +294,20 @@ EstimateOptions::SelectFiles()
             files.begin() + static_cast<std::ptrdiff_t>(frames->second) };
 }
 
-bool
-EstimateOptions::IsPlotFigure() const
+PlotKind
+EstimateOptions::Plot() const
 {
-  return LowerCaseEnding(plot) == ".svg";
+  const std::string ending = LowerCaseEnding(plot);
+  return plot.empty()       ? PlotKind::None
+         : ending == ".svg" ? PlotKind::Svg
+         : ending == ".png" ? PlotKind::Png
+                            : PlotKind::Page;
+}
+
+bool
+EstimateOptions::WantsHash() const
+{
+  return hash || this->Plot() == PlotKind::Page;
 }
 
 std::string

@@ -16,6 +16,15 @@
 namespace sensornoise::tools
 {
 
+/** What --plot is to be. */
+enum class PlotKind
+{
+  None,
+  Page,
+  Svg,
+  Png
+};
+
 /** The command line of estimate-sensor-noise. */
 struct EstimateOptions
 {
@@ -42,7 +51,8 @@ struct EstimateOptions
   unsigned int                                       threads{ 0 }; ///< 0: all
   std::string                                        json;
   std::string                                        maps;
-  std::string                                        plot; ///< .html: the page; .svg: its first figure
+  std::string                                        plot;          ///< .html: the page; .svg, .png: its first figure
+  bool                                               hash{ false }; ///< also without a page
   bool                                               quiet{ false };
 
   /** Reads the command line; the exit code if there is nothing left to do (--help, --version). Throws std::exception on
@@ -62,9 +72,12 @@ struct EstimateOptions
     return !json.empty() && json != "-";
   }
 
-  /** Whether the plot is one figure, not a page. */
+  PlotKind
+  Plot() const;
+
+  /** Whether the report has the hash of the frames' files. */
   bool
-  IsPlotFigure() const;
+  WantsHash() const;
 
   /** What is to be cut out of the stack. */
   std::string

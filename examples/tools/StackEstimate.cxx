@@ -4,7 +4,10 @@
 
 #include "tools/CompanionFiles.h"
 #include "tools/EstimateOptions.h"
+#include "tools/FilesHash.h"
 #include "tools/MapFiles.h"
+#include "tools/SvgAsPng.h"
+#include "sensornoise/page/ReportPage.h"
 #include "itkCommand.h"
 #include "itkExtractImageFilter.h"
 #include "itkSensorNoiseEstimator.h"
@@ -14,9 +17,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdio>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <unistd.h>
+#include <variant>
 
 namespace sensornoise::tools
 {
@@ -137,6 +142,36 @@ SetPattern(const EstimateOptions &             options,
   }
 }
 
+template <typename TStack>
+MeasuredStack
+ResultOf(const itk::SensorNoiseEstimator<TStack> & estimator)
+{
+  if (estimator.HasChannelReports())
+  {
+    return estimator.GetChannelReports();
+  }
+  return estimator.GetReport();
+}
+
+/** The text of the file that --plot asks for. */
+template <typename TStack>
+std::string
+MakePlot(PlotKind kind, const MeasuredStack & measured, itk::SensorNoiseEstimator<TStack> & estimator)
+{
+  if (kind != PlotKind::Page)
+  {
+    const std::string svg = estimator.GetReportAsSvg();
+    return kind == PlotKind::Png ? SvgAsPng(svg) : svg;
+  }
+  PageMaps   maps;
+  const auto size = estimator.GetMean()->GetBufferedRegion().GetSize();
+  if (estimator.GetPixelUse()->GetBufferedRegion().GetSize() == size)
+  {
+    maps = { size[0], size[1], estimator.GetMean()->GetBufferPointer(), estimator.GetPixelUse()->GetBufferPointer() };
+  }
+  return std::visit([&maps](const auto & report) { return ToHtml(report, maps); }, measured);
+}
+
 template <typename TPixel>
 MeasuredStack
 Estimate(const EstimateOptions & options, const FrameList & list, MapFiles * maps, std::string * plot)
@@ -159,11 +194,13 @@ Estimate(const EstimateOptions & options, const FrameList & list, MapFiles * map
     estimator->SetMask(SelectMask(options.mask, list, region));
   }
   // an image does not keep alive the filter that makes it
+  FrameList                                                       darkList;
   typename itk::SensorNoiseFrameListSource<StackType>::Pointer    darkReader;
   typename itk::ExtractImageFilter<StackType, StackType>::Pointer darkCrop;
   if (!options.dark.empty())
   {
-    darkReader = MakeReader<StackType>(OpenDark(options.dark, list, options.raw));
+    darkList = OpenDark(options.dark, list, options.raw);
+    darkReader = MakeReader<StackType>(darkList);
     darkReader->UpdateOutputInformation();
     itk::ImageRegion<3> dark = region;
     dark.SetIndex(2, 0);
@@ -187,15 +224,18 @@ Estimate(const EstimateOptions & options, const FrameList & list, MapFiles * map
     maps->Write(
       estimator->GetMean(), estimator->GetVariance(), estimator->GetCorrectedVariance(), estimator->GetPixelUse());
   }
+  MeasuredStack measured = ResultOf(*estimator);
+  if (options.WantsHash())
+  {
+    const InputRecord input{ HashOf(list),
+                             options.dark.empty() ? std::nullopt : std::optional<InputFiles>(HashOf(darkList)) };
+    std::visit([&input](auto & report) { report.input = input; }, measured);
+  }
   if (plot != nullptr)
   {
-    *plot = options.IsPlotFigure() ? estimator->GetReportAsSvg() : estimator->GetReportAsHtml();
+    *plot = MakePlot(options.Plot(), measured, *estimator);
   }
-  if (estimator->HasChannelReports())
-  {
-    return estimator->GetChannelReports();
-  }
-  return estimator->GetReport();
+  return measured;
 }
 } // namespace
 

@@ -8,11 +8,13 @@
 #include "tools/ErrorSentence.h"
 #include "tools/CompanionFiles.h"
 #include "tools/EstimateOptions.h"
+#include "tools/FilesHash.h"
 #include "tools/FilesInUse.h"
 #include "tools/MapFiles.h"
 #include "tools/ModelCheck.h"
 #include "tools/PendingFile.h"
 #include "tools/StackEstimate.h"
+#include "tools/SvgAsPng.h"
 #include "tools/ItkThreads.h"
 #include "itkSensorNoiseFrameFiles.h"
 
@@ -127,10 +129,27 @@ TellWarnings(const MeasuredStack & measured)
   }
 }
 
+/** Of what this program may have been built without. */
+void
+RequireAbilities(const EstimateOptions & options)
+{
+  if (options.Plot() == PlotKind::Png)
+  {
+    RequirePng(options.plot);
+  }
+  if (options.hash && !HasHash())
+  {
+    throw std::runtime_error(
+      "--hash: this program was built without OpenSSL, which computes the SHA-256; leave it out, "
+      "or build with OpenSSL (Debian: libssl-dev)");
+  }
+}
+
 int
 Run(EstimateOptions & options)
 {
   SetItkThreads(options.threads);
+  RequireAbilities(options);
   // whether they can be written is found before the work begins
   std::optional<PendingFile> json;
   if (options.HasReportFile())

@@ -4,7 +4,9 @@
 
 #include "sensornoise/base/Text.h"
 #include "sensornoise/page/Emva1288.h"
+#include "sensornoise/page/FigureStyle.h"
 #include "sensornoise/page/HtmlText.h"
+#include "sensornoise/page/PageStyle.h"
 #include "sensornoise/report/QuantityList.h"
 #include "sensornoise/report/ReportJson.h"
 #include "sensornoise/report/Version.h"
@@ -12,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -103,7 +106,32 @@ HasValues(const Report & report)
     return quantity != nullptr && (quantity->value || quantity->status == EstimateStatus::UpperLimit);
   });
 }
+
+std::string
+InputRow(const char * role, const InputFiles & input)
+{
+  const std::string count = std::to_string(input.files) + (input.files == 1 ? " file, " : " files, ");
+  const std::string hash =
+    input.sha256.empty() ? "not computed: built without OpenSSL" : "<code>" + Escaped(input.sha256) + "</code>";
+  return "<tr><th scope=\"row\">" + std::string(role) + "<small>" + count + std::to_string(input.bytes) +
+         " bytes</small></th><td>SHA-256: " + hash + "</td></tr>\n";
+}
 } // namespace
+
+std::string
+Heading(const char * tag, const std::string & words)
+{
+  return "<" + std::string(tag) + ">" + Escaped(words) + "</" + tag + ">\n";
+}
+
+std::string
+Page(const std::string & title, const std::string & body)
+{
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
+         "content=\"width=device-width, initial-scale=1\">\n<title>" +
+         Escaped(title) + "</title>\n<style>" + PageStyle + FigureStyle + "</style>\n</head>\n<body>\n" +
+         Heading("h1", title) + body + "</body>\n</html>\n";
+}
 
 std::string
 StackSentence(const Report & report)
@@ -186,6 +214,19 @@ EmvaTable(const Report & report)
          "highest level by the standard's linear model, not measured by its procedure.</p>\n<table><thead><tr><th "
          "scope=\"col\">Symbol</th><th scope=\"col\">Name</th><th scope=\"col\">Value</th></tr></thead><tbody>\n" +
          rows + "</tbody></table>\n";
+}
+
+std::string
+InputTable(const std::optional<InputRecord> & input)
+{
+  if (!input)
+  {
+    return "";
+  }
+  return "<table class=\"settings\"><tbody>\n" + InputRow("frames", input->frames) +
+         (input->dark ? InputRow("dark frames", *input->dark) : "") +
+         "</tbody></table>\n<p class=\"soft\">The hash is that of <code>cat FILES | sha256sum</code>: all files in the "
+         "order of the frames, behind a header the files of its pixels.</p>\n";
 }
 
 std::string

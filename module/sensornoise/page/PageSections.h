@@ -5,6 +5,7 @@
 
 #include "sensornoise/report/Report.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,14 @@ namespace sensornoise
 {
 
 /** Sections of the page of a report, as HTML. */
+
+/** A heading, \a tag "h1" to "h3". */
+std::string
+Heading(const char * tag, const std::string & words);
+
+/** The whole page around its \a body, with the style of page and figures. */
+std::string
+Page(const std::string & title, const std::string & body);
 
 /** How many frames of which size, codes and levels; method and pixels used. */
 std::string
@@ -27,6 +36,11 @@ WarningList(const std::vector<Warning> & warnings);
 
 std::string
 EmvaTable(const Report & report);
+
+/** The files that were measured: how many, their size and their hash, and how it is computed by hand. "" where there is
+ * no \a input. */
+std::string
+InputTable(const std::optional<InputRecord> & input);
 
 /** Every setting as it was used, and the version of the program. */
 std::string

@@ -4,17 +4,16 @@
 
 #include "sensornoise/base/Text.h"
 #include "sensornoise/page/FigureData.h"
-#include "sensornoise/page/FigureStyle.h"
 #include "sensornoise/page/Figures.h"
 #include "sensornoise/page/HtmlText.h"
 #include "sensornoise/page/PageSections.h"
-#include "sensornoise/page/PageStyle.h"
 #include "sensornoise/page/Verdict.h"
 #include "sensornoise/report/ChannelRecord.h"
 #include "sensornoise/report/ReportTable.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,12 +22,6 @@ namespace sensornoise
 namespace
 {
 constexpr double LeastSpread = 1.05; ///< of residuals, to be worth a sentence
-
-std::string
-Heading(const char * tag, const std::string & words)
-{
-  return "<" + std::string(tag) + ">" + Escaped(words) + "</" + tag + ">\n";
-}
 
 /** Numbers stay with the signs that belong to them: a line ends in front of a "+-", not behind it. */
 std::string
@@ -154,12 +147,9 @@ WarningsSection(const std::vector<Warning> & warnings)
 }
 
 std::string
-Page(const std::string & title, const std::string & body)
+InputSection(const std::optional<InputRecord> & input)
 {
-  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
-         "content=\"width=device-width, initial-scale=1\">\n<title>" +
-         Escaped(title) + "</title>\n<style>" + PageStyle + FigureStyle + "</style>\n</head>\n<body>\n" +
-         Heading("h1", title) + body + "</body>\n</html>\n";
+  return input ? Heading("h2", "Input") + InputTable(input) : "";
 }
 
 std::string
@@ -204,7 +194,7 @@ ToHtml(const Report & report, const PageMaps & maps)
               VerdictBox(VerdictOf(report)) + StackSentence(report) +
                 (report.gain.value ? table + warnings : warnings + Heading("h2", "Quantities") + table) +
                 CurveSection(report) + SeriesAndNoise(report, "h2") + MapsSection(maps) + Heading("h2", "EMVA 1288") +
-                EmvaTable(report) + Heading("h2", "Settings") + SettingsTable(report));
+                EmvaTable(report) + InputSection(report.input) + Heading("h2", "Settings") + SettingsTable(report));
 }
 
 std::string
@@ -219,7 +209,8 @@ ToHtml(const ChannelReports & reports, const PageMaps & maps)
     body += ChannelSection(report);
   }
   return Page("Noise of a colour sensor",
-              body + MapsSection(maps) + Heading("h2", "Settings") + SettingsTable(reports.channels.front()));
+              body + MapsSection(maps) + InputSection(reports.input) + Heading("h2", "Settings") +
+                SettingsTable(reports.channels.front()));
 }
 
 std::string

@@ -107,6 +107,10 @@ ToJson(const ChannelReports & reports)
   JsonWriter  json(text);
   json.Object([&] {
     json.Member("schema", ReportSchema).Member("version", GetModuleVersion());
+    if (reports.input)
+    {
+      json.Member("input", *reports.input);
+    }
     json.ObjectMember(
       "bayer", [&] { json.Member("pattern", NameOf(reports.pattern)).Member("source", NameOf(reports.source)); });
     if (reports.joint)

@@ -153,7 +153,7 @@ MakeChannelReports(BayerPattern pattern, BayerSource source, std::array<Report, 
     report.channel = NameOf(plane);
     report.settings.emplace_back("bayer", std::string(NameOf(pattern)));
   }
-  ChannelReports reports{ pattern, source, std::move(channels), std::nullopt, {} };
+  ChannelReports reports{ pattern, source, std::move(channels), std::nullopt, {}, std::nullopt };
   if (source == BayerSource::Levels)
   {
     reports.warnings.push_back({ WarningCode::RedOrBlue,

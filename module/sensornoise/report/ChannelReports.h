@@ -49,6 +49,7 @@ struct ChannelReports
   std::array<Report, 4>      channels; ///< in the order of BayerPlanes
   std::optional<JointOffset> joint;    ///< null: fewer than two channels found an offset of their own
   std::vector<Warning>       warnings; ///< of all channels together; each has its own, too
+  std::optional<InputRecord> input;    ///< null: not asked for, or no files; not in the channels
 
   const Report &
   Of(BayerPlane plane) const

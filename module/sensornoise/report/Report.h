@@ -86,6 +86,23 @@ struct Warning
   std::string message; ///< one sentence, for people, with the numbers found and expected
 };
 
+/** Files that were measured, by which a stored report is known to be of them. */
+struct InputFiles
+{
+  /** SHA-256, in hexadecimal digits, of the bytes of all files, one after the other in the order of the frames, behind
+   * a header the files of its pixels: what `cat FILES | sha256sum` prints. "": not computed, for want of OpenSSL. */
+  std::string   sha256;
+  std::size_t   files{ 0 };
+  std::uint64_t bytes{ 0 }; ///< of all files
+};
+
+/** All that was read. */
+struct InputRecord
+{
+  InputFiles                frames;
+  std::optional<InputFiles> dark; ///< null: no dark frames
+};
+
 /** \class Report
  * \brief All that was measured from one stack: the record whose JSON is "itk-sensornoise-report/1".
  *
@@ -97,6 +114,7 @@ struct Report
 
   std::string                                       method;
   std::vector<std::pair<std::string, SettingValue>> settings; ///< every parameter as used
+  std::optional<InputRecord>                        input;    ///< null: not asked for, or no files
 
   std::size_t           frames{ 0 };
   std::size_t           framesDistinct{ 0 }; ///< equal frames are counted once: what all but the series is made of

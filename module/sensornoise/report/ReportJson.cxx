@@ -110,6 +110,28 @@ WriteJson(JsonWriter & json, const NoiseCorrelationRecord & correlation)
 namespace
 {
 void
+WriteFiles(JsonWriter & json, const InputFiles & input)
+{
+  json.Member("sha256", input.sha256.empty() ? std::nullopt : std::optional<std::string>(input.sha256));
+  json.Member("files", input.files).Member("bytes", static_cast<std::size_t>(input.bytes));
+}
+} // namespace
+
+void
+WriteJson(JsonWriter & json, const InputRecord & input)
+{
+  json.Object([&] {
+    WriteFiles(json, input.frames);
+    if (input.dark)
+    {
+      json.ObjectMember("dark", [&] { WriteFiles(json, *input.dark); });
+    }
+  });
+}
+
+namespace
+{
+void
 WriteBaseline(JsonWriter & json, const char * name, const std::optional<Report::Baseline> & fit, bool isCurved)
 {
   if (!fit)
@@ -212,6 +234,10 @@ WriteJson(JsonWriter & json, const Report & report)
         json.Member(setting.first.c_str(), setting.second);
       }
     });
+    if (report.input)
+    {
+      json.Member("input", *report.input);
+    }
     WriteStack(json, report);
     WriteAllQuantities(json, report);
     WriteSeries(json, report);

@@ -33,6 +33,10 @@ WriteJson(JsonWriter & json, const NoiseCorrelationRecord::Lag & lag);
 SensorNoise_EXPORT void
 WriteJson(JsonWriter & json, const NoiseCorrelationRecord & correlation);
 
+/** `sha256` (null: not computed), `files`, `bytes`, and of dark frames the same in `dark`. */
+SensorNoise_EXPORT void
+WriteJson(JsonWriter & json, const InputRecord & input);
+
 /** The record as a value among others. */
 SensorNoise_EXPORT void
 WriteJson(JsonWriter & json, const Report & report);
