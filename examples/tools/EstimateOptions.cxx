@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -62,7 +63,7 @@ struct Texts
 void
 AddOptions(CLI::App & app, EstimateOptions & options, Texts & texts)
 {
-  app.add_option("FRAME", options.files, "frames in time order, or one stack")->required();
+  app.add_option("FRAME", options.files, "frames in time order, or one stack");
   app.add_option(
     "--raw",
     options.raw,
@@ -127,6 +128,13 @@ AddOptions(CLI::App & app, EstimateOptions & options, Texts & texts)
     options.maps,
     "folder for mean, variance, corrected variance and pixel use (.mha); from two --dark frames on also the "
     "pixels' offset and read noise, with the ends of their 95 % intervals");
+  app
+    .add_option(
+      "--compare",
+      options.compare,
+      "two or more stored reports (--json), of exposures, settings, cameras or days: what differs by more than "
+      "its errors, and by how much, in place of a measurement; with --plot as a page or a figure")
+    ->expected(1, std::numeric_limits<int>::max());
   app.add_flag("--quiet", options.quiet, "no table and no progress");
   app.set_version_flag("--version", std::string("estimate-sensor-noise ") + GetModuleVersion());
 }
@@ -226,6 +234,34 @@ RequirePlotName(const std::string & name)
   }
 }
 
+/** There are frames to be measured, or reports to be compared and nothing that is for measuring. */
+void
+RequireWork(const CLI::App & app, const EstimateOptions & options)
+{
+  if (app.count("--compare") == 0)
+  {
+    if (options.files.empty())
+    {
+      throw CLI::RequiredError("FRAME");
+    }
+    return;
+  }
+  const std::set<std::string> forBoth{ "--compare", "--plot", "--quiet", "--help" };
+  for (const CLI::Option * const option : app.get_options())
+  {
+    if (option->count() > 0 && forBoth.count(option->get_name()) == 0)
+    {
+      throw CLI::ValidationError("--compare",
+                                 "it reads stored reports and measures nothing; leave out " + option->get_name() +
+                                   ", or leave out --compare");
+    }
+  }
+  if (options.compare.size() < 2)
+  {
+    throw CLI::ValidationError("--compare", "there is one report; expected two or more to be compared");
+  }
+}
+
 void
 ReadRegion(EstimateOptions & options, const Texts & texts)
 {
@@ -266,6 +302,7 @@ EstimateOptions::Parse(int argc, char ** argv)
   {
     return app.exit(request); // --help or --version
   }
+  RequireWork(app, *this);
   hasCheck = app.count("--check") > 0;
   check.erase(std::remove(check.begin(), check.end(), ""), check.end()); // what CLI11 makes of no name
   ReadCodes(*this, texts);

@@ -53,6 +53,7 @@ struct EstimateOptions
   std::string                                        maps;
   std::string                                        plot;          ///< .html: the page; .svg, .png: its first figure
   bool                                               hash{ false }; ///< also without a page
+  std::vector<std::string>                           compare;       ///< stored reports; else frames are measured
   bool                                               quiet{ false };
 
   /** Reads the command line; the exit code if there is nothing left to do (--help, --version). Throws std::exception on

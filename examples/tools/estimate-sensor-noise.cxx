@@ -5,8 +5,10 @@
 #include "sensornoise/report/ChannelRecord.h"
 #include "sensornoise/report/Report.h"
 #include "sensornoise/report/ReportTable.h"
+#include "sensornoise/page/ComparisonPage.h"
 #include "tools/ErrorSentence.h"
 #include "tools/CompanionFiles.h"
+#include "tools/ComparedFiles.h"
 #include "tools/EstimateOptions.h"
 #include "tools/FilesHash.h"
 #include "tools/FilesInUse.h"
@@ -145,6 +147,50 @@ RequireAbilities(const EstimateOptions & options)
   }
 }
 
+std::string
+DrawComparison(PlotKind kind, const sensornoise::Comparison & comparison)
+{
+  if (kind == PlotKind::Page)
+  {
+    return ToHtml(comparison);
+  }
+  const std::string svg = ToSvg(comparison);
+  return kind == PlotKind::Png ? SvgAsPng(svg) : svg;
+}
+
+int
+RunComparison(const EstimateOptions & options)
+{
+  RequireAbilities(options);
+  std::optional<PendingFile> plot;
+  if (!options.plot.empty())
+  {
+    plot.emplace(options.plot);
+  }
+  FilesInUse files;
+  for (const std::string & report : options.compare)
+  {
+    files.Read(report, "the report");
+  }
+  if (plot)
+  {
+    files.Write(options.plot, "--plot");
+  }
+  const sensornoise::Comparison comparison = sensornoise::MakeComparison(ReadComparedReports(options.compare));
+  if (plot)
+  {
+    plot->Write(DrawComparison(options.Plot(), comparison));
+    plot->Commit();
+  }
+  if (!options.quiet && !(std::cout << MakeText(comparison) << std::flush))
+  {
+    throw std::runtime_error("cannot write the result to standard output: it was not taken");
+  }
+  const bool isUsable =
+    std::any_of(comparison.rows.begin(), comparison.rows.end(), [](const auto & row) { return row.report.IsUsable(); });
+  return isUsable ? ExitDone : ExitNothingEstimated;
+}
+
 int
 Run(EstimateOptions & options)
 {
@@ -200,7 +246,7 @@ main(int argc, char * argv[])
     {
       return *finished;
     }
-    return Run(options);
+    return options.compare.empty() ? Run(options) : RunComparison(options);
   }
   catch (const std::exception & error)
   {

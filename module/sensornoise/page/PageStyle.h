@@ -34,7 +34,7 @@ th,td{text-align:left;vertical-align:top;padding:.35rem .5rem .35rem 0;border-bo
 thead th{color:var(--soft);font-weight:600;font-size:.875rem}
 tbody th{font-weight:400}
 td small,th small{display:block}
-.settings td{overflow-wrap:anywhere}
+.settings td,.label{overflow-wrap:anywhere}
 .nowrap{white-space:nowrap}
 .quantities th:first-child{width:58%;padding-right:1rem}
 figure{margin:1rem 0}
