@@ -32,6 +32,7 @@ TEST(SensorNoiseText, MeasuredNumbersEndWhereTheirErrorDoes)
   EXPECT_EQ(Measured(-774.91, 0.77), "-774.91 +- 0.77");
   EXPECT_EQ(Measured(12345.0, 678.0), "12350 +- 680");
   EXPECT_EQ(Measured(1.0, 0.0996), "1.00 +- 0.10");
+  EXPECT_EQ(Measured(2.0, 1e-308), "2 +- 1e-308"); // has too few digits to be rounded
   EXPECT_EQ(Measured(1.0, 0.1), "1.00 +- 0.10");
   EXPECT_EQ(Measured(99.96, 1.0), "100.0 +- 1.0");
   EXPECT_EQ(Measured(3.0, 0.0), "3 +- 0");

@@ -38,7 +38,8 @@ Percent(double share)
 std::string
 Measured(double value, double standardError)
 {
-  if (!(standardError > 0.0) || !std::isfinite(standardError) || !std::isfinite(value))
+  constexpr double least = 1e-300; // smaller numbers may have fewer digits than two, which std::stod does not read
+  if (!(standardError > least) || !std::isfinite(standardError) || !std::isfinite(value))
   {
     return Text(value) + " +- " + Text(standardError);
   }
