@@ -71,6 +71,11 @@ SensorNoiseStackSink<TStack>::GetParallelFor()
 {
   return [this](std::size_t count, const std::function<void(std::size_t)> & function) {
     this->TakeBreath();
+    if (count == 1)
+    {
+      function(0); // also of a function that runs in one of the threads already
+      return;
+    }
     this->GetMultiThreader()->SetNumberOfWorkUnits(this->GetNumberOfWorkUnits());
     this->GetMultiThreader()->ParallelizeArray(0, count, [&function](SizeValueType i) { function(i); }, nullptr);
   };

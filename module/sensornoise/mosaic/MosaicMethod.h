@@ -45,7 +45,8 @@ public:
     , m_Planes(geometry)
   {
     const ParallelFor withinPlane = [parallelFor, isByPlane = m_IsByPlane](std::size_t count, const auto & function) {
-      *isByPlane ? SerialFor(count, function) : parallelFor(count, function);
+      // A single call: it is not spread, but whoever made parallelFor may stop the work there.
+      *isByPlane ? parallelFor(1, [&](std::size_t) { SerialFor(count, function); }) : parallelFor(count, function);
     };
     for (const BayerPlane plane : BayerPlanes)
     {
