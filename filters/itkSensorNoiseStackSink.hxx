@@ -221,6 +221,10 @@ SensorNoiseStackSink<TStack>::StreamedGenerateData(unsigned int number)
   }
   if (number % m_Chunks + 1 == m_Chunks)
   {
+    if (stack->GetBufferedRegion() != stack->GetLargestPossibleRegion())
+    {
+      const_cast<StackType *>(stack)->ReleaseData(); // the next pass asks for another part of the stack
+    }
     this->EndPass(pass);
   }
 }
