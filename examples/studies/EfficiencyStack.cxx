@@ -11,6 +11,7 @@
 #include "sensornoise/mosaic/MosaicMethod.h"
 #include "sensornoise/published/PublishedMethod.h"
 #include "sensornoise/refined/RefinedMethod.h"
+#include "sensornoise/report/ChannelReports.h"
 #include "sensornoise/report/Report.h"
 #include "sensornoise/simulation/SimulationTruth.h"
 #include "sensornoise/simulation/Simulator.h"
@@ -135,6 +136,7 @@ CompareMosaic(const MosaicGeometry & mosaic, const Scene & scene, const StackSim
                   use.data());
   const std::vector<double>       electrons = ElectronsAtRest(scene, truth.settings);
   const std::vector<std::uint8_t> mask = MaskOfUnclipped(use, scene.values.size());
+  const ChannelReports            reports = MakeChannelReports(mosaic.pattern, BayerSource::Given, method.GetReports());
   std::vector<EfficiencyRun>      runs;
   for (const BayerPlane plane : BayerPlanes)
   {
@@ -142,7 +144,7 @@ CompareMosaic(const MosaicGeometry & mosaic, const Scene & scene, const StackSim
     const auto           maskOfPlane = mosaic.Take(mask, plane);
     const FrameGeometry  size = mosaic.Plane();
     const CramerRaoInput input{ ofPlane.data(), maskOfPlane.data(), size.width, size.height, &truth };
-    runs.push_back(Compare(method.GetReports().at(static_cast<std::size_t>(plane)), input, false, 2.0));
+    runs.push_back(Compare(reports.Of(plane), input, false, 2.0));
     runs.back().experiment = NameOf(plane);
   }
   return runs;

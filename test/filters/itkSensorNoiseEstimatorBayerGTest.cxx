@@ -71,6 +71,11 @@ Numbers(sensornoise::Report report)
   report.settings.clear();
   report.channel = "mono";
   report.bitDepth.reset();
+  for (auto * const quantity : { &report.vibrationSdX, &report.vibrationSdY, &report.vibrationCovariance })
+  {
+    quantity->standardError.reset(); // knows what the other planes found
+    quantity->interval95.reset();
+  }
   return ToJson(report);
 }
 } // namespace

@@ -3,6 +3,7 @@
 """The example programs, as a person runs them."""
 
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -84,3 +85,15 @@ def test_held_out_frames_are_stabilised():
         assert rows[row][0] == rows[row][2] > 0
     assert rows["algebraic", "refined"][0] < rows["algebraic", "refined"][2]
     assert rows["variance", "published"][0] < rows["variance", "refined"][0]
+
+
+def test_motion_behind_a_mosaic_is_found_by_all_planes_together():
+    result = run("measure_mosaic_motion.py", "--size", 128, "--frames", 40, "--seeds", 1)
+    assert result.returncode == 0, result.stderr
+    rows = [
+        re.fullmatch(r".*: ([\d.]+) % off \(rms\), (\d+) of (\d+) intervals hold", line).groups()
+        for line in result.stdout.splitlines()[-2:]
+    ]
+    (plane, *_), (joint, held, of) = rows
+    assert float(joint) < float(plane)
+    assert int(of) - int(held) <= 4  # of 36 at most: chance leaves 5 or more in one of 30

@@ -181,6 +181,11 @@ ChannelTable(const ChannelReports & reports)
   {
     text += "<p>Offset of all channels together: " + Unbroken(Escaped(ValueText(reports.joint->offset))) + " DN.</p>\n";
   }
+  if (reports.motion)
+  {
+    text += "<p>Vibration of all channels together: x " + Unbroken(Escaped(ValueText(reports.motion->sdX))) + ", y " +
+            Unbroken(Escaped(ValueText(reports.motion->sdY))) + " pixel of a plane.</p>\n";
+  }
   return text;
 }
 } // namespace

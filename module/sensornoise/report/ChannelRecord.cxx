@@ -98,6 +98,12 @@ DescribeJoint(const JointOffset & joint)
   return "joint offset: " + CellOf(joint.offset) + " DN, " + Rounded(*joint.precisionGain) +
          " times as precise as the best channel's (chi2 of the four " + Rounded(joint.reducedChi2) + ")\n";
 }
+std::string
+DescribeMotion(const JointMotion & motion)
+{
+  return "joint vibration: x " + CellOf(motion.sdX) + ", y " + CellOf(motion.sdY) + " pixel of a plane, covariance " +
+         CellOf(motion.covariance) + " pixel^2\n";
+}
 } // namespace
 
 std::string
@@ -123,6 +129,19 @@ ToJson(const ChannelReports & reports)
     else
     {
       json.Member("joint", std::optional<double>());
+    }
+    if (reports.motion)
+    {
+      json.ObjectMember("joint_vibration", [&] {
+        WriteQuantity(json, "sd_x", reports.motion->sdX, "pixel");
+        WriteQuantity(json, "sd_y", reports.motion->sdY, "pixel");
+        WriteQuantity(json, "covariance", reports.motion->covariance, "pixel^2");
+        json.Member("motion", reports.motion->series);
+      });
+    }
+    else
+    {
+      json.Member("joint_vibration", std::optional<double>());
     }
     json.Member("warnings", reports.warnings).Member("channels", reports.channels);
   });
@@ -152,7 +171,9 @@ MakeTable(const ChannelReports & reports)
     }
   }
   table += Align(rows);
-  return table + (reports.joint ? '\n' + DescribeJoint(*reports.joint) : "");
+  table += reports.joint || reports.motion ? "\n" : "";
+  return table + (reports.joint ? DescribeJoint(*reports.joint) : "") +
+         (reports.motion ? DescribeMotion(*reports.motion) : "");
 }
 
 std::vector<Warning>

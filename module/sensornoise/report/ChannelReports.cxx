@@ -153,7 +153,7 @@ MakeChannelReports(BayerPattern pattern, BayerSource source, std::array<Report, 
     report.channel = NameOf(plane);
     report.settings.emplace_back("bayer", std::string(NameOf(pattern)));
   }
-  ChannelReports reports{ pattern, source, std::move(channels), std::nullopt, {}, std::nullopt };
+  ChannelReports reports{ pattern, source, std::move(channels), std::nullopt, std::nullopt, {}, std::nullopt };
   if (source == BayerSource::Levels)
   {
     reports.warnings.push_back({ WarningCode::RedOrBlue,
@@ -169,6 +169,11 @@ MakeChannelReports(BayerPattern pattern, BayerSource source, std::array<Report, 
         "the offsets of the channels differ by " + Rounded(std::sqrt(reports.joint->reducedChi2)) +
           " times their errors, and have no common value: light that does not flicker, of another colour than that "
           "which does, or a black level for each channel, makes such a difference" });
+  }
+  reports.motion = JoinMotion(reports.channels);
+  if (reports.motion)
+  {
+    WidenVibration(reports.channels, *reports.motion);
   }
   CompareGreens(reports);
   return reports;

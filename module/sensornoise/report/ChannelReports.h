@@ -5,6 +5,7 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/BayerPattern.h"
+#include "sensornoise/report/JointMotion.h"
 #include "sensornoise/report/Report.h"
 
 #include <array>
@@ -41,13 +42,15 @@ struct JointOffset
 };
 
 /** What was measured of a stack behind a Bayer mosaic: a report for each of its four planes. Widths, heights and
- * vibration are in pixels of the plane, each of them 2 x 2 of the mosaic. */
+ * vibration are in pixels of the plane, each of them 2 x 2 of the mosaic; the errors of a channel's vibration are wide
+ * enough for what it differs by from that of all. */
 struct ChannelReports
 {
   BayerPattern               pattern{ BayerPattern::RGGB };
   BayerSource                source{ BayerSource::Given };
   std::array<Report, 4>      channels; ///< in the order of BayerPlanes
   std::optional<JointOffset> joint;    ///< null: fewer than two channels found an offset of their own
+  std::optional<JointMotion> motion;   ///< null: not all channels found one
   std::vector<Warning>       warnings; ///< of all channels together; each has its own, too
   std::optional<InputRecord> input;    ///< null: not asked for, or no files; not in the channels
 
@@ -61,8 +64,8 @@ struct ChannelReports
   IsUsable() const;
 };
 
-/** Puts together the reports of the planes, in the order of BayerPlanes: names the channels, joins their offsets, and
- * warns where the two greens, which are alike, have different gains. */
+/** Puts together the reports of the planes, in the order of BayerPlanes: names the channels, joins their offsets and
+ * their motion, and warns where the two greens, which are alike, have different gains. */
 SensorNoise_EXPORT ChannelReports
 MakeChannelReports(BayerPattern pattern, BayerSource source, std::array<Report, 4> channels);
 

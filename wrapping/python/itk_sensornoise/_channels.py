@@ -22,6 +22,7 @@ class ChannelReports(PagedRecord):
 
         reports["bayer"]                    {"pattern": "RGGB", "source": "given", "file" or "levels"}
         reports["joint"]["offset"]          of all channels together; reports["joint"] is None where there is none
+        reports["joint_vibration"]["sd_x"]  of all channels together [pixel of a plane]; None as joint
         reports["channels"]                 four records, in the order R, G1, G2, B
         reports.channel("G1")               one of them, a Report; its vibration is in pixels of the plane
         reports["warnings"]                 of all together; each channel has its own, too
@@ -29,7 +30,8 @@ class ChannelReports(PagedRecord):
         reports.to_html("report.html")      one page of all channels
         reports.figure_data["G1"]["mean"]   the numbers of a channel's figures, as Report.figure_data
 
-    print() shows a line a channel, the joint offset and the warnings. It is a dict that cannot be changed, as Report.
+    print() shows a line a channel, what all have together and the warnings. It is a dict that cannot be changed, as
+    Report.
     """
 
     def __init__(

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/mosaic/MosaicMethod.h"
+#include "sensornoise/refined/RefinedMethod.h"
+#include "sensornoise/report/ChannelReports.h"
+#include "sensornoise/simulation/Scenes.h"
+#include "sensornoise/simulation/Simulator.h"
+#include "helpers/StackTestHelper.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <gtest/gtest.h>
+
+/** \file
+ * Planes see edges through every second pixel; all four together find the motion of the sensor. */
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+
+TEST(MosaicMotion, OfAllPlanesIsThatOfTheSensor)
+{
+  const std::size_t  side = 256;
+  SimulationSettings settings = FlickeringSettings(60);
+  settings.conditions = { 0.01, 0.1, 0.05 };
+  settings.flaws.filters.pattern = BayerPattern::RGGB;
+  for (const std::uint64_t seed : { 1U, 2U, 3U })
+  {
+    settings.seed = seed;
+    const StackSimulator simulator(MakeTargetScene(side, side), side, side, settings);
+    const auto           stack = Simulate<std::uint16_t>(settings, side, side);
+    const MosaicGeometry geometry{ { side, side, 1 }, BayerPattern::RGGB };
+    using Method = RefinedMethod<std::uint16_t>;
+    MosaicMethod<std::uint16_t, Method> method(
+      geometry,
+      [&](BayerPlane, const ParallelFor & parallelFor) {
+        return Method(RefinedSettings(), geometry.Plane(), stack.frames, {}, parallelFor);
+      },
+      Threads(2));
+    for (unsigned int pass = 0; pass < Method::NumberOfPasses; ++pass)
+    {
+      method.AddFrames(stack.pixels.data(), stack.frames);
+      method.EndPass();
+    }
+    const auto reports = MakeChannelReports(BayerPattern::RGGB, BayerSource::Given, method.GetReports());
+    ASSERT_TRUE(reports.motion);
+    const auto & truth = simulator.GetTruth();
+    // In pixels of a plane; 3 standard errors.
+    EXPECT_NEAR(
+      *reports.motion->sdX.value, 0.5 * truth.realisedVibrationSdXPixels, 3.0 * *reports.motion->sdX.standardError)
+      << seed;
+    EXPECT_NEAR(
+      *reports.motion->sdY.value, 0.5 * truth.realisedVibrationSdYPixels, 3.0 * *reports.motion->sdY.standardError)
+      << seed;
+    EXPECT_LT(*reports.motion->sdX.standardError, 0.03 * *reports.motion->sdX.value);
+    for (const Report & channel : reports.channels)
+    {
+      EXPECT_NEAR(
+        *channel.vibrationSdX.value, 0.5 * truth.realisedVibrationSdXPixels, 3.0 * *channel.vibrationSdX.standardError)
+        << channel.channel;
+    }
+  }
+}
