@@ -21,24 +21,22 @@ using ClassColumns = std::array<WeightedColumns, GradientClasses>;
 constexpr std::size_t BandPixels = 4096;    // the band's columns stay in the second-level cache
 constexpr std::size_t FramesOfABatch = 128; // bounds the memory of the parts
 
-/** Calls function(row of cells, band) for all bands, those of a row of cells in order. */
+/** Calls function() after \a band was moved to each band of a row of cells, in order. */
 template <typename TFunction>
 void
-ForBands(const FrameRegressors & regressors,
-         std::size_t             cellRows,
-         std::size_t             cellsPerRow,
-         const ParallelFor &     parallelFor,
-         TFunction               function)
+ForBands(const FrameGeometry & geometry,
+         std::size_t           cellRow,
+         std::size_t           cellRows,
+         RegressorBand &       band,
+         TFunction             function)
 {
-  parallelFor(cellRows, [&](std::size_t cellRow) {
-    const FrameGeometry & geometry = regressors.GetFrame().geometry;
-    const std::size_t     end = geometry.height * (cellRow + 1) / cellRows;
-    const std::size_t     rows = std::max<std::size_t>(1, BandPixels / geometry.width);
-    for (std::size_t y = geometry.height * cellRow / cellRows; y < end; y += rows)
-    {
-      function(cellRow, RegressorBand(regressors, y, std::min(rows, end - y), cellsPerRow));
-    }
-  });
+  const std::size_t end = geometry.height * (cellRow + 1) / cellRows;
+  const std::size_t rows = std::max<std::size_t>(1, BandPixels / geometry.width);
+  for (std::size_t y = geometry.height * cellRow / cellRows; y < end; y += rows)
+  {
+    band.MoveTo(y, std::min(rows, end - y));
+    function();
+  }
 }
 
 /** Adds the sums of \a count series over a band to theirs over the classes, and calls function(cell of the band,
@@ -56,7 +54,7 @@ AddToClasses(const RegressorBand &                    band,
     const RegressorBand::Group & group = band.GetGroups()[g];
     for (std::size_t k = 0; k < count; ++k)
     {
-      const double * const sum = sums[g].col(static_cast<Eigen::Index>(k)).data();
+      const double * const sum = sums[g][k].data();
       WeightedColumns &    columns = parts[k][group.gradientClass];
       std::transform(columns.begin(), columns.end(), sum, columns.begin(), std::plus<double>());
       function(
@@ -94,33 +92,39 @@ void
 FrameSums::SumColumns(const ParallelFor & parallelFor)
 {
   std::vector<std::array<ClassColumns, FrameColumns>> parts(m_CellRows);
-  ForBands(m_Regressors, m_CellRows, m_CellsPerRow, parallelFor, [&](std::size_t cellRow, const RegressorBand & band) {
-    Cell * const cells = m_Cells.data() + cellRow * m_CellsPerRow;
-    for (const RegressorBand::Group & group : band.GetGroups())
-    {
-      cells[group.cell].pixels += group.end - group.begin;
-    }
-    std::vector<FrameRegressors::Values> columns(band.Pixels());
-    for (const std::uint32_t i : band.GetOrder())
-    {
-      columns[i] = m_Regressors.ValuesOf(band.First() + i);
-    }
-    std::vector<RegressorBand::Vector> values(band.Pixels(), RegressorBand::Vector::Zero());
-    std::vector<RegressorBand::Sums>   sums;
-    for (std::size_t first = 0; first < FrameColumns; first += RegressorBand::Together)
-    {
-      const std::size_t count = std::min(RegressorBand::Together, FrameColumns - first);
+  parallelFor(m_CellRows, [&](std::size_t cellRow) {
+    Cell * const                         cells = m_Cells.data() + cellRow * m_CellsPerRow;
+    RegressorBand                        band(m_Regressors, m_CellsPerRow);
+    std::vector<FrameRegressors::Values> columns;
+    ForBands(this->GetFrame().geometry, cellRow, m_CellRows, band, [&] {
+      for (const RegressorBand::Group & group : band.GetGroups())
+      {
+        cells[group.cell].pixels += group.end - group.begin;
+      }
+      columns.resize(band.Pixels());
       for (const std::uint32_t i : band.GetOrder())
       {
-        std::copy_n(columns[i].data() + first, count, values[i].data());
+        columns[i] = m_Regressors.ValuesOf(band.First() + i);
       }
-      band.Multiply(values, sums);
-      AddToClasses(
-        band, sums, count, &parts[cellRow][first], [&](std::size_t cell, std::size_t k, double w, double wI) {
-          cells[cell].sum[first + k] += w;
-          cells[cell].sumI[first + k] += wI;
-        });
-    }
+      for (std::size_t first = 0; first < FrameColumns; first += RegressorBand::Together)
+      {
+        const std::size_t count = std::min(RegressorBand::Together, FrameColumns - first);
+        for (std::size_t k = 0; k < count; ++k)
+        {
+          std::transform(columns.begin(), columns.end(), band.Series(k), [&](const FrameRegressors::Values & values) {
+            return values[first + k];
+          });
+        }
+        AddToClasses(band,
+                     band.Multiply(),
+                     count,
+                     &parts[cellRow][first],
+                     [&](std::size_t cell, std::size_t k, double w, double wI) {
+                       cells[cell].sum[first + k] += w;
+                       cells[cell].sumI[first + k] += wI;
+                     });
+      }
+    });
   });
   for (const auto & part : parts)
   {
@@ -141,29 +145,32 @@ void
 FrameSums::AddBatch(const TPixel * frames, std::size_t first, std::size_t count, const ParallelFor & parallelFor)
 {
   std::vector<std::vector<ClassColumns>> parts(m_CellRows, std::vector<ClassColumns>(count));
-  ForBands(m_Regressors, m_CellRows, m_CellsPerRow, parallelFor, [&](std::size_t cellRow, const RegressorBand & band) {
-    const double * const               mean = this->GetFrame().mean.data() + band.First();
-    std::vector<RegressorBand::Vector> deviations(band.Pixels());
-    std::vector<RegressorBand::Sums>   sums;
-    for (std::size_t t = 0; t < count; t += RegressorBand::Together)
-    {
-      const std::size_t together = std::min(RegressorBand::Together, count - t);
-      for (std::size_t k = 0; k < RegressorBand::Together; ++k)
+  parallelFor(m_CellRows, [&](std::size_t cellRow) {
+    RegressorBand band(m_Regressors, m_CellsPerRow);
+    ForBands(this->GetFrame().geometry, cellRow, m_CellRows, band, [&] {
+      const double * const mean = this->GetFrame().mean.data() + band.First();
+      for (std::size_t t = 0; t < count; t += RegressorBand::Together)
       {
-        const TPixel * const frame =
-          frames + (t + std::min(k, together - 1)) * this->GetFrame().mean.size() + band.First();
-        for (std::size_t i = 0; i < band.Pixels(); ++i)
+        const std::size_t together = std::min(RegressorBand::Together, count - t);
+        for (std::size_t k = 0; k < together; ++k)
         {
-          deviations[i](static_cast<Eigen::Index>(k)) = static_cast<double>(frame[i]) - mean[i];
+          const TPixel * const frame = frames + (t + k) * this->GetFrame().mean.size() + band.First();
+          std::transform(frame, frame + band.Pixels(), mean, band.Series(k), [](TPixel value, double expected) {
+            return static_cast<double>(value) - expected;
+          });
         }
+        AddToClasses(band,
+                     band.Multiply(),
+                     together,
+                     &parts[cellRow][t],
+                     [&](std::size_t cell, std::size_t k, double w, double wI) {
+                       std::array<double, 2> & ofCell =
+                         m_Products.OfCell(first + t + k, cellRow * m_CellsPerRow + cell);
+                       ofCell[0] += w;
+                       ofCell[1] += wI;
+                     });
       }
-      band.Multiply(deviations, sums);
-      AddToClasses(band, sums, together, &parts[cellRow][t], [&](std::size_t cell, std::size_t k, double w, double wI) {
-        std::array<double, 2> & ofCell = m_Products.OfCell(first + t + k, cellRow * m_CellsPerRow + cell);
-        ofCell[0] += w;
-        ofCell[1] += wI;
-      });
-    }
+    });
   });
   for (const std::vector<ClassColumns> & part : parts)
   {

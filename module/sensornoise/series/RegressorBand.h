@@ -4,7 +4,6 @@
 #define sensornoise_series_RegressorBand_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/base/Eigen.h"
 #include "sensornoise/series/FrameRegressors.h"
 
 #include <cstddef>
@@ -19,14 +18,14 @@ namespace sensornoise
  * inner products with series.
  *
  * Whole rows are read from memory in one piece; the columns stay in the second-level cache while all frames pass, and
- * the sums of one group in registers. */
+ * the sums of one group in registers. A band is moved from rows to rows, for its memory is made once. */
 class SensorNoise_EXPORT RegressorBand
 {
 public:
   static constexpr std::size_t Together = 4; // series whose sums stay in registers
 
-  using Vector = Eigen::Matrix<double, Together, 1>; // the values of series at a pixel
-  using Sums = Eigen::Matrix<double, FrameRegressors::WeightedColumns{}.size(), Together>;
+  /** Of one group: sums[series][column]. */
+  using Sums = std::array<FrameRegressors::WeightedColumns, Together>;
 
   /** The pixels of one class in one cell of the band. */
   struct Group
@@ -37,8 +36,12 @@ public:
     std::size_t end;
   };
 
-  /** The rows \a firstRow ... \a firstRow + \a rows - 1 of the image, cut into \a cells cells side by side. */
-  RegressorBand(const FrameRegressors & regressors, std::size_t firstRow, std::size_t rows, std::size_t cells);
+  /** The image is cut into \a cells cells side by side. \a regressors must outlive the object. */
+  RegressorBand(const FrameRegressors & regressors, std::size_t cells);
+
+  /** The band becomes the rows \a firstRow ... \a firstRow + \a rows - 1 of the image. */
+  void
+  MoveTo(std::size_t firstRow, std::size_t rows);
 
   /** The band's pixels are First() ... First() + Pixels() - 1. */
   std::size_t
@@ -63,17 +66,32 @@ public:
     return m_Order;
   }
 
-  /** Fills \a sums with those over the pixels of every group of their columns times \a values, which are the values of
-   * Together series at all pixels of the band. A series' bits do not depend on those beside it. */
-  void
-  Multiply(const std::vector<Vector> & values, std::vector<Sums> & sums) const;
+  /** Where the values of series \a k of Together at all pixels of the band are to be put. */
+  double *
+  Series(std::size_t k)
+  {
+    return m_Series.data() + k * m_Pixels;
+  }
+  /** Sums over the pixels of every group of their columns times the values of the series, until the next call. A
+   * series' bits do not depend on those beside it. */
+  const std::vector<Sums> &
+  Multiply();
 
 private:
-  std::size_t                                   m_First;
-  std::size_t                                   m_Pixels;
+  template <typename TFunction>
+  void
+  ForUsed(TFunction function) const;
+
+  const FrameRegressors &                       m_Regressors;
+  std::size_t                                   m_Cells;
+  std::size_t                                   m_First{ 0 };
+  std::size_t                                   m_Pixels{ 0 };
+  std::vector<std::size_t>                      m_Places;
   std::vector<Group>                            m_Groups;
   std::vector<std::uint32_t>                    m_Order;
   std::vector<FrameRegressors::WeightedColumns> m_Columns;
+  std::vector<double>                           m_Series;
+  std::vector<Sums>                             m_Sums;
 };
 
 } // namespace sensornoise
