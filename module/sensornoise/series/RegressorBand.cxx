@@ -5,6 +5,7 @@
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/series/FrameProducts.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace sensornoise
@@ -43,6 +44,48 @@ MultiplyGroup(const RegressorBand::Group & group, const Factors & of, RegressorB
       Eigen::Map<Columns>(sums[k].data() + first) = sum.col(static_cast<Eigen::Index>(k));
     }
   }
+}
+
+#if defined(__GNUC__) && defined(__x86_64__)
+/** The same with vectors of four: the same products and sums in the same order, so the same bits. The target has no
+ * fused multiplication and addition, which would round differently. */
+__attribute__((target("avx2"))) void
+MultiplyGroupAvx2(const RegressorBand::Group & group, const Factors & of, RegressorBand::Sums & sums)
+{
+  using Four = double __attribute__((vector_size(32), aligned(8), may_alias));
+  constexpr std::size_t part = 2; // vectors of columns: with four series their sums take half of the registers
+  for (std::size_t first = 0; first < sums[0].size(); first += 4 * part)
+  {
+    Four sum[RegressorBand::Together][part] = {};
+    for (std::size_t i = group.begin; i < group.end; ++i)
+    {
+      const auto * const   columns = reinterpret_cast<const Four *>(of.columns[i].data() + first);
+      const double * const values = of.series + of.order[i];
+      for (std::size_t k = 0; k < RegressorBand::Together; ++k)
+      {
+        for (std::size_t j = 0; j < part; ++j)
+        {
+          sum[k][j] += columns[j] * values[k * of.pixels];
+        }
+      }
+    }
+    for (std::size_t k = 0; k < RegressorBand::Together; ++k)
+    {
+      std::copy_n(sum[k], part, reinterpret_cast<Four *>(sums[k].data() + first));
+    }
+  }
+}
+#endif
+
+/** The quickest for this processor. */
+auto
+FindMultiplyGroup()
+{
+#if defined(__GNUC__) && defined(__x86_64__)
+  return __builtin_cpu_supports("avx2") ? MultiplyGroupAvx2 : MultiplyGroup;
+#else
+  return MultiplyGroup;
+#endif
 }
 } // namespace
 
@@ -104,10 +147,11 @@ RegressorBand::MoveTo(std::size_t firstRow, std::size_t rows)
 const std::vector<RegressorBand::Sums> &
 RegressorBand::Multiply()
 {
-  const Factors of{ m_Columns.data(), m_Order.data(), m_Series.data(), m_Pixels };
+  static const auto multiplyGroup = FindMultiplyGroup();
+  const Factors     of{ m_Columns.data(), m_Order.data(), m_Series.data(), m_Pixels };
   for (std::size_t g = 0; g < m_Groups.size(); ++g)
   {
-    MultiplyGroup(m_Groups[g], of, m_Sums[g]);
+    multiplyGroup(m_Groups[g], of, m_Sums[g]);
   }
   return m_Sums;
 }
