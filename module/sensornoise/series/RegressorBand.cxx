@@ -104,7 +104,8 @@ RegressorBand::ForUsed(TFunction function) const
   {
     for (std::size_t cell = 0; cell < m_Cells; ++cell)
     {
-      for (std::size_t x = width * cell / m_Cells; x < width * (cell + 1) / m_Cells; ++x)
+      const std::size_t end = width * (cell + 1) / m_Cells;
+      for (std::size_t x = width * cell / m_Cells; x < end; ++x)
       {
         const std::uint8_t gradientClass = m_Regressors.ClassOf(m_First + row + x);
         if (gradientClass != FrameRegressors::Unused)
