@@ -124,8 +124,9 @@ private:
   // Only unsigned 16-bit values need to be shifted to fit a signed 16-bit number.
   static constexpr std::int32_t Centre = std::is_unsigned_v<TPixel> && sizeof(TPixel) == 2 ? 32768 : 0;
 
-  // A block's sums stay in the first-level cache while all frames pass by.
-  static constexpr std::size_t BlockSize = 1024;
+  // A block's sums stay in the caches while all frames pass by. It is long enough for the processor to see, within a
+  // frame, what it will be asked for next: shorter ones wait for the memory.
+  static constexpr std::size_t BlockSize = 4096;
 
   // As many frames as the block's 32-bit sums hold: |sum s| <= 2^15 2^15, and 2^14 pairs of squares' lower halves.
   static constexpr std::size_t FramesPerFlush = 32768;
