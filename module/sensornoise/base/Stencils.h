@@ -16,6 +16,13 @@ struct StencilTap
   int    dx;
   int    dy;
   double weight;
+
+  /** From a pixel to this one, in a map of \a width columns. */
+  constexpr std::ptrdiff_t
+  Offset(std::size_t width) const
+  {
+    return static_cast<std::ptrdiff_t>(dy) * static_cast<std::ptrdiff_t>(width) + dx;
+  }
 };
 
 /** The weights of a stencil, at most 6 of them. */
@@ -124,8 +131,7 @@ ApplyStencil(const Stencil & stencil, const double * map, std::size_t width, std
   double sum = 0.0;
   for (const StencilTap & tap : stencil.taps)
   {
-    const auto offset = static_cast<std::ptrdiff_t>(tap.dy) * static_cast<std::ptrdiff_t>(width) + tap.dx;
-    sum += tap.weight * map[static_cast<std::ptrdiff_t>(p) + offset];
+    sum += tap.weight * map[static_cast<std::ptrdiff_t>(p) + tap.Offset(width)];
   }
   return sum;
 }
@@ -146,7 +152,7 @@ ValueOfStencil(const double * pixel, std::ptrdiff_t width)
 }
 
 template <std::size_t... VStencils>
-std::array<double, NumberOfStencils>
+std::array<double, sizeof...(VStencils)>
 ValuesOfStencils(const double * pixel, std::ptrdiff_t width, std::index_sequence<VStencils...>)
 {
   return { ValueOfStencil<VStencils>(pixel, width)... };
@@ -161,6 +167,14 @@ ApplyStencils(const double * map, std::size_t width, std::size_t p)
     map + p, static_cast<std::ptrdiff_t>(width), std::make_index_sequence<NumberOfStencils>());
 }
 
+/** The two of the first order alone, along x and y. */
+inline std::array<double, 2>
+ApplyGradient(const double * map, std::size_t width, std::size_t p)
+{
+  return detail::ValuesOfStencils(
+    map + p, static_cast<std::ptrdiff_t>(width), std::index_sequence<StencilX, StencilY>());
+}
+
 /** What a motion of about a pixel would do to the pixel: the square of the gradient and a quarter of the curvature's.
  */
 inline double
@@ -169,6 +183,15 @@ StencilEnergy(const std::array<double, NumberOfStencils> & d)
   return d[StencilX] * d[StencilX] + d[StencilY] * d[StencilY] +
          0.25 * (d[StencilXX] * d[StencilXX] + d[StencilYY] * d[StencilYY]);
 }
+/** The same of pixel \a p of a map, without the derivatives that do not count. */
+inline double
+StencilEnergyAt(const double * map, std::size_t width, std::size_t p)
+{
+  using Counting = std::index_sequence<StencilX, StencilY, StencilXX, StencilYY>;
+  const auto d = detail::ValuesOfStencils(map + p, static_cast<std::ptrdiff_t>(width), Counting());
+  return d[0] * d[0] + d[1] * d[1] + 0.25 * (d[2] * d[2] + d[3] * d[3]);
+}
+
 /** Sum of the products of two stencils' weights: what white noise of variance 1 in the map puts on the product of
  * their values. */
 inline double

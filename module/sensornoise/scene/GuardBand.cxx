@@ -32,9 +32,7 @@ FindGuardBand(const ReferenceFrame &   frame,
     {
       if (frame.usable[p] != 0)
       {
-        const auto   derivatives = ApplyStencils(frame.mean.data(), frame.geometry.width, p);
-        const double gx = derivatives[StencilX];
-        const double gy = derivatives[StencilY];
+        const auto [gx, gy] = ApplyGradient(frame.mean.data(), frame.geometry.width, p);
         const double level = frame.neighbourMean[p];
         const double flux = std::max(0.0, level - model.darkestDn);
         const double noise = model.NoiseVariance(level);

@@ -21,9 +21,7 @@ FindUnexplained(const ReferenceFrame & frame, const ProvisionalModel & model, co
     {
       if (frame.usable[p] != 0)
       {
-        const auto   derivatives = ApplyStencils(frame.mean.data(), frame.geometry.width, p);
-        const double gx = derivatives[StencilX];
-        const double gy = derivatives[StencilY];
+        const auto [gx, gy] = ApplyGradient(frame.mean.data(), frame.geometry.width, p);
         const double expected =
           std::max(InScene.leastShareOfDarkest * model.interceptDn2, model.RawVariance(frame.neighbourMean[p], gx, gy));
         unexplained[p] = frame.RawVariance(p) > model.largestRatio * expected ? 1 : 0;

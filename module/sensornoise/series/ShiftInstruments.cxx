@@ -10,6 +10,16 @@
 namespace sensornoise
 {
 
+namespace
+{
+/** Adds \a weight times the values of \a from to those of \a to. */
+void
+AddScaled(const double * from, double weight, double * to, std::size_t count)
+{
+  std::transform(to, to + count, from, to, [weight](double sum, double value) { return sum + weight * value; });
+}
+} // namespace
+
 std::vector<double>
 SmoothedDerivative(const ReferenceFrame & frame, StencilIndex k, const ParallelFor & parallelFor)
 {
@@ -18,13 +28,16 @@ SmoothedDerivative(const ReferenceFrame & frame, StencilIndex k, const ParallelF
   const std::size_t   height = frame.geometry.height;
   std::vector<double> map(frame.mean.size(), 0.0);
   parallelFor(height, [&](std::size_t y) {
-    for (std::size_t x = StencilMargin; x + StencilMargin < width; ++x)
+    if (y >= StencilMargin && y + StencilMargin < height && width > 2 * StencilMargin)
     {
-      if (y >= StencilMargin && y + StencilMargin < height)
+      const std::size_t first = y * width + StencilMargin;
+      const std::size_t count = width - 2 * StencilMargin;
+      double * const    row = map.data() + first;
+      for (const StencilTap & tap : MotionStencils()[k].taps)
       {
-        const double derivative = ApplyStencil(MotionStencils()[k], frame.mean.data(), width, y * width + x);
-        map[y * width + x] = derivative / (side * side * side * side);
+        AddScaled(frame.mean.data() + static_cast<std::ptrdiff_t>(first) + tap.Offset(width), tap.weight, row, count);
       }
+      std::transform(row, row + count, row, [side](double d) { return d / (side * side * side * side); });
     }
   });
   const std::vector<double> once = BoxSum(map, width, height, InSeries.instrumentRadius, parallelFor);
