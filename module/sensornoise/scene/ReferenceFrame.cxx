@@ -4,10 +4,82 @@
 
 #include "sensornoise/base/Stencils.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sensornoise
 {
+
+namespace
+{
+/** The mean of the neighbours of a pixel that have one; 0 if none has. */
+double
+MeanOfNeighbours(const std::vector<double> & mean, const FrameGeometry & geometry, std::size_t x, std::size_t y)
+{
+  double sum = 0.0;
+  int    count = 0;
+  for (std::size_t row = y - std::min<std::size_t>(y, 1); row <= std::min(y + 1, geometry.height - 1); ++row)
+  {
+    for (std::size_t column = x - std::min<std::size_t>(x, 1); column <= std::min(x + 1, geometry.width - 1); ++column)
+    {
+      const double level = mean[row * geometry.width + column];
+      if (std::isfinite(level) && (row != y || column != x))
+      {
+        sum += level;
+        ++count;
+      }
+    }
+  }
+  return count > 0 ? sum / count : 0.0;
+}
+
+/** The neighbours' means of row \a y. Where all neighbours are there, and most pixels are of that kind, their sum is
+ * made without a look at each: it is not finite if one of them is not. */
+void
+FillNeighbourMeans(const std::vector<double> & mean, const FrameGeometry & geometry, std::size_t y, double * means)
+{
+  const std::size_t width = geometry.width;
+  if (y > 0 && y + 1 < geometry.height)
+  {
+    const double * const here = mean.data() + y * width;
+    const double * const above = here - width;
+    const double * const below = here + width;
+    for (std::size_t x = 1; x + 1 < width; ++x)
+    {
+      means[x] =
+        (above[x - 1] + above[x] + above[x + 1] + here[x - 1] + here[x + 1] + below[x - 1] + below[x] + below[x + 1]) /
+        8.0;
+    }
+  }
+  for (std::size_t x = 0; x < width; ++x)
+  {
+    if (x == 0 || x + 1 == width || y == 0 || y + 1 == geometry.height || !std::isfinite(means[x]))
+    {
+      means[x] = MeanOfNeighbours(mean, geometry, x, y);
+    }
+  }
+}
+
+/** Marks the pixels of row \a y, which is not next to the border, that are usable. */
+void
+FillUsable(const std::vector<double> &       variance,
+           const std::vector<std::uint8_t> & valid,
+           std::size_t                       width,
+           std::size_t                       y,
+           std::uint8_t *                    usable)
+{
+  const std::uint8_t * const here = valid.data() + y * width;
+  const std::uint8_t * const above = here - width;
+  const std::uint8_t * const below = here + width;
+  // Numbers, not truths: without branches.
+  const auto column = [&](std::size_t x) { return above[x] != 0 && here[x] != 0 && below[x] != 0 ? 1U : 0U; };
+  for (std::size_t x = StencilMargin; x + StencilMargin < width; ++x)
+  {
+    const bool isComplete = (column(x - 1) & column(x) & column(x + 1)) != 0;
+    usable[x] = static_cast<std::uint8_t>(isComplete && variance[y * width + x] > 0.0);
+  }
+}
+} // namespace
 
 ReferenceFrame
 MakeReferenceFrame(const std::vector<double> &       mean,
@@ -17,46 +89,24 @@ MakeReferenceFrame(const std::vector<double> &       mean,
                    std::size_t                       frames,
                    const ParallelFor &               parallelFor)
 {
-  const auto     width = static_cast<std::ptrdiff_t>(geometry.width);
-  const auto     height = static_cast<std::ptrdiff_t>(geometry.height);
-  ReferenceFrame frame;
+  const std::size_t width = geometry.width;
+  ReferenceFrame    frame;
   frame.geometry = geometry;
   frame.frames = frames;
-  frame.mean = mean;
+  frame.mean.resize(mean.size());
   frame.neighbourMean.resize(mean.size());
   frame.squares.resize(mean.size());
   frame.usable.assign(mean.size(), 0);
-  parallelFor(geometry.height, [&](std::size_t row) {
-    const auto y = static_cast<std::ptrdiff_t>(row);
-    for (std::ptrdiff_t x = 0; x < width; ++x)
+  parallelFor(geometry.height, [&](std::size_t y) {
+    FillNeighbourMeans(mean, geometry, y, frame.neighbourMean.data() + y * width);
+    for (std::size_t p = y * width; p < (y + 1) * width; ++p)
     {
-      const auto p = static_cast<std::size_t>(y * width + x);
-      double     sum = 0.0;
-      int        count = 0;
-      int        neighbours = 0;
-      for (std::ptrdiff_t dy = -1; dy <= 1; ++dy)
-      {
-        for (std::ptrdiff_t dx = -1; dx <= 1; ++dx)
-        {
-          const bool isInside = x + dx >= 0 && x + dx < width && y + dy >= 0 && y + dy < height;
-          if (isInside && (dx != 0 || dy != 0))
-          {
-            const auto n = static_cast<std::size_t>((y + dy) * width + x + dx);
-            if (std::isfinite(mean[n]))
-            {
-              sum += mean[n];
-              ++count;
-            }
-            neighbours += valid[n] != 0 ? 1 : 0;
-          }
-        }
-      }
-      frame.neighbourMean[p] = count > 0 ? sum / count : 0.0;
       frame.mean[p] = std::isfinite(mean[p]) ? mean[p] : frame.neighbourMean[p];
       frame.squares[p] = std::isfinite(variance[p]) ? variance[p] * static_cast<double>(frames - 1) : 0.0;
-      const auto margin = static_cast<std::ptrdiff_t>(StencilMargin);
-      const bool isInner = x >= margin && x + margin < width && y >= margin && y + margin < height;
-      frame.usable[p] = isInner && valid[p] != 0 && neighbours == 8 && variance[p] > 0.0 ? 1 : 0;
+    }
+    if (y >= StencilMargin && y + StencilMargin < geometry.height)
+    {
+      FillUsable(variance, valid, width, y, frame.usable.data() + y * width);
     }
   });
   return frame;
