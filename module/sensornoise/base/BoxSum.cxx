@@ -15,21 +15,30 @@ namespace sensornoise
 namespace
 {
 
-/** Running sums of 2 \a radius + 1 neighbours along a row, cut at its ends. */
+/** Running sums of 2 \a radius + 1 neighbours along each of \a VRows rows, cut at their ends. Each sum waits for the
+ * one before it: rows side by side fill the time. */
+template <std::size_t VRows>
 void
-SumAlongRow(const std::vector<double> & in, std::size_t radius, double * out)
+SumAlongRows(const double * in, std::size_t width, std::size_t radius, double * out)
 {
-  const std::size_t width = in.size();
-  double            sum = 0.0;
+  double sum[VRows] = {};
   for (std::size_t x = 0; x < std::min(width, radius); ++x)
   {
-    sum += in[x];
+    for (std::size_t row = 0; row < VRows; ++row)
+    {
+      sum[row] += in[row * width + x];
+    }
   }
   for (std::size_t x = 0; x < width; ++x)
   {
-    const double next = x + radius < width ? in[x + radius] : 0.0;
-    sum += next - (x > radius ? in[x - radius - 1] : 0.0);
-    out[x] = sum;
+    const bool hasNext = x + radius < width;
+    const bool hasLast = x > radius;
+    for (std::size_t row = 0; row < VRows; ++row)
+    {
+      const double * const here = in + row * width + x;
+      sum[row] += (hasNext ? here[radius] : 0.0) - (hasLast ? *(here - radius - 1) : 0.0);
+      out[row * width + x] = sum[row];
+    }
   }
 }
 
@@ -45,11 +54,13 @@ BoxSum(const std::vector<TValue> & map,
        std::vector<double> &       result)
 {
   result.resize(map.size());
-  constexpr std::size_t band = 64; // rows that are summed together
+  constexpr std::size_t band = 64;    // rows that are summed together
+  constexpr std::size_t together = 4; // along the rows
   parallelFor((height + band - 1) / band, [&](std::size_t b) {
     const std::size_t   first = b * band;
     const std::size_t   last = std::min(height, first + band);
     std::vector<double> columns(width, 0.0);
+    std::vector<double> sums(together * width); // those of the last few rows
     const auto          add = [&](std::size_t y, double sign) {
       const TValue * row = map.data() + y * width;
       for (std::size_t x = 0; x < width; ++x)
@@ -71,7 +82,16 @@ BoxSum(const std::vector<TValue> & map,
       {
         add(y - radius - 1, -1.0);
       }
-      SumAlongRow(columns, radius, result.data() + y * width);
+      const std::size_t row = (y - first) % together;
+      std::copy(columns.begin(), columns.end(), sums.begin() + static_cast<std::ptrdiff_t>(row * width));
+      if (row + 1 == together)
+      {
+        SumAlongRows<together>(sums.data(), width, radius, result.data() + (y - row) * width);
+      }
+    }
+    for (std::size_t y = last - (last - first) % together; y < last; ++y)
+    {
+      SumAlongRows<1>(sums.data() + (y - first) % together * width, width, radius, result.data() + y * width);
     }
   });
 }
