@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <gtest/gtest.h>
+#include <limits>
 #include <random>
 #include <stdexcept>
 #include <type_traits>
@@ -179,6 +180,40 @@ TEST(SensorNoiseProjectionSums, ResidualSquaresOfMergedChunksAreTheWholes)
   const auto whole = rssOf({ { 0, Frames } });
   EXPECT_EQ(rssOf({ { 15, Frames }, { 0, 4 }, { 4, 15 } }), whole);
   EXPECT_GT(*std::min_element(whole.begin(), whole.end()), 0.0);
+}
+
+TYPED_TEST(SensorNoiseProjectionSumsOf, ManyFramesOfTheLargestProductsAreExact)
+{
+  // Two series of frames that are as far from 0 as possible, and pixels at either end of their range.
+  if constexpr (std::is_integral_v<TypeParam>)
+  {
+    constexpr std::size_t frames = 71;
+    std::vector<double>   flicker(frames, 1.0);
+    flicker[40] = -1e9; // its series is 2^20 here, nearly
+    Eigen::MatrixXd motion = Eigen::MatrixXd::Ones(frames, 1);
+    motion(5, 0) = 1e9;
+    const TemporalBasis basis(flicker, Eigen::MatrixXd(frames, 0), motion);
+    ASSERT_EQ(basis.Size(), 2U);
+    ASSERT_GT(std::abs(basis.Rounded(40, 0)), 0.98 * TemporalBasis::Unit);
+    using Limits = std::numeric_limits<TypeParam>;
+    std::vector<TypeParam> stack(Pixels * frames);
+    for (std::size_t i = 0; i < stack.size(); ++i)
+    {
+      const std::size_t p = i % Pixels;
+      stack[i] = p % 3 == 0 ? Limits::max() : p % 3 == 1 ? Limits::lowest() : static_cast<TypeParam>(i * 2654435761U);
+    }
+    ProjectionSums sums(Pixels, 2);
+    sums.AddFrames(basis, stack.data(), 0, frames, 0, Pixels);
+    for (std::size_t i = 0; i < 2 * Pixels; ++i)
+    {
+      double sum = 0.0;
+      for (std::size_t t = 0; t < frames; ++t)
+      {
+        sum += basis.Rounded(t, i % 2) * stack[t * Pixels + i / 2];
+      }
+      ASSERT_EQ(sums.At(i / 2, i % 2), sum) << i;
+    }
+  }
 }
 
 TEST(SensorNoiseProjectionSums, MergeRefusesOtherSizes)

@@ -75,6 +75,23 @@ public:
   }
 
 private:
+  /** Adds integers of at most 32 frames, in whole numbers: in any order the same sums. */
+  template <typename TPixel>
+  void
+  AddTogether(const TemporalBasis & basis,
+              const TPixel *        frames,
+              std::size_t           firstFrame,
+              std::size_t           count,
+              std::size_t           begin,
+              std::size_t           end);
+  template <typename TPixel>
+  void
+  AddOneByOne(const TemporalBasis & basis,
+              const TPixel *        frames,
+              std::size_t           firstFrame,
+              std::size_t           count,
+              std::size_t           begin,
+              std::size_t           end);
   std::size_t
   IndexOf(std::size_t p, std::size_t j) const
   {
