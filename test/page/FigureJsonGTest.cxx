@@ -32,7 +32,8 @@ TEST(SensorNoiseFigureJson, HasEveryArrayAndNullForNaN)
   }
   EXPECT_EQ(text,
             "{\"mean\": [32], \"variance\": [null], \"corrected_variance\": [74.5], \"residual_mean\": [], "
-            "\"residual\": [], \"line_mean\": [], \"line_variance\": [], \"band_low\": [], \"band_high\": [], "
+            "\"residual\": [], \"residual_spread\": 1.1726039399558574, \"line_mean\": [], \"line_variance\": [], "
+            "\"band_low\": [], \"band_high\": [], "
             "\"is_indicative\": false, \"flicker\": [0.5, -0.5], \"motion_x\": [0.25], \"motion_y\": [-1], "
             "\"lags\": [{\"lag\": [1, 0], \"value\": 0.5, \"standard_error\": 0.25}, "
             "{\"lag\": 2, \"value\": -0.5, \"standard_error\": 0.125}]}\n");

@@ -18,6 +18,7 @@ WriteJson(JsonWriter & json, const FigureData & data)
   json.Object([&] {
     json.Member("mean", data.mean).Member("variance", data.variance).Member("corrected_variance", data.corrected);
     json.Member("residual_mean", data.meanResiduals).Member("residual", data.residuals);
+    json.Member("residual_spread", data.residualSpread);
     json.Member("line_mean", data.lineMean).Member("line_variance", data.lineVariance);
     json.Member("band_low", data.bandLow).Member("band_high", data.bandHigh);
     json.Member("is_indicative", data.isIndicative);

@@ -13,9 +13,9 @@ namespace sensornoise
 {
 
 /** The numbers of the report's figures, its FigureData, as JSON, for who draws them in another language: one object, an
- * array a member; null for what is not known. `mean`, `variance`, `corrected_variance`; `residual_mean`, `residual`;
- * `line_mean`, `line_variance`, `band_low`, `band_high`, `is_indicative`; `flicker`, `motion_x`, `motion_y`; and
- * `lags`, each as in the report. */
+ * array a member; null for what is not known. `mean`, `variance`, `corrected_variance`; `residual_mean`, `residual`,
+ * `residual_spread`; `line_mean`, `line_variance`, `band_low`, `band_high`, `is_indicative`; `flicker`, `motion_x`,
+ * `motion_y`; and `lags`, each as in the report. */
 SensorNoise_EXPORT std::string
 FigureAsJson(const Report & report);
 

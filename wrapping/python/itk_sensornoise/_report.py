@@ -69,6 +69,7 @@ class Report(PagedRecord):
             lags                                 what neighbours and frames share: dicts as in noise_correlation
 
         A list is empty where there is nothing of it. `is_indicative`, a bool: there is a line, but no gain.
+        `residual_spread`, a number: how much further residuals scatter at most, as neighbours share their noise [1].
         """
         if self._pictures is None:
             raise ValueError("the report was made of its text alone and has no figures; expected one of an estimator")
