@@ -72,7 +72,7 @@
     }
   }
 
-  // 4: no text lies on other text or, in a figure, on a panel with its points.
+  // 4: no text lies on other text or, in a figure, on a panel with its points, unless it stands instead of one.
   const shrunk = (box) => ({ left: box.left + 1, right: box.right - 1, top: box.top + 2, bottom: box.bottom - 2 });
   const meet = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
   const drawn = pieces.flatMap(({ node, lines }) => lines.map((line) => ({ node, box: shrunk(line) })));
@@ -91,7 +91,8 @@
     box.right = box.left + width * matrix.a;
     box.bottom = box.top + height * matrix.d;
     for (const { node, box: text } of drawn) {
-      if (meet(text, box)) faults.push(`${words(node.data)} lies on the points of a figure`);
+      const isInstead = node.parentElement.classList.contains("instead");
+      if (meet(text, box) && !isInstead) faults.push(`${words(node.data)} lies on the points of a figure`);
     }
   }
 

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Pages of `estimate-sensor-noise --plot` in a real browser, as people see them: on a telephone and on a wide screen,
-light and dark. `pytest test_browser.py --screenshots DIR` keeps pictures of all of them; `-k documentation
---screenshots documentation` makes those of the documentation."""
+"""Pages of `estimate-sensor-noise --plot`, of one report and of several that are compared, in a real browser, as people
+see them: on a telephone and on a wide screen, light and dark. `pytest test_browser.py --screenshots DIR` keeps pictures
+of all of them; `-k documentation --screenshots documentation` makes those of the documentation."""
 
 import json
 import re
@@ -29,6 +29,15 @@ SITUATIONS = {
     "warnings": ("--size 256x192 --frames 15 --repeat 2 --flicker-sd 0 --response shoulder,0.2 --coupling 0.02", 3),
 }
 
+# What the simulator is asked for, report by report, where stored ones are compared.
+SMALL = "--size 128x96 --frames 40"
+COMPARED = {
+    "compared-six": [f"{SMALL} --seed {seed} --gain {1 + 0.1 * (seed // 4)}" for seed in range(1, 7)],
+    "compared-mosaics": [f"--size 192x128 --frames 40 --bayer RGGB --seed {seed}" for seed in (1, 2)],
+    "compared-failed": [f"{SMALL} --seed 1", SITUATIONS["failed"][0], f"{SMALL} --seed 2"],
+}
+NAME = "camera_0123456789abcdef_exposure_000010_ms_at_" * 4  # of a report: nothing in it where a line could end
+
 
 @pytest.fixture(scope="session")
 def chrome(tmp_path_factory):
@@ -42,17 +51,32 @@ def chrome(tmp_path_factory):
         pytest.fail(str(error))
 
 
+def code_of(tool, *arguments) -> int:
+    """What the estimator ends with."""
+    try:
+        tool("estimate-sensor-noise", *arguments, "--quiet")
+    except subprocess.CalledProcessError as error:
+        return error.returncode
+    return 0
+
+
 def measured(tool, folder: Path, name: str, flags: str, code: int = 0) -> Path:
     """The page of a simulated burst."""
     stack, page = folder / f"{name}.mha", folder / f"{name}.html"
     tool("simulate-sensor-noise", "--output", stack, *flags.split())
-    try:
-        tool("estimate-sensor-noise", stack, "--quiet", "--plot", page)
-        found = 0
-    except subprocess.CalledProcessError as error:
-        found = error.returncode
+    assert code_of(tool, stack, "--plot", page) == code
     stack.unlink()
-    assert found == code
+    return page
+
+
+def compared(tool, folder: Path, name: str, bursts: list[str], ending: str = "html") -> Path:
+    """The page of simulated bursts' reports, with their hashes."""
+    stack, page, reports = folder / f"{name}.mha", folder / f"{name}.{ending}", []
+    for number, flags in enumerate(bursts):
+        tool("simulate-sensor-noise", "--output", stack, *flags.split())
+        reports.append(folder / f"{NAME}{number}.json")
+        assert code_of(tool, stack, "--json", reports[-1], "--plot", folder / "of-one.html") in (0, 3)
+    assert code_of(tool, "--compare", *reports, "--plot", page) == 0
     return page
 
 
@@ -60,7 +84,8 @@ def measured(tool, folder: Path, name: str, flags: str, code: int = 0) -> Path:
 def pages(tool, tmp_path_factory):
     """One page of each situation."""
     folder = tmp_path_factory.mktemp("pages")
-    return {name: measured(tool, folder, name, *what) for name, what in SITUATIONS.items()}
+    single = {name: measured(tool, folder, name, *what) for name, what in SITUATIONS.items()}
+    return single | {name: compared(tool, folder, name, bursts) for name, bursts in COMPARED.items()}
 
 
 def outside(browser: Browser, file: Path) -> list[str]:
@@ -82,7 +107,7 @@ def faults(browser: Browser, file: Path) -> list[str]:
 
 @pytest.mark.parametrize("scheme", SCHEMES)
 @pytest.mark.parametrize("screen", WIDTHS)
-@pytest.mark.parametrize("situation", SITUATIONS)
+@pytest.mark.parametrize("situation", [*SITUATIONS, *COMPARED])
 def test_page_is_whole_and_readable(chrome, pages, situation, screen, scheme, screenshots):
     page = pages[situation]
     chrome.open(page, WIDTHS[screen], scheme)
@@ -123,10 +148,14 @@ def test_every_warning_fits(chrome, pages, screen):
 
 
 @pytest.mark.parametrize("scheme", SCHEMES)
-def test_svg_file_is_whole_and_readable(chrome, tool, tmp_path, scheme):
+@pytest.mark.parametrize("what", ["report", "comparison"])
+def test_svg_file_is_whole_and_readable(chrome, tool, tmp_path, what, scheme):
     stack, file = tmp_path / "stack.mha", tmp_path / "figure.svg"
-    tool("simulate-sensor-noise", "--output", stack, *SITUATIONS["good"][0].split())
-    tool("estimate-sensor-noise", stack, "--quiet", "--plot", file)
+    if what == "comparison":
+        file = compared(tool, tmp_path, "figure", COMPARED["compared-six"], "svg")
+    else:
+        tool("simulate-sensor-noise", "--output", stack, *SITUATIONS["good"][0].split())
+        tool("estimate-sensor-noise", stack, "--quiet", "--plot", file)
     assert ElementTree.parse(file).getroot().tag == "{http://www.w3.org/2000/svg}svg"
     chrome.open(file, 1280, scheme)
     assert faults(chrome, file) == []

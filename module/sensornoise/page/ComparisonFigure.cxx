@@ -17,7 +17,7 @@ namespace sensornoise
 namespace
 {
 constexpr double      RowHeight = 26.0;
-constexpr double      RowsLeft = 168.0;
+constexpr double      RowsLeft = 184.0;
 constexpr double      RowsWidth = FigureWidth - RowsLeft - 12.0;
 constexpr double      BelowRows = 46.0; ///< ticks and the name of the axis
 constexpr std::size_t LongestName = 19; ///< letters that fit beside the rows
@@ -137,7 +137,8 @@ DrawRow(std::string & svg, SvgPanel & panel, const Quantity & quantity, double y
 {
   if (!IsDrawn(quantity.value))
   {
-    svg += "<text x=\"8\" y=\"" + SvgNumber(y + 5.0) + "\">" + Escaped(WordsWithout(quantity)) + "</text>\n";
+    svg += "<text class=\"instead\" x=\"8\" y=\"" + SvgNumber(y + 5.0) + "\">" + Escaped(WordsWithout(quantity)) +
+           "</text>\n";
     return;
   }
   const auto interval = DrawnInterval(quantity);

@@ -96,7 +96,7 @@ ChangeTable(const Comparison & comparison, const ComparedQuantity & quantity)
   {
     const bool        isChange = quantity.changes[row].kind == ChangeKind::Changed;
     const std::string judgement = Escaped(JudgementText(comparison, quantity, row));
-    rows += "<tr><th scope=\"row\" class=\"label\">" + Escaped(NameOfRow(comparison, row)) + "</th><td>" +
+    rows += "<tr><th scope=\"row\" class=\"label short\">" + Escaped(RowName(comparison, row)) + "</th><td>" +
             ValueCell(quantity.Of(comparison.rows[row])) + "</td><td>" + Escaped(DifferenceText(quantity, row)) +
             Small(ShareText(quantity, row)) + "<small>" + (isChange ? "<b>" + judgement + "</b>" : judgement) +
             "</small></td></tr>\n";

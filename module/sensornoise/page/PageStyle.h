@@ -35,6 +35,7 @@ thead th{color:var(--soft);font-weight:600;font-size:.875rem}
 tbody th{font-weight:400}
 td small,th small{display:block}
 .settings td,.label{overflow-wrap:anywhere}
+.label{width:45%}.label.short{width:28%}
 .nowrap{white-space:nowrap}
 .quantities th:first-child{width:58%;padding-right:1rem}
 figure{margin:1rem 0}
