@@ -251,6 +251,15 @@ public:
     return m_Source;
   }
 
+  /** SHA-256 of the frames, and of the dark ones, 64 hexadecimal digits, by which the report is known to be of them: of
+   * \a files files with that many \a bytes, or, if these are 0, of the pixels (see sensornoise::InputFiles, which says
+   * of what bytes). Noted as the report's input; whoever computes it sees to it that they are the bytes that are
+   * measured. An empty text (default): nothing is noted. */
+  void
+  SetFramesHash(const std::string & sha256, SizeValueType files, SizeValueType bytes);
+  void
+  SetDarkHash(const std::string & sha256, SizeValueType files, SizeValueType bytes);
+
   /** Colour filters in front of the pixels. "none" (default): the frames are those of a monochrome sensor. "RGGB",
    * "GRBG", "GBRG" or "BGGR", the colours of the stack's upper left pixels: each of the four planes is measured by
    * itself, and there are channel reports in place of the report; each pass still reads the stack once, and the maps
@@ -489,6 +498,12 @@ private:
   FindOffsets(const std::vector<std::uint8_t> & mask, const std::optional<SensorNoiseMosaic> & mosaic);
   void
   VerifySource() const;
+  /** Sets one of the hashes. */
+  void
+  SetHash(sensornoise::InputFiles & input, const std::string & sha256, SizeValueType files, SizeValueType bytes);
+  /** The hashes that were given, of what there is. */
+  std::optional<sensornoise::InputRecord>
+  GetInputRecord() const;
   sensornoise::NoiseModelCheck
   CheckModel(double varianceSlope, double totalIntercept, double readNoiseElectrons, double quantisationStep) const;
   bool
@@ -523,6 +538,8 @@ private:
   std::string        m_BayerPattern{ "none" };
 
   sensornoise::StackSelection m_Source;
+  sensornoise::InputFiles     m_FramesHash;
+  sensornoise::InputFiles     m_DarkHash;
 
   std::unique_ptr<Estimation> m_Estimation;
 };

@@ -181,6 +181,52 @@ SensorNoiseEstimator<TStack>::SetSourceFrames(SizeValueType first, SizeValueType
 
 template <typename TStack>
 void
+SensorNoiseEstimator<TStack>::SetHash(sensornoise::InputFiles & input,
+                                      const std::string &       sha256,
+                                      SizeValueType             files,
+                                      SizeValueType             bytes)
+{
+  const bool hasOnlyDigits = sha256.find_first_not_of("0123456789abcdef") == std::string::npos;
+  if (!sha256.empty() && (sha256.size() != 64 || !hasOnlyDigits))
+  {
+    itkExceptionMacro("the hash is \"" << sha256 << "\"; expected a SHA-256, 64 hexadecimal digits in small letters");
+  }
+  input = { sha256, files, bytes };
+  this->Modified();
+}
+
+template <typename TStack>
+void
+SensorNoiseEstimator<TStack>::SetFramesHash(const std::string & sha256, SizeValueType files, SizeValueType bytes)
+{
+  this->SetHash(m_FramesHash, sha256, files, bytes);
+}
+
+template <typename TStack>
+void
+SensorNoiseEstimator<TStack>::SetDarkHash(const std::string & sha256, SizeValueType files, SizeValueType bytes)
+{
+  this->SetHash(m_DarkHash, sha256, files, bytes);
+}
+
+template <typename TStack>
+std::optional<sensornoise::InputRecord>
+SensorNoiseEstimator<TStack>::GetInputRecord() const
+{
+  if (m_FramesHash.sha256.empty())
+  {
+    return std::nullopt;
+  }
+  sensornoise::InputRecord record{ m_FramesHash, std::nullopt };
+  if (this->GetDark() != nullptr && !m_DarkHash.sha256.empty())
+  {
+    record.dark = m_DarkHash;
+  }
+  return record;
+}
+
+template <typename TStack>
+void
 SensorNoiseEstimator<TStack>::VerifySource() const
 {
   const auto size = this->GetInput()->GetLargestPossibleRegion().GetSize();
@@ -600,6 +646,7 @@ SensorNoiseEstimator<TStack>::FillOutputs()
     return image->GetBufferPointer();
   };
   auto report = m_Estimation->GetReport(m_Source, this->GetCamera());
+  std::visit([this](auto & any) { any.input = this->GetInputRecord(); }, report);
   if (auto * const channels = std::get_if<sensornoise::ChannelReports>(&report))
   {
     this->GetChannelReportsOutput()->Set(std::move(*channels));
@@ -665,6 +712,8 @@ SensorNoiseEstimator<TStack>::PrintSelf(std::ostream & os, Indent indent) const
   {
     os << indent << "SourceFrames: " << frames->first << ", " << frames->second << std::endl;
   }
+  os << indent << "FramesHash: " << m_FramesHash.sha256 << std::endl;
+  os << indent << "DarkHash: " << m_DarkHash.sha256 << std::endl;
 }
 
 } // namespace itk

@@ -118,6 +118,11 @@ public:
   const sensornoise::FrameList &
   GetFrameList();
 
+  /** Every file that is read, in the order of the frames, each header's files of pixels behind it. Checks them first if
+   * they are not yet. */
+  std::vector<std::string>
+  GetFilesRead();
+
   /** Component type of the files, UCHAR, USHORT, SHORT, FLOAT or DOUBLE. Checks them first if they are not yet. */
   IOComponentEnum
   GetComponentType();

@@ -96,6 +96,21 @@ SensorNoiseFrameListSource<TOutputStack>::GetFrameList()
 }
 
 template <typename TOutputStack>
+std::vector<std::string>
+SensorNoiseFrameListSource<TOutputStack>::GetFilesRead()
+{
+  std::vector<std::string> names;
+  for (const sensornoise::FrameFile & file : this->GetFrameList().files)
+  {
+    for (const sensornoise::FileIdentity & part : file.identities)
+    {
+      names.push_back(part.name);
+    }
+  }
+  return names;
+}
+
+template <typename TOutputStack>
 IOComponentEnum
 SensorNoiseFrameListSource<TOutputStack>::GetComponentType()
 {

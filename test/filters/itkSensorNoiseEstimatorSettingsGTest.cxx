@@ -94,6 +94,35 @@ TEST(SensorNoiseEstimatorSettings, NotingTheSourceChangesNoNumber)
   EXPECT_EQ(sensornoise::ToJson(noted), sensornoise::ToJson(plain));
 }
 
+TEST(SensorNoiseEstimatorSettings, AHashIsNotedAndChangesNoNumber)
+{
+  const std::string frames(64, '0');
+  const std::string darkFrames(64, 'f');
+  const auto        estimator = EstimatorOf<StackType>(SimulatedStack());
+  estimator->Update();
+  sensornoise::Report plain = estimator->GetReport();
+  EXPECT_FALSE(plain.input);
+  estimator->SetFramesHash(frames, 0, 8190000);
+  estimator->SetDarkHash(darkFrames, 2, 700); // of no frames
+  estimator->Update();
+  sensornoise::Report noted = estimator->GetReport();
+  EXPECT_NE(sensornoise::ToJson(noted).find("\"input\": {\"of\": \"pixels\", \"sha256\": \"" + frames +
+                                            "\", \"files\": 0, \"bytes\": 8190000}"),
+            std::string::npos);
+  EXPECT_NE(estimator->GetReportAsText().find("\nframes: pixels, 8190000 bytes, SHA-256 " + frames + "\n"),
+            std::string::npos);
+  EXPECT_NE(estimator->GetReportAsHtml().find("<code>" + frames + "</code>"), std::string::npos);
+  noted.input.reset();
+  EXPECT_EQ(sensornoise::ToJson(noted), sensornoise::ToJson(plain));
+
+  estimator->SetDark(ConstantImage<StackType>({ { Width, Height, 2 } }, 100));
+  estimator->Update();
+  EXPECT_NE(estimator->GetReportAsText().find("\ndark frames: 2 files, 700 bytes, SHA-256 " + darkFrames + "\n"),
+            std::string::npos);
+  EXPECT_SAYS(ErrorWhen([&] { estimator->SetFramesHash("F00", 1, 1); }),
+              "the hash is \"F00\"; expected a SHA-256, 64 hexadecimal digits in small letters");
+}
+
 TEST(SensorNoiseEstimatorSettings, ASourceOfAnotherSizeIsRefused)
 {
   const auto region = EstimatorOf<StackType>(SimulatedStack());

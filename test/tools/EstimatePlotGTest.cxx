@@ -69,7 +69,7 @@ TEST_F(EstimatePlotTool, TheHashIsThatOfTheFilesInTheirOrder)
   const std::string known = "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0";
   WriteText("a.raw", std::string(1000000, 'a'));
   const auto one = ReportOf("--raw 100x100:uint8 a.raw --hash --plot p.html", 3)["input"];
-  EXPECT_EQ(one, (nlohmann::json{ { "sha256", known }, { "files", 1 }, { "bytes", 1000000 } }));
+  EXPECT_EQ(one, (nlohmann::json{ { "of", "files" }, { "sha256", known }, { "files", 1 }, { "bytes", 1000000 } }));
   EXPECT_NE(ReadText(Path("p.html")).find("<code>" + known + "</code>"), std::string::npos);
   std::string names;
   for (int i = 0; i < 10; ++i)

@@ -60,6 +60,12 @@ WarningNames(const Report & report)
 }
 
 std::string
+HashText(const InputFiles & input)
+{
+  return std::string("SHA-256 of the frames' ") + (input.IsOfPixels() ? "pixels: " : "files: ") + input.sha256;
+}
+
+std::string
 ReportTable(const Comparison & comparison)
 {
   std::string rows;
@@ -69,8 +75,7 @@ ReportTable(const Comparison & comparison)
     const auto &           input = compared.report.input;
     rows += "<tr><th scope=\"row\" class=\"label\">" + Escaped(NameOfRow(comparison, row)) + "</th><td>" +
             Escaped(StackText(compared)) + Small(WarningNames(compared.report)) +
-            Small(input && !input->frames.sha256.empty() ? "SHA-256 of the frames: " + input->frames.sha256 : "") +
-            "</td></tr>\n";
+            Small(input && !input->frames.sha256.empty() ? HashText(input->frames) : "") + "</td></tr>\n";
   }
   return "<table class=\"settings\"><thead><tr><th scope=\"col\">Report</th><th scope=\"col\">Camera and "
          "frames</th></tr></thead><tbody>\n" +

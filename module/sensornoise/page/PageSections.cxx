@@ -110,7 +110,8 @@ HasValues(const Report & report)
 std::string
 InputRow(const char * role, const InputFiles & input)
 {
-  const std::string count = std::to_string(input.files) + (input.files == 1 ? " file, " : " files, ");
+  const std::string count =
+    input.IsOfPixels() ? "pixels, " : std::to_string(input.files) + (input.files == 1 ? " file, " : " files, ");
   const std::string hash =
     input.sha256.empty() ? "not computed: built without OpenSSL" : "<code>" + Escaped(input.sha256) + "</code>";
   return "<tr><th scope=\"row\">" + std::string(role) + "<small>" + count + std::to_string(input.bytes) +
@@ -223,10 +224,17 @@ InputTable(const std::optional<InputRecord> & input)
   {
     return "";
   }
+  const bool hasPixels = input->frames.IsOfPixels() || (input->dark && input->dark->IsOfPixels());
+  const bool hasFiles = !input->frames.IsOfPixels() || (input->dark && !input->dark->IsOfPixels());
   return "<table class=\"settings\"><tbody>\n" + InputRow("frames", input->frames) +
-         (input->dark ? InputRow("dark frames", *input->dark) : "") +
-         "</tbody></table>\n<p class=\"soft\">The hash is that of <code>cat FILES | sha256sum</code>: all files in the "
-         "order of the frames, behind a header the files of its pixels.</p>\n";
+         (input->dark ? InputRow("dark frames", *input->dark) : "") + "</tbody></table>\n<p class=\"soft\">" +
+         (hasFiles ? "The hash of files is that of <code>cat FILES | sha256sum</code>: all files in the order of the "
+                     "frames, behind a header the files of its pixels. "
+                   : "") +
+         (hasPixels ? "The hash of pixels is that of all their bytes, least significant first, a frame after the "
+                      "other, row by row."
+                    : "") +
+         "</p>\n";
 }
 
 std::string

@@ -37,7 +37,7 @@ WarningList(const std::vector<Warning> & warnings);
 std::string
 EmvaTable(const Report & report);
 
-/** The files that were measured: how many, their size and their hash, and how it is computed by hand. "" where there is
+/** The frames that were measured: their files' number, size and hash, and how it is computed by hand. "" where there is
  * no \a input. */
 std::string
 InputTable(const std::optional<InputRecord> & input);

@@ -52,7 +52,7 @@ struct ChannelReports
   std::optional<JointOffset> joint;    ///< null: fewer than two channels found an offset of their own
   std::optional<JointMotion> motion;   ///< null: not all channels found one
   std::vector<Warning>       warnings; ///< of all channels together; each has its own, too
-  std::optional<InputRecord> input;    ///< null: not asked for, or no files; not in the channels
+  std::optional<InputRecord> input;    ///< null: not asked for; not in the channels
 
   const Report &
   Of(BayerPlane plane) const

@@ -86,14 +86,22 @@ struct Warning
   std::string message; ///< one sentence, for people, with the numbers found and expected
 };
 
-/** Files that were measured, by which a stored report is known to be of them. */
+/** Frames that were measured, by which a stored report is known to be of them: their files, or their pixels where they
+ * are in no file that this library reads. */
 struct InputFiles
 {
-  /** SHA-256, in hexadecimal digits, of the bytes of all files, one after the other in the order of the frames, behind
-   * a header the files of its pixels: what `cat FILES | sha256sum` prints. "": not computed, for want of OpenSSL. */
+  /** SHA-256, in hexadecimal digits. Of the bytes of all files, one after the other in the order of the frames, behind
+   * a header the files of its pixels: what `cat FILES | sha256sum` prints. Of pixels: of all their bytes, least
+   * significant first, a frame after the other, row by row. "": not computed, for want of OpenSSL. */
   std::string   sha256;
-  std::size_t   files{ 0 };
-  std::uint64_t bytes{ 0 }; ///< of all files
+  std::size_t   files{ 0 }; ///< 0: the pixels
+  std::uint64_t bytes{ 0 }; ///< of all files, or of the pixels
+
+  bool
+  IsOfPixels() const
+  {
+    return files == 0;
+  }
 };
 
 /** All that was read. */
@@ -114,7 +122,7 @@ struct Report
 
   std::string                                       method;
   std::vector<std::pair<std::string, SettingValue>> settings; ///< every parameter as used
-  std::optional<InputRecord>                        input;    ///< null: not asked for, or no files
+  std::optional<InputRecord>                        input;    ///< null: not asked for
 
   std::size_t           frames{ 0 };
   std::size_t           framesDistinct{ 0 }; ///< equal frames are counted once: what all but the series is made of

@@ -112,6 +112,7 @@ namespace
 void
 WriteFiles(JsonWriter & json, const InputFiles & input)
 {
+  json.Member("of", input.IsOfPixels() ? "pixels" : "files");
   json.Member("sha256", input.sha256.empty() ? std::nullopt : std::optional<std::string>(input.sha256));
   json.Member("files", input.files).Member("bytes", static_cast<std::size_t>(input.bytes));
 }

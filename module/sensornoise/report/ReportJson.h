@@ -33,7 +33,8 @@ WriteJson(JsonWriter & json, const NoiseCorrelationRecord::Lag & lag);
 SensorNoise_EXPORT void
 WriteJson(JsonWriter & json, const NoiseCorrelationRecord & correlation);
 
-/** `sha256` (null: not computed), `files`, `bytes`, and of dark frames the same in `dark`. */
+/** `of`, which is "files" or "pixels", their `sha256` (null: not computed), `files` and `bytes`, and of dark frames the
+ * same in `dark`. */
 SensorNoise_EXPORT void
 WriteJson(JsonWriter & json, const InputRecord & input);
 

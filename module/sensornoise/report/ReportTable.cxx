@@ -117,7 +117,26 @@ MostShared(const std::vector<NoiseCorrelationRecord::Lag> & lags)
     lags.begin(), lags.end(), [](const auto & a, const auto & b) { return std::abs(a.value) < std::abs(b.value); });
   return most == lags.end() ? "share some of it" : Format("share up to %.2g %% of it", 100.0 * most->value);
 }
+
+std::string
+DescribeFrames(const char * what, const InputFiles & input)
+{
+  const std::string count =
+    input.IsOfPixels() ? "pixels" : Format(input.files == 1 ? "%zu file" : "%zu files", input.files);
+  return what + (": " + count) + Format(", %llu bytes, SHA-256 ", static_cast<unsigned long long>(input.bytes)) +
+         (input.sha256.empty() ? "not computed" : input.sha256) + "\n";
+}
 } // namespace
+
+std::string
+DescribeInput(const std::optional<InputRecord> & input)
+{
+  if (!input)
+  {
+    return "";
+  }
+  return DescribeFrames("frames", input->frames) + (input->dark ? DescribeFrames("dark frames", *input->dark) : "");
+}
 
 std::string
 DescribeFit(const Report & report)
@@ -181,7 +200,7 @@ MakeTable(const Report & report)
                   100.0 * static_cast<double>(report.pixels.used) / static_cast<double>(report.pixels.total),
                   report.pixels.clipped,
                   report.pixels.notFinite);
-  table += "method: " + report.method + "\n\n";
+  table += "method: " + report.method + "\n" + DescribeInput(report.input) + "\n";
   std::vector<QuantityEntry> rows;
   std::copy_if(QuantityList().begin(),
                QuantityList().end(),

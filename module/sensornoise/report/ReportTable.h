@@ -6,6 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/report/Report.h"
 
+#include <optional>
 #include <string>
 
 namespace sensornoise
@@ -14,6 +15,12 @@ namespace sensornoise
 /** The report as a table that a person can read: what was found, one line a quantity, no warnings. */
 SensorNoise_EXPORT std::string
 MakeTable(const Report & report);
+
+/** The frames that were measured, or their files, with their hash: a line, with its end, for these and one for dark
+ * ones;
+ * "" where there is no \a input. */
+std::string
+DescribeInput(const std::optional<InputRecord> & input);
 
 /** How well the line fits, how straight the response is, and what the noise is taken for, each as a line without its
  * end; "" where the report has nothing of it. */

@@ -11,12 +11,13 @@ from ._arrays import as_mask
 from ._bayer import set_pattern
 from ._channels import ChannelReports, report_of
 from ._errors import itk_errors
-from ._frames import Stack, crop, frame_image, open_frames
+from ._frames import Stack, crop, frame_image, open_dumps, open_frames
+from ._hash import FramesHash
 from ._maps import arrays_of, maps_folder, require_apart, write_maps
 from ._names import expand, is_name
 from ._progress import at_work
 from ._report import Report
-from ._source import raw_stack, read_image
+from ._source import read_image
 from ._types import FileName, Frame, Frames, ItkObject
 
 
@@ -39,6 +40,7 @@ def estimate_sensor_noise(
     mask: Frame | FileName | None = None,
     frame_range: tuple[int, int] | None = None,
     maps: bool | FileName | None = None,
+    hash: bool = False,
     raw: str | None = None,
     threads: int | None = None,
     progress: bool = False,
@@ -102,6 +104,14 @@ def estimate_sensor_noise(
         values are README.md's); with two dark frames or more also the camera calibration: pixel_offset and
         pixel_read_noise [DN], and the ends of their 95 % intervals, _low and _high. True: arrays by these names, the
         report's `maps`. A folder: an image (.mha) each, written there. Default: none.
+    hash
+        Whether record, table and page have the SHA-256 of the frames, and of the dark ones, as `input`, by which they
+        are filed. Of names: as the tool's --hash, of the bytes of all files in their order, behind a header those of
+        its pixels; a file that changes meanwhile is an error. Of all else: of the bytes of all pixels, least
+        significant first, a frame after the other, row by row: of an array,
+        hashlib.sha256(array.astype(array.dtype.newbyteorder("<")).tobytes()). `roi` and `mask` change nothing of it,
+        and `frame_range` only that of a list, which has the frames in the range. All is read once more: lazy frames,
+        too. "of" says which it is, "files" or "pixels".
     raw
         How frames lie in files without a header, those of `frames` and of `dark`: "WxH:TYPE[:SKIP[:ROW]]", for example
         "640x480:uint16le", or "1920x1080:Mono12p:64" behind 64 other bytes; the types are README.md's. Default: the
@@ -132,6 +142,8 @@ def estimate_sensor_noise(
     import itk
 
     _options.one_of("method", method, ["refined", "published"])
+    if not isinstance(hash, bool):
+        raise _options.refuse("hash", hash, "True or False")
     _check_what_is_known(method, offset, dark)
     levels = None if level_range is None else _level_range(level_range, method)
     span = None if frame_range is None else _frame_range(frame_range)
@@ -139,18 +151,15 @@ def estimate_sensor_noise(
     frames, dark = expand(frames), expand(dark, "dark")
     if folder is not None:
         require_apart(folder, frames=frames, dark=dark, mask=mask)
-    kept = []  # an itk.Image does not keep alive what makes it
-    if raw is not None:
-        frames, source = raw_stack(frames, raw, "frames")
-        kept.append(source)
-        if dark is not None:
-            dark, source = raw_stack(dark, raw, "dark")
-            kept.append(source)
-    stack = open_frames(frames, span)
-    whole = stack.image
+    stack = open_frames(frames, span) if raw is None else open_dumps(frames, raw, span)
+    dark_stack = None
+    if dark is not None:
+        dark_stack = open_frames(dark, name="dark") if raw is None else open_dumps(dark, raw, name="dark")
+    opened, opened_dark, whole = stack, dark_stack, stack.image
     corner, size = _region(stack, roi, None if stack.is_cut else span)
     mask_array = None if mask is None else _mask_of(mask, stack.size[:2])
-    dark_stack = None if dark is None else _dark_of(dark, stack, corner, size)
+    if dark_stack is not None:
+        dark_stack = _cut_dark(dark_stack, stack, corner, size)
     if size != stack.size:
         stack = crop(stack, corner, size)
     estimator = stack.estimator(itk.SensorNoiseEstimator)
@@ -176,11 +185,26 @@ def estimate_sensor_noise(
         count = _options.integer("threads", threads, 1, 1024)
         estimator.GetMultiThreader().SetMaximumNumberOfThreads(count)
         estimator.SetNumberOfWorkUnits(count)
+    hashes = []
+    if hash:
+        hashes = _set_hashes(estimator, opened, opened_dark)
     with at_work(estimator, progress, *filter(None, (stack, dark_stack))), itk_errors():
         estimator.Update()
+    for each in hashes:
+        each.require_unchanged()
     if folder is not None:
         write_maps(estimator, folder)
     return report_of(estimator, arrays_of(estimator) if maps is True else None)
+
+
+def _set_hashes(estimator: ItkObject, frames: Stack, dark: Stack | None) -> list[FramesHash]:
+    """Hashes what is going to be measured."""
+    hashes = [FramesHash(frames)]
+    hashes[0].set(estimator.SetFramesHash)
+    if dark is not None:
+        hashes.append(FramesHash(dark))
+        hashes[1].set(estimator.SetDarkHash)
+    return hashes
 
 
 def _check_what_is_known(method: str, offset: object, dark: object) -> None:
@@ -217,9 +241,8 @@ def _level_range(level_range: tuple[float, float], method: str) -> tuple[float, 
     return low, high
 
 
-def _dark_of(dark: Frames, stack: Stack, corner: tuple[int, ...], size: tuple[int, ...]) -> Stack:
+def _cut_dark(opened: Stack, stack: Stack, corner: tuple[int, ...], size: tuple[int, ...]) -> Stack:
     """The dark frames, cut as the stack is."""
-    opened = open_frames(dark, name="dark")
     if (opened.size[:2], opened.pixel) != (stack.size[:2], stack.pixel):
         found, expected = (f"{s.size[0]} x {s.size[1]} pixels of type {s.pixel}" for s in (opened, stack))
         raise ValueError(f"dark has {found}; expected {expected}, as the frames")

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Whatever a user has as frames, as one ITK stack (x, y, time) without a second copy of it."""
 
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -32,6 +33,7 @@ class Stack:
     kept: list[Any]
     failed: list[BaseException] = field(default_factory=list)  # while lazy frames were read; see at_work()
     is_cut: bool = False  # to the frames that were asked for
+    files: list[str] = field(default_factory=list)  # all that are read, in order; empty: frames in no file of ours
 
     @property
     def size(self) -> tuple[int, int, int]:
@@ -69,6 +71,18 @@ def open_frames(frames: Frames, frame_range: tuple[int, int] | None = None, name
     require_shape(array, name, "t, y, x")
     array = as_itk_order(array)
     return Stack(view(array), pixel, [array])
+
+
+def open_dumps(frames: object, raw: object, frame_range: tuple[int, int] | None = None, name: str = "frames") -> Stack:
+    """The stack on files without a header, which lie as `raw` says. Raises ValueError where `frames` are no names of
+    files, with the `name` of the parameter, or `raw` is no layout."""
+    if not isinstance(raw, str) or not raw:
+        raise ValueError(f"raw is {raw!r}; expected a layout, for example '640x480:uint16le'")
+    names = [frames] if is_name(frames) else frames
+    if not isinstance(names, (list, tuple)) or not all(map(is_name, names)):
+        raise ValueError(f"raw was given and {name} is of type {type(frames).__name__}; expected names of files")
+    _require_range(names, frame_range)
+    return _from_files(names, frame_range, raw)
 
 
 def crop(stack: Stack, corner: tuple[int, ...], size: tuple[int, ...]) -> Stack:
@@ -119,27 +133,34 @@ def _from_image(image: ItkObject, name: str) -> Stack:
     raise ValueError(f"{name} is an {type(image).__name__}; expected an itk.Image of 3 dimensions of {PIXEL_NAMES}")
 
 
-def _from_files(names: Sequence[FileName], frame_range: tuple[int, int] | None) -> Stack:
+def _from_files(names: Sequence[FileName], frame_range: tuple[int, int] | None, raw: str = "") -> Stack:
     is_cut = frame_range is not None and len(names) > 1
     if frame_range is not None and is_cut:
         names = names[frame_range[0] : frame_range[1]]
-    if all(map(is_raw, names)):
+    if not raw and all(map(is_raw, names)):
         stack = _from_lazy(RawFiles(names), "frames")
         note_pattern(stack.image, raw_metadata(names[0])["bayer"])
+        stack.files = [os.fsdecode(name) for name in names]
     else:
-        refuse_other_formats(names)
-        source, pixel = open_files(names)
-        stack = Stack(source.GetOutput(), pixel, [source])
+        if not raw:
+            refuse_other_formats(names)
+        source, pixel = open_files(names, raw)
+        stack = Stack(source.GetOutput(), pixel, [source], files=list(source.GetFilesRead()))
     stack.is_cut = is_cut
     return stack
+
+
+def _require_range(frames: Sequence[Any], frame_range: tuple[int, int] | None) -> None:
+    """Raises ValueError where a list is shorter than what is asked for of it; of a stack that is not known yet."""
+    if frame_range is not None and len(frames) > 1 and frame_range[1] > len(frames):
+        raise ValueError(f"frame_range ends at {frame_range[1]}, but there are {len(frames)} frames")
 
 
 def _from_list(frames: Sequence[Any], frame_range: tuple[int, int] | None, name: str) -> Stack:
     if not frames:
         least = "5 frames" if name == "frames" else "1 frame"
         raise ValueError(f"{name} is an empty {type(frames).__name__}; expected at least {least}")
-    if frame_range is not None and len(frames) > 1 and frame_range[1] > len(frames):
-        raise ValueError(f"frame_range ends at {frame_range[1]}, but there are {len(frames)} frames")
+    _require_range(frames, frame_range)
     named = sum(is_name(frame) for frame in frames)
     if named == len(frames):
         return _from_files(frames, frame_range)

@@ -57,18 +57,6 @@ def open_files(file_names: Sequence[FileName], raw: str = "") -> tuple[ItkObject
     return source, pixel
 
 
-def raw_stack(frames: object, raw: str, what: str) -> tuple[ItkObject, ItkObject]:
-    """The stack on files without a header, as an itk.Image, and its source, which must outlive it. Raises ValueError
-    where `frames` are no names of files, with `what` they are called."""
-    if not isinstance(raw, str) or not raw:
-        raise ValueError(f"raw is {raw!r}; expected a layout, for example '640x480:uint16le'")
-    names = [frames] if isinstance(frames, (str, os.PathLike)) else frames
-    if not isinstance(names, (list, tuple)) or not all(isinstance(name, (str, os.PathLike)) for name in names):
-        raise ValueError(f"raw was given and {what} is of type {type(frames).__name__}; expected names of files")
-    source, _ = open_files(names, raw)
-    return source.GetOutput(), source
-
-
 def read_image(file_name: FileName, what: str) -> np.ndarray:
     """The pixels (y, x) of one image on a file, for what is called `what` in errors."""
     import itk

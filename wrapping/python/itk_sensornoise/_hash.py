@@ -1,0 +1,88 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""The SHA-256 of frames, by which a report is known to be of them."""
+
+import hashlib
+import os
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from ._frames import Stack
+
+_FILE_PIECE = 1 << 20
+_CHUNK_BYTES = 64 << 20
+
+
+class FramesHash:
+    """What is hashed of a stack as it was opened: its files, or its pixels where it is on none."""
+
+    def __init__(self, stack: Stack) -> None:
+        """Reads all of it once. Raises ValueError for a file that cannot be read, and what a reader of lazy frames
+        raises."""
+        self.files = len(stack.files)
+        self.bytes = 0
+        self._names = stack.files
+        self._states = _states(self._names)
+        self._digest = hashlib.sha256()
+        if self._names:
+            for name in self._names:
+                self._add_file(name)
+        else:
+            self._add_pixels(stack)
+
+    def set(self, setter: Callable[[str, int, int], None]) -> None:
+        """Hands it to an estimator's method."""
+        setter(self._digest.hexdigest(), self.files, self.bytes)
+
+    def require_unchanged(self) -> None:
+        """Raises ValueError where a file is not the one that was hashed. Frames in memory are not looked at."""
+        for name, before, now in zip(self._names, self._states, _states(self._names), strict=True):
+            if now != before:
+                raise ValueError(
+                    f"{name}: has changed since its hash was computed; expected a file that stays as it is"
+                )
+
+    def _add_file(self, name: str) -> None:
+        try:
+            with open(name, "rb") as file:
+                while piece := file.read(_FILE_PIECE):
+                    self._add(piece)
+        except OSError as error:
+            raise ValueError(f"{name}: cannot be read for its hash ({error.strerror})") from error
+
+    def _add_pixels(self, stack: Stack) -> None:
+        import itk
+
+        image, (width, height, frames) = stack.image, stack.size
+        region = image.GetLargestPossibleRegion()
+        start, size = list(region.GetIndex()), list(region.GetSize())
+        step = max(_CHUNK_BYTES // (width * height * np.dtype(stack.pixel).itemsize), 1)
+        for first in range(0, frames, step):
+            count = min(step, frames - first)
+            region.SetIndex([*start[:2], start[2] + first])
+            region.SetSize([*size[:2], count])
+            image.SetRequestedRegion(region)
+            image.Update()
+            for error in stack.failed:
+                raise error
+            at = start[2] + first - image.GetBufferedRegion().GetIndex()[2]
+            pixels = itk.array_view_from_image(image)[at : at + count]
+            self._add(np.ascontiguousarray(pixels, pixels.dtype.newbyteorder("<")).data.cast("B"))
+        image.SetRequestedRegionToLargestPossibleRegion()
+
+    def _add(self, piece: bytes | memoryview) -> None:
+        self._digest.update(piece)
+        self.bytes += len(piece)
+
+
+def _states(names: Sequence[str]) -> list[tuple[int, ...]]:
+    """What a file that was written anew, or replaced, has another one of; of one that has gone, nothing."""
+    states: list[tuple[int, ...]] = []
+    for name in names:
+        try:
+            found = os.stat(name)
+            states.append((found.st_dev, found.st_ino, found.st_size, found.st_mtime_ns))
+        except OSError:
+            states.append(())
+    return states
