@@ -35,24 +35,38 @@ struct SegmentSums
   {
     const std::size_t side = rows.size();
     const std::size_t length = side / Segments;
-    for (auto & column : columns)
-    {
-      column.fill(0.0);
-    }
+    using Line = std::array<double, SampleTiles::Side>;
+    std::array<Line, Segments> ofColumns{};
     cells.fill(0.0);
     for (std::size_t y = 0; y < side; ++y)
     {
+      Line   values;
+      Line & column = ofColumns[y / length];
+      for (std::size_t x = 0; x < side; ++x)
+      {
+        values[x] = valueOf(y * side + x);
+        column[x] += values[x];
+      }
+      // Of all segments side by side: one after the other, every addition would wait for the one before.
+      std::array<double, Segments> own{};
+      for (std::size_t x = 0; x < length; ++x)
+      {
+        for (std::size_t s = 0; s < Segments; ++s)
+        {
+          own[s] += values[s * length + x];
+        }
+      }
+      rows[y] = own;
       for (std::size_t s = 0; s < Segments; ++s)
       {
-        double sum = 0.0;
-        for (std::size_t x = s * length; x < (s + 1) * length; ++x)
-        {
-          const double value = valueOf(y * side + x);
-          sum += value;
-          columns[x][y / length] += value;
-        }
-        rows[y][s] = sum;
-        cells[y / length * Segments + s] += sum;
+        cells[y / length * Segments + s] += own[s];
+      }
+    }
+    for (std::size_t x = 0; x < side; ++x)
+    {
+      for (std::size_t s = 0; s < Segments; ++s)
+      {
+        columns[x][s] = ofColumns[s][x];
       }
     }
   }
