@@ -50,8 +50,10 @@ NoiseSample::AddFrames(const TPixel *              frames,
         for (std::size_t x = 0; x < m_Tiles.side; ++x)
         {
           const double value = static_cast<double>(frame[first + x]) - mean[first + x];
-          *values++ = std::isfinite(value) ? static_cast<float>(value) : 0.0F;
+          const double finite = value - value == 0.0 ? value : 0.0; // a vector instruction, unlike std::isfinite()
+          values[x] = static_cast<float>(finite);
         }
+        values += m_Tiles.side;
       }
     }
   });
