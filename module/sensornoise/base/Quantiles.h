@@ -33,11 +33,28 @@ MediansOfBins(const std::vector<double> & values, const std::vector<std::size_t>
 SensorNoise_EXPORT std::vector<double>
 EdgesOfEqualCount(std::vector<double> values, std::size_t bins);
 
+/** How many of the rising \a edges fulfil \a isBefore, as the first ones do. No branch of std::partition_point() is to
+ * be foretold, and each that is guessed wrongly takes longer than the whole search. */
+template <typename TPredicate>
+std::size_t
+CountEdges(const std::vector<double> & edges, TPredicate isBefore)
+{
+  const double * first = edges.data();
+  std::size_t    size = edges.size();
+  while (size > 1)
+  {
+    const std::size_t half = size / 2;
+    first += static_cast<std::size_t>(isBefore(first[half - 1])) * half;
+    size -= half;
+  }
+  return static_cast<std::size_t>(first - edges.data()) + (size == 1 && isBefore(*first) ? 1 : 0);
+}
+
 /** The bin between \a edges in which a value lies. */
 inline std::size_t
 BinOf(const std::vector<double> & edges, double value)
 {
-  return static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), value) - edges.begin());
+  return CountEdges(edges, [value](double edge) { return !(value < edge); });
 }
 
 /** Bins of equal count: the bin of each value. */

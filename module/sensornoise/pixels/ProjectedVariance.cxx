@@ -179,7 +179,7 @@ ProjectedVariance::Classify(const ProvisionalModel & model)
     for (std::size_t p = begin; p < end; ++p)
     {
       m_ClassOf[p] =
-        static_cast<std::uint8_t>(std::lower_bound(edges.begin(), edges.end(), roughness[p]) - edges.begin());
+        static_cast<std::uint8_t>(CountEdges(edges, [own = roughness[p]](double edge) { return edge < own; }));
     }
   });
 }
