@@ -38,20 +38,18 @@ ForBlocks(std::size_t count, const ParallelFor & parallelFor, TFunction function
               [&](std::size_t b) { function(b * PixelsPerBlock, std::min(count, (b + 1) * PixelsPerBlock)); });
 }
 
-/** Sums over \a count pixels: function(pixel, sums) adds one pixel's share to \a sums. Each block is summed on its own
- * and the blocks are folded in order, so that the result has the same bits for any number of threads. */
+/** Sums over \a count pixels: function(begin, end, sums) adds the share of a block of them to \a sums. Each block is
+ * summed on its own and the blocks are folded in order, so that the result has the same bits for any number of threads.
+ */
 template <std::size_t VSums, typename TFunction>
 std::array<double, VSums>
-SumOverBlocks(std::size_t count, const ParallelFor & parallelFor, TFunction function)
+SumBlocks(std::size_t count, const ParallelFor & parallelFor, TFunction function)
 {
   std::vector<std::array<double, VSums>> parts((count + PixelsPerBlock - 1) / PixelsPerBlock);
-  parallelFor(parts.size(), [&](std::size_t b) {
+  ForBlocks(count, parallelFor, [&](std::size_t begin, std::size_t end) {
     std::array<double, VSums> sums{};
-    for (std::size_t p = b * PixelsPerBlock; p < std::min(count, (b + 1) * PixelsPerBlock); ++p)
-    {
-      function(p, sums);
-    }
-    parts[b] = sums;
+    function(begin, end, sums);
+    parts[begin / PixelsPerBlock] = sums;
   });
   std::array<double, VSums> total{};
   for (const auto & part : parts)
@@ -64,19 +62,29 @@ SumOverBlocks(std::size_t count, const ParallelFor & parallelFor, TFunction func
   return total;
 }
 
-/** The same for sums whose number is known at run time; function(pixel, double * sums). */
+/** The same, pixel by pixel: function(pixel, sums). */
+template <std::size_t VSums, typename TFunction>
+std::array<double, VSums>
+SumOverBlocks(std::size_t count, const ParallelFor & parallelFor, TFunction function)
+{
+  return SumBlocks<VSums>(count, parallelFor, [&](std::size_t begin, std::size_t end, auto & sums) {
+    for (std::size_t p = begin; p < end; ++p)
+    {
+      function(p, sums);
+    }
+  });
+}
+
+/** SumBlocks() of sums whose number is known at run time: function(begin, end, double * sums). */
 template <typename TFunction>
 std::vector<double>
-SumOverBlocks(std::size_t count, const ParallelFor & parallelFor, std::size_t size, TFunction function)
+SumBlocks(std::size_t count, const ParallelFor & parallelFor, std::size_t size, TFunction function)
 {
   std::vector<std::vector<double>> parts((count + PixelsPerBlock - 1) / PixelsPerBlock);
-  parallelFor(parts.size(), [&](std::size_t b) {
+  ForBlocks(count, parallelFor, [&](std::size_t begin, std::size_t end) {
     std::vector<double> sums(size, 0.0);
-    for (std::size_t p = b * PixelsPerBlock; p < std::min(count, (b + 1) * PixelsPerBlock); ++p)
-    {
-      function(p, sums.data());
-    }
-    parts[b] = std::move(sums);
+    function(begin, end, sums.data());
+    parts[begin / PixelsPerBlock] = std::move(sums);
   });
   std::vector<double> total(size, 0.0);
   for (const auto & part : parts)
@@ -87,6 +95,19 @@ SumOverBlocks(std::size_t count, const ParallelFor & parallelFor, std::size_t si
     }
   }
   return total;
+}
+
+/** The same, pixel by pixel: function(pixel, double * sums). */
+template <typename TFunction>
+std::vector<double>
+SumOverBlocks(std::size_t count, const ParallelFor & parallelFor, std::size_t size, TFunction function)
+{
+  return SumBlocks(count, parallelFor, size, [&](std::size_t begin, std::size_t end, double * sums) {
+    for (std::size_t p = begin; p < end; ++p)
+    {
+      function(p, sums);
+    }
+  });
 }
 
 } // namespace sensornoise

@@ -3,7 +3,6 @@
 #include "sensornoise/pixels/LightLine.h"
 
 #include "sensornoise/base/Eigen.h"
-#include "sensornoise/base/Parallel.h"
 #include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/LevelPattern.h"
 #include "sensornoise/pixels/VarianceFit.h"
@@ -18,10 +17,7 @@ namespace sensornoise
 {
 
 VarianceLine
-FitLightLine(const VarianceFit &    fit,
-             const VarianceData &   data,
-             const ReferenceFrame & frame,
-             const ParallelFor &    parallelFor)
+FitLightLine(const VarianceFit & fit, const VarianceData & data, const ReferenceFrame & frame)
 {
   // Sums of the weight times x and v, mean and variance above the line at its pivot, and z, the neighbours' mean.
   enum : std::size_t
@@ -39,10 +35,10 @@ FitLightLine(const VarianceFit &    fit,
   const auto   diagonalOf = [&](std::size_t p) {
     return DiagonalMean(frame.mean.data(), frame.geometry.width, p) - pivot;
   };
-  const auto   s = SumOverBlocks<Sums>(data.pixels, parallelFor, [&](std::size_t p, auto & sums) {
-    if (data.mask[p] != 0 && HasDiagonals(frame.usable.data(), frame.geometry.width, p))
+  const auto   s = fit.SumWeighed<Sums>([&](std::size_t p, const VarianceFit::Weighed & weighed, auto & sums) {
+    if (HasDiagonals(frame.usable.data(), frame.geometry.width, p))
     {
-      const auto [w, value] = fit.Weigh(p);
+      const auto [w, value] = weighed;
       const double x = data.mean[p] - pivot;
       const double z = diagonalOf(p);
       sums[W] += w;
@@ -64,10 +60,10 @@ FitLightLine(const VarianceFit &    fit,
   light.pivotDn = pivot + s[WX] / s[W];
   light.intercept = s[WV] / s[W] - light.gain * light.pivotDn;
   // Of the squared scores, for the sandwich.
-  const auto squares = SumOverBlocks<3>(data.pixels, parallelFor, [&](std::size_t p, auto & sums) {
-    if (data.mask[p] != 0 && HasDiagonals(frame.usable.data(), frame.geometry.width, p))
+  const auto squares = fit.SumWeighed<3>([&](std::size_t p, const VarianceFit::Weighed & weighed, auto & sums) {
+    if (HasDiagonals(frame.usable.data(), frame.geometry.width, p))
     {
-      const auto [w, value] = fit.Weigh(p);
+      const auto [w, value] = weighed;
       const double score = w * (value - light.intercept - light.gain * data.mean[p]);
       const double z = diagonalOf(p) - zMean;
       sums[0] += score * score * z * z;
@@ -77,11 +73,11 @@ FitLightLine(const VarianceFit &    fit,
   });
   // Patterns of columns or rows make their pixels' scores alike: then columns or rows are what is independent.
   const std::size_t width = frame.geometry.width;
-  const auto        alike =
-    SumOverBlocks(data.pixels, parallelFor, width + frame.geometry.height, [&](std::size_t p, double * sums) {
-      if (data.mask[p] != 0 && HasDiagonals(frame.usable.data(), frame.geometry.width, p))
+  const auto        alike = fit.SumWeighed(
+    width + frame.geometry.height, [&](std::size_t p, const VarianceFit::Weighed & weighed, double * sums) {
+      if (HasDiagonals(frame.usable.data(), frame.geometry.width, p))
       {
-        const auto [w, value] = fit.Weigh(p);
+        const auto [w, value] = weighed;
         const double score = w * (value - light.intercept - light.gain * data.mean[p]) * (diagonalOf(p) - zMean);
         sums[p % width] += score;
         sums[width + p / width] += score;

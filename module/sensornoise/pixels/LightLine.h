@@ -4,7 +4,6 @@
 #define sensornoise_pixels_LightLine_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/base/Parallel.h"
 #include "sensornoise/pixels/VarianceLine.h"
 
 namespace sensornoise
@@ -24,10 +23,7 @@ struct VarianceData;
  * Weights, and what is trimmed, are those of \a fit. The pivot is the weighted mean of x, the covariance the sandwich.
  * Not determined with one intensity. */
 SensorNoise_EXPORT VarianceLine
-FitLightLine(const VarianceFit &    fit,
-             const VarianceData &   data,
-             const ReferenceFrame & frame,
-             const ParallelFor &    parallelFor);
+FitLightLine(const VarianceFit & fit, const VarianceData & data, const ReferenceFrame & frame);
 
 } // namespace sensornoise
 

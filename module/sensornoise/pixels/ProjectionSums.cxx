@@ -122,8 +122,8 @@ ProjectionSums::AddTogether(const TemporalBasis & basis,
   {
     weights.push_back(WeightsOf<TPixel>(basis, j, firstFrame, count));
   }
-  FramePairs<BlockPixels>       values;
-  PairSumsOfPixels<BlockPixels> products;
+  FramePairs<BlockPixels>       values{};
+  PairSumsOfPixels<BlockPixels> products{};
   for (std::size_t p = begin; p < end;)
   {
     const std::size_t size = std::min(end, (p / BlockPixels + 1) * BlockPixels) - p;

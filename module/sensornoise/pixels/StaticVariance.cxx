@@ -152,7 +152,7 @@ FitStaticVariance(ProjectedVariance &               projected,
   if (found.pattern.LargestShare() * std::abs(line.gain) >
       InPixels.negligiblePattern * std::sqrt(line.covariance(0, 0)))
   {
-    found.fromLight = FitLightLine(fit, data, frame, parallelFor);
+    found.fromLight = FitLightLine(fit, data, frame);
   }
   CorrectForNoisyMeans(line, offsetDn, frame.frames);
   found.line = line;

@@ -25,6 +25,22 @@
 namespace sensornoise
 {
 
+namespace
+{
+/** Leaves the weights where the pixel counts, 0 elsewhere. A loop of its own: where a division is in a branch, neither
+ * becomes a vector instruction. */
+template <typename TNumbers>
+void
+TakeWeights(const TNumbers & counts, std::size_t pixels, TNumbers & weights)
+{
+  for (std::size_t i = 0; i < pixels; ++i)
+  {
+    const double weight = weights[i];
+    weights[i] = counts[i] > 0.0 ? weight : 0.0;
+  }
+}
+} // namespace
+
 VarianceFit::VarianceFit(const VarianceData &                data,
                          const ParallelFor &                 parallelFor,
                          const std::optional<VarianceLine> & start,
@@ -93,21 +109,63 @@ VarianceFit::MakeTrim() const
   return { m_Line.EffectiveFreedom(m_Freedoms.lowest, m_Line.lowestDn2), m_Freedoms.highest };
 }
 
-VarianceFit::Weighed
-VarianceFit::Weigh(std::size_t p) const
+void
+VarianceFit::WeighRun(std::size_t first, std::size_t pixels, Run & run) const
 {
-  const double own = m_Line.At(m_Data.mean[p]);
-  const double expected = m_Line.At(m_Data.neighbourMean[p]);
-  const double halfFreedom = 0.5 * m_Data.freedom[p];
-  const double weight = halfFreedom / (expected * expected + halfFreedom * m_Line.noiseSpreadDn4);
-  if (m_Rule == TrimRule::Distance)
+  m_Rule == TrimRule::Distance ? this->WeighByDistance(first, pixels, run) : this->WeighByLevel(first, pixels, run);
+}
+
+void
+VarianceFit::WeighByDistance(std::size_t first, std::size_t pixels, Run & run) const
+{
+  // Copies, which no pointer can point into.
+  const VarianceLine line = m_Line;
+  const VarianceData data = m_Data;
+  const double       reach = m_ReachDn2;
+  const double       reachBelow = m_ReachBelowDn2;
+  OfRun              counts;
+  for (std::size_t i = 0; i < pixels; ++i)
   {
-    const double excess = m_Data.variance[p] - own;
-    return { excess < m_ReachDn2 && excess > -m_ReachBelowDn2 ? weight : 0.0, m_Data.variance[p] };
+    const std::size_t p = first + i;
+    const double      expected = line.At(data.neighbourMean[p]);
+    const double      halfFreedom = 0.5 * data.freedom[p];
+    const double      excess = data.variance[p] - line.At(data.mean[p]);
+    run.weight[i] = halfFreedom / (expected * expected + halfFreedom * line.noiseSpreadDn4);
+    run.value[i] = data.variance[p];
+    counts[i] = (excess > -reachBelow ? 1.0 : 0.0) * (excess < reach ? 1.0 : 0.0);
   }
-  const auto & limits = m_Trim->Of(m_Line.EffectiveFreedom(m_Data.freedom[p], own));
-  const double ratio = m_Data.variance[p] / own;
-  return { ratio > limits.low && ratio < limits.high ? weight : 0.0, m_Data.variance[p] / limits.mean };
+  TakeWeights(counts, pixels, run.weight);
+}
+
+void
+VarianceFit::WeighByLevel(std::size_t first, std::size_t pixels, Run & run) const
+{
+  const VarianceLine line = m_Line;
+  const VarianceData data = m_Data;
+  OfRun              freedom;
+  OfRun              ratio;
+  OfRun              counts;
+  for (std::size_t i = 0; i < pixels; ++i)
+  {
+    const std::size_t p = first + i;
+    const double      own = line.At(data.mean[p]);
+    const double      expected = line.At(data.neighbourMean[p]);
+    const double      halfFreedom = 0.5 * data.freedom[p];
+    run.weight[i] = halfFreedom / (expected * expected + halfFreedom * line.noiseSpreadDn4);
+    freedom[i] = line.EffectiveFreedom(data.freedom[p], own);
+    ratio[i] = data.variance[p] / own;
+  }
+  for (std::size_t i = 0; i < pixels; ++i)
+  {
+    const auto & limits = m_Trim->Of(freedom[i]);
+    counts[i] = (ratio[i] > limits.low ? 1.0 : 0.0) * (ratio[i] < limits.high ? 1.0 : 0.0);
+    run.value[i] = limits.mean;
+  }
+  TakeWeights(counts, pixels, run.weight);
+  for (std::size_t i = 0; i < pixels; ++i)
+  {
+    run.value[i] = data.variance[first + i] / run.value[i];
+  }
 }
 
 std::vector<double>
@@ -137,6 +195,36 @@ VarianceFit::SetReach()
 }
 
 void
+VarianceFit::FindSpread(std::size_t first, std::size_t pixels, SpreadTerms & terms) const
+{
+  const VarianceLine line = m_Line;
+  const VarianceData data = m_Data;
+  const double       reach = m_ReachDn2;
+  const double       reachBelow = m_ReachBelowDn2;
+  OfRun              counts;
+  for (std::size_t i = 0; i < pixels; ++i)
+  {
+    const std::size_t p = first + i;
+    const double      expected = line.At(data.neighbourMean[p]);
+    const double      chance = 2.0 * expected * expected / line.SamplingFreedom(data.freedom[p], expected);
+    const double      excess = data.variance[p] - line.At(data.mean[p]);
+    terms.weight[i] = 1.0 / (chance * chance);
+    terms.more[i] = excess * excess - chance;
+    terms.chance[i] = chance;
+    counts[i] = (excess > -reachBelow ? 1.0 : 0.0) * (excess < reach ? 1.0 : 0.0) * data.mask[p];
+  }
+  TakeWeights(counts, pixels, terms.weight);
+  for (std::size_t i = 0; i < pixels; ++i)
+  {
+    const double weight = terms.weight[i];
+    const double more = weight * terms.more[i];
+    const double chance = weight * terms.chance[i];
+    terms.more[i] = weight > 0.0 ? more : 0.0; // without freedom it is infinite
+    terms.chance[i] = weight > 0.0 ? chance : 0.0;
+  }
+}
+
+void
 VarianceFit::SetNoiseSpread()
 {
   // Sums of squared weights, times what the squared residuals have more than sampling noise, and times that noise.
@@ -147,18 +235,21 @@ VarianceFit::SetNoiseSpread()
     WWChance,
     Sums
   };
-  const auto   s = SumOverBlocks<Sums>(m_Data.pixels, m_ParallelFor, [&](std::size_t p, auto & sums) {
-    if (m_Data.mask[p] != 0 && this->Weigh(p).weight > 0.0)
+  const auto   s = SumBlocks<Sums>(m_Data.pixels, m_ParallelFor, [&](std::size_t begin, std::size_t end, auto & sums) {
+    SpreadTerms terms{};
+    auto        own = sums; // in registers
+    for (std::size_t first = begin; first < end; first += Run::MostPixels)
     {
-      const double own = m_Line.At(m_Data.mean[p]);
-      const double expected = m_Line.At(m_Data.neighbourMean[p]);
-      const double chance = 2.0 * expected * expected / m_Line.SamplingFreedom(m_Data.freedom[p], expected);
-      const double residual = m_Data.variance[p] - own;
-      const double w = 1.0 / (chance * chance);
-      sums[WW] += w;
-      sums[WWMore] += w * (residual * residual - chance);
-      sums[WWChance] += w * chance;
+      const std::size_t pixels = std::min(Run::MostPixels, end - first);
+      this->FindSpread(first, pixels, terms);
+      for (std::size_t i = 0; i < pixels; ++i)
+      {
+        own[WW] += terms.weight[i];
+        own[WWMore] += terms.more[i];
+        own[WWChance] += terms.chance[i];
+      }
     }
+    sums = own;
   });
   const double spread = s[WWMore] / std::max(1e-300, s[WW]);
   m_Line.noiseSpreadDn4 = spread * s[WW] > InPixels.leastNoiseSpread * s[WWChance] ? spread : 0.0;
@@ -180,17 +271,14 @@ VarianceFit::Iterate(int iterations)
   const double pivot = m_Line.pivotDn;
   for (int iteration = 0; m_Trim && iteration < iterations; ++iteration)
   {
-    const auto   s = SumOverBlocks<Sums>(m_Data.pixels, m_ParallelFor, [&](std::size_t p, auto & sums) {
-      if (m_Data.mask[p] != 0)
-      {
-        const auto [w, value] = this->Weigh(p);
-        const double x = m_Data.mean[p] - pivot;
-        sums[W] += w;
-        sums[WX] += w * x;
-        sums[WXX] += w * x * x;
-        sums[WV] += w * value;
-        sums[WXV] += w * x * value;
-      }
+    const auto   s = this->SumWeighed<Sums>([&](std::size_t p, const Weighed & weighed, auto & sums) {
+      const auto [w, value] = weighed;
+      const double x = m_Data.mean[p] - pivot;
+      sums[W] += w;
+      sums[WX] += w * x;
+      sums[WXX] += w * x * x;
+      sums[WV] += w * value;
+      sums[WXV] += w * x * value;
     });
     const double determinant = s[W] * s[WXX] - s[WX] * s[WX];
     m_Line.isDetermined = determinant > 1e-12 * s[W] * s[WXX];
@@ -242,24 +330,21 @@ VarianceFit::FillErrors()
     WXX,
     Sums
   };
-  const auto s = SumOverBlocks<Sums>(m_Data.pixels, m_ParallelFor, [&](std::size_t p, auto & sums) {
-    if (m_Data.mask[p] != 0)
-    {
-      const auto [w, value] = this->Weigh(p);
-      const double x = m_Data.mean[p] - m_Line.pivotDn;
-      const double residual = value - m_Line.intercept - m_Line.gain * m_Data.mean[p];
-      const double square = w * w * residual * residual;
-      sums[WWRR] += square;
-      sums[WWRRX] += square * x;
-      sums[WWRRXX] += square * x * x;
-      sums[WX3] += w * x * x * x;
-      sums[WX4] += w * x * x * x * x;
-      sums[WXXR] += w * x * x * residual;
-      sums[Trimmed] += w > 0.0 ? 0.0 : 1.0;
-      sums[Pixels] += 1.0;
-      sums[W] += w;
-      sums[WXX] += w * x * x;
-    }
+  const auto s = this->SumWeighed<Sums>([&](std::size_t p, const Weighed & weighed, auto & sums) {
+    const auto [w, value] = weighed;
+    const double x = m_Data.mean[p] - m_Line.pivotDn;
+    const double residual = value - m_Line.intercept - m_Line.gain * m_Data.mean[p];
+    const double square = w * w * residual * residual;
+    sums[WWRR] += square;
+    sums[WWRRX] += square * x;
+    sums[WWRRXX] += square * x * x;
+    sums[WX3] += w * x * x * x;
+    sums[WX4] += w * x * x * x * x;
+    sums[WXXR] += w * x * x * residual;
+    sums[Trimmed] += w > 0.0 ? 0.0 : 1.0;
+    sums[Pixels] += 1.0;
+    sums[W] += w;
+    sums[WXX] += w * x * x;
   });
   // In coordinates (gain, value at pivotDn) the information is diagonal.
   Eigen::Matrix2d inverse;
@@ -291,9 +376,15 @@ VarianceFit::FindTrimmed() const
   if (m_Trim)
   {
     ForBlocks(m_Data.pixels, m_ParallelFor, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t p = begin; p < end; ++p)
+      Run run{};
+      for (std::size_t first = begin; first < end; first += Run::MostPixels)
       {
-        trimmed[p] = m_Data.mask[p] != 0 && !(this->Weigh(p).weight > 0.0) ? 1 : 0;
+        const std::size_t pixels = std::min(Run::MostPixels, end - first);
+        this->WeighRun(first, pixels, run);
+        for (std::size_t i = 0; i < pixels; ++i)
+        {
+          trimmed[first + i] = m_Data.mask[first + i] != 0 && !(run.weight[i] > 0.0) ? 1 : 0;
+        }
       }
     });
   }
@@ -305,18 +396,15 @@ VarianceFit::CurveAbout(const VarianceLine & line) const
 {
   const std::vector<double> edges = EdgesOfEqualCount(this->SampleLevels(), VarianceCurve::Bins);
   const auto                s =
-    SumOverBlocks<VarianceCurve::Bins * CurveBin::Sums>(m_Data.pixels, m_ParallelFor, [&](std::size_t p, auto & sums) {
-      if (m_Data.mask[p] != 0)
-      {
-        const auto [w, value] = this->Weigh(p);
-        const double x = m_Data.mean[p] - line.pivotDn;
-        const double excess = value - line.intercept - line.gain * m_Data.mean[p];
-        double *     own = sums.data() + CurveBin::Sums * BinOf(edges, m_Data.neighbourMean[p]);
-        own[0] += w > 0.0 ? 1.0 : 0.0;
-        own[1] += w;
-        own[2] += w * x;
-        own[3] += w * excess;
-      }
+    this->SumWeighed<VarianceCurve::Bins * CurveBin::Sums>([&](std::size_t p, const Weighed & weighed, auto & sums) {
+      const auto [w, value] = weighed;
+      const double x = m_Data.mean[p] - line.pivotDn;
+      const double excess = value - line.intercept - line.gain * m_Data.mean[p];
+      double *     own = sums.data() + CurveBin::Sums * BinOf(edges, m_Data.neighbourMean[p]);
+      own[0] += w > 0.0 ? 1.0 : 0.0;
+      own[1] += w;
+      own[2] += w * x;
+      own[3] += w * excess;
     });
   VarianceCurve curve{ line, {} };
   for (std::size_t b = 0; b < VarianceCurve::Bins; ++b)

@@ -10,6 +10,8 @@
 #include "sensornoise/pixels/VarianceCurve.h"
 #include "sensornoise/pixels/VarianceLine.h"
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -77,8 +79,25 @@ public:
     double weight; ///< [1/DN^4]; 0: trimmed
     double value;  ///< the variance, freed of the trimming's bias [DN^2]
   };
-  Weighed
-  Weigh(std::size_t p) const;
+
+  /** SumOverBlocks() of the pixels of the mask: function(pixel, what it counts for, sums). */
+  template <std::size_t VSums, typename TFunction>
+  std::array<double, VSums>
+  SumWeighed(TFunction function) const
+  {
+    return SumBlocks<VSums>(m_Data.pixels, m_ParallelFor, [&](std::size_t begin, std::size_t end, auto & sums) {
+      this->ForWeighed(begin, end, function, sums);
+    });
+  }
+  /** The same of sums whose number is known at run time. */
+  template <typename TFunction>
+  std::vector<double>
+  SumWeighed(std::size_t size, TFunction function) const
+  {
+    return SumBlocks(m_Data.pixels, m_ParallelFor, size, [&](std::size_t begin, std::size_t end, double * sums) {
+      this->ForWeighed(begin, end, function, sums);
+    });
+  }
 
   const VarianceLine &
   GetLine() const
@@ -94,6 +113,55 @@ private:
     double      highest{ 0.0 };
     std::size_t pixels{ 0 };
   };
+
+  /** What pixels that lie one after the other count for, of the mask or not: weighed together, in vectors. */
+  struct Run
+  {
+    static constexpr std::size_t MostPixels = 512;
+
+    std::array<double, MostPixels> weight;
+    std::array<double, MostPixels> value;
+  };
+  using OfRun = std::array<double, Run::MostPixels>;
+
+  /** Weighs the pixels from \a first on. */
+  void
+  WeighRun(std::size_t first, std::size_t pixels, Run & run) const;
+  void
+  WeighByDistance(std::size_t first, std::size_t pixels, Run & run) const;
+  void
+  WeighByLevel(std::size_t first, std::size_t pixels, Run & run) const;
+  /** Adds the shares of the pixels [begin, end) of the mask. */
+  template <typename TFunction, typename TSums>
+  void
+  ForWeighed(std::size_t begin, std::size_t end, TFunction & function, TSums & sums) const
+  {
+    TSums own = sums; // in registers, if they are few
+    Run   run{};
+    for (std::size_t first = begin; first < end; first += Run::MostPixels)
+    {
+      const std::size_t pixels = std::min(Run::MostPixels, end - first);
+      this->WeighRun(first, pixels, run);
+      for (std::size_t i = 0; i < pixels; ++i)
+      {
+        if (m_Data.mask[first + i] != 0)
+        {
+          function(first + i, Weighed{ run.weight[i], run.value[i] }, own);
+        }
+      }
+    }
+    sums = own;
+  }
+
+  /** What pixels that lie one after the other add to the sums of SetNoiseSpread(). */
+  struct SpreadTerms
+  {
+    OfRun weight; // 0: trimmed, or not of the mask
+    OfRun more;
+    OfRun chance;
+  };
+  void
+  FindSpread(std::size_t first, std::size_t pixels, SpreadTerms & terms) const;
 
   static FreedomRange
   RangeOfFreedom(const VarianceData & data, const ParallelFor & parallelFor);
