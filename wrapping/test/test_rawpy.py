@@ -127,7 +127,7 @@ def test_codes_that_are_not_there_are_told(names):
     whole = names[3].read_bytes()
     names[3].write_bytes(whole.replace(struct.pack("<HHIH", 259, SHORT, 1, 1), struct.pack("<HHIH", 259, SHORT, 1, 7)))
     assert names[3].read_bytes() != whole
-    assert refused(names).startswith(f"{names[3]}: ")
+    assert refused(names).startswith(f"{names[3]}, strip or tile 0: damaged: ")
 
 
 def test_what_is_no_regular_file_is_refused(names):
