@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/series/RegressorBand.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/series/FrameRegressors.h"
+#include "sensornoise/series/FrameSums.h"
+#include "helpers/FrameTestHelper.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <gtest/gtest.h>
+#include <vector>
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+
+namespace
+{
+constexpr std::size_t Width = 72;
+constexpr std::size_t Height = 45;
+constexpr std::size_t Cells = 3;
+
+const FrameSums &
+Sums()
+{
+  static const SyntheticFrames frames(Width, Height, FlickerAndMotion(8, 100.0, 0.1), 1.0);
+  static const FrameSums       sums = frames.EmptySums();
+  return sums;
+}
+
+double
+SeriesAt(std::size_t k, std::size_t p)
+{
+  return std::sin(0.37 * static_cast<double>(p) + static_cast<double>(k)) * 100.0;
+}
+} // namespace
+
+// Vectors of any width add the same products in the same order: a processor that has wider ones gets the same bits.
+TEST(SensorNoiseRegressorBand, ProductsAreTheSumsOneAfterTheOther)
+{
+  const FrameRegressors & regressors = Sums().GetRegressors();
+  RegressorBand           band(regressors, Cells);
+  for (const std::size_t firstRow : { 7U, 20U, 0U }) // a band that moves forgets where it was
+  {
+    band.MoveTo(firstRow, firstRow == 20 ? 5 : 3);
+    for (std::size_t k = 0; k < RegressorBand::Together; ++k)
+    {
+      for (std::size_t i = 0; i < band.Pixels(); ++i)
+      {
+        band.Series(k)[i] = SeriesAt(k, band.First() + i);
+      }
+    }
+    const std::vector<RegressorBand::Sums> & sums = band.Multiply();
+    ASSERT_EQ(sums.size(), band.GetGroups().size());
+    ASSERT_GT(sums.size(), Cells);
+    for (std::size_t g = 0; g < sums.size(); ++g)
+    {
+      const RegressorBand::Group & group = band.GetGroups()[g];
+      RegressorBand::Sums          expected{};
+      for (std::size_t place = group.begin; place < group.end; ++place)
+      {
+        const std::size_t p = band.First() + band.GetOrder()[place];
+        EXPECT_EQ(regressors.ClassOf(p), group.gradientClass);
+        EXPECT_EQ(p % Width * Cells / Width, group.cell);
+        const auto columns = regressors.WeightedColumnsOf(p, regressors.ValuesOf(p));
+        for (std::size_t k = 0; k < RegressorBand::Together; ++k)
+        {
+          for (std::size_t c = 0; c < columns.size(); ++c)
+          {
+            expected[k][c] += columns[c] * SeriesAt(k, p);
+          }
+        }
+      }
+#if defined(__x86_64__) && !defined(__FMA__)
+      EXPECT_EQ(sums[g], expected) << g;
+#else
+      for (std::size_t k = 0; k < RegressorBand::Together; ++k)
+      {
+        for (std::size_t c = 0; c < expected[k].size(); ++c)
+        {
+          EXPECT_NEAR(sums[g][k][c], expected[k][c], 1e-9 * (1.0 + std::abs(expected[k][c]))) << g;
+        }
+      }
+#endif
+    }
+  }
+}
