@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -92,30 +93,30 @@ SumProducts(const NoiseResiduals & residuals, std::size_t tile, const Lag & lag,
   const std::size_t    first = shift < 0 ? static_cast<std::size_t>(-shift) : 0;
   const std::size_t    last = shift < 0 ? size : size - static_cast<std::size_t>(shift);
   products.assign(size, 0.0F);
-  const std::size_t frames = tiles.frames > later ? tiles.frames - later : 0;
-  std::size_t       t = 0;
-  for (; t + 4 <= frames; t += 4) // four at once, in order: the sums are loaded and stored a quarter as often
-  {
+  const auto add = [&](std::size_t t, auto together) {
     const float * here = values + t * size;
     const float * there = values + (t + later) * size + shift;
     for (std::size_t p = first; p < last; ++p)
     {
       float sum = products[p];
-      sum += here[p] * there[p];
-      sum += here[p + size] * there[p + size];
-      sum += here[p + 2 * size] * there[p + 2 * size];
-      sum += here[p + 3 * size] * there[p + 3 * size];
+      for (std::size_t k = 0; k < together; ++k)
+      {
+        sum += here[p + k * size] * there[p + k * size];
+      }
       products[p] = sum;
     }
+  };
+  using Four = std::integral_constant<std::size_t, 4>;
+  using One = std::integral_constant<std::size_t, 1>;
+  const std::size_t frames = tiles.frames > later ? tiles.frames - later : 0;
+  std::size_t       t = 0;
+  for (; t + Four::value <= frames; t += Four::value) // in order; the sums are loaded and stored a quarter as often
+  {
+    add(t, Four());
   }
   for (; t < frames; ++t)
   {
-    const float * here = values + t * size;
-    const float * there = values + (t + later) * size + shift;
-    for (std::size_t p = first; p < last; ++p)
-    {
-      products[p] += here[p] * there[p];
-    }
+    add(t, One());
   }
 }
 

@@ -39,6 +39,20 @@ TakeWeights(const TNumbers & counts, std::size_t pixels, TNumbers & weights)
     weights[i] = counts[i] > 0.0 ? weight : 0.0;
   }
 }
+
+/** The weight of a variance, half of whose degrees of freedom are given, where \a expected is due [1/DN^4]. */
+double
+WeightAt(const VarianceLine & line, double halfFreedom, double expected)
+{
+  return halfFreedom / (expected * expected + halfFreedom * line.noiseSpreadDn4);
+}
+
+/** 1 between two limits, else 0: as numbers, which become vector instructions. */
+double
+IsBetween(double value, double low, double high)
+{
+  return (value > low ? 1.0 : 0.0) * (value < high ? 1.0 : 0.0);
+}
 } // namespace
 
 VarianceFit::VarianceFit(const VarianceData &                data,
@@ -128,11 +142,10 @@ VarianceFit::WeighByDistance(std::size_t first, std::size_t pixels, Run & run) c
   {
     const std::size_t p = first + i;
     const double      expected = line.At(data.neighbourMean[p]);
-    const double      halfFreedom = 0.5 * data.freedom[p];
     const double      excess = data.variance[p] - line.At(data.mean[p]);
-    run.weight[i] = halfFreedom / (expected * expected + halfFreedom * line.noiseSpreadDn4);
+    run.weight[i] = WeightAt(line, 0.5 * data.freedom[p], expected);
     run.value[i] = data.variance[p];
-    counts[i] = (excess > -reachBelow ? 1.0 : 0.0) * (excess < reach ? 1.0 : 0.0);
+    counts[i] = IsBetween(excess, -reachBelow, reach);
   }
   TakeWeights(counts, pixels, run.weight);
 }
@@ -150,15 +163,14 @@ VarianceFit::WeighByLevel(std::size_t first, std::size_t pixels, Run & run) cons
     const std::size_t p = first + i;
     const double      own = line.At(data.mean[p]);
     const double      expected = line.At(data.neighbourMean[p]);
-    const double      halfFreedom = 0.5 * data.freedom[p];
-    run.weight[i] = halfFreedom / (expected * expected + halfFreedom * line.noiseSpreadDn4);
+    run.weight[i] = WeightAt(line, 0.5 * data.freedom[p], expected);
     freedom[i] = line.EffectiveFreedom(data.freedom[p], own);
     ratio[i] = data.variance[p] / own;
   }
   for (std::size_t i = 0; i < pixels; ++i)
   {
     const auto & limits = m_Trim->Of(freedom[i]);
-    counts[i] = (ratio[i] > limits.low ? 1.0 : 0.0) * (ratio[i] < limits.high ? 1.0 : 0.0);
+    counts[i] = IsBetween(ratio[i], limits.low, limits.high);
     run.value[i] = limits.mean;
   }
   TakeWeights(counts, pixels, run.weight);
@@ -211,7 +223,7 @@ VarianceFit::FindSpread(std::size_t first, std::size_t pixels, SpreadTerms & ter
     terms.weight[i] = 1.0 / (chance * chance);
     terms.more[i] = excess * excess - chance;
     terms.chance[i] = chance;
-    counts[i] = (excess > -reachBelow ? 1.0 : 0.0) * (excess < reach ? 1.0 : 0.0) * data.mask[p];
+    counts[i] = IsBetween(excess, -reachBelow, reach) * data.mask[p];
   }
   TakeWeights(counts, pixels, terms.weight);
   for (std::size_t i = 0; i < pixels; ++i)
