@@ -22,6 +22,7 @@
 #include "itkSensorNoiseErrors.h"
 #include "itkSensorNoiseEstimation.h"
 #include "itkSensorNoiseMetaData.h"
+#include "itkSensorNoisePageMaps.h"
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/FreeMemory.h"
 #include "sensornoise/base/PixelUse.h"
@@ -365,16 +366,7 @@ SensorNoiseEstimator<TStack>::GetReportAsHtml() const
   const bool         isMosaic = this->HasChannelReports(); // first: says whether there is a result
   const auto * const mean = static_cast<const FrameImageType *>(this->ProcessObject::GetOutput(1));
   const auto * const pixelUse = static_cast<const MaskImageType *>(this->ProcessObject::GetOutput(4));
-  const auto         size = mean->GetBufferedRegion().GetSize();
-
-  sensornoise::PageMaps maps;
-  if (pixelUse->GetBufferedRegion().GetSize() == size)
-  {
-    maps.width = size[0];
-    maps.height = size[1];
-    maps.mean = mean->GetBufferPointer();
-    maps.pixelUse = pixelUse->GetBufferPointer();
-  }
+  const auto         maps = PageMapsOf(mean, pixelUse);
   return isMosaic ? sensornoise::ToHtml(this->GetChannelReports(), maps) : sensornoise::ToHtml(this->GetReport(), maps);
 }
 

@@ -13,6 +13,7 @@
 #include "itkSensorNoiseEstimator.h"
 #include "itkSensorNoiseFrameListSource.h"
 #include "itkSensorNoiseMetaData.h"
+#include "itkSensorNoisePageMaps.h"
 
 #include <array>
 #include <cstddef>
@@ -163,12 +164,7 @@ MakePlot(PlotKind kind, const MeasuredStack & measured, itk::SensorNoiseEstimato
     const std::string svg = estimator.GetReportAsSvg();
     return kind == PlotKind::Png ? SvgAsPng(svg) : svg;
   }
-  PageMaps   maps;
-  const auto size = estimator.GetMean()->GetBufferedRegion().GetSize();
-  if (estimator.GetPixelUse()->GetBufferedRegion().GetSize() == size)
-  {
-    maps = { size[0], size[1], estimator.GetMean()->GetBufferPointer(), estimator.GetPixelUse()->GetBufferPointer() };
-  }
+  const PageMaps maps = itk::PageMapsOf(estimator.GetMean(), estimator.GetPixelUse());
   return std::visit([&maps](const auto & report) { return ToHtml(report, maps); }, measured);
 }
 
