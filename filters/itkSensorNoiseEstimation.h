@@ -64,6 +64,12 @@ struct SensorNoiseEstimation
   std::optional<SensorNoiseMosaic>                                 mosaic{};
   std::vector<DarkMapsPointer> dark{}; ///< of each plane; null: fewer than two frames
 
+  bool
+  IsDone() const
+  {
+    return std::visit([](const auto & atWork) { return atWork.IsDone(); }, method);
+  }
+
   /** Of the stack, or of each of its channels; \a selection, and what is known of the \a camera, are noted in each. */
   std::variant<sensornoise::Report, sensornoise::ChannelReports>
   GetReport(const sensornoise::StackSelection & selection, const sensornoise::CameraSettings & camera) const
@@ -92,23 +98,26 @@ struct SensorNoiseEstimation
       method);
   }
 
-  /** Writes a map of the method's to \a frame, of \a pixels pixels: mapOf(method) is one of its Get...() of a value for
-   * each. \a missing where there is none. */
+  /** A map of the method's, of \a pixels pixels, which it gives away: mapOf(method) is one of its Take...(). \a missing
+   * where there is none. */
   template <typename T, typename TFunction>
-  void
-  WriteMap(TFunction mapOf, T missing, T * frame, std::size_t pixels) const
+  std::vector<T>
+  TakeMap(TFunction mapOf, T missing, std::size_t pixels)
   {
-    std::visit(
-      [&](const auto & atWork) {
-        if constexpr (IsOfWholeFrame<decltype(atWork)>)
+    return std::visit(
+      [&](auto & atWork) {
+        std::vector<T> map;
+        if constexpr (IsOfWholeFrame<decltype(std::as_const(atWork))>)
         {
-          const auto & map = mapOf(atWork);
-          map.empty() ? std::fill_n(frame, pixels, missing) : std::copy(map.begin(), map.end(), frame);
+          map = mapOf(atWork);
+          map.resize(pixels, missing);
         }
         else
         {
-          atWork.WriteMap(mapOf, missing, frame);
+          map.resize(pixels);
+          atWork.WriteMap(mapOf, missing, map.data());
         }
+        return map;
       },
       method);
   }

@@ -92,8 +92,8 @@ public:
  * TemporalStatistics - NoiseRegression to rounding, and no errors. See sensornoise::PublishedMethod.
  *
  * Both take three passes over the stack, in chunks (see SensorNoiseStackSink), and one over the dark frames. Threaded;
- * the same bits for any number of threads and chunks. Memory, beside one chunk: about 250 bytes a pixel of a frame,
- * more where the light is local (Published: 70), and 20 kB a frame.
+ * the same bits for any number of threads and chunks. Memory, beside one chunk: see MemoryLimit (Published: 40 bytes a
+ * pixel).
  *
  * A stack that cannot be measured gives a report whose quantities are `failed` or `not-identifiable`, with a warning
  * that says why. Wrong use (fewer than 5 frames, frames under 3 x 3 pixels, a bit depth below the data, dark frames
@@ -236,6 +236,13 @@ public:
   /** Spacing of the codes [DN]; 0 (default): found. */
   itkSetMacro(QuantisationStep, double);
   itkGetConstMacro(QuantisationStep, double);
+
+  /** Most memory that the estimate may take beside one chunk of a stack that is not in memory [bytes] (Refined only).
+   * 0 (default): as much as it needs, 56 bytes a pixel of a frame and 8 more for each series of light and motion that
+   * is found. With less the stack is read more often, with the same result; less than 64 bytes a pixel, 20 kB a frame
+   * and 32 MiB is refused. */
+  itkSetMacro(MemoryLimit, SizeValueType);
+  itkGetConstMacro(MemoryLimit, SizeValueType);
 
   /** What was recorded may be more than the stack: the rectangle of each frame, and the frames from \a first up to but
    * not \a end, that the stack was cut out of. Noted in the report's settings, so that the measurement can be repeated;
@@ -468,6 +475,8 @@ protected:
 
   unsigned int
   NumberOfPasses() const override;
+  bool
+  RepeatsPass(unsigned int pass) const override;
   void
   GenerateNthInputRequestedRegion(unsigned int number) override;
   void
@@ -535,6 +544,7 @@ private:
   double             m_LevelRangeLow{ NumericTraits<double>::NonpositiveMin() };
   double             m_LevelRangeHigh{ NumericTraits<double>::max() };
   double             m_QuantisationStep{ 0.0 };
+  SizeValueType      m_MemoryLimit{ 0 };
   std::string        m_BayerPattern{ "none" };
 
   sensornoise::StackSelection m_Source;

@@ -21,6 +21,7 @@
 #include "itkSensorNoiseDarkSink.h"
 #include "itkSensorNoiseErrors.h"
 #include "itkSensorNoiseEstimation.h"
+#include "itkSensorNoiseMapContainer.h"
 #include "itkSensorNoiseMetaData.h"
 #include "itkSensorNoisePageMaps.h"
 #include "sensornoise/base/FrameGeometry.h"
@@ -250,7 +251,7 @@ SensorNoiseEstimator<TStack>::VerifyInputInformation() const
   this->VerifySource();
   const auto   region = this->GetInput()->GetLargestPossibleRegion();
   const double pixels = static_cast<double>(region.GetSize(0)) * static_cast<double>(region.GetSize(1));
-  const double bytesPerPixel = m_Method == MethodEnum::Refined ? 130.0 : 50.0; // measured, the least of all stacks
+  const double bytesPerPixel = m_Method == MethodEnum::Refined ? 56.0 : 40.0; // more with every series that is found
   WithItkErrors(this, [&] {
     sensornoise::RequireMemory(bytesPerPixel * pixels,
                                "the estimate of frames of " + std::to_string(region.GetSize(0)) + " x " +
@@ -275,6 +276,13 @@ SensorNoiseEstimator<TStack>::VerifyInputInformation() const
     itkExceptionMacro("the range of levels " << m_LevelRangeLow << " to " << m_LevelRangeHigh
                                              << " DN cannot be used by the method published, which fits all levels: "
                                              << "leave it out, or set the method to refined");
+  }
+  if (m_Method == MethodEnum::Published && m_MemoryLimit > 0 &&
+      static_cast<double>(m_MemoryLimit) < bytesPerPixel * pixels)
+  {
+    itkExceptionMacro("the memory limit is "
+                      << sensornoise::TextOfBytes(static_cast<double>(m_MemoryLimit)) << "; expected at least "
+                      << sensornoise::TextOfBytes(bytesPerPixel * pixels) << " for the method published");
   }
   if (dark == nullptr)
   {
@@ -568,6 +576,10 @@ SensorNoiseEstimator<TStack>::StartPasses()
   const auto makeRefined = [&](std::size_t part, const auto & frame, const auto & mask, const auto & parallelFor) {
     sensornoise::RefinedSettings settings = this->MakeRefinedSettings();
     settings.offset = offsets[part];
+    if (m_MemoryLimit > 0)
+    {
+      settings.memoryLimitBytes = static_cast<double>(m_MemoryLimit) / (mosaic ? sensornoise::BayerPlanes.size() : 1.0);
+    }
     return sensornoise::RefinedMethod<PixelType>(settings, frame, frames, mask, parallelFor);
   };
   const auto makePublished = [&](std::size_t, const auto & frame, const auto & mask, const auto & parallelFor) {
@@ -611,14 +623,21 @@ SensorNoiseEstimator<TStack>::ProcessFrames(unsigned int, const PixelType * fram
 
 template <typename TStack>
 void
-SensorNoiseEstimator<TStack>::EndPass(unsigned int pass)
+SensorNoiseEstimator<TStack>::EndPass(unsigned int)
 {
   std::visit([](auto & method) { method.EndPass(); }, m_Estimation->method);
-  if (pass + 1 == this->NumberOfPasses())
+  if (m_Estimation->IsDone())
   {
     this->FillOutputs();
     m_Estimation.reset();
   }
+}
+
+template <typename TStack>
+bool
+SensorNoiseEstimator<TStack>::RepeatsPass(unsigned int pass) const
+{
+  return pass + 1 == this->NumberOfPasses() && m_Estimation;
 }
 
 template <typename TStack>
@@ -648,18 +667,19 @@ SensorNoiseEstimator<TStack>::FillOutputs()
     this->GetReportOutput()->Set(std::move(std::get<sensornoise::Report>(report)));
   }
   const std::size_t pixels = this->GetMean()->GetLargestPossibleRegion().GetNumberOfPixels();
-  const auto        write = [&](auto * image, auto missing, const auto & mapOf) {
-    m_Estimation->WriteMap(mapOf, missing, allocate(image), pixels);
+  const auto        fill = [&](auto * image, auto missing, const auto & mapOf) {
+    const auto pixelsOfImage = SensorNoiseMapContainer<decltype(missing)>::New();
+    pixelsOfImage->TakeOver(m_Estimation->TakeMap(mapOf, missing, pixels));
+    image->SetBufferedRegion(image->GetLargestPossibleRegion());
+    image->SetPixelContainer(pixelsOfImage);
   };
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  write(this->GetMean(), nan, [](const auto & method) -> const auto & { return method.GetMean(); });
-  write(this->GetVariance(), nan, [](const auto & method) -> const auto & { return method.GetVariance(); });
-  write(this->GetCorrectedVariance(), nan, [](const auto & method) -> const auto & {
-    return method.GetCorrectedVariance();
+  fill(this->GetMean(), nan, [](auto & method) { return method.TakeMean(); });
+  fill(this->GetVariance(), nan, [](auto & method) { return method.TakeVariance(); });
+  fill(this->GetCorrectedVariance(), nan, [](auto & method) { return method.TakeCorrectedVariance(); });
+  fill(this->GetPixelUse(), static_cast<unsigned char>(sensornoise::PixelUse::Border), [](auto & method) {
+    return method.TakePixelUse();
   });
-  write(this->GetPixelUse(),
-        static_cast<unsigned char>(sensornoise::PixelUse::Border),
-        [](const auto & method) -> const auto & { return method.GetPixelUse(); });
   if (const auto calibration = m_Estimation->MakeCalibration(this->GetParallelFor()))
   {
     const auto copy = [&](auto * image, const auto & values) {
@@ -694,6 +714,7 @@ SensorNoiseEstimator<TStack>::PrintSelf(std::ostream & os, Indent indent) const
   os << indent << "LevelRangeLow: " << m_LevelRangeLow << std::endl;
   os << indent << "LevelRangeHigh: " << m_LevelRangeHigh << std::endl;
   os << indent << "QuantisationStep: " << m_QuantisationStep << std::endl;
+  os << indent << "MemoryLimit: " << m_MemoryLimit << std::endl;
   os << indent << "BayerPattern: " << m_BayerPattern << std::endl;
   if (const auto & roi = m_Source.roi)
   {

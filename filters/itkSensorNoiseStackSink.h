@@ -34,7 +34,7 @@ namespace itk
  * \brief Reads a stack, an image whose last axis is time, in chunks of whole frames and as often as a subclass wants.
  *
  * The number of requested regions is passes x chunks. By default the number of chunks is chosen: one if the stack is in
- * memory already, else as many as keep a chunk under 64 MiB. Readers that cannot stream (NRRD, multi-page TIFF) give
+ * memory already, else as many as keep a chunk under 32 MiB. Readers that cannot stream (NRRD, multi-page TIFF) give
  * the whole stack each time; still only the chunk asked for is handed on.
  *
  * An error, or an abort, resets the pipeline: the next Update() starts afresh, never from a partial result. An abort
@@ -113,6 +113,12 @@ protected:
   /** Called after the last frame of a pass. */
   virtual void
   EndPass(unsigned int pass) = 0;
+  /** Asked after EndPass(): whether the pass is repeated, which reads the stack once more. */
+  virtual bool
+  RepeatsPass(unsigned int) const
+  {
+    return false;
+  }
   /** Called after an error or an abort: gives back the memory of the passes. */
   virtual void
   DropPasses()
@@ -157,6 +163,9 @@ protected:
 private:
   unsigned int
   ChooseNumberOfChunks() const;
+  /** Gives the pixels of the chunk, which is there, to ProcessFrames(). */
+  void
+  ProcessChunk(unsigned int number);
   /** Asks the observers of progress, unless they were asked a moment ago, and throws ProcessAborted if an abort is
    * asked for. Does nothing on another thread than that of Update(). */
   void

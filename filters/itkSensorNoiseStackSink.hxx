@@ -186,16 +186,52 @@ SensorNoiseStackSink<TStack>::GenerateNthInputRequestedRegion(unsigned int numbe
   auto *              stack = const_cast<StackType *>(this->GetInput());
   const SizeValueType frames = this->GetNumberOfFrames();
   const SizeValueType chunk = number % m_Chunks;
-  const SizeValueType first = frames * chunk / m_Chunks;
+  // The larger chunks come first: a buffer that has to grow is there twice while its pixels move.
+  const SizeValueType size = frames / m_Chunks;
+  const SizeValueType larger = frames % m_Chunks;
+  const SizeValueType first = chunk * size + std::min(chunk, larger);
   m_Chunk = stack->GetLargestPossibleRegion();
   m_Chunk.SetIndex(2, m_Chunk.GetIndex(2) + static_cast<IndexValueType>(first));
-  m_Chunk.SetSize(2, frames * (chunk + 1) / m_Chunks - first);
+  m_Chunk.SetSize(2, chunk < larger ? size + 1 : size);
   stack->SetRequestedRegion(m_Chunk);
 }
 
 template <typename TStack>
 void
 SensorNoiseStackSink<TStack>::StreamedGenerateData(unsigned int number)
+{
+  this->ProcessChunk(number);
+  const unsigned int pass = number / m_Chunks;
+  if (number % m_Chunks + 1 < m_Chunks)
+  {
+    return;
+  }
+  auto * const stack = const_cast<StackType *>(this->GetInput());
+  const auto   release = [stack] {
+    if (stack->GetBufferedRegion() != stack->GetLargestPossibleRegion())
+    {
+      stack->ReleaseData(); // the next pass asks for another part of the stack
+    }
+  };
+  release();
+  this->EndPass(pass);
+  while (this->RepeatsPass(pass))
+  {
+    for (unsigned int again = pass * m_Chunks; again <= number; ++again)
+    {
+      this->GenerateNthInputRequestedRegion(again);
+      stack->PropagateRequestedRegion();
+      stack->UpdateOutputData();
+      this->ProcessChunk(again);
+    }
+    release();
+    this->EndPass(pass);
+  }
+}
+
+template <typename TStack>
+void
+SensorNoiseStackSink<TStack>::ProcessChunk(unsigned int number)
 {
   // The chunk is what was asked for: readers that cannot stream enlarge the requested region to the whole stack.
   const StackType * stack = this->GetInput();
@@ -216,16 +252,9 @@ SensorNoiseStackSink<TStack>::StreamedGenerateData(unsigned int number)
     this->TakeBreath();
     this->ProcessFrames(pass, frames + begin * framePixels, first + begin, std::min(atOnce, count - begin));
     const auto done = static_cast<float>(std::min(begin + atOnce, count)) / static_cast<float>(count);
-    this->UpdateProgress((static_cast<float>(number) + 0.99F * done) /
-                         static_cast<float>(this->GetNumberOfInputRequestedRegions()));
-  }
-  if (number % m_Chunks + 1 == m_Chunks)
-  {
-    if (stack->GetBufferedRegion() != stack->GetLargestPossibleRegion())
-    {
-      const_cast<StackType *>(stack)->ReleaseData(); // the next pass asks for another part of the stack
-    }
-    this->EndPass(pass);
+    const auto share = (static_cast<float>(number) + 0.99F * done) /
+                       static_cast<float>(this->GetNumberOfInputRequestedRegions());
+    this->UpdateProgress(std::max(this->GetProgress(), share)); // a pass that is repeated stands still
   }
 }
 

@@ -6,6 +6,7 @@
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/pixels/PixelCoordinates.h"
+#include "sensornoise/pixels/ResidualSquares.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
 #include "sensornoise/pixels/ProjectionSums.h"
 #include "sensornoise/scene/ProvisionalModel.h"
@@ -112,7 +113,9 @@ struct Input
   Project(const ParallelFor & parallelFor = SerialFor)
   {
     coordinates.emplace(std::move(sums), Basis(), frame.mean, parallelFor);
-    return { frame, Basis(), motion, *coordinates, model, mask, parallelFor };
+    ResidualSquares squares;
+    AppendResidualSquares(frame, Basis(), *coordinates, true, parallelFor, squares);
+    return { frame, Basis(), motion, std::move(squares), model, mask, parallelFor };
   }
 };
 

@@ -39,17 +39,20 @@ struct HandMadeResults
     constexpr double      highDn = 3150.0;
     for (std::size_t p = 0; p < pixels; ++p)
     {
-      scene.mean.push_back(lowDn + (highDn - lowDn) * static_cast<double>(p) / (pixels - 1.0));
-      scene.variance.push_back(scene.mean.back() - 100.0 + 64.0);
+      scene.frame.mean.push_back(lowDn + (highDn - lowDn) * static_cast<double>(p) / (pixels - 1.0));
+      scene.frame.variance.push_back(scene.frame.mean.back() - 100.0 + 64.0);
     }
-    scene.valid.assign(pixels, 1);
+    scene.valid = pixels;
     scene.pixelUse.assign(pixels, static_cast<std::uint8_t>(PixelUse::Used));
     scene.usable = pixels;
-    scene.frame = { { Size, Size, 1 }, 20, scene.mean, scene.mean, {}, scene.valid };
+    scene.frame.geometry = { Size, Size, 1 };
+    scene.frame.frames = 20;
+    scene.frame.neighbourMean = scene.frame.mean;
+    scene.frame.usable.assign(pixels, 1);
     scene.model.darkestDn = lowDn;
     scene.model.brightestDn = highDn;
     scene.model.centreDn = 1100.0;
-    correctedVariance = scene.variance;
+    correctedVariance = scene.frame.variance;
 
     VarianceLine & line = variance.line;
     line.gain = 1.0;
@@ -65,7 +68,7 @@ struct HandMadeResults
       variance.curve.bins.push_back({ 16.0, 1e-4, 1e-4 * (level - line.pivotDn), 0.0 });
     }
     variance.pixelUse = scene.pixelUse;
-    variance.mask = scene.valid;
+    variance.mask = scene.frame.usable;
 
     polished.line.offset = -1000.0;
     polished.line.standardError = 0.5;

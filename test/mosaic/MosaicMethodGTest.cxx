@@ -156,3 +156,60 @@ TEST(MosaicGeometry, SplitAndPutAreInverse)
   EXPECT_EQ(again, frame);
   EXPECT_TRUE(geometry.Take(std::vector<int>(), BayerPlane::R).empty());
 }
+
+namespace
+{
+/** A method that needs one pass more in each plane than in the one before. */
+struct MorePassesInEachPlane
+{
+  static constexpr unsigned int NumberOfPasses = 3;
+
+  std::size_t passes;
+  std::size_t frames{ 0 };
+  std::size_t ended{ 0 };
+  Report      report{};
+
+  void
+  AddFrames(const Pixel *, std::size_t count)
+  {
+    EXPECT_FALSE(this->IsDone());
+    frames += count;
+  }
+  void
+  EndPass()
+  {
+    EXPECT_FALSE(this->IsDone());
+    report.frames = frames;
+    ++ended;
+  }
+  bool
+  IsDone() const
+  {
+    return ended == passes;
+  }
+  const Report &
+  GetReport() const
+  {
+    return report;
+  }
+};
+} // namespace
+
+TEST(SensorNoiseMosaicMethod, PlanesThatAreDoneWaitForTheOthers)
+{
+  MosaicMethod<Pixel, MorePassesInEachPlane> mosaic(
+    { { 4, 4, 1 }, BayerPattern::RGGB },
+    [](BayerPlane plane, const auto &) { return MorePassesInEachPlane{ 3 + static_cast<std::size_t>(plane) }; });
+  const std::vector<Pixel> frames(5 * 16);
+  std::size_t              passes = 0;
+  for (; !mosaic.IsDone(); ++passes)
+  {
+    mosaic.AddFrames(frames.data(), 5);
+    mosaic.EndPass();
+  }
+  EXPECT_EQ(passes, 6U);
+  for (std::size_t k = 0; k < 4; ++k)
+  {
+    EXPECT_EQ(mosaic.GetReports()[k].frames, 5 * (3 + k));
+  }
+}

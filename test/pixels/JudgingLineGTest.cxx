@@ -64,7 +64,6 @@ struct Burst
   std::unique_ptr<TemporalBasis>     basis;
   ProvisionalModel                   model;
   MotionSeries                       motion;
-  std::unique_ptr<PixelCoordinates>  coordinates;
   std::unique_ptr<ProjectedVariance> projected;
 
   Burst(const std::function<double(std::size_t p)> & varianceOf, double offsetSdDn = 0.0)
@@ -102,9 +101,11 @@ struct Burst
     model.slopeDn = 0.4;
     model.darkestDn = BlackDn + 20.0;
     motion.inverseGram.resize(0, 0);
-    coordinates = std::make_unique<PixelCoordinates>(std::move(sums), *basis, frame.mean, SerialFor);
+    PixelCoordinates coordinates(std::move(sums), *basis, frame.mean, SerialFor);
+    ResidualSquares  squares;
+    AppendResidualSquares(frame, *basis, coordinates, false, SerialFor, squares);
     projected =
-      std::make_unique<ProjectedVariance>(frame, *basis, motion, *coordinates, model, frame.usable, SerialFor);
+      std::make_unique<ProjectedVariance>(frame, *basis, motion, std::move(squares), model, frame.usable, SerialFor);
     projected->Compute(0.0);
   }
   JudgingLine

@@ -53,7 +53,9 @@ struct Scene
   PixelLight
   Data() const
   {
-    return { projected, line, input.mask, CentreDn, 400.0, 1200.0 };
+    return {
+      input.frame, *input.coordinates, Basis().NumberOfLightFactors(), line, input.mask, CentreDn, 400.0, 1200.0
+    };
   }
 };
 

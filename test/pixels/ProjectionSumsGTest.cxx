@@ -222,3 +222,36 @@ TEST(SensorNoiseProjectionSums, MergeRefusesOtherSizes)
   EXPECT_THROW(sums.Merge(ProjectionSums(5, 2)), std::invalid_argument);
   EXPECT_THROW(sums.Merge(ProjectionSums(4, 3)), std::invalid_argument);
 }
+
+TEST(SensorNoiseProjectionSums, SlabsByThemselvesHaveTheBitsOfAllTogether)
+{
+  constexpr std::size_t       pixels = 2 * ProjectionSums::SlabPixels + 1000;
+  std::mt19937                random(6);
+  std::vector<unsigned short> stack(pixels * Frames);
+  std::generate(stack.begin(), stack.end(), [&random] { return static_cast<unsigned short>(random()); });
+  const auto sumsOf = [&](std::size_t firstSlab, std::size_t lastSlab) {
+    ProjectionSums sums(pixels, Series, SerialFor, firstSlab, lastSlab);
+    sums.AddFrames(Basis(), stack.data(), 0, Frames, sums.FirstPixel(), sums.LastPixel());
+    return sums;
+  };
+  ASSERT_EQ(ProjectionSums::NumberOfSlabs(pixels), 3U);
+  ProjectionSums all = sumsOf(0, 100);
+  EXPECT_EQ(all.LastPixel(), pixels);
+  for (std::size_t slab = 0; slab < 3; ++slab)
+  {
+    const ProjectionSums own = sumsOf(slab, slab + 1);
+    EXPECT_EQ(own.FirstPixel(), slab * ProjectionSums::SlabPixels);
+    ASSERT_EQ(all.FirstPixel(), own.FirstPixel());
+    for (std::size_t p = own.FirstPixel(); p < own.LastPixel(); p += 97)
+    {
+      for (std::size_t j = 0; j < Series; ++j)
+      {
+        ASSERT_EQ(own.At(p, j), all.At(p, j)) << p << ' ' << j;
+      }
+    }
+    all.ReleaseFirstSlab();
+  }
+  EXPECT_GE(all.FirstPixel(), all.LastPixel());
+  ProjectionSums first = sumsOf(0, 1);
+  EXPECT_THROW(first.Merge(sumsOf(1, 2)), std::invalid_argument);
+}

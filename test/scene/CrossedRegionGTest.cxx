@@ -50,7 +50,7 @@ FrameWith(const Excess & excess, std::size_t size = Size)
       const double gx = ApplyStencil(stencils[StencilX], frame.mean.data(), size, p);
       const double gy = ApplyStencil(stencils[StencilY], frame.mean.data(), size, p);
       const double variance = truth.RawVariance(frame.neighbourMean[p], gx, gy) + excess(x, y, frame.mean[p]);
-      frame.squares[p] = gamma(random) * variance;
+      frame.variance[p] = gamma(random) * variance / Freedom;
     }
   }
   return frame;

@@ -36,8 +36,8 @@ FrameOf(const ProvisionalModel & truth, std::size_t every = 0)
     {
       const double gx = ApplyStencil(stencils[StencilX], frame.mean.data(), Width, p);
       const double gy = ApplyStencil(stencils[StencilY], frame.mean.data(), Width, p);
-      frame.squares[p] = 39.0 * truth.RawVariance(frame.neighbourMean[p], gx, gy);
-      frame.squares[p] *= every > 0 && ++count % every == 0 ? 50.0 : 1.0;
+      frame.variance[p] = truth.RawVariance(frame.neighbourMean[p], gx, gy);
+      frame.variance[p] *= every > 0 && ++count % every == 0 ? 50.0 : 1.0;
     }
   }
   return frame;

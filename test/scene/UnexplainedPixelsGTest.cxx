@@ -31,9 +31,9 @@ TEST(SensorNoiseUnexplainedPixels, AreThoseFarAboveTheModel)
   frames.model.largestRatio = 3.0;
   auto &     frame = frames.reference;
   const auto setRatio = [&](std::size_t p, double ratio) {
-    frame.squares[p] = 19.0 * ratio * frames.model.RawVariance(frame.neighbourMean[p], 0.0, 0.0);
+    frame.variance[p] = ratio * frames.model.RawVariance(frame.neighbourMean[p], 0.0, 0.0);
   };
-  for (std::size_t p = 0; p < frame.squares.size(); ++p)
+  for (std::size_t p = 0; p < frame.variance.size(); ++p)
   {
     setRatio(p, 1.0);
   }

@@ -57,7 +57,7 @@ TEST(SensorNoiseUsablePixels, UseSaysWhyAPixelCannotServe)
   variance[10 * Width + 30] = 0.0;
   mask[10 * Width + 40] = 0;
   const auto frame = MakeReferenceFrame(mean, variance, valid, { Width, Height, 1 }, Frames);
-  const auto pixelUse = FindPixelUse(frame, variance, valid, mask);
+  const auto pixelUse = FindPixelUse(frame, valid, mask);
   ExpectUse(pixelUse, Centre, PixelUse::Used);
   ExpectUse(pixelUse, 1, PixelUse::Border);
   ExpectUse(pixelUse, 10 * Width + 10, PixelUse::NotFinite);
@@ -65,7 +65,7 @@ TEST(SensorNoiseUsablePixels, UseSaysWhyAPixelCannotServe)
   ExpectUse(pixelUse, 10 * Width + 20, PixelUse::Clipped);
   ExpectUse(pixelUse, 10 * Width + 30, PixelUse::Constant);
   ExpectUse(pixelUse, 10 * Width + 40, PixelUse::Masked);
-  ExpectUse(FindPixelUse(frame, variance, valid, {}), 10 * Width + 40, PixelUse::Used);
+  ExpectUse(FindPixelUse(frame, valid, {}), 10 * Width + 40, PixelUse::Used);
 }
 
 TEST(SensorNoiseUsablePixels, WithoutCodesAllServe)

@@ -121,6 +121,17 @@ TEST(SensorNoiseTemporalBasis, ToCoordinatesIsTheProjection)
   }
 }
 
+TEST(SensorNoiseTemporalBasis, LightAloneHasTheCoordinatesOfTheWhole)
+{
+  const TemporalBasis basis = BasisOf(Normal(Frames, 9, 3), 2);
+  const TemporalBasis light = basis.OfLight();
+  ASSERT_EQ(light.Size(), 3u);
+  EXPECT_EQ(light.NumberOfLightFactors(), 3u);
+  EXPECT_EQ(light.GetBasis(), basis.GetBasis().leftCols(3));
+  const Eigen::VectorXd y = 30.0 * Normal(Frames, 1, 4).array() + 3000.0;
+  EXPECT_EQ(CoordinatesOf(light, y.eval()), CoordinatesOf(basis, y.eval()).head(3).eval());
+}
+
 TEST(SensorNoiseTemporalBasis, ResidualSquaresFromSumsAreThoseOfTheExplicitResiduals)
 {
   // RSS = M2 - C' P^-1 C, estimator.md 6.

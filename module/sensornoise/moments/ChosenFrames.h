@@ -14,7 +14,7 @@ namespace sensornoise
 {
 
 /** Calls function(frames, number) with the frames that \a isChosen, one after the other in memory: in place if all are,
- * else copies of some at a time, of at most 64 MiB or one frame, in order. \a frames holds as many frames as
+ * else copies of some at a time, of at most 32 MiB or one frame, in order. \a frames holds as many frames as
  * \a isChosen has flags. */
 template <typename TPixel, typename TFunction>
 void
@@ -40,7 +40,7 @@ ForChosenFrames(const TPixel *                    frames,
     }
     return;
   }
-  const std::size_t   together = std::max<std::size_t>(1, (std::size_t{ 64 } << 20) / (pixels * sizeof(TPixel)));
+  const std::size_t   together = std::max<std::size_t>(1, (std::size_t{ 32 } << 20) / (pixels * sizeof(TPixel)));
   std::vector<TPixel> copies(std::min(together, chosen.size()) * pixels);
   for (std::size_t first = 0; first < chosen.size(); first += together)
   {

@@ -59,7 +59,10 @@ public:
   AddFrames(const TPixel * frames, std::size_t count)
   {
     m_Planes.ForPlanes(frames, count, m_ParallelFor, [this](std::size_t k, const TPixel * plane, std::size_t now) {
-      m_Methods[k].AddFrames(plane, now);
+      if (!m_Methods[k].IsDone()) // some planes may need more passes than others
+      {
+        m_Methods[k].AddFrames(plane, now);
+      }
     });
   }
 
@@ -73,7 +76,10 @@ public:
     m_ParallelFor(m_Methods.size(), [&](std::size_t k) {
       try
       {
-        m_Methods[k].EndPass();
+        if (!m_Methods[k].IsDone())
+        {
+          m_Methods[k].EndPass();
+        }
       }
       catch (...)
       {
@@ -90,6 +96,13 @@ public:
     }
   }
 
+  /** Whether all planes' reports are there. */
+  bool
+  IsDone() const
+  {
+    return std::all_of(m_Methods.begin(), m_Methods.end(), [](const TMethod & method) { return method.IsDone(); });
+  }
+
   /** In the order of BayerPlanes. */
   std::array<Report, 4>
   GetReports() const
@@ -100,11 +113,11 @@ public:
   }
 
   /** Writes a map to \a frame, every pixel with the value of its plane: mapOf(method) is the method's GetMean(),
-   * GetVariance(), GetCorrectedVariance() or GetPixelUse(). Where there is none, and in a last column or row that is in
-   * no plane, \a missing. */
+   * GetVariance(), GetCorrectedVariance() or GetPixelUse(), or what takes it. Where there is none, and in a last column
+   * or row that is in no plane, \a missing. */
   template <typename T, typename TFunction>
   void
-  WriteMap(TFunction mapOf, T missing, T * frame) const
+  WriteMap(TFunction mapOf, T missing, T * frame)
   {
     const MosaicGeometry & geometry = m_Planes.GetGeometry();
     std::fill_n(frame, geometry.frame.Pixels(), missing);

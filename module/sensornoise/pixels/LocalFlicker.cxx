@@ -4,10 +4,8 @@
 
 #include "sensornoise/pixels/PixelCoordinates.h"
 #include "sensornoise/pixels/PixelLight.h"
-#include "sensornoise/pixels/ProjectedVariance.h"
 #include "sensornoise/pixels/VarianceLine.h"
 #include "sensornoise/scene/ReferenceFrame.h"
-#include "sensornoise/series/TemporalBasis.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,8 +24,8 @@ LocalFlicker::Sd(double offset) const
 LocalFlicker
 SumLocalFlicker(const PixelLight & data)
 {
-  const ReferenceFrame & frame = data.projected.GetFrame();
-  const std::size_t      light = data.projected.GetBasis().NumberOfLightFactors();
+  const ReferenceFrame & frame = data.frame;
+  const std::size_t      light = data.factors;
   LocalFlicker           sums;
   sums.frames = static_cast<double>(frame.frames);
   for (std::size_t p = 0; p < data.mask.size(); ++p)
@@ -38,7 +36,7 @@ SumLocalFlicker(const PixelLight & data)
       const double centred = frame.mean[p] - data.centreDn;
       for (std::size_t j = 0; j < light; ++j)
       {
-        sums.energy += std::pow(data.projected.GetCoordinates().At(p, j), 2) / noise - 1.0;
+        sums.energy += std::pow(data.coordinates.At(p, j), 2) / noise - 1.0;
       }
       sums.w += 1.0 / noise;
       sums.wI += centred / noise;

@@ -6,10 +6,8 @@
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/PixelLight.h"
-#include "sensornoise/pixels/ProjectedVariance.h"
 #include "sensornoise/pixels/VarianceLine.h"
 #include "sensornoise/scene/ReferenceFrame.h"
-#include "sensornoise/series/TemporalBasis.h"
 
 #include <algorithm>
 #include <array>
@@ -156,7 +154,7 @@ SumTiles(const PixelLight &                       data,
          std::size_t                              tileHeight,
          std::size_t                              tileWidth)
 {
-  const ReferenceFrame & frame = data.projected.GetFrame();
+  const ReferenceFrame & frame = data.frame;
   const std::size_t      width = frame.geometry.width;
   const std::size_t      light = responses.size();
   const auto             frames = static_cast<double>(frame.frames);
@@ -203,7 +201,7 @@ SumTiles(const PixelLight &                       data,
 std::optional<LocalOffset>
 FindLocalOffset(const PixelLight & data, const ParallelFor & parallelFor)
 {
-  const std::size_t                                    width = data.projected.GetFrame().geometry.width;
+  const std::size_t                                    width = data.frame.geometry.width;
   const auto                                           responses = ResponsesWithoutMotion(data, parallelFor);
   constexpr std::size_t                                trials = 6;
   const std::array<std::array<std::size_t, 2>, trials> sizes{

@@ -5,10 +5,8 @@
 #include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/PixelCoordinates.h"
 #include "sensornoise/pixels/PixelLight.h"
-#include "sensornoise/pixels/ProjectedVariance.h"
 #include "sensornoise/pixels/VarianceLine.h"
 #include "sensornoise/scene/ReferenceFrame.h"
-#include "sensornoise/series/TemporalBasis.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,9 +33,9 @@ bool
 IsOffsetDrift(const PixelLight & data)
 {
   const std::size_t      side = InPattern.driftTileSide;
-  const ReferenceFrame & frame = data.projected.GetFrame();
+  const ReferenceFrame & frame = data.frame;
   const std::size_t      width = frame.geometry.width;
-  const std::size_t      light = data.projected.GetBasis().NumberOfLightFactors();
+  const std::size_t      light = data.factors;
   const Tiles            tiles{ side, side, (width + side - 1) / side };
   const std::size_t      count = tiles.across * ((frame.geometry.height + side - 1) / side);
   for (std::size_t j = 1; j < light; ++j)
@@ -50,7 +48,7 @@ IsOffsetDrift(const PixelLight & data)
       {
         const double w = 1.0 / data.line.At(frame.neighbourMean[p]);
         const double centred = frame.mean[p] - data.centreDn;
-        const double z = data.projected.GetCoordinates().At(p, j);
+        const double z = data.coordinates.At(p, j);
         for (LineSums * s : { &parts[tiles.Of(p, width)], &whole })
         {
           s->w += w;

@@ -20,12 +20,14 @@ PixelCoordinates::PixelCoordinates(ProjectionSums &&           sums,
                                    const ParallelFor &         parallelFor)
   : m_Coordinates(std::move(sums))
 {
-  if (basis.Size() == 0)
+  if (basis.Size() == 0 || mean.empty())
   {
     return;
   }
-  ForBlocks(mean.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; p += BlockPixels)
+  const std::size_t offset = m_Coordinates.FirstPixel();
+  ForBlocks(m_Coordinates.LastPixel() - offset, parallelFor, [&](std::size_t begin, std::size_t end) {
+    end += offset;
+    for (std::size_t p = begin + offset; p < end; p += BlockPixels)
     {
       basis.ToCoordinates(&m_Coordinates.At(p, 0), BlockPixels, mean.data() + p, std::min(BlockPixels, end - p));
     }

@@ -26,11 +26,32 @@ public:
   /** Pixels whose coordinates on one series lie side by side. */
   static constexpr std::size_t BlockPixels = ProjectionSums::BlockPixels;
 
+  /** Of no pixels. */
+  PixelCoordinates() = default;
+
   /** Takes \a sums over; \a mean is that of every pixel over time [DN]. */
   explicit PixelCoordinates(ProjectionSums &&           sums,
                             const TemporalBasis &       basis,
                             const std::vector<double> & mean,
                             const ParallelFor &         parallelFor);
+
+  /** The pixels [first, last) whose coordinates are held. */
+  std::size_t
+  FirstPixel() const
+  {
+    return m_Coordinates.FirstPixel();
+  }
+  std::size_t
+  LastPixel() const
+  {
+    return m_Coordinates.LastPixel();
+  }
+  /** Gives the memory of the first slab that is held back, see ProjectionSums. */
+  void
+  ReleaseFirstSlab()
+  {
+    m_Coordinates.ReleaseFirstSlab();
+  }
 
   /** The coordinate of pixel \a p on series \a j. */
   double

@@ -7,10 +7,8 @@
 #include "sensornoise/base/Stencils.h"
 #include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/PixelCoordinates.h"
-#include "sensornoise/pixels/ProjectedVariance.h"
 #include "sensornoise/pixels/VarianceLine.h"
 #include "sensornoise/scene/ReferenceFrame.h"
-#include "sensornoise/series/TemporalBasis.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -30,8 +28,8 @@ class Bands
 public:
   explicit Bands(const PixelLight & data)
     : m_Data(data)
-    , m_Frame(data.projected.GetFrame())
-    , m_Light(data.projected.GetBasis().NumberOfLightFactors())
+    , m_Frame(data.frame)
+    , m_Light(data.factors)
   {}
 
   std::size_t
@@ -73,7 +71,7 @@ public:
         std::copy_n(ApplyStencils(m_Frame.mean.data(), width, p).begin(), Derivatives, z.begin());
         for (std::size_t j = 0; j < m_Light; ++j)
         {
-          z[Derivatives + j] = m_Data.projected.GetCoordinates().At(p, j);
+          z[Derivatives + j] = m_Data.coordinates.At(p, j);
         }
         function(p, 1.0 / m_Data.line.At(m_Frame.neighbourMean[p]), m_Frame.mean[p] - m_Data.centreDn, z);
       }

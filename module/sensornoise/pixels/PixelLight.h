@@ -13,13 +13,16 @@
 namespace sensornoise
 {
 
-class ProjectedVariance;
+class PixelCoordinates;
+struct ReferenceFrame;
 struct VarianceLine;
 
 /** The projected stack and what is known of it when the light is looked at, pixel by pixel. */
 struct PixelLight
 {
-  const ProjectedVariance &         projected;
+  const ReferenceFrame &            frame;
+  const PixelCoordinates &          coordinates;
+  std::size_t                       factors; ///< of light: the first coordinates
   const VarianceLine &              line;
   const std::vector<std::uint8_t> & mask;
   double                            centreDn;  ///< the level that is subtracted from the means [DN]

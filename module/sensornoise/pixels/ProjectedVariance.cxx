@@ -8,7 +8,6 @@
 #include "sensornoise/base/Quantiles.h"
 #include "sensornoise/base/Stencils.h"
 #include "sensornoise/pixels/Constants.h"
-#include "sensornoise/pixels/PixelCoordinates.h"
 #include "sensornoise/pixels/VarianceLine.h"
 #include "sensornoise/scene/ProvisionalModel.h"
 #include "sensornoise/scene/ReferenceFrame.h"
@@ -21,6 +20,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace sensornoise
@@ -58,22 +58,19 @@ Leverage(const ReferenceFrame & frame, const MotionSeries & motion, std::size_t 
 ProjectedVariance::ProjectedVariance(const ReferenceFrame &            frame,
                                      const TemporalBasis &             basis,
                                      const MotionSeries &              motion,
-                                     const PixelCoordinates &          coordinates,
+                                     ResidualSquares                   squares,
                                      const ProvisionalModel &          model,
                                      const std::vector<std::uint8_t> & mask,
                                      const ParallelFor &               parallelFor)
   : m_Frame(frame)
   , m_Basis(basis)
-  , m_Coordinates(coordinates)
   , m_Mask(mask)
   , m_ParallelFor(parallelFor)
-  , m_Rss(frame.mean.size(), 0.0)
-  , m_Skew(frame.mean.size(), 0.0F)
-  , m_Variance(frame.mean.size(), 0.0)
+  , m_Variance(std::move(squares.rss))
+  , m_Skew(std::move(squares.skew))
   , m_Freedom(frame.mean.size(), 0.0F)
   , m_ClassOf(frame.mean.size(), 0)
 {
-  this->SumCoordinates();
   this->CountFreedom(motion, model);
   this->Classify(model);
 }
@@ -81,11 +78,22 @@ ProjectedVariance::ProjectedVariance(const ReferenceFrame &            frame,
 void
 ProjectedVariance::Compute(double gain)
 {
+  const double more = gain - std::exchange(m_Gain, gain);
   ForBlocks(m_Mask.size(), m_ParallelFor, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p)
     {
-      m_Variance[p] =
-        m_Mask[p] != 0 ? (m_Rss[p] + gain * m_Skew[p]) / m_Freedom[p] - m_CodeNoise.RestAt(m_Frame.mean[p]) : 0.0;
+      m_Variance[p] += m_Mask[p] != 0 ? more * m_Skew[p] / m_Freedom[p] : 0.0;
+    }
+  });
+}
+
+void
+ProjectedVariance::TakeOffRest(const CodeNoise & noise)
+{
+  ForBlocks(m_Mask.size(), m_ParallelFor, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p)
+    {
+      m_Variance[p] -= m_Mask[p] != 0 ? noise.RestAt(m_Frame.mean[p]) : 0.0;
     }
   });
 }
@@ -95,30 +103,6 @@ ProjectedVariance::GetData(const std::vector<std::uint8_t> & mask) const
 {
   return { m_Frame.mean.data(), m_Frame.neighbourMean.data(), m_Variance.data(), m_Freedom.data(), mask.data(),
            mask.size() };
-}
-
-void
-ProjectedVariance::SumCoordinates()
-{
-  const Eigen::MatrixXd & q = m_Basis.GetBasis();
-  const Eigen::VectorXd   skew = q.transpose() * q.cwiseAbs2().rowwise().sum();
-  ForBlocks(m_Mask.size(), m_ParallelFor, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t first = begin; first < end; first += PixelCoordinates::BlockPixels)
-    {
-      const std::size_t pixels = std::min(PixelCoordinates::BlockPixels, end - first);
-      std::copy_n(m_Frame.squares.data() + first, pixels, m_Rss.data() + first);
-      for (std::size_t j = 0; j < m_Basis.Size(); ++j)
-      {
-        const double * coordinates = m_Coordinates.Of(first, j);
-        const double   factor = skew(static_cast<Eigen::Index>(j));
-        for (std::size_t i = 0; i < pixels; ++i)
-        {
-          m_Rss[first + i] -= coordinates[i] * coordinates[i];
-          m_Skew[first + i] += static_cast<float>(factor * coordinates[i]);
-        }
-      }
-    }
-  });
 }
 
 void
@@ -134,6 +118,11 @@ ProjectedVariance::CountFreedom(const MotionSeries & motion, const ProvisionalMo
         const double noise = model.NoiseVariance(m_Frame.neighbourMean[p]);
         const double leverage = Leverage(m_Frame, motion, p, 1e-5 * noise) / noise;
         m_Freedom[p] = static_cast<float>(freedom * (1.0 - std::min(InPixels.largestLeverage, leverage)));
+        m_Variance[p] /= m_Freedom[p];
+      }
+      else
+      {
+        m_Variance[p] = 0.0;
       }
     }
   });
@@ -156,18 +145,22 @@ ProjectedVariance::Classify(const ProvisionalModel & model)
   const double sd = std::sqrt(std::max(model.vibrationXPixels2, model.vibrationYPixels2));
   const auto   radius = static_cast<std::size_t>(
     sd < InPixels.smallMotion ? 2.0 : 2.0 + std::ceil(InPixels.motionSds * std::min(sd, InPixels.largestMotion)));
-  std::vector<double> roughness = BoxSum(energy, width, m_Frame.geometry.height, radius, m_ParallelFor);
-  std::vector<double> sample;
-  ForBlocks(roughness.size(), m_ParallelFor, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p)
-    {
-      roughness[p] /= model.NoiseVariance(m_Frame.neighbourMean[p]);
-    }
+  // Twice, for a sample and for all: the sums are cheaper to make than to hold.
+  const auto forRoughness = [&](const auto & use) {
+    const auto rows = [&] { return RowsOf(energy, width); };
+    ForBoxRows(rows, width, m_Frame.geometry.height, radius, m_ParallelFor, [&](std::size_t y, const double * sums) {
+      use(y * width, (y + 1) * width, [&, first = y * width](std::size_t p) {
+        return sums[p - first] / model.NoiseVariance(m_Frame.neighbourMean[p]);
+      });
+    });
+  };
+  const std::vector<std::size_t> pixels = SamplePixels(m_Mask);
+  std::vector<double>            sample(pixels.size());
+  forRoughness([&](std::size_t begin, std::size_t end, const auto & roughnessOf) {
+    const auto first = std::lower_bound(pixels.begin(), pixels.end(), begin);
+    const auto last = std::lower_bound(first, pixels.end(), end);
+    std::transform(first, last, sample.begin() + (first - pixels.begin()), roughnessOf);
   });
-  for (const std::size_t p : SamplePixels(m_Mask))
-  {
-    sample.push_back(roughness[p]);
-  }
   std::vector<double> edges;
   for (std::size_t c = 1; c < Classes && !sample.empty(); ++c)
   {
@@ -175,11 +168,11 @@ ProjectedVariance::Classify(const ProvisionalModel & model)
     const double rank = c <= 15 ? 0.06 * static_cast<double>(c) : 0.92 + 0.075 * static_cast<double>(c - 16) / 7.0;
     edges.push_back(Quantile(sample, rank));
   }
-  ForBlocks(roughness.size(), m_ParallelFor, [&](std::size_t begin, std::size_t end) {
+  forRoughness([&](std::size_t begin, std::size_t end, const auto & roughnessOf) {
     for (std::size_t p = begin; p < end; ++p)
     {
       m_ClassOf[p] =
-        static_cast<std::uint8_t>(CountEdges(edges, [own = roughness[p]](double edge) { return edge < own; }));
+        static_cast<std::uint8_t>(CountEdges(edges, [own = roughnessOf(p)](double edge) { return edge < own; }));
     }
   });
 }

@@ -6,6 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/pixels/CodeNoise.h"
+#include "sensornoise/pixels/ResidualSquares.h"
 #include "sensornoise/pixels/VarianceLine.h"
 
 #include <cstddef>
@@ -16,7 +17,6 @@
 namespace sensornoise
 {
 
-class PixelCoordinates;
 class TemporalBasis;
 struct MotionSeries;
 struct ProvisionalModel;
@@ -49,23 +49,21 @@ class SensorNoise_EXPORT ProjectedVariance
 public:
   static constexpr std::size_t Classes = 24;
 
-  /** All references must outlive the object. */
+  /** \a squares are those of the basis' coordinates. All references must outlive the object. */
   ProjectedVariance(const ReferenceFrame &            frame,
                     const TemporalBasis &             basis,
                     const MotionSeries &              motion,
-                    const PixelCoordinates &          coordinates,
+                    ResidualSquares                   squares,
                     const ProvisionalModel &          model,
                     const std::vector<std::uint8_t> & mask,
                     const ParallelFor &               parallelFor);
 
-  /** What of the noise of rounding is no line is taken off by Compute(). */
+  /** Takes off what of the noise of rounding is no line. */
   void
-  SetCodeNoise(const CodeNoise & noise)
-  {
-    m_CodeNoise = noise;
-  }
+  TakeOffRest(const CodeNoise & noise);
 
-  /** Computes the variance; \a gain [DN/e-] serves the noise that changes with the light. */
+  /** Computes the variance with another gain [DN/e-], which serves the noise that changes with the light; at first it
+   * is 0. */
   void
   Compute(double gain);
 
@@ -103,20 +101,11 @@ public:
   {
     return m_Basis;
   }
-  /** The pixels' coordinates in the basis. */
-  const PixelCoordinates &
-  GetCoordinates() const
-  {
-    return m_Coordinates;
-  }
   VarianceData
   GetData(const std::vector<std::uint8_t> & mask) const;
 
 private:
-  /** Residual squares and skew term of all pixels. */
-  void
-  SumCoordinates();
-  /** The degrees of freedom of the mask's pixels. */
+  /** The degrees of freedom of the mask's pixels, by which their squares are divided. */
   void
   CountFreedom(const MotionSeries & motion, const ProvisionalModel & model);
   void
@@ -124,13 +113,11 @@ private:
 
   const ReferenceFrame &            m_Frame;
   const TemporalBasis &             m_Basis;
-  const PixelCoordinates &          m_Coordinates;
   const std::vector<std::uint8_t> & m_Mask;
   ParallelFor                       m_ParallelFor;
-  CodeNoise                         m_CodeNoise;
-  std::vector<double>               m_Rss;
-  std::vector<float>                m_Skew; // sum_i S_i sum_j K_ij
+  double                            m_Gain{ 0.0 };
   std::vector<double>               m_Variance;
+  std::vector<float>                m_Skew; // sum_i S_i sum_j K_ij
   std::vector<float>                m_Freedom;
   std::vector<std::uint8_t>         m_ClassOf;
 };

@@ -75,15 +75,27 @@ TakePairs(const TPixel * frames, std::size_t stride, std::size_t count, std::siz
 }
 } // namespace
 
-ProjectionSums::ProjectionSums(std::size_t pixels, std::size_t series, const ParallelFor & parallelFor)
+ProjectionSums::ProjectionSums(std::size_t         pixels,
+                               std::size_t         series,
+                               const ParallelFor & parallelFor,
+                               std::size_t         firstSlab,
+                               std::size_t         lastSlab)
   : m_Pixels(pixels)
   , m_Series(series)
-  , m_Sums(static_cast<Eigen::Index>((pixels + BlockPixels - 1) / BlockPixels * BlockPixels * series))
+  , m_FirstSlab(firstSlab)
+  , m_LastSlab(std::min(lastSlab, NumberOfSlabs(pixels)))
+  , m_Slabs(NumberOfSlabs(pixels))
 {
-  // The memory's first use is slow: all threads share it.
-  ForBlocks(static_cast<std::size_t>(m_Sums.size()), parallelFor, [this](std::size_t begin, std::size_t end) {
-    std::fill(m_Sums.data() + begin, m_Sums.data() + end, 0.0);
-  });
+  for (std::size_t slab = m_FirstSlab; slab < m_LastSlab; ++slab)
+  {
+    const std::size_t own = std::min(SlabPixels, pixels - slab * SlabPixels);
+    Eigen::ArrayXd &  sums = m_Slabs[slab];
+    sums.resize(static_cast<Eigen::Index>((own + BlockPixels - 1) / BlockPixels * BlockPixels * series));
+    // The memory's first use is slow: all threads share it.
+    ForBlocks(static_cast<std::size_t>(sums.size()), parallelFor, [&sums](std::size_t begin, std::size_t end) {
+      std::fill(sums.data() + begin, sums.data() + end, 0.0);
+    });
+  }
 }
 
 template <typename TPixel>
@@ -204,13 +216,17 @@ ProjectionSums::AddFrames(const TemporalBasis &, const double *, std::size_t, st
 void
 ProjectionSums::Merge(const ProjectionSums & other)
 {
-  if (other.m_Pixels != m_Pixels || other.m_Series != m_Series)
+  if (other.m_Pixels != m_Pixels || other.m_Series != m_Series || other.m_FirstSlab != m_FirstSlab ||
+      other.m_LastSlab != m_LastSlab)
   {
     throw std::invalid_argument("projections of " + std::to_string(other.m_Pixels) + " pixels on " +
                                 std::to_string(other.m_Series) + " series cannot be merged into those of " +
                                 std::to_string(m_Pixels) + " pixels on " + std::to_string(m_Series));
   }
-  m_Sums += other.m_Sums;
+  for (std::size_t slab = m_FirstSlab; slab < m_LastSlab; ++slab)
+  {
+    m_Slabs[slab] += other.m_Slabs[slab];
+  }
 }
 
 void
@@ -218,16 +234,22 @@ ProjectionSums::Save(std::ostream & out) const
 {
   WriteSumsHeader(out, Name, m_Pixels, 0);
   WriteCount(out, m_Series);
-  WriteNumbers(out, m_Sums.data(), static_cast<std::size_t>(m_Sums.size()));
+  for (std::size_t slab = m_FirstSlab; slab < m_LastSlab; ++slab)
+  {
+    WriteNumbers(out, m_Slabs[slab].data(), static_cast<std::size_t>(m_Slabs[slab].size()));
+  }
 }
 
 void
 ProjectionSums::Restore(std::istream & in)
 {
-  ProjectionSums read(m_Pixels, m_Series);
+  ProjectionSums read(m_Pixels, m_Series, SerialFor, m_FirstSlab, m_LastSlab);
   ReadSumsHeader(in, Name, m_Pixels);
   RequireCount("series", ReadCount(in), m_Series);
-  ReadNumbers(in, read.m_Sums.data(), static_cast<std::size_t>(read.m_Sums.size()));
+  for (std::size_t slab = m_FirstSlab; slab < m_LastSlab; ++slab)
+  {
+    ReadNumbers(in, read.m_Slabs[slab].data(), static_cast<std::size_t>(read.m_Slabs[slab].size()));
+  }
   *this = std::move(read);
 }
 

@@ -7,9 +7,12 @@
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Parallel.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <istream>
+#include <limits>
 #include <ostream>
+#include <vector>
 
 namespace sensornoise
 {
@@ -24,17 +27,50 @@ class TemporalBasis;
  * frames may be added and parts merged in any order, with the same bits. Floating-point frames are added one by one in
  * time order.
  *
- * Memory: 8 bytes a pixel and series. */
+ * Memory: 8 bytes a pixel and series, in slabs that can be given back one by one. Of a large frame the sums of some
+ * slabs can be made by themselves. */
 class SensorNoise_EXPORT ProjectionSums
 {
 public:
   /** Pixels whose sums with one series lie side by side; those of a block stay in the first-level cache. */
   static constexpr std::size_t BlockPixels = 256;
+  /** Pixels of a slab. Set by hand: with one series it has 4 MiB, which the system takes back at once. */
+  static constexpr std::size_t SlabPixels = std::size_t{ 1 } << 19;
 
-  explicit ProjectionSums(std::size_t pixels = 0, std::size_t series = 0, const ParallelFor & parallelFor = SerialFor);
+  /** The sums of the slabs [firstSlab, lastSlab) of frames of \a pixels pixels; those that the frame does not have are
+   * left out. */
+  explicit ProjectionSums(std::size_t         pixels = 0,
+                          std::size_t         series = 0,
+                          const ParallelFor & parallelFor = SerialFor,
+                          std::size_t         firstSlab = 0,
+                          std::size_t         lastSlab = std::numeric_limits<std::size_t>::max());
 
-  /** Adds frames firstFrame ... firstFrame + count - 1, stored one after the other, for the pixels [begin, end).
-   * Different ranges may be added at the same time. */
+  /** The number of slabs of frames of \a pixels pixels. */
+  static std::size_t
+  NumberOfSlabs(std::size_t pixels)
+  {
+    return (pixels + SlabPixels - 1) / SlabPixels;
+  }
+  /** The pixels [first, last) whose sums are held, and were not given back. */
+  std::size_t
+  FirstPixel() const
+  {
+    return m_FirstSlab * SlabPixels;
+  }
+  std::size_t
+  LastPixel() const
+  {
+    return std::min(m_Pixels, m_LastSlab * SlabPixels);
+  }
+  /** Gives the memory of the first slab that is held back. */
+  void
+  ReleaseFirstSlab()
+  {
+    m_Slabs[m_FirstSlab++].resize(0);
+  }
+
+  /** Adds frames firstFrame ... firstFrame + count - 1, stored one after the other, for the pixels [begin, end), which
+   * must be held. Different ranges may be added at the same time. */
   template <typename TPixel>
   void
   AddFrames(const TemporalBasis & basis,
@@ -52,8 +88,8 @@ public:
   void
   Save(std::ostream & out) const;
 
-  /** Replaces the sums by those of a stream. Throws std::runtime_error, and changes nothing, if it holds other sums, or
-   * those of other numbers of pixels or series, or ends early. */
+  /** Replaces the sums by those of a stream, which must be of the same slabs. Throws std::runtime_error, and changes
+   * nothing, if it holds other sums, or those of other numbers of pixels or series, or ends early. */
   void
   Restore(std::istream & in);
 
@@ -66,12 +102,12 @@ public:
   double &
   At(std::size_t p, std::size_t j)
   {
-    return m_Sums.data()[this->IndexOf(p, j)];
+    return m_Slabs[p / SlabPixels].data()[this->IndexInSlab(p % SlabPixels, j)];
   }
   const double &
   At(std::size_t p, std::size_t j) const
   {
-    return m_Sums.data()[this->IndexOf(p, j)];
+    return m_Slabs[p / SlabPixels].data()[this->IndexInSlab(p % SlabPixels, j)];
   }
 
 private:
@@ -93,14 +129,16 @@ private:
               std::size_t           begin,
               std::size_t           end);
   std::size_t
-  IndexOf(std::size_t p, std::size_t j) const
+  IndexInSlab(std::size_t p, std::size_t j) const
   {
     return (p / BlockPixels * m_Series + j) * BlockPixels + p % BlockPixels;
   }
 
-  std::size_t    m_Pixels;
-  std::size_t    m_Series;
-  Eigen::ArrayXd m_Sums; // unlike std::vector, not filled by one thread
+  std::size_t                 m_Pixels;
+  std::size_t                 m_Series;
+  std::size_t                 m_FirstSlab;
+  std::size_t                 m_LastSlab;
+  std::vector<Eigen::ArrayXd> m_Slabs; // unlike std::vector, not filled by one thread
 };
 
 extern template SensorNoise_EXPORT void

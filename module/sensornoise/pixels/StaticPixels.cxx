@@ -193,29 +193,35 @@ FindLocalMisfit(const ProjectedVariance &         projected,
   const std::size_t         height = frame.geometry.height;
   const PixelFits           pixels = JudgePixels(projected, line, mask, parallelFor);
   const auto                freedom = static_cast<double>(frame.frames - 1 - projected.GetBasis().Size());
-  std::vector<double>       sum = BoxSum(pixels.rejected, width, height, radius, parallelFor);
   std::vector<std::uint8_t> core(mask.size());
-  std::transform(sum.begin(), sum.end(), core.begin(), [area](double crowd) {
-    return static_cast<std::uint8_t>(crowd > InPixels.largestFarShare * area);
-  });
-  BoxSum(pixels.ratio, width, height, radius, parallelFor, sum);
-  std::vector<double> count = BoxSum(pixels.fits, width, height, radius, parallelFor);
-  ForBlocks(mask.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p)
+  ForBoxBands(height, parallelFor, [&](std::size_t first, std::size_t last) {
+    BoxRows rejects(RowsOf(pixels.rejected, width), width, height, radius, first, last);
+    BoxRows ratios(RowsOf(pixels.ratio, width), width, height, radius, first, last);
+    BoxRows counts(RowsOf(pixels.fits, width), width, height, radius, first, last);
+    for (std::size_t y = first; y < last; ++y)
     {
-      const double excess = sum[p] / std::max(1.0, count[p]) - 1.0;
-      const double own = line.EffectiveFreedom(freedom, line.At(frame.neighbourMean[p]));
-      const double sd = std::sqrt(2.0 * line.sharedSquares / (own * std::max(1.0, count[p])));
-      core[p] = core[p] != 0 || (excess > std::max(InPixels.misfitZ * sd, InPixels.leastMisfit) &&
-                                 count[p] > InPixels.leastCountedShare * area)
-                  ? 1
-                  : 0;
+      const double * const crowd = rejects.Next();
+      const double * const sum = ratios.Next();
+      const double * const count = counts.Next();
+      for (std::size_t x = 0; x < width; ++x)
+      {
+        const std::size_t p = y * width + x;
+        const double      excess = sum[x] / std::max(1.0, count[x]) - 1.0;
+        const double      own = line.EffectiveFreedom(freedom, line.At(frame.neighbourMean[p]));
+        const double      sd = std::sqrt(2.0 * line.sharedSquares / (own * std::max(1.0, count[x])));
+        const bool        isFar = excess > std::max(InPixels.misfitZ * sd, InPixels.leastMisfit) &&
+                           count[x] > InPixels.leastCountedShare * area;
+        core[p] = isFar || crowd[x] > InPixels.largestFarShare * area ? 1 : 0;
+      }
     }
   });
-  BoxSum(core, width, height, (2 * radius + 1) / 3, parallelFor, count);
   std::vector<std::uint8_t> misfit(mask.size());
-  std::transform(
-    count.begin(), count.end(), misfit.begin(), [](double cores) { return static_cast<std::uint8_t>(cores > 0.5); });
+  const auto                cores = [&] { return RowsOf(core, width); };
+  ForBoxRows(cores, width, height, (2 * radius + 1) / 3, parallelFor, [&](std::size_t y, const double * near) {
+    std::transform(near, near + width, misfit.data() + y * width, [](double count) {
+      return static_cast<std::uint8_t>(count > 0.5);
+    });
+  });
   return misfit;
 }
 

@@ -34,7 +34,7 @@ namespace sensornoise
  * pass 3 the sums of the corrected variance, which gives gain and intercept. Usage:
    \code
    PublishedMethod<unsigned short> method(settings, geometry, frames);
-   for (unsigned int pass = 0; pass < method.NumberOfPasses; ++pass)
+   while (!method.IsDone())
    {
      for (const auto & chunk : chunks) // of consecutive frames, all of the stack in every pass
        method.AddFrames(chunk.pixels, chunk.frames);
@@ -45,7 +45,7 @@ namespace sensornoise
  *
  * Frames that are equal are counted once, see DistinctFrames; flicker is reported for all of them.
  *
- * Same bits for any number of threads and any chunks. Memory: about 70 bytes a pixel, 8 bytes a frame and row.
+ * Same bits for any number of threads and any chunks. Memory: 40 bytes a pixel, 8 bytes a frame and row.
  * A stack that cannot be measured ends in a report whose quantities are `failed`, with a warning that says why; wrong
  * use throws std::invalid_argument.
  */
@@ -73,6 +73,12 @@ public:
   void
   EndPass();
 
+  /** Whether the last pass has ended. */
+  bool
+  IsDone() const
+  {
+    return m_InPass.GetPass() >= NumberOfPasses;
+  }
   /** The report and maps of a frame's size are there when the last pass has ended. */
   const Report &
   GetReport() const
@@ -100,6 +106,28 @@ public:
   GetPixelUse() const
   {
     return m_Corrected.pixelUse;
+  }
+
+  /** Give the maps away, after which they are empty here. */
+  std::vector<double>
+  TakeMean()
+  {
+    return std::move(m_Scene.mean);
+  }
+  std::vector<double>
+  TakeVariance()
+  {
+    return std::move(m_Scene.variance);
+  }
+  std::vector<double>
+  TakeCorrectedVariance()
+  {
+    return std::move(m_Corrected.variance);
+  }
+  std::vector<std::uint8_t>
+  TakePixelUse()
+  {
+    return std::move(m_Corrected.pixelUse);
   }
 
 private:

@@ -198,7 +198,8 @@ MakePublishedReport(const PublishedFindings & found)
   const CorrectedMaps &  maps = found.corrected;
   Report                 report;
   DescribeSettings(report, found);
-  DescribeStack(report, found.geometry, found.frames, scene.summary, scene.valid, maps.pixelUse);
+  const auto valid = static_cast<std::size_t>(std::count(scene.valid.begin(), scene.valid.end(), std::uint8_t{ 1 }));
+  DescribeStack(report, found.geometry, found.frames, scene.summary, valid, maps.pixelUse);
   WarnOfStack(report, found.frames, scene.summary);
   if (scene.obstacle)
   {

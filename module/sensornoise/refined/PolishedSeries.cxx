@@ -15,85 +15,70 @@ namespace sensornoise
 
 namespace
 {
-/** What the noise does to the equations of the frames, and to the instruments. */
-struct SeriesNoise
-{
-  RegressorNoise  regressors;
-  InstrumentNoise instruments;
-};
-
-/** The noise by the line that was fitted, about the offset \a offsetDn. */
-SeriesNoise
+/** What the noise by the line that was fitted, about the offset \a offsetDn, does to the equations of the frames. */
+RegressorNoise
 NoiseOfLine(const FrameRegressors & regressors,
             const VarianceLine &    line,
             double                  offsetDn,
             const ParallelFor &     parallelFor)
 {
-  // The sums: of each class variance and shot noise, then those of the instruments.
-  constexpr std::size_t classes = GradientClasses;
-  constexpr std::size_t weighted = 2 * classes;
-  constexpr std::size_t squareX = weighted + 1;
-  constexpr std::size_t productXY = weighted + 2;
-  constexpr std::size_t squareY = weighted + 3;
-  const auto            varianceOf = [](std::size_t gradientClass) { return 2 * gradientClass; };
-  const auto            shotOf = [](std::size_t gradientClass) { return 2 * gradientClass + 1; };
-
+  // The sums: of each class variance and shot noise.
+  const auto             varianceOf = [](std::size_t gradientClass) { return 2 * gradientClass; };
+  const auto             shotOf = [](std::size_t gradientClass) { return 2 * gradientClass + 1; };
   const ReferenceFrame & frame = regressors.GetFrame();
-  const auto  sums = SumOverBlocks<squareY + 1>(frame.mean.size(), parallelFor, [&](std::size_t p, auto & s) {
+  const auto sums = SumOverBlocks<2 * GradientClasses>(frame.mean.size(), parallelFor, [&](std::size_t p, auto & s) {
     const std::size_t c = regressors.ClassOf(p);
     if (c != FrameRegressors::Unused)
     {
       const double level = frame.neighbourMean[p];
       const double variance = line.At(level);
       const double w = 1.0 / regressors.GetModel().NoiseVariance(level);
-      const double x = regressors.InstrumentX(p);
-      const double y = regressors.InstrumentY(p);
       s[varianceOf(c)] += w * variance;
       s[shotOf(c)] += w * line.gain * std::max(0.0, level - offsetDn);
-      s[weighted] += regressors.InstrumentWeight(p) * variance;
-      s[squareX] += variance * x * x;
-      s[productXY] += variance * x * y;
-      s[squareY] += variance * y * y;
     }
   });
-  SeriesNoise noise;
-  for (std::size_t c = 0; c < classes; ++c)
+  RegressorNoise noise;
+  for (std::size_t c = 0; c < GradientClasses; ++c)
   {
-    noise.regressors.variance[c] = sums[varianceOf(c)];
-    noise.regressors.shot[c] = sums[shotOf(c)];
+    noise.variance[c] = sums[varianceOf(c)];
+    noise.shot[c] = sums[shotOf(c)];
   }
-  noise.instruments.variance = sums[weighted];
-  noise.instruments.squares << sums[squareX], sums[productXY], sums[productXY], sums[squareY];
   return noise;
 }
 } // namespace
 
 PolishedSeries
-PolishSceneSeries(const FrameSums &         sums,
-                  const SceneSeries &       series,
-                  const ProjectedVariance & projected,
-                  const StaticVariance &    variance,
-                  const ParallelFor &       parallelFor)
+PolishSceneSeries(const FrameSums &        sums,
+                  const SceneSeries &      series,
+                  const PixelCoordinates & coordinates,
+                  const StaticVariance &   variance,
+                  const ParallelFor &      parallelFor)
 {
   const ProvisionalModel &    model = sums.GetRegressors().GetModel();
   const std::vector<double> & gamma = series.line.gamma;
-  const SeriesNoise           noise =
+  const RegressorNoise        noise =
     NoiseOfLine(sums.GetRegressors(), variance.line, series.offset + model.centreDn, parallelFor);
   PolishedSeries polished;
-  polished.line = FitOffsetLine(sums, noise.regressors, gamma).value_or(series.line);
+  polished.line = FitOffsetLine(sums, noise, gamma).value_or(series.line);
   if (!polished.line.TellsOffset())
   {
     polished.line.UseOffset(series.offset);
   }
-  const FrameEquations            equations = MakeFrameEquations(sums, noise.regressors, GradientClasses - 1, gamma);
+  const FrameEquations            equations = MakeFrameEquations(sums, noise, GradientClasses - 1, gamma);
   const std::optional<OffsetLine> everywhere = FitOffsetLine(equations);
   polished.motionPhi = everywhere ? everywhere->Widening() : 1.0;
   polished.motion = SolveMotion(equations, polished.line.gamma, polished.line.offset);
-  polished.shifts = SolveShifts(sums, polished.motion, noise.instruments, polished.line.gamma, polished.line.offset);
+  polished.shifts = SolveShifts(sums,
+                                polished.motion,
+                                sums.NoiseOfInstruments(variance.line.gain, variance.line.intercept),
+                                polished.line.gamma,
+                                polished.line.offset);
   if (series.local.series.cols() > 0)
   {
-    const PixelLight light{ projected,      variance.line,   variance.mask,
-                            model.centreDn, model.darkestDn, model.brightestDn - model.darkestDn };
+    const PixelLight light{
+      sums.GetFrame(), coordinates,     series.basis.NumberOfLightFactors(), variance.line, variance.mask,
+      model.centreDn,  model.darkestDn, model.brightestDn - model.darkestDn
+    };
     polished.isOffsetDrift = IsOffsetDrift(light);
     if (!polished.isOffsetDrift)
     {

@@ -7,7 +7,7 @@
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/pixels/LocalFlicker.h"
 #include "sensornoise/pixels/LocalOffset.h"
-#include "sensornoise/pixels/ProjectedVariance.h"
+#include "sensornoise/pixels/PixelCoordinates.h"
 #include "sensornoise/pixels/StaticVariance.h"
 #include "sensornoise/series/FrameSums.h"
 #include "sensornoise/series/MotionSeries.h"
@@ -31,13 +31,14 @@ struct PolishedSeries
   LocalFlicker                    localFlicker;
 };
 
-/** Offset, flicker and shifts once more, with the noise that is now known. Needs no reading. */
+/** Offset, flicker and shifts once more, with the noise that is now known. Needs no reading; the pixels' \a coordinates
+ * in the series' basis only where light is local. */
 SensorNoise_EXPORT PolishedSeries
-PolishSceneSeries(const FrameSums &         sums,
-                  const SceneSeries &       series,
-                  const ProjectedVariance & projected,
-                  const StaticVariance &    variance,
-                  const ParallelFor &       parallelFor);
+PolishSceneSeries(const FrameSums &        sums,
+                  const SceneSeries &      series,
+                  const PixelCoordinates & coordinates,
+                  const StaticVariance &   variance,
+                  const ParallelFor &      parallelFor);
 
 } // namespace sensornoise
 

@@ -3,11 +3,12 @@
 #include "sensornoise/refined/RefinedMethod.h"
 
 #include "sensornoise/base/BinaryStream.h"
+#include "sensornoise/base/FreeMemory.h"
 #include "sensornoise/moments/DarkMaps.h"
 #include "sensornoise/moments/StackMaps.h"
 #include "sensornoise/moments/StackRequirements.h"
-#include "sensornoise/pixels/PixelCoordinates.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
+#include "sensornoise/refined/MemoryNeed.h"
 #include "sensornoise/refined/PixelNoise.h"
 #include "sensornoise/refined/PixelsOfVariance.h"
 #include "sensornoise/refined/RefinedReport.h"
@@ -84,10 +85,17 @@ RefinedMethod<TPixel>::RefinedMethod(const RefinedSettings &           settings,
   , m_InPass(frames)
   , m_Moments(geometry.Pixels(), frames)
   , m_Thumbnails(geometry, frames, mask)
-  , m_Scene(std::make_unique<const StillScene>())
+  , m_Scene(std::make_unique<StillScene>())
 {
   RequireStack(geometry, frames, mask.size());
   settings.Validate();
+  const double least = MemoryNeed{ geometry.Pixels(), frames }.Least();
+  if (settings.memoryLimitBytes < least)
+  {
+    throw std::invalid_argument("the memory limit is " + TextOfBytes(settings.memoryLimitBytes) +
+                                "; expected at least " + TextOfBytes(least) + " for frames of " +
+                                std::to_string(geometry.width) + " x " + std::to_string(geometry.height) + " pixels");
+  }
   if constexpr (std::is_integral_v<TPixel>)
   {
     constexpr int bits = 8 * sizeof(TPixel);
@@ -129,10 +137,7 @@ RefinedMethod<TPixel>::AddDistinct(const TPixel * frames, std::size_t place, std
   }
   else
   {
-    ForBlocks(m_Geometry.Pixels(), m_ParallelFor, [&](std::size_t begin, std::size_t end) {
-      m_Projections.AddFrames(m_Series->basis, frames, place, count, begin, end);
-    });
-    m_Sample.AddFrames(frames, place, count, m_Scene->frame.mean, m_ParallelFor);
+    m_Projections->AddFrames(frames, place, count, m_Scene->frame);
   }
 }
 
@@ -157,15 +162,7 @@ RefinedMethod<TPixel>::SaveSums(std::ostream & out) const
   }
   else if (m_FrameSums)
   {
-    if (m_InPass.GetPass() == 1)
-    {
-      m_FrameSums->Save(out);
-    }
-    else
-    {
-      m_Projections.Save(out);
-      m_Sample.Save(out);
-    }
+    m_InPass.GetPass() == 1 ? m_FrameSums->Save(out) : m_Projections->Save(out);
   }
 }
 
@@ -196,12 +193,7 @@ RefinedMethod<TPixel>::MergeSums(std::istream & in)
   }
   else if (m_FrameSums)
   {
-    ProjectionSums others(pixels, m_Series->basis.Size());
-    others.Restore(in);
-    NoiseSample sample(m_Geometry, m_Distinct.Count());
-    sample.Restore(in);
-    m_Projections.Merge(others);
-    m_Sample.Merge(sample);
+    m_Projections->Merge(in);
   }
   m_InPass.Merge(frames);
 }
@@ -215,8 +207,8 @@ RefinedMethod<TPixel>::FingerprintOfPass() const
   fingerprint.Add(sizes, 2);
   fingerprint.Add(m_UserMask.data(), m_UserMask.size());
   fingerprint.Add(m_Distinct.Places().data(), m_Distinct.Given());
-  fingerprint.Add(m_Scene->mean.data(), m_Scene->mean.size());
-  fingerprint.Add(m_Scene->variance.data(), m_Scene->variance.size());
+  fingerprint.Add(m_Scene->frame.mean.data(), m_Scene->frame.mean.size());
+  fingerprint.Add(m_Scene->frame.variance.data(), m_Scene->frame.variance.size());
   fingerprint.Add(m_Scene->pixelUse.data(), m_Scene->pixelUse.size());
   for (std::size_t j = 0; m_Series && j < m_Series->basis.Size(); ++j)
   {
@@ -241,9 +233,13 @@ RefinedMethod<TPixel>::EndPass()
     {
       this->EndMoments();
     }
+    else if (m_FrameSums && pass == 1)
+    {
+      this->EndFrameSums();
+    }
     else if (m_FrameSums)
     {
-      pass == 1 ? this->EndFrameSums() : this->EndProjections();
+      m_IsDone = this->EndProjections();
     }
   }
   catch (const NothingToMeasure & obstacle)
@@ -251,7 +247,8 @@ RefinedMethod<TPixel>::EndPass()
     m_Obstacle.emplace(obstacle);
     m_FrameSums.reset();
   }
-  if (pass + 1 == NumberOfPasses)
+  m_IsDone = m_IsDone || (!m_FrameSums && pass + 1 >= NumberOfPasses);
+  if (m_IsDone)
   {
     this->MakeReport();
   }
@@ -268,22 +265,23 @@ RefinedMethod<TPixel>::EndMoments()
   m_Distinct = m_Moments.FindDistinct();
   const StackSummary summary = MakeStackMaps<TPixel>(
     m_Moments.Take(), m_Settings.codes, m_ParallelFor, mean.data(), variance.data(), valid.data());
-  m_Scene = std::make_unique<const StillScene>(MakeStillScene(summary,
-                                                              std::move(mean),
-                                                              std::move(variance),
-                                                              std::move(valid),
-                                                              m_UserMask,
-                                                              m_Geometry,
-                                                              m_Distinct.Count(),
-                                                              m_Distinct.OfDistinct(m_Moments.GetFrameMeans()),
-                                                              m_ParallelFor));
+  m_Scene = std::make_unique<StillScene>(MakeStillScene(summary,
+                                                        std::move(mean),
+                                                        std::move(variance),
+                                                        std::move(valid),
+                                                        m_UserMask,
+                                                        m_Geometry,
+                                                        m_Distinct.Count(),
+                                                        m_Distinct.OfDistinct(m_Moments.GetFrameMeans()),
+                                                        m_ParallelFor));
   if (m_Scene->obstacle)
   {
     throw NothingToMeasure(*m_Scene->obstacle);
   }
   if (std::is_floating_point_v<TPixel>)
   {
-    m_Settings.RequireOffsetWithin(1000.0 * LargestMeanDn(m_Scene->mean), "1000 times the largest level of the frames");
+    m_Settings.RequireOffsetWithin(1000.0 * LargestMeanDn(m_Scene->frame.mean),
+                                   "1000 times the largest level of the frames");
   }
   m_FrameSums = std::make_unique<FrameSums>(RegressorsOf(*m_Scene, m_ParallelFor), m_ParallelFor);
 }
@@ -299,32 +297,75 @@ RefinedMethod<TPixel>::EndFrameSums()
   }
   m_Series.emplace(FindSceneSeries(
     *m_FrameSums, m_Settings.rollingShutter, knownOffsetDn, BlackLevel(m_Settings, *m_Scene, std::nullopt)));
-  m_Projections = ProjectionSums(m_Geometry.Pixels(), m_Series->basis.Size(), m_ParallelFor);
-  m_Sample = NoiseSample(m_Geometry, m_Distinct.Count());
+  m_FrameSums->ReleaseInstruments();
+  ReleaseNeighbourMean(m_Scene->frame);
+  const MemoryNeed  need{ m_Geometry.Pixels(), m_Distinct.Count() };
+  const std::size_t series = m_Series->basis.Size();
+  const double      left = m_Settings.memoryLimitBytes - need.BesideProjections();
+  if (std::isinf(left))
+  {
+    RequireMemory(need.OfProjections(series),
+                  "the projection of all pixels on " + std::to_string(series) +
+                    " series of light and motion (a memory limit parts it)");
+  }
+  m_Projections.emplace(
+    m_Geometry, m_Distinct.Count(), m_Series->basis, PixelProjections::SlabsWithin(left, series), m_ParallelFor);
+}
+
+/** Whether all that is needed has been read. */
+template <typename TPixel>
+bool
+RefinedMethod<TPixel>::EndProjections()
+{
+  const bool isLightLocal = m_Series->local.series.cols() > 0; // of which the coordinates tell more
+  if (m_Variance)
+  {
+    m_Projections->EndLight(m_Scene->frame);
+  }
+  else if (!m_Projections->EndPass(m_Scene->frame, isLightLocal))
+  {
+    return false;
+  }
+  else
+  {
+    this->MeasureVariance();
+    if (isLightLocal && !m_Projections->HasCoordinates())
+    {
+      m_Projections->StartLight();
+      return false;
+    }
+  }
+  m_Polished.emplace(
+    PolishSceneSeries(*m_FrameSums, *m_Series, m_Projections->TakeCoordinates(), *m_Variance, m_ParallelFor));
+  m_Projections.reset();
+  TakeOffLine(*m_Variance, this->FindCodeNoise()); // the series were weighed by all of the noise
+  return true;
 }
 
 template <typename TPixel>
 void
-RefinedMethod<TPixel>::EndProjections()
+RefinedMethod<TPixel>::MeasureVariance()
 {
+  FillNeighbourMean(m_Scene->frame, m_ParallelFor);
   const ReferenceFrame & frame = m_Scene->frame;
-  const PixelCoordinates coordinates(std::move(m_Projections), m_Series->basis, frame.mean, m_ParallelFor);
-  ProjectedVariance      projected(
-    frame, m_Series->basis, m_Series->motion, coordinates, m_Scene->model, frame.usable, m_ParallelFor);
-  const CodeNoise codeNoise = this->FindCodeNoise();
-  projected.SetCodeNoise(codeNoise);
+  ProjectedVariance      projected(frame,
+                              m_Series->basis,
+                              m_Series->motion,
+                              m_Projections->TakeSquares(),
+                              m_Scene->model,
+                              frame.usable,
+                              m_ParallelFor);
+  const CodeNoise        codeNoise = this->FindCodeNoise();
+  projected.TakeOffRest(codeNoise);
   PixelNoise noise = MeasurePixelNoise(
-    projected, std::move(m_Sample), *m_Scene, m_Series, m_Settings, codeNoise.inTheDarkDn2, m_ParallelFor);
-  if (!noise.variance.line.isDetermined)
+    projected, m_Projections->TakeSample(), *m_Scene, m_Series, m_Settings, codeNoise.inTheDarkDn2, m_ParallelFor);
+  m_Variance.emplace(std::move(noise.variance));
+  if (!m_Variance->line.isDetermined)
   {
-    m_Variance.emplace(std::move(noise.variance));
     throw NothingToMeasure("too few pixels, or pixels of one intensity only, are left to fit the variance",
                            WarningCode::IntensityRangeTooSmall);
   }
   m_Correlation = std::move(noise.correlation);
-  m_Polished.emplace(PolishSceneSeries(*m_FrameSums, *m_Series, projected, noise.variance, m_ParallelFor));
-  TakeOffLine(noise.variance, codeNoise); // the series were weighed by all of the noise
-  m_Variance.emplace(std::move(noise.variance));
   m_CorrectedVariance = projected.TakeVariance();
   for (std::size_t p = 0; p < m_CorrectedVariance.size(); ++p)
   {
@@ -355,7 +396,8 @@ RefinedMethod<TPixel>::MakeReport()
                                               m_CorrectedVariance,
                                               BlackLevel(m_Settings, *m_Scene, m_Series),
                                               m_Correlation });
-  WarnOfMosaic(m_Report, m_Scene->mean, m_Geometry, m_ParallelFor);
+  UncoverUnknown(m_Scene->frame, m_ParallelFor);
+  WarnOfMosaic(m_Report, m_Scene->frame.mean, m_Geometry, m_ParallelFor);
   NoteMask(m_Report, m_Geometry, m_UserMask);
   ReportSceneChange(m_Report, m_Thumbnails.FindChange());
   ReportAllFrames(m_Report, m_Distinct);

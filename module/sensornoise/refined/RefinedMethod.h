@@ -8,13 +8,12 @@
 #include "sensornoise/base/NothingToMeasure.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/correlation/NoiseCorrelation.h"
-#include "sensornoise/correlation/NoiseSample.h"
 #include "sensornoise/moments/DistinctFrames.h"
 #include "sensornoise/moments/FrameThumbnails.h"
 #include "sensornoise/moments/PassFrames.h"
 #include "sensornoise/moments/StackMoments.h"
-#include "sensornoise/pixels/ProjectionSums.h"
 #include "sensornoise/pixels/StaticVariance.h"
+#include "sensornoise/refined/PixelProjections.h"
 #include "sensornoise/refined/PolishedSeries.h"
 #include "sensornoise/refined/RefinedSettings.h"
 #include "sensornoise/report/Report.h"
@@ -28,6 +27,7 @@
 #include <memory>
 #include <optional>
 #include <ostream>
+#include <utility>
 #include <vector>
 
 namespace sensornoise
@@ -44,8 +44,9 @@ namespace sensornoise
  * Frames that are equal, bit by bit, are counted once: the result is that of the distinct frames, and the report's
  * series repeat the values of a frame's original.
  *
- * Same bits for any number of threads and any chunks. Memory: about 130 bytes a pixel and 8 more a series (4 to 20), 20
- * kB a frame. A stack that cannot be measured (NothingToMeasure) ends in a report whose quantities are `failed`, with a
+ * Same bits for any number of threads and any chunks. Memory: 56 bytes a pixel and 8 more for each series of light and
+ * motion that is found (2 to 20), 20 kB a frame and 32 MiB, see MemoryNeed. A stack that cannot be measured
+ (NothingToMeasure) ends in a report whose quantities are `failed`, with a
  * warning that says why; wrong use throws std::invalid_argument. May be moved, also between and within passes.
  *
  * Several processes, each with a part of the frames, get the whole's report if they share the sums of every pass: the
@@ -54,7 +55,7 @@ namespace sensornoise
  * the same frame, MergeSums() throws and names both.
    \code
    RefinedMethod<unsigned short> method(settings, geometry, frames); // alike in every process
-   for (unsigned int pass = 0; pass < method.NumberOfPasses; ++pass)
+   while (!method.IsDone())
    {
      method.SkipFrames(first); // this process reads the frames first ... first + count - 1
      method.AddFrames(part, count);
@@ -105,6 +106,13 @@ public:
   void
   EndPass();
 
+  /** Whether the report is there. That is after NumberOfPasses passes, or more if RefinedSettings::memoryLimitBytes
+   * asks for it: these read the stack once more, like the third. */
+  bool
+  IsDone() const
+  {
+    return m_IsDone;
+  }
   const Report &
   GetReport() const
   {
@@ -113,12 +121,12 @@ public:
   const std::vector<double> &
   GetMean() const
   {
-    return m_Scene->mean;
+    return m_Scene->frame.mean;
   }
   const std::vector<double> &
   GetVariance() const
   {
-    return m_Scene->variance;
+    return m_Scene->frame.variance;
   }
   /** NaN where it was not computed; empty if the stack cannot be measured. */
   const std::vector<double> &
@@ -133,6 +141,28 @@ public:
     return m_Variance ? m_Variance->pixelUse : m_Scene->pixelUse;
   }
 
+  /** Give the maps away, after which they are empty here. */
+  std::vector<double>
+  TakeMean()
+  {
+    return std::move(m_Scene->frame.mean);
+  }
+  std::vector<double>
+  TakeVariance()
+  {
+    return std::move(m_Scene->frame.variance);
+  }
+  std::vector<double>
+  TakeCorrectedVariance()
+  {
+    return std::move(m_CorrectedVariance);
+  }
+  std::vector<std::uint8_t>
+  TakePixelUse()
+  {
+    return std::move(m_Variance ? m_Variance->pixelUse : m_Scene->pixelUse);
+  }
+
 private:
   /** Adds \a count of the distinct frames, the first of which has the given place among them, in pass 2 or 3. */
   void
@@ -144,8 +174,10 @@ private:
   EndMoments();
   void
   EndFrameSums();
-  void
+  bool
   EndProjections();
+  void
+  MeasureVariance();
   /** Of companded codes. */
   CodeNoise
   FindCodeNoise() const;
@@ -163,16 +195,16 @@ private:
   StackMoments<TPixel>                  m_Moments;
   FrameThumbnails                       m_Thumbnails;
   DistinctFrames                        m_Distinct;
-  std::unique_ptr<const StillScene>     m_Scene;
+  std::unique_ptr<StillScene>           m_Scene;
   std::unique_ptr<FrameSums>            m_FrameSums; // null: the stack cannot be measured
   std::optional<const SceneSeries>      m_Series;
-  ProjectionSums                        m_Projections;
-  NoiseSample                           m_Sample; // of the third pass
-  std::optional<const StaticVariance>   m_Variance;
+  std::optional<PixelProjections>       m_Projections;
+  std::optional<StaticVariance>         m_Variance;
   std::optional<const PolishedSeries>   m_Polished;
   NoiseCorrelation                      m_Correlation;
   std::vector<double>                   m_CorrectedVariance;
   std::optional<const NothingToMeasure> m_Obstacle;
+  bool                                  m_IsDone{ false };
   Report                                m_Report;
 };
 

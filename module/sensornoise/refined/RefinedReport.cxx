@@ -125,8 +125,8 @@ FillCurves(Report & report, const RefinedResults & found)
   const std::vector<std::uint8_t> & pixelUse = found.variance.pixelUse;
   const std::vector<std::uint8_t>   used = MaskOfUsed(pixelUse);
   const StillScene &                scene = found.scene;
-  FillBaselines(report, { scene.mean.data(), scene.variance.data(), used.data(), used.size() });
-  FillScatter(report, scene.mean, scene.variance, found.correctedVariance, pixelUse);
+  FillBaselines(report, { scene.frame.mean.data(), scene.frame.variance.data(), used.data(), used.size() });
+  FillScatter(report, scene.frame.mean, scene.frame.variance, found.correctedVariance, pixelUse);
 }
 
 /** Degrees of freedom of the 95 % intervals. */

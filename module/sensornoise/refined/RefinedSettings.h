@@ -8,6 +8,7 @@
 #include "sensornoise/moments/CodeSettings.h"
 #include "sensornoise/moments/KnownOffset.h"
 
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -34,6 +35,9 @@ struct SensorNoise_EXPORT RefinedSettings
   std::optional<LevelRange> levelRangeDn;
   /** What is known of the codes; the rest is found. */
   CodeSettings codes;
+  /** Most that the method may hold, beside the frames that it is handed [bytes]; infinite: what it needs. The stack is
+   * read more often if it is less, with the same bits. Not below MemoryNeed::Least(). */
+  double memoryLimitBytes{ std::numeric_limits<double>::infinity() };
 
   /** Throws std::invalid_argument if a parameter is out of its range. */
   void

@@ -34,7 +34,7 @@ DescribeStack(Report &                          report,
               const FrameGeometry &             geometry,
               std::size_t                       frames,
               const StackSummary &              summary,
-              const std::vector<std::uint8_t> & valid,
+              std::size_t                       valid,
               const std::vector<std::uint8_t> & pixelUse)
 {
   report.frames = frames;
@@ -54,7 +54,7 @@ DescribeStack(Report &                          report,
   report.clipSource = codes.clipSource;
 
   report.pixels.total = geometry.Pixels();
-  report.pixels.valid = static_cast<std::size_t>(std::count(valid.begin(), valid.end(), 1));
+  report.pixels.valid = valid;
   report.pixels.used =
     static_cast<std::size_t>(std::count(pixelUse.begin(), pixelUse.end(), static_cast<std::uint8_t>(PixelUse::Used)));
   report.pixels.clipped = summary.clipped;

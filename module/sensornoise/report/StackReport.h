@@ -17,13 +17,14 @@
 namespace sensornoise
 {
 
-/** Files what the report says of the stack itself, whatever the method. */
+/** Files what the report says of the stack itself, whatever the method; \a valid pixels are finite, never at a clip
+ * level, and not masked. */
 SensorNoise_EXPORT void
 DescribeStack(Report &                          report,
               const FrameGeometry &             geometry,
               std::size_t                       frames,
               const StackSummary &              summary,
-              const std::vector<std::uint8_t> & valid,
+              std::size_t                       valid,
               const std::vector<std::uint8_t> & pixelUse);
 
 /** What was found that the user should know of before trusting the numbers. */

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sensornoise
 {
@@ -76,14 +77,15 @@ FillUsable(const std::vector<double> &       variance,
   for (std::size_t x = StencilMargin; x + StencilMargin < width; ++x)
   {
     const bool isComplete = (column(x - 1) & column(x) & column(x + 1)) != 0;
-    usable[x] = static_cast<std::uint8_t>(isComplete && variance[y * width + x] > 0.0);
+    usable[x] =
+      static_cast<std::uint8_t>(isComplete && variance[y * width + x] > 0.0 && std::isfinite(variance[y * width + x]));
   }
 }
 } // namespace
 
 ReferenceFrame
-MakeReferenceFrame(const std::vector<double> &       mean,
-                   const std::vector<double> &       variance,
+MakeReferenceFrame(std::vector<double>               mean,
+                   std::vector<double>               variance,
                    const std::vector<std::uint8_t> & valid,
                    const FrameGeometry &             geometry,
                    std::size_t                       frames,
@@ -93,23 +95,50 @@ MakeReferenceFrame(const std::vector<double> &       mean,
   ReferenceFrame    frame;
   frame.geometry = geometry;
   frame.frames = frames;
-  frame.mean.resize(mean.size());
-  frame.neighbourMean.resize(mean.size());
-  frame.squares.resize(mean.size());
-  frame.usable.assign(mean.size(), 0);
+  frame.mean = std::move(mean);
+  frame.variance = std::move(variance);
+  frame.usable.assign(frame.mean.size(), 0);
   parallelFor(geometry.height, [&](std::size_t y) {
-    FillNeighbourMeans(mean, geometry, y, frame.neighbourMean.data() + y * width);
-    for (std::size_t p = y * width; p < (y + 1) * width; ++p)
-    {
-      frame.mean[p] = std::isfinite(mean[p]) ? mean[p] : frame.neighbourMean[p];
-      frame.squares[p] = std::isfinite(variance[p]) ? variance[p] * static_cast<double>(frames - 1) : 0.0;
-    }
     if (y >= StencilMargin && y + StencilMargin < geometry.height)
     {
-      FillUsable(variance, valid, width, y, frame.usable.data() + y * width);
+      FillUsable(frame.variance, valid, width, y, frame.usable.data() + y * width);
     }
   });
+  FillNeighbourMean(frame, parallelFor);
   return frame;
+}
+
+void
+UncoverUnknown(ReferenceFrame & frame, const ParallelFor & parallelFor)
+{
+  ForBlocks(frame.mean.size(), parallelFor, [&frame](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p)
+    {
+      frame.mean[p] = std::isnan(frame.variance[p]) ? frame.variance[p] : frame.mean[p];
+    }
+  });
+}
+
+void
+FillNeighbourMean(ReferenceFrame & frame, const ParallelFor & parallelFor)
+{
+  UncoverUnknown(frame, parallelFor); // what was filled in for a pixel is no neighbour's mean
+  frame.neighbourMean.resize(frame.mean.size());
+  parallelFor(frame.geometry.height, [&](std::size_t y) {
+    FillNeighbourMeans(frame.mean, frame.geometry, y, frame.neighbourMean.data() + y * frame.geometry.width);
+  });
+  ForBlocks(frame.mean.size(), parallelFor, [&frame](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p)
+    {
+      frame.mean[p] = std::isfinite(frame.mean[p]) ? frame.mean[p] : frame.neighbourMean[p];
+    }
+  });
+}
+
+void
+ReleaseNeighbourMean(ReferenceFrame & frame)
+{
+  std::exchange(frame.neighbourMean, {});
 }
 
 } // namespace sensornoise

@@ -7,6 +7,7 @@
 #include "sensornoise/scene/CrossedRegion.h"
 #include "sensornoise/scene/UsablePixels.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace sensornoise
@@ -44,20 +45,18 @@ MakeStillScene(const StackSummary &              summary,
 {
   StillScene scene;
   scene.summary = summary;
-  scene.frame = MakeReferenceFrame(mean, variance, valid, geometry, frames, parallelFor);
-  scene.pixelUse = FindPixelUse(scene.frame, variance, valid, userMask);
+  scene.frame = MakeReferenceFrame(std::move(mean), std::move(variance), valid, geometry, frames, parallelFor);
+  scene.pixelUse = FindPixelUse(scene.frame, valid, userMask);
   // After the reference frame: a masked pixel is a good neighbour.
   for (std::size_t p = 0; p < userMask.size(); ++p)
   {
     valid[p] = userMask[p] == 0 ? 0 : valid[p];
     scene.frame.usable[p] = userMask[p] == 0 ? 0 : scene.frame.usable[p];
   }
-  scene.mean = std::move(mean);
-  scene.variance = std::move(variance);
-  scene.valid = std::move(valid);
+  scene.valid = static_cast<std::size_t>(std::count(valid.begin(), valid.end(), std::uint8_t{ 1 }));
   try
   {
-    RequireDistinctFrames(frames, scene.valid);
+    RequireDistinctFrames(frames, valid);
     scene.model = FitProvisionalModel(scene.frame);
     if (LeaveOutCrossed(scene))
     {

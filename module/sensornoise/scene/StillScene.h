@@ -22,10 +22,8 @@ namespace sensornoise
 struct StillScene
 {
   StackSummary              summary;
-  std::vector<double>       mean;     ///< over time; NaN where a frame is not finite [DN]
-  std::vector<double>       variance; ///< over time, unbiased, flicker and motion included [DN^2]
-  std::vector<std::uint8_t> valid;    ///< 1: finite, never at a clip level, and not masked by the user
-  ReferenceFrame            frame;    ///< its `usable` pixels are those that serve
+  std::size_t               valid{ 0 }; ///< pixels that are finite, never at a clip level, and not masked by the user
+  ReferenceFrame            frame;      ///< its `usable` pixels are those that serve
   ProvisionalModel          model;
   std::vector<std::uint8_t> pixelUse;      ///< values of PixelUse, as far as one pass can tell
   double                    usable{ 0.0 }; ///< pixels that serve

@@ -24,16 +24,21 @@ FindUnexplained(const ReferenceFrame & frame, const ProvisionalModel & model, co
         const auto [gx, gy] = ApplyGradient(frame.mean.data(), frame.geometry.width, p);
         const double expected =
           std::max(InScene.leastShareOfDarkest * model.interceptDn2, model.RawVariance(frame.neighbourMean[p], gx, gy));
-        unexplained[p] = frame.RawVariance(p) > model.largestRatio * expected ? 1 : 0;
+        unexplained[p] = frame.variance[p] > model.largestRatio * expected ? 1 : 0;
       }
     }
   });
-  const std::vector<double> crowd = BoxSum(unexplained, frame.geometry.width, frame.geometry.height, 3, parallelFor);
-  for (std::size_t p = 0; p < unexplained.size(); ++p)
-  {
-    unexplained[p] = crowd[p] > InScene.largestFarShare * 49.0 ? 2 : unexplained[p];
-  }
-  return unexplained;
+  const std::size_t         width = frame.geometry.width;
+  const auto                rows = [&] { return RowsOf(unexplained, width); };
+  std::vector<std::uint8_t> crowded = unexplained;
+  ForBoxRows(rows, width, frame.geometry.height, 3, parallelFor, [&](std::size_t y, const double * crowd) {
+    for (std::size_t x = 0; x < width; ++x)
+    {
+      std::uint8_t & own = crowded[y * width + x];
+      own = crowd[x] > InScene.largestFarShare * 49.0 ? 2 : own;
+    }
+  });
+  return crowded;
 }
 
 } // namespace sensornoise

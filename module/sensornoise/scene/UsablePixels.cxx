@@ -22,10 +22,7 @@ namespace
 {
 /** Of pixel \a p, which the user did not mask. */
 PixelUse
-UseOf(const ReferenceFrame &            frame,
-      const std::vector<double> &       variance,
-      const std::vector<std::uint8_t> & valid,
-      std::size_t                       p)
+UseOf(const ReferenceFrame & frame, const std::vector<std::uint8_t> & valid, std::size_t p)
 {
   if (frame.usable[p] != 0)
   {
@@ -33,9 +30,9 @@ UseOf(const ReferenceFrame &            frame,
   }
   if (valid[p] == 0)
   {
-    return std::isfinite(variance[p]) ? PixelUse::Clipped : PixelUse::NotFinite;
+    return std::isfinite(frame.variance[p]) ? PixelUse::Clipped : PixelUse::NotFinite;
   }
-  if (!(variance[p] > 0.0))
+  if (!(frame.variance[p] > 0.0))
   {
     return PixelUse::Constant;
   }
@@ -63,7 +60,6 @@ ExtremesOfLight(const ReferenceFrame & frame, const ProvisionalModel & model, co
 
 std::vector<std::uint8_t>
 FindPixelUse(const ReferenceFrame &            frame,
-             const std::vector<double> &       variance,
              const std::vector<std::uint8_t> & valid,
              const std::vector<std::uint8_t> & userMask)
 {
@@ -71,7 +67,7 @@ FindPixelUse(const ReferenceFrame &            frame,
   for (std::size_t p = 0; p < pixelUse.size(); ++p)
   {
     const bool isMasked = !userMask.empty() && userMask[p] == 0;
-    pixelUse[p] = static_cast<std::uint8_t>(isMasked ? PixelUse::Masked : UseOf(frame, variance, valid, p));
+    pixelUse[p] = static_cast<std::uint8_t>(isMasked ? PixelUse::Masked : UseOf(frame, valid, p));
   }
   return pixelUse;
 }

@@ -16,11 +16,10 @@
 namespace sensornoise
 {
 
-/** Whether each pixel can be used, or why not, before any model of the noise: values of PixelUse. \a variance and
- * \a valid are the maps of which \a frame was made; \a userMask, if not empty, is 0 at pixels that are masked. */
+/** Whether each pixel can be used, or why not, before any model of the noise: values of PixelUse. \a valid is the
+ * map of which \a frame was made; \a userMask, if not empty, is 0 at pixels that are masked. */
 SensorNoise_EXPORT std::vector<std::uint8_t>
 FindPixelUse(const ReferenceFrame &            frame,
-             const std::vector<double> &       variance,
              const std::vector<std::uint8_t> & valid,
              const std::vector<std::uint8_t> & userMask);
 

@@ -36,7 +36,7 @@ SampleVariance(const ReferenceFrame & frame, const std::vector<std::size_t> & pi
     const double      gy = ApplyStencil(stencils[StencilY], frame.mean.data(), frame.geometry.width, p);
     const double      x = (frame.neighbourMean[p] - model.darkestDn) / sample.scale;
     sample.level[i] = frame.neighbourMean[p];
-    sample.raw[i] = frame.RawVariance(p);
+    sample.raw[i] = frame.variance[p];
     sample.energy[i] = gx * gx + gy * gy;
     sample.design.row(static_cast<Eigen::Index>(i)) << 1.0, x, x * x, gx * gx, gy * gy, gx * gy;
   }

@@ -16,6 +16,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace sensornoise
@@ -84,6 +85,12 @@ public:
   InstrumentWeight(std::size_t p) const
   {
     return m_Instruments.weight[p];
+  }
+  /** Gives their memory back: from then on no instrument nor weighted column may be asked for. */
+  void
+  ReleaseInstruments()
+  {
+    std::exchange(m_Instruments, {});
   }
 
   /** 1, the mean minus the centre, and its derivatives at pixel \a p. */

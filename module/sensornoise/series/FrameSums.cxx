@@ -74,6 +74,7 @@ FrameSums::FrameSums(FrameRegressors regressors, const ParallelFor & parallelFor
   , m_Cells(m_CellRows * m_CellsPerRow)
 {
   this->SumColumns(parallelFor);
+  this->SumInstruments(parallelFor);
 }
 
 template <typename TPixel>
@@ -138,6 +139,31 @@ FrameSums::SumColumns(const ParallelFor & parallelFor)
       }
     }
   }
+}
+
+/** Noise is a line of the level: sums with 1 and with the level give what any line does to the instruments. */
+void
+FrameSums::SumInstruments(const ParallelFor & parallelFor)
+{
+  const auto pixels = this->GetFrame().mean.size();
+  const auto sums = SumOverBlocks<8>(pixels, parallelFor, [this](std::size_t p, auto & s) {
+    if (m_Regressors.ClassOf(p) != FrameRegressors::Unused)
+    {
+      const double x = m_Regressors.InstrumentX(p);
+      const double y = m_Regressors.InstrumentY(p);
+      const double level = this->GetFrame().neighbourMean[p];
+      const double terms[4] = { m_Regressors.InstrumentWeight(p), x * x, x * y, y * y };
+      for (std::size_t k = 0; k < 4; ++k)
+      {
+        s[k] += terms[k];
+        s[4 + k] += terms[k] * level;
+      }
+    }
+  });
+  m_OfOne.variance = sums[0];
+  m_OfOne.squares << sums[1], sums[2], sums[2], sums[3];
+  m_OfLevel.variance = sums[4];
+  m_OfLevel.squares << sums[5], sums[6], sums[6], sums[7];
 }
 
 template <typename TPixel>

@@ -19,6 +19,14 @@
 namespace sensornoise
 {
 
+/** Sums of what noise of variance V does to the instruments: of w V, and of z z' V, z the instruments with their
+ * weights. */
+struct InstrumentNoise
+{
+  double          variance{ 0.0 };
+  Eigen::Matrix2d squares{ Eigen::Matrix2d::Zero() };
+};
+
 /** \class FrameSums
  * \brief The second pass: weighted inner products of every frame with the mean image and its derivatives.
  *
@@ -90,6 +98,19 @@ public:
   {
     return m_Regressors.GetFrame();
   }
+  /** Gives the memory of the instruments back, when all frames have been added. */
+  void
+  ReleaseInstruments()
+  {
+    m_Regressors.ReleaseInstruments();
+  }
+  /** For the variance V = \a intercept + \a gain mean. */
+  InstrumentNoise
+  NoiseOfInstruments(double gain, double intercept) const
+  {
+    return { intercept * m_OfOne.variance + gain * m_OfLevel.variance,
+             intercept * m_OfOne.squares + gain * m_OfLevel.squares };
+  }
   const ColumnVector &
   GetClassSums(std::size_t t, std::size_t gradientClass) const
   {
@@ -125,6 +146,8 @@ public:
 private:
   void
   SumColumns(const ParallelFor & parallelFor);
+  void
+  SumInstruments(const ParallelFor & parallelFor);
 
   template <typename TPixel>
   void
@@ -138,6 +161,8 @@ private:
   std::vector<ClassMatrix>                         m_ClassGram;
   Eigen::Matrix<double, Instruments, FrameColumns> m_InstrumentGram;
   std::vector<Cell>                                m_Cells;
+  InstrumentNoise                                  m_OfOne;   // of the variance 1
+  InstrumentNoise                                  m_OfLevel; // of a variance that is the neighbours' mean
 };
 
 extern template SensorNoise_EXPORT void

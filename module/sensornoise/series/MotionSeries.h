@@ -40,13 +40,6 @@ struct InstrumentShifts
   Eigen::Matrix2d  covariance;   ///< of one frame's [pixel^2]
 };
 
-/** Sums of what noise does to the instruments: of w V, and of z z' V, z the instruments with their weights. */
-struct InstrumentNoise
-{
-  double          variance{ 0.0 };
-  Eigen::Matrix2d squares{ Eigen::Matrix2d::Zero() };
-};
-
 /** Solves for the shifts with the smoothed derivatives as instruments.
  *
  * Least squares underestimates strong vibrations by 2 to 15 %: the mean is blurred by them, most where the scene is

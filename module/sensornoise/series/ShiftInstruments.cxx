@@ -18,31 +18,60 @@ AddScaled(const double * from, double weight, double * to, std::size_t count)
 {
   std::transform(to, to + count, from, to, [weight](double sum, double value) { return sum + weight * value; });
 }
+/** \class DerivativeRows
+ * \brief The derivative of the mean by a stencil over the pixels of two boxes, row by row; 0 where it reaches over the
+ * border. */
+class DerivativeRows
+{
+public:
+  DerivativeRows(const ReferenceFrame & frame, StencilIndex k)
+    : m_Frame(frame)
+    , m_Taps(MotionStencils()[k].taps)
+    , m_Row(frame.geometry.width)
+  {}
+
+  const double *
+  operator()(std::size_t y)
+  {
+    constexpr double  side = 2.0 * static_cast<double>(InSeries.instrumentRadius) + 1.0;
+    const std::size_t width = m_Frame.geometry.width;
+    std::fill(m_Row.begin(), m_Row.end(), 0.0);
+    if (y >= StencilMargin && y + StencilMargin < m_Frame.geometry.height && width > 2 * StencilMargin)
+    {
+      const std::size_t first = y * width + StencilMargin;
+      const std::size_t count = width - 2 * StencilMargin;
+      double * const    row = m_Row.data() + StencilMargin;
+      for (const StencilTap & tap : m_Taps)
+      {
+        AddScaled(m_Frame.mean.data() + static_cast<std::ptrdiff_t>(first) + tap.Offset(width), tap.weight, row, count);
+      }
+      std::transform(row, row + count, row, [side](double d) { return d / (side * side * side * side); });
+    }
+    return m_Row.data();
+  }
+
+private:
+  const ReferenceFrame & m_Frame;
+  const StencilTaps &    m_Taps;
+  std::vector<double>    m_Row;
+};
 } // namespace
 
 std::vector<double>
 SmoothedDerivative(const ReferenceFrame & frame, StencilIndex k, const ParallelFor & parallelFor)
 {
-  const double        side = 2.0 * static_cast<double>(InSeries.instrumentRadius) + 1.0;
-  const std::size_t   width = frame.geometry.width;
-  const std::size_t   height = frame.geometry.height;
-  std::vector<double> map(frame.mean.size(), 0.0);
-  parallelFor(height, [&](std::size_t y) {
-    if (y >= StencilMargin && y + StencilMargin < height && width > 2 * StencilMargin)
-    {
-      const std::size_t first = y * width + StencilMargin;
-      const std::size_t count = width - 2 * StencilMargin;
-      double * const    row = map.data() + first;
-      for (const StencilTap & tap : MotionStencils()[k].taps)
-      {
-        AddScaled(frame.mean.data() + static_cast<std::ptrdiff_t>(first) + tap.Offset(width), tap.weight, row, count);
-      }
-      std::transform(row, row + count, row, [side](double d) { return d / (side * side * side * side); });
-    }
-  });
-  const std::vector<double> once = BoxSum(map, width, height, InSeries.instrumentRadius, parallelFor);
-  BoxSum(once, width, height, InSeries.instrumentRadius, parallelFor, map);
-  return map;
+  const std::size_t width = frame.geometry.width;
+  const std::size_t height = frame.geometry.height;
+  const std::size_t radius = InSeries.instrumentRadius;
+  const auto        boxSum = [&](const auto & makeSource) {
+    std::vector<double> sums(frame.mean.size());
+    ForBoxRows(makeSource, width, height, radius, parallelFor, [&](std::size_t y, const double * row) {
+      std::copy_n(row, width, sums.data() + y * width);
+    });
+    return sums;
+  };
+  const std::vector<double> once = boxSum([&] { return DerivativeRows(frame, k); });
+  return boxSum([&] { return RowsOf(once, width); });
 }
 
 std::vector<double>
@@ -51,34 +80,46 @@ InstrumentWeight(const ReferenceFrame &            frame,
                  const std::vector<std::uint8_t> & mask,
                  const ParallelFor &               parallelFor)
 {
-  const std::size_t         reach = InSeries.missingRadius;
-  const std::size_t         radius = InSeries.noiseRadius;
-  const std::size_t         width = frame.geometry.width;
-  const std::size_t         height = frame.geometry.height;
-  std::vector<std::uint8_t> missing(mask.size(), 0);
-  std::vector<double>       noise(mask.size());
-  parallelFor(height, [&](std::size_t y) {
-    for (std::size_t x = 0; x < width; ++x)
-    {
-      const std::size_t p = y * width + x;
-      const bool        isInner =
-        x >= StencilMargin && x + StencilMargin < width && y >= StencilMargin && y + StencilMargin < height;
-      missing[p] = isInner && mask[p] == 0 ? 1 : 0;
-      noise[p] = model.NoiseVariance(frame.neighbourMean[p]);
-    }
-  });
+  const std::size_t reach = InSeries.missingRadius;
+  const std::size_t radius = InSeries.noiseRadius;
+  const std::size_t width = frame.geometry.width;
+  const std::size_t height = frame.geometry.height;
+  const auto        missingRows = [&] {
+    return [&, row = std::vector<std::uint8_t>(width)](std::size_t y) mutable {
+      const bool isInner = y >= StencilMargin && y + StencilMargin < height;
+      for (std::size_t x = 0; x < width; ++x)
+      {
+        const bool isMissing = isInner && x >= StencilMargin && x + StencilMargin < width && mask[y * width + x] == 0;
+        row[x] = isMissing ? 1 : 0;
+      }
+      return row.data();
+    };
+  };
+  const auto noiseRows = [&] {
+    return [&, row = std::vector<double>(width)](std::size_t y) mutable {
+      const double * const level = frame.neighbourMean.data() + y * width;
+      std::transform(level, level + width, row.begin(), [&model](double own) { return model.NoiseVariance(own); });
+      return row.data();
+    };
+  };
   std::vector<std::uint8_t> complete(mask.size());
-  std::vector<double>       smooth = BoxSum(missing, width, height, reach, parallelFor);
-  std::transform(
-    smooth.begin(), smooth.end(), complete.begin(), [](double near) { return static_cast<std::uint8_t>(near < 0.5); });
-  std::vector<double> weight = BoxSum(complete, width, height, reach, parallelFor);
-  BoxSum(noise, width, height, radius, parallelFor, smooth);
-  const double side = 2.0 * static_cast<double>(radius) + 1.0;
-  const double reachSide = 2.0 * static_cast<double>(reach) + 1.0;
-  ForBlocks(mask.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p)
+  ForBoxRows(missingRows, width, height, reach, parallelFor, [&](std::size_t y, const double * near) {
+    std::transform(near, near + width, complete.data() + y * width, [](double missing) {
+      return static_cast<std::uint8_t>(missing < 0.5);
+    });
+  });
+  const double        side = 2.0 * static_cast<double>(radius) + 1.0;
+  const double        reachSide = 2.0 * static_cast<double>(reach) + 1.0;
+  std::vector<double> weight(mask.size());
+  ForBoxBands(height, parallelFor, [&](std::size_t first, std::size_t last) {
+    BoxRows completes(RowsOf(complete, width), width, height, reach, first, last);
+    BoxRows noises(noiseRows(), width, height, radius, first, last);
+    for (std::size_t y = first; y < last; ++y)
     {
-      weight[p] *= side * side / (reachSide * reachSide * smooth[p]);
+      const double * const near = completes.Next();
+      std::transform(near, near + width, noises.Next(), weight.data() + y * width, [&](double whole, double smooth) {
+        return whole * (side * side / (reachSide * reachSide * smooth));
+      });
     }
   });
   return weight;

@@ -79,6 +79,20 @@ TemporalBasis::TemporalBasis(const std::vector<double> & gamma,
   m_Means = m_Series.colwise().mean();
 }
 
+TemporalBasis
+TemporalBasis::OfLight() const
+{
+  const auto    light = static_cast<Eigen::Index>(m_LightFactors);
+  TemporalBasis basis;
+  basis.m_LightFactors = m_LightFactors;
+  basis.m_Rounded = m_Rounded.leftCols(light);
+  basis.m_Series = m_Series.leftCols(light);
+  basis.m_Basis = m_Basis.leftCols(light);
+  basis.m_Inverse = m_Inverse.topLeftCorner(light, light);
+  basis.m_Means = m_Means.leftCols(light);
+  return basis;
+}
+
 void
 TemporalBasis::ToCoordinates(double * sums, std::size_t stride, const double * means, std::size_t pixels) const
 {

@@ -45,6 +45,10 @@ public:
   {
     return m_LightFactors;
   }
+  /** The series of light alone. The coordinates on them are those of the whole basis, by its triangular form. */
+  TemporalBasis
+  OfLight() const;
+
   /** Orthonormal series, frames x factors. */
   const Eigen::MatrixXd &
   GetBasis() const

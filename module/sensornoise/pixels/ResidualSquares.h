@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_pixels_ResidualSquares_h
+#define sensornoise_pixels_ResidualSquares_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/base/Parallel.h"
+
+#include <vector>
+
+namespace sensornoise
+{
+
+class PixelCoordinates;
+class TemporalBasis;
+struct ReferenceFrame;
+
+/** What is left of every pixel's squared deviations when the series of a basis are taken out of its time series: all
+ * that the variance needs of its coordinates S_j, see ProjectedVariance. */
+struct ResidualSquares
+{
+  std::vector<double> rss;  ///< sum of squares about the mean - sum_j S_j^2 [DN^2]
+  std::vector<float>  skew; ///< sum_i S_i sum_j K_ij, K_ij = sum_t Q_tj^2 Q_ti [DN]
+};
+
+/** Appends the squares of the pixels whose \a coordinates are held, which follow those that \a squares has already.
+ * Unless they are to be kept, the coordinates are given back one slab after the other. */
+SensorNoise_EXPORT void
+AppendResidualSquares(const ReferenceFrame & frame,
+                      const TemporalBasis &  basis,
+                      PixelCoordinates &     coordinates,
+                      bool                   keepCoordinates,
+                      const ParallelFor &    parallelFor,
+                      ResidualSquares &      squares);
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/pixels/ProjectionSums.h"
+#include "sensornoise/refined/MemoryNeed.h"
+#include "sensornoise/refined/RefinedMethod.h"
+#include "sensornoise/report/ReportJson.h"
+#include "helpers/RefinedTestHelper.h"
+#include "helpers/ReportTestHelper.h"
+#include "helpers/StackTestHelper.h"
+
+#include <cmath>
+#include <cstddef>
+#include <gtest/gtest.h>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <string>
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+
+namespace
+{
+using Codes = unsigned short;
+
+constexpr std::size_t Width = 1100;
+constexpr std::size_t Height = 1000;
+constexpr std::size_t Frames = 12;
+static_assert(Width * Height > 2 * ProjectionSums::SlabPixels, "the frames have three slabs");
+
+/** Noise of 1 DN/e- and 10 DN^2 on waves, in light that flickers: everywhere alike, or in bands of rows. */
+Stack<Codes>
+FramesOf(bool isLightLocal)
+{
+  Stack<Codes>                    stack{ Width, Height, Frames, {} };
+  std::minstd_rand                random(19);
+  std::normal_distribution<float> normal;
+  stack.pixels.reserve(Width * Height * Frames);
+  for (std::size_t t = 0; t < Frames; ++t)
+  {
+    for (std::size_t y = 0; y < Height; ++y)
+    {
+      const double phase = 1.7 * static_cast<double>(t * t) + (isLightLocal ? static_cast<double>(y) / 60.0 : 0.0);
+      const double brightness = 1.0 + 0.04 * std::sin(phase);
+      for (std::size_t x = 0; x < Width; ++x)
+      {
+        const double wave = static_cast<double>((x / 4 + y / 8) % 16) / 16.0;
+        const double light = (200.0 + 1400.0 * wave) * brightness;
+        stack.pixels.push_back(
+          static_cast<Codes>(std::lround(200.0 + light + std::sqrt(10.0 + light) * normal(random))));
+      }
+    }
+  }
+  return stack;
+}
+
+struct Limited
+{
+  RefinedMethod<Codes> method;
+  unsigned int         passes{ 0 };
+};
+
+Limited
+MeasureWithin(const Stack<Codes> & stack, double bytes)
+{
+  RefinedSettings settings = WithCodes();
+  settings.memoryLimitBytes = bytes;
+  Limited limited{ RefinedMethod<Codes>(settings, GeometryOf(stack), Frames, {}, Threads(2)) };
+  for (; !limited.method.IsDone(); ++limited.passes)
+  {
+    limited.method.AddFrames(stack.Frame(0), Frames / 2);
+    limited.method.AddFrames(stack.Frame(Frames / 2), Frames / 2);
+    limited.method.EndPass();
+  }
+  return limited;
+}
+
+class SensorNoiseMemoryLimit : public ::testing::TestWithParam<bool>
+{};
+} // namespace
+
+TEST_P(SensorNoiseMemoryLimit, ReadsMoreOftenAndChangesNoBit)
+{
+  const Stack<Codes> stack = FramesOf(this->GetParam());
+  const Limited      free = MeasureWithin(stack, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(free.passes, 3U);
+  EXPECT_EQ(HasWarning(free.method.GetReport(), WarningCode::LocalLight), this->GetParam());
+  const Limited limited = MeasureWithin(stack, MemoryNeed{ Width * Height, Frames }.Least());
+  EXPECT_GT(limited.passes, this->GetParam() ? 4U : 3U); // one for the light alone
+  EXPECT_EQ(ToJson(limited.method.GetReport()), ToJson(free.method.GetReport()));
+  EXPECT_TRUE(HaveSameBits(limited.method.GetMean(), free.method.GetMean()));
+  EXPECT_TRUE(HaveSameBits(limited.method.GetCorrectedVariance(), free.method.GetCorrectedVariance()));
+  EXPECT_TRUE(HaveSameBits(limited.method.GetPixelUse(), free.method.GetPixelUse()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Light, SensorNoiseMemoryLimit, ::testing::Bool(), [](const auto & light) {
+  return light.param ? "Local" : "Common";
+});
+
+TEST(SensorNoiseMemoryLimit, BelowTheLeastIsRefused)
+{
+  RefinedSettings settings = WithCodes();
+  settings.memoryLimitBytes = MemoryNeed{ 640 * 480, 20 }.Least();
+  EXPECT_NO_THROW(RefinedMethod<Codes>(settings, { 640, 480, 1 }, 20));
+  settings.memoryLimitBytes -= 1.0;
+  try
+  {
+    RefinedMethod<Codes>(settings, { 640, 480, 1 }, 20);
+    FAIL() << "no error";
+  }
+  catch (const std::invalid_argument & error)
+  {
+    EXPECT_EQ(std::string(error.what()),
+              "the memory limit is 30.5 MB; expected at least 30.5 MB for frames of 640 x 480 pixels");
+  }
+}
+
+TEST(SensorNoiseMemoryNeed, IsThatOfTheMapsTheFramesAndTheSample)
+{
+  const MemoryNeed need{ 4'000'000, 100 };
+  EXPECT_DOUBLE_EQ(need.Least(), 64.0 * 4e6 + 20e3 * 100.0 + 33554432.0);
+  EXPECT_DOUBLE_EQ(need.OfProjections(9), 8.0 * 9.0 * 4e6);
+  EXPECT_LT(need.BesideProjections(), need.Least());
+}
