@@ -25,9 +25,9 @@
 namespace itk
 {
 
-/** Bytes of a stack that are read at a time, at most, unless one frame is larger: 64 MiB. Set by hand: far above the
+/** Bytes of a stack that are read at a time, at most, unless one frame is larger: 32 MiB. Set by hand: far above the
  * caches, so that half and twice cost the same time, and small beside the maps of a large frame. */
-inline constexpr SizeValueType SensorNoiseChunkBytes = SizeValueType{ 64 } << 20;
+inline constexpr SizeValueType SensorNoiseChunkBytes = SizeValueType{ 32 } << 20;
 
 /** How many frames of \a frameBytes bytes make a chunk. */
 inline SizeValueType

@@ -32,7 +32,7 @@ def write_frames(folder: str, frames: int) -> list[str]:
 
 
 def measure(names: list[str]) -> tuple[dict[str, Any], list[int]]:
-    """Measures frames that are read a few at a time: as many as 64 MiB hold.
+    """Measures frames that are read a few at a time: as many as 32 MiB hold.
 
     Returns a report with gain, offset, read noise and intercept, and the number of frames of each read, in order.
     """

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -48,7 +49,8 @@ struct EstimateOptions
   std::optional<std::pair<std::size_t, std::size_t>> frames; ///< first, one past the last
   std::optional<std::pair<std::size_t, std::size_t>> cut;    ///< of these what is left to do, see SelectFiles()
   std::string                                        mask;
-  unsigned int                                       threads{ 0 }; ///< 0: all
+  std::uint64_t                                      memoryLimit{ 0 }; ///< [bytes]; 0: what it needs
+  unsigned int                                       threads{ 0 };     ///< 0: all
   std::string                                        json;
   std::string                                        maps;
   std::string                                        plot;          ///< .html: the page; .svg, .png: its first figure
@@ -98,6 +100,7 @@ struct EstimateOptions
       estimator.SetLevelRangeLow(levelRange->first);
       estimator.SetLevelRangeHigh(levelRange->second);
     }
+    estimator.SetMemoryLimit(memoryLimit);
     estimator.SetRollingShutter(rollingShutter);
     estimator.SetSigmaRows(sigmaRows);
     estimator.SetOffset(offset);

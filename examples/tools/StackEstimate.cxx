@@ -7,7 +7,9 @@
 #include "tools/FilesHash.h"
 #include "tools/MapFiles.h"
 #include "tools/SvgAsPng.h"
+#include "sensornoise/base/FreeMemory.h"
 #include "sensornoise/page/ReportPage.h"
+#include "sensornoise/refined/MemoryNeed.h"
 #include "itkCommand.h"
 #include "itkExtractImageFilter.h"
 #include "itkSensorNoiseEstimator.h"
@@ -18,6 +20,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdio>
+#include <iostream>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -168,6 +171,27 @@ MakePlot(PlotKind kind, const MeasuredStack & measured, itk::SensorNoiseEstimato
   return std::visit([&maps](const auto & report) { return ToHtml(report, maps); }, measured);
 }
 
+/** Says what memory the estimate of a large frame will need, before it starts. */
+void
+NoteMemory(const EstimateOptions & options, const itk::ImageRegion<3> & region)
+{
+  constexpr double leastNoted = 1e9; // bytes. Set by hand: of half or twice that, too, machines have enough today
+  const MemoryNeed need{ region.GetSize(0) * region.GetSize(1), region.GetSize(2) };
+  if (options.quiet || options.method != "refined" || need.Least() < leastNoted)
+  {
+    return;
+  }
+  std::cerr << "note: frames of " << region.GetSize(0) << " x " << region.GetSize(1) << " pixels need "
+            << TextOfBytes(need.Least()) << " of memory";
+  if (options.memoryLimit == 0)
+  {
+    std::cerr << ", or " << TextOfBytes(need.BesideProjections()) << " and " << TextOfBytes(need.OfProjections(1))
+              << " for each series of light and motion that is found (2 to 20), if that is more; --memory-limit reads "
+                 "the stack more often instead";
+  }
+  std::cerr << '\n';
+}
+
 template <typename TPixel>
 MeasuredStack
 Estimate(const EstimateOptions & options, const FrameList & list, MapFiles * maps, std::string * plot)
@@ -204,6 +228,7 @@ Estimate(const EstimateOptions & options, const FrameList & list, MapFiles * map
     darkCrop = Crop<StackType>(darkReader->GetOutput(), dark);
     estimator->SetDark(darkCrop->GetOutput());
   }
+  NoteMemory(options, region);
   if (!options.quiet && isatty(STDERR_FILENO) != 0)
   {
     ShowProgressOn(*estimator);

@@ -54,11 +54,24 @@ TEST_F(ExtremeOptionsTool, OffsetsOutsideTheLevelsAreRefused)
   EXPECT_EQ(Run("f.mha --quiet --offset 100"), 0) << m_Message;
 }
 
+TEST_F(ExtremeOptionsTool, MemoryLimitsHaveUnitsAndChangeNoNumber)
+{
+  Write("s.mha", MakeBurst().GetPointer());
+  ASSERT_EQ(Run("s.mha --quiet --json -"), 0) << m_Message;
+  const std::string expected = m_Output;
+  for (const char * limit : { "100M", "0.1G", "96Mi", "100000000" })
+  {
+    EXPECT_EQ(Run(std::string("s.mha --quiet --json - --memory-limit ") + limit), 0) << limit << m_Message;
+    EXPECT_EQ(m_Output, expected) << limit;
+  }
+  IsRefused("s.mha --memory-limit 1M", { "the memory limit is 1 MB; expected at least" });
+}
+
 TEST_F(ExtremeOptionsTool, EveryOptionOfTheEstimate)
 {
   Write("s.mha", MakeBurst(6, "48x48").GetPointer());
   const std::string tool = "\"" SENSORNOISE_BIN "/estimate-sensor-noise\" s.mha --quiet --json - ";
-  for (const char * option : { "bit-depth", "step", "rolling-shutter", "offset", "threads" })
+  for (const char * option : { "bit-depth", "step", "rolling-shutter", "offset", "threads", "memory-limit" })
   {
     for (const char * value : { "0", "-1", "1e308", "-1e308", "1e-308", "nan", "inf", "9223372036854775808", "''" })
     {

@@ -204,7 +204,7 @@ def test_dark_frames_are_read_through_the_same_door(burst, dark, tmp_path):
 
 
 def test_memory_stays_flat_for_a_list_of_files(fresh, tmp_path):
-    """512 x 512 x 2 bytes: 400 frames are 200 MiB, 100 are 50. One chunk has at most 64 MiB."""
+    """512 x 512 x 2 bytes: 400 frames are 200 MiB, 100 are 50. One chunk has at most 32 MiB."""
     frames = np.random.default_rng(1).integers(100, 1000, (20, 512, 512), dtype=np.uint16)
     files = write(tmp_path, frames)
     code = PEAK + (
@@ -220,7 +220,7 @@ def test_memory_stays_flat_for_a_list_of_files(fresh, tmp_path):
 
 @pytest.mark.parametrize("make", ["stack", "list(stack)", "itk.image_view_from_array(stack)"])
 def test_array_in_memory_is_not_copied(fresh, make):
-    """A stack of 200 MiB; the memory of the estimate is taken by a first one; of a list, two chunks of up to 64 MiB."""
+    """A stack of 200 MiB; the memory of the estimate is taken by a first one; of a list, two chunks of up to 32 MiB."""
     code = PEAK + (
         "import itk, numpy as np\n"
         "itk.estimate_sensor_noise(np.random.default_rng(1).integers(9, 90, (6, 512, 512), dtype=np.uint16))\n"

@@ -12,6 +12,17 @@ def is_near(quantity, truth):
     return abs(quantity["value"] - truth) < 4 * quantity["standard_error"]
 
 
+@pytest.mark.parametrize("method", ["refined", "published"])
+def test_a_memory_limit_changes_no_number(burst, method):
+    report = itk.estimate_sensor_noise(burst, method=method)
+    assert itk.estimate_sensor_noise(burst, method=method, memory_limit=10**8) == report
+    with pytest.raises(RuntimeError, match="the memory limit is 0.1 MB; expected at least"):
+        itk.estimate_sensor_noise(burst, method=method, memory_limit=10**5)
+    for limit in (0, -1, 1.5, "4G", True):
+        with pytest.raises(ValueError, match="memory_limit"):
+            itk.estimate_sensor_noise(burst, method=method, memory_limit=limit)
+
+
 def test_refined_is_the_default_and_has_errors(burst):
     report = itk.estimate_sensor_noise(burst)
     assert report["method"] == "refined"

@@ -13,7 +13,7 @@ from ._axes import in_time_order
 from ._chunks import frames_of_chunk, is_closed, require_chunks
 from ._types import ItkObject
 
-# Bytes that are asked for at a time, beside the chunk of 64 MiB that ITK asks for; more where what is stored has larger
+# Bytes that are asked for at a time, beside the chunk of 32 MiB that ITK asks for; more where what is stored has larger
 # chunks, so that each is read once, up to _LARGEST.
 _PIECE_BYTES = 8 << 20
 _LARGEST = 64 << 20
