@@ -5,4 +5,7 @@
 Nothing here is loaded by `import itk`, and importing it does not need Dask: what does says so when it is called.
 """
 
-__all__: list[str] = []
+from ._many import estimate_many
+from ._steps import Step, find_steps
+
+__all__ = ["Step", "estimate_many", "find_steps"]

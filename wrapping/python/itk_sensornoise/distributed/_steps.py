@@ -1,0 +1,95 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Steps in a quantity that was measured again and again, told from chance by the reports' own errors."""
+
+from itertools import pairwise
+from statistics import NormalDist
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .._options import number, refuse
+
+
+class Step(NamedTuple):
+    """What changed between one measurement and the next."""
+
+    at: int  # the first measurement after it, counted from 0
+    change: float  # mean from it to the next step less that from the last step to it [unit of the values]
+    standard_error: float  # of the change [unit of the values]
+
+    @property
+    def z(self) -> float:
+        """The change in standard errors [1]."""
+        return self.change / self.standard_error
+
+
+def find_steps(values: ArrayLike, standard_errors: ArrayLike, false_alarms: float = 0.001) -> list[Step]:
+    """Finds where a quantity of one camera changed, from its reports in order of time.
+
+    At each place between two measurements the weighted mean of all before it is held against that of all after it, the
+    weights being 1 / standard error^2. The place where they differ by the most standard errors is a step if these are
+    more than chance allows; then what lies before and what lies behind it are looked at in the same way.
+
+    Parameters
+    ----------
+    values, standard_errors
+        One number of each measurement, for example the columns gain_DN_per_e and gain_error_DN_per_e of the table of
+        estimate_many(), for one camera. Not finite (a burst that told nothing): left out. Errors have to be above 0.
+    false_alarms
+        Of how many places without a step one is taken for it, at most: 0 to 1, exclusive [1]. Default: one in 1,000. A
+        step is one of |z| > 3.29 then. For several quantities of a camera together: this divided by their number.
+
+    Returns
+    -------
+    list of Step
+        In order of time; `at` counts the measurements that were left out, too.
+
+    Raises
+    ------
+    ValueError
+        Wrong use; says what was found and what was expected.
+
+    The rate holds if the errors do, and are those of independent reports. A slow drift is taken for one step or more.
+    """
+    measured, errors = (np.asarray(given, dtype=float) for given in (values, standard_errors))
+    if measured.ndim != 1 or measured.shape != errors.shape:
+        raise ValueError(
+            f"values has shape {measured.shape} and standard_errors {errors.shape}; expected one list of numbers each, "
+            "of the same length"
+        )
+    expected = "a number above 0 and below 1"
+    rate = number("false_alarms", false_alarms, expected, above=0.0)
+    if rate >= 1:
+        raise refuse("false_alarms", false_alarms, expected)
+    told = np.flatnonzero(np.isfinite(measured) & np.isfinite(errors))
+    if (errors[told] <= 0).any():
+        raise ValueError(f"standard_errors has {errors[told].min():g} as its least; expected numbers above 0")
+    threshold = NormalDist().inv_cdf(1 - rate / 2)
+    values, weights = measured[told], errors[told] ** -2.0
+    steps = _places(values, weights, threshold)
+    parts = pairwise(pairwise([0, *steps, len(values)]))
+    return [
+        Step(int(told[at]), *_difference(values[first:end], weights[first:end], at - first))
+        for (first, at), (_, end) in parts
+    ]
+
+
+def _difference(values: np.ndarray, weights: np.ndarray, at: int) -> tuple[float, float]:
+    """By how much the weighted mean changes at a place, and the standard error of that."""
+    before, after = weights[:at].sum(), weights[at:].sum()
+    centred = weights * (values - values[0])
+    return float(centred[at:].sum() / after - centred[:at].sum() / before), float(np.sqrt(1 / before + 1 / after))
+
+
+def _places(values: np.ndarray, weights: np.ndarray, threshold: float) -> list[int]:
+    """Where the measurements step: the place of the largest difference, then those of both parts."""
+    scores = [
+        abs(change / error) for change, error in (_difference(values, weights, at) for at in range(1, len(values)))
+    ]
+    if not scores or max(scores) <= threshold:
+        return []
+    at = 1 + int(np.argmax(scores))
+    behind = _places(values[at:], weights[at:], threshold)
+    return [*_places(values[:at], weights[:at], threshold), at, *(at + place for place in behind)]

@@ -1,0 +1,63 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""One source measured, here or by a worker of Dask; what goes wrong with it is a sentence, not an exception."""
+
+import pickle
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .._axes import in_time_order
+from .._estimate import estimate_sensor_noise
+from .._types import Frames
+
+
+class Outcome(NamedTuple):
+    """What came of a source: one of both is None."""
+
+    reason: str | None  # why there is no report, one line
+    report: str | None  # the record as JSON
+
+
+def measure(source: Any, settings: dict[str, Any]) -> Outcome:
+    """Measures frames, or what a function without arguments returns."""
+    try:
+        frames = source() if callable(source) else source
+        return Outcome(None, estimate_sensor_noise(_read_here(frames), **settings).to_json())
+    except Exception as error:  # noqa: BLE001 - of whatever package reads; one bad burst does not end the others
+        return Outcome(reason_of(error), None)
+
+
+def measure_pickled(source: bytes, settings: dict[str, Any]) -> Outcome:
+    """The same in a worker. By one thread, unless the settings say otherwise: a worker runs as many tasks at a time as
+    it may use cores."""
+    try:
+        unpickled = pickle.loads(source)
+    except Exception as error:  # noqa: BLE001 - of whatever package the source is of
+        return Outcome(f"the worker cannot unpickle it: {reason_of(error)}", None)
+    return measure(unpickled, {**settings, "threads": settings.get("threads") or 1})
+
+
+def reason_of(error: BaseException) -> str:
+    """An exception as one line; what it is, unless the package raised it for people."""
+    text = " ".join(str(error).split())
+    kind = type(error).__name__
+    return text if text and kind in ("ValueError", "RuntimeError") else f"{kind}: {text}".rstrip(": ")
+
+
+class _Here:
+    """Frames of Dask, computed by the thread that asks for them: the scheduler would wait for that thread."""
+
+    def __init__(self, frames: Any) -> None:
+        self.shape, self.dtype, self.chunks = frames.shape, np.dtype(frames.dtype), frames.chunks
+        self._frames = frames
+
+    def __getitem__(self, times: slice) -> np.ndarray:
+        return np.asarray(self._frames[times].compute(scheduler="synchronous"))
+
+
+def _read_here(frames: Any) -> Frames:
+    graph = getattr(frames, "__dask_graph__", None)
+    if graph is None or graph() is None:
+        return frames  # type: ignore[no-any-return]
+    return _Here(in_time_order(frames, "frames"))
