@@ -9,175 +9,98 @@
 //
 //   SensorNoiseBenchmark [--benchmark_filter=...]     stack: 1376 x 1040 x 100 unsigned short, 2 threads
 
-#include "sensornoise/simulation/Scenes.h"
+#include "benchmark/BenchmarkStack.h"
 #include "itkCastImageFilter.h"
 #include "itkGeneralizedAnscombeImageFilter.h"
 #include "itkInverseGeneralizedAnscombeImageFilter.h"
+#include "itkMeanProjectionImageFilter.h"
 #include "itkMultiThreaderBase.h"
-#include "itkSensorNoiseEstimator.h"
-#include "itkSensorNoiseStackSource.h"
-#include "itkTemporalStatisticsImageFilter.h"
+#include "itkStandardDeviationProjectionImageFilter.h"
 
-#include <algorithm>
 #include <benchmark/benchmark.h>
-#include <chrono>
-#include <cstddef>
-#include <cstdint>
-#include <numeric>
 #include <type_traits>
 #include <vector>
 
+namespace sensornoise::benchmarks
+{
 namespace
 {
-using StackType = itk::Image<unsigned short, 3>;
-constexpr unsigned int Threads = 2;
-constexpr std::size_t  Width = 1376;
-constexpr std::size_t  Height = 1040;
-constexpr std::size_t  Frames = 100;
-
-StackType::Pointer
-GetStack(double rollingShutterPeriod, const char * bayer = "none")
-{
-  auto                                  reference = itk::Image<double, 2>::New();
-  const itk::Image<double, 2>::SizeType size{ { Width, Height } };
-  reference->SetRegions(size);
-  reference->Allocate();
-  const std::vector<double> scene = sensornoise::MakeTargetScene(Width, Height);
-  std::copy(scene.begin(), scene.end(), reference->GetBufferPointer());
-  auto source = itk::SensorNoiseStackSource<StackType>::New();
-  source->SetReference(reference);
-  source->SetCamera('B');
-  source->SetConditions(3);
-  source->SetNumberOfFrames(Frames);
-  source->SetRollingShutterPeriod(rollingShutterPeriod);
-  source->SetBayerPattern(bayer);
-  source->Update();
-  StackType::Pointer stack = source->GetOutput();
-  stack->DisconnectPipeline();
-  return stack;
-}
-
-/** The sum of all samples; each is read as a \a TSample. */
-template <typename TSample>
-std::uint64_t
-SumOfSamples(const StackType * stack)
-{
-  static auto                threader = itk::MultiThreaderBase::New();
-  const std::size_t          blocks = Frames * 8;
-  const std::size_t          size = Width * Height * Frames / blocks;
-  std::vector<std::uint64_t> sums(blocks);
-  threader->SetNumberOfWorkUnits(Threads);
-  threader->ParallelizeArray(
-    0,
-    blocks,
-    [&](itk::SizeValueType b) {
-      TSample * const samples = stack->GetBufferPointer() + b * size;
-      sums[b] = std::accumulate(samples, samples + size, std::uint64_t{ 0 });
-    },
-    nullptr);
-  return std::accumulate(sums.begin(), sums.end(), std::uint64_t{ 0 });
-}
-
-/** Volatile samples are read one after the other, whatever the compiler. */
-constexpr auto ReadPass = SumOfSamples<const volatile unsigned short>;
-constexpr auto MemoryPass = SumOfSamples<const unsigned short>;
-
-template <typename TFunction>
-double
-SecondsOf(TFunction function)
-{
-  const auto start = std::chrono::steady_clock::now();
-  function();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-double
-MedianOf(std::vector<double> values)
-{
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
-/** Times \a function in each iteration after a pass of either kind. */
-template <typename TFunction>
-void
-CompareWithReadPass(benchmark::State & state, const StackType * stack, TFunction function)
-{
-  std::vector<double> readPasses;
-  std::vector<double> memoryPasses;
-  for (auto _ : state)
-  {
-    const double memoryPass = SecondsOf([&] { benchmark::DoNotOptimize(MemoryPass(stack)); });
-    const double readPass = SecondsOf([&] { benchmark::DoNotOptimize(ReadPass(stack)); });
-    const double seconds = SecondsOf(function);
-    state.SetIterationTime(seconds);
-    readPasses.push_back(seconds / readPass);
-    memoryPasses.push_back(seconds / memoryPass);
-  }
-  state.counters["read_passes"] = MedianOf(readPasses);
-  state.counters["memory_passes"] = MedianOf(memoryPasses);
-}
-
 void
 ReadPassAgain(benchmark::State & state)
 {
-  const auto stack = GetStack(0.0);
-  CompareWithReadPass(state, stack, [&] { benchmark::DoNotOptimize(ReadPass(stack)); });
+  const auto stack = SimulateStack();
+  CompareWithReadPass(state, stack, [&] { return SecondsToReadPass(stack); });
 }
 
-/** Mean, variance and clip mask. */
 void
 TemporalStatistics(benchmark::State & state)
 {
-  const auto stack = GetStack(0.0);
-  CompareWithReadPass(state, stack, [&] {
-    auto filter = itk::TemporalStatisticsImageFilter<StackType>::New();
-    filter->SetInput(stack);
-    filter->SetNumberOfWorkUnits(Threads);
-    filter->Update();
-  });
+  const auto stack = SimulateStack();
+  CompareWithReadPass(state, stack, [&] { return SecondsToTemporalStatistics(stack); });
 }
 
 /** A whole estimate; the argument is the period of a rolling shutter's bands in rows, 0 for none. */
 void
 Estimate(benchmark::State & state, const char * method)
 {
-  const auto stack = GetStack(static_cast<double>(state.range(0)));
+  const auto stack = SimulateStack(static_cast<double>(state.range(0)));
+  CompareWithReadPass(state, stack, [&] { return SecondsToEstimate(stack, method); });
+}
+
+/** ITK's own filters for mean and standard deviation over time. */
+void
+Projections(benchmark::State & state)
+{
+  using MapType = itk::Image<double, 2>;
+  const auto stack = SimulateStack();
   CompareWithReadPass(state, stack, [&] {
-    auto estimator = itk::SensorNoiseEstimator<StackType>::New();
-    estimator->SetInput(stack);
-    estimator->SetMethod(method);
-    estimator->SetNumberOfWorkUnits(Threads);
-    estimator->Update();
+    auto mean = itk::MeanProjectionImageFilter<StackType, MapType>::New();
+    auto deviation = itk::StandardDeviationProjectionImageFilter<StackType, MapType>::New();
+    mean->SetInput(stack);
+    mean->SetNumberOfWorkUnits(Threads);
+    deviation->SetInput(stack);
+    deviation->SetNumberOfWorkUnits(Threads);
+    return SecondsOf([&] {
+      mean->Update();
+      deviation->Update();
+    });
   });
 }
 
-double
-SecondsToEstimate(const StackType * stack, const char * method, const char * bayer)
+/** One thread, each time before two: times_faster is the ratio, and of_read_pass that of plain read passes. */
+void
+TwoThreads(benchmark::State & state, const char * what)
 {
-  auto estimator = itk::SensorNoiseEstimator<StackType>::New();
-  estimator->SetInput(stack);
-  estimator->SetMethod(method);
-  estimator->SetBayerPattern(bayer);
-  estimator->SetNumberOfWorkUnits(Threads);
-  return SecondsOf([&] { estimator->Update(); });
+  const auto          stack = SimulateStack();
+  std::vector<double> ratios;
+  std::vector<double> ofReadPass;
+  for (auto _ : state)
+  {
+    ofReadPass.push_back(SecondsToReadPass(stack, 1) / SecondsToReadPass(stack, 2));
+    const double one = SecondsTo(what, stack, 1);
+    const double two = SecondsTo(what, stack, 2);
+    state.SetIterationTime(two);
+    ratios.push_back(one / two);
+  }
+  SetRatios(state, "times_faster", ratios);
+  SetRatios(state, "of_read_pass", ofReadPass);
 }
 
 /** The four channels of a mosaic, each time after the estimate of a monochrome stack of the same size. */
 void
 Mosaic(benchmark::State & state, const char * method)
 {
-  const auto          mosaic = GetStack(0.0, "RGGB");
-  const auto          mono = GetStack(0.0);
+  const auto          mosaic = SimulateStack(0.0, "RGGB");
+  const auto          mono = SimulateStack();
   std::vector<double> monos;
   for (auto _ : state)
   {
-    const double ofMono = SecondsToEstimate(mono, method, "none");
+    const double ofMono = SecondsToEstimate(mono, method);
     const double seconds = SecondsToEstimate(mosaic, method, "RGGB");
     state.SetIterationTime(seconds);
     monos.push_back(seconds / ofMono);
   }
-  state.counters["monos"] = MedianOf(monos);
+  SetRatios(state, "monos", monos);
 }
 
 using RealStackType = itk::Image<float, 3>;
@@ -205,7 +128,7 @@ PixelByPixel(benchmark::State & state)
 {
   using InputType = typename TFilter::InputImageType;
   auto part = itk::CastImageFilter<StackType, InputType>::New();
-  part->SetInput(GetStack(0.0));
+  part->SetInput(SimulateStack());
   part->GetOutput()->SetRequestedRegion({ {}, { { Width, Height, 20 } } });
   part->Update();
   typename InputType::Pointer input = InputType::New();
@@ -220,7 +143,7 @@ PixelByPixel(benchmark::State & state)
     state.SetIterationTime(seconds);
     casts.push_back(seconds / cast);
   }
-  state.counters["casts"] = MedianOf(casts);
+  SetRatios(state, "casts", casts);
 }
 
 BENCHMARK_TEMPLATE(PixelByPixel, itk::GeneralizedAnscombeImageFilter<StackType, RealStackType>)
@@ -241,6 +164,7 @@ BENCHMARK_TEMPLATE(PixelByPixel, itk::InverseGeneralizedAnscombeImageFilter<Real
   ->Unit(benchmark::kMillisecond);
 BENCHMARK(ReadPassAgain)->UseManualTime()->Iterations(5)->Unit(benchmark::kMillisecond);
 BENCHMARK(TemporalStatistics)->UseManualTime()->Iterations(5)->Unit(benchmark::kMillisecond);
+BENCHMARK(Projections)->UseManualTime()->Iterations(5)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(Estimate, Published, "published")
   ->Arg(0)
   ->Arg(600)
@@ -253,14 +177,18 @@ BENCHMARK_CAPTURE(Estimate, Refined, "refined")
   ->UseManualTime()
   ->Iterations(5)
   ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(TwoThreads, Statistics, "statistics")->UseManualTime()->Iterations(5)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(TwoThreads, Published, "published")->UseManualTime()->Iterations(5)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(TwoThreads, Refined, "refined")->UseManualTime()->Iterations(5)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(Mosaic, Published, "published")->UseManualTime()->Iterations(5)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(Mosaic, Refined, "refined")->UseManualTime()->Iterations(5)->Unit(benchmark::kMillisecond);
 } // namespace
+} // namespace sensornoise::benchmarks
 
 int
 main(int argc, char ** argv)
 {
-  itk::MultiThreaderBase::SetGlobalMaximumNumberOfThreads(Threads);
+  itk::MultiThreaderBase::SetGlobalMaximumNumberOfThreads(sensornoise::benchmarks::Threads);
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
   return 0;
