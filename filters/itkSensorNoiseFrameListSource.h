@@ -24,6 +24,7 @@
 #include "itkImageIOBase.h"
 #include "itkImageSource.h"
 
+#include <cstddef>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -42,7 +43,8 @@ namespace itk
  *
  * A list streams: no more frames than were asked for are held. So do multi-page TIFF, SER, MRAW, raw frames without a
  * header, an uncompressed MetaImage, and whatever else ITK reads in parts. Other stacks (NRRD, compressed MetaImage)
- * are read whole, at each reading again. A frame is read whole, whatever part of it is wanted.
+ * are read whole, at each reading again. A frame is read whole, whatever part of it is wanted. Formats that this
+ * library reads itself, TIFF for one, are read by several threads at once, those that ITK reads by one.
  *
  * A file that has changed since it was checked, by size, time or place on the disk, is an error as well, at the reading
  * that meets it. After an error the next Update() checks the files anew and starts from them as they are then.
@@ -154,6 +156,11 @@ protected:
   PrintSelf(std::ostream & os, Indent indent) const override;
 
 private:
+  /** Reads the frames from \a first up to \a end in parts of so many frames, at the same time. Of several errors, that
+   * of the earliest part is thrown. */
+  void
+  ReadSideBySide(std::size_t first, std::size_t end, std::size_t partFrames, OutputPixelType * buffer);
+
   std::vector<std::string> m_FileNames;
   std::string              m_RawLayout;
   sensornoise::FrameList   m_FrameList;

@@ -196,22 +196,23 @@ SensorNoiseFrameListSource<TOutputStack>::GenerateData()
   const OutputRegionType region = this->GetOutput()->GetRequestedRegion();
   const auto             frames = static_cast<std::size_t>(region.GetSize(2));
   const auto             first = static_cast<std::size_t>(region.GetIndex(2));
+  const std::size_t      framePixels = m_FrameList.width * m_FrameList.height;
   OutputPixelType *      buffer = this->GetOutput()->GetBufferPointer();
+  const std::size_t      parts = m_FrameList.files.front().reader ? this->GetNumberOfWorkUnits() : 1;
+  // of a list, frame by frame: each may be the last before an abort
+  const std::size_t partFrames = m_FrameList.isStack ? std::max<std::size_t>(1, (frames + parts - 1) / parts) : 1;
+  const std::size_t step = parts * partFrames;
   try
   {
-    // of a list, frame by frame: each may be the last before an abort
-    const std::size_t step = m_FrameList.isStack ? std::max<std::size_t>(frames, 1) : 1;
     for (std::size_t done = 0; done < frames; done += step)
     {
       if (this->GetAbortGenerateData())
       {
         throw ProcessAborted(__FILE__, __LINE__);
       }
-      WithFileErrors([&] {
-        sensornoise::ReadFrames(
-          m_FrameList, first + done, step, buffer + done * m_FrameList.width * m_FrameList.height);
-      });
-      this->UpdateProgress(static_cast<float>(done + step) / static_cast<float>(frames));
+      const std::size_t end = std::min(frames, done + step);
+      WithFileErrors([&] { this->ReadSideBySide(first + done, first + end, partFrames, buffer + done * framePixels); });
+      this->UpdateProgress(static_cast<float>(end) / static_cast<float>(frames));
     }
   }
   catch (const ProcessAborted &)
@@ -223,6 +224,47 @@ SensorNoiseFrameListSource<TOutputStack>::GenerateData()
     m_IsOpen = false; // the next Update() looks at the files anew
     this->Modified();
     throw;
+  }
+}
+
+template <typename TOutputStack>
+void
+SensorNoiseFrameListSource<TOutputStack>::ReadSideBySide(std::size_t       first,
+                                                         std::size_t       end,
+                                                         std::size_t       partFrames,
+                                                         OutputPixelType * buffer)
+{
+  const std::size_t               parts = (end - first + partFrames - 1) / partFrames;
+  std::vector<std::exception_ptr> errors(parts);
+  const auto                      read = [&](std::size_t part) {
+    const std::size_t begin = part * partFrames;
+    try
+    {
+      sensornoise::ReadFrames(m_FrameList,
+                              first + begin,
+                              std::min(partFrames, end - first - begin),
+                              buffer + begin * m_FrameList.width * m_FrameList.height);
+    }
+    catch (...)
+    {
+      errors[part] = std::current_exception();
+    }
+  };
+  if (parts == 1)
+  {
+    read(0);
+  }
+  else
+  {
+    this->GetMultiThreader()->SetNumberOfWorkUnits(this->GetNumberOfWorkUnits());
+    this->GetMultiThreader()->ParallelizeArray(0, parts, read, nullptr);
+  }
+  for (const std::exception_ptr & error : errors)
+  {
+    if (error)
+    {
+      std::rethrow_exception(error);
+    }
   }
 }
 

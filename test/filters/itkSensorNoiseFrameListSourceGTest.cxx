@@ -185,6 +185,40 @@ TEST_F(SensorNoiseFrameListSource, AFrameThatIsReplacedBetweenTwoPassesIsAnError
   }
 }
 
+TEST_F(SensorNoiseFrameListSource, AnyNumberOfThreadsReadsWhatWasWritten)
+{
+  const std::vector<std::vector<std::string>> sources{ WriteList<unsigned short>(".tif"),
+                                                       WriteList<unsigned short>(".png"),
+                                                       { WriteStack<unsigned short>("s.tif") },
+                                                       { WriteStack<unsigned short>("s.mha") } };
+  for (const std::vector<std::string> & files : sources)
+  {
+    for (const unsigned int threads : { 1u, 2u, 3u, 9u })
+    {
+      const auto source = MakeSource<unsigned short>(files);
+      source->SetNumberOfWorkUnits(threads);
+      ReadPart<unsigned short>(source, 0, 3); // what is not read would be of these frames
+      EXPECT_EQ(WrongPixels<unsigned short>(ReadPart<unsigned short>(source, 1, 3)), 0u) << files.front() << threads;
+    }
+  }
+}
+
+TEST_F(SensorNoiseFrameListSource, OfSeveralErrorsThatOfTheEarliestFrameIsSaid)
+{
+  const auto files = WriteList<unsigned short>(".tif");
+  const auto list = OpenFrames(files);
+  for (const std::size_t t : { 1, 2, 3 })
+  {
+    CutOff(files[t], 1);
+  }
+  for (const unsigned int threads : { 1u, 2u, 4u })
+  {
+    const auto source = MakeSource<unsigned short>(list);
+    source->SetNumberOfWorkUnits(threads);
+    ExpectParts(MessageOf([&] { source->Update(); }), { files[1] });
+  }
+}
+
 TEST_F(SensorNoiseFrameListSource, FailsUntilTheFilesAreMended)
 {
   const auto files = WriteList<unsigned short>(".tif");
@@ -222,6 +256,7 @@ TEST_F(SensorNoiseFrameListSource, ASecondUpdateDoesNoWork)
 TEST_F(SensorNoiseFrameListSource, AnAbortEndsTheReadingAndTheNextUpdateIsRight)
 {
   const auto source = MakeSource<unsigned short>(WriteList<unsigned short>(".tif"));
+  source->SetNumberOfWorkUnits(2); // frames that are read at a time
   const auto tag = source->AddObserver(itk::ProgressEvent(), [&](const itk::EventObject &) {
     if (source->GetProgress() > 0.3F)
     {
