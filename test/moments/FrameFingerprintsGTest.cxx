@@ -83,6 +83,22 @@ TEST(SensorNoiseFrameFingerprints, FramesThatTwoHaveCountedAreNamed)
   EXPECT_THROW(other.RequireApart(one), std::runtime_error);
 }
 
+TEST(SensorNoiseFrameFingerprints, FramesThatAreLeftToAnotherAreNotCounted)
+{
+  FrameFingerprints one(6);
+  FrameFingerprints other(6);
+  one.Add(0, Of("abc"));
+  other.SetCountedElsewhere({ 0, 0, 0, 1, 0, 1 });
+  EXPECT_EQ(other.Add(3, Of("bdb")), (Flags{ 0, 1, 0 }));
+  EXPECT_THROW(other.FindDistinct(), std::logic_error); // nobody has counted b
+  EXPECT_NO_THROW(one.RequireApart(other));
+  std::stringstream stream;
+  other.Save(stream);
+  one.Merge(one.ReadOther(stream));
+  EXPECT_EQ(OriginalsOf(one), (std::vector<std::size_t>{ 0, 1, 2, 1, 4, 1 }));
+  EXPECT_THROW(one.SetCountedElsewhere({ 0 }), std::invalid_argument);
+}
+
 TEST(SensorNoiseFrameFingerprints, StreamsThatEndEarlyOrDoNotFitAreRefused)
 {
   FrameFingerprints fingerprints(3);

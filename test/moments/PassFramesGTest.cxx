@@ -3,9 +3,11 @@
 #include "sensornoise/moments/PassFrames.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <gtest/gtest.h>
 #include <sstream>
 #include <stdexcept>
+#include <vector>
 
 using namespace sensornoise;
 
@@ -53,6 +55,39 @@ TEST(SensorNoisePassFrames, PassEndsWithAllFramesOnly)
   frames.EndPass();
   EXPECT_EQ(frames.GetPass(), 1u);
   EXPECT_EQ(frames.Add(5), 0u);
+}
+
+TEST(SensorNoisePassFrames, AFrameThatIsMissingIsNamed)
+{
+  PassFrames frames(5);
+  frames.Add(3);
+  frames.Merge(Only(4));
+  try
+  {
+    frames.EndPass();
+    FAIL();
+  }
+  catch (const std::logic_error & error)
+  {
+    EXPECT_STREQ(error.what(), "pass 1 held 4 frames; expected 5: frame 3 is missing");
+  }
+}
+
+TEST(SensorNoisePassFrames, FramesMayComeInAnyOrderAndBeForgotten)
+{
+  PassFrames frames(5);
+  frames.GoTo(3);
+  EXPECT_EQ(frames.Add(2), 3u);
+  frames.GoTo(0);
+  EXPECT_EQ(frames.Add(2), 0u);
+  EXPECT_EQ(frames.GetHas(), (std::vector<std::uint8_t>{ 1, 1, 0, 1, 1 }));
+  frames.GoTo(1);
+  EXPECT_THROW(frames.Add(1), std::logic_error);
+  EXPECT_THROW(frames.GoTo(5), std::logic_error);
+  frames.Forget();
+  EXPECT_EQ(frames.Add(5), 0u);
+  frames.EndPass();
+  EXPECT_EQ(frames.GetPass(), 1u);
 }
 
 TEST(SensorNoisePassFrames, NoFrameComesTwice)

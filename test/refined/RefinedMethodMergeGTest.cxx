@@ -150,6 +150,51 @@ TEST(SensorNoiseRefinedMethodMerge, SavedSumsHoldTheMergedOnes)
   EXPECT_TRUE(HaveSameBits(method.GetVariance(), expected[0]->GetVariance()));
 }
 
+TEST(SensorNoiseRefinedMethodMerge, SumsThatAreForgottenLeaveNothingAndFramesMayComeInAnyOrder)
+{
+  const auto & stack = SmallStack<Codes>();
+  const auto   whole = Measure(stack);
+  auto         method = MethodOf(stack);
+  for (unsigned int pass = 0; pass < method.NumberOfPasses; ++pass)
+  {
+    method.AddFrames(stack.Frame(3), 7);
+    method.ForgetSums();
+    for (std::size_t t = Frames; t-- > 0;)
+    {
+      method.GoTo(t);
+      method.AddFrames(stack.Frame(t), 1);
+    }
+    method.EndPass();
+  }
+  ExpectSameBits(method, whole);
+}
+
+TEST(SensorNoiseRefinedMethodMerge, FoldedPartsOfFloatingPointFramesAreThoseInOrder)
+{
+  // Two parts, merged in the order of their frames: folding changes no bit, and leaves one part to write.
+  const auto &             stack = SmallStack<float>();
+  const auto               expected = MeasureInParts(stack, 2, InRuns);
+  std::vector<std::string> sums;
+  std::vector<std::size_t> sizes;
+  RefinedMethod<float>     method = MethodOf(stack);
+  for (std::size_t i = 0; i < 2; ++i)
+  {
+    auto part = MethodOf(stack);
+    AddPart(part, stack, i, 2, InRuns);
+    std::stringstream out;
+    part.SaveSums(out);
+    method.MergeSums(out);
+    method.FoldSums();
+    std::ostringstream folded;
+    method.SaveSums(folded);
+    sizes.push_back(folded.str().size());
+  }
+  EXPECT_LT(sizes[1], sizes[0] + 16 * Width * Height); // another part would have 32 bytes a pixel
+  method.EndPass();
+  EXPECT_TRUE(HaveSameBits(method.GetMean(), expected[0]->GetMean()));
+  EXPECT_TRUE(HaveSameBits(method.GetVariance(), expected[0]->GetVariance()));
+}
+
 TEST(SensorNoiseRefinedMethodMerge, ProcessWithoutFramesMayTakePart)
 {
   const auto & stack = SmallStack<Codes>();

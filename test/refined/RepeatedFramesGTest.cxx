@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <gtest/gtest.h>
 #include <limits>
 #include <sstream>
@@ -179,6 +180,29 @@ TEST(SensorNoiseRepeatedFrames, OfSumsThatWereMergedBeforeAreNotCountedAgain)
     one.EndPass();
   }
   ExpectResultOfDistinct(one, Measure(SmallStack<Codes>()), shown);
+}
+
+TEST(SensorNoiseRepeatedFrames, ThatOneProcessLeavesToTheOtherAreCountedOnce)
+{
+  Shown      shown;
+  const auto stack = Doubled(shown);
+  const auto whole = Measure(stack);
+  auto       one = MethodOf(stack);
+  auto       two = MethodOf(stack);
+  // One reads the frames of even numbers, two those of odd ones: each of these equals the one before.
+  std::vector<std::uint8_t> elsewhere(stack.frames);
+  for (std::size_t t = 1; t < stack.frames; t += 2)
+  {
+    elsewhere[t] = 1;
+  }
+  two.SetCountedElsewhere(elsewhere);
+  for (unsigned int pass = 0; pass < one.NumberOfPasses; ++pass)
+  {
+    RunPass(one, two, stack, [](std::size_t t) { return t % 2 == 0; });
+  }
+  EXPECT_EQ(ToJson(one.GetReport()), ToJson(whole.GetReport()));
+  EXPECT_EQ(ToJson(two.GetReport()), ToJson(whole.GetReport()));
+  EXPECT_TRUE(HaveSameBits(one.GetCorrectedVariance(), whole.GetCorrectedVariance()));
 }
 
 TEST(SensorNoiseRepeatedFrames, TooFewDistinctOnesAreRefused)

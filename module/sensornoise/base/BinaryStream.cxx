@@ -38,6 +38,16 @@ RequireCount(const char * what, std::uint64_t found, std::uint64_t expected)
 }
 
 void
+RequireSameStart(std::uint64_t found, std::uint64_t expected)
+{
+  if (found != expected)
+  {
+    throw std::runtime_error("sums cannot be merged: they are made with other settings, another mask or other sums of "
+                             "the passes before");
+  }
+}
+
+void
 WriteSumsHeader(std::ostream & out, const std::string & name, std::uint64_t pixels, std::uint64_t frames)
 {
   std::array<char, 32> word{};

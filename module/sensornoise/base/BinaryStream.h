@@ -27,7 +27,7 @@ namespace sensornoise
 {
 
 /** Version of what follows the header; a machine that is not little-endian reads another one. */
-inline constexpr std::uint32_t SumsVersion = 2;
+inline constexpr std::uint32_t SumsVersion = 3;
 
 /** Writes \a count numbers. Throws std::runtime_error if the stream does not take them. */
 template <typename TNumber>
@@ -83,6 +83,10 @@ ReadCount(std::istream & in);
 /** Throws std::runtime_error unless the \a found number of \a what is the \a expected one. */
 SensorNoise_EXPORT void
 RequireCount(const char * what, std::uint64_t found, std::uint64_t expected);
+
+/** Throws std::runtime_error unless two processes went on from the same data: their fingerprints. */
+SensorNoise_EXPORT void
+RequireSameStart(std::uint64_t found, std::uint64_t expected);
 
 /** Writes the header of a class's sums; \a frames: how many were summed, 0 where the class does not count them. */
 SensorNoise_EXPORT void

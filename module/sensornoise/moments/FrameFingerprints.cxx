@@ -17,11 +17,24 @@ FrameFingerprints::FrameFingerprints(std::size_t frames)
 {}
 
 void
-FrameFingerprints::TakeUp(std::size_t t, const BytesFingerprint & fingerprint)
+FrameFingerprints::SetCountedElsewhere(const std::vector<std::uint8_t> & areCountedElsewhere)
+{
+  if (areCountedElsewhere.size() != m_Frames)
+  {
+    throw std::invalid_argument("of " + std::to_string(areCountedElsewhere.size()) +
+                                " frames it is said whether they are counted elsewhere; expected " +
+                                std::to_string(m_Frames));
+  }
+  m_CountedElsewhere = areCountedElsewhere;
+}
+
+void
+FrameFingerprints::TakeUp(std::size_t t, const BytesFingerprint & fingerprint, bool isCounted)
 {
   m_OfFrame[t] = fingerprint;
-  std::size_t & first = m_First.try_emplace(fingerprint, t).first->second;
-  first = std::min(first, t);
+  Equal & equal = m_Equal.try_emplace(fingerprint, Equal{ t, false }).first->second;
+  equal.first = std::min(equal.first, t);
+  equal.isCounted = equal.isCounted || isCounted;
 }
 
 std::vector<std::uint8_t>
@@ -30,8 +43,11 @@ FrameFingerprints::Add(std::size_t first, const std::vector<BytesFingerprint> & 
   std::vector<std::uint8_t> isNew(fingerprints.size());
   for (std::size_t k = 0; k < fingerprints.size(); ++k)
   {
-    isNew[k] = m_First.count(fingerprints[k]) == 0 ? 1 : 0;
-    this->TakeUp(first + k, fingerprints[k]);
+    const auto equal = m_Equal.find(fingerprints[k]);
+    const bool isCounted = equal != m_Equal.end() && equal->second.isCounted;
+    const bool isElsewhere = !m_CountedElsewhere.empty() && m_CountedElsewhere[first + k] != 0;
+    isNew[k] = isCounted || isElsewhere ? 0 : 1;
+    this->TakeUp(first + k, fingerprints[k], isNew[k] != 0);
   }
   return isNew;
 }
@@ -39,13 +55,14 @@ FrameFingerprints::Add(std::size_t first, const std::vector<BytesFingerprint> & 
 void
 FrameFingerprints::RequireApart(const FrameFingerprints & other) const
 {
-  for (const auto & [fingerprint, first] : m_First)
+  for (const auto & [fingerprint, equal] : m_Equal)
   {
-    const auto equal = other.m_First.find(fingerprint);
-    if (equal != other.m_First.end())
+    const auto others = other.m_Equal.find(fingerprint);
+    if (equal.isCounted && others != other.m_Equal.end() && others->second.isCounted)
     {
-      throw std::runtime_error("sums cannot be merged: frame " + std::to_string(std::max(first, equal->second)) +
-                               " equals frame " + std::to_string(std::min(first, equal->second)) +
+      const auto [first, second] = std::minmax(equal.first, others->second.first);
+      throw std::runtime_error("sums cannot be merged: frame " + std::to_string(second) + " equals frame " +
+                               std::to_string(first) +
                                ", and each was counted by another process; let one process read both, or merge the "
                                "sums of one before the other adds its frames");
     }
@@ -57,7 +74,7 @@ FrameFingerprints::Merge(const FrameFingerprints & other)
 {
   for (const auto & [t, fingerprint] : other.m_OfFrame)
   {
-    this->TakeUp(t, fingerprint);
+    this->TakeUp(t, fingerprint, other.m_Equal.at(fingerprint).isCounted);
   }
 }
 
@@ -69,6 +86,7 @@ FrameFingerprints::Save(std::ostream & out) const
   {
     WriteCount(out, t);
     WriteNumbers(out, fingerprint.data(), fingerprint.size());
+    WriteCount(out, m_Equal.at(fingerprint).isCounted ? 1 : 0);
   }
 }
 
@@ -81,12 +99,13 @@ FrameFingerprints::ReadOther(std::istream & in) const
     const std::uint64_t t = ReadCount(in);
     BytesFingerprint    fingerprint{};
     ReadNumbers(in, fingerprint.data(), fingerprint.size());
+    const bool isCounted = ReadCount(in) != 0;
     if (t >= m_Frames)
     {
       throw std::runtime_error("the sums of a stream do not fit: found frame " + std::to_string(t) + " of " +
                                std::to_string(m_Frames));
     }
-    other.TakeUp(t, fingerprint);
+    other.TakeUp(t, fingerprint, isCounted);
   }
   return other;
 }
@@ -98,7 +117,17 @@ FrameFingerprints::FindDistinct() const
   for (std::size_t t = 0; t < m_Frames; ++t)
   {
     const auto found = m_OfFrame.find(t);
-    originals[t] = found == m_OfFrame.end() ? t : m_First.at(found->second);
+    if (found == m_OfFrame.end())
+    {
+      originals[t] = t;
+      continue;
+    }
+    const Equal & equal = m_Equal.at(found->second);
+    if (!equal.isCounted)
+    {
+      throw std::logic_error("frame " + std::to_string(t) + " was left to another process, and none counted it");
+    }
+    originals[t] = equal.first;
   }
   return DistinctFrames(std::move(originals));
 }

@@ -30,8 +30,13 @@ class SensorNoise_EXPORT FrameFingerprints
 public:
   explicit FrameFingerprints(std::size_t frames);
 
-  /** Takes up the fingerprints of frame \a first and those that follow. Returns 1 for the frames that equal none taken
-   * up before, 0 for the others. */
+  /** Frames where \a areCountedElsewhere, of a value for each, is not 0 are taken up and not counted: they equal one
+   * that another process counts. Throws std::invalid_argument if there are not as many values as frames. */
+  void
+  SetCountedElsewhere(const std::vector<std::uint8_t> & areCountedElsewhere);
+
+  /** Takes up the fingerprints of frame \a first and those that follow. Returns 1 for the frames that are to be
+   * counted, as they equal none that was counted before, 0 for the others. */
   std::vector<std::uint8_t>
   Add(std::size_t first, const std::vector<BytesFingerprint> & fingerprints);
 
@@ -50,17 +55,33 @@ public:
   FrameFingerprints
   ReadOther(std::istream & in) const;
 
-  /** Which frames are equal, when all have been taken up. It does not depend on who took up which. */
+  /** Those that were taken up, by their frames. */
+  const std::map<std::size_t, BytesFingerprint> &
+  GetAll() const
+  {
+    return m_OfFrame;
+  }
+
+  /** Which frames are equal, when all have been taken up. It does not depend on who took up which. Throws
+   * std::logic_error if one was left to another process, and none counted it. */
   DistinctFrames
   FindDistinct() const;
 
 private:
+  /** Frames that are equal. */
+  struct Equal
+  {
+    std::size_t first;
+    bool        isCounted;
+  };
+
   void
-  TakeUp(std::size_t t, const BytesFingerprint & fingerprint);
+  TakeUp(std::size_t t, const BytesFingerprint & fingerprint, bool isCounted);
 
   std::size_t                             m_Frames;
   std::map<std::size_t, BytesFingerprint> m_OfFrame;
-  std::map<BytesFingerprint, std::size_t> m_First; // the first of the frames that are equal
+  std::map<BytesFingerprint, Equal>       m_Equal;
+  std::vector<std::uint8_t>               m_CountedElsewhere; // of each frame; empty: none
 };
 
 } // namespace sensornoise

@@ -53,6 +53,24 @@ PassFrames::Skip(std::size_t count)
 }
 
 void
+PassFrames::GoTo(std::size_t t)
+{
+  if (t >= m_Has.size())
+  {
+    throw std::logic_error("frame " + std::to_string(t) + " was given; expected one below " +
+                           std::to_string(m_Has.size()));
+  }
+  m_Next = t;
+}
+
+void
+PassFrames::Forget()
+{
+  std::fill(m_Has.begin(), m_Has.end(), std::uint8_t{ 0 });
+  m_Next = 0;
+}
+
+void
 PassFrames::RequireApart(const PassFrames & other) const
 {
   for (std::size_t t = 0; t < m_Has.size(); ++t)
@@ -80,11 +98,12 @@ PassFrames::EndPass()
   const auto count = static_cast<std::size_t>(std::count(m_Has.begin(), m_Has.end(), std::uint8_t{ 1 }));
   if (count != m_Has.size())
   {
+    const auto missing = std::find(m_Has.begin(), m_Has.end(), std::uint8_t{ 0 });
     throw std::logic_error("pass " + std::to_string(m_Pass + 1) + " held " + std::to_string(count) +
-                           " frames; expected " + std::to_string(m_Has.size()));
+                           " frames; expected " + std::to_string(m_Has.size()) + ": frame " +
+                           std::to_string(missing - m_Has.begin()) + " is missing");
   }
-  std::fill(m_Has.begin(), m_Has.end(), std::uint8_t{ 0 });
-  m_Next = 0;
+  this->Forget();
   ++m_Pass;
 }
 

@@ -37,6 +37,21 @@ public:
   void
   Skip(std::size_t count);
 
+  /** Frame \a t is the next one. Throws std::logic_error if there is none. */
+  void
+  GoTo(std::size_t t);
+
+  /** No frame of the pass has been added. */
+  void
+  Forget();
+
+  /** For every frame, 1 if it has been added. */
+  const std::vector<std::uint8_t> &
+  GetHas() const
+  {
+    return m_Has;
+  }
+
   /** Throws std::runtime_error if \a other has frames that are here, too. */
   void
   RequireApart(const PassFrames & other) const;

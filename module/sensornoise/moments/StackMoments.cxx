@@ -149,6 +149,18 @@ StackMoments<TPixel>::Merge(std::istream & in)
 }
 
 template <typename TPixel>
+void
+StackMoments<TPixel>::Fold()
+{
+  if (!m_Others.empty())
+  {
+    const std::size_t first = std::min(m_First, m_Others.begin()->first);
+    m_Own = this->Take();
+    m_First = first;
+  }
+}
+
+template <typename TPixel>
 TemporalMoments<TPixel>
 StackMoments<TPixel>::Take()
 {

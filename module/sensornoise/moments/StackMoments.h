@@ -37,6 +37,24 @@ public:
   void
   AddFrames(const TPixel * frames, std::size_t first, std::size_t count, const ParallelFor & parallelFor);
 
+  /** What to do with frames that another process counts, see FrameFingerprints. Before they are added. */
+  void
+  SetCountedElsewhere(const std::vector<std::uint8_t> & areCountedElsewhere)
+  {
+    m_Fingerprints.SetCountedElsewhere(areCountedElsewhere);
+  }
+
+  /** Merges the parts with floating-point pixels that are kept, which gives back their memory: from now on the order of
+   * merges counts. */
+  void
+  Fold();
+
+  const FrameFingerprints &
+  GetFingerprints() const
+  {
+    return m_Fingerprints;
+  }
+
   /** Writes the moments and means, see BinaryStream. */
   void
   Save(std::ostream & out) const;

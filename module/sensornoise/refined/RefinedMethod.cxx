@@ -25,7 +25,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -150,6 +149,34 @@ RefinedMethod<TPixel>::SkipFrames(std::size_t frames)
 
 template <typename TPixel>
 void
+RefinedMethod<TPixel>::GoTo(std::size_t t)
+{
+  m_InPass.GoTo(t);
+}
+
+template <typename TPixel>
+void
+RefinedMethod<TPixel>::ForgetSums()
+{
+  m_InPass.Forget();
+  if (m_InPass.GetPass() == 0)
+  {
+    m_Moments = StackMoments<TPixel>(m_Geometry.Pixels(), m_Frames);
+    m_Thumbnails = FrameThumbnails(m_Geometry, m_Frames, m_UserMask);
+  }
+  else if (m_FrameSums && m_InPass.GetPass() == 1)
+  {
+    m_FrameSums->Forget();
+  }
+  else if (m_FrameSums)
+  {
+    m_Projections = ProjectionSums(m_Geometry.Pixels(), m_Series->basis.Size(), m_ParallelFor);
+    m_Sample = NoiseSample(m_Geometry, m_Distinct.Count());
+  }
+}
+
+template <typename TPixel>
+void
 RefinedMethod<TPixel>::SaveSums(std::ostream & out) const
 {
   WriteSumsHeader(out, StreamName<TPixel>(), m_Geometry.Pixels(), m_Frames);
@@ -174,11 +201,7 @@ RefinedMethod<TPixel>::MergeSums(std::istream & in)
   RequireCount("frames", ReadSumsHeader(in, StreamName<TPixel>(), pixels), m_Frames);
   const PassFrames frames = m_InPass.ReadOther(in);
   m_InPass.RequireApart(frames);
-  if (ReadCount(in) != this->FingerprintOfPass())
-  {
-    throw std::runtime_error("sums cannot be merged: they are made with other settings, another mask or other sums "
-                             "of the passes before");
-  }
+  RequireSameStart(ReadCount(in), this->FingerprintOfPass());
   if (m_InPass.GetPass() == 0)
   {
     const FrameThumbnails thumbnails = m_Thumbnails.ReadOther(in);

@@ -92,6 +92,44 @@ public:
   void
   SkipFrames(std::size_t frames);
 
+  /** Frame \a t, from 0, is the next one of the current pass: frames may be added in any order. Floating-point ones are
+   * summed in the order in which they come. Throws std::logic_error if there is none. */
+  void
+  GoTo(std::size_t t);
+
+  /** For every frame, 1 if it was added, or merged, in the current pass. */
+  const std::vector<std::uint8_t> &
+  GetHas() const
+  {
+    return m_InPass.GetHas();
+  }
+
+  /** Pass 1: what two processes would count, as the fingerprints of their frames are equal, one of them is told to
+   * leave to the other: \a areCountedElsewhere has a value for each frame, 0 where it is counted. Before they are
+   * added. */
+  void
+  SetCountedElsewhere(const std::vector<std::uint8_t> & areCountedElsewhere)
+  {
+    m_Moments.SetCountedElsewhere(areCountedElsewhere);
+  }
+  const FrameFingerprints &
+  GetFingerprints() const
+  {
+    return m_Moments.GetFingerprints();
+  }
+
+  /** Takes back all that was added in the current pass. */
+  void
+  ForgetSums();
+
+  /** Gives back memory that merged floating-point sums of pass 1 take, 32 bytes a pixel each: then the bits depend on
+   * the order of merges. */
+  void
+  FoldSums()
+  {
+    m_Moments.Fold();
+  }
+
   /** Writes the sums over the frames of the current pass that have been added or merged so far, see BinaryStream: 20
    * (integers) or 32 bytes a pixel in pass 1, 16 kB a frame in pass 2, 8 bytes a pixel and series in pass 3. */
   void

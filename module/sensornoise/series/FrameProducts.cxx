@@ -49,6 +49,12 @@ FrameProducts::Merge(const FrameProducts & other)
 }
 
 void
+FrameProducts::Forget()
+{
+  *this = FrameProducts(m_Pixels, m_Frames, m_Cells);
+}
+
+void
 FrameProducts::Save(std::ostream & out) const
 {
   WriteSumsHeader(out, StreamName, m_Pixels, m_Frames);

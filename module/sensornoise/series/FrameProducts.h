@@ -75,6 +75,10 @@ public:
   void
   Merge(const FrameProducts & other);
 
+  /** No frame has been added. */
+  void
+  Forget();
+
   /** Writes the products, see BinaryStream. */
   void
   Save(std::ostream & out) const;

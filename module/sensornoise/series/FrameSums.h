@@ -71,6 +71,12 @@ public:
   {
     m_Products.Merge(products);
   }
+  /** No frame has been added: the products are 0. */
+  void
+  Forget()
+  {
+    m_Products.Forget();
+  }
   /** Writes, or replaces, the sums of the frames that were added: see FrameProducts. */
   void
   Save(std::ostream & out) const
