@@ -2,10 +2,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/published/CorrectedVariance.h"
 
+#include "sensornoise/base/BinaryStream.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <istream>
 #include <limits>
+#include <ostream>
+#include <vector>
 
 namespace sensornoise
 {
+
+namespace
+{
+/** The power of 2 of which the series' values are multiples: of \a frames values up to \a largest, times pixels of 16
+ * bits, every sum is a multiple that 53 bits hold. */
+double
+StepOfSeries(double largest, std::size_t frames)
+{
+  constexpr int bitsOfSums = 53;
+  constexpr int bitsOfPixels = 16;
+  const auto    bitsOfFrames = static_cast<int>(std::ceil(std::log2(static_cast<double>(frames))));
+  int           exponent = 0;
+  std::frexp(largest, &exponent); // largest <= 2^exponent
+  return std::ldexp(1.0, exponent - (bitsOfSums - bitsOfPixels - bitsOfFrames));
+}
+} // namespace
 
 CorrectedVariance::CorrectedVariance(const FlickerEstimate & flicker,
                                      const FrameGeometry &   geometry,
@@ -16,9 +41,11 @@ CorrectedVariance::CorrectedVariance(const FlickerEstimate & flicker,
   , m_Rows(flicker.gammaRows.empty() ? 1 : flicker.rows)
   , m_Cross(geometry.Pixels(), 0.0)
   , m_Series(frames * m_Rows)
+  , m_SeriesSums(m_Rows, 0.0)
   , m_SeriesSquares(m_Rows, 0.0)
   , m_Known(flicker.rowKnown)
 {
+  double largest = 0.0;
   for (std::size_t row = 0; row < m_Rows; ++row)
   {
     double mean = 0.0;
@@ -29,11 +56,42 @@ CorrectedVariance::CorrectedVariance(const FlickerEstimate & flicker,
     mean /= static_cast<double>(frames);
     for (std::size_t t = 0; t < frames; ++t)
     {
-      const double centred = flicker.Gamma(t, row) - mean;
-      m_Series[t * m_Rows + row] = centred;
-      m_SeriesSquares[row] += centred * centred;
+      double & centred = m_Series[t * m_Rows + row];
+      centred = flicker.Gamma(t, row) - mean;
+      largest = std::isfinite(centred) ? std::max(largest, std::abs(centred)) : largest;
     }
   }
+  const double step = StepOfSeries(largest, frames);
+  for (std::size_t t = 0; t < frames; ++t)
+  {
+    for (std::size_t row = 0; row < m_Rows; ++row)
+    {
+      double & rounded = m_Series[t * m_Rows + row];
+      rounded = std::round(rounded / step) * step;
+      m_SeriesSums[row] += rounded;
+      m_SeriesSquares[row] += rounded * rounded;
+    }
+  }
+}
+
+void
+CorrectedVariance::Forget()
+{
+  std::fill(m_Cross.begin(), m_Cross.end(), 0.0);
+}
+
+void
+CorrectedVariance::Save(std::ostream & out) const
+{
+  WriteNumbers(out, m_Cross);
+}
+
+void
+CorrectedVariance::Merge(std::istream & in)
+{
+  std::vector<double> others(m_Cross.size());
+  ReadNumbers(in, others);
+  std::transform(m_Cross.begin(), m_Cross.end(), others.begin(), m_Cross.begin(), std::plus<double>());
 }
 
 template <typename TPixel>
@@ -78,7 +136,10 @@ CorrectedVariance::GetVariance(std::size_t p, double meanDn, double sumOfSquared
     return std::numeric_limits<double>::quiet_NaN();
   }
   const double fluxDn = meanDn - m_OffsetDn;
-  const double squares = sumOfSquaredDeviationsDn2 - 2.0 * fluxDn * m_Cross[p] + fluxDn * fluxDn * m_SeriesSquares[row];
+  const double cross = m_Cross[p] - m_SeriesSums[row] * meanDn;
+  const double squaresOfSeries =
+    m_SeriesSquares[row] - m_SeriesSums[row] * m_SeriesSums[row] / static_cast<double>(m_Frames);
+  const double squares = sumOfSquaredDeviationsDn2 - 2.0 * fluxDn * cross + fluxDn * fluxDn * squaresOfSeries;
   return squares / static_cast<double>(m_Frames - 1);
 }
 

@@ -9,6 +9,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <istream>
+#include <ostream>
 #include <vector>
 
 namespace sensornoise
@@ -23,8 +25,10 @@ namespace sensornoise
  *     M - 2 (ubar - mu) C + (ubar - mu)^2 P
  *
  * where M is that of u: (3.18) expanded. So one number a pixel, C, is gathered in one more pass over the stack, and the
- * corrected stack of (3.24) is never made. Frames are added one by one in time order, so that chunks and threads
- * change no bit. Pixels of rows whose flicker is not known get NaN.
+ * corrected stack of (3.24) is never made. The series are held as integers, times a power of 2, of as many bits as the
+ * sums over all frames leave of a double's 53 (30 bits for 100 frames): with integer pixels, frames and parts of the
+ * stack are added in any order with the same bits, in floating point one by one in time order. Pixels of rows whose
+ * flicker is not known get NaN.
  *
  * Memory: 8 bytes a pixel and 8 bytes a frame and row.
  */
@@ -40,6 +44,18 @@ public:
   void
   AddRow(const TPixel * firstFrame, std::size_t stride, std::size_t frames, std::size_t t, std::size_t y);
 
+  /** No frame has been added. */
+  void
+  Forget();
+
+  /** Writes the sums, see BinaryStream. */
+  void
+  Save(std::ostream & out) const;
+  /** Adds the sums over other frames from a stream. Throws std::runtime_error, and changes nothing, if it ends early.
+   */
+  void
+  Merge(std::istream & in);
+
   /** Unbiased variance of u^ at pixel \a p [DN^2], from its mean and the squared deviations of u; NaN: not known. */
   double
   GetVariance(std::size_t p, double meanDn, double sumOfSquaredDeviationsDn2) const;
@@ -51,6 +67,7 @@ private:
   std::size_t               m_Rows; // as the shutter sees them; 1: one flicker serves the whole frame
   std::vector<double>       m_Cross;
   std::vector<double>       m_Series;
+  std::vector<double>       m_SeriesSums; // of rounding alone
   std::vector<double>       m_SeriesSquares;
   std::vector<std::uint8_t> m_Known;
 };

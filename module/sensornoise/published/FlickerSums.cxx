@@ -2,7 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/published/FlickerSums.h"
 
+#include "sensornoise/base/BinaryStream.h"
+
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <istream>
+#include <ostream>
+#include <vector>
 
 namespace sensornoise
 {
@@ -83,6 +91,40 @@ FlickerSums::AddFrame(const TPixel * frame, std::size_t t)
   for (std::size_t i = 0; i < m_RowSet.pixels.size(); ++i)
   {
     rows[m_RowOf[i]] += m_RowSet.weights[i] * ratio(static_cast<double>(frame[m_RowSet.pixels[i]]), m_RowSet.means[i]);
+  }
+}
+
+void
+FlickerSums::Forget()
+{
+  for (std::vector<double> * const sums : this->OfFrames())
+  {
+    std::fill(sums->begin(), sums->end(), 0.0);
+  }
+}
+
+void
+FlickerSums::Save(std::ostream & out) const
+{
+  for (const auto * const sums : { &m_BrightRatios, &m_DarkResiduals, &m_BrightSpreads, &m_DarkSpreads, &m_RowSums })
+  {
+    WriteNumbers(out, *sums);
+  }
+}
+
+void
+FlickerSums::Merge(std::istream & in)
+{
+  const std::array<std::vector<double> *, 5> mine = this->OfFrames();
+  std::array<std::vector<double>, 5>         others;
+  for (std::size_t i = 0; i < mine.size(); ++i)
+  {
+    others[i].resize(mine[i]->size());
+    ReadNumbers(in, others[i]);
+  }
+  for (std::size_t i = 0; i < mine.size(); ++i)
+  {
+    std::transform(mine[i]->begin(), mine[i]->end(), others[i].begin(), mine[i]->begin(), std::plus<double>());
   }
 }
 

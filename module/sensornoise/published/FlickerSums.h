@@ -7,8 +7,11 @@
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/published/IsoIntensitySet.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <istream>
+#include <ostream>
 #include <vector>
 
 namespace sensornoise
@@ -41,6 +44,17 @@ public:
   template <typename TPixel>
   void
   AddFrame(const TPixel * frame, std::size_t t);
+
+  /** No frame has been added: all sums are 0. */
+  void
+  Forget();
+
+  /** Writes the sums of the frames, see BinaryStream; those of a frame that was not added are 0. */
+  void
+  Save(std::ostream & out) const;
+  /** Adds the sums of other frames from a stream. Throws std::runtime_error, and changes nothing, if it ends early. */
+  void
+  Merge(std::istream & in);
 
   std::size_t
   GetNumberOfFrames() const
@@ -117,6 +131,13 @@ private:
     std::vector<double>        means;
     double                     effectivePixels;
   };
+
+  /** All that is made of frames. */
+  std::array<std::vector<double> *, 5>
+  OfFrames()
+  {
+    return { &m_BrightRatios, &m_DarkResiduals, &m_BrightSpreads, &m_DarkSpreads, &m_RowSums };
+  }
 
   std::size_t                m_Frames;
   std::size_t                m_Rows;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/published/PublishedMethod.h"
 
+#include "sensornoise/base/BinaryStream.h"
 #include "sensornoise/base/PixelUse.h"
 #include "sensornoise/moments/StackMaps.h"
 #include "sensornoise/moments/StackRequirements.h"
@@ -11,10 +12,26 @@
 #include "sensornoise/report/StackSettings.h"
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <istream>
+#include <ostream>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace sensornoise
 {
+
+namespace
+{
+template <typename TPixel>
+std::string
+NameOfSums()
+{
+  return "PublishedMethod " + PixelName<TPixel>();
+}
+} // namespace
 
 template <typename TPixel>
 PublishedMethod<TPixel>::PublishedMethod(const PublishedSettings &         settings,
@@ -62,6 +79,104 @@ PublishedMethod<TPixel>::AddFrames(const TPixel * chunk, std::size_t frames)
         }
       });
   }
+}
+
+template <typename TPixel>
+void
+PublishedMethod<TPixel>::SkipFrames(std::size_t frames)
+{
+  m_InPass.Skip(frames);
+}
+
+template <typename TPixel>
+void
+PublishedMethod<TPixel>::GoTo(std::size_t t)
+{
+  m_InPass.GoTo(t);
+}
+
+template <typename TPixel>
+void
+PublishedMethod<TPixel>::ForgetSums()
+{
+  m_InPass.Forget();
+  if (m_InPass.GetPass() == 0)
+  {
+    m_Moments = StackMoments<TPixel>(m_Geometry.Pixels(), m_Frames);
+    m_Thumbnails = FrameThumbnails(m_Geometry, m_Frames, m_UserMask);
+  }
+  else if (m_Sums)
+  {
+    m_Sums->Forget();
+  }
+  else if (m_Correction)
+  {
+    m_Correction->Forget();
+  }
+}
+
+template <typename TPixel>
+void
+PublishedMethod<TPixel>::SaveSums(std::ostream & out) const
+{
+  WriteSumsHeader(out, NameOfSums<TPixel>(), m_Geometry.Pixels(), m_Frames);
+  m_InPass.Save(out);
+  WriteCount(out, this->FingerprintOfPass());
+  if (m_InPass.GetPass() == 0)
+  {
+    m_Thumbnails.Save(out);
+    m_Moments.Save(out);
+  }
+  else if (m_Sums)
+  {
+    m_Sums->Save(out);
+  }
+  else if (m_Correction)
+  {
+    m_Correction->Save(out);
+  }
+}
+
+template <typename TPixel>
+void
+PublishedMethod<TPixel>::MergeSums(std::istream & in)
+{
+  RequireCount("frames", ReadSumsHeader(in, NameOfSums<TPixel>(), m_Geometry.Pixels()), m_Frames);
+  const PassFrames frames = m_InPass.ReadOther(in);
+  m_InPass.RequireApart(frames);
+  RequireSameStart(ReadCount(in), this->FingerprintOfPass());
+  if (m_InPass.GetPass() == 0)
+  {
+    const FrameThumbnails thumbnails = m_Thumbnails.ReadOther(in);
+    m_Moments.Merge(in);
+    m_Thumbnails.Merge(thumbnails);
+  }
+  else if (m_Sums)
+  {
+    m_Sums->Merge(in);
+  }
+  else if (m_Correction)
+  {
+    m_Correction->Merge(in);
+  }
+  m_InPass.Merge(frames);
+}
+
+template <typename TPixel>
+std::uint64_t
+PublishedMethod<TPixel>::FingerprintOfPass() const
+{
+  Fingerprint       fingerprint;
+  const std::size_t sizes[3] = { m_Geometry.width, m_Sums ? 1U : 0U, m_Correction ? 1U : 0U };
+  fingerprint.Add(sizes, 3);
+  fingerprint.Add(m_UserMask.data(), m_UserMask.size());
+  fingerprint.Add(m_Distinct.Places().data(), m_Distinct.Given());
+  fingerprint.Add(m_Scene.mean.data(), m_Scene.mean.size());
+  fingerprint.Add(m_Scene.variance.data(), m_Scene.variance.size());
+  fingerprint.Add(m_Scene.pixelUse.data(), m_Scene.pixelUse.size());
+  fingerprint.Add(m_Flicker.gamma.data(), m_Flicker.gamma.size());
+  fingerprint.Add(m_Flicker.gammaRows.data(), m_Flicker.gammaRows.size());
+  return fingerprint.GetValue();
 }
 
 template <typename TPixel>

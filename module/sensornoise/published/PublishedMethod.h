@@ -20,7 +20,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <istream>
 #include <optional>
+#include <ostream>
 #include <vector>
 
 namespace sensornoise
@@ -68,6 +70,40 @@ public:
    * are not so many left. */
   void
   AddFrames(const TPixel * chunk, std::size_t frames);
+
+  /** Several processes, each with a part of the frames, share the sums of every pass: all of these as RefinedMethod's.
+   * A process writes 20 (integers) or 32 bytes a pixel in pass 1, 32 bytes a frame and 8 a frame and row in pass 2, 8
+   * bytes a pixel in pass 3. */
+  void
+  SkipFrames(std::size_t frames);
+  void
+  GoTo(std::size_t t);
+  const std::vector<std::uint8_t> &
+  GetHas() const
+  {
+    return m_InPass.GetHas();
+  }
+  void
+  SetCountedElsewhere(const std::vector<std::uint8_t> & areCountedElsewhere)
+  {
+    m_Moments.SetCountedElsewhere(areCountedElsewhere);
+  }
+  const FrameFingerprints &
+  GetFingerprints() const
+  {
+    return m_Moments.GetFingerprints();
+  }
+  void
+  ForgetSums();
+  void
+  FoldSums()
+  {
+    m_Moments.Fold();
+  }
+  void
+  SaveSums(std::ostream & out) const;
+  void
+  MergeSums(std::istream & in);
 
   /** Ends the current pass. Throws std::logic_error if a frame is missing. */
   void
@@ -131,6 +167,9 @@ public:
   }
 
 private:
+  /** Of all that the sums of the current pass depend on beside the frames. */
+  std::uint64_t
+  FingerprintOfPass() const;
   PublishedScene
   EndMoments();
   CorrectedMaps
