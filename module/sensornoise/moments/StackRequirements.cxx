@@ -18,6 +18,11 @@ RequireStack(const FrameGeometry & geometry, std::size_t frames, std::size_t mas
     throw std::invalid_argument("the stack has " + std::to_string(frames) + " frames; expected at least " +
                                 std::to_string(MinimumFrames));
   }
+  if (frames > MaximumFrames)
+  {
+    throw std::invalid_argument("the stack has " + std::to_string(frames) + " frames; expected at most " +
+                                std::to_string(MaximumFrames) + ", up to which sums are exact");
+  }
   if (geometry.width < 3 || geometry.height < 3)
   {
     throw std::invalid_argument("the frames have " + std::to_string(geometry.width) + " x " +

@@ -23,9 +23,10 @@ class TemporalBasis;
  * \brief The third pass: the sums over time of every pixel with each series of a TemporalBasis.
  *
  * With moments and these sums, the residual sum of squares of any pixel about any of the series follows without reading
- * the stack again (estimator.md, 6). For integer pixels they are exact integers, held in doubles: up to 2^16 frames,
- * frames may be added and parts merged in any order, with the same bits. Floating-point frames are added one by one in
- * time order.
+ * the stack again (estimator.md, 6). For integer pixels they are exact integers, held in doubles: they are below 2^53
+ * for up to 2^34 frames (the series have the norm 2^20, and a pixel's values one of at most 2^16 times the root of the
+ * frames), so frames may be added and parts merged in any order, with the same bits. Floating-point frames are added
+ * one by one in time order.
  *
  * Memory: 8 bytes a pixel and series, in slabs that can be given back one by one. Of a large frame the sums of some
  * slabs can be made by themselves. */
