@@ -1,4 +1,5 @@
-/*=========================================================================
+/*==================================================================  }
+
  *
  *  Copyright the ITKSensorNoise contributors
  *
@@ -29,7 +30,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <istream>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <type_traits>
@@ -68,6 +72,66 @@ struct SensorNoiseEstimation
   IsDone() const
   {
     return std::visit([](const auto & atWork) { return atWork.IsDone(); }, method);
+=======
+  /** Calls function(method) for the method of the frame, or those of the four planes. */
+  template <typename TFunction>
+  void
+  ForEach(TFunction function)
+  {
+    std::visit(
+      [&](auto & atWork) {
+        if constexpr (IsOfWholeFrame<const std::remove_reference_t<decltype(atWork)> &>)
+        {
+          function(atWork);
+        }
+        else
+        {
+          for (auto & ofPlane : atWork.GetMethods())
+          {
+            function(ofPlane);
+          }
+        }
+      },
+      method);
+  }
+
+  std::size_t
+  GetNumberOfParts() const
+  {
+    return mosaic ? sensornoise::BayerPlanes.size() : 1;
+  }
+
+  /** For every frame, 1 if it is in the current pass. */
+  const std::vector<std::uint8_t> &
+  GetHas() const
+  {
+    return std::visit([](const auto & atWork) -> const auto & { return atWork.GetHas(); }, method);
+  }
+
+  /** The fingerprints of the frames that are in, of each part. */
+  std::vector<const std::map<std::size_t, sensornoise::BytesFingerprint> *>
+  GetFingerprints()
+  {
+    std::vector<const std::map<std::size_t, sensornoise::BytesFingerprint> *> all;
+    this->ForEach([&all](const auto & part) { all.push_back(&part.GetFingerprints().GetAll()); });
+    return all;
+  }
+
+  /** \a flags holds \a frames values for each part, one part after the other. */
+  void
+  SetCountedElsewhere(const unsigned char * flags, std::size_t frames)
+  {
+    this->ForEach([&](auto & part) {
+      part.SetCountedElsewhere({ flags, flags + frames });
+      flags += frames;
+    });
+  }
+
+  void
+  MergeSums(std::istream & in)
+  {
+    std::visit([&in](auto & atWork) { atWork.MergeSums(in); }, method);
+    this->ForEach([](auto & part) { part.FoldSums(); });
   }
 
   /** Of the stack, or of each of its channels; \a selection, and what is known of the \a camera, are noted in each. */

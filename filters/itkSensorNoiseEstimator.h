@@ -50,6 +50,8 @@ namespace itk
 {
 
 struct SensorNoiseMosaic;
+template <typename TStack>
+class SensorNoiseSums;
 
 /** \class SensorNoiseEstimatorEnums
  * \brief Enumerations of SensorNoiseEstimator.
@@ -491,6 +493,8 @@ protected:
   PrintSelf(std::ostream & os, Indent indent) const override;
 
 private:
+  friend class SensorNoiseSums<TStack>; // goes through the passes itself
+
   // The six maps of the dark frames stand after the others.
   static constexpr DataObjectPointerArraySizeType FirstPixelOutput = 5;
   static constexpr DataObjectPointerArraySizeType ChannelReportsOutput = FirstPixelOutput + 6;
@@ -546,6 +550,8 @@ private:
   double             m_QuantisationStep{ 0.0 };
   SizeValueType      m_MemoryLimit{ 0 };
   std::string        m_BayerPattern{ "none" };
+
+  sensornoise::BayerSource m_BayerSource{ sensornoise::BayerSource::Given }; // of a pattern that is not auto
 
   sensornoise::StackSelection m_Source;
   sensornoise::InputFiles     m_FramesHash;

@@ -147,6 +147,7 @@ SensorNoiseEstimator<TStack>::SetBayerPattern(const std::string & name)
   {
     WithItkErrors(this, [&name] { return sensornoise::BayerPatternOf(name); });
   }
+  m_BayerSource = sensornoise::BayerSource::Given;
   if (m_BayerPattern != name)
   {
     m_BayerPattern = name;
@@ -535,7 +536,7 @@ SensorNoiseEstimator<TStack>::FindMosaic()
   }
   if (m_BayerPattern != "auto")
   {
-    return SensorNoiseMosaic{ { frame, sensornoise::BayerPatternOf(m_BayerPattern) }, BayerSource::Given };
+    return SensorNoiseMosaic{ { frame, sensornoise::BayerPatternOf(m_BayerPattern) }, m_BayerSource };
   }
   auto * const      stack = const_cast<TStack *>(this->GetInput());
   const std::string inFile = this->GetCamera().bayerPattern;

@@ -11,9 +11,12 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <functional>
+#include <istream>
 #include <memory>
+#include <ostream>
 #include <vector>
 
 namespace sensornoise
@@ -64,6 +67,48 @@ public:
         m_Methods[k].AddFrames(plane, now);
       }
     });
+  }
+
+  /** Frame \a t is the next one of the current pass. */
+  void
+  GoTo(std::size_t t)
+  {
+    for (TMethod & method : m_Methods)
+    {
+      method.GoTo(t);
+    }
+  }
+
+  /** Frames that are here, as the method has them. */
+  const std::vector<std::uint8_t> &
+  GetHas() const
+  {
+    return m_Methods.front().GetHas();
+  }
+
+  /** The methods, in the order of BayerPlanes: what is told to each of them, or asked of it. */
+  std::vector<TMethod> &
+  GetMethods()
+  {
+    return m_Methods;
+  }
+
+  /** Sums of the current pass on their way to another process, and from there. */
+  void
+  SaveSums(std::ostream & out) const
+  {
+    for (const TMethod & method : m_Methods)
+    {
+      method.SaveSums(out);
+    }
+  }
+  void
+  MergeSums(std::istream & in)
+  {
+    for (TMethod & method : m_Methods)
+    {
+      method.MergeSums(in);
+    }
   }
 
   /** Ends the current pass, of all planes at once: much of what is left to do then are single sums and sorts. */
