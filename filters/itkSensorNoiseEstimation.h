@@ -1,5 +1,4 @@
-/*==================================================================  }
-
+/*=========================================================================
  *
  *  Copyright the ITKSensorNoise contributors
  *
@@ -72,7 +71,8 @@ struct SensorNoiseEstimation
   IsDone() const
   {
     return std::visit([](const auto & atWork) { return atWork.IsDone(); }, method);
-=======
+  }
+
   /** Calls function(method) for the method of the frame, or those of the four planes. */
   template <typename TFunction>
   void

@@ -4,20 +4,16 @@
 
 from typing import Literal
 
-import numpy as np
-
 from . import _options
-from ._arrays import as_mask
-from ._bayer import set_pattern
 from ._channels import ChannelReports, report_of
 from ._errors import itk_errors
-from ._frames import Stack, crop, frame_image, open_dumps, open_frames
+from ._frames import Stack, open_dumps, open_frames
 from ._hash import FramesHash
 from ._maps import arrays_of, maps_folder, require_apart, write_maps
-from ._names import expand, is_name
+from ._names import expand
 from ._progress import at_work
 from ._report import Report
-from ._source import read_image
+from ._settings import Settings, open_dark, prepare
 from ._types import FileName, Frame, Frames, ItkObject
 
 
@@ -145,58 +141,39 @@ def estimate_sensor_noise(
     RuntimeError
         What ITK threw, in one sentence.
     """
-    import itk
-
-    _options.one_of("method", method, ["refined", "published"])
     if not isinstance(hash, bool):
         raise _options.refuse("hash", hash, "True or False")
-    _check_what_is_known(method, offset, dark)
-    levels = None if level_range is None else _level_range(level_range, method)
-    span = None if frame_range is None else _frame_range(frame_range)
+    settings = Settings(
+        method=method,
+        offset=offset,
+        bayer=bayer,
+        bit_depth=bit_depth,
+        clip=clip,
+        step=step,
+        level_range=level_range,
+        rolling_shutter=rolling_shutter,
+        shutter_axis=shutter_axis,
+        level=level,
+        quantiles=quantiles,
+        roi=roi,
+        mask=mask,
+        frame_range=frame_range,
+        memory_limit=memory_limit,
+        threads=threads,
+    )
+    settings.check(dark)
     folder = None if maps is None or isinstance(maps, bool) else maps_folder(maps)
     frames, dark = expand(frames), expand(dark, "dark")
     if folder is not None:
         require_apart(folder, frames=frames, dark=dark, mask=mask)
-    stack = open_frames(frames, span) if raw is None else open_dumps(frames, raw, span)
-    dark_stack = None
-    if dark is not None:
-        dark_stack = open_frames(dark, name="dark") if raw is None else open_dumps(dark, raw, name="dark")
-    opened, opened_dark, whole = stack, dark_stack, stack.image
-    corner, size = _region(stack, roi, None if stack.is_cut else span)
-    mask_array = None if mask is None else _mask_of(mask, stack.size[:2])
-    if dark_stack is not None:
-        dark_stack = _cut_dark(dark_stack, stack, corner, size)
-    if size != stack.size:
-        stack = crop(stack, corner, size)
-    estimator = stack.estimator(itk.SensorNoiseEstimator)
-    if roi is not None:
-        estimator.SetSourceRegion(*corner[:2], *size[:2])
-    if span is not None:
-        estimator.SetSourceFrames(*span)
-    estimator.SetMethod(method)
-    set_pattern(estimator, bayer, whole, corner)
-    if offset is not None:
-        _set_offset(estimator, offset)
-    if dark_stack is not None:
-        estimator.SetDark(dark_stack.image)
-    if levels is not None:
-        estimator.SetLevelRangeLow(levels[0])
-        estimator.SetLevelRangeHigh(levels[1])
-    _set_parameters(estimator, bit_depth, clip, step, rolling_shutter, shutter_axis, level, quantiles)
-    if mask_array is not None:
-        rows, columns = slice(corner[1], corner[1] + size[1]), slice(corner[0], corner[0] + size[0])
-        mask_array = np.ascontiguousarray(mask_array[rows, columns])
-        estimator.SetMask(frame_image(mask_array, stack.image))
-    if memory_limit is not None:
-        estimator.SetMemoryLimit(_options.integer("memory_limit", memory_limit, 1, 2**62))
-    if threads is not None:
-        count = _options.integer("threads", threads, 1, 1024)
-        estimator.GetMultiThreader().SetMaximumNumberOfThreads(count)
-        estimator.SetNumberOfWorkUnits(count)
+    stack = open_frames(frames, settings.span) if raw is None else open_dumps(frames, raw, settings.span)
+    dark_stack = open_dark(dark, raw)
+    prepared = prepare(stack, dark_stack, settings)
+    estimator = prepared.estimator
     hashes = []
     if hash:
-        hashes = _set_hashes(estimator, opened, opened_dark)
-    with at_work(estimator, progress, *filter(None, (stack, dark_stack))), itk_errors():
+        hashes = _set_hashes(estimator, stack, dark_stack)
+    with at_work(estimator, progress, *filter(None, (prepared.stack, prepared.dark))), itk_errors():
         estimator.Update()
     for each in hashes:
         each.require_unchanged()
@@ -213,114 +190,3 @@ def _set_hashes(estimator: ItkObject, frames: Stack, dark: Stack | None) -> list
         hashes.append(FramesHash(dark))
         hashes[1].set(estimator.SetDarkHash)
     return hashes
-
-
-def _check_what_is_known(method: str, offset: object, dark: object) -> None:
-    given = [name for name, value in (("offset", offset), ("dark", dark)) if value is not None]
-    if given and method == "published":
-        raise ValueError(
-            f"{given[0]} was given and the method is 'published', which finds the offset from the flicker alone; "
-            f"expected no {given[0]}, or 'refined'"
-        )
-    if len(given) > 1:
-        raise ValueError("offset and dark were given; expected one of them")
-
-
-def _set_offset(estimator: ItkObject, offset: float | tuple[float, float]) -> None:
-    expected = "a finite number or (number, standard error) [DN]"
-    if np.ndim(offset) == 0:
-        estimator.SetOffset(_options.number("offset", offset, expected))
-        return
-    value, error = _options.numbers("offset", offset, 2, expected)
-    estimator.SetOffset(value)
-    estimator.SetOffsetStandardError(error)
-
-
-def _level_range(level_range: tuple[float, float], method: str) -> tuple[float, float]:
-    expected = "(low, high), two levels with low < high [DN]"
-    low, high = _options.numbers("level_range", level_range, 2, expected)
-    if not low < high:
-        raise _options.refuse("level_range", level_range, expected)
-    if method == "published":
-        raise ValueError(
-            "level_range was given and the method is 'published', which fits all levels; "
-            "expected no level_range, or 'refined'"
-        )
-    return low, high
-
-
-def _cut_dark(opened: Stack, stack: Stack, corner: tuple[int, ...], size: tuple[int, ...]) -> Stack:
-    """The dark frames, cut as the stack is."""
-    if (opened.size[:2], opened.pixel) != (stack.size[:2], stack.pixel):
-        found, expected = (f"{s.size[0]} x {s.size[1]} pixels of type {s.pixel}" for s in (opened, stack))
-        raise ValueError(f"dark has {found}; expected {expected}, as the frames")
-    corner, size = (*corner[:2], 0), (*size[:2], opened.size[2])
-    return opened if size == opened.size else crop(opened, corner, size)
-
-
-def _frame_range(frame_range: tuple[int, int]) -> tuple[int, int]:
-    expected = "(first, end) with 0 <= first < end"
-    first, end = _options.integers("frame_range", frame_range, 2, expected)
-    if not 0 <= first < end:
-        raise _options.refuse("frame_range", frame_range, expected)
-    return first, end
-
-
-def _region(
-    stack: Stack, roi: tuple[int, int, int, int] | None, span: tuple[int, int] | None
-) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """Corner and size (x, y, t) of what roi and frame_range ask for."""
-    width, height, frames = stack.size
-    expected = f"(x, y, width, height) inside {width} x {height} pixels"
-    corner, size = [0, 0, 0], [width, height, frames]
-    if roi is not None:
-        x, y, roi_width, roi_height = _options.integers("roi", roi, 4, expected)
-        if min(x, y) < 0 or min(roi_width, roi_height) < 1 or x + roi_width > width or y + roi_height > height:
-            raise _options.refuse("roi", roi, expected)
-        corner[:2], size[:2] = (x, y), (roi_width, roi_height)
-    if span is not None:
-        if span[1] > frames:
-            raise ValueError(f"frame_range ends at {span[1]}, but there are {frames} frames")
-        corner[2], size[2] = span[0], span[1] - span[0]
-    return tuple(corner), tuple(size)
-
-
-def _mask_of(mask: Frame | FileName, size: tuple[int, int]) -> np.ndarray:
-    """The mask (y, x) of a stack whose frames have `size` (width, height)."""
-    if is_name(mask):
-        mask = read_image(mask, "the mask")
-    array = as_mask(mask, "mask")
-    if array.shape != size[::-1]:
-        raise ValueError(f"mask has shape {array.shape}; expected {size[::-1]}, that of a frame")
-    return array
-
-
-def _set_parameters(
-    estimator: ItkObject,
-    bit_depth: int | None,
-    clip: tuple[float, float] | None,
-    step: float | None,
-    rolling_shutter: str | float,
-    shutter_axis: str,
-    level: float,
-    quantiles: tuple[float, float],
-) -> None:
-    if bit_depth is not None:
-        estimator.SetBitDepth(_options.integer("bit_depth", bit_depth, 1, 16))
-    if clip is not None:
-        low, high = _options.numbers("clip", clip, 2, "(low, high), two levels [DN]")
-        estimator.SetClipLow(low)
-        estimator.SetClipHigh(high)
-    if step is not None:
-        estimator.SetQuantisationStep(_options.number("step", step, "a number above 0 [DN]", above=0.0))
-    if isinstance(rolling_shutter, str) and rolling_shutter in ("auto", "off"):
-        estimator.SetRollingShutter(rolling_shutter)
-    else:
-        expected = "'auto', 'off' or a number of rows above 0"
-        estimator.SetSigmaRows(_options.number("rolling_shutter", rolling_shutter, expected, above=0.0))
-        estimator.SetRollingShutter("fixed")
-    estimator.SetShutterAxis(1 if _options.one_of("shutter_axis", shutter_axis, ["y", "x"]) == "y" else 0)
-    estimator.SetLevel(_options.number("level", level))
-    dark, bright = _options.numbers("quantiles", quantiles, 2, "(dark, bright), two numbers from 0 to 1")
-    estimator.SetDarkQuantile(dark)
-    estimator.SetBrightQuantile(bright)

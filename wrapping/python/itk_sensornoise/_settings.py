@@ -1,0 +1,230 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""The settings of estimate_sensor_noise(), put into an ITK estimator: of a stack that it reads, or of sums."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from . import _options
+from ._arrays import as_mask
+from ._bayer import set_pattern
+from ._frames import Stack, crop, frame_image, open_dumps, open_frames
+from ._names import is_name
+from ._source import read_image
+from ._types import FileName, Frame, Frames, ItkObject
+
+
+@dataclass(kw_only=True)
+class Settings:
+    """What estimate_sensor_noise() says of them."""
+
+    method: str = "refined"
+    offset: float | tuple[float, float] | None = None
+    bayer: str = "auto"
+    bit_depth: int | None = None
+    clip: tuple[float, float] | None = None
+    step: float | None = None
+    level_range: tuple[float, float] | None = None
+    rolling_shutter: str | float = "auto"
+    shutter_axis: str = "y"
+    level: float = 0.01
+    quantiles: tuple[float, float] = (0.01, 0.99)
+    roi: tuple[int, int, int, int] | None = None
+    mask: Frame | FileName | None = None
+    frame_range: tuple[int, int] | None = None
+    memory_limit: int | None = None
+    threads: int | None = None
+
+    def check(self, dark: object) -> None:
+        """Raises ValueError for what can be told before a frame is looked at."""
+        _options.one_of("method", self.method, ["refined", "published"])
+        _check_what_is_known(self.method, self.offset, dark)
+        if self.level_range is not None:
+            _level_range(self.level_range, self.method)
+        _ = self.span
+
+    @property
+    def span(self) -> tuple[int, int] | None:
+        """The frames that are measured: the first and one past the last; None: all."""
+        return None if self.frame_range is None else _frame_range(self.frame_range)
+
+
+@dataclass
+class Prepared:
+    """An estimator of a stack, the stack and the dark frames as they were cut, and where: corner and size (x, y, t)."""
+
+    estimator: ItkObject
+    stack: Stack
+    dark: Stack | None
+    corner: tuple[int, ...]
+    size: tuple[int, ...]
+    kept: list[Any]
+
+
+def open_dark(dark: Frames | None, raw: str | None) -> Stack | None:
+    """The dark frames; None: there are none."""
+    if dark is None:
+        return None
+    return open_frames(dark, name="dark") if raw is None else open_dumps(dark, raw, name="dark")
+
+
+def prepare(stack: Stack, dark: Stack | None, settings: Settings) -> Prepared:
+    """An estimator with all settings. Raises ValueError where one does not fit the stack."""
+    import itk
+
+    whole, span = stack.image, settings.span
+    corner, size = _region(stack, settings.roi, None if stack.is_cut else span)
+    mask = None if settings.mask is None else _mask_of(settings.mask, stack.size[:2])
+    if dark is not None:
+        dark = _cut_dark(dark, stack, corner, size)
+    if size != stack.size:
+        stack = crop(stack, corner, size)
+    estimator = stack.estimator(itk.SensorNoiseEstimator)
+    if settings.roi is not None:
+        estimator.SetSourceRegion(*corner[:2], *size[:2])
+    if span is not None:
+        estimator.SetSourceFrames(*span)
+    estimator.SetMethod(settings.method)
+    set_pattern(estimator, settings.bayer, whole, corner)
+    if settings.offset is not None:
+        _set_offset(estimator, settings.offset)
+    if dark is not None:
+        estimator.SetDark(dark.image)
+    if settings.level_range is not None:
+        low, high = _level_range(settings.level_range, settings.method)
+        estimator.SetLevelRangeLow(low)
+        estimator.SetLevelRangeHigh(high)
+    _set_parameters(
+        estimator,
+        settings.bit_depth,
+        settings.clip,
+        settings.step,
+        settings.rolling_shutter,
+        settings.shutter_axis,
+        settings.level,
+        settings.quantiles,
+    )
+    if mask is not None:
+        rows, columns = slice(corner[1], corner[1] + size[1]), slice(corner[0], corner[0] + size[0])
+        mask = np.ascontiguousarray(mask[rows, columns])
+        estimator.SetMask(frame_image(mask, stack.image))
+    if settings.memory_limit is not None:
+        estimator.SetMemoryLimit(_options.integer("memory_limit", settings.memory_limit, 1, 2**62))
+    if settings.threads is not None:
+        count = _options.integer("threads", settings.threads, 1, 1024)
+        estimator.GetMultiThreader().SetMaximumNumberOfThreads(count)
+        estimator.SetNumberOfWorkUnits(count)
+    return Prepared(estimator, stack, dark, corner, size, [mask])
+
+
+def _check_what_is_known(method: str, offset: object, dark: object) -> None:
+    given = [name for name, value in (("offset", offset), ("dark", dark)) if value is not None]
+    if given and method == "published":
+        raise ValueError(
+            f"{given[0]} was given and the method is 'published', which finds the offset from the flicker alone; "
+            f"expected no {given[0]}, or 'refined'"
+        )
+    if len(given) > 1:
+        raise ValueError("offset and dark were given; expected one of them")
+
+
+def _set_offset(estimator: ItkObject, offset: float | tuple[float, float]) -> None:
+    expected = "a finite number or (number, standard error) [DN]"
+    if np.ndim(offset) == 0:
+        estimator.SetOffset(_options.number("offset", offset, expected))
+        return
+    value, error = _options.numbers("offset", offset, 2, expected)
+    estimator.SetOffset(value)
+    estimator.SetOffsetStandardError(error)
+
+
+def _level_range(level_range: tuple[float, float], method: str) -> tuple[float, float]:
+    expected = "(low, high), two levels with low < high [DN]"
+    low, high = _options.numbers("level_range", level_range, 2, expected)
+    if not low < high:
+        raise _options.refuse("level_range", level_range, expected)
+    if method == "published":
+        raise ValueError(
+            "level_range was given and the method is 'published', which fits all levels; "
+            "expected no level_range, or 'refined'"
+        )
+    return low, high
+
+
+def _cut_dark(opened: Stack, stack: Stack, corner: tuple[int, ...], size: tuple[int, ...]) -> Stack:
+    """The dark frames, cut as the stack is."""
+    if (opened.size[:2], opened.pixel) != (stack.size[:2], stack.pixel):
+        found, expected = (f"{s.size[0]} x {s.size[1]} pixels of type {s.pixel}" for s in (opened, stack))
+        raise ValueError(f"dark has {found}; expected {expected}, as the frames")
+    corner, size = (*corner[:2], 0), (*size[:2], opened.size[2])
+    return opened if size == opened.size else crop(opened, corner, size)
+
+
+def _frame_range(frame_range: tuple[int, int]) -> tuple[int, int]:
+    expected = "(first, end) with 0 <= first < end"
+    first, end = _options.integers("frame_range", frame_range, 2, expected)
+    if not 0 <= first < end:
+        raise _options.refuse("frame_range", frame_range, expected)
+    return first, end
+
+
+def _region(
+    stack: Stack, roi: tuple[int, int, int, int] | None, span: tuple[int, int] | None
+) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """Corner and size (x, y, t) of what roi and frame_range ask for."""
+    width, height, frames = stack.size
+    expected = f"(x, y, width, height) inside {width} x {height} pixels"
+    corner, size = [0, 0, 0], [width, height, frames]
+    if roi is not None:
+        x, y, roi_width, roi_height = _options.integers("roi", roi, 4, expected)
+        if min(x, y) < 0 or min(roi_width, roi_height) < 1 or x + roi_width > width or y + roi_height > height:
+            raise _options.refuse("roi", roi, expected)
+        corner[:2], size[:2] = (x, y), (roi_width, roi_height)
+    if span is not None:
+        if span[1] > frames:
+            raise ValueError(f"frame_range ends at {span[1]}, but there are {frames} frames")
+        corner[2], size[2] = span[0], span[1] - span[0]
+    return tuple(corner), tuple(size)
+
+
+def _mask_of(mask: Frame | FileName, size: tuple[int, int]) -> np.ndarray:
+    """The mask (y, x) of a stack whose frames have `size` (width, height)."""
+    if is_name(mask):
+        mask = read_image(mask, "the mask")
+    array = as_mask(mask, "mask")
+    if array.shape != size[::-1]:
+        raise ValueError(f"mask has shape {array.shape}; expected {size[::-1]}, that of a frame")
+    return array
+
+
+def _set_parameters(
+    estimator: ItkObject,
+    bit_depth: int | None,
+    clip: tuple[float, float] | None,
+    step: float | None,
+    rolling_shutter: str | float,
+    shutter_axis: str,
+    level: float,
+    quantiles: tuple[float, float],
+) -> None:
+    if bit_depth is not None:
+        estimator.SetBitDepth(_options.integer("bit_depth", bit_depth, 1, 16))
+    if clip is not None:
+        low, high = _options.numbers("clip", clip, 2, "(low, high), two levels [DN]")
+        estimator.SetClipLow(low)
+        estimator.SetClipHigh(high)
+    if step is not None:
+        estimator.SetQuantisationStep(_options.number("step", step, "a number above 0 [DN]", above=0.0))
+    if isinstance(rolling_shutter, str) and rolling_shutter in ("auto", "off"):
+        estimator.SetRollingShutter(rolling_shutter)
+    else:
+        expected = "'auto', 'off' or a number of rows above 0"
+        estimator.SetSigmaRows(_options.number("rolling_shutter", rolling_shutter, expected, above=0.0))
+        estimator.SetRollingShutter("fixed")
+    estimator.SetShutterAxis(1 if _options.one_of("shutter_axis", shutter_axis, ["y", "x"]) == "y" else 0)
+    estimator.SetLevel(_options.number("level", level))
+    dark, bright = _options.numbers("quantiles", quantiles, 2, "(dark, bright), two numbers from 0 to 1")
+    estimator.SetDarkQuantile(dark)
+    estimator.SetBrightQuantile(bright)
