@@ -97,3 +97,14 @@ def test_motion_behind_a_mosaic_is_found_by_all_planes_together():
     (plane, *_), (joint, held, of) = rows
     assert float(joint) < float(plane)
     assert int(of) - int(held) <= 4  # of 36 at most: chance leaves 5 or more in one of 30
+
+
+def test_several_processes_have_the_bits_of_one(tmp_path):
+    stack = itk.simulate_sensor_noise(frames=20, size=(96, 64))[0]
+    names = [tmp_path / f"{number:02}.tif" for number in range(20)]
+    for name, frame in zip(names, stack, strict=True):
+        itk.imwrite(itk.image_view_from_array(frame), str(name))
+    result = run("several_processes.py", *names)
+    assert result.stdout == f"{itk.estimate_sensor_noise(stack)}\n", result.stderr
+    result = run("several_processes.py", tmp_path / "no-such.tif")
+    assert result.returncode == 2 and "does not exist" in result.stderr

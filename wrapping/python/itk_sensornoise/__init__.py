@@ -30,12 +30,14 @@ from ._report import Report
 from ._simulate import simulate_sensor_noise
 from ._source import sensor_noise_frame_list_source
 from ._stabilise import generalized_anscombe_image_filter, inverse_generalized_anscombe_image_filter
+from ._sums import SensorNoiseSums
 
 __all__ = [
     "ChannelReports",
     "NoiseCorrelation",
     "NoiseModelCheck",
     "Report",
+    "SensorNoiseSums",
     "check_noise_model",
     "denoise_with_noise_model",
     "estimate_sensor_noise",

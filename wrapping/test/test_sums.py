@@ -1,0 +1,218 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""SensorNoiseSums: parts of the frames, in any hands, give the bits of the whole."""
+
+import pickle
+
+import itk
+import numpy as np
+import pytest
+from itk_sensornoise import SensorNoiseSums
+
+
+def runs_of(frames: int, count: int) -> list[list[int]]:
+    return [list(map(int, part)) for part in np.array_split(np.arange(frames), count)]
+
+
+def in_turn(frames: int, count: int) -> list[list[int]]:
+    return [list(range(first, frames, count)) for first in range(count)]
+
+
+def measure_in_parts(stack, parts, order=1, **settings):
+    """A process for each part; a driver merges what they send, and hands itself on for the next pass."""
+    driver = SensorNoiseSums(stack.shape, stack.dtype, **settings)
+    while driver.passes_ended < 3:
+        sent = []
+        for part in parts:
+            process = pickle.loads(pickle.dumps(driver))
+            for number in part[::order]:
+                process.add(stack[number : number + 1], number)
+            sent.append(process.to_bytes())
+        for sums in sent[::order]:
+            assert driver.merge(sums)
+        driver.end_pass()
+    return driver
+
+
+@pytest.mark.parametrize("count", range(1, 8))
+@pytest.mark.parametrize("cut", [runs_of, in_turn])
+def test_parts_of_integers_give_the_bits_of_the_whole(codes, count, cut):
+    stack = codes.astype(np.uint16)
+    expected = itk.estimate_sensor_noise(stack, maps=True)
+    report = measure_in_parts(stack, cut(len(stack), count), bayer="none").report(maps=True)
+    assert report.to_json() == expected.to_json() and str(report) == str(expected)
+    for name, values in expected.maps.items():
+        np.testing.assert_array_equal(report.maps[name], values)
+
+
+@pytest.mark.parametrize("method", ["refined", "published"])
+def test_each_pixel_type(stack, method):
+    expected = itk.estimate_sensor_noise(stack, method=method, bayer="none")
+    parts = in_turn(len(stack), 3)
+    report = measure_in_parts(stack, parts, bayer="none", method=method).report()
+    if stack.dtype.kind == "f":
+        # Sums in another order: the last digits of a double. They also decide which pixels of equal mean "published"
+        # takes into its sets, and of these codes many are equal: chance, far below the gain's error of some per cent.
+        rounding = 1e-9 if method == "refined" else 1e-4
+        assert report["gain"]["value"] == pytest.approx(expected["gain"]["value"], rel=rounding)
+        assert measure_in_parts(stack, parts, bayer="none", method=method).report() == report
+    else:
+        assert report == expected
+        assert measure_in_parts(stack, parts, -1, bayer="none", method=method).report() == expected
+
+
+def test_settings_are_those_of_the_function(burst, dark):
+    mask = burst[0] > np.median(burst[0]) / 2
+    settings = {"roi": (8, 4, 100, 80), "mask": mask, "dark": dark, "clip": (0, 4095), "bit_depth": 12, "threads": 1}
+    expected = itk.estimate_sensor_noise(burst, maps=True, **settings)
+    sums = measure_in_parts(burst, runs_of(60, 2), first_frame=burst[0], **settings)
+    assert sums.report() == expected
+    assert set(sums.report(maps=True).maps) == set(expected.maps)
+    part = itk.estimate_sensor_noise(burst, frame_range=(10, 50))
+    assert measure_in_parts(burst[10:50], runs_of(40, 2), first_frame=burst[0], frame_range=(10, 50)).report() == part
+
+
+@pytest.mark.parametrize("bayer", ["auto", "GRBG", "file"])
+def test_mosaics(bayer):
+    stack = itk.simulate_sensor_noise(frames=30, size=(128, 96), bayer="GRBG", seed=4)[0]
+    frames, settings = stack, {"bayer": bayer, "first_frame": stack[0]}
+    if bayer == "file":
+        frames = itk.image_view_from_array(stack)
+        frames["SensorNoise.BayerPattern"] = "GRBG"
+        settings = {"metadata": {"SensorNoise.BayerPattern": "GRBG"}}
+    expected = itk.estimate_sensor_noise(frames, bayer="GRBG" if bayer == "GRBG" else "auto")
+    report = measure_in_parts(stack, in_turn(30, 2), **settings).report()
+    assert report == expected and "channels" in report
+
+
+def test_sums_that_come_twice_are_ignored_and_overlaps_refused(codes):
+    sums = SensorNoiseSums(codes.shape, codes.dtype, bayer="none")
+    other = SensorNoiseSums(codes.shape, codes.dtype, bayer="none")
+    sums.add(codes[:10])
+    other.add(codes[30:], 30)
+    assert sums.merge(other) and not sums.merge(other) and not sums.merge(other.to_bytes())
+    np.testing.assert_array_equal(sums.frames, [*range(10), *range(30, 40)])
+    before = sums.to_bytes()
+    other.add(codes[9:11], 9)
+    with pytest.raises(RuntimeError, match="both hold frame 9"):
+        sums.merge(other)
+    with pytest.raises(ValueError, match="frame 8 was added before"):
+        sums.add(codes[7:9], 7 + 1)
+    assert sums.to_bytes() == before
+    with pytest.raises(
+        ValueError, match=r"^frames 10, 11, 12, 13, 14, ... \(20 in all\) are missing in pass 1; expected"
+    ):
+        sums.end_pass()
+    sums.add(codes[10:29], 10)
+    with pytest.raises(ValueError, match="^frame 29 is missing in pass 1; expected all 40"):
+        sums.end_pass()
+
+
+def test_a_run_goes_on_from_a_pickle_and_from_bytes(codes):
+    sums = SensorNoiseSums(codes.shape, codes.dtype, bayer="none")
+    sums.add(codes)
+    sums.end_pass()
+    sums.add(codes[:25])
+    kept = pickle.dumps(sums)
+    text = sums.to_bytes()
+    again = pickle.loads(kept)
+    assert repr(again) == "<SensorNoiseSums: pass 2, 25 of 40 frames of 96 x 64 pixels>"
+    again.forget()
+    assert not len(again.frames)
+    again.from_bytes(text)
+    again.add(codes[25:], 25)
+    again.end_pass()
+    again.add(codes)
+    again.end_pass()
+    done = pickle.loads(pickle.dumps(again))
+    assert done.report() == again.report() == itk.estimate_sensor_noise(codes)
+    assert "all passes ended" in repr(done)
+    with pytest.raises(RuntimeError, match="all passes have ended"):
+        done.to_bytes()
+    sums.drop_history()
+    with pytest.raises(ValueError, match="cannot be pickled"):
+        pickle.dumps(sums)
+
+
+def test_equal_frames_in_two_hands(codes):
+    stack = codes.copy()
+    stack[30] = stack[4]
+    expected = itk.estimate_sensor_noise(stack)
+    one, two = (SensorNoiseSums(codes.shape, codes.dtype, bayer="none") for _ in range(2))
+    one.add(stack[:20])
+    two.add(stack[20:], 20)
+    with pytest.raises(RuntimeError, match="frame 30 equals frame 4, and each was counted by another process"):
+        one.merge(two)
+    assert (one.fingerprints[4] == two.fingerprints[10]).all()
+    assert (one.fingerprints[5] != two.fingerprints[10]).all()
+    two.forget()
+    two.leave(np.arange(40)[None] == 30)
+    two.add(stack[20:], 20)
+    one.merge(two)
+    for passes_ended in range(3):
+        assert one.passes_ended == passes_ended
+        if passes_ended:
+            one.add(stack)
+        one.end_pass()
+    assert one.report() == expected
+
+
+def test_little_is_sent_of_few_frames(codes):
+    """20 bytes a pixel of pass 1 and some of every frame that is in, not of all; so of pass 2."""
+    sums = SensorNoiseSums((4000, 64, 96), "uint8", bayer="none")
+    sums.add(codes[:5], 100)
+    assert len(sums.to_bytes()) < 20 * 64 * 96 + 5 * 2600 + 4000 * 1.1
+    full = SensorNoiseSums(codes.shape, codes.dtype, bayer="none")
+    full.add(codes)
+    full.end_pass()
+    full.add(codes[7:8], 7)
+    of_one = len(full.to_bytes())
+    full.add(codes[:7])
+    full.add(codes[8:], 8)
+    assert 10 * of_one < len(full.to_bytes())
+
+
+def test_files_and_lazy_frames(codes, tmp_path):
+    names = [tmp_path / f"{number:02}.mha" for number in range(40)]
+    for name, frame in zip(names, codes, strict=True):
+        itk.imwrite(itk.image_view_from_array(frame), str(name))
+    np.save(tmp_path / "a.npy", codes)
+    lazy = np.load(tmp_path / "a.npy", mmap_mode="r")
+    sums = SensorNoiseSums(codes.shape, codes.dtype, bayer="none", roi=(4, 2, 80, 50))
+    while sums.passes_ended < 3:
+        sums.add(names[:7])
+        sums.add(lazy, 7, frame_range=(7, 30))
+        sums.add(names, 30, frame_range=(30, 40))
+        sums.end_pass()
+    assert sums.report() == itk.estimate_sensor_noise(codes, roi=(4, 2, 80, 50))
+
+
+def test_wrong_use_is_refused(codes):
+    def refused(pattern, *given, **settings):
+        with pytest.raises(ValueError, match=pattern):
+            SensorNoiseSums(*given, **settings)
+
+    refused(r"shape is \(40, 64\); expected \(t, y, x\)", (40, 64), "uint8")
+    refused("dtype is int64; expected uint8", (40, 64, 96), "int64")
+    refused("frames; expected at least 5", (4, 64, 96), "uint8", bayer="none")
+    refused("expected at most 16777216", ((1 << 24) + 1, 3, 3), "uint8", bayer="none")
+    refused('the Bayer pattern is "auto" and the stack\'s metadata do not have it', codes.shape, "uint8")
+    refused("method is 'x'", codes.shape, "uint8", method="x")
+    sums = SensorNoiseSums(codes.shape, codes.dtype, bayer="none")
+    for frames, first, pattern in [
+        (codes, 1, "the number of frames is 40; expected a whole number from 1 to 39"),
+        (codes, 40, "first is 40"),
+        (codes[:, 1:], 0, "frames has 96 x 63 pixels of type uint8; expected 96 x 64 of uint8"),
+        (codes.astype(float), 0, "of type float64; expected 96 x 64 of uint8"),
+    ]:
+        with pytest.raises(ValueError, match=pattern):
+            sums.add(frames, first)
+    with pytest.raises(ValueError, match="0 passes have ended; expected 3"):
+        sums.report()
+    with pytest.raises(RuntimeError, match="a stream of sums ends early"):
+        sums.merge(b"no sums")
+    with pytest.raises(RuntimeError, match="found 2 as the pass, expected 1"):
+        sums.merge(b"\0" * 8 + b"\1" + b"\0" * 7 + b"\2" + b"\0" * 63)
+    other = SensorNoiseSums((40, 64, 95), codes.dtype, bayer="none")
+    with pytest.raises(RuntimeError, match="expected 6144"):
+        sums.merge(other)
