@@ -6,6 +6,7 @@ Nothing here is loaded by `import itk`, and importing it does not need Dask: wha
 """
 
 from ._many import estimate_many
+from ._rounds import estimate_sensor_noise
 from ._steps import Step, find_steps
 
-__all__ = ["Step", "estimate_many", "find_steps"]
+__all__ = ["Step", "estimate_many", "estimate_sensor_noise", "find_steps"]

@@ -1,0 +1,113 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""What runs on a worker: tasks of one pass, which fill sums with a part of the frames, and merge them."""
+
+import threading
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .._sums import SensorNoiseSums, names_of
+
+# One run at a time has its state here, and one task at a time works on it: that is threaded itself.
+_LOCK = threading.RLock()
+_STATE: dict[str, SensorNoiseSums] = {}
+
+
+@dataclass
+class Part:
+    """The sums of a part of the frames: `sums` as SensorNoiseSums hands them over, None where equal frames were counted
+    in two parts of it; the numbers of its frames and, in pass 1, their fingerprints (frames, planes, 16)."""
+
+    frames: np.ndarray
+    fingerprints: np.ndarray | None
+    sums: np.ndarray | None
+
+    def without_sums(self) -> "Part":
+        return Part(self.frames, self.fingerprints, None if self.sums is None else np.empty(0, np.uint8))
+
+
+def _state(run: str, start: dict[str, Any], ended: Sequence[Part]) -> SensorNoiseSums:
+    """The sums of a run in the pass behind the `ended` ones, with nothing in them. What is here of other runs, and of
+    passes that are behind, is forgotten."""
+    sums = _STATE.get(run)
+    if sums is None or sums.passes_ended > len(ended):
+        _STATE.clear()
+        sums = SensorNoiseSums(**{"threads": _threads(), **start})
+        sums.drop_history()
+        _STATE[run] = sums
+    sums.forget()
+    try:
+        for part in ended[sums.passes_ended :]:
+            sums.merge(part.sums)  # type: ignore[arg-type]  # merged without a conflict
+            sums.end_pass()
+    except BaseException:
+        _STATE.clear()  # half of a pass is none
+        raise
+    return sums
+
+
+def _threads() -> int:
+    """Those of this worker of Dask's: other workers of the machine have theirs."""
+    from distributed import get_worker
+
+    return max(1, int(get_worker().state.nthreads))
+
+
+def fill(
+    run: str,
+    start: dict[str, Any],
+    ended: Sequence[Part],
+    frames: Any,
+    span: tuple[int, int],
+    frame_range: tuple[int, int] | None,
+    flags: np.ndarray | None,
+) -> Part:
+    """The sums of the frames of a span, (first, end); `frame_range`: which they are of what is given; `flags`: those
+    of SensorNoiseSums.leave(). Raises ValueError where a frame is missing."""
+    with _LOCK:
+        sums = _state(run, start, ended)
+        if sums.passes_ended == 0 and flags is not None:
+            sums.leave(flags)
+        sums.add(frames, span[0], frame_range=frame_range)
+        missing = np.arange(span[0] + len(sums.frames), span[1])
+        if missing.size:
+            raise ValueError(
+                f"{names_of(missing)} missing in pass {len(ended) + 1}: the part that should hold frames {span[0]} to "
+                f"{span[1] - 1} has {len(sums.frames)}"
+            )
+        return _part(sums)
+
+
+def merge(run: str, start: dict[str, Any], ended: Sequence[Part], parts: Sequence[Part]) -> Part:
+    """The sums of several parts, merged in their order."""
+    frames = np.concatenate([part.frames for part in parts])
+    if any(part.sums is None for part in parts):
+        return Part(frames, None, None)
+    with _LOCK:
+        sums = _state(run, start, ended)
+        try:
+            for part in parts:
+                sums.merge(part.sums)  # type: ignore[arg-type]  # told above
+        except RuntimeError as error:
+            if " equals frame " not in str(error):
+                raise
+            return Part(frames, None, None)  # the driver sees it, too
+        return _part(sums)
+
+
+def same(value: Any) -> Any:
+    """The value itself."""
+    return value
+
+
+def look(part: Part) -> Part:
+    """What the driver is told of a part."""
+    return part.without_sums()
+
+
+def _part(sums: SensorNoiseSums) -> Part:
+    fingerprints = sums.fingerprints if sums.passes_ended == 0 else None
+    return Part(sums.frames, fingerprints, sums._array())
