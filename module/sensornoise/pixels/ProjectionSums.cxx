@@ -91,7 +91,16 @@ ProjectionSums::ProjectionSums(std::size_t         pixels,
     const std::size_t own = std::min(SlabPixels, pixels - slab * SlabPixels);
     Eigen::ArrayXd &  sums = m_Slabs[slab];
     sums.resize(static_cast<Eigen::Index>((own + BlockPixels - 1) / BlockPixels * BlockPixels * series));
-    // The memory's first use is slow: all threads share it.
+  }
+  this->Clear(parallelFor); // the memory's first use is slow: all threads share it
+}
+
+void
+ProjectionSums::Clear(const ParallelFor & parallelFor)
+{
+  for (std::size_t slab = m_FirstSlab; slab < m_LastSlab; ++slab)
+  {
+    Eigen::ArrayXd & sums = m_Slabs[slab];
     ForBlocks(static_cast<std::size_t>(sums.size()), parallelFor, [&sums](std::size_t begin, std::size_t end) {
       std::fill(sums.data() + begin, sums.data() + end, 0.0);
     });

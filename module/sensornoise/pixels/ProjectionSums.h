@@ -63,6 +63,10 @@ public:
   {
     return std::min(m_Pixels, m_LastSlab * SlabPixels);
   }
+  /** Makes all sums 0. */
+  void
+  Clear(const ParallelFor & parallelFor);
+
   /** Gives the memory of the first slab that is held back. */
   void
   ReleaseFirstSlab()

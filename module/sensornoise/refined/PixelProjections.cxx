@@ -58,6 +58,16 @@ PixelProjections::AddFrames(const TPixel *         frames,
 }
 
 void
+PixelProjections::Forget()
+{
+  m_Sums.Clear(m_ParallelFor);
+  if (!m_HasSample)
+  {
+    m_Sample = NoiseSample(m_Geometry, m_Frames);
+  }
+}
+
+void
 PixelProjections::Save(std::ostream & out) const
 {
   m_Sums.Save(out);

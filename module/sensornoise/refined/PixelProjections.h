@@ -48,6 +48,10 @@ public:
   void
   AddFrames(const TPixel * frames, std::size_t firstFrame, std::size_t count, const ReferenceFrame & frame);
 
+  /** Takes back all that was added in the current pass. */
+  void
+  Forget();
+
   /** Writes the sums of the current pass, see BinaryStream. */
   void
   Save(std::ostream & out) const;

@@ -25,6 +25,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -170,8 +171,7 @@ RefinedMethod<TPixel>::ForgetSums()
   }
   else if (m_FrameSums)
   {
-    m_Projections = ProjectionSums(m_Geometry.Pixels(), m_Series->basis.Size(), m_ParallelFor);
-    m_Sample = NoiseSample(m_Geometry, m_Distinct.Count());
+    m_Projections->Forget();
   }
 }
 
