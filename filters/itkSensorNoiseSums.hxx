@@ -67,6 +67,12 @@ SensorNoiseSums<TStack>::Start(EstimatorType * estimator, const std::string & re
   {
     itkExceptionMacro("there is no estimator with a stack; expected one, whose settings are taken");
   }
+  if (estimator->GetMemoryLimit() > 0)
+  {
+    itkExceptionMacro("the estimator's memory limit is "
+                      << estimator->GetMemoryLimit()
+                      << " bytes; expected none: what several processes merge are the sums of all pixels");
+  }
   m_Estimator = nullptr;
   m_Pass = 0;
   estimator->UpdateOutputInformation();
