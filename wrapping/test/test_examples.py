@@ -108,3 +108,19 @@ def test_several_processes_have_the_bits_of_one(tmp_path):
     assert result.stdout == f"{itk.estimate_sensor_noise(stack)}\n", result.stderr
     result = run("several_processes.py", tmp_path / "no-such.tif")
     assert result.returncode == 2 and "does not exist" in result.stderr
+
+
+def test_steps_in_an_archive_are_judged(tmp_path):
+    pytest.importorskip("distributed", reason="Dask's distributed is not installed")
+    pytest.importorskip("pandas")
+    lines = tmp_path / "archive.jsonl"
+    small = ["--cameras", 4, "--sessions", 4, "--size", 128, "--frames", 30, "--workers", 1, "--output", lines]
+    result = run("measure_archive.py", *small)
+    assert result.returncode == 0, result.stderr
+    assert "16 bursts of 30 frames of 128 x 128 pixels, 1 workers" in result.stdout
+    assert "0 without a report" in result.stdout and len(lines.read_text().splitlines()) == 16
+    rows = {row[0]: row for row in map(str.split, result.stdout.splitlines()[-3:])}
+    assert [rows[name][5] for name in ("gain", "offset", "read_noise")] == ["1", "1", "0"]  # steps
+    for row in rows.values():
+        ratio, spread = float(row[2]), float(row[4])
+        assert abs(ratio - 1) < 4 * spread  # the errors are what they say

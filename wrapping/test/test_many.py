@@ -8,6 +8,7 @@ import pickle
 import signal
 import subprocess
 import sys
+import time
 
 import itk
 import numpy as np
@@ -86,13 +87,13 @@ def test_sources_are_named_by_their_files(files, bursts, tmp_path):
 
 def test_a_bad_burst_is_a_row_with_its_reason(bursts, reports, tmp_path):
     def broken():
-        raise KeyError("no such\ndataset")
+        raise OSError("no such\ndataset")
 
     sources = {"a": bursts["a"], "few": bursts["a"][:1], "none": tmp_path / "none.mha", "broken": broken} | bursts
     rows = {row["name"]: row for row in rows_of(estimate_many(sources))}
     assert [name for name, row in rows.items() if row["status"] == "measured"] == NAMES
     assert "none.mha" in rows["none"]["reason"] and "does not exist" in rows["none"]["reason"]
-    assert rows["broken"]["reason"].startswith("KeyError: ") and "\n" not in rows["broken"]["reason"]
+    assert rows["broken"]["reason"] == "OSError: no such dataset"
     assert rows["few"]["gain_DN_per_e"] is None and rows["few"]["frames"] is None
     assert rows["c"]["gain_DN_per_e"] == reports["c"]["gain"]["value"]
 
@@ -161,7 +162,7 @@ def test_a_run_goes_on_where_it_was(bursts, tmp_path, ending):
         "measured",
     ]
     whole = lines.read_bytes()
-    lines.write_bytes(whole[:-100])  # the last line is cut off, as by a killed process
+    lines.write_bytes(whole[:-1] + b" " * len(whole))  # the last line has no end, as of a killed process
     counted.bad.clear()
     table = estimate_many(counted.sources, output=output)
     assert counted.opened == ["a", "b", "c", "b", "c"]
@@ -205,6 +206,8 @@ import itk
 from itk_sensornoise.distributed import estimate_many
 
 def burst(seed):
+    if seed == 1:
+        raise OSError("a line that is shorter than any buffer")
     if seed == 2:
         os.kill(os.getpid(), signal.SIGKILL)
     return itk.simulate_sensor_noise(frames=30, size=(96, 64), seed=seed)[0]
@@ -216,7 +219,10 @@ estimate_many({name: lambda seed=seed: burst(seed) for seed, name in enumerate("
 def test_a_killed_process_leaves_what_was_measured(bursts, tmp_path):
     result = subprocess.run([sys.executable, "-c", KILLED, tmp_path / "x.jsonl"], check=False)
     assert result.returncode == -signal.SIGKILL
-    assert [line["name"] for line in lines_of(tmp_path / "x.jsonl")] == ["a", "b"]
+    assert [(line["name"], line["reason"] is None) for line in lines_of(tmp_path / "x.jsonl")] == [
+        ("a", True),
+        ("b", False),
+    ]
     assert rows_of(estimate_many(bursts, output=tmp_path / "x.jsonl")) == rows_of(estimate_many(bursts))
 
 
@@ -249,6 +255,13 @@ def test_a_file_of_something_else_is_left_alone(bursts, tmp_path):
         with pytest.raises(ValueError, match=r"x\.jsonl: line 1 is no row"):
             estimate_many(bursts, output=name)
         assert name.read_text() == text
+
+
+def test_a_wrong_name_is_told_before_anything_is_measured(bursts):
+    counted = Counted(bursts)
+    with pytest.raises(ValueError, match="source 1 has the name 3"):
+        estimate_many([("a", counted.sources["a"]), (3, counted.sources["b"])])
+    assert counted.opened == []
 
 
 @pytest.mark.parametrize(
@@ -290,7 +303,7 @@ def test_nothing_loads_dask(fresh):
 def client():
     distributed = pytest.importorskip("distributed", reason="Dask's distributed is not installed")
     with (
-        distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster,
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0") as cluster,
         distributed.Client(cluster) as connected,
     ):
         yield connected
@@ -337,3 +350,17 @@ def test_a_burst_that_kills_its_workers_is_a_row(client, bursts):
     rows = rows_of(estimate_many({"a": bursts["a"], "killed": killed}, client))
     assert rows[1]["status"] == "error" and rows[1]["reason"].startswith("every worker that measured it was killed")
     assert rows[0]["status"] == "measured"
+
+
+def test_a_scheduler_that_restarts_or_goes_away_is_told(client, bursts, tmp_path):
+    def sources(break_it):
+        yield "a", bursts["a"]
+        yield "b", lambda: time.sleep(60)
+        break_it()
+        yield "c", bursts["c"]
+
+    with pytest.raises(RuntimeError, match="scheduler went away, was restarted"):
+        estimate_many(sources(lambda: client.restart(wait_for_workers=False)), client)
+    with pytest.raises(RuntimeError, match="scheduler went away, was restarted"):
+        estimate_many(sources(client.close), client, output=tmp_path / "x.jsonl")
+    assert len(rows_of(estimate_many({"a": bursts["a"]}, output=tmp_path / "x.jsonl"))) == 1

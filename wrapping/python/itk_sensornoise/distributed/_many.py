@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 # What each source would have of its own, or only a person before a screen.
 _NOT_OF_MANY = ("frames", "maps", "progress")
+_GONE = "Dask's scheduler went away, was restarted or cancelled the task; the same call goes on with a new client"
 
 
 def estimate_many(
@@ -130,14 +131,15 @@ def _by_workers(
     names: dict[distributed.Future, str] = {}
     try:
         while True:
-            wanted = 2 * max(sum(client.nthreads().values()), 1) - len(names)
-            taken = list(islice(todo, max(wanted, 0)))
-            for name, frames in taken:
+            taken = 0
+            for name, frames in islice(todo, max(_tasks_wanted(client) - len(names), 0)):
+                taken += 1
                 try:
                     pickled = cloudpickle.dumps(frames)
                 except Exception as error:  # noqa: BLE001 - of whatever package the source is of
                     yield name, Outcome(f"it cannot be pickled and sent to a worker: {reason_of(error)}", None)
                     continue
+                _require_scheduler(client)
                 future = client.submit(measure_pickled, pickled, settings, pure=False)
                 names[future] = name
                 completed.add(future)
@@ -147,7 +149,23 @@ def _by_workers(
             elif not taken:
                 return
     finally:
-        client.cancel(list(names))
+        if client.status == "running":
+            client.cancel(list(names))
+
+
+def _tasks_wanted(client: "distributed.Client") -> int:
+    """How many tasks keep all workers busy; 2 where there is no worker yet. Raises RuntimeError where there is no
+    scheduler."""
+    _require_scheduler(client)
+    try:
+        return 2 * max(sum(client.nthreads().values()), 1)
+    except OSError as error:
+        raise RuntimeError(_GONE) from error
+
+
+def _require_scheduler(client: "distributed.Client") -> None:
+    if client.status != "running":
+        raise RuntimeError(_GONE)
 
 
 def _outcome(future: "distributed.Future") -> Outcome:
@@ -159,7 +177,7 @@ def _outcome(future: "distributed.Future") -> Outcome:
     except distributed.KilledWorker:
         return Outcome("every worker that measured it was killed: it may need more memory than they have", None)
     except distributed.CancelledError as error:
-        raise RuntimeError("Dask's scheduler went away, or the task was cancelled") from error
+        raise RuntimeError(_GONE) from error
     except Exception as error:  # noqa: BLE001 - of Dask, or of a worker without this package
         return Outcome(f"the worker failed: {reason_of(error)}", None)
     return outcome
