@@ -72,7 +72,7 @@ def sources_of(cameras, options):
 def measured(sources, workers, output=None):
     """The table, and the seconds that it took with so many workers of one thread each."""
     with (
-        LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None) as cluster,
+        LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=":0") as cluster,
         Client(cluster) as client,
     ):
         estimate_many({f"first {n}": each for n, each in enumerate(list(sources.values())[:workers])}, client)
@@ -111,6 +111,8 @@ def judge(quantity, cameras, table, sessions, rate):
     counts = Counter()
     for values, errors, (parameters, step) in zip(value, error, cameras, strict=True):
         told = np.isfinite(values)
+        if not told.any():
+            continue
         seen = find_steps(values, errors, rate)
         if step is None or step[0] != quantity:
             mean = np.average(values[told], weights=errors[told] ** -2.0)
