@@ -177,7 +177,13 @@ def test_a_run_goes_on_where_it_was(bursts, tmp_path, ending):
 def test_other_settings_are_refused_before_anything_is_measured(bursts, tmp_path):
     counted = Counted(bursts)
     estimate_many({"b": counted.sources["b"]}, output=tmp_path / "x.jsonl", roi=(0, 0, 64, 64), mask=bursts["a"][0] > 0)
-    same = {"roi": [0, 0, 64, np.int64(64)], "mask": bursts["a"][0] > 0, "threads": 1, "level": 0.01}
+    same = {
+        "roi": [0, 0, 64, np.int64(64)],
+        "mask": bursts["a"][0] > 0,
+        "threads": 1,
+        "memory_limit": 10**9,
+        "level": 0.01,
+    }
     estimate_many({"b": counted.sources["b"]}, output=tmp_path / "x.jsonl", **same)
     for other in ({}, {**same, "roi": (0, 0, 64, 63)}, {**same, "mask": bursts["a"][0] > 200}):
         with pytest.raises(ValueError, match=r"x\.jsonl: b was measured with the settings"):

@@ -15,11 +15,14 @@ import numpy as np
 
 from ._table import Entry, Row, rows_of
 
+# Settings with which the same numbers come.
+_SAME_NUMBERS = ("memory_limit", "threads")
+
 
 def settings_record(settings: Mapping[str, Any], defaults: Mapping[str, Any]) -> dict[str, Any]:
-    """The settings as JSON has them, by which two calls are the same; arrays by their SHA-256. Without `threads`, which
-    changes no number, and without those that are as in `defaults`. Raises ValueError for what JSON has not."""
-    given = {name: _as_json(name, value) for name, value in sorted(settings.items()) if name != "threads"}
+    """The settings as JSON has them, by which two calls are the same; arrays by their SHA-256. Without those that
+    change no number, or are as in `defaults`. Raises ValueError for what JSON has not."""
+    given = {name: _as_json(name, value) for name, value in sorted(settings.items()) if name not in _SAME_NUMBERS}
     return {name: value for name, value in given.items() if value != _as_json(name, defaults[name])}
 
 
