@@ -46,7 +46,8 @@ def reason_of(error: BaseException) -> str:
 
 
 class _Here:
-    """Frames of Dask, computed by the thread that asks for them: the scheduler would wait for that thread."""
+    """Frames of Dask, computed by the thread that asks for them: else they would be tasks of all workers, while another
+    burst took this one's thread."""
 
     def __init__(self, frames: Any) -> None:
         self.shape, self.dtype, self.chunks = frames.shape, np.dtype(frames.dtype), frames.chunks
