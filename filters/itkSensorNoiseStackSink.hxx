@@ -252,8 +252,8 @@ SensorNoiseStackSink<TStack>::ProcessChunk(unsigned int number)
     this->TakeBreath();
     this->ProcessFrames(pass, frames + begin * framePixels, first + begin, std::min(atOnce, count - begin));
     const auto done = static_cast<float>(std::min(begin + atOnce, count)) / static_cast<float>(count);
-    const auto share = (static_cast<float>(number) + 0.99F * done) /
-                       static_cast<float>(this->GetNumberOfInputRequestedRegions());
+    const auto share =
+      (static_cast<float>(number) + 0.99F * done) / static_cast<float>(this->GetNumberOfInputRequestedRegions());
     this->UpdateProgress(std::max(this->GetProgress(), share)); // a pass that is repeated stands still
   }
 }

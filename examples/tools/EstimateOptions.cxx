@@ -60,6 +60,20 @@ struct Texts
   std::string frames;
 };
 
+/** What changes no number. */
+void
+AddMachineOptions(CLI::App & app, EstimateOptions & options)
+{
+  app
+    .add_option(
+      "--memory-limit",
+      options.memoryLimit,
+      "most memory for the estimate, for instance 4G [bytes]: the stack is read more often where it would need "
+      "more, with the same result")
+    ->transform(CLI::AsSizeValue(true));
+  app.add_option("--threads", options.threads, "number of threads; else all")->check(CLI::Range(1, 1024));
+}
+
 void
 AddOptions(CLI::App & app, EstimateOptions & options, Texts & texts)
 {
@@ -113,14 +127,7 @@ AddOptions(CLI::App & app, EstimateOptions & options, Texts & texts)
   app.add_option("--roi", texts.roi, "X,Y,W,H: only these pixels");
   app.add_option("--mask", options.mask, "image file: only pixels that are not 0");
   app.add_option("--frames", texts.frames, "A:B: only the frames A, A+1, ... B-1, counted from 0");
-  app
-    .add_option(
-      "--memory-limit",
-      options.memoryLimit,
-      "most memory for the estimate, for instance 4G [bytes]: the stack is read more often where it would need "
-      "more, with the same result")
-    ->transform(CLI::AsSizeValue(true));
-  app.add_option("--threads", options.threads, "number of threads; else all")->check(CLI::Range(1, 1024));
+  AddMachineOptions(app, options);
   app.add_option("--json", options.json, "file for the report, or - for standard output");
   app.add_option("--plot",
                  options.plot,

@@ -114,10 +114,10 @@ def estimate_sensor_noise(
         "640x480:uint16le", or "1920x1080:Mono12p:64" behind 64 other bytes; the types are README.md's. Default: the
         files say so.
     memory_limit
-        Most memory that the estimate takes beside the frames [bytes], for example 4 * 10**9: frames that are read a few at a
-        time are read more often where it would need more, with the same result. "refined" needs 56 bytes a pixel of a
-        frame and 8 more for each series of light and motion that it finds, "published" 40. Less than 64 bytes a pixel
-        (40), 20 kB a frame and 32 MiB is refused. Default: no limit.
+        Most memory that the estimate takes beside the frames [bytes], for example 4 * 10**9: frames that are read a few
+        at a time are read more often where it would need more, with the same result. "refined" needs 56 bytes a pixel
+        of a frame and 8 more for each series of light and motion that it finds, "published" 40. Less than 64 bytes a
+        pixel (40), 20 kB a frame and 32 MiB is refused. Default: no limit.
     threads
         Number of threads. Default: all. The result is the same bits for any number.
     progress
