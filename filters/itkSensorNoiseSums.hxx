@@ -298,7 +298,7 @@ SensorNoiseSums<TStack>::EndPass()
   this->RequirePass();
   WithItkErrors(this, [&] { m_Estimator->EndPass(m_Pass); });
   ++m_Pass;
-  if (m_Pass == m_Estimator->NumberOfPasses())
+  if (!m_Estimator->m_Estimation)
   {
     // Whoever looks at an output asks it to be up to date: it is, and must not be made again of a stack without pixels.
     for (unsigned int i = 0; i < m_Estimator->GetNumberOfIndexedOutputs(); ++i)

@@ -13,6 +13,7 @@ from itk_sensornoise import SensorNoiseSums
 
 FAN = 8  # sums that a task merges
 LINK = 10e9 / 8  # bytes a second, of each worker
+SAMPLE = 32 << 20  # bytes of the noise sample of pass 3, at most
 READ = LINK  # frames come over the same link
 
 
@@ -22,17 +23,24 @@ class Steps:
 
     pixels: int
     add: list[float]  # a frame [s]
-    merge: list[float]  # sums handed on and merged [s/byte]
+    merge: list[float]  # sums of a part handed on and merged, whatever their size [s]
+    merge_byte: list[float]  # and of each byte [s]
     end: list[tuple[float, float]]  # [s], and of each frame of the whole [s]
     fixed: list[float]  # bytes of a part's sums, whatever its frames
-    per_frame: list[float]  # and of each frame
+    per_frame: list[float]  # and of each frame; in pass 3, of those that are sampled
+
+    def bytes_of(self, number: int, frames: float) -> float:
+        """Of the sums over so many frames."""
+        of_frames = self.per_frame[number] * frames
+        return self.fixed[number] + (min(of_frames, SAMPLE) if number == 2 else of_frames)
 
 
 def measure_steps(size: int, frames: int) -> Steps:
     """With simulated frames in memory: what is left of reading is a copy."""
     stack = itk.simulate_sensor_noise(camera="B", condition=3, frames=frames, size=(size, size), seed=1)[0]
     one, two = (SensorNoiseSums(stack.shape, stack.dtype, bayer="none", threads=1) for _ in range(2))
-    steps = Steps(size * size, [], [], [], [], [])
+    steps = Steps(size * size, [], [], [], [], [], [])
+    merges = []
     half = frames // 2
     while one.passes_ended < 3:
         steps.add.append(_seconds(lambda: one.add(stack[:half])) / half)
@@ -40,12 +48,16 @@ def measure_steps(size: int, frames: int) -> Steps:
         least = len(two.to_bytes())
         two.add(stack[half + 1 :], half + 1)
         most = len(two.to_bytes())
-        steps.merge.append(_seconds(lambda: one.merge(two)) / most)
+        merges.append((_seconds(lambda: one.merge(two)), most))
         steps.per_frame.append((most - least) / (frames - half - 1))
         steps.fixed.append(max(0.0, least - steps.per_frame[-1]))
         two.from_bytes(one.to_bytes())
         two.end_pass()
         one.end_pass()
+    little = merges[1][0]  # of pass 2, whose sums are small
+    steps.merge = [little] * 3
+    steps.merge_byte = [max(0.0, seconds - little) / count for seconds, count in merges]
+    steps.merge_byte[1] = steps.merge_byte[0]
     few, many = _ends(stack[:half]), _ends(stack)
     for seconds_of_few, seconds in zip(few, many, strict=True):
         of_frame = max(0.0, (seconds - seconds_of_few) / (frames - half))
@@ -81,15 +93,16 @@ def seconds_of(steps: Steps, frames: int, workers: int, fan: int) -> dict[str, l
         waited = 0.0
         of_part = frames / tasks
         for _ in range(depth):
-            bytes_of_part = steps.fixed[number] + steps.per_frame[number] * of_part
+            bytes_of_part = steps.bytes_of(number, of_part)
             together = min(fan, tasks)
-            waited += together * bytes_of_part * (1.0 / LINK + steps.merge[number])
+            waited += together * (steps.merge[number] + bytes_of_part * (1.0 / LINK + steps.merge_byte[number]))
             of_part = min(of_part * together, frames)
         found["merge"].append(waited)
-        whole = steps.fixed[number] + steps.per_frame[number] * frames
+        whole = steps.bytes_of(number, frames)
         # Those who have it hand it on: twice as many each time. After pass 3 the driver alone gets it.
         found["broadcast"].append(whole / LINK * (math.ceil(math.log2(workers + 1)) if number < 2 else 1))
-        found["end"].append(steps.end[number][0] + frames * steps.end[number][1])
+        counted = frames if number < 2 else min(frames, SAMPLE / max(1.0, steps.per_frame[number]))
+        found["end"].append(steps.end[number][0] + counted * steps.end[number][1])
     return found
 
 
@@ -98,7 +111,8 @@ def print_model(steps: Steps, frames: int = 60000) -> None:
     print(f"frames of {steps.pixels / 1e6:.1f} Mpx, one thread: pass 1, 2, 3")
     for name, values, unit in [
         ("add a frame", [1e3 * value for value in steps.add], "ms"),
-        ("merge", [1e9 * value for value in steps.merge], "s/GB"),
+        ("merge", [1e3 * value for value in steps.merge], "ms"),
+        ("and a GB", [1e9 * value for value in steps.merge_byte], "s"),
         ("end", [1e3 * value for value, _ in steps.end], "ms"),
         ("and a frame", [1e3 * value for _, value in steps.end], "ms"),
         ("sums of a part", [value / 1e6 for value in steps.fixed], "MB"),

@@ -158,7 +158,6 @@ def estimate_sensor_noise(
         roi=roi,
         mask=mask,
         frame_range=frame_range,
-        memory_limit=memory_limit,
         threads=threads,
     )
     settings.check(dark)
@@ -170,6 +169,8 @@ def estimate_sensor_noise(
     dark_stack = open_dark(dark, raw)
     prepared = prepare(stack, dark_stack, settings)
     estimator = prepared.estimator
+    if memory_limit is not None:
+        estimator.SetMemoryLimit(_options.integer("memory_limit", memory_limit, 1, 2**62))
     hashes = []
     if hash:
         hashes = _set_hashes(estimator, stack, dark_stack)

@@ -34,7 +34,6 @@ class Settings:
     roi: tuple[int, int, int, int] | None = None
     mask: Frame | FileName | None = None
     frame_range: tuple[int, int] | None = None
-    memory_limit: int | None = None
     threads: int | None = None
 
     def check(self, dark: object) -> None:
@@ -110,8 +109,6 @@ def prepare(stack: Stack, dark: Stack | None, settings: Settings) -> Prepared:
         rows, columns = slice(corner[1], corner[1] + size[1]), slice(corner[0], corner[0] + size[0])
         mask = np.ascontiguousarray(mask[rows, columns])
         estimator.SetMask(frame_image(mask, stack.image))
-    if settings.memory_limit is not None:
-        estimator.SetMemoryLimit(_options.integer("memory_limit", settings.memory_limit, 1, 2**62))
     if settings.threads is not None:
         count = _options.integer("threads", settings.threads, 1, 1024)
         estimator.GetMultiThreader().SetMaximumNumberOfThreads(count)

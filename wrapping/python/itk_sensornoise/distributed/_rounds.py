@@ -42,9 +42,9 @@ def estimate_sensor_noise(
     makes the report. After each round every worker fetches the merged sums, from each other: after the first 20 bytes a
     pixel (floating point: 32), after the second 16 kB a frame, after the third nothing. With 4 megapixels and 400
     frames these are 84 MB and 7 MB. They also are what tasks return, and in the third round 8 bytes a pixel and series
-    (4 to 20); "published" has less. A worker process needs, beside what Dask keeps, about 250 bytes a pixel, 18 kB a
-    frame, twice the sums, and 64 MiB or a task's block of dask's array; it works on one task at a time, with as many
-    threads as it has.
+    (4 to 20); "published" has less. A worker process needs, beside what Dask keeps, 56 bytes a pixel and 8 for each
+    series, 20 kB a frame, twice the sums, and 64 MiB or a task's block of dask's array; it works on one task at a
+    time, with as many threads as it has.
 
     With integer pixels the report has the bits of one process, whatever is read by whom. With floating point it is
     equal to rounding, and has the same bits for the same `frames_per_task`, in whatever order tasks end. The sums of a
@@ -113,8 +113,8 @@ def estimate_sensor_noise(
     except distributed.KilledWorker as error:
         raise RuntimeError(
             f"workers ended again and again over a task of pass {sums.passes_ended + 1}: {error}. Mostly it is memory: "
-            f"a worker needs some {250 * parts.shape[1] * parts.shape[2] >> 20} MiB for frames of this size, and twice "
-            "the sums"
+            f"a worker needs up to {220 * parts.shape[1] * parts.shape[2] >> 20} MiB for frames of this size, and "
+            "twice the sums"
         ) from error
     return sums.report(maps=maps)
 
