@@ -245,7 +245,7 @@ SensorNoiseStackSink<TStack>::ProcessChunk(unsigned int number)
     static_cast<SizeValueType>(m_Chunk.GetIndex(2) - stack->GetLargestPossibleRegion().GetIndex(2));
   const SizeValueType framePixels = this->GetFrameRegion().GetNumberOfPixels();
   const SizeValueType count = m_Chunk.GetSize(2);
-  const SizeValueType atOnce = SensorNoiseFramesPerChunk(framePixels * sizeof(PixelType)); // of a stack in memory
+  const SizeValueType atOnce = SensorNoiseFramesPerChunk(framePixels * sizeof(PixelType), SensorNoisePieceBytes);
   const PixelType *   frames = stack->GetBufferPointer() + stack->ComputeOffset(m_Chunk.GetIndex());
   for (SizeValueType begin = 0; begin < count; begin += atOnce)
   {
