@@ -117,8 +117,9 @@ ExpectVarianceOfTheExplicitStack(FlickerOf part)
       return stack[t * Pixels + p] - (1.0L + gamma) * (raw.mean - static_cast<long double>(OffsetDn));
     });
     const auto   expected = static_cast<double>(hat.squares / (Frames - 1));
-    // The series are rounded by d <= 2^-33 of their largest, 0.15, which adds 2 flux d noise / sqrt(frames): relative
-    // to the variance, noise^2 >= flux, at most 2 sqrt(3200) 2e-11 / sqrt(21) = 5e-10. The contract is 1e-9.
+    // The series are rounded to multiples of 2^-36, by d = 4e-12 rms, which adds 2 flux d noise / sqrt(frames):
+    // relative to the variance, noise^2 >= flux, at most 2 sqrt(3200) 4e-12 / sqrt(21) = 1e-10 rms. The contract is
+    // 1e-9.
     ASSERT_NEAR(corrected.GetVariance(p, static_cast<double>(raw.mean), static_cast<double>(raw.squares)),
                 expected,
                 1e-9 * expected)

@@ -85,7 +85,7 @@ TEST(SensorNoisePublishedMethodMerge, PartsOfIntegerFramesGiveTheWholesBits)
   {
     const auto & stack = settings.rollingShutter == RollingShutter::Off ? FlickeringStack() : rolling;
     const auto   whole = Measure(stack, settings);
-    ASSERT_EQ(whole.GetReport().gain.status, EstimateStatus::Identified);
+    ASSERT_EQ(whole.GetCorrectedVariance().size(), stack.width * stack.height);
     ASSERT_EQ(whole.GetReport().flickerRows.empty(), settings.rollingShutter == RollingShutter::Off);
     for (const std::size_t count : { 2, 3 })
     {

@@ -18,17 +18,17 @@ namespace sensornoise
 
 namespace
 {
-/** The power of 2 of which the series' values are multiples: of \a frames values up to \a largest, times pixels of 16
- * bits, every sum is a multiple that 53 bits hold. */
+/** The power of 2 of which the series' values are multiples: 53 bits hold every sum of values times pixels of 16 bits,
+ * for it is at most the product of both norms (Cauchy and Schwarz); \a norm is that of the longest series. */
 double
-StepOfSeries(double largest, std::size_t frames)
+StepOfSeries(double norm, std::size_t frames)
 {
-  constexpr int bitsOfSums = 53;
-  constexpr int bitsOfPixels = 16;
-  const auto    bitsOfFrames = static_cast<int>(std::ceil(std::log2(static_cast<double>(frames))));
-  int           exponent = 0;
-  std::frexp(largest, &exponent); // largest <= 2^exponent
-  return std::ldexp(1.0, exponent - (bitsOfSums - bitsOfPixels - bitsOfFrames));
+  constexpr int    bitsOfSums = 53;
+  constexpr int    bitsOfPixels = 16;
+  constexpr double rounded = 1.001; // the values are rounded, which may lengthen the series
+  int              exponent = 0;
+  std::frexp(rounded * norm * std::sqrt(static_cast<double>(frames)), &exponent); // that is <= 2^exponent
+  return std::ldexp(1.0, exponent - (bitsOfSums - bitsOfPixels));
 }
 } // namespace
 
@@ -45,7 +45,7 @@ CorrectedVariance::CorrectedVariance(const FlickerEstimate & flicker,
   , m_SeriesSquares(m_Rows, 0.0)
   , m_Known(flicker.rowKnown)
 {
-  double largest = 0.0;
+  double longest = 0.0; // square of the norm
   for (std::size_t row = 0; row < m_Rows; ++row)
   {
     double mean = 0.0;
@@ -54,14 +54,16 @@ CorrectedVariance::CorrectedVariance(const FlickerEstimate & flicker,
       mean += flicker.Gamma(t, row);
     }
     mean /= static_cast<double>(frames);
+    double square = 0.0;
     for (std::size_t t = 0; t < frames; ++t)
     {
       double & centred = m_Series[t * m_Rows + row];
       centred = flicker.Gamma(t, row) - mean;
-      largest = std::isfinite(centred) ? std::max(largest, std::abs(centred)) : largest;
+      square += centred * centred;
     }
+    longest = std::isfinite(square) ? std::max(longest, square) : longest; // not known in every row
   }
-  const double step = StepOfSeries(largest, frames);
+  const double step = StepOfSeries(std::sqrt(longest), frames);
   for (std::size_t t = 0; t < frames; ++t)
   {
     for (std::size_t row = 0; row < m_Rows; ++row)
