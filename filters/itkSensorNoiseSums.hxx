@@ -95,7 +95,7 @@ template <typename TStack>
 std::string
 SensorNoiseSums<TStack>::RecogniseBayerPattern(const TStack * frames)
 {
-  const auto        region = frames->GetBufferedRegion();
+  const auto &      region = frames->GetBufferedRegion();
   const std::size_t width = region.GetSize(0);
   const std::size_t height = region.GetSize(1);
   if (region.GetNumberOfPixels() == 0)

@@ -45,7 +45,7 @@ public:
       {
         AddScaled(m_Frame.mean.data() + static_cast<std::ptrdiff_t>(first) + tap.Offset(width), tap.weight, row, count);
       }
-      std::transform(row, row + count, row, [side](double d) { return d / (side * side * side * side); });
+      std::transform(row, row + count, row, [](double d) { return d / (side * side * side * side); });
     }
     return m_Row.data();
   }
