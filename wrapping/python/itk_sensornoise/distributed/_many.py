@@ -5,6 +5,7 @@
 import contextlib
 import inspect
 import json
+import time
 from collections.abc import Iterable, Iterator
 from itertools import islice
 from pathlib import Path
@@ -144,13 +145,26 @@ def _by_workers(
                 names[future] = name
                 completed.add(future)
             if names:
-                future = next(completed)
+                future = _next_of(completed, client, names)
                 yield names.pop(future), _outcome(future)
             elif not taken:
                 return
     finally:
         if client.status == "running":
             client.cancel(list(names))
+
+
+def _next_of(
+    completed: "distributed.as_completed", client: "distributed.Client", names: "Iterable[distributed.Future]"
+) -> "distributed.Future":
+    """The next future that is done. as_completed() waits for ever where the scheduler goes away meanwhile."""
+    while not completed.has_ready():
+        _require_scheduler(client)
+        lost = [future for future in names if future.status in ("cancelled", "lost")]
+        time.sleep(0.05)
+        if lost and not completed.has_ready():
+            return lost[0]
+    return next(completed)
 
 
 def _tasks_wanted(client: "distributed.Client") -> int:
