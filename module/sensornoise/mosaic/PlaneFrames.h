@@ -16,7 +16,7 @@ namespace sensornoise
 /** \class PlaneFrames
  * \brief Hands on the frames of a mosaic plane by plane, a few at a time.
  *
- * Holds those of one plane: at most 8 MiB, what it has of a chunk of 32 MiB, or one frame. */
+ * Holds those of one plane: at most 16 MiB, what it has of 64 MiB of a stack in memory, or one frame. */
 template <typename TPixel>
 class PlaneFrames
 {
@@ -37,7 +37,7 @@ public:
   void
   ForPlanes(const TPixel * mosaics, std::size_t count, const ParallelFor & parallelFor, TFunction function)
   {
-    constexpr std::size_t bytesTogether = std::size_t{ 8 } << 20;
+    constexpr std::size_t bytesTogether = std::size_t{ 16 } << 20;
     const std::size_t     pixels = m_Geometry.Plane().Pixels();
     const std::size_t     most = std::max<std::size_t>(1, bytesTogether / (pixels * sizeof(TPixel)));
     for (std::size_t first = 0; first < count; first += most)
