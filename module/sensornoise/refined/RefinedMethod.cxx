@@ -361,7 +361,7 @@ RefinedMethod<TPixel>::EndProjections()
   m_Polished.emplace(
     PolishSceneSeries(*m_FrameSums, *m_Series, m_Projections->TakeCoordinates(), *m_Variance, m_ParallelFor));
   m_Projections.reset();
-  TakeOffLine(*m_Variance, this->FindCodeNoise()); // the series were weighed by all of the noise
+  TakeOffLine(*m_Variance, CodeNoise(m_Variance->codeNoise)); // the series were weighed by all of the noise
   return true;
 }
 
@@ -383,6 +383,7 @@ RefinedMethod<TPixel>::MeasureVariance()
   PixelNoise noise = MeasurePixelNoise(
     projected, m_Projections->TakeSample(), *m_Scene, m_Series, m_Settings, codeNoise.inTheDarkDn2, m_ParallelFor);
   m_Variance.emplace(std::move(noise.variance));
+  m_Variance->codeNoise = codeNoise;
   if (!m_Variance->line.isDetermined)
   {
     throw NothingToMeasure("too few pixels, or pixels of one intensity only, are left to fit the variance",
