@@ -61,7 +61,6 @@ struct SensorNoiseEstimation
   using DarkMapsPointer = std::shared_ptr<const sensornoise::DarkMaps>;
   template <typename T>
   static constexpr bool IsOfWholeFrame = std::is_same_v<T, const Refined &> || std::is_same_v<T, const Published &>;
-  static_assert(Refined::NumberOfPasses == Published::NumberOfPasses, "the methods read the stack equally often");
 
   std::variant<Refined, Published, MosaicRefined, MosaicPublished> method;
   std::optional<SensorNoiseMosaic>                                 mosaic{};

@@ -90,6 +90,11 @@ TEST(SensorNoiseRefinedMethodRefusal, SumsOfOtherPassesBeforeAreRefused)
   auto         other = MethodOf(stack);
   method.AddFrames(stack.Frame(0), Frames);
   other.AddFrames(brighter.Frame(0), Frames);
+  for (const auto * const process : { &method, &other }) // that of the first pass does not stay for the second
+  {
+    std::ostringstream ofFirstPass;
+    process->SaveSums(ofFirstPass);
+  }
   method.EndPass();
   other.EndPass();
   std::stringstream sums;

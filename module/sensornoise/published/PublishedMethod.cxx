@@ -5,7 +5,6 @@
 #include "sensornoise/base/BinaryStream.h"
 #include "sensornoise/base/PixelUse.h"
 #include "sensornoise/moments/StackMaps.h"
-#include "sensornoise/moments/StackRequirements.h"
 #include "sensornoise/report/RepeatedFrames.h"
 #include "sensornoise/report/SceneChangeReport.h"
 #include "sensornoise/report/StackReport.h"
@@ -23,168 +22,69 @@
 namespace sensornoise
 {
 
-namespace
-{
-template <typename TPixel>
-std::string
-NameOfSums()
-{
-  return "PublishedMethod " + PixelName<TPixel>();
-}
-} // namespace
-
 template <typename TPixel>
 PublishedMethod<TPixel>::PublishedMethod(const PublishedSettings &         settings,
                                          const FrameGeometry &             geometry,
                                          std::size_t                       frames,
                                          const std::vector<std::uint8_t> & mask,
                                          ParallelFor                       parallelFor)
-  : m_Settings(settings)
-  , m_Geometry(geometry)
-  , m_Frames(frames)
-  , m_UserMask(mask)
-  , m_ParallelFor(std::move(parallelFor))
-  , m_InPass(frames)
-  , m_Moments(geometry.Pixels(), frames)
-  , m_Thumbnails(geometry, frames, mask)
+  : Passes("PublishedMethod", geometry, frames, mask, std::move(parallelFor))
+  , m_Settings(settings)
 {
-  RequireStack(geometry, frames, mask.size());
   settings.Validate();
 }
 
 template <typename TPixel>
 void
-PublishedMethod<TPixel>::AddFrames(const TPixel * chunk, std::size_t frames)
+PublishedMethod<TPixel>::AddDistinct(const TPixel * frames, std::size_t place, std::size_t count)
 {
-  const std::size_t  pixels = m_Geometry.Pixels();
-  const std::size_t  first = m_InPass.Add(frames);
-  const unsigned int pass = m_InPass.GetPass();
-  if (pass == 0)
+  const std::size_t pixels = m_Geometry.Pixels();
+  if (m_Sums)
   {
-    m_Moments.AddFrames(chunk, first, frames, m_ParallelFor);
-    m_Thumbnails.AddFrames(chunk, first, frames, m_ParallelFor);
+    m_ParallelFor(count, [&](std::size_t k) { m_Sums->AddFrame(frames + k * pixels, place + k); });
   }
-  else if (m_Sums || m_Correction)
+  else
   {
-    m_Distinct.ForDistinct(
-      chunk, pixels, first, frames, m_ParallelFor, [&](const TPixel * distinct, std::size_t place, std::size_t count) {
-        if (pass == 1)
-        {
-          m_ParallelFor(count, [&](std::size_t k) { m_Sums->AddFrame(distinct + k * pixels, place + k); });
-        }
-        else
-        {
-          m_ParallelFor(m_Geometry.height,
-                        [&](std::size_t y) { m_Correction->AddRow(distinct, pixels, count, place, y); });
-        }
-      });
+    m_ParallelFor(m_Geometry.height, [&](std::size_t y) { m_Correction->AddRow(frames, pixels, count, place, y); });
   }
 }
 
 template <typename TPixel>
 void
-PublishedMethod<TPixel>::SkipFrames(std::size_t frames)
+PublishedMethod<TPixel>::ForgetOwnSums()
 {
-  m_InPass.Skip(frames);
+  m_Sums ? m_Sums->Forget() : m_Correction->Forget();
 }
 
 template <typename TPixel>
 void
-PublishedMethod<TPixel>::GoTo(std::size_t t)
+PublishedMethod<TPixel>::SaveOwnSums(std::ostream & out) const
 {
-  m_InPass.GoTo(t);
+  m_Sums ? m_Sums->Save(out) : m_Correction->Save(out);
 }
 
 template <typename TPixel>
 void
-PublishedMethod<TPixel>::ForgetSums()
+PublishedMethod<TPixel>::MergeOwnSums(std::istream & in)
 {
-  m_InPass.Forget();
-  if (m_InPass.GetPass() == 0)
-  {
-    m_Moments = StackMoments<TPixel>(m_Geometry.Pixels(), m_Frames);
-    m_Thumbnails = FrameThumbnails(m_Geometry, m_Frames, m_UserMask);
-  }
-  else if (m_Sums)
-  {
-    m_Sums->Forget();
-  }
-  else if (m_Correction)
-  {
-    m_Correction->Forget();
-  }
+  m_Sums ? m_Sums->Merge(in) : m_Correction->Merge(in);
 }
 
 template <typename TPixel>
 void
-PublishedMethod<TPixel>::SaveSums(std::ostream & out) const
+PublishedMethod<TPixel>::AddFindings(Fingerprint & fingerprint) const
 {
-  WriteSumsHeader(out, NameOfSums<TPixel>(), m_Geometry.Pixels(), m_Frames);
-  m_InPass.Save(out);
-  WriteCount(out, this->FingerprintOfPass());
-  if (m_InPass.GetPass() == 0)
-  {
-    m_Thumbnails.Save(out);
-    m_Moments.Save(out);
-  }
-  else if (m_Sums)
-  {
-    m_Sums->Save(out);
-  }
-  else if (m_Correction)
-  {
-    m_Correction->Save(out);
-  }
-}
-
-template <typename TPixel>
-void
-PublishedMethod<TPixel>::MergeSums(std::istream & in)
-{
-  RequireCount("frames", ReadSumsHeader(in, NameOfSums<TPixel>(), m_Geometry.Pixels()), m_Frames);
-  const PassFrames frames = m_InPass.ReadOther(in);
-  m_InPass.RequireApart(frames);
-  RequireSameStart(ReadCount(in), this->FingerprintOfPass());
-  if (m_InPass.GetPass() == 0)
-  {
-    const FrameThumbnails thumbnails = m_Thumbnails.ReadOther(in);
-    m_Moments.Merge(in);
-    m_Thumbnails.Merge(thumbnails);
-  }
-  else if (m_Sums)
-  {
-    m_Sums->Merge(in);
-  }
-  else if (m_Correction)
-  {
-    m_Correction->Merge(in);
-  }
-  m_InPass.Merge(frames);
-}
-
-template <typename TPixel>
-std::uint64_t
-PublishedMethod<TPixel>::FingerprintOfPass() const
-{
-  Fingerprint       fingerprint;
-  const std::size_t sizes[3] = { m_Geometry.width, m_Sums ? 1U : 0U, m_Correction ? 1U : 0U };
-  fingerprint.Add(sizes, 3);
-  fingerprint.Add(m_UserMask.data(), m_UserMask.size());
-  fingerprint.Add(m_Distinct.Places().data(), m_Distinct.Given());
   fingerprint.Add(m_Scene.mean.data(), m_Scene.mean.size());
   fingerprint.Add(m_Scene.variance.data(), m_Scene.variance.size());
   fingerprint.Add(m_Scene.pixelUse.data(), m_Scene.pixelUse.size());
   fingerprint.Add(m_Flicker.gamma.data(), m_Flicker.gamma.size());
   fingerprint.Add(m_Flicker.gammaRows.data(), m_Flicker.gammaRows.size());
-  return fingerprint.GetValue();
 }
 
 template <typename TPixel>
 void
-PublishedMethod<TPixel>::EndPass()
+PublishedMethod<TPixel>::FinishPass(unsigned int pass)
 {
-  const unsigned int pass = m_InPass.GetPass();
-  m_InPass.EndPass();
   if (pass == 0)
   {
     m_Scene = this->EndMoments();
@@ -199,7 +99,7 @@ PublishedMethod<TPixel>::EndPass()
     m_Sums.reset(); // their memory
     m_Correction.emplace(m_Flicker, m_Geometry, m_Distinct.Count());
   }
-  else if (pass + 1 == NumberOfPasses)
+  else if (pass + 1 == Passes::NumberOfPasses)
   {
     m_Corrected = this->EndCorrection();
     m_Correction.reset(); // their memory
@@ -220,7 +120,6 @@ PublishedMethod<TPixel>::EndMoments()
   scene.mean.resize(pixels);
   scene.variance.resize(pixels);
   scene.valid.resize(pixels);
-  m_Distinct = m_Moments.FindDistinct();
   scene.summary = MakeStackMaps<TPixel>(
     m_Moments.Take(), m_Settings.codes, m_ParallelFor, scene.mean.data(), scene.variance.data(), scene.valid.data());
   SortPixels(scene, m_Settings, m_Geometry, m_Distinct.Count(), m_UserMask);

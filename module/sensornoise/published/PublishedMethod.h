@@ -6,10 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/Parallel.h"
-#include "sensornoise/moments/DistinctFrames.h"
-#include "sensornoise/moments/FrameThumbnails.h"
-#include "sensornoise/moments/PassFrames.h"
-#include "sensornoise/moments/StackMoments.h"
+#include "sensornoise/moments/StackPasses.h"
 #include "sensornoise/published/CorrectedVariance.h"
 #include "sensornoise/published/FlickerEstimate.h"
 #include "sensornoise/published/FlickerSums.h"
@@ -33,17 +30,8 @@ namespace sensornoise
  *
  * https://doi.org/10.1137/140977035. Pass 1 gathers the temporal moments, which give mean, variance, clip levels, the
  * vibration mask and the iso-intensity sets; pass 2 each frame's sums over the sets, which give flicker and offset;
- * pass 3 the sums of the corrected variance, which gives gain and intercept. Usage:
-   \code
-   PublishedMethod<unsigned short> method(settings, geometry, frames);
-   while (!method.IsDone())
-   {
-     for (const auto & chunk : chunks) // of consecutive frames, all of the stack in every pass
-       method.AddFrames(chunk.pixels, chunk.frames);
-     method.EndPass();
-   }
-   method.GetReport();
-   \endcode
+ * pass 3 the sums of the corrected variance, which gives gain and intercept. Usage, also by several processes, as
+ * StackPasses: their sums have 32 bytes a frame and 8 a frame and row in pass 2, and 8 bytes a pixel in pass 3.
  *
  * Frames that are equal are counted once, see DistinctFrames; flicker is reported for all of them.
  *
@@ -52,11 +40,9 @@ namespace sensornoise
  * use throws std::invalid_argument.
  */
 template <typename TPixel>
-class PublishedMethod
+class PublishedMethod final : public StackPasses<TPixel>
 {
 public:
-  static constexpr unsigned int NumberOfPasses = 3;
-
   /** \a mask, if given, has a nonzero value at the pixels to be used; \a parallelFor spreads the work. Throws
    * std::invalid_argument for settings out of range, see PublishedSettings::Validate(), and for a stack or a mask that
    * RequireStack() refuses. */
@@ -66,54 +52,11 @@ public:
                   const std::vector<std::uint8_t> & mask = {},
                   ParallelFor                       parallelFor = SerialFor);
 
-  /** Adds the next \a frames frames of the current pass, stored one after the other. Throws std::logic_error if there
-   * are not so many left. */
-  void
-  AddFrames(const TPixel * chunk, std::size_t frames);
-
-  /** Several processes, each with a part of the frames, share the sums of every pass: all of these as RefinedMethod's.
-   * A process writes 20 (integers) or 32 bytes a pixel in pass 1, 32 bytes a frame and 8 a frame and row in pass 2, 8
-   * bytes a pixel in pass 3. */
-  void
-  SkipFrames(std::size_t frames);
-  void
-  GoTo(std::size_t t);
-  const std::vector<std::uint8_t> &
-  GetHas() const
-  {
-    return m_InPass.GetHas();
-  }
-  void
-  SetCountedElsewhere(const std::vector<std::uint8_t> & areCountedElsewhere)
-  {
-    m_Moments.SetCountedElsewhere(areCountedElsewhere);
-  }
-  const FrameFingerprints &
-  GetFingerprints() const
-  {
-    return m_Moments.GetFingerprints();
-  }
-  void
-  ForgetSums();
-  void
-  FoldSums()
-  {
-    m_Moments.Fold();
-  }
-  void
-  SaveSums(std::ostream & out) const;
-  void
-  MergeSums(std::istream & in);
-
-  /** Ends the current pass. Throws std::logic_error if a frame is missing. */
-  void
-  EndPass();
-
   /** Whether the last pass has ended. */
   bool
   IsDone() const
   {
-    return m_InPass.GetPass() >= NumberOfPasses;
+    return this->GetPass() >= Passes::NumberOfPasses;
   }
   /** The report and maps of a frame's size are there when the last pass has ended. */
   const Report &
@@ -167,29 +110,44 @@ public:
   }
 
 private:
-  /** Of all that the sums of the current pass depend on beside the frames. */
-  std::uint64_t
-  FingerprintOfPass() const;
+  using Passes = StackPasses<TPixel>;
+  using Passes::m_Distinct;
+  using Passes::m_Geometry;
+  using Passes::m_Moments;
+  using Passes::m_ParallelFor;
+  using Passes::m_Thumbnails;
+  using Passes::m_UserMask;
+
+  bool
+  HasSums() const override
+  {
+    return m_Sums || m_Correction;
+  }
+  void
+  AddDistinct(const TPixel * frames, std::size_t place, std::size_t count) override;
+  void
+  ForgetOwnSums() override;
+  void
+  SaveOwnSums(std::ostream & out) const override;
+  void
+  MergeOwnSums(std::istream & in) override;
+  void
+  AddFindings(Fingerprint & fingerprint) const override;
+  void
+  FinishPass(unsigned int pass) override;
+
   PublishedScene
   EndMoments();
   CorrectedMaps
   EndCorrection() const;
 
-  PublishedSettings         m_Settings;
-  FrameGeometry             m_Geometry;
-  std::size_t               m_Frames;
-  std::vector<std::uint8_t> m_UserMask;
-  ParallelFor               m_ParallelFor;
-  PassFrames                m_InPass;
+  PublishedSettings m_Settings;
 
-  // What the passes gather; there are no sums of passes 2 and 3 if the stack cannot be measured.
-  StackMoments<TPixel>             m_Moments;
-  FrameThumbnails                  m_Thumbnails;
+  // What passes 2 and 3 gather, one of them at a time; neither if the stack cannot be measured.
   std::optional<FlickerSums>       m_Sums;
   std::optional<CorrectedVariance> m_Correction;
 
   // What the passes find, one after the other.
-  DistinctFrames  m_Distinct;
   PublishedScene  m_Scene;
   FlickerEstimate m_Flicker;
   CorrectedMaps   m_Corrected;

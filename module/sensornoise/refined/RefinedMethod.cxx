@@ -6,7 +6,6 @@
 #include "sensornoise/base/FreeMemory.h"
 #include "sensornoise/moments/DarkMaps.h"
 #include "sensornoise/moments/StackMaps.h"
-#include "sensornoise/moments/StackRequirements.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
 #include "sensornoise/refined/MemoryNeed.h"
 #include "sensornoise/refined/PixelNoise.h"
@@ -35,13 +34,6 @@ namespace sensornoise
 
 namespace
 {
-template <typename TPixel>
-std::string
-StreamName()
-{
-  return "RefinedMethod " + PixelName<TPixel>();
-}
-
 /** The largest of the levels, without its sign [DN]. */
 double
 LargestMeanDn(const std::vector<double> & mean)
@@ -77,17 +69,10 @@ RefinedMethod<TPixel>::RefinedMethod(const RefinedSettings &           settings,
                                      std::size_t                       frames,
                                      const std::vector<std::uint8_t> & mask,
                                      ParallelFor                       parallelFor)
-  : m_Settings(settings)
-  , m_Geometry(geometry)
-  , m_Frames(frames)
-  , m_UserMask(mask)
-  , m_ParallelFor(std::move(parallelFor))
-  , m_InPass(frames)
-  , m_Moments(geometry.Pixels(), frames)
-  , m_Thumbnails(geometry, frames, mask)
+  : Passes("RefinedMethod", geometry, frames, mask, std::move(parallelFor))
+  , m_Settings(settings)
   , m_Scene(std::make_unique<StillScene>())
 {
-  RequireStack(geometry, frames, mask.size());
   settings.Validate();
   const double least = MemoryNeed{ geometry.Pixels(), frames }.Least();
   if (settings.memoryLimitBytes < least)
@@ -105,33 +90,9 @@ RefinedMethod<TPixel>::RefinedMethod(const RefinedSettings &           settings,
 
 template <typename TPixel>
 void
-RefinedMethod<TPixel>::AddFrames(const TPixel * chunk, std::size_t frames)
-{
-  const std::size_t  first = m_InPass.Add(frames);
-  const unsigned int pass = m_InPass.GetPass();
-  if (pass == 0)
-  {
-    m_Moments.AddFrames(chunk, first, frames, m_ParallelFor);
-    m_Thumbnails.AddFrames(chunk, first, frames, m_ParallelFor);
-  }
-  else if (m_FrameSums)
-  {
-    m_Distinct.ForDistinct(chunk,
-                           m_Geometry.Pixels(),
-                           first,
-                           frames,
-                           m_ParallelFor,
-                           [&](const TPixel * distinct, std::size_t place, std::size_t count) {
-                             this->AddDistinct(distinct, place, count);
-                           });
-  }
-}
-
-template <typename TPixel>
-void
 RefinedMethod<TPixel>::AddDistinct(const TPixel * frames, std::size_t place, std::size_t count)
 {
-  if (m_InPass.GetPass() == 1)
+  if (this->GetPass() == 1)
   {
     m_FrameSums->AddFrames(frames, place, count, m_ParallelFor);
   }
@@ -143,93 +104,38 @@ RefinedMethod<TPixel>::AddDistinct(const TPixel * frames, std::size_t place, std
 
 template <typename TPixel>
 void
-RefinedMethod<TPixel>::SkipFrames(std::size_t frames)
+RefinedMethod<TPixel>::ForgetOwnSums()
 {
-  m_InPass.Skip(frames);
+  this->GetPass() == 1 ? m_FrameSums->Forget() : m_Projections->Forget();
 }
 
 template <typename TPixel>
 void
-RefinedMethod<TPixel>::GoTo(std::size_t t)
+RefinedMethod<TPixel>::SaveOwnSums(std::ostream & out) const
 {
-  m_InPass.GoTo(t);
+  this->GetPass() == 1 ? m_FrameSums->Save(out) : m_Projections->Save(out);
 }
 
 template <typename TPixel>
 void
-RefinedMethod<TPixel>::ForgetSums()
+RefinedMethod<TPixel>::MergeOwnSums(std::istream & in)
 {
-  m_InPass.Forget();
-  if (m_InPass.GetPass() == 0)
-  {
-    m_Moments = StackMoments<TPixel>(m_Geometry.Pixels(), m_Frames);
-    m_Thumbnails = FrameThumbnails(m_Geometry, m_Frames, m_UserMask);
-  }
-  else if (m_FrameSums && m_InPass.GetPass() == 1)
-  {
-    m_FrameSums->Forget();
-  }
-  else if (m_FrameSums)
-  {
-    m_Projections->Forget();
-  }
-}
-
-template <typename TPixel>
-void
-RefinedMethod<TPixel>::SaveSums(std::ostream & out) const
-{
-  WriteSumsHeader(out, StreamName<TPixel>(), m_Geometry.Pixels(), m_Frames);
-  m_InPass.Save(out);
-  WriteCount(out, this->FingerprintOfPass());
-  if (m_InPass.GetPass() == 0)
-  {
-    m_Thumbnails.Save(out);
-    m_Moments.Save(out);
-  }
-  else if (m_FrameSums)
-  {
-    m_InPass.GetPass() == 1 ? m_FrameSums->Save(out) : m_Projections->Save(out);
-  }
-}
-
-template <typename TPixel>
-void
-RefinedMethod<TPixel>::MergeSums(std::istream & in)
-{
-  const std::size_t pixels = m_Geometry.Pixels();
-  RequireCount("frames", ReadSumsHeader(in, StreamName<TPixel>(), pixels), m_Frames);
-  const PassFrames frames = m_InPass.ReadOther(in);
-  m_InPass.RequireApart(frames);
-  RequireSameStart(ReadCount(in), this->FingerprintOfPass());
-  if (m_InPass.GetPass() == 0)
-  {
-    const FrameThumbnails thumbnails = m_Thumbnails.ReadOther(in);
-    m_Moments.Merge(in);
-    m_Thumbnails.Merge(thumbnails);
-  }
-  else if (m_FrameSums && m_InPass.GetPass() == 1)
+  if (this->GetPass() == 1)
   {
     FrameProducts others = m_FrameSums->GetProducts();
     others.Restore(in);
     m_FrameSums->Merge(others);
   }
-  else if (m_FrameSums)
+  else
   {
     m_Projections->Merge(in);
   }
-  m_InPass.Merge(frames);
 }
 
 template <typename TPixel>
-std::uint64_t
-RefinedMethod<TPixel>::FingerprintOfPass() const
+void
+RefinedMethod<TPixel>::AddFindings(Fingerprint & fingerprint) const
 {
-  Fingerprint       fingerprint;
-  const std::size_t sizes[2] = { m_Geometry.width, m_FrameSums ? 1U : 0U };
-  fingerprint.Add(sizes, 2);
-  fingerprint.Add(m_UserMask.data(), m_UserMask.size());
-  fingerprint.Add(m_Distinct.Places().data(), m_Distinct.Given());
   fingerprint.Add(m_Scene->frame.mean.data(), m_Scene->frame.mean.size());
   fingerprint.Add(m_Scene->frame.variance.data(), m_Scene->frame.variance.size());
   fingerprint.Add(m_Scene->pixelUse.data(), m_Scene->pixelUse.size());
@@ -241,15 +147,12 @@ RefinedMethod<TPixel>::FingerprintOfPass() const
       fingerprint.Add(&rounded, 1);
     }
   }
-  return fingerprint.GetValue();
 }
 
 template <typename TPixel>
 void
-RefinedMethod<TPixel>::EndPass()
+RefinedMethod<TPixel>::FinishPass(unsigned int pass)
 {
-  const unsigned int pass = m_InPass.GetPass();
-  m_InPass.EndPass();
   try
   {
     if (pass == 0)
@@ -270,7 +173,7 @@ RefinedMethod<TPixel>::EndPass()
     m_Obstacle.emplace(obstacle);
     m_FrameSums.reset();
   }
-  m_IsDone = m_IsDone || (!m_FrameSums && pass + 1 >= NumberOfPasses);
+  m_IsDone = m_IsDone || (!m_FrameSums && pass + 1 >= Passes::NumberOfPasses);
   if (m_IsDone)
   {
     this->MakeReport();
@@ -285,8 +188,7 @@ RefinedMethod<TPixel>::EndMoments()
   std::vector<double>       mean(pixels);
   std::vector<double>       variance(pixels);
   std::vector<std::uint8_t> valid(pixels);
-  m_Distinct = m_Moments.FindDistinct();
-  const StackSummary summary = MakeStackMaps<TPixel>(
+  const StackSummary        summary = MakeStackMaps<TPixel>(
     m_Moments.Take(), m_Settings.codes, m_ParallelFor, mean.data(), variance.data(), valid.data());
   m_Scene = std::make_unique<StillScene>(MakeStillScene(summary,
                                                         std::move(mean),

@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/moments/StackPasses.h"
+
+#include "sensornoise/base/BinaryStream.h"
+#include "sensornoise/moments/StackRequirements.h"
+
+#include <utility>
+
+namespace sensornoise
+{
+
+template <typename TPixel>
+StackPasses<TPixel>::StackPasses(const std::string &               method,
+                                 const FrameGeometry &             geometry,
+                                 std::size_t                       frames,
+                                 const std::vector<std::uint8_t> & mask,
+                                 ParallelFor                       parallelFor)
+  : m_Geometry(geometry)
+  , m_UserMask(mask)
+  , m_ParallelFor(std::move(parallelFor))
+  , m_Moments(geometry.Pixels(), frames)
+  , m_Thumbnails(geometry, frames, mask)
+  , m_Name(method + " " + PixelName<TPixel>())
+  , m_Frames(frames)
+  , m_InPass(frames)
+{
+  RequireStack(geometry, frames, mask.size());
+}
+
+template <typename TPixel>
+void
+StackPasses<TPixel>::AddFrames(const TPixel * chunk, std::size_t frames)
+{
+  const std::size_t first = m_InPass.Add(frames);
+  if (this->GetPass() == 0)
+  {
+    m_Moments.AddFrames(chunk, first, frames, m_ParallelFor);
+    m_Thumbnails.AddFrames(chunk, first, frames, m_ParallelFor);
+  }
+  else if (this->HasSums())
+  {
+    m_Distinct.ForDistinct(chunk,
+                           m_Geometry.Pixels(),
+                           first,
+                           frames,
+                           m_ParallelFor,
+                           [&](const TPixel * distinct, std::size_t place, std::size_t count) {
+                             this->AddDistinct(distinct, place, count);
+                           });
+  }
+}
+
+template <typename TPixel>
+void
+StackPasses<TPixel>::ForgetSums()
+{
+  m_InPass.Forget();
+  if (this->GetPass() == 0)
+  {
+    m_Moments = StackMoments<TPixel>(m_Geometry.Pixels(), m_Frames);
+    m_Thumbnails = FrameThumbnails(m_Geometry, m_Frames, m_UserMask);
+  }
+  else if (this->HasSums())
+  {
+    this->ForgetOwnSums();
+  }
+}
+
+template <typename TPixel>
+void
+StackPasses<TPixel>::SaveSums(std::ostream & out) const
+{
+  WriteSumsHeader(out, m_Name, m_Geometry.Pixels(), m_Frames);
+  m_InPass.Save(out);
+  WriteCount(out, this->FingerprintOfPass());
+  if (this->GetPass() == 0)
+  {
+    m_Thumbnails.Save(out);
+    m_Moments.Save(out);
+  }
+  else if (this->HasSums())
+  {
+    this->SaveOwnSums(out);
+  }
+}
+
+template <typename TPixel>
+void
+StackPasses<TPixel>::MergeSums(std::istream & in)
+{
+  RequireCount("frames", ReadSumsHeader(in, m_Name, m_Geometry.Pixels()), m_Frames);
+  const PassFrames frames = m_InPass.ReadOther(in);
+  m_InPass.RequireApart(frames);
+  RequireSameStart(ReadCount(in), this->FingerprintOfPass());
+  if (this->GetPass() == 0)
+  {
+    const FrameThumbnails thumbnails = m_Thumbnails.ReadOther(in);
+    m_Moments.Merge(in);
+    m_Thumbnails.Merge(thumbnails);
+  }
+  else if (this->HasSums())
+  {
+    this->MergeOwnSums(in);
+  }
+  m_InPass.Merge(frames);
+}
+
+template <typename TPixel>
+void
+StackPasses<TPixel>::EndPass()
+{
+  const unsigned int pass = this->GetPass();
+  m_InPass.EndPass();
+  m_Fingerprint.reset();
+  if (pass == 0)
+  {
+    m_Distinct = m_Moments.FindDistinct();
+  }
+  this->FinishPass(pass);
+}
+
+template <typename TPixel>
+std::uint64_t
+StackPasses<TPixel>::FingerprintOfPass() const
+{
+  if (!m_Fingerprint)
+  {
+    Fingerprint       fingerprint;
+    const std::size_t sizes[2] = { m_Geometry.width, this->HasSums() ? 1U : 0U };
+    fingerprint.Add(sizes, 2);
+    fingerprint.Add(m_UserMask.data(), m_UserMask.size());
+    fingerprint.Add(m_Distinct.Places().data(), m_Distinct.Given());
+    this->AddFindings(fingerprint);
+    m_Fingerprint = fingerprint.GetValue();
+  }
+  return *m_Fingerprint;
+}
+
+template class StackPasses<unsigned char>;
+template class StackPasses<unsigned short>;
+template class StackPasses<short>;
+template class StackPasses<float>;
+template class StackPasses<double>;
+
+} // namespace sensornoise

@@ -1,0 +1,203 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_moments_StackPasses_h
+#define sensornoise_moments_StackPasses_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/moments/DistinctFrames.h"
+#include "sensornoise/moments/FrameFingerprints.h"
+#include "sensornoise/moments/FrameThumbnails.h"
+#include "sensornoise/moments/PassFrames.h"
+#include "sensornoise/moments/StackMoments.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <istream>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace sensornoise
+{
+
+class Fingerprint;
+
+/** \class StackPasses
+ * \brief The passes of a method over a stack, here or in several processes.
+ *
+ * The first pass is that of every method: the temporal moments, and which frames are equal, bit by bit. These are
+ * counted once. What is made of it, and what later passes sum, is the method's. Usage, RefinedMethod for example:
+   \code
+   RefinedMethod<unsigned short> method(settings, geometry, frames);
+   while (!method.IsDone())
+   {
+     for (const auto & chunk : chunks) // of consecutive frames, all of the stack in every pass
+       method.AddFrames(chunk.pixels, chunk.frames);
+     method.EndPass();
+   }
+   method.GetReport();
+   \endcode
+ *
+ * Several processes, each with a part of the frames, get the whole's report if they share the sums of every pass: the
+ * whole's bits with integer pixels; with floating point the same bits in all of them, equal to the whole's to rounding.
+ * Equal frames must be read by one process, or by one that has merged the other's sums before: where two have counted
+ * the same frame, MergeSums() throws and names both.
+   \code
+   RefinedMethod<unsigned short> method(settings, geometry, frames); // alike in every process
+   while (!method.IsDone())
+   {
+     method.SkipFrames(first); // this process reads the frames first ... first + count - 1
+     method.AddFrames(part, count);
+     method.SaveSums(toOthers);
+     for (std::istream * other : fromOthers)
+     {
+       method.MergeSums(*other);
+     }
+     method.EndPass();
+   }
+   \endcode
+ */
+template <typename TPixel>
+class StackPasses
+{
+public:
+  /** How often a stack is read; more often where RefinedSettings::memoryLimitBytes asks for it. */
+  static constexpr unsigned int NumberOfPasses = 3;
+
+  /** Adds the next \a frames frames of the current pass, stored one after the other. Throws std::logic_error if there
+   * are not so many left. */
+  void
+  AddFrames(const TPixel * chunk, std::size_t frames);
+
+  /** The next \a frames frames of the current pass are added by other processes. */
+  void
+  SkipFrames(std::size_t frames)
+  {
+    m_InPass.Skip(frames);
+  }
+
+  /** Frame \a t, from 0, is the next one of the current pass: frames may be added in any order. Floating-point ones are
+   * summed in the order in which they come. Throws std::logic_error if there is none. */
+  void
+  GoTo(std::size_t t)
+  {
+    m_InPass.GoTo(t);
+  }
+
+  /** For every frame, 1 if it was added, or merged, in the current pass. */
+  const std::vector<std::uint8_t> &
+  GetHas() const
+  {
+    return m_InPass.GetHas();
+  }
+
+  /** Pass 1: what two processes would count, as the fingerprints of their frames are equal, one of them is told to
+   * leave to the other: \a areCountedElsewhere has a value for each frame, 0 where it is counted. Before they are
+   * added. */
+  void
+  SetCountedElsewhere(const std::vector<std::uint8_t> & areCountedElsewhere)
+  {
+    m_Moments.SetCountedElsewhere(areCountedElsewhere);
+  }
+  const FrameFingerprints &
+  GetFingerprints() const
+  {
+    return m_Moments.GetFingerprints();
+  }
+
+  /** Takes back all that was added in the current pass. */
+  void
+  ForgetSums();
+
+  /** Gives back memory that merged floating-point sums of pass 1 take, 32 bytes a pixel each: then the bits depend on
+   * the order of merges. */
+  void
+  FoldSums()
+  {
+    m_Moments.Fold();
+  }
+
+  /** Writes the sums over the frames of the current pass that have been added or merged so far, see BinaryStream: 20
+   * (integers) or 32 bytes a pixel in pass 1. */
+  void
+  SaveSums(std::ostream & out) const;
+
+  /** Adds the sums that another object, with the same arguments, saved in the same pass. Throws std::runtime_error, and
+   * changes nothing, if the stream is no such sums, or holds a frame that is here, too, or equals one that is. */
+  void
+  MergeSums(std::istream & in);
+
+  /** Ends the current pass. Throws std::logic_error if a frame is missing. */
+  void
+  EndPass();
+
+protected:
+  /** \a method is its name in saved sums. Throws std::invalid_argument for what RequireStack() refuses. */
+  StackPasses(const std::string &               method,
+              const FrameGeometry &             geometry,
+              std::size_t                       frames,
+              const std::vector<std::uint8_t> & mask,
+              ParallelFor                       parallelFor);
+  StackPasses(StackPasses &&) noexcept = default;
+  StackPasses &
+  operator=(StackPasses &&) noexcept = default;
+  ~StackPasses() = default;
+
+  /** The current pass, from 0. */
+  unsigned int
+  GetPass() const
+  {
+    return m_InPass.GetPass();
+  }
+
+  FrameGeometry             m_Geometry;
+  std::vector<std::uint8_t> m_UserMask;
+  ParallelFor               m_ParallelFor;
+  StackMoments<TPixel>      m_Moments;
+  FrameThumbnails           m_Thumbnails;
+  DistinctFrames            m_Distinct; // when the first pass has ended
+
+private:
+  /** Whether the method sums in the current pass: not in the first one, nor if the stack cannot be measured. */
+  virtual bool
+  HasSums() const = 0;
+  /** What follows is only asked for where it has sums. Adds \a count distinct frames, one after the other, the first of
+   * which has the given place among them. */
+  virtual void
+  AddDistinct(const TPixel * frames, std::size_t place, std::size_t count) = 0;
+  virtual void
+  ForgetOwnSums() = 0;
+  virtual void
+  SaveOwnSums(std::ostream & out) const = 0;
+  virtual void
+  MergeOwnSums(std::istream & in) = 0;
+
+  /** Adds what the method found in the passes before. */
+  virtual void
+  AddFindings(Fingerprint & fingerprint) const = 0;
+  /** All frames of a pass, from 0, are in. */
+  virtual void
+  FinishPass(unsigned int pass) = 0;
+
+  /** Of all that the sums of the current pass depend on beside the frames. */
+  std::uint64_t
+  FingerprintOfPass() const;
+
+  std::string                          m_Name;
+  std::size_t                          m_Frames;
+  PassFrames                           m_InPass;
+  mutable std::optional<std::uint64_t> m_Fingerprint; // of the pass: takes a while, and is asked for at every merge
+};
+
+extern template class SensorNoise_EXPORT StackPasses<unsigned char>;
+extern template class SensorNoise_EXPORT StackPasses<unsigned short>;
+extern template class SensorNoise_EXPORT StackPasses<short>;
+extern template class SensorNoise_EXPORT StackPasses<float>;
+extern template class SensorNoise_EXPORT StackPasses<double>;
+
+} // namespace sensornoise
+
+#endif
