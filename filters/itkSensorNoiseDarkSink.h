@@ -83,6 +83,19 @@ public:
     this->Modified();
   }
 
+  /** Works with the chunks and threads of \a estimator, whose observers are told of the progress; aborts when it is
+   * told to. */
+  void
+  WorkFor(Superclass * estimator)
+  {
+    this->SetNumberOfStreamDivisions(estimator->GetNumberOfStreamDivisions());
+    this->SetNumberOfWorkUnits(estimator->GetNumberOfWorkUnits());
+    this->AddObserver(ProgressEvent(), [this, estimator](const EventObject &) {
+      estimator->InvokeEvent(ProgressEvent());
+      this->SetAbortGenerateData(estimator->GetAbortGenerateData());
+    });
+  }
+
   /** Offset and read noise of the frames that were read, see sensornoise::MeasureDarkFrames(), of each plane in the
    * order of BayerPlanes, or of the only one. */
   std::vector<sensornoise::KnownOffset>

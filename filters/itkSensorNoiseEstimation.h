@@ -18,11 +18,16 @@
 #ifndef itkSensorNoiseEstimation_h
 #define itkSensorNoiseEstimation_h
 
-#include "sensornoise/mosaic/MosaicMethod.h"
+#include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/Parallel.h"
 #include "sensornoise/moments/DarkMaps.h"
+#include "sensornoise/moments/KnownOffset.h"
 #include "sensornoise/moments/PixelCalibration.h"
+#include "sensornoise/mosaic/MosaicMethod.h"
 #include "sensornoise/published/PublishedMethod.h"
+#include "sensornoise/published/PublishedSettings.h"
 #include "sensornoise/refined/RefinedMethod.h"
+#include "sensornoise/refined/RefinedSettings.h"
 #include "sensornoise/report/ChannelReports.h"
 #include "sensornoise/report/StackSettings.h"
 
@@ -50,6 +55,16 @@ struct SensorNoiseMosaic
   sensornoise::BayerSource    source{ sensornoise::BayerSource::Given };
 };
 
+/** What SensorNoiseEstimator measures, and what it knows beforehand. */
+struct SensorNoiseStack
+{
+  sensornoise::FrameGeometry                           frame;
+  std::size_t                                          frames{ 0 };
+  std::vector<std::uint8_t>                            mask;    ///< nonzero: to be used; empty: all pixels are
+  std::optional<SensorNoiseMosaic>                     mosaic;  ///< none: not a mosaic
+  std::vector<std::optional<sensornoise::KnownOffset>> offsets; ///< of each plane, or of the only one
+};
+
 /** The method at work in SensorNoiseEstimator, on a frame or on the planes of a mosaic: all have one interface. */
 template <typename TPixel>
 struct SensorNoiseEstimation
@@ -59,12 +74,47 @@ struct SensorNoiseEstimation
   using MosaicRefined = sensornoise::MosaicMethod<TPixel, Refined>;
   using MosaicPublished = sensornoise::MosaicMethod<TPixel, Published>;
   using DarkMapsPointer = std::shared_ptr<const sensornoise::DarkMaps>;
+  using Settings = std::variant<sensornoise::RefinedSettings, sensornoise::PublishedSettings>;
   template <typename T>
   static constexpr bool IsOfWholeFrame = std::is_same_v<T, const Refined &> || std::is_same_v<T, const Published &>;
 
   std::variant<Refined, Published, MosaicRefined, MosaicPublished> method;
   std::optional<SensorNoiseMosaic>                                 mosaic{};
   std::vector<DarkMapsPointer> dark{}; ///< of each plane; null: fewer than two frames
+
+  /** The method that has the \a settings, before its first pass. A memory limit is that of all planes. */
+  static SensorNoiseEstimation
+  Start(const Settings & settings, const SensorNoiseStack & stack, const sensornoise::ParallelFor & parallelFor)
+  {
+    const auto start = [&](const auto & ofStack) -> decltype(method) {
+      constexpr bool isRefined = std::is_same_v<decltype(ofStack), const sensornoise::RefinedSettings &>;
+      using OfFrame = std::conditional_t<isRefined, Refined, Published>;
+      const auto make = [&](std::size_t part, const auto & frame, const auto & mask, const auto & spread) {
+        auto ofPart = ofStack;
+        if constexpr (std::is_same_v<OfFrame, Refined>)
+        {
+          ofPart.offset = stack.offsets[part];
+          ofPart.memoryLimitBytes /= static_cast<double>(stack.offsets.size());
+        }
+        return OfFrame(ofPart, frame, stack.frames, mask, spread);
+      };
+      if (!stack.mosaic)
+      {
+        return make(0, stack.frame, stack.mask, parallelFor);
+      }
+      const sensornoise::MosaicGeometry & planes = stack.mosaic->geometry;
+      const auto makeOfPlane = [&](sensornoise::BayerPlane plane, const sensornoise::ParallelFor & spread) {
+        return make(static_cast<std::size_t>(plane), planes.Plane(), planes.Take(stack.mask, plane), spread);
+      };
+      return sensornoise::MosaicMethod<TPixel, OfFrame>(planes, makeOfPlane, parallelFor);
+    };
+    SensorNoiseEstimation started{ std::visit(start, settings), stack.mosaic };
+    for (const auto & offset : stack.offsets)
+    {
+      started.dark.push_back(offset ? offset->maps : nullptr);
+    }
+    return started;
+  }
 
   bool
   IsDone() const

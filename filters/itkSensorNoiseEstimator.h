@@ -50,6 +50,7 @@ namespace itk
 {
 
 struct SensorNoiseMosaic;
+struct SensorNoiseStack;
 template <typename TStack>
 class SensorNoiseSums;
 
@@ -508,12 +509,7 @@ private:
   FindMosaic();
   /** Offset and read noise of the dark frames, or what was given of the offset; of each plane of a mosaic. */
   std::vector<std::optional<sensornoise::KnownOffset>>
-  FindOffsets(const std::vector<std::uint8_t> & mask, const std::optional<SensorNoiseMosaic> & mosaic);
-  void
-  VerifySource() const;
-  /** Sets one of the hashes. */
-  void
-  SetHash(sensornoise::InputFiles & input, const std::string & sha256, SizeValueType files, SizeValueType bytes);
+  FindOffsets(const SensorNoiseStack & stack);
   /** The hashes that were given, of what there is. */
   std::optional<sensornoise::InputRecord>
   GetInputRecord() const;

@@ -5,11 +5,40 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <stdexcept>
 #include <string>
 #include <zlib.h>
 
 namespace sensornoise
 {
+
+void
+RequireSelection(const StackSelection & selection, const FrameGeometry & geometry, std::size_t frames)
+{
+  const auto text = [](std::size_t number) { return std::to_string(number); };
+  if (const auto & roi = selection.roi; roi && ((*roi)[2] != geometry.width || (*roi)[3] != geometry.height))
+  {
+    throw std::invalid_argument("the source's region has " + text((*roi)[2]) + " x " + text((*roi)[3]) +
+                                " pixels, but the frames have " + text(geometry.width) + " x " + text(geometry.height));
+  }
+  if (const auto & range = selection.frames; range && range->second != range->first + frames)
+  {
+    throw std::invalid_argument("the source's frames are " + text(range->first) + " up to " + text(range->second) +
+                                ", but the stack has " + text(frames));
+  }
+}
+
+InputFiles
+InputFilesOf(const std::string & sha256, std::size_t files, std::uint64_t bytes)
+{
+  const bool hasOnlyDigits = sha256.find_first_not_of("0123456789abcdef") == std::string::npos;
+  if (!sha256.empty() && (sha256.size() != 64 || !hasOnlyDigits))
+  {
+    throw std::invalid_argument("the hash is \"" + sha256 +
+                                "\"; expected a SHA-256, 64 hexadecimal digits in small letters");
+  }
+  return { sha256, files, bytes };
+}
 
 void
 NoteCodes(Report & report, const CodeSettings & codes)

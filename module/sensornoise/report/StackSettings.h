@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -25,6 +26,15 @@ struct StackSelection
   std::optional<std::array<std::size_t, 4>>          roi;    ///< x, y, width, height [pixel]
   std::optional<std::pair<std::size_t, std::size_t>> frames; ///< the first one, and one past the last, from 0
 };
+
+/** Throws std::invalid_argument if what was selected is not of the size of a stack. */
+SensorNoise_EXPORT void
+RequireSelection(const StackSelection & selection, const FrameGeometry & geometry, std::size_t frames);
+
+/** What was read, by a hash that was computed elsewhere. Throws std::invalid_argument unless that is empty or 64
+ * hexadecimal digits in small letters. */
+SensorNoise_EXPORT InputFiles
+InputFilesOf(const std::string & sha256, std::size_t files, std::uint64_t bytes);
 
 /** Notes what was given of the codes in the settings of \a report: `bit_depth`, `clip_low`, `clip_high`,
  * `quantisation_step`. What was to be found is left out. */

@@ -1,0 +1,285 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef itkSensorNoiseEstimatorSettings_hxx
+#define itkSensorNoiseEstimatorSettings_hxx
+
+#include "itkSensorNoiseErrors.h"
+#include "itkSensorNoiseEstimator.h"
+#include "itkSensorNoiseMetaData.h"
+#include "sensornoise/base/FreeMemory.h"
+#include "sensornoise/base/RollingShutter.h"
+#include "sensornoise/published/PublishedSettings.h"
+#include "sensornoise/refined/RefinedSettings.h"
+#include "sensornoise/report/StackSettings.h"
+
+#include <cmath>
+#include <ostream>
+#include <string>
+
+/** \file
+ * What SensorNoiseEstimator is told: its settings, how they fit the inputs, and the methods' settings of them. */
+
+namespace itk
+{
+
+template <typename TStack>
+void
+SensorNoiseEstimator<TStack>::SetMethod(MethodEnum method)
+{
+  if (m_Method != method)
+  {
+    m_Method = method;
+    this->Modified();
+  }
+}
+
+template <typename TStack>
+void
+SensorNoiseEstimator<TStack>::SetMethod(const std::string & name)
+{
+  if (name != "refined" && name != "published")
+  {
+    itkExceptionMacro("the method is \"" << name << "\"; expected refined or published");
+  }
+  this->SetMethod(name == "refined" ? MethodEnum::Refined : MethodEnum::Published);
+}
+
+template <typename TStack>
+void
+SensorNoiseEstimator<TStack>::SetRollingShutter(const std::string & name)
+{
+  this->SetRollingShutter(WithItkErrors(this, [&name] { return sensornoise::RollingShutterOf(name); }));
+}
+
+template <typename TStack>
+void
+SensorNoiseEstimator<TStack>::SetRollingShutter(RollingShutterEnum mode)
+{
+  if (m_RollingShutter != mode)
+  {
+    m_RollingShutter = mode;
+    this->Modified();
+  }
+}
+
+template <typename TStack>
+void
+SensorNoiseEstimator<TStack>::SetBayerPattern(const std::string & name)
+{
+  if (name != "none" && name != "auto")
+  {
+    WithItkErrors(this, [&name] { return sensornoise::BayerPatternOf(name); });
+  }
+  m_BayerSource = sensornoise::BayerSource::Given;
+  if (m_BayerPattern != name)
+  {
+    m_BayerPattern = name;
+    this->Modified();
+  }
+}
+
+template <typename TStack>
+void
+SensorNoiseEstimator<TStack>::SetSourceRegion(SizeValueType x,
+                                              SizeValueType y,
+                                              SizeValueType width,
+                                              SizeValueType height)
+{
+  m_Source.roi = { x, y, width, height };
+  this->Modified();
+}
+
+template <typename TStack>
+void
+SensorNoiseEstimator<TStack>::SetSourceFrames(SizeValueType first, SizeValueType end)
+{
+  m_Source.frames = { first, end };
+  this->Modified();
+}
+
+template <typename TStack>
+void
+SensorNoiseEstimator<TStack>::SetFramesHash(const std::string & sha256, SizeValueType files, SizeValueType bytes)
+{
+  m_FramesHash = WithItkErrors(this, [&] { return sensornoise::InputFilesOf(sha256, files, bytes); });
+  this->Modified();
+}
+
+template <typename TStack>
+void
+SensorNoiseEstimator<TStack>::SetDarkHash(const std::string & sha256, SizeValueType files, SizeValueType bytes)
+{
+  m_DarkHash = WithItkErrors(this, [&] { return sensornoise::InputFilesOf(sha256, files, bytes); });
+  this->Modified();
+}
+
+template <typename TStack>
+void
+SensorNoiseEstimator<TStack>::VerifyInputInformation() const
+{
+  const auto region = this->GetInput()->GetLargestPossibleRegion();
+  WithItkErrors(this, [&] {
+    sensornoise::RequireSelection(m_Source, { region.GetSize(0), region.GetSize(1) }, region.GetSize(2));
+  });
+  const double pixels = static_cast<double>(region.GetSize(0)) * static_cast<double>(region.GetSize(1));
+  const double bytesPerPixel = m_Method == MethodEnum::Refined ? 56.0 : 40.0; // more with every series that is found
+  WithItkErrors(this, [&] {
+    sensornoise::RequireMemory(bytesPerPixel * pixels,
+                               "the estimate of frames of " + std::to_string(region.GetSize(0)) + " x " +
+                                 std::to_string(region.GetSize(1)) + " pixels");
+  });
+  const MaskImageType * mask = this->GetMask();
+  if (mask != nullptr && mask->GetLargestPossibleRegion() != this->GetFrameRegion())
+  {
+    itkExceptionMacro("the mask has the region " << mask->GetLargestPossibleRegion() << "but the frames have "
+                                                 << this->GetFrameRegion());
+  }
+  const TStack * dark = this->GetDark();
+  const bool     hasOffset = !std::isnan(m_Offset);
+  if (m_Method == MethodEnum::Published && (dark != nullptr || hasOffset))
+  {
+    itkExceptionMacro(
+      "" << (hasOffset ? "the offset" : "dark frames") << " cannot be used by the method published, "
+         << "which finds the offset from the flicker alone: leave it out, or set the method to refined");
+  }
+  if (m_Method == MethodEnum::Published && this->HasLevelRange())
+  {
+    itkExceptionMacro("the range of levels " << m_LevelRangeLow << " to " << m_LevelRangeHigh
+                                             << " DN cannot be used by the method published, which fits all levels: "
+                                             << "leave it out, or set the method to refined");
+  }
+  if (m_Method == MethodEnum::Published && m_MemoryLimit > 0 &&
+      static_cast<double>(m_MemoryLimit) < bytesPerPixel * pixels)
+  {
+    itkExceptionMacro("the memory limit is "
+                      << sensornoise::TextOfBytes(static_cast<double>(m_MemoryLimit)) << "; expected at least "
+                      << sensornoise::TextOfBytes(bytesPerPixel * pixels) << " for the method published");
+  }
+  if (dark == nullptr)
+  {
+    return;
+  }
+  if (hasOffset)
+  {
+    itkExceptionMacro("the offset " << m_Offset << " DN and dark frames were given; expected one of them");
+  }
+  const auto size = dark->GetLargestPossibleRegion().GetSize();
+  const auto frame = this->GetFrameRegion().GetSize();
+  if (size[0] != frame[0] || size[1] != frame[1])
+  {
+    itkExceptionMacro("the dark frames have " << size[0] << " x " << size[1] << " pixels, but the frames have "
+                                              << frame[0] << " x " << frame[1]);
+  }
+}
+
+template <typename TStack>
+bool
+SensorNoiseEstimator<TStack>::HasLevelRange() const
+{
+  return m_LevelRangeLow != NumericTraits<double>::NonpositiveMin() || m_LevelRangeHigh != NumericTraits<double>::max();
+}
+
+template <typename TStack>
+sensornoise::PublishedSettings
+SensorNoiseEstimator<TStack>::MakePublishedSettings() const
+{
+  sensornoise::PublishedSettings settings;
+  settings.level = m_Level;
+  settings.brightQuantile = m_BrightQuantile;
+  settings.darkQuantile = m_DarkQuantile;
+  settings.rollingShutter = m_RollingShutter;
+  settings.sigmaRows = m_SigmaRows;
+  settings.shutterAxis = m_ShutterAxis;
+  settings.codes = this->MakeCodeSettings();
+  return settings;
+}
+
+template <typename TStack>
+sensornoise::CameraSettings
+SensorNoiseEstimator<TStack>::GetCamera() const
+{
+  return sensornoise::CameraSettingsOf(this->GetInput()->GetMetaDataDictionary());
+}
+
+template <typename TStack>
+sensornoise::CodeSettings
+SensorNoiseEstimator<TStack>::MakeCodeSettings() const
+{
+  const sensornoise::CameraSettings camera = this->GetCamera();
+  return sensornoise::MakeCodeSettings(m_BitDepth > 0 ? m_BitDepth : camera.bitDepth,
+                                       m_ClipLow,
+                                       std::isnan(m_ClipHigh) ? camera.whiteLevelDn : m_ClipHigh,
+                                       m_QuantisationStep);
+}
+
+template <typename TStack>
+sensornoise::RefinedSettings
+SensorNoiseEstimator<TStack>::MakeRefinedSettings() const
+{
+  sensornoise::RefinedSettings settings;
+  settings.rollingShutter = m_RollingShutter;
+  settings.codes = this->MakeCodeSettings();
+  if (this->HasLevelRange())
+  {
+    settings.levelRangeDn = sensornoise::LevelRange{ m_LevelRangeLow, m_LevelRangeHigh };
+  }
+  if (m_MemoryLimit > 0)
+  {
+    settings.memoryLimitBytes = static_cast<double>(m_MemoryLimit);
+  }
+  return settings;
+}
+
+template <typename TStack>
+void
+SensorNoiseEstimator<TStack>::PrintSelf(std::ostream & os, Indent indent) const
+{
+  Superclass::PrintSelf(os, indent);
+  os << indent << "Method: " << this->GetMethodName() << std::endl;
+  os << indent << "Offset: " << m_Offset << std::endl;
+  os << indent << "OffsetStandardError: " << m_OffsetStandardError << std::endl;
+  os << indent << "Level: " << m_Level << std::endl;
+  os << indent << "BrightQuantile: " << m_BrightQuantile << std::endl;
+  os << indent << "DarkQuantile: " << m_DarkQuantile << std::endl;
+  os << indent << "RollingShutter: " << sensornoise::NameOf(m_RollingShutter) << std::endl;
+  os << indent << "SigmaRows: " << m_SigmaRows << std::endl;
+  os << indent << "ShutterAxis: " << m_ShutterAxis << std::endl;
+  os << indent << "BitDepth: " << m_BitDepth << std::endl;
+  os << indent << "ClipLow: " << m_ClipLow << std::endl;
+  os << indent << "ClipHigh: " << m_ClipHigh << std::endl;
+  os << indent << "LevelRangeLow: " << m_LevelRangeLow << std::endl;
+  os << indent << "LevelRangeHigh: " << m_LevelRangeHigh << std::endl;
+  os << indent << "QuantisationStep: " << m_QuantisationStep << std::endl;
+  os << indent << "MemoryLimit: " << m_MemoryLimit << std::endl;
+  os << indent << "BayerPattern: " << m_BayerPattern << std::endl;
+  if (const auto & roi = m_Source.roi)
+  {
+    os << indent << "SourceRegion: " << (*roi)[0] << ", " << (*roi)[1] << ", " << (*roi)[2] << ", " << (*roi)[3]
+       << std::endl;
+  }
+  if (const auto & frames = m_Source.frames)
+  {
+    os << indent << "SourceFrames: " << frames->first << ", " << frames->second << std::endl;
+  }
+  os << indent << "FramesHash: " << m_FramesHash.sha256 << std::endl;
+  os << indent << "DarkHash: " << m_DarkHash.sha256 << std::endl;
+}
+
+} // namespace itk
+
+#endif
