@@ -21,7 +21,7 @@
 #include "itkSensorNoiseErrors.h"
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/Parallel.h"
-#include "sensornoise/correlation/NoiseSample.h"
+#include "sensornoise/correlation/FrameSample.h"
 #include "sensornoise/moments/CodeSettings.h"
 #include "sensornoise/moments/StackMaps.h"
 #include "sensornoise/moments/TemporalMoments.h"
@@ -46,7 +46,7 @@ struct NoiseCorrelationEstimator<TStack>::Measurement
   sensornoise::TemporalMoments<PixelType> moments; ///< unless mean and mask are given
   std::vector<double>                     mean;
   std::vector<std::uint8_t>               mask; ///< empty: not given
-  sensornoise::NoiseSample                sample;
+  sensornoise::FrameSample                sample;
 };
 
 template <typename TStack>
@@ -155,7 +155,7 @@ NoiseCorrelationEstimator<TStack>::ProcessFrames(unsigned int      pass,
   if (first == 0)
   {
     const sensornoise::FrameGeometry geometry{ size[0], size[1], 1 };
-    m_Measurement->sample = sensornoise::NoiseSample(geometry, this->GetNumberOfFrames());
+    m_Measurement->sample = sensornoise::FrameSample::Of<PixelType>(geometry, this->GetNumberOfFrames());
   }
   m_Measurement->sample.AddFrames(frames, first, count, m_Measurement->mean, this->GetParallelFor());
 }
@@ -198,11 +198,12 @@ NoiseCorrelationEstimator<TStack>::EndPass(unsigned int pass)
     return;
   }
   const auto                       size = this->GetFrameRegion().GetSize();
-  sensornoise::CorrelationEstimate estimate = sensornoise::EstimateCorrelation(std::move(m_Measurement->sample),
-                                                                               m_Measurement->mean,
-                                                                               m_Measurement->mask,
-                                                                               m_Measurement->settings,
-                                                                               this->GetParallelFor());
+  sensornoise::CorrelationEstimate estimate =
+    sensornoise::EstimateCorrelation(m_Measurement->sample.TakeNoise(m_Measurement->mean, this->GetParallelFor()),
+                                     m_Measurement->mean,
+                                     m_Measurement->mask,
+                                     m_Measurement->settings,
+                                     this->GetParallelFor());
   estimate.width = size[0];
   estimate.height = size[1];
   estimate.frames = this->GetNumberOfFrames();

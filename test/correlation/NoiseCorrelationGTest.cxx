@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/correlation/NoiseCorrelation.h"
 #include "sensornoise/correlation/NoiseResiduals.h"
-#include "sensornoise/correlation/NoiseSample.h"
+#include "sensornoise/correlation/FrameSample.h"
 #include "sensornoise/simulation/Scenes.h"
 #include "sensornoise/simulation/SimulationSettings.h"
 #include "sensornoise/simulation/Simulator.h"
@@ -35,7 +35,7 @@ ResidualsOf(const SensorFlaws & flaws, std::size_t size = Size, std::size_t fram
   std::vector<double>             stack(pixels * frames);
   std::vector<double>             mean(pixels, 0.0);
   const std::vector<std::uint8_t> take(pixels, 1);
-  NoiseSample                     sample({ size, size, 1 }, frames);
+  auto                            sample = FrameSample::Of<double>({ size, size, 1 }, frames);
   for (std::size_t t = 0; t < frames; ++t)
   {
     simulator.RenderFrame(t, stack.data() + t * pixels);
@@ -45,7 +45,7 @@ ResidualsOf(const SensorFlaws & flaws, std::size_t size = Size, std::size_t fram
     }
   }
   sample.AddFrames(stack.data(), 0, frames, mean);
-  return { std::move(sample), Eigen::MatrixXd(), { mean, take, settings.camera.offsetDn }, SerialFor };
+  return { sample.TakeNoise(mean), Eigen::MatrixXd(), { mean, take, settings.camera.offsetDn }, SerialFor };
 }
 
 /** Frames enough that the rings of lags are known to half a per cent, which ends the reach. */

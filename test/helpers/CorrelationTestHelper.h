@@ -7,7 +7,7 @@
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/correlation/Jackknife.h"
 #include "sensornoise/correlation/NoiseResiduals.h"
-#include "sensornoise/correlation/NoiseSample.h"
+#include "sensornoise/correlation/FrameSample.h"
 #include "sensornoise/simulation/DoubleFrame.h"
 #include "helpers/FrameNoiseTestHelper.h"
 
@@ -45,12 +45,12 @@ inline NoiseSample
 SampleOf(const FrameGeometry & geometry, std::size_t frames, const FrameOf & frameOf)
 {
   const std::vector<double> none(geometry.Pixels(), 0.0);
-  NoiseSample               sample(geometry, frames);
+  auto                      sample = FrameSample::Of<double>(geometry, frames);
   for (std::size_t t = 0; t < frames; ++t)
   {
     sample.AddFrames(frameOf(t).values.data(), t, 1, none);
   }
-  return sample;
+  return sample.TakeNoise(none);
 }
 
 /** Of all pixels; black is 0. */

@@ -4,37 +4,30 @@
 #define sensornoise_correlation_NoiseSample_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/base/FrameGeometry.h"
-#include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/Eigen.h"
 #include "sensornoise/correlation/SampleTiles.h"
 
 #include <cstddef>
-#include <istream>
-#include <ostream>
+#include <utility>
 #include <vector>
 
 namespace sensornoise
 {
 
 /** \class NoiseSample
- * \brief The whole series of some pixels, gathered in the third pass: what frames and neighbours share needs them.
+ * \brief The time series of the sampled pixels above their means: what frames and neighbours share is measured on them.
  *
- * Values are held above the pixel's mean, in 4 bytes; what is not finite is held as 0. Frames may be added in any order
- * and parts merged in any order, with the same bits. Memory: at most 32 MiB. */
+ * FrameSample gathers it. Memory: at most 32 MiB. */
 class SensorNoise_EXPORT NoiseSample
 {
 public:
   NoiseSample() = default;
-  NoiseSample(const FrameGeometry & geometry, std::size_t frames);
-
-  /** Adds frames firstFrame ... firstFrame + count - 1, stored one after the other; \a mean is that of every pixel. */
-  template <typename TPixel>
-  void
-  AddFrames(const TPixel *              frames,
-            std::size_t                 firstFrame,
-            std::size_t                 count,
-            const std::vector<double> & mean,
-            const ParallelFor &         parallelFor = SerialFor);
+  /** \a values: as SampleTiles::PlaceOf() tells [DN above the pixel's mean], of frames of \a width columns. */
+  NoiseSample(SampleTiles tiles, std::size_t width, Eigen::ArrayXf values)
+    : m_Tiles(std::move(tiles))
+    , m_Width(width)
+    , m_Values(std::move(values))
+  {}
 
   /** Leaves out the first frames. */
   void
@@ -43,19 +36,6 @@ public:
   /** Leaves out all frames but these, which grow. */
   void
   KeepFrames(const std::vector<std::size_t> & frames);
-
-  /** Adds the sample of other frames of the same stack. */
-  void
-  Merge(const NoiseSample & other);
-
-  /** Writes the sample, see BinaryStream. */
-  void
-  Save(std::ostream & out) const;
-
-  /** Replaces the sample by that of a stream. Throws std::runtime_error, and changes nothing, if it holds another one,
-   * or ends early. */
-  void
-  Restore(std::istream & in);
 
   const SampleTiles &
   GetTiles() const
@@ -66,26 +46,24 @@ public:
   float *
   OfTile(std::size_t i)
   {
-    return m_Values.data() + i * m_Tiles.frames * m_Tiles.Pixels();
+    return m_Values.data() + m_Tiles.PlaceOf(i, 0);
   }
   const float *
   OfTile(std::size_t i) const
   {
-    return m_Values.data() + i * m_Tiles.frames * m_Tiles.Pixels();
+    return m_Values.data() + m_Tiles.PlaceOf(i, 0);
   }
   /** The pixel of the frame that is pixel \a p of tile \a i. */
   std::size_t
   PixelOf(std::size_t i, std::size_t p) const
   {
-    const SampleTiles::Origin & origin = m_Tiles.origins[i];
-    return (origin.y + p / m_Tiles.side) * m_Width + origin.x + p % m_Tiles.side;
+    return m_Tiles.PixelOf(i, p, m_Width);
   }
 
 private:
-  SampleTiles        m_Tiles;
-  std::size_t        m_Width{ 0 };
-  std::size_t        m_FramePixels{ 0 };
-  std::vector<float> m_Values;
+  SampleTiles    m_Tiles;
+  std::size_t    m_Width{ 0 };
+  Eigen::ArrayXf m_Values;
 };
 
 } // namespace sensornoise

@@ -23,7 +23,7 @@ struct SensorNoise_EXPORT SampleTiles
   /** Pixels of all tiles (estimator.md, 3.12): coefficients of 100 frames come out to 0.0004. Set by hand: half and
    * twice change errors and cost, as the square root and in proportion. */
   static constexpr std::size_t MostPixels = std::size_t{ 1 } << 17;
-  /** Values of all tiles, of 4 bytes: 32 MiB. */
+  /** Values of all tiles, of 2 or 4 bytes: 16 or 32 MiB. */
   static constexpr std::size_t MostValues = std::size_t{ 1 } << 23;
   /** Frames; more would leave too few tiles to see all levels, and tell no more of what frames share. */
   static constexpr std::size_t MostFrames = 256;
@@ -48,6 +48,24 @@ struct SensorNoise_EXPORT SampleTiles
   Pixels() const
   {
     return side * side;
+  }
+  /** Of all tiles and frames. */
+  std::size_t
+  Values() const
+  {
+    return origins.size() * frames * this->Pixels();
+  }
+  /** Where the values of tile \a i in frame \a t begin: tile by tile, frame by frame, row by row. */
+  std::size_t
+  PlaceOf(std::size_t i, std::size_t t) const
+  {
+    return (i * frames + t) * this->Pixels();
+  }
+  /** The pixel of a frame of \a width columns that is pixel \a p of tile \a i. */
+  std::size_t
+  PixelOf(std::size_t i, std::size_t p, std::size_t width) const
+  {
+    return (origins[i].y + p / side) * width + origins[i].x + p % side;
   }
 };
 

@@ -6,7 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/correlation/NoiseCorrelation.h"
-#include "sensornoise/correlation/NoiseSample.h"
+#include "sensornoise/correlation/FrameSample.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
 #include "sensornoise/pixels/StaticVariance.h"
 #include "sensornoise/refined/RefinedSettings.h"
@@ -30,7 +30,7 @@ struct PixelNoise
  * pixels are left for a line, nothing else is measured. */
 SensorNoise_EXPORT PixelNoise
 MeasurePixelNoise(ProjectedVariance &                      projected,
-                  NoiseSample                              sample,
+                  FrameSample                              sample,
                   const StillScene &                       scene,
                   const std::optional<const SceneSeries> & series,
                   const RefinedSettings &                  settings,

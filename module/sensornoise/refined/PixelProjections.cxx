@@ -12,17 +12,16 @@ namespace sensornoise
 {
 
 PixelProjections::PixelProjections(const FrameGeometry & geometry,
-                                   std::size_t           frames,
+                                   FrameSample           sample,
                                    TemporalBasis         basis,
                                    std::size_t           slabsAtOnce,
                                    ParallelFor           parallelFor)
   : m_Geometry(geometry)
-  , m_Frames(frames)
   , m_Basis(std::move(basis))
   , m_SlabsAtOnce(slabsAtOnce)
   , m_ParallelFor(std::move(parallelFor))
   , m_Sums(this->SumsOfNextSlabs())
-  , m_Sample(geometry, frames)
+  , m_Sample(std::move(sample))
 {}
 
 std::size_t
@@ -63,7 +62,7 @@ PixelProjections::Forget()
   m_Sums.Clear(m_ParallelFor);
   if (!m_HasSample)
   {
-    m_Sample = NoiseSample(m_Geometry, m_Frames);
+    m_Sample.Clear();
   }
 }
 
@@ -84,7 +83,7 @@ PixelProjections::Merge(std::istream & in)
   others.Restore(in);
   if (!m_HasSample)
   {
-    NoiseSample sample(m_Geometry, m_Frames);
+    FrameSample sample = m_Sample;
     sample.Restore(in);
     m_Sample.Merge(sample);
   }

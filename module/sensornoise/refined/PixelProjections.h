@@ -6,7 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/Parallel.h"
-#include "sensornoise/correlation/NoiseSample.h"
+#include "sensornoise/correlation/FrameSample.h"
 #include "sensornoise/pixels/PixelCoordinates.h"
 #include "sensornoise/pixels/ProjectionSums.h"
 #include "sensornoise/pixels/ResidualSquares.h"
@@ -31,9 +31,10 @@ struct ReferenceFrame;
 class SensorNoise_EXPORT PixelProjections
 {
 public:
-  /** For frames of \a geometry, of which \a slabsAtOnce slabs (ProjectionSums) are projected in a pass. */
+  /** For frames of \a geometry, of which \a slabsAtOnce slabs (ProjectionSums) are projected in a pass; \a sample is
+   * to be filled in the first. */
   PixelProjections(const FrameGeometry & geometry,
-                   std::size_t           frames,
+                   FrameSample           sample,
                    TemporalBasis         basis,
                    std::size_t           slabsAtOnce,
                    ParallelFor           parallelFor);
@@ -82,7 +83,7 @@ public:
   {
     return std::move(m_Squares);
   }
-  NoiseSample
+  FrameSample
   TakeSample()
   {
     return std::move(m_Sample);
@@ -98,13 +99,12 @@ private:
   SumsOfNextSlabs();
 
   FrameGeometry    m_Geometry;
-  std::size_t      m_Frames;
   TemporalBasis    m_Basis; // of the current pass
   std::size_t      m_SlabsAtOnce;
   ParallelFor      m_ParallelFor;
   std::size_t      m_NextSlab{ 0 };
   ProjectionSums   m_Sums;
-  NoiseSample      m_Sample;
+  FrameSample      m_Sample;
   bool             m_HasSample{ false };
   ResidualSquares  m_Squares;
   PixelCoordinates m_Coordinates;

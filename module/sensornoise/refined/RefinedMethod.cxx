@@ -233,8 +233,11 @@ RefinedMethod<TPixel>::EndFrameSums()
                   "the projection of all pixels on " + std::to_string(series) +
                     " series of light and motion (a memory limit parts it)");
   }
-  m_Projections.emplace(
-    m_Geometry, m_Distinct.Count(), m_Series->basis, PixelProjections::SlabsWithin(left, series), m_ParallelFor);
+  m_Projections.emplace(m_Geometry,
+                        FrameSample::Of<TPixel>(m_Geometry, m_Distinct.Count()),
+                        m_Series->basis,
+                        PixelProjections::SlabsWithin(left, series),
+                        m_ParallelFor);
 }
 
 /** Whether all that is needed has been read. */

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/correlation/NoiseSample.h"
+#include "sensornoise/correlation/FrameSample.h"
 #include "sensornoise/simulation/Random.h"
 #include "helpers/StackTestHelper.h"
 
@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <gtest/gtest.h>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -43,10 +44,10 @@ SomeMean()
 }
 
 template <typename TPixel>
-NoiseSample
+FrameSample
 SampleOfStack(const Stack<TPixel> & stack, std::size_t chunk = 1000, const ParallelFor & parallelFor = SerialFor)
 {
-  NoiseSample sample(Geometry, stack.frames);
+  auto sample = FrameSample::Of<TPixel>(Geometry, stack.frames);
   for (std::size_t t = 0; t < stack.frames; t += chunk)
   {
     sample.AddFrames(stack.Frame(t), t, std::min(chunk, stack.frames - t), SomeMean(), parallelFor);
@@ -56,16 +57,20 @@ SampleOfStack(const Stack<TPixel> & stack, std::size_t chunk = 1000, const Paral
 
 /** All values, tile after tile. */
 std::vector<float>
-ValuesOf(const NoiseSample & sample)
+ValuesOf(const NoiseSample & noise)
 {
-  const auto & tiles = sample.GetTiles();
-  return { sample.OfTile(0), sample.OfTile(tiles.origins.size()) };
+  return { noise.OfTile(0), noise.OfTile(noise.GetTiles().origins.size()) };
+}
+std::vector<float>
+ValuesOf(FrameSample sample)
+{
+  return ValuesOf(sample.TakeNoise(SomeMean(), Threads(2)));
 }
 
-NoiseSample
+FrameSample
 SampleOfFrames(const Stack<std::uint16_t> & stack, const std::vector<std::size_t> & frames)
 {
-  NoiseSample sample(Geometry, stack.frames);
+  auto sample = FrameSample::Of<std::uint16_t>(Geometry, stack.frames);
   for (const std::size_t t : frames)
   {
     sample.AddFrames(stack.Frame(t), t, 1, SomeMean());
@@ -74,7 +79,7 @@ SampleOfFrames(const Stack<std::uint16_t> & stack, const std::vector<std::size_t
 }
 
 std::string
-Saved(const NoiseSample & sample)
+Saved(const FrameSample & sample)
 {
   std::ostringstream out;
   sample.Save(out);
@@ -82,11 +87,11 @@ Saved(const NoiseSample & sample)
 }
 } // namespace
 
-TEST(SensorNoiseNoiseSample, HoldsTheSeriesOfItsPixelsAboveTheirMean)
+TEST(SensorNoiseFrameSample, HoldsTheSeriesOfItsPixelsAboveTheirMean)
 {
   const auto  stack = RandomStack();
   const auto  mean = SomeMean();
-  const auto  sample = SampleOfStack(stack);
+  const auto  sample = SampleOfStack(stack).TakeNoise(mean);
   const auto  tiles = sample.GetTiles();
   std::size_t values = 0;
   ASSERT_EQ(tiles.origins.size(), 8U); // four by two of 16
@@ -108,7 +113,7 @@ TEST(SensorNoiseNoiseSample, HoldsTheSeriesOfItsPixelsAboveTheirMean)
   EXPECT_EQ(values, ValuesOf(sample).size());
 }
 
-TEST(SensorNoiseNoiseSample, SameBitsForAnyChunksThreadsAndTypes)
+TEST(SensorNoiseFrameSample, SameBitsForAnyChunksThreadsAndTypes)
 {
   const auto stack = RandomStack();
   const auto expected = ValuesOf(SampleOfStack(stack));
@@ -123,14 +128,14 @@ TEST(SensorNoiseNoiseSample, SameBitsForAnyChunksThreadsAndTypes)
   EXPECT_TRUE(HaveSameBits(ValuesOf(SampleOfStack(stack.Map<short>(same))), expected));
 }
 
-TEST(SensorNoiseNoiseSample, SameBitsForFramesAndPartsInAnyOrder)
+TEST(SensorNoiseFrameSample, SameBitsForFramesAndPartsInAnyOrder)
 {
   const auto stack = RandomStack();
   const auto expected = ValuesOf(SampleOfStack(stack));
   EXPECT_TRUE(HaveSameBits(ValuesOf(SampleOfFrames(stack, { 3, 8, 0, 7, 1, 6, 2, 5, 4 })), expected));
   for (const bool isForwards : { false, true })
   {
-    auto parts = std::vector<NoiseSample>{ SampleOfFrames(stack, { 0, 4, 8 }),
+    auto parts = std::vector<FrameSample>{ SampleOfFrames(stack, { 0, 4, 8 }),
                                            SampleOfFrames(stack, { 1, 2 }),
                                            SampleOfFrames(stack, {}),
                                            SampleOfFrames(stack, { 3, 5, 6, 7 }) };
@@ -146,16 +151,16 @@ TEST(SensorNoiseNoiseSample, SameBitsForFramesAndPartsInAnyOrder)
   }
 }
 
-TEST(SensorNoiseNoiseSample, SavedSampleIsRestoredBitByBit)
+TEST(SensorNoiseFrameSample, SavedSampleIsRestoredBitByBit)
 {
   const auto         sample = SampleOfStack(RandomStack());
-  NoiseSample        restored(Geometry, Frames);
+  auto               restored = FrameSample::Of<std::uint16_t>(Geometry, Frames);
   std::istringstream in(Saved(sample));
   restored.Restore(in);
   EXPECT_TRUE(HaveSameBits(ValuesOf(restored), ValuesOf(sample)));
 }
 
-TEST(SensorNoiseNoiseSample, OtherAndCutSamplesAreRefusedAndChangeNothing)
+TEST(SensorNoiseFrameSample, OtherAndCutSamplesAreRefusedAndChangeNothing)
 {
   auto              sample = SampleOfStack(RandomStack());
   const auto        expected = ValuesOf(sample);
@@ -163,19 +168,40 @@ TEST(SensorNoiseNoiseSample, OtherAndCutSamplesAreRefusedAndChangeNothing)
   for (const std::string & bad : { saved.substr(0, saved.size() - 4),
                                    saved.substr(0, 5),
                                    std::string("no sums at all, but long enough to be some"),
-                                   Saved(NoiseSample(Geometry, Frames + 1)),
-                                   Saved(NoiseSample({ 70, 46, 1 }, Frames)) })
+                                   Saved(FrameSample::Of<short>(Geometry, Frames + 1)),
+                                   Saved(FrameSample::Of<short>({ 70, 46, 1 }, Frames)) })
   {
     std::istringstream in(bad);
     EXPECT_THROW(sample.Restore(in), std::runtime_error);
     EXPECT_TRUE(HaveSameBits(ValuesOf(sample), expected));
   }
-  EXPECT_THROW(sample.Merge(NoiseSample(Geometry, Frames + 1)), std::invalid_argument);
-  EXPECT_THROW(sample.Merge(NoiseSample({ 70, 46, 1 }, Frames)), std::invalid_argument);
+  EXPECT_THROW(sample.Merge(FrameSample::Of<short>(Geometry, Frames + 1)), std::invalid_argument);
+  EXPECT_THROW(sample.Merge(FrameSample::Of<short>({ 70, 46, 1 }, Frames)), std::invalid_argument);
+  EXPECT_THROW(sample.Merge(FrameSample::Of<float>(Geometry, Frames)), std::invalid_argument);
   EXPECT_TRUE(HaveSameBits(ValuesOf(sample), expected));
 }
 
-TEST(SensorNoiseNoiseSample, LongStacksLeaveTheirFirstFrames)
+TEST(SensorNoiseFrameSample, WhatIsTakenBackIsNotThere)
+{
+  auto sample = SampleOfStack(RandomStack());
+  sample.Clear();
+  sample.Merge(SampleOfStack(RandomStack()));
+  EXPECT_TRUE(HaveSameBits(ValuesOf(sample), ValuesOf(SampleOfStack(RandomStack()))));
+}
+
+TEST(SensorNoiseFrameSample, WhatIsNotFiniteIsNoNoise)
+{
+  auto              stack = RandomStack().Map<float>([](std::uint16_t u) { return u; });
+  auto              expected = ValuesOf(SampleOfStack(stack));
+  const NoiseSample noise = SampleOfStack(stack).TakeNoise(SomeMean());
+  stack.pixels[noise.PixelOf(1, 7)] = std::numeric_limits<float>::quiet_NaN(); // of frame 0
+  stack.pixels[noise.PixelOf(2, 3)] = std::numeric_limits<float>::infinity();
+  expected[noise.GetTiles().PlaceOf(1, 0) + 7] = 0.0F;
+  expected[noise.GetTiles().PlaceOf(2, 0) + 3] = 0.0F;
+  EXPECT_TRUE(HaveSameBits(ValuesOf(SampleOfStack(stack)), expected));
+}
+
+TEST(SensorNoiseFrameSample, LongStacksLeaveTheirFirstFrames)
 {
   const auto           stack = RandomStack(SampleTiles::MostFrames + 5);
   const auto           expected = ValuesOf(SampleOfStack(stack, 7));
@@ -184,10 +210,10 @@ TEST(SensorNoiseNoiseSample, LongStacksLeaveTheirFirstFrames)
   EXPECT_TRUE(HaveSameBits(ValuesOf(SampleOfStack(first)), expected));
 }
 
-TEST(SensorNoiseNoiseSample, FirstFramesCanBeLeftOut)
+TEST(SensorNoiseFrameSample, FirstFramesCanBeLeftOut)
 {
-  auto       sample = SampleOfStack(RandomStack());
-  const auto whole = sample;
+  NoiseSample sample = SampleOfStack(RandomStack()).TakeNoise(SomeMean());
+  const auto  whole = sample;
   sample.DropFirst(4);
   const std::size_t pixels = sample.GetTiles().Pixels();
   ASSERT_EQ(sample.GetTiles().frames, Frames - 4);

@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/correlation/FrameSample.h"
+
+#include "sensornoise/base/BinaryStream.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+constexpr const char * SampleName = "FrameSample";
+
+/** The value above the mean, or 0 where that is not finite. */
+float
+AboveMean(double value, double mean)
+{
+  const double above = value - mean;
+  return static_cast<float>(above - above == 0.0 ? above : 0.0); // a vector instruction, unlike std::isfinite()
+}
+} // namespace
+
+FrameSample::FrameSample(const FrameGeometry & geometry, std::size_t frames, bool isInteger, double lowest)
+  : m_Tiles(MakeSampleTiles(geometry, frames))
+  , m_Width(geometry.width)
+  , m_FramePixels(geometry.Pixels())
+  , m_Lowest(lowest)
+  , m_Codes(isInteger ? m_Tiles.Values() : 0)
+  , m_Values(Eigen::ArrayXf::Zero(isInteger ? 0 : static_cast<Eigen::Index>(m_Tiles.Values())))
+{}
+
+template <typename TPixel>
+void
+FrameSample::AddFrames(const TPixel *              frames,
+                       std::size_t                 firstFrame,
+                       std::size_t                 count,
+                       const std::vector<double> & mean,
+                       const ParallelFor &         parallelFor)
+{
+  const std::size_t last = std::min(firstFrame + count, m_Tiles.frames);
+  if (firstFrame >= last)
+  {
+    return;
+  }
+  parallelFor(m_Tiles.origins.size(), [&](std::size_t i) {
+    for (std::size_t t = firstFrame; t < last; ++t)
+    {
+      for (std::size_t row = 0; row < m_Tiles.side; ++row)
+      {
+        const std::size_t pixel = m_Tiles.PixelOf(i, row * m_Tiles.side, m_Width);
+        const std::size_t place = m_Tiles.PlaceOf(i, t) + row * m_Tiles.side;
+        const TPixel *    values = frames + (t - firstFrame) * m_FramePixels + pixel;
+        if constexpr (std::is_integral_v<TPixel>)
+        {
+          const int lowest = std::numeric_limits<TPixel>::lowest();
+          std::transform(values, values + m_Tiles.side, m_Codes.data() + place, [lowest](TPixel value) {
+            return static_cast<std::uint16_t>(value - lowest);
+          });
+        }
+        else
+        {
+          std::transform(values, values + m_Tiles.side, mean.data() + pixel, m_Values.data() + place, AboveMean);
+        }
+      }
+    }
+  });
+}
+
+#define SensorNoise_INSTANTIATE(TPixel)                    \
+  template SensorNoise_EXPORT void FrameSample::AddFrames( \
+    const TPixel *, std::size_t, std::size_t, const std::vector<double> &, const ParallelFor &)
+SensorNoise_INSTANTIATE(unsigned char);
+SensorNoise_INSTANTIATE(unsigned short);
+SensorNoise_INSTANTIATE(short);
+SensorNoise_INSTANTIATE(float);
+SensorNoise_INSTANTIATE(double);
+#undef SensorNoise_INSTANTIATE
+
+void
+FrameSample::Clear()
+{
+  std::fill(m_Codes.begin(), m_Codes.end(), std::uint16_t{ 0 });
+  m_Values.setZero();
+}
+
+void
+FrameSample::Merge(const FrameSample & other)
+{
+  if (other.m_Codes.size() != m_Codes.size() || other.m_Values.size() != m_Values.size() ||
+      other.m_FramePixels != m_FramePixels)
+  {
+    throw std::invalid_argument("samples of different stacks cannot be merged");
+  }
+  // What is not here is 0, so that no sum is rounded.
+  std::transform(
+    other.m_Codes.begin(), other.m_Codes.end(), m_Codes.begin(), m_Codes.begin(), [](std::uint16_t a, std::uint16_t b) {
+      return static_cast<std::uint16_t>(a + b);
+    });
+  m_Values += other.m_Values;
+}
+
+void
+FrameSample::Save(std::ostream & out) const
+{
+  WriteSumsHeader(out, SampleName, m_FramePixels, m_Tiles.frames);
+  WriteCount(out, m_Width);
+  WriteNumbers(out, m_Codes);
+  WriteNumbers(out, m_Values.data(), static_cast<std::size_t>(m_Values.size()));
+}
+
+void
+FrameSample::Restore(std::istream & in)
+{
+  FrameSample read = *this;
+  RequireCount("sampled frames", ReadSumsHeader(in, SampleName, m_FramePixels), m_Tiles.frames);
+  RequireCount("columns", ReadCount(in), m_Width);
+  ReadNumbers(in, read.m_Codes);
+  ReadNumbers(in, read.m_Values.data(), static_cast<std::size_t>(read.m_Values.size()));
+  *this = std::move(read);
+}
+
+NoiseSample
+FrameSample::TakeNoise(const std::vector<double> & mean, const ParallelFor & parallelFor)
+{
+  if (m_Codes.empty())
+  {
+    return { std::exchange(m_Tiles, {}), m_Width, std::exchange(m_Values, {}) };
+  }
+  Eigen::ArrayXf noise(static_cast<Eigen::Index>(m_Codes.size())); // each thread touches its tiles first
+  parallelFor(m_Tiles.origins.size(), [&](std::size_t i) {
+    std::vector<double> ofTile(m_Tiles.Pixels());
+    for (std::size_t p = 0; p < ofTile.size(); ++p)
+    {
+      ofTile[p] = mean[m_Tiles.PixelOf(i, p, m_Width)];
+    }
+    for (std::size_t t = 0; t < m_Tiles.frames; ++t)
+    {
+      const std::uint16_t * codes = m_Codes.data() + m_Tiles.PlaceOf(i, t);
+      std::transform(codes,
+                     codes + ofTile.size(),
+                     ofTile.begin(),
+                     noise.data() + m_Tiles.PlaceOf(i, t),
+                     [this](std::uint16_t code, double ofPixel) { return AboveMean(m_Lowest + code, ofPixel); });
+    }
+  });
+  m_Codes = {};
+  return { std::exchange(m_Tiles, {}), m_Width, std::move(noise) };
+}
+
+} // namespace sensornoise
