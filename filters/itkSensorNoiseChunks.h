@@ -25,19 +25,22 @@
 namespace itk
 {
 
-/** Bytes of a stack that are read at a time, at most, unless one frame is larger: 32 MiB. Set by hand: far above the
- * caches, so that half and twice cost the same time, and small beside the maps of a large frame. */
+/** Bytes of a stack that are read at a time: 32 MiB, unless SensorNoiseLeastFrames take more. Set by hand: far above
+ * the caches, so that half and twice cost the same time, and small beside the maps of a large frame. */
 inline constexpr SizeValueType SensorNoiseChunkBytes = SizeValueType{ 32 } << 20;
 
-/** Bytes of a stack in memory that are worked on at a time: 64 MiB. The sums of every pixel are read and written once
- * each time: with half of it an estimate takes 8 % longer. */
-inline constexpr SizeValueType SensorNoisePieceBytes = SizeValueType{ 64 } << 20;
+/** Bytes of a stack in memory that are worked on at a time: 256 MiB, about a second. What is made anew of the pixels,
+ * and their sums, are read and written once each time: with a quarter of it an estimate takes 8 % longer. */
+inline constexpr SizeValueType SensorNoisePieceBytes = SizeValueType{ 256 } << 20;
+
+/** Frames that are taken at a time at least, however large: so many are worked on together at the cost of one. */
+inline constexpr SizeValueType SensorNoiseLeastFrames = 4;
 
 /** How many frames of \a frameBytes bytes make a chunk, or another part of \a bytes bytes. */
 inline SizeValueType
 SensorNoiseFramesPerChunk(SizeValueType frameBytes, SizeValueType bytes = SensorNoiseChunkBytes)
 {
-  return std::max<SizeValueType>(1, bytes / std::max<SizeValueType>(1, frameBytes));
+  return std::max(SensorNoiseLeastFrames, bytes / std::max<SizeValueType>(1, frameBytes));
 }
 
 } // namespace itk

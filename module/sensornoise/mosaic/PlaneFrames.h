@@ -16,7 +16,7 @@ namespace sensornoise
 /** \class PlaneFrames
  * \brief Hands on the frames of a mosaic plane by plane, a few at a time.
  *
- * Holds those of one plane: at most 16 MiB, what it has of 64 MiB of a stack in memory, or one frame. */
+ * Holds those of one plane: at most 16 MiB, or four frames, which are worked on at the cost of one. */
 template <typename TPixel>
 class PlaneFrames
 {
@@ -39,7 +39,7 @@ public:
   {
     constexpr std::size_t bytesTogether = std::size_t{ 16 } << 20;
     const std::size_t     pixels = m_Geometry.Plane().Pixels();
-    const std::size_t     most = std::max<std::size_t>(1, bytesTogether / (pixels * sizeof(TPixel)));
+    const std::size_t     most = std::max<std::size_t>(4, bytesTogether / (pixels * sizeof(TPixel)));
     for (std::size_t first = 0; first < count; first += most)
     {
       const std::size_t now = std::min(most, count - first);
