@@ -27,7 +27,8 @@ namespace
 constexpr const char * Name = "ProjectionSums";
 
 /** Frames of integers that are added together. */
-constexpr std::size_t MostTogether = 2 * FramePairs<ProjectionSums::BlockPixels>::MostPairs;
+constexpr std::size_t MostTogether = 2 * FramePairs::MostPairs;
+static_assert(ProjectionSums::BlockPixels == FramePairs::MostPixels);
 
 /** What is taken off a value, so that 16 bits with a sign hold it. */
 template <typename TPixel>
@@ -56,9 +57,9 @@ WeightsOf(const TemporalBasis & basis, std::size_t series, std::size_t firstFram
 }
 
 /** Takes the values of \a pixels pixels; where their number is odd, the last frame is its own partner. */
-template <typename TPixel, std::size_t VPixels>
+template <typename TPixel>
 void
-TakePairs(const TPixel * frames, std::size_t stride, std::size_t count, std::size_t pixels, FramePairs<VPixels> & pairs)
+TakePairs(const TPixel * frames, std::size_t stride, std::size_t count, std::size_t pixels, FramePairs & pairs)
 {
   for (std::size_t k = 0; 2 * k < count; ++k)
   {
@@ -70,7 +71,7 @@ TakePairs(const TPixel * frames, std::size_t stride, std::size_t count, std::siz
       pair[2 * i] = static_cast<std::int16_t>(first[i] - Middle<TPixel>);
       pair[2 * i + 1] = static_cast<std::int16_t>(second[i] - Middle<TPixel>);
     }
-    std::fill(pair + 2 * pixels, pair + 2 * pairs.Padded(pixels), std::int16_t{ 0 });
+    std::fill(pair + 2 * pixels, pair + 2 * FramePairs::Padded(pixels), std::int16_t{ 0 });
   }
 }
 } // namespace
@@ -143,8 +144,7 @@ ProjectionSums::AddTogether(const TemporalBasis & basis,
   {
     weights.push_back(WeightsOf<TPixel>(basis, j, firstFrame, count));
   }
-  FramePairs<BlockPixels>       values{};
-  PairSumsOfPixels<BlockPixels> products{};
+  FramePairs values{};
   for (std::size_t p = begin; p < end;)
   {
     const std::size_t size = std::min(end, (p / BlockPixels + 1) * BlockPixels) - p;
@@ -160,12 +160,7 @@ ProjectionSums::AddTogether(const TemporalBasis & basis,
           PrefetchValues(frames + t * m_Pixels + next, BlockPixels);
         }
       }
-      SumPairProducts(values, weights[j].pairs, values.Padded(size), products);
-      double * sum = &this->At(p, j);
-      for (std::size_t i = 0; i < size; ++i)
-      {
-        sum[i] += weights[j].ofMiddle + PairWeights::Step * products.high[i] + products.low[i];
-      }
+      AddPairProducts(values, weights[j].pairs, weights[j].ofMiddle, size, &this->At(p, j));
     }
     p = next;
   }
