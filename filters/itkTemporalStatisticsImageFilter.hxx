@@ -92,7 +92,8 @@ TemporalStatisticsImageFilter<TStack>::StartPasses()
   }
   sensornoise::ValidateCodeSettings(
     sensornoise::MakeCodeSettings(m_BitDepth, m_ClipLow, m_ClipHigh, m_QuantisationStep));
-  m_Moments = sensornoise::TemporalMoments<PixelType>(this->GetFrameRegion().GetNumberOfPixels());
+  m_Moments =
+    sensornoise::TemporalMoments<PixelType>(this->GetFrameRegion().GetNumberOfPixels(), this->GetParallelFor());
 }
 
 template <typename TStack>

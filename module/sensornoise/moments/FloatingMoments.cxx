@@ -3,6 +3,7 @@
 #include "sensornoise/moments/FloatingMoments.h"
 
 #include "sensornoise/base/BinaryStream.h"
+#include "sensornoise/base/FirstTouch.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -30,11 +31,11 @@ FloatingStreamName()
 } // namespace
 
 template <typename TPixel>
-FloatingMoments<TPixel>::FloatingMoments(std::size_t pixels)
-  : m_Mean(pixels, 0.0)
-  , m_Squares(pixels, 0.0)
-  , m_Minimum(pixels, std::numeric_limits<double>::infinity())
-  , m_Maximum(pixels, -std::numeric_limits<double>::infinity())
+FloatingMoments<TPixel>::FloatingMoments(std::size_t pixels, const ParallelFor & parallelFor)
+  : m_Mean(MakeMap<double>(pixels, parallelFor))
+  , m_Squares(MakeMap<double>(pixels, parallelFor))
+  , m_Minimum(MakeMap(pixels, parallelFor, std::numeric_limits<double>::infinity()))
+  , m_Maximum(MakeMap(pixels, parallelFor, -std::numeric_limits<double>::infinity()))
 {}
 
 template <typename TPixel>

@@ -4,6 +4,7 @@
 #define sensornoise_moments_FloatingMoments_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/base/Parallel.h"
 
 #include <cmath>
 #include <cstddef>
@@ -36,7 +37,7 @@ class FloatingMoments
   static_assert(std::is_floating_point_v<TPixel>, "FloatingMoments holds float and double pixels");
 
 public:
-  explicit FloatingMoments(std::size_t pixels = 0);
+  explicit FloatingMoments(std::size_t pixels = 0, const ParallelFor & parallelFor = SerialFor);
 
   /** Adds \a frames frames for the pixels [begin, end). \a firstFrame points at pixel 0 of the first frame, and each
    * next frame begins \a stride pixels later. */

@@ -3,6 +3,7 @@
 #include "sensornoise/moments/IntegerMoments.h"
 
 #include "sensornoise/base/BinaryStream.h"
+#include "sensornoise/base/FirstTouch.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -31,11 +32,11 @@ IntegerStreamName()
 } // namespace
 
 template <typename TPixel>
-IntegerMoments<TPixel>::IntegerMoments(std::size_t pixels)
-  : m_Sum(pixels, 0)
-  , m_SumOfSquares(pixels, 0)
-  , m_Minimum(pixels, std::numeric_limits<std::int16_t>::max())
-  , m_Maximum(pixels, std::numeric_limits<std::int16_t>::min())
+IntegerMoments<TPixel>::IntegerMoments(std::size_t pixels, const ParallelFor & parallelFor)
+  : m_Sum(MakeMap<std::int64_t>(pixels, parallelFor))
+  , m_SumOfSquares(MakeMap<std::uint64_t>(pixels, parallelFor))
+  , m_Minimum(MakeMap(pixels, parallelFor, std::numeric_limits<std::int16_t>::max()))
+  , m_Maximum(MakeMap(pixels, parallelFor, std::numeric_limits<std::int16_t>::min()))
 {}
 
 template <typename TPixel>

@@ -4,6 +4,7 @@
 #define sensornoise_moments_IntegerMoments_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/base/Parallel.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -36,7 +37,7 @@ class IntegerMoments
   static_assert(std::is_integral_v<TPixel> && sizeof(TPixel) <= 2, "IntegerMoments holds 8- and 16-bit pixels");
 
 public:
-  explicit IntegerMoments(std::size_t pixels = 0);
+  explicit IntegerMoments(std::size_t pixels = 0, const ParallelFor & parallelFor = SerialFor);
 
   /** Adds \a frames frames for the pixels [begin, end). \a firstFrame points at pixel 0 of the first frame, and each
    * next frame begins \a stride pixels later. */

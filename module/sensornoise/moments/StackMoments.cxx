@@ -77,11 +77,11 @@ FindMeansAndFingerprints(const TPixel *      frames,
 } // namespace
 
 template <typename TPixel>
-StackMoments<TPixel>::StackMoments(std::size_t pixels, std::size_t frames)
+StackMoments<TPixel>::StackMoments(std::size_t pixels, std::size_t frames, const ParallelFor & parallelFor)
   : m_Pixels(pixels)
   , m_FrameMeans(frames, 0.0)
   , m_Fingerprints(frames)
-  , m_Own(pixels)
+  , m_Own(pixels, parallelFor)
 {}
 
 template <typename TPixel>

@@ -31,7 +31,7 @@ template <typename TPixel>
 class StackMoments
 {
 public:
-  StackMoments(std::size_t pixels, std::size_t frames);
+  StackMoments(std::size_t pixels, std::size_t frames, const ParallelFor & parallelFor = SerialFor);
 
   /** Adds frames first ... first + count - 1, stored one after the other. */
   void

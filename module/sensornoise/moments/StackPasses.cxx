@@ -19,7 +19,7 @@ StackPasses<TPixel>::StackPasses(const std::string &               method,
   : m_Geometry(geometry)
   , m_UserMask(mask)
   , m_ParallelFor(std::move(parallelFor))
-  , m_Moments(geometry.Pixels(), frames)
+  , m_Moments(geometry.Pixels(), frames, m_ParallelFor)
   , m_Thumbnails(geometry, frames, mask)
   , m_Name(method + " " + PixelName<TPixel>())
   , m_Frames(frames)
@@ -58,7 +58,7 @@ StackPasses<TPixel>::ForgetSums()
   m_InPass.Forget();
   if (this->GetPass() == 0)
   {
-    m_Moments = StackMoments<TPixel>(m_Geometry.Pixels(), m_Frames);
+    m_Moments = StackMoments<TPixel>(m_Geometry.Pixels(), m_Frames, m_ParallelFor);
     m_Thumbnails = FrameThumbnails(m_Geometry, m_Frames, m_UserMask);
   }
   else if (this->HasSums())

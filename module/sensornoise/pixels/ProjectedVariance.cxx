@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/BoxSum.h"
 #include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/FirstTouch.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/Quantiles.h"
 #include "sensornoise/base/Stencils.h"
@@ -68,7 +69,7 @@ ProjectedVariance::ProjectedVariance(const ReferenceFrame &            frame,
   , m_ParallelFor(parallelFor)
   , m_Variance(std::move(squares.rss))
   , m_Skew(std::move(squares.skew))
-  , m_Freedom(frame.mean.size(), 0.0F)
+  , m_Freedom(MakeMap<float>(frame.mean.size(), parallelFor))
   , m_ClassOf(frame.mean.size(), 0)
 {
   this->CountFreedom(motion, model);
@@ -131,8 +132,8 @@ ProjectedVariance::CountFreedom(const MotionSeries & motion, const ProvisionalMo
 void
 ProjectedVariance::Classify(const ProvisionalModel & model)
 {
-  const std::size_t  width = m_Frame.geometry.width;
-  std::vector<float> energy(m_Mask.size(), 0.0F);
+  const std::size_t width = m_Frame.geometry.width;
+  auto              energy = MakeMap<float>(m_Mask.size(), m_ParallelFor);
   ForBlocks(m_Mask.size(), m_ParallelFor, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p)
     {

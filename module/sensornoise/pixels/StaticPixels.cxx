@@ -3,6 +3,7 @@
 #include "sensornoise/pixels/StaticPixels.h"
 
 #include "sensornoise/base/BoxSum.h"
+#include "sensornoise/base/FirstTouch.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/Quantiles.h"
 #include "sensornoise/pixels/Constants.h"
@@ -135,7 +136,7 @@ JudgePixels(const ProjectedVariance &         projected,
             const ParallelFor &               parallelFor)
 {
   const ReferenceFrame & frame = projected.GetFrame();
-  PixelFits              pixels{ std::vector<float>(mask.size(), 0.0F),
+  PixelFits              pixels{ MakeMap<float>(mask.size(), parallelFor),
                     std::vector<std::uint8_t>(mask.size(), 0),
                     std::vector<std::uint8_t>(mask.size(), 0) };
   ForBlocks(mask.size(), parallelFor, [&](std::size_t begin, std::size_t end) {

@@ -3,6 +3,7 @@
 #include "sensornoise/published/PublishedMethod.h"
 
 #include "sensornoise/base/BinaryStream.h"
+#include "sensornoise/base/FirstTouch.h"
 #include "sensornoise/base/PixelUse.h"
 #include "sensornoise/moments/StackMaps.h"
 #include "sensornoise/report/RepeatedFrames.h"
@@ -117,8 +118,8 @@ PublishedMethod<TPixel>::EndMoments()
 {
   const std::size_t pixels = m_Geometry.Pixels();
   PublishedScene    scene;
-  scene.mean.resize(pixels);
-  scene.variance.resize(pixels);
+  scene.mean = MakeMap<double>(pixels, m_ParallelFor);
+  scene.variance = MakeMap<double>(pixels, m_ParallelFor);
   scene.valid.resize(pixels);
   scene.summary = MakeStackMaps<TPixel>(
     m_Moments.Take(), m_Settings.codes, m_ParallelFor, scene.mean.data(), scene.variance.data(), scene.valid.data());
@@ -137,7 +138,7 @@ PublishedMethod<TPixel>::EndCorrection() const
     return maps;
   }
   const double dof = static_cast<double>(m_Distinct.Count() - 1);
-  maps.variance.resize(m_Geometry.Pixels());
+  maps.variance = MakeMap<double>(m_Geometry.Pixels(), m_ParallelFor);
   m_ParallelFor(m_Geometry.height, [&](std::size_t y) {
     for (std::size_t p = y * m_Geometry.width; p < (y + 1) * m_Geometry.width; ++p)
     {

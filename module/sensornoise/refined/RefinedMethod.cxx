@@ -3,6 +3,7 @@
 #include "sensornoise/refined/RefinedMethod.h"
 
 #include "sensornoise/base/BinaryStream.h"
+#include "sensornoise/base/FirstTouch.h"
 #include "sensornoise/base/FreeMemory.h"
 #include "sensornoise/moments/DarkMaps.h"
 #include "sensornoise/moments/StackMaps.h"
@@ -185,8 +186,8 @@ void
 RefinedMethod<TPixel>::EndMoments()
 {
   const std::size_t         pixels = m_Geometry.Pixels();
-  std::vector<double>       mean(pixels);
-  std::vector<double>       variance(pixels);
+  auto                      mean = MakeMap<double>(pixels, m_ParallelFor);
+  auto                      variance = MakeMap<double>(pixels, m_ParallelFor);
   std::vector<std::uint8_t> valid(pixels);
   const StackSummary        summary = MakeStackMaps<TPixel>(
     m_Moments.Take(), m_Settings.codes, m_ParallelFor, mean.data(), variance.data(), valid.data());

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/scene/ReferenceFrame.h"
 
+#include "sensornoise/base/FirstTouch.h"
 #include "sensornoise/base/Stencils.h"
 
 #include <algorithm>
@@ -123,7 +124,7 @@ void
 FillNeighbourMean(ReferenceFrame & frame, const ParallelFor & parallelFor)
 {
   UncoverUnknown(frame, parallelFor); // what was filled in for a pixel is no neighbour's mean
-  frame.neighbourMean.resize(frame.mean.size());
+  frame.neighbourMean = MakeMap<double>(frame.mean.size(), parallelFor);
   parallelFor(frame.geometry.height, [&](std::size_t y) {
     FillNeighbourMeans(frame.mean, frame.geometry, y, frame.neighbourMean.data() + y * frame.geometry.width);
   });

@@ -3,6 +3,7 @@
 #include "sensornoise/series/ShiftInstruments.h"
 
 #include "sensornoise/base/BoxSum.h"
+#include "sensornoise/base/FirstTouch.h"
 #include "sensornoise/series/Constants.h"
 
 #include <algorithm>
@@ -64,7 +65,7 @@ SmoothedDerivative(const ReferenceFrame & frame, StencilIndex k, const ParallelF
   const std::size_t height = frame.geometry.height;
   const std::size_t radius = InSeries.instrumentRadius;
   const auto        boxSum = [&](const auto & makeSource) {
-    std::vector<double> sums(frame.mean.size());
+    auto sums = MakeMap<double>(frame.mean.size(), parallelFor);
     ForBoxRows(makeSource, width, height, radius, parallelFor, [&](std::size_t y, const double * row) {
       std::copy_n(row, width, sums.data() + y * width);
     });
@@ -108,9 +109,9 @@ InstrumentWeight(const ReferenceFrame &            frame,
       return static_cast<std::uint8_t>(missing < 0.5);
     });
   });
-  const double        side = 2.0 * static_cast<double>(radius) + 1.0;
-  const double        reachSide = 2.0 * static_cast<double>(reach) + 1.0;
-  std::vector<double> weight(mask.size());
+  const double side = 2.0 * static_cast<double>(radius) + 1.0;
+  const double reachSide = 2.0 * static_cast<double>(reach) + 1.0;
+  auto         weight = MakeMap<double>(mask.size(), parallelFor);
   ForBoxBands(height, parallelFor, [&](std::size_t first, std::size_t last) {
     BoxRows completes(RowsOf(complete, width), width, height, reach, first, last);
     BoxRows noises(noiseRows(), width, height, radius, first, last);

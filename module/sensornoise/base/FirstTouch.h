@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_base_FirstTouch_h
+#define sensornoise_base_FirstTouch_h
+
+#include "sensornoise/base/Parallel.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <type_traits>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** A map of \a count pixels, all of them \a value. The system makes a page of memory when it is first written to, which
+ * takes longer than all that is written to it later: here the threads share that. */
+template <typename TNumber>
+std::vector<TNumber>
+MakeMap(std::size_t count, const ParallelFor & parallelFor, TNumber value = TNumber{})
+{
+  static_assert(std::is_arithmetic_v<TNumber>);
+  constexpr std::size_t page = 4096 / sizeof(TNumber);
+  std::vector<TNumber>  map;
+  map.reserve(count);
+  volatile TNumber * const numbers = map.data();
+  ForBlocks(count, parallelFor, [numbers](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; i += page)
+    {
+      numbers[i] = TNumber{};
+    }
+  });
+  map.resize(count, value);
+  return map;
+}
+
+} // namespace sensornoise
+
+#endif
