@@ -38,6 +38,33 @@ ForBlocks(std::size_t count, const ParallelFor & parallelFor, TFunction function
               [&](std::size_t b) { function(b * PixelsPerBlock, std::min(count, (b + 1) * PixelsPerBlock)); });
 }
 
+/** Calls function(pixel) for \a count pixels, block by block, in any order and possibly at the same time. */
+template <typename TFunction>
+void
+ForPixels(std::size_t count, const ParallelFor & parallelFor, TFunction function)
+{
+  ForBlocks(count, parallelFor, [&function](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p)
+    {
+      function(p);
+    }
+  });
+}
+
+/** What function(begin, end, part) makes of each block of \a count pixels, in their order. */
+template <typename TPart, typename TFunction>
+std::vector<TPart>
+PartsOfBlocks(std::size_t count, const ParallelFor & parallelFor, TFunction function)
+{
+  std::vector<TPart> parts((count + PixelsPerBlock - 1) / PixelsPerBlock);
+  ForBlocks(count, parallelFor, [&](std::size_t begin, std::size_t end) {
+    TPart part{};
+    function(begin, end, part);
+    parts[begin / PixelsPerBlock] = part;
+  });
+  return parts;
+}
+
 /** Sums over \a count pixels: function(begin, end, sums) adds the share of a block of them to \a sums. Each block is
  * summed on its own and the blocks are folded in order, so that the result has the same bits for any number of threads.
  */
@@ -45,14 +72,8 @@ template <std::size_t VSums, typename TFunction>
 std::array<double, VSums>
 SumBlocks(std::size_t count, const ParallelFor & parallelFor, TFunction function)
 {
-  std::vector<std::array<double, VSums>> parts((count + PixelsPerBlock - 1) / PixelsPerBlock);
-  ForBlocks(count, parallelFor, [&](std::size_t begin, std::size_t end) {
-    std::array<double, VSums> sums{};
-    function(begin, end, sums);
-    parts[begin / PixelsPerBlock] = sums;
-  });
   std::array<double, VSums> total{};
-  for (const auto & part : parts)
+  for (const auto & part : PartsOfBlocks<std::array<double, VSums>>(count, parallelFor, function))
   {
     for (std::size_t k = 0; k < VSums; ++k)
     {

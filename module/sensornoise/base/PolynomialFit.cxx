@@ -8,6 +8,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
+#include <limits>
+#include <vector>
 
 namespace sensornoise
 {
@@ -52,69 +55,107 @@ Solve(const std::array<double, 2 * VDegree + 1> & moments,
   }
 }
 
+/** The means of the pixels that take part. */
+struct MeanRange
+{
+  double      lowest{ std::numeric_limits<double>::infinity() };
+  double      highest{ -std::numeric_limits<double>::infinity() };
+  std::size_t pixels{ 0 };
+};
+
+MeanRange
+RangeOfMeans(const RegressionData & data, const ParallelFor & parallelFor)
+{
+  const auto parts = PartsOfBlocks<MeanRange>(data.pixels, parallelFor, [&](auto begin, auto end, auto & part) {
+    for (std::size_t p = begin; p < end; ++p)
+    {
+      if (data.Has(p))
+      {
+        part.lowest = std::min(part.lowest, data.mean[p]);
+        part.highest = std::max(part.highest, data.mean[p]);
+        ++part.pixels;
+      }
+    }
+  });
+  MeanRange  range;
+  for (const MeanRange & part : parts)
+  {
+    range.lowest = std::min(range.lowest, part.lowest);
+    range.highest = std::max(range.highest, part.highest);
+    range.pixels += part.pixels;
+  }
+  return range;
+}
+
 /** Least squares of degree 1 or 2; \a weight(mean) weighs a pixel. The abscissa is centred and scaled, so that the
- * normal equations are well conditioned. Pixels are added in order: the same bits each time. */
+ * normal equations are well conditioned. */
 template <int VDegree, typename TWeight>
 PolynomialFit
-FitPolynomial(const RegressionData & data, TWeight weight)
+FitPolynomial(const RegressionData & data, const ParallelFor & parallelFor, TWeight weight)
 {
-  PolynomialFit fit;
-  double        lowest = 0.0;
-  double        highest = 0.0;
-  for (std::size_t p = 0; p < data.pixels; ++p)
-  {
-    if (data.Has(p))
-    {
-      lowest = fit.pixels == 0 ? data.mean[p] : std::min(lowest, data.mean[p]);
-      highest = fit.pixels == 0 ? data.mean[p] : std::max(highest, data.mean[p]);
-      ++fit.pixels;
-    }
-  }
-  if (fit.pixels <= VDegree || !(highest > lowest))
+  PolynomialFit   fit;
+  const MeanRange range = RangeOfMeans(data, parallelFor);
+  fit.pixels = range.pixels;
+  if (fit.pixels <= VDegree || !(range.highest > range.lowest))
   {
     return fit;
   }
-  const double centre = 0.5 * (lowest + highest);
-  const double scale = 0.5 * (highest - lowest);
+  const double centre = 0.5 * (range.lowest + range.highest);
+  const double scale = 0.5 * (range.highest - range.lowest);
 
-  std::array<double, 2 * VDegree + 1> moments{};  // sum w x^k
-  std::array<double, VDegree + 1>     products{}; // sum w x^k v
-  for (std::size_t p = 0; p < data.pixels; ++p)
+  struct Sums
   {
-    if (data.Has(p))
+    std::array<double, 2 * VDegree + 1> moments;  // sum w x^k
+    std::array<double, VDegree + 1>     products; // sum w x^k v
+  };
+  const auto parts = PartsOfBlocks<Sums>(data.pixels, parallelFor, [&](auto begin, auto end, Sums & part) {
+    Sums own{}; // in registers
+    for (std::size_t p = begin; p < end; ++p)
     {
-      const double x = (data.mean[p] - centre) / scale;
-      double       power = weight(data.mean[p]);
-      for (std::size_t k = 0; k < moments.size(); ++k, power *= x)
+      if (data.Has(p))
       {
-        moments[k] += power;
-        if (k < products.size())
+        const double x = (data.mean[p] - centre) / scale;
+        double       power = weight(data.mean[p]);
+        for (std::size_t k = 0; k < own.moments.size(); ++k, power *= x)
         {
-          products[k] += power * data.variance[p];
+          own.moments[k] += power;
+          if (k < own.products.size())
+          {
+            own.products[k] += power * data.variance[p];
+          }
         }
       }
     }
+    part = own;
+  });
+  Sums       total{};
+  for (const Sums & part : parts)
+  {
+    std::transform(
+      part.moments.begin(), part.moments.end(), total.moments.begin(), total.moments.begin(), std::plus<double>());
+    std::transform(
+      part.products.begin(), part.products.end(), total.products.begin(), total.products.begin(), std::plus<double>());
   }
-  Solve<VDegree>(moments, products, centre, scale, fit);
+  Solve<VDegree>(total.moments, total.products, centre, scale, fit);
   return fit;
 }
 
 } // namespace
 
 PolynomialFit
-FitLine(const RegressionData & data)
+FitLine(const RegressionData & data, const ParallelFor & parallelFor)
 {
-  return FitPolynomial<1>(data, [](double) { return 1.0; });
+  return FitPolynomial<1>(data, parallelFor, [](double) { return 1.0; });
 }
 
 PolynomialFit
-FitParabola(const RegressionData & data)
+FitParabola(const RegressionData & data, const ParallelFor & parallelFor)
 {
-  return FitPolynomial<2>(data, [](double) { return 1.0; });
+  return FitPolynomial<2>(data, parallelFor, [](double) { return 1.0; });
 }
 
 FitQuality
-JudgeLine(const RegressionData & data, const PolynomialFit & line, std::size_t frames)
+JudgeLine(const RegressionData & data, const PolynomialFit & line, std::size_t frames, const ParallelFor & parallelFor)
 {
   FitQuality quality;
   if (!line.isDetermined)
@@ -122,26 +163,22 @@ JudgeLine(const RegressionData & data, const PolynomialFit & line, std::size_t f
     return quality;
   }
   const double relativeVariance = 2.0 / static_cast<double>(frames - 1);
+  const auto   sumOf = [&](auto term) {
+    return SumOverBlocks<1>(data.pixels, parallelFor, [&](std::size_t p, auto & sum) {
+      sum[0] += data.Has(p) ? term(data.mean[p], data.variance[p]) : 0.0;
+    })[0];
+  };
+  const auto onLine = [&line](double mean) { return line.intercept + line.slope * mean; };
   // Where the line passes zero it says nothing of the noise; 1 % of the line's mean height bounds the weights.
-  double height = 0.0;
-  for (std::size_t p = 0; p < data.pixels; ++p)
-  {
-    height += data.Has(p) ? line.intercept + line.slope * data.mean[p] : 0.0;
-  }
+  const double height = sumOf([&](double mean, double) { return onLine(mean); });
   const double lowest = 0.01 * std::abs(height) / static_cast<double>(line.pixels);
-  const auto varianceOf = [&line, lowest](double mean) { return std::max(lowest, line.intercept + line.slope * mean); };
-  double     sum = 0.0;
-  for (std::size_t p = 0; p < data.pixels; ++p)
-  {
-    if (data.Has(p))
-    {
-      const double expected = varianceOf(data.mean[p]);
-      const double deviation = (data.variance[p] - (line.intercept + line.slope * data.mean[p])) / expected;
-      sum += deviation * deviation;
-    }
-  }
-  quality.reducedChi2 = sum / relativeVariance / static_cast<double>(line.pixels);
-  const PolynomialFit parabola = FitPolynomial<2>(data, [&varianceOf](double mean) {
+  const auto   varianceOf = [&](double mean) { return std::max(lowest, onLine(mean)); };
+  const double squares = sumOf([&](double mean, double variance) {
+    const double deviation = (variance - onLine(mean)) / varianceOf(mean);
+    return deviation * deviation;
+  });
+  quality.reducedChi2 = squares / relativeVariance / static_cast<double>(line.pixels);
+  const PolynomialFit parabola = FitPolynomial<2>(data, parallelFor, [&varianceOf](double mean) {
     const double expected = varianceOf(mean);
     return 1.0 / (expected * expected);
   });

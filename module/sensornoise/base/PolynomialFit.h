@@ -4,6 +4,7 @@
 #define sensornoise_base_PolynomialFit_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/base/Parallel.h"
 
 #include <cmath>
 #include <cstddef>
@@ -39,14 +40,14 @@ struct PolynomialFit
   bool        isDetermined{ false }; ///< false: too few pixels or one intensity only
 };
 
-/** Ordinary regression of the variance on the mean: the slope is the gain g and the intercept sigma^2 - g mu, (3.24) of
- * Sur & Gredi\'ac 2015 (https://doi.org/10.1137/140977035). */
+/** Ordinary regression of the variance on the mean, with the same bits for any number of threads: the slope is the gain
+ * g and the intercept sigma^2 - g mu, (3.24) of Sur & Gredi\'ac 2015 (https://doi.org/10.1137/140977035). */
 SensorNoise_EXPORT PolynomialFit
-FitLine(const RegressionData & data);
+FitLine(const RegressionData & data, const ParallelFor & parallelFor = SerialFor);
 
 /** Ordinary quadratic regression: (2.21), whose curvature is sigma_gamma^2 where the variance is not corrected. */
 SensorNoise_EXPORT PolynomialFit
-FitParabola(const RegressionData & data);
+FitParabola(const RegressionData & data, const ParallelFor & parallelFor = SerialFor);
 
 /** How well a line describes the corrected variance. */
 struct FitQuality
@@ -58,7 +59,10 @@ struct FitQuality
 
 /** Judges \a line. A sample variance of T frames has the variance 2 V^2 / (T-1), with V the line's value. */
 SensorNoise_EXPORT FitQuality
-JudgeLine(const RegressionData & data, const PolynomialFit & line, std::size_t frames);
+JudgeLine(const RegressionData & data,
+          const PolynomialFit &  line,
+          std::size_t            frames,
+          const ParallelFor &    parallelFor = SerialFor);
 
 } // namespace sensornoise
 

@@ -46,13 +46,14 @@ FollowLine(const ProjectedVariance &           projected,
 }
 
 std::vector<std::uint8_t>
-MaskOfFlatClasses(const ProjectedVariance & projected, const std::vector<std::uint8_t> & usable)
+MaskOfFlatClasses(const ProjectedVariance &         projected,
+                  const std::vector<std::uint8_t> & usable,
+                  const ParallelFor &               parallelFor)
 {
   std::vector<std::uint8_t> mask(usable.size());
-  for (std::size_t p = 0; p < mask.size(); ++p)
-  {
+  ForPixels(mask.size(), parallelFor, [&](std::size_t p) {
     mask[p] = usable[p] != 0 && projected.ClassOf(p) <= InPixels.flatShare * ProjectedVariance::Classes ? 1 : 0;
-  }
+  });
   return mask;
 }
 
@@ -65,13 +66,10 @@ SelectPixels(const ProjectedVariance &         projected,
              const ParallelFor &               parallelFor)
 {
   const std::vector<std::uint8_t> misfit = FindLocalMisfit(projected, line, usable, parallelFor);
-  for (std::size_t p = 0; p < misfit.size(); ++p)
-  {
-    found.mask[p] = usable[p] != 0 && misfit[p] == 0 ? 1 : 0;
-  }
+  ForPixels(
+    misfit.size(), parallelFor, [&](std::size_t p) { found.mask[p] = usable[p] != 0 && misfit[p] == 0 ? 1 : 0; });
   found.classes = JudgeClasses(projected, line, found.mask, parallelFor);
-  for (std::size_t p = 0; p < misfit.size(); ++p)
-  {
+  ForPixels(misfit.size(), parallelFor, [&](std::size_t p) {
     if (usable[p] != 0)
     {
       const bool isRough = projected.ClassOf(p) >= found.classes.firstBad;
@@ -80,7 +78,7 @@ SelectPixels(const ProjectedVariance &         projected,
                                                                    : PixelUse::Used);
       found.mask[p] = isRough ? 0 : found.mask[p];
     }
-  }
+  });
   return static_cast<std::size_t>(std::count(misfit.begin(), misfit.end(), std::uint8_t{ 1 }));
 }
 
@@ -111,7 +109,7 @@ FitStaticVariance(ProjectedVariance &               projected,
   found.pixelUse = std::move(pixelUse);
   // The line of the flat classes tells which neighbourhoods fit, and among these, which classes do.
   projected.Compute(slopeDn);
-  found.mask = MaskOfFlatClasses(projected, usable);
+  found.mask = MaskOfFlatClasses(projected, usable, parallelFor);
   const ReferenceFrame & frame = projected.GetFrame();
   JudgingLine            judge = FollowLine(projected, found.mask, blackDn, parallelFor, sharedSquares, std::nullopt);
   if (!judge.line.isDetermined)
@@ -142,10 +140,9 @@ FitStaticVariance(ProjectedVariance &               projected,
     return found;
   }
   const std::vector<std::uint8_t> trimmed = fit.FindTrimmed();
-  for (std::size_t p = 0; p < trimmed.size(); ++p)
-  {
+  ForPixels(trimmed.size(), parallelFor, [&](std::size_t p) {
     found.pixelUse[p] = trimmed[p] != 0 ? static_cast<std::uint8_t>(PixelUse::Outlier) : found.pixelUse[p];
-  }
+  });
   found.fromFlat = FitFlatHalf(projected, found.mask, line, parallelFor);
   const VarianceData data = projected.GetData(found.mask);
   found.pattern = MeasureLevelPattern(frame, data, line, blackDn, parallelFor);

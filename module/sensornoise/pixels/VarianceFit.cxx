@@ -93,9 +93,7 @@ VarianceFit::VarianceFit(const VarianceData &                data,
 VarianceFit::FreedomRange
 VarianceFit::RangeOfFreedom(const VarianceData & data, const ParallelFor & parallelFor)
 {
-  std::vector<FreedomRange> parts(data.pixels / PixelsPerBlock + 1);
-  ForBlocks(data.pixels, parallelFor, [&](std::size_t begin, std::size_t end) {
-    FreedomRange part;
+  const auto   parts = PartsOfBlocks<FreedomRange>(data.pixels, parallelFor, [&](auto begin, auto end, auto & part) {
     for (std::size_t p = begin; p < end; ++p)
     {
       if (data.mask[p] != 0)
@@ -105,7 +103,6 @@ VarianceFit::RangeOfFreedom(const VarianceData & data, const ParallelFor & paral
         ++part.pixels;
       }
     }
-    parts[begin / PixelsPerBlock] = part;
   });
   FreedomRange range;
   for (const FreedomRange & part : parts)

@@ -9,9 +9,9 @@
 #include "sensornoise/pixels/VarianceFit.h"
 #include "sensornoise/pixels/VarianceLine.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 namespace sensornoise
@@ -23,22 +23,15 @@ FitFlatHalf(const ProjectedVariance &         projected,
             const VarianceLine &              line,
             const ParallelFor &               parallelFor)
 {
-  std::array<std::size_t, ProjectedVariance::Classes> counts{};
-  std::size_t                                         total = 0;
-  for (std::size_t p = 0; p < mask.size(); ++p)
-  {
-    counts[projected.ClassOf(p)] += mask[p];
-    total += mask[p];
-  }
-  std::size_t last = 0;
-  for (std::size_t sum = counts[0]; last + 1 < counts.size() && 2 * sum < total; sum += counts[++last])
+  const auto counts = SumOverBlocks<ProjectedVariance::Classes>(
+    mask.size(), parallelFor, [&](std::size_t p, auto & count) { count[projected.ClassOf(p)] += mask[p]; });
+  const double total = std::accumulate(counts.begin(), counts.end(), 0.0);
+  std::size_t  last = 0;
+  for (double sum = counts[0]; last + 1 < counts.size() && 2.0 * sum < total; sum += counts[++last])
   {
   }
   std::vector<std::uint8_t> flat = mask;
-  for (std::size_t p = 0; p < mask.size(); ++p)
-  {
-    flat[p] = projected.ClassOf(p) <= last ? mask[p] : 0;
-  }
+  ForPixels(mask.size(), parallelFor, [&](std::size_t p) { flat[p] = projected.ClassOf(p) <= last ? mask[p] : 0; });
   return FitVarianceLine(projected.GetData(flat), parallelFor, line, 3, TrimRule::Distance);
 }
 

@@ -104,7 +104,8 @@ PublishedMethod<TPixel>::FinishPass(unsigned int pass)
   {
     m_Corrected = this->EndCorrection();
     m_Correction.reset(); // their memory
-    m_Report = MakePublishedReport({ m_Settings, m_Geometry, m_Distinct.Count(), m_Scene, m_Flicker, m_Corrected });
+    m_Report = MakePublishedReport({ m_Settings, m_Geometry, m_Distinct.Count(), m_Scene, m_Flicker, m_Corrected },
+                                   m_ParallelFor);
     WarnOfMosaic(m_Report, m_Scene.mean, m_Geometry, m_ParallelFor);
     NoteMask(m_Report, m_Geometry, m_UserMask);
     ReportSceneChange(m_Report, m_Thumbnails.FindChange());
@@ -123,7 +124,7 @@ PublishedMethod<TPixel>::EndMoments()
   scene.valid.resize(pixels);
   scene.summary = MakeStackMaps<TPixel>(
     m_Moments.Take(), m_Settings.codes, m_ParallelFor, scene.mean.data(), scene.variance.data(), scene.valid.data());
-  SortPixels(scene, m_Settings, m_Geometry, m_Distinct.Count(), m_UserMask);
+  SortPixels(scene, m_Settings, m_Geometry, m_Distinct.Count(), m_UserMask, m_ParallelFor);
   FindSets(scene, m_Settings, m_Distinct.Count());
   return scene;
 }

@@ -106,14 +106,15 @@ FillFlicker(Report & report, const FlickerEstimate & flicker, bool isIdentified)
 }
 
 void
-FillVibration(Report & report, const PublishedFindings & found)
+FillVibration(Report & report, const PublishedFindings & found, const ParallelFor & parallelFor)
 {
   const VibrationCovariance vibration = FitVibrationCovariance(found.scene.mean.data(),
                                                                found.scene.variance.data(),
                                                                found.scene.valid.data(),
                                                                found.geometry.width,
                                                                found.geometry.height,
-                                                               found.flicker.flickerSd);
+                                                               found.flicker.flickerSd,
+                                                               parallelFor);
   const auto                sd = [&vibration](double varianceOfAxis) {
     return vibration.isDetermined && varianceOfAxis > 0.0 ? Quantity::Identified(std::sqrt(varianceOfAxis))
                                                                          : Quantity::Without(EstimateStatus::NotIdentifiable);
@@ -173,10 +174,11 @@ void
 FillQuality(Report &                  report,
             const PublishedFindings & found,
             const RegressionData &    corrected,
-            const PolynomialFit &     line)
+            const PolynomialFit &     line,
+            const ParallelFor &       parallelFor)
 {
   const PublishedScene & scene = found.scene;
-  const FitQuality       quality = JudgeLine(corrected, line, found.frames);
+  const FitQuality       quality = JudgeLine(corrected, line, found.frames, parallelFor);
   FillFit(report, quality);
   report.fit.offsetLinePhi = found.flicker.offsetLinePhi;
   const double contrastDn = ContrastDn(scene);
@@ -192,7 +194,7 @@ FillQuality(Report &                  report,
 } // namespace
 
 Report
-MakePublishedReport(const PublishedFindings & found)
+MakePublishedReport(const PublishedFindings & found, const ParallelFor & parallelFor)
 {
   const PublishedScene & scene = found.scene;
   const CorrectedMaps &  maps = found.corrected;
@@ -210,7 +212,7 @@ MakePublishedReport(const PublishedFindings & found)
   WarnOfWidening(report, WarningCode::DarkSetWidened, "dark", scene.dark);
   WarnOfFlicker(report, found.flicker);
   FillFlicker(report, found.flicker, found.flicker.flickerZ > InCommon.requiredFlickerZ);
-  FillVibration(report, found);
+  FillVibration(report, found, parallelFor);
   if (!HasRange(report, scene))
   {
     return report;
@@ -218,11 +220,11 @@ MakePublishedReport(const PublishedFindings & found)
   const std::size_t    pixels = found.geometry.Pixels();
   const RegressionData corrected{ scene.mean.data(), maps.variance.data(), scene.kept.data(), pixels };
   const RegressionData raw{ scene.mean.data(), scene.variance.data(), scene.kept.data(), pixels };
-  const PolynomialFit  line = FitLine(corrected);
-  FillBaselines(report, raw);
+  const PolynomialFit  line = FitLine(corrected, parallelFor);
+  FillBaselines(report, raw, parallelFor);
   FillNoise(report, found, corrected, line);
-  FillQuality(report, found, corrected, line);
-  FillScatter(report, scene.mean, scene.variance, maps.variance, maps.pixelUse);
+  FillQuality(report, found, corrected, line, parallelFor);
+  FillScatter(report, scene.mean, scene.variance, maps.variance, maps.pixelUse, parallelFor);
   return report;
 }
 

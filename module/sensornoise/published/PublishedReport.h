@@ -4,6 +4,7 @@
 #define sensornoise_published_PublishedReport_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/base/Parallel.h"
 #include "sensornoise/report/Report.h"
 
 #include <cstddef>
@@ -39,7 +40,7 @@ struct PublishedFindings
 /** The report of the published method: values and statuses, no standard errors and no intervals (the paper has none for
  * a stack, and those of ordinary regression would hide its bias). */
 SensorNoise_EXPORT Report
-MakePublishedReport(const PublishedFindings & found);
+MakePublishedReport(const PublishedFindings & found, const ParallelFor & parallelFor);
 
 } // namespace sensornoise
 

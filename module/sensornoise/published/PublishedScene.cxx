@@ -47,7 +47,8 @@ SortPixels(PublishedScene &                  scene,
            const PublishedSettings &         settings,
            const FrameGeometry &             geometry,
            std::size_t                       frames,
-           const std::vector<std::uint8_t> & mask)
+           const std::vector<std::uint8_t> & mask,
+           const ParallelFor &               parallelFor)
 {
   for (std::size_t p = 0; p < mask.size(); ++p)
   {
@@ -59,12 +60,15 @@ SortPixels(PublishedScene &                  scene,
                              geometry.width,
                              geometry.height,
                              frames,
-                             settings.level);
+                             settings.level,
+                             parallelFor);
   scene.pixelUse.resize(geometry.Pixels());
-  for (std::size_t p = 0; p < geometry.Pixels(); ++p)
-  {
-    scene.pixelUse[p] = static_cast<std::uint8_t>(UseOf(scene, geometry, mask, p));
-  }
+  ForBlocks(geometry.Pixels(), parallelFor, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p)
+    {
+      scene.pixelUse[p] = static_cast<std::uint8_t>(UseOf(scene, geometry, mask, p));
+    }
+  });
 }
 
 void

@@ -4,6 +4,7 @@
 #define sensornoise_published_PublishedScene_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/NothingToMeasure.h"
 #include "sensornoise/moments/StackMaps.h"
@@ -41,7 +42,8 @@ SortPixels(PublishedScene &                  scene,
            const PublishedSettings &         settings,
            const FrameGeometry &             geometry,
            std::size_t                       frames,
-           const std::vector<std::uint8_t> & mask);
+           const std::vector<std::uint8_t> & mask,
+           const ParallelFor &               parallelFor);
 
 /** Sets the iso-intensity sets of a scene whose pixels are sorted, or its obstacle. */
 SensorNoise_EXPORT void

@@ -27,23 +27,24 @@ struct Maps
   std::size_t          height;
 };
 
-/** Calls function(p, gradient) for each pixel that takes part, in order. */
+/** Calls function(p, gradient) for each of the pixels [begin, end) that takes part, in order. */
 template <typename TFunction>
 void
-ForInnerPixels(const Maps & maps, TFunction function)
+ForInnerPixels(const Maps & maps, std::size_t begin, std::size_t end, TFunction function)
 {
-  for (std::size_t y = 1; y + 1 < maps.height; ++y)
+  for (std::size_t p = std::max(begin, maps.width); p < std::min(end, maps.width * (maps.height - 1)); ++p)
   {
-    for (std::size_t x = 1; x + 1 < maps.width; ++x)
+    const std::size_t x = p % maps.width;
+    if (x == 0 || x + 1 == maps.width || (maps.valid != nullptr && maps.valid[p] == 0))
     {
-      const std::size_t p = y * maps.width + x;
-      const Gradient    gradient = CentredGradient(maps.mean, maps.width, p);
-      const bool        isFinite = std::isfinite(maps.mean[p]) && std::isfinite(maps.variance[p]) &&
-                            std::isfinite(gradient.x) && std::isfinite(gradient.y);
-      if (isFinite && (maps.valid == nullptr || maps.valid[p] != 0))
-      {
-        function(p, gradient);
-      }
+      continue;
+    }
+    const Gradient gradient = CentredGradient(maps.mean, maps.width, p);
+    const bool isFinite = std::isfinite(maps.mean[p]) && std::isfinite(maps.variance[p]) && std::isfinite(gradient.x) &&
+                          std::isfinite(gradient.y);
+    if (isFinite)
+    {
+      function(p, gradient);
     }
   }
 }
@@ -57,33 +58,51 @@ struct Scales
 };
 
 Scales
-FindScales(const Maps & maps)
+FindScales(const Maps & maps, const ParallelFor & parallelFor)
 {
+  const auto parts =
+    PartsOfBlocks<Scales>(maps.width * maps.height, parallelFor, [&](auto begin, auto end, Scales & part) {
+      ForInnerPixels(maps, begin, end, [&](std::size_t p, const Gradient & gradient) {
+        ++part.pixels;
+        part.mean = std::max(part.mean, std::abs(maps.mean[p]));
+        part.gradient = std::max({ part.gradient, std::abs(gradient.x), std::abs(gradient.y) });
+      });
+    });
   Scales scales;
-  ForInnerPixels(maps, [&](std::size_t p, const Gradient & gradient) {
-    ++scales.pixels;
-    scales.mean = std::max(scales.mean, std::abs(maps.mean[p]));
-    scales.gradient = std::max({ scales.gradient, std::abs(gradient.x), std::abs(gradient.y) });
-  });
+  for (const Scales & part : parts)
+  {
+    scales.pixels += part.pixels;
+    scales.mean = std::max(scales.mean, part.mean);
+    scales.gradient = std::max(scales.gradient, part.gradient);
+  }
   return scales;
 }
 
 /** The coefficients of the scaled columns 1, u, u^2, gx^2, gy^2, gx gy; none if the scene does not tell them apart. */
 std::optional<Vector>
-FitCoefficients(const Maps & maps, const Scales & scales)
+FitCoefficients(const Maps & maps, const Scales & scales, const ParallelFor & parallelFor)
 {
-  Matrix gram = Matrix::Zero();
-  Vector right = Vector::Zero();
-  ForInnerPixels(maps, [&](std::size_t p, const Gradient & gradient) {
-    const double u = maps.mean[p] / scales.mean;
-    const double gx = gradient.x / scales.gradient;
-    const double gy = gradient.y / scales.gradient;
-    Vector       row;
-    row << 1.0, u, u * u, gx * gx, gy * gy, gx * gy;
-    gram.selfadjointView<Eigen::Lower>().rankUpdate(row);
-    right += row * maps.variance[p];
-  });
-  const Matrix full = gram.selfadjointView<Eigen::Lower>();
+  constexpr std::size_t columns = 6;
+  // Row by row the products of each column with all of them, and with the variance.
+  const auto sums = SumBlocks<columns *(columns + 1)>(
+    maps.width * maps.height, parallelFor, [&](std::size_t begin, std::size_t end, auto & sum) {
+      ForInnerPixels(maps, begin, end, [&](std::size_t p, const Gradient & gradient) {
+        const double u = maps.mean[p] / scales.mean;
+        const double gx = gradient.x / scales.gradient;
+        const double gy = gradient.y / scales.gradient;
+        const double row[columns + 1] = { 1.0, u, u * u, gx * gx, gy * gy, gx * gy, maps.variance[p] };
+        for (std::size_t i = 0; i < columns; ++i)
+        {
+          for (std::size_t j = 0; j <= columns; ++j)
+          {
+            sum[i * (columns + 1) + j] += row[i] * row[j];
+          }
+        }
+      });
+    });
+  const Eigen::Map<const Eigen::Matrix<double, 6, 7, Eigen::RowMajor>> products(sums.data());
+  const Matrix                                                         full = products.leftCols<6>();
+  const Vector                                                         right = products.rightCols<1>();
   const Vector diagonal = full.diagonal().cwiseSqrt().cwiseMax(1e-300);
   const Matrix scaled = diagonal.cwiseInverse().asDiagonal() * full * diagonal.cwiseInverse().asDiagonal();
   const Eigen::ColPivHouseholderQR<Matrix> solver(scaled);
@@ -101,17 +120,18 @@ FitVibrationCovariance(const double *       mean,
                        const std::uint8_t * valid,
                        std::size_t          width,
                        std::size_t          height,
-                       double               flickerSd)
+                       double               flickerSd,
+                       const ParallelFor &  parallelFor)
 {
   const Maps          maps{ mean, variance, valid, width, height };
-  const Scales        scales = FindScales(maps);
+  const Scales        scales = FindScales(maps, parallelFor);
   VibrationCovariance result;
   result.pixels = scales.pixels;
   if (scales.pixels < 6 || !(scales.mean > 0.0) || !(scales.gradient > 0.0))
   {
     return result;
   }
-  const std::optional<Vector> coefficients = FitCoefficients(maps, scales);
+  const std::optional<Vector> coefficients = FitCoefficients(maps, scales, parallelFor);
   result.isDetermined = coefficients.has_value();
   if (!result.isDetermined)
   {

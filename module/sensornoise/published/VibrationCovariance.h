@@ -4,6 +4,7 @@
 #define sensornoise_published_VibrationCovariance_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/base/Parallel.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -35,7 +36,8 @@ FitVibrationCovariance(const double *       mean,
                        const std::uint8_t * valid,
                        std::size_t          width,
                        std::size_t          height,
-                       double               flickerSd);
+                       double               flickerSd,
+                       const ParallelFor &  parallelFor = SerialFor);
 
 } // namespace sensornoise
 

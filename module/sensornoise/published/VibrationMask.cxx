@@ -48,13 +48,13 @@ VibrationMask(const double *       mean,
               std::size_t          width,
               std::size_t          height,
               std::size_t          frames,
-              double               level)
+              double               level,
+              const ParallelFor &  parallelFor)
 {
   const double              quantile = ChiSquare2Quantile(level);
   std::vector<std::uint8_t> mask(width * height, 0);
-  for (std::size_t y = 1; y + 1 < height && width > 2; ++y)
-  {
-    const std::size_t p = y * width + 1;
+  parallelFor(width > 2 && height > 2 ? height - 2 : 0, [&](std::size_t above) {
+    const std::size_t p = (above + 1) * width + 1;
     TestVibrationOfRow(mean + p,
                        static_cast<std::ptrdiff_t>(width),
                        variance + p,
@@ -63,7 +63,7 @@ VibrationMask(const double *       mean,
                        frames,
                        quantile,
                        mask.data() + p);
-  }
+  });
   return mask;
 }
 

@@ -4,6 +4,7 @@
 #define sensornoise_published_VibrationMask_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/base/Parallel.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -57,7 +58,8 @@ VibrationMask(const double *       mean,
               std::size_t          width,
               std::size_t          height,
               std::size_t          frames,
-              double               level);
+              double               level,
+              const ParallelFor &  parallelFor = SerialFor);
 
 } // namespace sensornoise
 

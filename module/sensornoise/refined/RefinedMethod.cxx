@@ -325,7 +325,8 @@ RefinedMethod<TPixel>::MakeReport()
                                               *m_Polished,
                                               m_CorrectedVariance,
                                               BlackLevel(m_Settings, *m_Scene, m_Series),
-                                              m_Correlation });
+                                              m_Correlation },
+                                            m_ParallelFor);
   UncoverUnknown(m_Scene->frame, m_ParallelFor);
   WarnOfMosaic(m_Report, m_Scene->frame.mean, m_Geometry, m_ParallelFor);
   NoteMask(m_Report, m_Geometry, m_UserMask);

@@ -120,13 +120,14 @@ DescribeInput(const RefinedSettings & settings, const StillScene & scene, const 
 
 /** Files baselines and scatter, over the pixels used. */
 void
-FillCurves(Report & report, const RefinedResults & found)
+FillCurves(Report & report, const RefinedResults & found, const ParallelFor & parallelFor)
 {
   const std::vector<std::uint8_t> & pixelUse = found.variance.pixelUse;
   const std::vector<std::uint8_t>   used = MaskOfUsed(pixelUse);
   const StillScene &                scene = found.scene;
-  FillBaselines(report, { scene.frame.mean.data(), scene.frame.variance.data(), used.data(), used.size() });
-  FillScatter(report, scene.frame.mean, scene.frame.variance, found.correctedVariance, pixelUse);
+  FillBaselines(
+    report, { scene.frame.mean.data(), scene.frame.variance.data(), used.data(), used.size() }, parallelFor);
+  FillScatter(report, scene.frame.mean, scene.frame.variance, found.correctedVariance, pixelUse, parallelFor);
 }
 
 /** Degrees of freedom of the 95 % intervals. */
@@ -220,10 +221,10 @@ MakeRefusal(const RefinedSettings &           settings,
 }
 
 Report
-MakeRefinedReport(const RefinedResults & found)
+MakeRefinedReport(const RefinedResults & found, const ParallelFor & parallelFor)
 {
   Report report = DescribeInput(found.settings, found.scene, found.variance.pixelUse);
-  FillCurves(report, found);
+  FillCurves(report, found, parallelFor);
   WarnOfScene(report, found);
 
   const double       codesDn2 = found.variance.codeNoise.inTheDarkDn2;

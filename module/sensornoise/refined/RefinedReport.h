@@ -4,6 +4,7 @@
 #define sensornoise_refined_RefinedReport_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/NothingToMeasure.h"
 #include "sensornoise/refined/RefinedResults.h"
 #include "sensornoise/refined/RefinedSettings.h"
@@ -18,7 +19,7 @@ namespace sensornoise
 
 /** The report of the refined method. */
 SensorNoise_EXPORT Report
-MakeRefinedReport(const RefinedResults & found);
+MakeRefinedReport(const RefinedResults & found, const ParallelFor & parallelFor = SerialFor);
 
 /** The report of a stack that cannot be measured: what is known of it, and why; every quantity is `failed`. \a pixelUse
  * holds the values of PixelUse as far as they were found. */

@@ -133,46 +133,50 @@ FillScatter(Report &                          report,
             const std::vector<double> &       mean,
             const std::vector<double> &       variance,
             const std::vector<double> &       correctedVariance,
-            const std::vector<std::uint8_t> & pixelUse)
+            const std::vector<std::uint8_t> & pixelUse,
+            const ParallelFor &               parallelFor)
 {
+  // The sums of each bin.
+  enum : std::size_t
+  {
+    Mean,
+    Variance,
+    Corrected,
+    Pixels,
+    Sums
+  };
   constexpr std::size_t           bins = 256;
   const std::size_t               pixels = mean.size();
   const std::vector<std::uint8_t> used = MaskOfUsed(pixelUse);
   const IntensityIndex            index(mean.data(), used.data(), pixels);
-  Report::Scatter                 sums{ std::vector<double>(bins, 0.0),
-                        std::vector<double>(bins, 0.0),
-                        std::vector<double>(bins, 0.0),
-                        std::vector<std::size_t>(bins, 0) };
-  for (std::size_t p = 0; p < pixels; ++p)
-  {
+  const std::vector<double> sums = SumOverBlocks(pixels, parallelFor, bins * Sums, [&](std::size_t p, double * sum) {
     if (used[p] != 0)
     {
-      const std::size_t bin = index.BinOf(mean[p], bins);
-      sums.mean[bin] += mean[p];
-      sums.variance[bin] += variance[p];
-      sums.correctedVariance[bin] += correctedVariance[p];
-      ++sums.count[bin];
+      double * const own = sum + Sums * index.BinOf(mean[p], bins);
+      own[Mean] += mean[p];
+      own[Variance] += variance[p];
+      own[Corrected] += correctedVariance[p];
+      own[Pixels] += 1.0;
     }
-  }
+  });
   report.scatter = Report::Scatter();
-  for (std::size_t bin = 0; bin < bins; ++bin)
+  for (const double * own = sums.data(); own != sums.data() + sums.size(); own += Sums)
   {
-    if (sums.count[bin] > 0)
+    if (own[Pixels] > 0.0)
     {
-      const auto n = static_cast<double>(sums.count[bin]);
-      report.scatter.mean.push_back(sums.mean[bin] / n);
-      report.scatter.variance.push_back(sums.variance[bin] / n);
-      report.scatter.correctedVariance.push_back(sums.correctedVariance[bin] / n);
-      report.scatter.count.push_back(sums.count[bin]);
+      report.scatter.mean.push_back(own[Mean] / own[Pixels]);
+      report.scatter.variance.push_back(own[Variance] / own[Pixels]);
+      report.scatter.correctedVariance.push_back(own[Corrected] / own[Pixels]);
+      report.scatter.count.push_back(static_cast<std::size_t>(own[Pixels]));
     }
   }
 }
 
 void
-FillBaselines(Report & report, const RegressionData & raw)
+FillBaselines(Report & report, const RegressionData & raw, const ParallelFor & parallelFor)
 {
-  const PolynomialFit affine = FitLine(raw);
-  const PolynomialFit parabola = FitParabola(raw);
+  const PolynomialFit affine = FitLine(raw, parallelFor);
+  const PolynomialFit parabola = FitParabola(raw, parallelFor);
   report.affineBaseline = Report::Baseline{ 0.0, affine.slope, affine.intercept };
   report.quadraticBaseline = Report::Baseline{ parabola.curvature, parabola.slope, parabola.intercept };
 }

@@ -48,11 +48,12 @@ FillScatter(Report &                          report,
             const std::vector<double> &       mean,
             const std::vector<double> &       variance,
             const std::vector<double> &       correctedVariance,
-            const std::vector<std::uint8_t> & pixelUse);
+            const std::vector<std::uint8_t> & pixelUse,
+            const ParallelFor &               parallelFor);
 
 /** Files the line and the parabola through the uncorrected variance, what tools that ignore flicker would say. */
 SensorNoise_EXPORT void
-FillBaselines(Report & report, const RegressionData & raw);
+FillBaselines(Report & report, const RegressionData & raw, const ParallelFor & parallelFor);
 
 } // namespace sensornoise
 
