@@ -10,6 +10,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#ifdef __GLIBC__
+#  include <malloc.h>
+#endif
 #ifdef __linux__
 #  include <sys/resource.h>
 #  include <unistd.h>
@@ -121,6 +124,14 @@ RequireMemory(double bytes, const std::string & what)
     throw std::runtime_error(what + " needs " + TextOfBytes(bytes) + " of memory, but " + TextOfBytes(*free) +
                              " are free");
   }
+}
+
+void
+GiveBackFreedMemory()
+{
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
 }
 
 std::string

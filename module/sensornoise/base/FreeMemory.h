@@ -21,6 +21,11 @@ FreeMemoryBytes();
 SensorNoise_EXPORT void
 RequireMemory(double bytes, const std::string & what);
 
+/** Gives memory that was freed, but is kept by the C library between pieces that are in use, back to the system; where
+ * the library is not known, nothing is done. */
+SensorNoise_EXPORT void
+GiveBackFreedMemory();
+
 /** A number of bytes as people read it, for example "2.4 GB". */
 SensorNoise_EXPORT std::string
 TextOfBytes(double bytes);

@@ -225,6 +225,7 @@ RefinedMethod<TPixel>::EndFrameSums()
     *m_FrameSums, m_Settings.rollingShutter, knownOffsetDn, BlackLevel(m_Settings, *m_Scene, std::nullopt)));
   m_FrameSums->ReleaseInstruments();
   ReleaseNeighbourMean(m_Scene->frame);
+  GiveBackFreedMemory(); // the most is needed from here on
   const MemoryNeed  need{ m_Geometry.Pixels(), m_Distinct.Count() };
   const std::size_t series = m_Series->basis.Size();
   const double      left = m_Settings.memoryLimitBytes - need.BesideProjections();
