@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace sensornoise
@@ -118,18 +119,34 @@ MakeSquares(const ReferenceFrame & frame, const VarianceData & data, const Paral
   return squares;
 }
 
-/** Weighted mean of \a value over the first squares, and its standard error added. */
+/** The \a count squares of the smallest \a value, in its order. */
+template <typename TValue>
+std::vector<const Square *>
+SmallestSquares(const std::vector<Square> & squares, std::size_t count, TValue value)
+{
+  std::vector<std::pair<double, const Square *>> sorted(squares.size());
+  std::transform(squares.begin(), squares.end(), sorted.begin(), [&](const Square & square) {
+    return std::make_pair(value(square), &square);
+  });
+  const auto end = sorted.begin() + static_cast<std::ptrdiff_t>(count);
+  std::partial_sort(sorted.begin(), end, sorted.end());
+  std::vector<const Square *> smallest(count);
+  std::transform(sorted.begin(), end, smallest.begin(), [](const auto & entry) { return entry.second; });
+  return smallest;
+}
+
+/** Weighted mean of \a value over squares, and its standard error added. */
 template <typename TValue, typename TError>
 double
-UpperMean(const std::vector<Square> & squares, std::size_t count, TValue value, TError error)
+UpperMean(const std::vector<const Square *> & squares, TValue value, TError error)
 {
   double weight = 0.0;
   double sum = 0.0;
-  for (std::size_t i = 0; i < count; ++i)
+  for (const Square * square : squares)
   {
-    const double w = 1.0 / std::max(1e-300, error(squares[i]) * error(squares[i]));
+    const double w = 1.0 / std::max(1e-300, error(*square) * error(*square));
     weight += w;
-    sum += w * value(squares[i]);
+    sum += w * value(*square);
   }
   return std::max(0.0, sum / weight) + 1.0 / std::sqrt(weight);
 }
@@ -142,10 +159,10 @@ MeasureLevelPattern(const ReferenceFrame & frame,
                     double                 blackDn,
                     const ParallelFor &    parallelFor)
 {
-  const double        noiseDn2 = line.At(line.pivotDn) / static_cast<double>(frame.frames);
-  const double        fluxDn = line.pivotDn - blackDn;
-  LevelPattern        pattern;
-  std::vector<Square> squares = MakeSquares(frame, data, parallelFor);
+  const double              noiseDn2 = line.At(line.pivotDn) / static_cast<double>(frame.frames);
+  const double              fluxDn = line.pivotDn - blackDn;
+  LevelPattern              pattern;
+  const std::vector<Square> squares = MakeSquares(frame, data, parallelFor);
   pattern.lightDn2 = std::max(0.0, line.spreadDn2 / line.weightSum - noiseDn2);
   if (squares.empty() || !(pattern.lightDn2 > 0.0))
   {
@@ -156,31 +173,27 @@ MeasureLevelPattern(const ReferenceFrame & frame,
     std::min(squares.size(),
              std::max(InPattern.fewestSquares,
                       static_cast<std::size_t>(InPattern.flattestShare * static_cast<double>(squares.size()))));
-  const auto sortBy = [&](auto value) {
-    std::sort(squares.begin(), squares.end(), [&](const Square & a, const Square & b) { return value(a) < value(b); });
-  };
   // Each half measures once, so that a mirrored frame has the same pattern.
   double gainSquare = 0.0;
   double offsetSquareDn2 = 0.0;
   for (const std::size_t chooser : { 0, 1 })
   {
-    const auto measured = [&](const Square & square) -> const HalfSquare & { return square.half[1 - chooser]; };
-    const auto fluxOf = [&](const Square & square) { return std::max(1e-6, measured(square).level - blackDn); };
-    sortBy([&](const Square & square) { return square.RelativeRoughness(chooser, blackDn); });
+    const auto   measured = [&](const Square & square) -> const HalfSquare & { return square.half[1 - chooser]; };
+    const auto   fluxOf = [&](const Square & square) { return std::max(1e-6, measured(square).level - blackDn); };
+    const auto   relative = [&](const Square & square) { return square.RelativeRoughness(chooser, blackDn); };
+    const auto   roughness = [&](const Square & square) { return square.Roughness(chooser); };
     const double gain = UpperMean(
-      squares,
-      count,
+      SmallestSquares(squares, count, relative),
       [&](const Square & square) { return measured(square).Pattern() / (fluxOf(square) * fluxOf(square)); },
       [&](const Square & square) { return measured(square).Error() / (fluxOf(square) * fluxOf(square)); });
     gainSquare += 0.5 * std::min(gain, InPattern.largestGain * InPattern.largestGain);
-    sortBy([&](const Square & square) { return square.Roughness(chooser); });
+    const auto   smoothest = SmallestSquares(squares, count, roughness);
     const double offsetDn2 = UpperMean(
-      squares,
-      count,
+      smoothest,
       [&](const Square & square) { return measured(square).Pattern(); },
       [&](const Square & square) { return measured(square).Error(); });
     const double largestDn2 =
-      InPattern.largestOffset * InPattern.largestOffset * line.At(measured(squares.front()).level);
+      InPattern.largestOffset * InPattern.largestOffset * line.At(measured(*smoothest.front()).level);
     offsetSquareDn2 += 0.5 * std::min(offsetDn2, largestDn2);
   }
   pattern.gainShare = gainSquare * (fluxDn * fluxDn + pattern.lightDn2) / pattern.lightDn2;
