@@ -89,15 +89,16 @@ struct SensorNoiseEstimation
     const auto start = [&](const auto & ofStack) -> decltype(method) {
       constexpr bool isRefined = std::is_same_v<decltype(ofStack), const sensornoise::RefinedSettings &>;
       using OfFrame = std::conditional_t<isRefined, Refined, Published>;
-      const auto make = [&](std::size_t part, const auto & frame, const auto & mask, const auto & spread) {
-        auto ofPart = ofStack;
-        if constexpr (std::is_same_v<OfFrame, Refined>)
-        {
-          ofPart.offset = stack.offsets[part];
-          ofPart.memoryLimitBytes /= static_cast<double>(stack.offsets.size());
-        }
-        return OfFrame(ofPart, frame, stack.frames, mask, spread);
-      };
+      const auto make =
+        [&]([[maybe_unused]] std::size_t part, const auto & frame, const auto & mask, const auto & spread) {
+          auto ofPart = ofStack;
+          if constexpr (std::is_same_v<OfFrame, Refined>)
+          {
+            ofPart.offset = stack.offsets[part];
+            ofPart.memoryLimitBytes /= static_cast<double>(stack.offsets.size());
+          }
+          return OfFrame(ofPart, frame, stack.frames, mask, spread);
+        };
       if (!stack.mosaic)
       {
         return make(0, stack.frame, stack.mask, parallelFor);

@@ -66,22 +66,6 @@ SensorNoiseEstimator<TStack>::NumberOfPasses() const
 }
 
 template <typename TStack>
-std::optional<sensornoise::InputRecord>
-SensorNoiseEstimator<TStack>::GetInputRecord() const
-{
-  if (m_FramesHash.sha256.empty())
-  {
-    return std::nullopt;
-  }
-  sensornoise::InputRecord record{ m_FramesHash, std::nullopt };
-  if (this->GetDark() != nullptr && !m_DarkHash.sha256.empty())
-  {
-    record.dark = m_DarkHash;
-  }
-  return record;
-}
-
-template <typename TStack>
 void
 SensorNoiseEstimator<TStack>::GenerateNthInputRequestedRegion(unsigned int number)
 {

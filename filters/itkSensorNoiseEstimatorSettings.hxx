@@ -28,6 +28,7 @@
 #include "sensornoise/report/StackSettings.h"
 
 #include <cmath>
+#include <optional>
 #include <ostream>
 #include <string>
 
@@ -126,6 +127,22 @@ SensorNoiseEstimator<TStack>::SetDarkHash(const std::string & sha256, SizeValueT
 {
   m_DarkHash = WithItkErrors(this, [&] { return sensornoise::InputFilesOf(sha256, files, bytes); });
   this->Modified();
+}
+
+template <typename TStack>
+std::optional<sensornoise::InputRecord>
+SensorNoiseEstimator<TStack>::GetInputRecord() const
+{
+  if (m_FramesHash.sha256.empty())
+  {
+    return std::nullopt;
+  }
+  sensornoise::InputRecord record{ m_FramesHash, std::nullopt };
+  if (this->GetDark() != nullptr && !m_DarkHash.sha256.empty())
+  {
+    record.dark = m_DarkHash;
+  }
+  return record;
 }
 
 template <typename TStack>
