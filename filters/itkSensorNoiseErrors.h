@@ -22,6 +22,8 @@
 #include "itkProcessObject.h"
 
 #include <exception>
+#include <stdexcept>
+#include <string>
 
 namespace itk
 {
@@ -43,6 +45,27 @@ WithItkErrors(const Object * object, TFunction function, const char * prefix = "
   catch (const TError & error)
   {
     itkGenericExceptionMacro(<< object->GetNameOfClass() << '(' << object << "): " << prefix << error.what());
+  }
+}
+
+/** Whether an image has memory for the region that it says it holds. Without Allocate() it has none, and whoever reads
+ * its pixels has to see to that. */
+template <typename TImage>
+bool
+HasPixels(const TImage * image)
+{
+  const auto * const pixels = image->GetPixelContainer();
+  return pixels && pixels->Size() >= image->GetBufferedRegion().GetNumberOfPixels();
+}
+
+/** Throws where an image, by \a name, has no memory for its pixels. */
+template <typename TImage>
+void
+RequirePixels(const TImage * image, const char * name)
+{
+  if (!HasPixels(image))
+  {
+    throw std::invalid_argument(std::string(name) + " has a size but no pixels; expected an image that was allocated");
   }
 }
 

@@ -137,6 +137,7 @@ SensorNoiseEstimator<TStack>::FindMosaic()
   }
   this->GenerateNthInputRequestedRegion(0); // the first chunk, which the first pass then need not read again
   stack->Update();
+  RequirePixels(stack, "the stack");
   const auto                first = stack->GetLargestPossibleRegion();
   const PixelType * const   pixels = stack->GetBufferPointer() + stack->ComputeOffset(first.GetIndex());
   const std::vector<double> levels(pixels, pixels + frame.Pixels());
@@ -158,6 +159,7 @@ SensorNoiseEstimator<TStack>::StartPasses()
     auto * whole = const_cast<MaskImageType *>(mask);
     whole->SetRequestedRegionToLargestPossibleRegion();
     whole->Update();
+    RequirePixels(mask, "the mask");
     stack.mask.assign(mask->GetBufferPointer(), mask->GetBufferPointer() + stack.frame.Pixels());
   }
   stack.mosaic = this->FindMosaic();

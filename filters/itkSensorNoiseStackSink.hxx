@@ -240,6 +240,7 @@ SensorNoiseStackSink<TStack>::ProcessChunk(unsigned int number)
     itkExceptionMacro("the stack holds the region " << stack->GetBufferedRegion() << " but " << m_Chunk
                                                     << " was asked for");
   }
+  RequirePixels(stack, "the stack");
   const unsigned int  pass = number / m_Chunks;
   const SizeValueType first =
     static_cast<SizeValueType>(m_Chunk.GetIndex(2) - stack->GetLargestPossibleRegion().GetIndex(2));

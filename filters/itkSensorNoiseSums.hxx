@@ -98,7 +98,7 @@ SensorNoiseSums<TStack>::RecogniseBayerPattern(const TStack * frames)
   const auto &      region = frames->GetBufferedRegion();
   const std::size_t width = region.GetSize(0);
   const std::size_t height = region.GetSize(1);
-  if (region.GetNumberOfPixels() == 0)
+  if (region.GetNumberOfPixels() == 0 || !HasPixels(frames))
   {
     itkGenericExceptionMacro("the image has no pixels; expected a frame");
   }
@@ -154,6 +154,7 @@ SensorNoiseSums<TStack>::AddFrames(const TStack * frames, SizeValueType first)
                                 << all);
   }
   WithItkErrors(this, [&] {
+    RequirePixels(frames, "the image of frames");
     std::visit(
       [&](auto & method) {
         const std::vector<std::uint8_t> & has = method.GetHas();

@@ -124,6 +124,29 @@ TEST(SensorNoiseEstimatorPipeline, SecondUpdateDoesNoWorkAndEveryParameterDoes)
   }
 }
 
+TEST(SensorNoiseEstimatorPipeline, ImagesThatWereNotAllocatedAreRefused)
+{
+  const auto stack = StackType::New();
+  stack->SetRegions(SimulatedStack()->GetLargestPossibleRegion());
+  for (const std::string method : { "refined", "published" })
+  {
+    for (const std::string pattern : { "none", "auto", "RGGB" })
+    {
+      const auto estimator = EstimatorOf<StackType>(stack, method);
+      estimator->SetBayerPattern(pattern);
+      EXPECT_SAYS(ErrorOf(estimator), "the stack has a size but no pixels");
+    }
+  }
+  const auto ofDark = EstimatorOf<StackType>(SimulatedStack());
+  ofDark->SetDark(stack);
+  EXPECT_SAYS(ErrorOf(ofDark), "the stack has a size but no pixels");
+  const auto mask = itk::SensorNoiseEstimator<StackType>::MaskImageType::New();
+  mask->SetRegions(itk::Size<2>{ { Width, Height } });
+  const auto ofMask = EstimatorOf<StackType>(SimulatedStack());
+  ofMask->SetMask(mask);
+  EXPECT_SAYS(ErrorOf(ofMask), "the mask has a size but no pixels");
+}
+
 TEST(SensorNoiseEstimatorPipeline, FailsUntilTheReaderIsMended)
 {
   const auto expected = EstimatorOf<StackType>(SimulatedStack());

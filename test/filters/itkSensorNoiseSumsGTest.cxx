@@ -202,6 +202,10 @@ TEST(SensorNoiseSums, WhatDoesNotFitIsRefusedAndChangesNothing)
   const auto before = one.sums->GetSums();
   EXPECT_THROW(one.sums->AddFrames(FramesOf<StackType>(stack, 0, 5), 8), itk::ExceptionObject); // 8 and 9 are in
   EXPECT_THROW(one.sums->AddFrames(FramesOf<StackType>(stack, 0, 5), 21), itk::ExceptionObject);
+  const auto withoutPixels = SizeOf<StackType>(stack);
+  EXPECT_SAYS(ErrorWhen([&] { two.sums->AddFrames(withoutPixels, 0); }),
+              "the image of frames has a size but no pixels");
+  EXPECT_SAYS(ErrorWhen([&] { Sums<StackType>::RecogniseBayerPattern(withoutPixels); }), "the image has no pixels");
   EXPECT_THROW(one.sums->EndPass(), itk::ExceptionObject);
   two.sums->AddFrames(FramesOf<StackType>(stack, 9, 16), 9);
   EXPECT_THROW(one.sums->MergeSums(two.sums->GetSums()), itk::ExceptionObject); // both hold frame 9
