@@ -25,10 +25,10 @@ import itk
 MIB = 1 << 20
 
 
-def peak_mib() -> float:
-    """The most memory that this process had at a time."""
+def peak_mib(line_of: str = "VmHWM") -> float:
+    """The most memory that this process had at a time; with "VmRSS", what it has now."""
     lines = Path("/proc/self/status").read_text(encoding="utf-8").splitlines()
-    return next(int(line.split()[1]) for line in lines if line.startswith("VmHWM")) / 1024
+    return next(int(line.split()[1]) for line in lines if line.startswith(line_of)) / 1024
 
 
 def run_one(names: list[str], threads: int) -> dict[str, object]:
@@ -61,6 +61,7 @@ def run_workers(names: list[str], workers: int, memory_limit: str) -> dict[str, 
     options = {"threads_per_worker": 1, "dashboard_address": None, "memory_limit": memory_limit}
     with LocalCluster(n_workers=workers, **options) as cluster, Client(cluster) as client:
         client.run(load)
+        before = max(client.run(peak_mib, "VmRSS").values())
         began = time.perf_counter()
         report = estimate_sensor_noise(names, client, bayer="none")
         seconds = time.perf_counter() - began
@@ -68,6 +69,7 @@ def run_workers(names: list[str], workers: int, memory_limit: str) -> dict[str, 
     return {
         "seconds": seconds,
         "peak_mib": peak_mib(),
+        "before_mib": before,
         "workers_mib": peaks,
         "rounds": rounds.lines,
         "report": report.to_json(),
@@ -91,12 +93,12 @@ def in_fresh_process(names: list[str], *arguments: object) -> dict[str, object]:
     return found
 
 
-def write_frames(folder: str, size: int, frames: int) -> list[str]:
+def write_frames(folder: str, size: int, frames: int, pixels: str) -> list[str]:
     """Simulated frames on files."""
     stack = itk.simulate_sensor_noise(camera="B", condition=3, frames=frames, size=(size, size), seed=1)[0]
     names = [f"{folder}/{number:05}.mha" for number in range(frames)]
     for name, frame in zip(names, stack, strict=True):
-        itk.imwrite(itk.image_view_from_array(frame), name)
+        itk.imwrite(itk.image_view_from_array(frame.astype(pixels)), name)
     return names
 
 
@@ -111,7 +113,8 @@ def compare(names: list[str], workers: int, repeat: int, memory_limit: str) -> N
         print(f"turn {turn}: one process, {workers} threads {one['seconds']:.2f} s, {one['peak_mib']:.0f} MiB")
         print(f"        {workers} workers {many['seconds']:.2f} s, ratio {ratios[-1]:.2f}, {same}")
         peaks = ", ".join(f"{peak:.0f}" for peak in many["workers_mib"])
-        print(f"        peaks: driver {many['peak_mib']:.0f} MiB, workers {peaks} MiB")
+        before = f"{many['before_mib']:.0f} before they began"
+        print(f"        peaks: driver {many['peak_mib']:.0f} MiB, workers {peaks} MiB ({before})")
         for line in many["rounds"]:
             print(f"        {line}")
     print(f"one process over {workers} workers: {min(ratios):.2f} to {max(ratios):.2f}")
@@ -122,6 +125,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--size", type=int, default=2048, help="rows and columns of a frame [pixel]")
     parser.add_argument("--frames", type=int, default=400)
+    parser.add_argument("--pixels", default="uint16", choices=["uint16", "float32"], help="type of the pixels")
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--repeat", type=int, default=3)
     parser.add_argument("--memory-limit", default="auto", help="of a worker, as Dask has it: 4GiB")
@@ -141,9 +145,8 @@ def main() -> int:
         print_model(measure_steps(options.size, min(options.frames, 64)))
         return 0
     with tempfile.TemporaryDirectory(dir=options.folder) as folder:
-        compare(
-            write_frames(folder, options.size, options.frames), options.workers, options.repeat, options.memory_limit
-        )
+        names = write_frames(folder, options.size, options.frames, options.pixels)
+        compare(names, options.workers, options.repeat, options.memory_limit)
     return 0
 
 

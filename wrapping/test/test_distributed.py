@@ -131,6 +131,7 @@ def test_wrong_use_is_refused(client, stack):
         (stack, {"maps": "folder"}, "maps is 'folder'; expected True or False"),
         (stack, {"frames_per_task": 0}, "frames_per_task is 0"),
         (stack, {"method": "x"}, "method is 'x'"),
+        (stack, {"hash": True}, "hash is no setting of a cluster; expected some of method, offset"),
         ([stack[0], stack[1]], {}, "frames is of type list; expected a dask array"),
         (stack, {"frame_range": (0, 41)}, "frame_range ends at 41, but there are 40 frames"),
     ]:

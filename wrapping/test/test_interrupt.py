@@ -17,7 +17,7 @@ if progress:
     bar = itk_sensornoise._progress._PlainBar()
     bar.update = lambda percent: None
     bar.close = lambda: None
-    itk_sensornoise._progress._make_bar = lambda: bar
+    itk_sensornoise._progress.make_bar = lambda: bar
 
 
 def megabytes():
@@ -76,7 +76,7 @@ def test_error_of_an_observer_is_raised_as_it_is(burst, monkeypatch):
         def close(self):
             pass
 
-    monkeypatch.setattr(progress, "_make_bar", Broken)
+    monkeypatch.setattr(progress, "make_bar", Broken)
     with pytest.raises(ZeroDivisionError, match="the bar is broken"):
         itk.estimate_sensor_noise(burst, progress=True)
 

@@ -83,7 +83,7 @@ class Null:
     def close(self): pass
     n = 0
 import itk_sensornoise._progress as progress
-progress._make_bar = Null
+progress.make_bar = Null
 stack, _ = itk.simulate_sensor_noise(frames=40, size=(128, 96))
 mask = stack[0] > 0
 def call():

@@ -10,7 +10,7 @@ from typing import Protocol
 from ._types import ItkObject
 
 
-class _Bar(Protocol):
+class Bar(Protocol):
     """A bar that shows how many of 100 % are done, `n` of them."""
 
     n: int
@@ -35,12 +35,12 @@ class _PlainBar:
         sys.stderr.write("\n")
 
 
-def _make_bar() -> _Bar:
+def make_bar() -> Bar:
     try:
         from tqdm.auto import tqdm
     except ImportError:
         return _PlainBar()
-    bar: _Bar = tqdm(total=100, unit="%", desc="estimate_sensor_noise")
+    bar: Bar = tqdm(total=100, unit="%", desc="estimate_sensor_noise")
     return bar
 
 
@@ -51,7 +51,7 @@ class _Reads(Protocol):
 
 
 def _watch(
-    instance: ItkObject, bar: _Bar | None, caught: list[BaseException], stacks: tuple[_Reads, ...]
+    instance: ItkObject, bar: Bar | None, caught: list[BaseException], stacks: tuple[_Reads, ...]
 ) -> Generator[None, None, None]:
     """Each turn, which ITK asks for as the work goes on, runs Python: pending signals are handled, and the bar moves.
 
@@ -80,7 +80,7 @@ def at_work(instance: ItkObject, progress: bool = False, *stacks: _Reads) -> Ite
     """
     import itk
 
-    bar = _make_bar() if progress else None
+    bar = make_bar() if progress else None
     caught: list[BaseException] = []
     watch = _watch(instance, bar, caught, stacks)
     next(watch)

@@ -5,7 +5,6 @@
 import contextlib
 import inspect
 import json
-import time
 from collections.abc import Iterable, Iterator
 from itertools import islice
 from pathlib import Path
@@ -18,6 +17,7 @@ from ._journal import Journal, settings_record
 from ._sources import Source, Sources, named
 from ._table import Entry, Row, as_table, require_parquet, rows_of, write_parquet
 from ._task import Outcome, measure, measure_pickled, reason_of
+from ._watch import Watch, wait_for
 
 if TYPE_CHECKING:
     import distributed
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 # What each source would have of its own, or only a person before a screen.
 _NOT_OF_MANY = ("frames", "maps", "progress")
-_GONE = "Dask's scheduler went away, was restarted or cancelled the task; the same call goes on with a new client"
+_ADVICE = "the same call goes on with a new client"  # where the scheduler went away
 
 
 def estimate_many(
@@ -49,7 +49,9 @@ def estimate_many(
     client
         A dask.distributed.Client: each source is a task of its workers, measured by one thread (unless `threads` says
         otherwise). If its worker is killed, another one tries, as often as Dask's setting
-        distributed.scheduler.allowed-failures says. An iterator is not read further ahead than the workers need.
+        distributed.scheduler.allowed-failures says. A task takes the memory that its worker's memory_limit leaves, as
+        `memory_limit` of estimate_sensor_noise() does; a burst that needs more is a row with its reason. An iterator
+        is not read further ahead than the workers need.
         Default: one source after the other in this process, by all threads; Dask is not needed.
     output
         A file that ends in .jsonl: a line of JSON for each source as soon as it is measured, with `name`, `settings`,
@@ -78,7 +80,7 @@ def estimate_many(
     ImportError
         An output that ends in .parquet without PyArrow.
     RuntimeError
-        The scheduler of `client` went away.
+        The scheduler of `client` went away, or Dask paused its workers and nothing goes on for 30 s.
     KeyboardInterrupt
         Ctrl-C. After this and all other errors, what was measured is in `output`; the same call goes on.
     """
@@ -129,24 +131,29 @@ def _by_workers(
     import distributed
 
     completed = distributed.as_completed(loop=client.loop)
+    watch = Watch(client, _ADVICE)
+    done = 0
     names: dict[distributed.Future, str] = {}
     try:
         while True:
             taken = 0
-            for name, frames in islice(todo, max(_tasks_wanted(client) - len(names), 0)):
+            for name, frames in islice(todo, max(_tasks_wanted(client, watch) - len(names), 0)):
                 taken += 1
                 try:
                     pickled = cloudpickle.dumps(frames)
                 except Exception as error:  # noqa: BLE001 - of whatever package the source is of
                     yield name, Outcome(f"it cannot be pickled and sent to a worker: {reason_of(error)}", None)
                     continue
-                _require_scheduler(client)
+                watch.require_scheduler()
                 future = client.submit(measure_pickled, pickled, settings, pure=False)
                 names[future] = name
                 completed.add(future)
             if names:
-                future = _next_of(completed, client, names)
-                yield names.pop(future), _outcome(future)
+                while not completed.has_ready():  # next() would wait for ever where the scheduler goes away
+                    watch.wait(names, done)
+                future = next(completed)
+                done += 1
+                yield names.pop(future), _outcome(future, watch)
             elif not taken:
                 return
     finally:
@@ -154,44 +161,27 @@ def _by_workers(
             client.cancel(list(names))
 
 
-def _next_of(
-    completed: "distributed.as_completed", client: "distributed.Client", names: "Iterable[distributed.Future]"
-) -> "distributed.Future":
-    """The next future that is done. as_completed() waits for ever where the scheduler goes away meanwhile."""
-    while not completed.has_ready():
-        _require_scheduler(client)
-        lost = [future for future in names if future.status in ("cancelled", "lost")]
-        time.sleep(0.05)
-        if lost and not completed.has_ready():
-            return lost[0]
-    return next(completed)
-
-
-def _tasks_wanted(client: "distributed.Client") -> int:
+def _tasks_wanted(client: "distributed.Client", watch: Watch) -> int:
     """How many tasks keep all workers busy; 2 where there is no worker yet. Raises RuntimeError where there is no
     scheduler."""
-    _require_scheduler(client)
+    watch.require_scheduler()
     try:
         return 2 * max(sum(client.nthreads().values()), 1)
     except OSError as error:
-        raise RuntimeError(_GONE) from error
+        raise watch.gone() from error
 
 
-def _require_scheduler(client: "distributed.Client") -> None:
-    if client.status != "running":
-        raise RuntimeError(_GONE)
-
-
-def _outcome(future: "distributed.Future") -> Outcome:
+def _outcome(future: "distributed.Future", watch: Watch) -> Outcome:
     """What a task returned. Raises RuntimeError where it never will."""
     import distributed
 
+    wait_for([future], watch)  # its worker may have ended since
     try:
         outcome: Outcome = future.result()
     except distributed.KilledWorker:
         return Outcome("every worker that measured it was killed: it may need more memory than they have", None)
     except distributed.CancelledError as error:
-        raise RuntimeError(_GONE) from error
+        raise watch.gone() from error
     except Exception as error:  # noqa: BLE001 - of Dask, or of a worker without this package
         return Outcome(f"the worker failed: {reason_of(error)}", None)
     return outcome

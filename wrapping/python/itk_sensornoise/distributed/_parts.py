@@ -39,6 +39,12 @@ class Parts:
             count = min(count, max(1, _LARGEST_BLOCK // frame_bytes))
         return count
 
+    def block_bytes(self, count: int) -> int:
+        """Bytes of so many frames, where a task is given them; 0 where it reads them, a few at a time."""
+        if self.kind != "dask":
+            return 0
+        return count * self.shape[1] * self.shape[2] * np.dtype(self.dtype).itemsize
+
     def runs(self, count: int) -> list[tuple[int, int]]:
         """(first, end) of each task."""
         return [(first, min(first + count, self.shape[0])) for first in range(0, self.shape[0], count)]

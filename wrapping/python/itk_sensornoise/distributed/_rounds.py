@@ -2,23 +2,27 @@
 # SPDX-License-Identifier: Apache-2.0
 """estimate_sensor_noise() on the workers of Dask: a round for each pass over the frames."""
 
+import contextlib
 import logging
 import time
 import uuid
-from dataclasses import dataclass
+from dataclasses import dataclass, field, fields
 from typing import Any
 
 import numpy as np
 
 from .. import _options
 from .._channels import ChannelReports
+from .._progress import Bar, make_bar
 from .._report import Report
 from .._settings import Settings
 from .._sums import SensorNoiseSums, names_of
 from .._types import Frames
 from . import _worker
 from ._dask import require_distributed
+from ._memory import need_of_worker, require_memory
 from ._parts import Parts, parts_of
+from ._watch import Watch, results_of
 
 _LOG = logging.getLogger(__name__)
 _FAN = 8  # sums that a task merges
@@ -32,6 +36,7 @@ def estimate_sensor_noise(
     dark: Frames | None = None,
     raw: str | None = None,
     maps: bool = False,
+    progress: bool = False,
     **settings: Any,
 ) -> Report | ChannelReports:
     """Measures as itk.estimate_sensor_noise(), on the workers of a Dask cluster: for frames that lie on several
@@ -42,9 +47,9 @@ def estimate_sensor_noise(
     makes the report. After each round every worker fetches the merged sums, from each other: after the first 20 bytes a
     pixel (floating point: 32), after the second 16 kB a frame, after the third nothing. With 4 megapixels and 400
     frames these are 84 MB and 7 MB. They also are what tasks return, and in the third round 8 bytes a pixel and series
-    (4 to 20); "published" has less. A worker process needs, beside what Dask keeps, 56 bytes a pixel and 8 for each
-    series, 20 kB a frame, twice the sums, and 64 MiB or a task's block of dask's array; it works on one task at a
-    time, with as many threads as it has.
+    (4 to 20); "published" has less. A worker process needs some 400 MiB, 120 bytes a pixel (floating point: 220), 20 kB
+    a frame of the whole, and 64 MiB or a task's block of dask's array; it works on one task at a time, with as many
+    threads as it has.
 
     With integer pixels the report has the bits of one process, whatever is read by whom. With floating point it is
     equal to rounding, and has the same bits for the same `frames_per_task`, in whatever order tasks end. The sums of a
@@ -64,10 +69,13 @@ def estimate_sensor_noise(
         As itk.estimate_sensor_noise() has them. Every worker reads the dark frames.
     maps
         True: arrays of what is known of every pixel, as itk.estimate_sensor_noise(maps=True).
+    progress
+        Shows the progress: with tqdm if installed, else on standard error.
     settings
         method, offset, bayer, bit_depth, clip, step, level_range, rolling_shutter, shutter_axis, level, quantiles, roi,
         mask, frame_range and threads (of a worker; default: those that Dask gave it): as itk.estimate_sensor_noise().
-        For bayer="auto" the driver looks at the first frame.
+        For bayer="auto" the driver looks at the first frame. There is no `hash`: of all frames, one after the other,
+        it is no work for several.
 
     Raises
     ------
@@ -76,8 +84,9 @@ def estimate_sensor_noise(
     ValueError
         Wrong use; no client; a frame that no task brought, by its number.
     RuntimeError
-        What ITK threw; workers that ended again and again over one task, mostly for want of memory. What reading frames
-        raises on a worker is raised as it is.
+        What ITK threw; a worker whose memory_limit is below its need; workers that ended again and again over one task,
+        or that Dask paused so that nothing goes on for 30 s; a scheduler that went away or was restarted. What reading
+        frames raises on a worker is raised as it is.
     """
     distributed = require_distributed()
     if client is None:
@@ -90,6 +99,7 @@ def estimate_sensor_noise(
             ) from None
     if not isinstance(maps, bool):
         raise _options.refuse("maps", maps, "True or False")
+    _require_settings(settings)
     checked = Settings(**settings)
     checked.check(dark)
     if frames_per_task is not None:
@@ -108,55 +118,96 @@ def estimate_sensor_noise(
     sums.drop_history()
     run = _Run.of(client, parts, sums, frames_per_task)
     try:
+        if progress:
+            run.bar = make_bar()
         while sums.passes_ended < 3:
             run.go_round()
     except distributed.KilledWorker as error:
         raise RuntimeError(
             f"workers ended again and again over a task of pass {sums.passes_ended + 1}: {error}. Mostly it is memory: "
-            f"a worker needs up to {220 * parts.shape[1] * parts.shape[2] >> 20} MiB for frames of this size, and "
-            "twice the sums"
+            f"a worker needs some {run.need >> 20} MiB"
         ) from error
+    finally:
+        run.close()
     return sums.report(maps=maps)
+
+
+def _require_settings(settings: dict[str, Any]) -> None:
+    known = [each.name for each in fields(Settings)]
+    for name in settings:
+        if name not in known:
+            raise ValueError(f"{name} is no setting of a cluster; expected some of {', '.join(known)}")
 
 
 @dataclass
 class _Run:
-    """One measurement. `sums`: the driver's own; `ended`: futures of the merged sums of the passes behind."""
+    """One measurement. `sums`: the driver's own; `need`: bytes of a worker; `ended`: futures of the merged sums of the
+    passes behind; `asked`: those of the current one."""
 
     client: Any
     parts: Parts
     sums: SensorNoiseSums
     spans: list[tuple[int, int]]
+    need: int
     name: str
     start: Any
-    ended: list[Any]
+    watch: Watch
+    ended: list[Any] = field(default_factory=list)
+    asked: list[Any] = field(default_factory=list)
+    bar: Bar | None = None
 
     @classmethod
     def of(cls, client: Any, parts: Parts, sums: SensorNoiseSums, frames_per_task: int | None) -> "_Run":
-        spans = parts.runs(parts.per_task(len(client.ncores()) or 1, frames_per_task))
+        watch = Watch(client, "measure again, with a client of the new one")
+        watch.require_scheduler()
+        count = parts.per_task(len(client.ncores()) or 1, frames_per_task)
+        width, height, _ = sums._prepared.size
+        need = need_of_worker(width * height, parts.shape[0], parts.dtype, parts.block_bytes(count))
         name = f"sensor-noise-{uuid.uuid4().hex[:12]}"
         # A task, not data: if the worker that has it ends, another makes it again.
         start = client.submit(_worker.same, sums._given, key=f"{name}-start")
-        return cls(client, parts, sums, spans, name, start, [])
+        return cls(client, parts, sums, parts.runs(count), need, name, start, watch)
 
     def go_round(self) -> None:
-        """A pass: filled, merged, and ended here. Raises ValueError where a frame is missing."""
+        """A pass: filled, merged, and ended here. Raises ValueError where a frame is missing, RuntimeError where
+        workers have too little memory, or tasks never end."""
         began = time.monotonic()
         number = self.sums.passes_ended + 1
+        frames, height, width = self.parts.shape
+        require_memory(self.watch.workers(), self.need, f"{frames} frames of {width} x {height} pixels")
         looks, merged = self._submit(f"{self.name}-{number}", None)
-        seen = self.client.gather(looks)
+        seen = results_of(self.client, looks, self.watch, self._tell)
         self._require_all(seen)
         flags = _counted_elsewhere(seen, self.parts.shape[0]) if number == 1 else None
         if flags is not None:
             del merged
+            self.asked = []
             _LOG.info("pass 1 again: %d frames equal one of another task", np.count_nonzero(flags.any(axis=0)))
             looks, merged = self._submit(f"{self.name}-{number}-again", flags)
-        part = merged.result()
+        part = results_of(self.client, [merged], self.watch)[0]
         self.sums.merge(part.sums)
         self.sums.end_pass()
         self.ended.append(merged)
+        self._tell(0)
         took = time.monotonic() - began
         _LOG.info("pass %d: %d tasks, merged sums of %d bytes, %.2f s", number, len(seen), part.sums.nbytes, took)
+
+    def close(self) -> None:
+        """Asks for no more, also where a traceback keeps the futures, and lets workers forget the run."""
+        if self.bar is not None:
+            self.bar.close()
+        for future in (self.start, *self.ended, *self.asked):
+            future.release()
+        if self.client.status != "running":
+            return
+        with contextlib.suppress(OSError):  # the scheduler goes away just now
+            self.client.run(_worker.forget, self.name, wait=False, on_error="ignore")
+
+    def _tell(self, done: int) -> None:
+        """How far it is, when so many tasks of the pass have read their frames. Merging takes the rest of its time."""
+        if self.bar is not None:
+            passes = self.sums.passes_ended + 0.9 * done / len(self.spans)
+            self.bar.update(max(int(100 * passes / 3) - int(self.bar.n), 0))
 
     def _submit(self, key: str, flags: np.ndarray | None) -> tuple[list[Any], Any]:
         """Futures of what the driver is told of each part, and of the merged sums."""
@@ -171,6 +222,7 @@ class _Run:
                 for n, group in enumerate(groups)
             ]
             depth += 1
+        self.asked = [*looks, level[0]]
         return looks, level[0]
 
     def _merge(self, key: str, group: list[Any]) -> Any:

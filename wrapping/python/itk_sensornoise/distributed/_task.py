@@ -3,6 +3,7 @@
 """One source measured, here or by a worker of Dask; what goes wrong with it is a sentence, not an exception."""
 
 import pickle
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,6 +11,7 @@ import numpy as np
 from .._axes import in_time_order
 from .._estimate import estimate_sensor_noise
 from .._types import Frames
+from ._memory import memory_of_task
 
 
 class Outcome(NamedTuple):
@@ -19,10 +21,13 @@ class Outcome(NamedTuple):
     report: str | None  # the record as JSON
 
 
-def measure(source: Any, settings: dict[str, Any]) -> Outcome:
-    """Measures frames, or what a function without arguments returns."""
+def measure(source: Any, settings: dict[str, Any], memory_of: Callable[[Any], int | None] | None = None) -> Outcome:
+    """Measures frames, or what a function without arguments returns. `memory_of`: the memory_limit for them, unless the
+    settings have one."""
     try:
         frames = source() if callable(source) else source
+        if memory_of is not None and settings.get("memory_limit") is None:
+            settings = {**settings, "memory_limit": memory_of(frames)}
         return Outcome(None, estimate_sensor_noise(_read_here(frames), **settings).to_json())
     except Exception as error:  # noqa: BLE001 - of whatever package reads; one bad burst does not end the others
         return Outcome(reason_of(error), None)
@@ -30,12 +35,12 @@ def measure(source: Any, settings: dict[str, Any]) -> Outcome:
 
 def measure_pickled(source: bytes, settings: dict[str, Any]) -> Outcome:
     """The same in a worker. By one thread, unless the settings say otherwise: a worker runs as many tasks at a time as
-    it may use cores."""
+    it may use cores. With the memory that Dask lets it have."""
     try:
         unpickled = pickle.loads(source)
     except Exception as error:  # noqa: BLE001 - of whatever package the source is of
         return Outcome(f"the worker cannot unpickle it: {reason_of(error)}", None)
-    return measure(unpickled, {**settings, "threads": settings.get("threads") or 1})
+    return measure(unpickled, {**settings, "threads": settings.get("threads") or 1}, memory_of_task)
 
 
 def reason_of(error: BaseException) -> str:

@@ -98,6 +98,12 @@ def merge(run: str, start: dict[str, Any], ended: Sequence[Part], parts: Sequenc
         return _part(sums)
 
 
+async def forget(run: str) -> None:
+    """Gives back the memory of a run. A coroutine, for which Dask's client does not wait; without the lock, as it is
+    called beside tasks: one that is at work keeps its own."""
+    _STATE.pop(run, None)
+
+
 def same(value: Any) -> Any:
     """The value itself."""
     return value

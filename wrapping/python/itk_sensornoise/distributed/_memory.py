@@ -1,0 +1,115 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""The memory that tasks need, and that Dask lets its workers have."""
+
+from collections.abc import Collection
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import distributed
+
+_MIB = 1 << 20
+# Of a worker's process, measured: documentation/distributed.md.
+_PROCESS_BYTES = 400 * _MIB  # Python, ITK and Dask before the first task [bytes]
+_BYTES_PER_PIXEL = {"u": 120, "i": 120, "f": 220}  # sums and what is made of them, by the kind of pixels [bytes]
+_BYTES_PER_FRAME = 20_000  # of the whole [bytes]
+_CHUNK_BYTES = 64 * _MIB  # frames that are read together, of files and lazy frames [bytes]
+
+
+class WorkerState(NamedTuple):
+    """What the scheduler knows of a worker."""
+
+    address: str
+    limit: int  # its memory_limit [bytes]; 0: none
+    memory: int  # that its process has [bytes]
+    is_paused: bool  # begins no task, as its memory is near the limit
+    is_busy: bool  # a task runs, or data is on its way to one
+
+
+def worker_states(client: "distributed.Client") -> list[WorkerState]:
+    """Of all workers that are there. Raises OSError where the scheduler does not answer."""
+    try:
+        known = client.scheduler_info(n_workers=-1)
+    except TypeError:  # older than 2025.7, which tells of all
+        known = client.scheduler_info()
+    return [_state_of(address, worker) for address, worker in known.get("workers", {}).items()]
+
+
+def _state_of(address: str, worker: dict[str, Any]) -> WorkerState:
+    metrics = worker.get("metrics", {})
+    counts = metrics.get("task_counts", {})
+    busy = any(counts.get(state, 0) for state in ("executing", "long-running", "flight"))
+    paused = worker.get("status") == "paused"
+    return WorkerState(address, int(worker.get("memory_limit") or 0), int(metrics.get("memory", 0)), paused, busy)
+
+
+def need_of_worker(pixels: int, frames: int, dtype: str, block_bytes: int) -> int:
+    """Bytes of a worker's process for a round of estimate_sensor_noise(): `pixels` of a frame that are measured,
+    `frames` of the whole, and a block of dask's that a task is given, where it does not read by itself."""
+    of_sums = _BYTES_PER_PIXEL[np.dtype(dtype).kind] * pixels + _BYTES_PER_FRAME * frames
+    return _PROCESS_BYTES + of_sums + max(block_bytes, _CHUNK_BYTES)
+
+
+def require_memory(workers: Collection[WorkerState], need: int, of: str) -> None:
+    """Raises RuntimeError where a worker would be ended before it has the memory that it needs for a measurement `of`
+    something."""
+    usable = _share("terminate")
+    small = [worker for worker in workers if worker.limit and worker.limit * usable < need]
+    if small:
+        least = min(small, key=lambda worker: worker.limit)
+        raise RuntimeError(
+            f"{_counted(len(small), len(workers))} too little memory for {of}: {least.address} has a memory_limit of "
+            f"{_text(least.limit)}, of which Dask lets it use {usable:.0%}, and needs some {_text(need)}; expected a "
+            f"memory_limit of {_text(need / usable)} or more (with fewer workers of a machine), or a smaller roi"
+        )
+
+
+def stuck_sentence(workers: Collection[WorkerState], seconds: float) -> str:
+    """Why nothing goes on where workers are paused."""
+    paused = [worker for worker in workers if worker.is_paused]
+    fullest = max(paused, key=lambda worker: worker.memory)
+    return (
+        f"Dask paused {len(paused)} of {len(workers)} workers, as their memory is near its limit, and no task ended or "
+        f"ran for {seconds:.0f} s: {fullest.address} has {_text(fullest.memory)} of {_text(fullest.limit)}; expected "
+        "workers with a larger memory_limit, or without what else they hold (client.restart())"
+    )
+
+
+def memory_of_task(frames: object) -> int | None:
+    """Bytes that a task of this worker may take for a burst, beside the frames; None: no limit, or no worker. Raises
+    ValueError where there is nothing left for it."""
+    from distributed import get_worker
+
+    try:
+        worker = get_worker()
+    except ValueError:
+        return None
+    limit = getattr(worker.memory_manager, "memory_limit", None)
+    if not limit:
+        return None
+    usable = _share("pause") * int(limit)
+    held = int(frames.nbytes) if isinstance(frames, np.ndarray) else 0
+    left = (usable - _PROCESS_BYTES) / max(1, worker.state.nthreads) - held
+    if left < 1:
+        raise ValueError(
+            f"the worker has a memory_limit of {_text(int(limit))}, of which Dask lets it use {_text(usable)}: too "
+            f"little beside {_text(_PROCESS_BYTES)} of Python and ITK and {_text(held)} of frames"
+        )
+    return int(left)
+
+
+def _share(name: str) -> float:
+    """The share of memory_limit at which Dask does something with a worker; 1 if never. As it is set here."""
+    import dask
+
+    return float(dask.config.get(f"distributed.worker.memory.{name}", None) or 1.0)
+
+
+def _counted(some: int, all_of_them: int) -> str:
+    return "the worker has" if all_of_them == 1 else f"{some} of {all_of_them} workers have"
+
+
+def _text(size: float) -> str:
+    return f"{size / _MIB:,.0f} MiB"
