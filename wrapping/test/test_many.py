@@ -358,15 +358,24 @@ def test_a_burst_that_kills_its_workers_is_a_row(client, bursts):
     assert rows[0]["status"] == "measured"
 
 
-def test_a_scheduler_that_restarts_or_goes_away_is_told(client, bursts, tmp_path):
-    def sources(break_it):
+@pytest.mark.parametrize("breaks", ["restart", "close"])
+def test_a_scheduler_that_restarts_or_goes_away_is_told(breaks, bursts, tmp_path):
+    distributed = pytest.importorskip("distributed", reason="Dask's distributed is not installed")
+    mark = tmp_path / "over"
+
+    def sleep():
+        while not mark.exists():
+            time.sleep(0.05)
+
+    def sources(client):
         yield "a", bursts["a"]
-        yield "b", lambda: time.sleep(60)
-        break_it()
+        yield "b", sleep
+        client.restart(wait_for_workers=False) if breaks == "restart" else client.close()
         yield "c", bursts["c"]
 
-    with pytest.raises(RuntimeError, match="scheduler went away, was restarted"):
-        estimate_many(sources(lambda: client.restart(wait_for_workers=False)), client)
-    with pytest.raises(RuntimeError, match="scheduler went away, was restarted"):
-        estimate_many(sources(client.close), client, output=tmp_path / "x.jsonl")
+    options = {"n_workers": 1, "threads_per_worker": 2, "processes": False, "dashboard_address": None}
+    with distributed.LocalCluster(**options) as cluster, distributed.Client(cluster) as client:
+        with pytest.raises(RuntimeError, match="scheduler went away, was restarted.*; the same call goes on"):
+            estimate_many(sources(client), client, output=tmp_path / "x.jsonl")
+        mark.touch()
     assert len(rows_of(estimate_many({"a": bursts["a"]}, output=tmp_path / "x.jsonl"))) == 1
