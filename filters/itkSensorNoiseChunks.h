@@ -29,9 +29,10 @@ namespace itk
  * the caches, so that half and twice cost the same time, and small beside the maps of a large frame. */
 inline constexpr SizeValueType SensorNoiseChunkBytes = SizeValueType{ 32 } << 20;
 
-/** Bytes of a stack in memory that are worked on at a time: 256 MiB, about a second. What is made anew of the pixels,
- * and their sums, are read and written once each time: with a quarter of it an estimate takes 8 % longer. */
-inline constexpr SizeValueType SensorNoisePieceBytes = SizeValueType{ 256 } << 20;
+/** Bytes of a stack in memory that are worked on at a time: 128 MiB. Set by hand: an update ends within half a second
+ * when it is told to; what is made anew of the pixels, and their sums, are read and written once each time, so that
+ * half of it takes 8 % longer than all at once. */
+inline constexpr SizeValueType SensorNoisePieceBytes = SizeValueType{ 128 } << 20;
 
 /** Frames that are taken at a time at least, however large: so many are worked on together at the cost of one. */
 inline constexpr SizeValueType SensorNoiseLeastFrames = 4;

@@ -1,10 +1,20 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/base/FirstTouch.h"
 #include "sensornoise/base/FreeMemory.h"
+#include "helpers/StackTestHelper.h"
 
+#include <cstddef>
+#include <fstream>
 #include <gtest/gtest.h>
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
+
+#ifdef __linux__
+#  include <unistd.h>
+#endif
 
 using namespace sensornoise;
 
@@ -32,5 +42,40 @@ TEST(FreeMemory, MoreThanThereIsIsRefused)
   catch (const std::runtime_error & error)
   {
     EXPECT_EQ(std::string(error.what()).rfind("the test needs 1e+03 PB of memory, but ", 0), 0u) << error.what();
+  }
+}
+
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
+TEST(FreeMemory, WhatWasFreedBetweenPiecesInUseIsGivenBack)
+{
+  const auto residentBytes = [] {
+    std::size_t   pages = 0;
+    std::ifstream statm("/proc/self/statm");
+    statm >> pages >> pages; // all, and of these what is in memory
+    return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  };
+  constexpr std::size_t                           pieceBytes = 32768; // of the heap, not of mmap()
+  std::vector<std::unique_ptr<std::vector<char>>> pieces(2000);
+  for (auto & piece : pieces)
+  {
+    piece = std::make_unique<std::vector<char>>(pieceBytes, 'x');
+  }
+  const std::vector<char> above(pieceBytes, 'x');
+  for (std::size_t i = 0; i < pieces.size(); i += 2)
+  {
+    pieces[i].reset();
+  }
+  const std::size_t before = residentBytes();
+  GiveBackFreedMemory();
+  EXPECT_LT(residentBytes() + pieces.size() / 4 * pieceBytes, before); // half of what was freed, at least
+}
+#endif
+
+TEST(FirstTouch, AMapHasTheValueEverywhere)
+{
+  for (const std::size_t count : { 0, 1, 4096, 100003 })
+  {
+    EXPECT_EQ(MakeMap<double>(count, test::Threads(3)), std::vector<double>(count, 0.0));
+    EXPECT_EQ(MakeMap<short>(count, test::Threads(3), -7), std::vector<short>(count, -7));
   }
 }

@@ -234,11 +234,11 @@ TEST(TemporalStatisticsImageFilterPipeline, AbortThrowsAndTheNextUpdateIsRight)
   ExpectTheSameStatistics(filter, expected, "after an abort");
 }
 
-TEST(TemporalStatisticsImageFilterPipeline, AStackInMemoryIsAbortedWithinTheTimeOfAChunkToo)
+TEST(TemporalStatisticsImageFilterPipeline, AStackInMemoryIsAbortedWithinTheTimeOfAPiece)
 {
   using LongStack = itk::Image<unsigned char, 3>;
   const auto stack = LongStack::New();
-  stack->SetRegions(LongStack::SizeType{ { 1024, 1024, 160 } }); // 5 chunks of 32 MiB
+  stack->SetRegions(LongStack::SizeType{ { 2048, 2048, 160 } }); // 5 pieces of 128 MiB
   stack->Allocate();
   stack->FillBuffer(7);
   const auto filter = itk::TemporalStatisticsImageFilter<LongStack>::New();
