@@ -11,7 +11,8 @@ if TYPE_CHECKING:
     import distributed
 
 _MIB = 1 << 20
-# Of a worker's process, measured: documentation/distributed.md.
+# Of a worker's process, at the least, measured: documentation/distributed.md. The series of the third round come on
+# top, whose number nobody knows before.
 _PROCESS_BYTES = 400 * _MIB  # Python, ITK and Dask before the first task [bytes]
 _BYTES_PER_PIXEL = {"u": 120, "i": 120, "f": 220}  # sums and what is made of them, by the kind of pixels [bytes]
 _BYTES_PER_FRAME = 20_000  # of the whole [bytes]
@@ -46,7 +47,7 @@ def _state_of(address: str, worker: dict[str, Any]) -> WorkerState:
 
 
 def need_of_worker(pixels: int, frames: int, dtype: str, block_bytes: int) -> int:
-    """Bytes of a worker's process for a round of estimate_sensor_noise(): `pixels` of a frame that are measured,
+    """Bytes that a worker's process needs at least for estimate_sensor_noise(): `pixels` of a frame that are measured,
     `frames` of the whole, and a block of dask's that a task is given, where it does not read by itself."""
     of_sums = _BYTES_PER_PIXEL[np.dtype(dtype).kind] * pixels + _BYTES_PER_FRAME * frames
     return _PROCESS_BYTES + of_sums + max(block_bytes, _CHUNK_BYTES)
@@ -61,8 +62,8 @@ def require_memory(workers: Collection[WorkerState], need: int, of: str) -> None
         least = min(small, key=lambda worker: worker.limit)
         raise RuntimeError(
             f"{_counted(len(small), len(workers))} too little memory for {of}: {least.address} has a memory_limit of "
-            f"{_text(least.limit)}, of which Dask lets it use {usable:.0%}, and needs some {_text(need)}; expected a "
-            f"memory_limit of {_text(need / usable)} or more (with fewer workers of a machine), or a smaller roi"
+            f"{_text(least.limit)}, of which Dask lets it use {usable:.0%}, and needs at least {_text(need)}; expected "
+            f"a memory_limit of {_text(need / usable)} or more (with fewer workers of a machine), or a smaller roi"
         )
 
 

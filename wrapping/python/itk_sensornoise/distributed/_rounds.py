@@ -47,9 +47,9 @@ def estimate_sensor_noise(
     makes the report. After each round every worker fetches the merged sums, from each other: after the first 20 bytes a
     pixel (floating point: 32), after the second 16 kB a frame, after the third nothing. With 4 megapixels and 400
     frames these are 84 MB and 7 MB. They also are what tasks return, and in the third round 8 bytes a pixel and series
-    (4 to 20); "published" has less. A worker process needs some 400 MiB, 120 bytes a pixel (floating point: 220), 20 kB
-    a frame of the whole, and 64 MiB or a task's block of dask's array; it works on one task at a time, with as many
-    threads as it has.
+    (4 to 20); "published" has less. A worker process needs at least 400 MiB, 120 bytes a pixel (floating point: 220),
+    20 kB a frame of the whole, and 64 MiB or a task's block of dask's array, and in the third round up to six times the
+    sums that a task returns there. It works on one task at a time, with as many threads as it has.
 
     With integer pixels the report has the bits of one process, whatever is read by whom. With floating point it is
     equal to rounding, and has the same bits for the same `frames_per_task`, in whatever order tasks end. The sums of a
@@ -125,7 +125,7 @@ def estimate_sensor_noise(
     except distributed.KilledWorker as error:
         raise RuntimeError(
             f"workers ended again and again over a task of pass {sums.passes_ended + 1}: {error}. Mostly it is memory: "
-            f"a worker needs some {run.need >> 20} MiB"
+            f"a worker needs at least {run.need >> 20} MiB, and more where there are many series of light and motion"
         ) from error
     finally:
         run.close()
@@ -148,7 +148,7 @@ class _Run:
     parts: Parts
     sums: SensorNoiseSums
     spans: list[tuple[int, int]]
-    need: int
+    need: int  # at least
     name: str
     start: Any
     watch: Watch
