@@ -32,6 +32,11 @@ def cluster_of(**options):
     )
 
 
+def client_of(cluster):
+    """Not Dask's default: where the scheduler goes away, Dask would go on asking for it."""
+    return distributed.Client(cluster, set_as_default=False)
+
+
 class Read:
     """Frames that pickle; `read` is called with the first of those that are asked for."""
 
@@ -48,7 +53,7 @@ def test_too_little_memory_is_told_before_a_frame_is_read(stack, tmp_path):
     frames = Read(stack, lambda first: (tmp_path / "read").touch())
     with (
         cluster_of(memory_limit="300MiB") as cluster,
-        distributed.Client(cluster) as client,
+        client_of(cluster) as client,
         pytest.raises(RuntimeError, match="the worker has too little memory for 40 frames of 96 x 64 pixels") as told,
     ):
         estimate_sensor_noise(frames, client, bayer="none")
@@ -80,7 +85,7 @@ def pause(dask_worker):
 
 def test_workers_that_stay_paused_are_told(stack, monkeypatch):
     monkeypatch.setattr(_watch, "_PATIENCE_SECONDS", 1.0)
-    with cluster_of(n_workers=2, memory_limit=0) as cluster, distributed.Client(cluster) as client:
+    with cluster_of(n_workers=2, memory_limit=0) as cluster, client_of(cluster) as client:
         expected = itk.estimate_sensor_noise(stack, bayer="none")
         assert estimate_sensor_noise(stack, client, bayer="none") == expected
         client.run(pause)
@@ -137,7 +142,7 @@ def test_a_scheduler_that_goes_away_or_restarts_is_told(breaks, stack, tmp_path)
             time.sleep(0.05)
         cluster.close() if breaks == "close" else other.restart(wait_for_workers=False)
 
-    with cluster_of() as cluster, distributed.Client(cluster) as client, distributed.Client(cluster) as other:
+    with cluster_of() as cluster, client_of(cluster) as client, client_of(cluster) as other:
         breaker = threading.Thread(target=break_it)
         breaker.start()
         with pytest.raises(RuntimeError, match="scheduler went away, was restarted or cancelled the tasks; meas"):
@@ -149,14 +154,14 @@ def test_a_scheduler_that_goes_away_or_restarts_is_told(breaks, stack, tmp_path)
 
 def test_a_task_that_ends_its_workers_is_told(stack, monkeypatch):
     frames = Read(stack, lambda first: os.kill(os.getpid(), signal.SIGKILL))
-    with cluster_of(processes=True, memory_limit=0) as cluster, distributed.Client(cluster) as client:
+    with cluster_of(processes=True, memory_limit=0) as cluster, client_of(cluster) as client:
         monkeypatch.setattr(cluster.scheduler, "allowed_failures", 0)
         with pytest.raises(RuntimeError, match="^workers ended again and again over a task of pass 1.* least 465"):
             estimate_sensor_noise(frames, client, bayer="none")
 
 
 def test_workers_forget_a_run_that_is_over(stack):
-    with cluster_of(memory_limit=0) as cluster, distributed.Client(cluster) as client:
+    with cluster_of(memory_limit=0) as cluster, client_of(cluster) as client:
         for frames in (stack, Read(stack, fail_late)):
             try:
                 estimate_sensor_noise(frames, client, bayer="none", frames_per_task=10)
@@ -207,6 +212,6 @@ def test_progress_goes_to_100_percent(stack, monkeypatch):
 
     bar = Bar()
     monkeypatch.setattr(_rounds, "make_bar", lambda: bar)
-    with cluster_of(memory_limit=0) as cluster, distributed.Client(cluster) as client:
+    with cluster_of(memory_limit=0) as cluster, client_of(cluster) as client:
         estimate_sensor_noise(stack, client, bayer="none", frames_per_task=5, progress=True)
     assert bar.n == 100 and bar.steps.pop() == "closed" and min(bar.steps) >= 0

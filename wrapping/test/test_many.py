@@ -374,7 +374,7 @@ def test_a_scheduler_that_restarts_or_goes_away_is_told(breaks, bursts, tmp_path
         yield "c", bursts["c"]
 
     options = {"n_workers": 1, "threads_per_worker": 2, "processes": False, "dashboard_address": None}
-    with distributed.LocalCluster(**options) as cluster, distributed.Client(cluster) as client:
+    with distributed.LocalCluster(**options) as cluster, distributed.Client(cluster, set_as_default=False) as client:
         with pytest.raises(RuntimeError, match="scheduler went away, was restarted.*; the same call goes on"):
             estimate_many(sources(client), client, output=tmp_path / "x.jsonl")
         mark.touch()
