@@ -4,7 +4,6 @@
 
 #include "sensornoise/base/BinaryStream.h"
 #include "sensornoise/base/FirstTouch.h"
-#include "sensornoise/base/FreeMemory.h"
 #include "sensornoise/base/PixelUse.h"
 #include "sensornoise/moments/StackMaps.h"
 #include "sensornoise/report/RepeatedFrames.h"
@@ -98,8 +97,7 @@ PublishedMethod<TPixel>::FinishPass(unsigned int pass)
   else if (pass == 1 && m_Sums)
   {
     m_Flicker = EstimateFlicker(*m_Sums, m_Scene.bright, m_Scene.dark, m_Settings.rollingShutter, m_Settings.sigmaRows);
-    m_Sums.reset();
-    GiveBackFreedMemory(); // the most is needed from here on
+    m_Sums.reset(); // their memory
     m_Correction.emplace(m_Flicker, m_Geometry, m_Distinct.Count());
   }
   else if (pass + 1 == Passes::NumberOfPasses)
