@@ -61,9 +61,8 @@ FrameSample::AddFrames(const TPixel *              frames,
         const TPixel *    values = frames + (t - firstFrame) * m_FramePixels + pixel;
         if constexpr (std::is_integral_v<TPixel>)
         {
-          const int lowest = std::numeric_limits<TPixel>::lowest();
-          std::transform(values, values + m_Tiles.side, m_Codes.data() + place, [lowest](TPixel value) {
-            return static_cast<std::uint16_t>(value - lowest);
+          std::transform(values, values + m_Tiles.side, m_Codes.data() + place, [](TPixel value) {
+            return static_cast<std::uint16_t>(value - std::numeric_limits<TPixel>::lowest());
           });
         }
         else

@@ -32,7 +32,7 @@ AddPairProductsAvx2(const FramePairs &               frames,
                     double *                         sums)
 {
   constexpr std::size_t together = 4; // vectors, of eight pixels each
-  PairSums              products;
+  PairSums              products{};
   for (std::size_t i = 0; i < FramePairs::Padded(pixels); i += 8 * together)
   {
     __m256i low[together] = {};
