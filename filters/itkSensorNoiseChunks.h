@@ -19,14 +19,15 @@
 #define itkSensorNoiseChunks_h
 
 #include "itkIntTypes.h"
+#include "sensornoise/base/FramesTogether.h"
 
 #include <algorithm>
 
 namespace itk
 {
 
-/** Bytes of a stack that are read at a time: 32 MiB, unless SensorNoiseLeastFrames take more. Set by hand: far above
- * the caches, so that half and twice cost the same time, and small beside the maps of a large frame. */
+/** Bytes of a stack that are read at a time: 32 MiB, unless sensornoise::FramesTogether take more. Set by hand: far
+ * above the caches, so that half and twice cost the same time, and small beside the maps of a large frame. */
 inline constexpr SizeValueType SensorNoiseChunkBytes = SizeValueType{ 32 } << 20;
 
 /** Bytes of a stack in memory that are worked on at a time: 128 MiB. Set by hand: an update ends within half a second
@@ -34,14 +35,11 @@ inline constexpr SizeValueType SensorNoiseChunkBytes = SizeValueType{ 32 } << 20
  * half of it takes 8 % longer than all at once. */
 inline constexpr SizeValueType SensorNoisePieceBytes = SizeValueType{ 128 } << 20;
 
-/** Frames that are taken at a time at least, however large: so many are worked on together at the cost of one. */
-inline constexpr SizeValueType SensorNoiseLeastFrames = 4;
-
 /** How many frames of \a frameBytes bytes make a chunk, or another part of \a bytes bytes. */
 inline SizeValueType
 SensorNoiseFramesPerChunk(SizeValueType frameBytes, SizeValueType bytes = SensorNoiseChunkBytes)
 {
-  return std::max(SensorNoiseLeastFrames, bytes / std::max<SizeValueType>(1, frameBytes));
+  return std::max<SizeValueType>(sensornoise::FramesTogether, bytes / std::max<SizeValueType>(1, frameBytes));
 }
 
 } // namespace itk

@@ -3,6 +3,7 @@
 #ifndef sensornoise_mosaic_PlaneFrames_h
 #define sensornoise_mosaic_PlaneFrames_h
 
+#include "sensornoise/base/FramesTogether.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/mosaic/MosaicGeometry.h"
 
@@ -16,7 +17,7 @@ namespace sensornoise
 /** \class PlaneFrames
  * \brief Hands on the frames of a mosaic plane by plane, a few at a time.
  *
- * Holds those of one plane: at most 16 MiB, or four frames, which are worked on at the cost of one. */
+ * Holds those of one plane: at most 16 MiB, or FramesTogether. */
 template <typename TPixel>
 class PlaneFrames
 {
@@ -39,7 +40,7 @@ public:
   {
     constexpr std::size_t bytesTogether = std::size_t{ 16 } << 20;
     const std::size_t     pixels = m_Geometry.Plane().Pixels();
-    const std::size_t     most = std::max<std::size_t>(4, bytesTogether / (pixels * sizeof(TPixel)));
+    const std::size_t     most = std::max(FramesTogether, bytesTogether / (pixels * sizeof(TPixel)));
     for (std::size_t first = 0; first < count; first += most)
     {
       const std::size_t now = std::min(most, count - first);

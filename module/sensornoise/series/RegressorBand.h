@@ -4,6 +4,7 @@
 #define sensornoise_series_RegressorBand_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/base/FramesTogether.h"
 #include "sensornoise/series/FrameRegressors.h"
 
 #include <cstddef>
@@ -22,7 +23,7 @@ namespace sensornoise
 class SensorNoise_EXPORT RegressorBand
 {
 public:
-  static constexpr std::size_t Together = 4; // series whose sums stay in registers
+  static constexpr std::size_t Together = FramesTogether; // series whose sums stay in registers
 
   /** Of one group: sums[series][column]. */
   using Sums = std::array<FrameRegressors::WeightedColumns, Together>;

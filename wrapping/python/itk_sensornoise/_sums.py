@@ -18,8 +18,8 @@ from ._report import Report
 from ._settings import Settings, open_dark, prepare
 from ._types import Frame, Frames, ItkObject
 
-_CHUNK_BYTES = 64 << 20  # of files and lazy frames that are read together
-_LEAST_FRAMES = 4  # read together, however large: so many are worked on at the cost of one
+CHUNK_BYTES = 64 << 20  # of files and lazy frames that are read together
+LEAST_FRAMES = 4  # read together, however large: so many are worked on at the cost of one
 _CAMERA = "SensorNoise."  # begins the keys under which an image says what is known of its camera
 
 
@@ -165,7 +165,7 @@ class SensorNoiseSums:
             with itk_errors():
                 self._sums.AddFrames(stack.image, first)
             return
-        step = max(_LEAST_FRAMES, _CHUNK_BYTES // (width * height * np.dtype(self._pixel).itemsize))
+        step = max(LEAST_FRAMES, CHUNK_BYTES // (width * height * np.dtype(self._pixel).itemsize))
         for at in range(start, end, step):
             part = crop(stack, (x, y, at), (width, height, min(step, end - at)))
             with itk_errors():

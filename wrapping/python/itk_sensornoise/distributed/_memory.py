@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from .._sums import CHUNK_BYTES, LEAST_FRAMES
+
 if TYPE_CHECKING:
     import distributed
 
@@ -16,8 +18,6 @@ _MIB = 1 << 20
 _PROCESS_BYTES = 400 * _MIB  # Python, ITK and Dask before the first task [bytes]
 _BYTES_PER_PIXEL = {"u": 120, "i": 120, "f": 220}  # sums and what is made of them, by the kind of pixels [bytes]
 _BYTES_PER_FRAME = 20_000  # of the whole [bytes]
-_CHUNK_BYTES = 64 * _MIB  # frames that are read together, of files and lazy frames [bytes], or
-_LEAST_FRAMES = 4  # of them, if these are more
 
 
 class WorkerState(NamedTuple):
@@ -51,7 +51,7 @@ def need_of_worker(pixels: int, frames: int, dtype: str, block_bytes: int) -> in
     """Bytes that a worker's process needs at least for estimate_sensor_noise(): `pixels` of a frame that are measured,
     `frames` of the whole, and a block of dask's that a task is given, where it does not read by itself."""
     of_sums = _BYTES_PER_PIXEL[np.dtype(dtype).kind] * pixels + _BYTES_PER_FRAME * frames
-    chunk = max(_CHUNK_BYTES, _LEAST_FRAMES * pixels * np.dtype(dtype).itemsize)
+    chunk = max(CHUNK_BYTES, LEAST_FRAMES * pixels * np.dtype(dtype).itemsize)
     return _PROCESS_BYTES + of_sums + max(block_bytes, chunk)
 
 
