@@ -3,13 +3,13 @@
 #include "sensornoise/base/PolynomialFit.h"
 
 #include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/ValueRange.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <vector>
 
 namespace sensornoise
@@ -55,47 +55,16 @@ Solve(const std::array<double, 2 * VDegree + 1> & moments,
   }
 }
 
-/** The means of the pixels that take part. */
-struct MeanRange
-{
-  double      lowest{ std::numeric_limits<double>::infinity() };
-  double      highest{ -std::numeric_limits<double>::infinity() };
-  std::size_t pixels{ 0 };
-};
-
-MeanRange
-RangeOfMeans(const RegressionData & data, const ParallelFor & parallelFor)
-{
-  const auto parts = PartsOfBlocks<MeanRange>(data.pixels, parallelFor, [&](auto begin, auto end, auto & part) {
-    for (std::size_t p = begin; p < end; ++p)
-    {
-      if (data.Has(p))
-      {
-        part.lowest = std::min(part.lowest, data.mean[p]);
-        part.highest = std::max(part.highest, data.mean[p]);
-        ++part.pixels;
-      }
-    }
-  });
-  MeanRange  range;
-  for (const MeanRange & part : parts)
-  {
-    range.lowest = std::min(range.lowest, part.lowest);
-    range.highest = std::max(range.highest, part.highest);
-    range.pixels += part.pixels;
-  }
-  return range;
-}
-
 /** Least squares of degree 1 or 2; \a weight(mean) weighs a pixel. The abscissa is centred and scaled, so that the
  * normal equations are well conditioned. */
 template <int VDegree, typename TWeight>
 PolynomialFit
 FitPolynomial(const RegressionData & data, const ParallelFor & parallelFor, TWeight weight)
 {
-  PolynomialFit   fit;
-  const MeanRange range = RangeOfMeans(data, parallelFor);
-  fit.pixels = range.pixels;
+  PolynomialFit    fit;
+  const ValueRange range = RangeOverPixels(
+    data.pixels, parallelFor, [&](std::size_t p) { return data.Has(p); }, [&](std::size_t p) { return data.mean[p]; });
+  fit.pixels = range.values;
   if (fit.pixels <= VDegree || !(range.highest > range.lowest))
   {
     return fit;

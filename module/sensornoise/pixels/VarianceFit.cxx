@@ -62,11 +62,15 @@ VarianceFit::VarianceFit(const VarianceData &                data,
                          double                              blackDn)
   : m_Data(data)
   , m_ParallelFor(parallelFor)
-  , m_Freedoms(RangeOfFreedom(data, parallelFor))
+  , m_Freedoms(RangeOverPixels(
+      data.pixels,
+      parallelFor,
+      [&data](std::size_t p) { return data.mask[p] != 0; },
+      [&data](std::size_t p) { return static_cast<double>(data.freedom[p]); }))
   , m_Rule(rule)
   , m_BlackDn(blackDn)
 {
-  if (m_Freedoms.pixels >= InPixels.fewestPixelsOfFit)
+  if (m_Freedoms.values >= InPixels.fewestPixelsOfFit)
   {
     const std::optional<VarianceLine> first =
       start ? start : FitMedians(data, ChiSquareTrim(m_Freedoms.lowest, m_Freedoms.highest));
@@ -88,30 +92,6 @@ VarianceFit::VarianceFit(const VarianceData &                data,
       }
     }
   }
-}
-
-VarianceFit::FreedomRange
-VarianceFit::RangeOfFreedom(const VarianceData & data, const ParallelFor & parallelFor)
-{
-  const auto   parts = PartsOfBlocks<FreedomRange>(data.pixels, parallelFor, [&](auto begin, auto end, auto & part) {
-    for (std::size_t p = begin; p < end; ++p)
-    {
-      if (data.mask[p] != 0)
-      {
-        part.lowest = std::min(part.lowest, static_cast<double>(data.freedom[p]));
-        part.highest = std::max(part.highest, static_cast<double>(data.freedom[p]));
-        ++part.pixels;
-      }
-    }
-  });
-  FreedomRange range;
-  for (const FreedomRange & part : parts)
-  {
-    range.lowest = std::min(range.lowest, part.lowest);
-    range.highest = std::max(range.highest, part.highest);
-    range.pixels += part.pixels;
-  }
-  return range;
 }
 
 ChiSquareTrim

@@ -6,6 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/ValueRange.h"
 #include "sensornoise/pixels/ChiSquareTrim.h"
 #include "sensornoise/pixels/VarianceCurve.h"
 #include "sensornoise/pixels/VarianceLine.h"
@@ -14,7 +15,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -106,14 +106,6 @@ public:
   }
 
 private:
-  /** The degrees of freedom of the mask's pixels. */
-  struct FreedomRange
-  {
-    double      lowest{ std::numeric_limits<double>::infinity() };
-    double      highest{ 0.0 };
-    std::size_t pixels{ 0 };
-  };
-
   /** What pixels that lie one after the other count for, of the mask or not: weighed together, in vectors. */
   struct Run
   {
@@ -163,8 +155,6 @@ private:
   void
   FindSpread(std::size_t first, std::size_t pixels, SpreadTerms & terms) const;
 
-  static FreedomRange
-  RangeOfFreedom(const VarianceData & data, const ParallelFor & parallelFor);
   ChiSquareTrim
   MakeTrim() const;
 
@@ -180,7 +170,7 @@ private:
 
   VarianceData                 m_Data;
   ParallelFor                  m_ParallelFor;
-  FreedomRange                 m_Freedoms;
+  ValueRange                   m_Freedoms; // degrees of freedom of the mask's pixels
   VarianceLine                 m_Line;
   std::optional<ChiSquareTrim> m_Trim;
   TrimRule                     m_Rule;
