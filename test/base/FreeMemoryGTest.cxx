@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/base/FirstTouch.h"
 #include "sensornoise/base/FreeMemory.h"
-#include "helpers/StackTestHelper.h"
 
 #include <cstddef>
 #include <fstream>
@@ -70,12 +68,3 @@ TEST(FreeMemory, WhatWasFreedBetweenPiecesInUseIsGivenBack)
   EXPECT_LT(residentBytes() + pieces.size() / 4 * pieceBytes, before); // half of what was freed, at least
 }
 #endif
-
-TEST(FirstTouch, AMapHasTheValueEverywhere)
-{
-  for (const std::size_t count : { 0, 1, 4096, 100003 })
-  {
-    EXPECT_EQ(MakeMap<double>(count, test::Threads(3)), std::vector<double>(count, 0.0));
-    EXPECT_EQ(MakeMap<short>(count, test::Threads(3), -7), std::vector<short>(count, -7));
-  }
-}

@@ -5,7 +5,6 @@
 
 #include "sensornoise/base/Parallel.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <type_traits>
 #include <vector>

@@ -22,6 +22,15 @@ struct PairSums
   alignas(32) std::int32_t high[FramePairs::MostPixels];
 };
 
+inline void
+AddTo(double * sums, const PairSums & products, double more, std::size_t pixels)
+{
+  for (std::size_t i = 0; i < pixels; ++i)
+  {
+    sums[i] += more + PairWeights::Step * products.high[i] + products.low[i];
+  }
+}
+
 #if defined(__GNUC__) && defined(__x86_64__)
 /** One instruction multiplies sixteen values and adds those of a pixel; compilers do not find it by themselves. */
 __attribute__((target("avx2"))) void
@@ -54,10 +63,7 @@ AddPairProductsAvx2(const FramePairs &               frames,
       *reinterpret_cast<__m256i *>(products.high + i + 8 * n) = high[n];
     }
   }
-  for (std::size_t i = 0; i < pixels; ++i)
-  {
-    sums[i] += more + PairWeights::Step * products.high[i] + products.low[i];
-  }
+  AddTo(sums, products, more, pixels);
 }
 #endif
 
@@ -92,10 +98,7 @@ AddPairProductsOneByOne(const FramePairs &               frames,
       products.high[i] += first * w.high[0] + second * w.high[1];
     }
   }
-  for (std::size_t i = 0; i < pixels; ++i)
-  {
-    sums[i] += more + PairWeights::Step * products.high[i] + products.low[i];
-  }
+  AddTo(sums, products, more, pixels);
 }
 
 void
