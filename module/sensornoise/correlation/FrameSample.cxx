@@ -151,7 +151,7 @@ FrameSample::TakeNoise(const std::vector<double> & mean, const ParallelFor & par
                      [this](std::uint16_t code, double ofPixel) { return AboveMean(m_Lowest + code, ofPixel); });
     }
   });
-  m_Codes = {};
+  std::exchange(m_Codes, {}); // "= {}" would keep the memory
   return { std::exchange(m_Tiles, {}), m_Width, std::move(noise) };
 }
 
