@@ -5,6 +5,7 @@
 #include "sensornoise/correlation/Constants.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -36,6 +37,36 @@ BasisOf(const Eigen::MatrixXd & series, std::size_t frames)
     }
   }
   return basis;
+}
+
+/** Rows of values that are added while a sum is in a register. */
+constexpr std::size_t Together = 4;
+using Weights = std::array<float, Together>;
+
+/** Adds the first \a count of Together rows of \a size values, times their weights, to \a sum, one after the other. */
+void
+AddWeighed(const float * rows, const Weights & weights, std::size_t count, std::size_t size, float * sum)
+{
+  if (count < Together)
+  {
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      for (std::size_t p = 0; p < size; ++p)
+      {
+        sum[p] += weights[k] * rows[k * size + p];
+      }
+    }
+    return;
+  }
+  for (std::size_t p = 0; p < size; ++p)
+  {
+    float own = sum[p];
+    for (std::size_t k = 0; k < Together; ++k)
+    {
+      own += weights[k] * rows[k * size + p];
+    }
+    sum[p] = own;
+  }
 }
 
 /** A curve through points of growing x. */
@@ -123,31 +154,32 @@ NoiseResiduals::ProjectTile(std::size_t i)
   const std::size_t  size = this->GetTiles().Pixels();
   const std::size_t  frames = this->GetTiles().frames;
   float *            values = m_Sample.OfTile(i);
-  std::vector<float> coordinates(static_cast<std::size_t>(m_Basis.cols()) * size, 0.0F);
-  for (std::size_t t = 0; t < frames; ++t)
+  const auto         series = static_cast<std::size_t>(m_Basis.cols());
+  std::vector<float> coordinates(series * size, 0.0F);
+  for (std::size_t t = 0; t < frames; t += Together)
   {
-    for (Eigen::Index j = 0; j < m_Basis.cols(); ++j)
+    const std::size_t together = std::min(Together, frames - t);
+    for (std::size_t j = 0; j < series; ++j)
     {
-      const auto    q = static_cast<float>(m_Basis(static_cast<Eigen::Index>(t), j));
-      float *       sum = coordinates.data() + static_cast<std::size_t>(j) * size;
-      const float * value = values + t * size;
-      for (std::size_t p = 0; p < size; ++p)
+      Weights weights;
+      for (std::size_t k = 0; k < together; ++k)
       {
-        sum[p] += q * value[p];
+        weights[k] = static_cast<float>(m_Basis(static_cast<Eigen::Index>(t + k), static_cast<Eigen::Index>(j)));
       }
+      AddWeighed(values + t * size, weights, together, size, coordinates.data() + j * size);
     }
   }
   for (std::size_t t = 0; t < frames; ++t)
   {
-    for (Eigen::Index j = 0; j < m_Basis.cols(); ++j)
+    for (std::size_t j = 0; j < series; j += Together)
     {
-      const auto    q = static_cast<float>(m_Basis(static_cast<Eigen::Index>(t), j));
-      const float * coordinate = coordinates.data() + static_cast<std::size_t>(j) * size;
-      float *       value = values + t * size;
-      for (std::size_t p = 0; p < size; ++p)
+      const std::size_t together = std::min(Together, series - j);
+      Weights           weights;
+      for (std::size_t k = 0; k < together; ++k)
       {
-        value[p] -= q * coordinate[p];
+        weights[k] = -static_cast<float>(m_Basis(static_cast<Eigen::Index>(t), static_cast<Eigen::Index>(j + k)));
       }
+      AddWeighed(coordinates.data() + j * size, weights, together, size, values + t * size);
     }
   }
 }
