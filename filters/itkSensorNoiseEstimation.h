@@ -82,9 +82,14 @@ struct SensorNoiseEstimation
   std::optional<SensorNoiseMosaic>                                 mosaic{};
   std::vector<DarkMapsPointer> dark{}; ///< of each plane; null: fewer than two frames
 
-  /** The method that has the \a settings, before its first pass. A memory limit is that of all planes. */
+  /** The method that has the \a settings, before its first pass. A memory limit is that of all planes. \a parallelFor
+   * has \a threads threads. \a mayTakeTurns: see MosaicMethod::LetRowsTakeTurns(). */
   static SensorNoiseEstimation
-  Start(const Settings & settings, const SensorNoiseStack & stack, const sensornoise::ParallelFor & parallelFor)
+  Start(const Settings &                 settings,
+        const SensorNoiseStack &         stack,
+        const sensornoise::ParallelFor & parallelFor,
+        std::size_t                      threads,
+        bool                             mayTakeTurns)
   {
     const auto start = [&](const auto & ofStack) -> decltype(method) {
       constexpr bool isRefined = std::is_same_v<decltype(ofStack), const sensornoise::RefinedSettings &>;
@@ -107,7 +112,12 @@ struct SensorNoiseEstimation
       const auto makeOfPlane = [&](sensornoise::BayerPlane plane, const sensornoise::ParallelFor & spread) {
         return make(static_cast<std::size_t>(plane), planes.Plane(), planes.Take(stack.mask, plane), spread);
       };
-      return sensornoise::MosaicMethod<TPixel, OfFrame>(planes, makeOfPlane, parallelFor);
+      sensornoise::MosaicMethod<TPixel, OfFrame> ofMosaic(planes, makeOfPlane, parallelFor, threads);
+      if (mayTakeTurns)
+      {
+        ofMosaic.LetRowsTakeTurns({});
+      }
+      return ofMosaic;
     };
     SensorNoiseEstimation started{ std::visit(start, settings), stack.mosaic };
     for (const auto & offset : stack.offsets)
@@ -220,18 +230,16 @@ struct SensorNoiseEstimation
   {
     return std::visit(
       [&](auto & atWork) {
-        std::vector<T> map;
         if constexpr (IsOfWholeFrame<decltype(std::as_const(atWork))>)
         {
-          map = mapOf(atWork);
+          std::vector<T> map = mapOf(atWork);
           map.resize(pixels, missing);
+          return map;
         }
         else
         {
-          map.resize(pixels);
-          atWork.WriteMap(mapOf, missing, map.data());
+          return atWork.JoinMaps(mapOf, missing);
         }
-        return map;
       },
       method);
   }

@@ -496,6 +496,10 @@ protected:
 private:
   friend class SensorNoiseSums<TStack>; // goes through the passes itself
 
+  /** \a mayTakeTurns: the rows of a mosaic may be projected one after the other, MosaicMethod::LetRowsTakeTurns(). */
+  void
+  StartEstimation(bool mayTakeTurns);
+
   // The six maps of the dark frames stand after the others.
   static constexpr DataObjectPointerArraySizeType FirstPixelOutput = 5;
   static constexpr DataObjectPointerArraySizeType ChannelReportsOutput = FirstPixelOutput + 6;

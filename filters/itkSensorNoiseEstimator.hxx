@@ -152,6 +152,13 @@ template <typename TStack>
 void
 SensorNoiseEstimator<TStack>::StartPasses()
 {
+  this->StartEstimation(m_MemoryLimit == 0);
+}
+
+template <typename TStack>
+void
+SensorNoiseEstimator<TStack>::StartEstimation(bool mayTakeTurns)
+{
   const auto       size = this->GetFrameRegion().GetSize();
   SensorNoiseStack stack{ { size[0], size[1], m_ShutterAxis }, this->GetNumberOfFrames(), {}, {}, {} };
   if (const MaskImageType * mask = this->GetMask())
@@ -167,7 +174,8 @@ SensorNoiseEstimator<TStack>::StartPasses()
   using Work = SensorNoiseEstimation<PixelType>;
   const auto settings = m_Method == MethodEnum::Refined ? typename Work::Settings(this->MakeRefinedSettings())
                                                         : typename Work::Settings(this->MakePublishedSettings());
-  m_Estimation = std::make_unique<Estimation>(Estimation{ Work::Start(settings, stack, this->GetParallelFor()) });
+  m_Estimation = std::make_unique<Estimation>(
+    Estimation{ Work::Start(settings, stack, this->GetParallelFor(), this->GetNumberOfThreads(), mayTakeTurns) });
 }
 
 template <typename TStack>

@@ -127,6 +127,9 @@ protected:
   /** Spreads work over this filter's threads. Throws ProcessAborted, before that, if an abort was asked for. */
   sensornoise::ParallelFor
   GetParallelFor();
+  /** That it spreads work over. */
+  std::size_t
+  GetNumberOfThreads() const;
 
   /** The region of a frame, and the geometry of the stack's first two axes for a frame-sized output. */
   FrameRegionType

@@ -82,6 +82,13 @@ SensorNoiseStackSink<TStack>::GetParallelFor()
 }
 
 template <typename TStack>
+std::size_t
+SensorNoiseStackSink<TStack>::GetNumberOfThreads() const
+{
+  return std::min<std::size_t>(this->GetNumberOfWorkUnits(), this->GetMultiThreader()->GetMaximumNumberOfThreads());
+}
+
+template <typename TStack>
 void
 SensorNoiseStackSink<TStack>::TakeBreath()
 {

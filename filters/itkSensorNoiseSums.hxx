@@ -86,7 +86,7 @@ SensorNoiseSums<TStack>::Start(EstimatorType * estimator, const std::string & re
     estimator->SetBayerPattern(recognised);
     estimator->m_BayerSource = sensornoise::BayerSource::Levels;
   }
-  WithItkErrors(this, [&] { estimator->StartPasses(); });
+  WithItkErrors(this, [&] { estimator->StartEstimation(false); });
   m_Estimator = estimator;
   this->Modified();
 }

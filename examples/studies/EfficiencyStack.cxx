@@ -130,10 +130,9 @@ CompareMosaic(const MosaicGeometry & mosaic, const Scene & scene, const StackSim
     method.AddFrames(stack.data(), frames);
     method.EndPass();
   }
-  std::vector<std::uint8_t> use(scene.values.size());
-  method.WriteMap([](const auto & ofPlane) -> const auto & { return ofPlane.GetPixelUse(); },
-                  static_cast<std::uint8_t>(PixelUse::Border),
-                  use.data());
+  const std::vector<std::uint8_t> use =
+    method.JoinMaps([](const auto & ofPlane) -> const auto & { return ofPlane.GetPixelUse(); },
+                    static_cast<std::uint8_t>(PixelUse::Border));
   const std::vector<double>       electrons = ElectronsAtRest(scene, truth.settings);
   const std::vector<std::uint8_t> mask = MaskOfUnclipped(use, scene.values.size());
   const ChannelReports            reports = MakeChannelReports(mosaic.pattern, BayerSource::Given, method.GetReports());

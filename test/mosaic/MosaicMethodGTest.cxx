@@ -56,7 +56,7 @@ MakeMethod(const FrameGeometry &             frame,
 /** Runs a method through its passes, \a chunk frames at a time. */
 template <typename TMethod>
 void
-Run(TMethod & method, const Stack<Pixel> & stack, std::size_t chunk)
+RunPasses(TMethod & method, const Stack<Pixel> & stack, std::size_t chunk)
 {
   for (unsigned int pass = 0; pass < TMethod::NumberOfPasses; ++pass)
   {
@@ -94,18 +94,16 @@ TYPED_TEST(MosaicMethodOf, FindsOfEachPlaneWhatItFindsOfItAlone)
         return MakeMethod<TypeParam>(geometry.Plane(), stack.frames, geometry.Take(mask, plane), parallelFor);
       },
       threads);
-    Run(mosaic, stack, 7);
+    RunPasses(mosaic, stack, 7);
     const auto                reports = mosaic.GetReports();
     constexpr double          nan = std::numeric_limits<double>::quiet_NaN();
-    std::vector<double>       mean(mask.size());
-    std::vector<double>       corrected(mask.size());
-    std::vector<std::uint8_t> use(mask.size());
-    mosaic.WriteMap([](const auto & method) -> const auto & { return method.GetMean(); }, nan, mean.data());
-    mosaic.WriteMap(
-      [](const auto & method) -> const auto & { return method.GetCorrectedVariance(); }, nan, corrected.data());
-    mosaic.WriteMap([](const auto & method) -> const auto & { return method.GetPixelUse(); },
-                    static_cast<std::uint8_t>(PixelUse::Border),
-                    use.data());
+    const std::vector<double> mean =
+      mosaic.JoinMaps([](const auto & method) -> const auto & { return method.GetMean(); }, nan);
+    const std::vector<double> corrected =
+      mosaic.JoinMaps([](const auto & method) -> const auto & { return method.GetCorrectedVariance(); }, nan);
+    const std::vector<std::uint8_t> use =
+      mosaic.JoinMaps([](const auto & method) -> const auto & { return method.GetPixelUse(); },
+                      static_cast<std::uint8_t>(PixelUse::Border));
     for (const BayerPlane plane : BayerPlanes)
     {
       Stack<Pixel> alone{ geometry.Plane().width, geometry.Plane().height, stack.frames, {} };
@@ -116,7 +114,7 @@ TYPED_TEST(MosaicMethodOf, FindsOfEachPlaneWhatItFindsOfItAlone)
         alone.pixels.insert(alone.pixels.end(), frame.begin(), frame.end());
       }
       auto method = MakeMethod<TypeParam>(geometry.Plane(), stack.frames, geometry.Take(mask, plane), SerialFor);
-      Run(method, alone, stack.frames);
+      RunPasses(method, alone, stack.frames);
       EXPECT_EQ(ToJson(reports.at(static_cast<std::size_t>(plane))), ToJson(method.GetReport())) << NameOf(plane);
       EXPECT_TRUE(HaveSameBits(geometry.Take(mean, plane), method.GetMean()));
       EXPECT_TRUE(HaveSameBits(geometry.Take(corrected, plane), method.GetCorrectedVariance()));
@@ -124,6 +122,45 @@ TYPED_TEST(MosaicMethodOf, FindsOfEachPlaneWhatItFindsOfItAlone)
     }
     EXPECT_TRUE(std::isnan(mean[96]));
     EXPECT_EQ(use[96], static_cast<std::uint8_t>(PixelUse::Border));
+  }
+}
+
+TEST(MosaicMethod, RowsThatTakeTurnsFindTheSame)
+{
+  using Method = RefinedMethod<Pixel>;
+  const Stack<Pixel>   stack = SimulateMosaic(BayerPattern::GRBG, 96, 90);
+  const MosaicGeometry geometry{ { stack.width, stack.height, 1 }, BayerPattern::GRBG };
+  const auto           make = [&](BayerPlane, const ParallelFor & parallelFor) {
+    return MakeMethod<Method>(geometry.Plane(), stack.frames, {}, parallelFor);
+  };
+  MosaicMethod<Pixel, Method> together(geometry, make);
+  RunPasses(together, stack, stack.frames);
+  ASSERT_TRUE(together.IsDone());
+  const auto threads = Threads(3);
+  // By plane with fewer threads than planes, else plane after plane.
+  for (const std::size_t number : { 2, 3 })
+  {
+    MosaicMethod<Pixel, Method> inTurns(geometry, make, threads, number);
+    inTurns.LetRowsTakeTurns({ 0, 0 });
+    RunPasses(inTurns, stack, 7);
+    EXPECT_FALSE(inTurns.IsDone());
+    EXPECT_TRUE(inTurns.GetMethods()[1].IsDone());
+    inTurns.AddFrames(stack.Frame(0), stack.frames);
+    inTurns.EndPass();
+    ASSERT_TRUE(inTurns.IsDone());
+    for (std::size_t k = 0; k < BayerPlanes.size(); ++k)
+    {
+      EXPECT_EQ(ToJson(inTurns.GetReports().at(k)), ToJson(together.GetReports().at(k)));
+      EXPECT_TRUE(
+        HaveSameBits(inTurns.GetMethods()[k].GetCorrectedVariance(), together.GetMethods()[k].GetCorrectedVariance()));
+    }
+  }
+  for (const auto & [ofPixel, bytes] : { std::pair<std::size_t, std::size_t>{ 100, 0 }, { 0, 1'000'000'000 } })
+  {
+    MosaicMethod<Pixel, Method> notMany(geometry, make);
+    notMany.LetRowsTakeTurns({ ofPixel, bytes });
+    RunPasses(notMany, stack, stack.frames);
+    EXPECT_TRUE(notMany.IsDone());
   }
 }
 
@@ -163,6 +200,7 @@ namespace
 struct MorePassesInEachPlane
 {
   static constexpr unsigned int NumberOfPasses = 3;
+  static constexpr bool         HasManySums = false;
 
   std::size_t passes;
   std::size_t frames{ 0 };

@@ -34,43 +34,49 @@ struct MosaicGeometry
   Take(const std::vector<T> & ofFrame, BayerPlane plane) const
   {
     std::vector<T> ofPlane(ofFrame.empty() ? 0 : this->Plane().Pixels());
-    this->ForPixels(plane, [&](std::size_t inPlane, std::size_t inFrame) {
-      if (!ofPlane.empty())
-      {
-        ofPlane[inPlane] = ofFrame[inFrame];
-      }
-    });
+    if (!ofPlane.empty())
+    {
+      this->ForPixels(
+        plane, SerialFor, [&](std::size_t inPlane, std::size_t inFrame) { ofPlane[inPlane] = ofFrame[inFrame]; });
+    }
     return ofPlane;
   }
 
   /** Writes the plane's values where they stand in the frame. Nothing, if there are none. */
   template <typename T>
   void
-  Put(const std::vector<T> & ofPlane, BayerPlane plane, T * ofFrame) const
+  Put(const std::vector<T> & ofPlane, BayerPlane plane, T * ofFrame, const ParallelFor & parallelFor = SerialFor) const
   {
-    this->ForPixels(plane, [&](std::size_t inPlane, std::size_t inFrame) {
-      if (!ofPlane.empty())
-      {
-        ofFrame[inFrame] = ofPlane[inPlane];
-      }
-    });
+    if (!ofPlane.empty())
+    {
+      this->ForPixels(
+        plane, parallelFor, [&](std::size_t inPlane, std::size_t inFrame) { ofFrame[inFrame] = ofPlane[inPlane]; });
+    }
   }
 
-  /** Copies one plane of \a count frames, one after the other, to \a to, which has room for them. */
+  /** Copies the two planes that stand in the same rows, of \a count frames that lie one after the other: those of the
+   * red rows, R and G1, or of the blue ones, G2 and B. There must be room for each of them in \a to. */
   template <typename TPixel>
   void
-  TakeFrames(const TPixel * frames, std::size_t count, BayerPlane plane, TPixel * to, const ParallelFor & parallelFor)
-    const
+  TakeFrames(const TPixel * frames,
+             std::size_t    count,
+             bool           areRedRows,
+             TPixel * const (&to)[2],
+             const ParallelFor & parallelFor) const
   {
     const FrameGeometry              size = this->Plane();
-    const std::array<std::size_t, 2> corner = CornerOf(pattern, plane);
+    const std::array<std::size_t, 2> corner = CornerOf(pattern, areRedRows ? BayerPlane::R : BayerPlane::G2);
+    TPixel * const                   left = to[corner[0]];
+    TPixel * const                   right = to[1 - corner[0]];
     parallelFor(count * size.height, [&](std::size_t row) {
       const std::size_t y = 2 * (row % size.height) + corner[1];
-      const TPixel *    from = frames + row / size.height * frame.Pixels() + y * frame.width + corner[0];
-      TPixel *          toRow = to + row * size.width;
+      const TPixel *    from = frames + row / size.height * frame.Pixels() + y * frame.width;
+      TPixel *          toLeft = left + row * size.width;
+      TPixel *          toRight = right + row * size.width;
       for (std::size_t x = 0; x < size.width; ++x)
       {
-        toRow[x] = from[2 * x];
+        toLeft[x] = from[2 * x];
+        toRight[x] = from[2 * x + 1];
       }
     });
   }
@@ -78,17 +84,16 @@ struct MosaicGeometry
 private:
   template <typename TFunction>
   void
-  ForPixels(BayerPlane plane, TFunction function) const
+  ForPixels(BayerPlane plane, const ParallelFor & parallelFor, TFunction function) const
   {
     const FrameGeometry              size = this->Plane();
     const std::array<std::size_t, 2> corner = CornerOf(pattern, plane);
-    for (std::size_t y = 0; y < size.height; ++y)
-    {
+    parallelFor(size.height, [&](std::size_t y) {
       for (std::size_t x = 0; x < size.width; ++x)
       {
         function(y * size.width + x, (2 * y + corner[1]) * frame.width + 2 * x + corner[0]);
       }
-    }
+    });
   }
 };
 

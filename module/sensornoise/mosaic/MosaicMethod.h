@@ -3,6 +3,8 @@
 #ifndef sensornoise_mosaic_MosaicMethod_h
 #define sensornoise_mosaic_MosaicMethod_h
 
+#include "sensornoise/base/FirstTouch.h"
+#include "sensornoise/base/FreeMemory.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/mosaic/MosaicGeometry.h"
 #include "sensornoise/mosaic/PlaneFrames.h"
@@ -16,6 +18,7 @@
 #include <functional>
 #include <istream>
 #include <memory>
+#include <optional>
 #include <ostream>
 #include <vector>
 
@@ -39,11 +42,13 @@ public:
   using MakeMethod = std::function<TMethod(BayerPlane plane, const ParallelFor & parallelFor)>;
 
   /** \a makeMethod makes the method of each plane, of the size MosaicGeometry::Plane(); the ParallelFor that it is
-   * given is to spread its work. */
+   * given is to spread its work. \a parallelFor has \a threads threads. */
   MosaicMethod(const MosaicGeometry & geometry,
                const MakeMethod &     makeMethod,
-               const ParallelFor &    parallelFor = SerialFor)
+               const ParallelFor &    parallelFor = SerialFor,
+               std::size_t            threads = 1)
     : m_ParallelFor(parallelFor)
+    , m_Threads(threads)
     , m_IsByPlane(std::make_shared<bool>(false))
     , m_Planes(geometry)
   {
@@ -61,12 +66,13 @@ public:
   void
   AddFrames(const TPixel * frames, std::size_t count)
   {
-    m_Planes.ForPlanes(frames, count, m_ParallelFor, [this](std::size_t k, const TPixel * plane, std::size_t now) {
-      if (!m_Methods[k].IsDone()) // some planes may need more passes than others
-      {
-        m_Methods[k].AddFrames(plane, now);
-      }
-    });
+    m_Planes.ForPlanes(
+      frames, count, m_First, m_Last, m_ParallelFor, [this](std::size_t k, const TPixel * plane, std::size_t now) {
+        if (!m_Methods[k].IsDone()) // some planes may need more passes than others
+        {
+          m_Methods[k].AddFrames(plane, now);
+        }
+      });
   }
 
   /** Frame \a t is the next one of the current pass. */
@@ -111,33 +117,45 @@ public:
     }
   }
 
-  /** Ends the current pass, of all planes at once: much of what is left to do then are single sums and sorts. */
+  /** Sums of 8 bytes that the third pass has of the planes' pixels, and that are too many for all planes at once. */
+  struct ManySums
+  {
+    std::size_t ofPixel = 8;                     ///< more: 64 bytes, to which a memory limit brings every stack
+    std::size_t bytes = std::size_t{ 32 } << 20; ///< and more: less than a chunk of the stack is not worth a pass
+  };
+
+  /** Where RefinedMethod's third pass has many sums, it is for the planes of the red rows alone, and one more for those
+   * of the blue rows: half of their memory, and not more to copy. To be told before the first pass; not where sums are
+   * saved or merged. */
+  void
+  LetRowsTakeTurns(const ManySums & many)
+  {
+    m_ManySums = many;
+  }
+
+  /** Ends the current pass. */
   void
   EndPass()
   {
-    m_Planes.Release();
-    std::array<std::exception_ptr, BayerPlanes.size()> errors;
-    *m_IsByPlane = true;
-    m_ParallelFor(m_Methods.size(), [&](std::size_t k) {
-      try
-      {
-        if (!m_Methods[k].IsDone())
-        {
-          m_Methods[k].EndPass();
-        }
-      }
-      catch (...)
-      {
-        errors[k] = std::current_exception();
-      }
-    });
-    *m_IsByPlane = false;
-    for (const std::exception_ptr & error : errors)
+    ++m_Passes;
+    if (m_Passes >= NumberOfPasses && m_Last == BayerPlanes.size()) // else it is needed again
     {
-      if (error)
+      m_Planes.Release();
+    }
+    if constexpr (TMethod::HasManySums)
+    {
+      if (m_ManySums && m_Passes + 1 == NumberOfPasses)
       {
-        std::rethrow_exception(error);
+        this->EndPassBeforeLast();
+        return;
       }
+    }
+    this->EndPlanes(m_First, m_Last);
+    if (m_Last == RedRows && this->AreDone(RedRows))
+    {
+      m_First = RedRows;
+      m_Last = BayerPlanes.size();
+      this->EndPlanes(m_First, m_Last);
     }
   }
 
@@ -145,7 +163,7 @@ public:
   bool
   IsDone() const
   {
-    return std::all_of(m_Methods.begin(), m_Methods.end(), [](const TMethod & method) { return method.IsDone(); });
+    return this->AreDone(BayerPlanes.size());
   }
 
   /** In the order of BayerPlanes. */
@@ -157,26 +175,96 @@ public:
     };
   }
 
-  /** Writes a map to \a frame, every pixel with the value of its plane: mapOf(method) is the method's GetMean(),
+  /** A map of the frame, every pixel with the value of its plane: mapOf(method) is the method's GetMean(),
    * GetVariance(), GetCorrectedVariance() or GetPixelUse(), or what takes it. Where there is none, and in a last column
    * or row that is in no plane, \a missing. */
   template <typename T, typename TFunction>
-  void
-  WriteMap(TFunction mapOf, T missing, T * frame)
+  std::vector<T>
+  JoinMaps(TFunction mapOf, T missing)
   {
     const MosaicGeometry & geometry = m_Planes.GetGeometry();
-    std::fill_n(frame, geometry.frame.Pixels(), missing);
+    std::vector<T>         map = MakeMap<T>(geometry.frame.Pixels(), m_ParallelFor, missing);
     for (std::size_t k = 0; k < m_Methods.size(); ++k)
     {
-      geometry.Put(mapOf(m_Methods[k]), BayerPlanes[k], frame);
+      geometry.Put(mapOf(m_Methods[k]), BayerPlanes[k], map.data(), m_ParallelFor);
     }
+    GiveBackFreedMemory(); // of maps that were taken
+    return map;
   }
 
 private:
-  ParallelFor           m_ParallelFor;
-  std::shared_ptr<bool> m_IsByPlane; // the planes are worked on at the same time, and each by one thread
-  std::vector<TMethod>  m_Methods;
-  PlaneFrames<TPixel>   m_Planes;
+  /** The planes before this one, R and G1, are those of the red rows. */
+  static constexpr std::size_t RedRows = 2;
+
+  bool
+  AreDone(std::size_t planes) const
+  {
+    return std::all_of(
+      m_Methods.begin(), m_Methods.begin() + planes, [](const TMethod & method) { return method.IsDone(); });
+  }
+
+  /** Ends it for the red rows, and for the blue ones unless these are to wait until those are done. */
+  void
+  EndPassBeforeLast()
+  {
+    this->EndPlanes(0, RedRows);
+    const std::size_t sums = m_Methods.front().SumsPerPixel();
+    const std::size_t bytes = sizeof(double) * sums * m_Planes.GetGeometry().frame.Pixels();
+    if (sums <= m_ManySums->ofPixel || bytes <= m_ManySums->bytes)
+    {
+      this->EndPlanes(RedRows, m_Last);
+      return;
+    }
+    m_Last = RedRows;
+    for (std::size_t k = RedRows; k < m_Methods.size(); ++k)
+    {
+      m_Methods[k].RestAfterFrameSums();
+    }
+    GiveBackFreedMemory();
+  }
+
+  /** Ends the current pass of the planes from \a first on and below \a last, all at once unless there are more threads:
+   * much of what is left to do then are single sums and sorts. */
+  void
+  EndPlanes(std::size_t first, std::size_t last)
+  {
+    std::array<std::exception_ptr, BayerPlanes.size()> errors;
+    const auto                                         endPlane = [&](std::size_t k) {
+      try
+      {
+        if (!m_Methods[k].IsDone())
+        {
+          m_Methods[k].EndPass();
+        }
+      }
+      catch (...)
+      {
+        errors[k] = std::current_exception();
+      }
+    };
+    *m_IsByPlane = m_Threads <= last - first;
+    const ParallelFor & spread = *m_IsByPlane ? m_ParallelFor : SerialFor;
+    spread(last - first, [&](std::size_t k) { endPlane(first + k); });
+    *m_IsByPlane = false;
+    GiveBackFreedMemory(); // planes' maps are small enough to be kept by the system's library when they are freed
+    for (const std::exception_ptr & error : errors)
+    {
+      if (error)
+      {
+        std::rethrow_exception(error);
+      }
+    }
+  }
+
+  ParallelFor             m_ParallelFor;
+  std::size_t             m_Threads;
+  std::shared_ptr<bool>   m_IsByPlane; // the planes are worked on at the same time, and each by one thread
+  std::vector<TMethod>    m_Methods;
+  PlaneFrames<TPixel>     m_Planes;
+  unsigned int            m_Passes{ 0 }; // that have ended
+  std::optional<ManySums> m_ManySums;    // none: rows do not take turns
+  std::size_t             m_First{ 0 };  // the planes whose turn it is
+  std::size_t             m_Last{ BayerPlanes.size() };
 };
 
 } // namespace sensornoise

@@ -43,6 +43,9 @@ template <typename TPixel>
 class PublishedMethod final : public StackPasses<TPixel>
 {
 public:
+  /** Whether the third pass has more than one sum of a pixel. */
+  static constexpr bool HasManySums = false;
+
   /** \a mask, if given, has a nonzero value at the pixels to be used; \a parallelFor spreads the work. Throws
    * std::invalid_argument for settings out of range, see PublishedSettings::Validate(), and for a stack or a mask that
    * RequireStack() refuses. */

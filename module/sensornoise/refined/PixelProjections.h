@@ -43,6 +43,12 @@ public:
   static std::size_t
   SlabsWithin(double bytes, std::size_t series);
 
+  std::size_t
+  SumsPerPixel() const
+  {
+    return m_Basis.Size();
+  }
+
   /** Adds frames firstFrame ... firstFrame + count - 1, stored one after the other; \a frame is what they are compared
    * with. */
   template <typename TPixel>

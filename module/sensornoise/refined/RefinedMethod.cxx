@@ -216,6 +216,7 @@ template <typename TPixel>
 void
 RefinedMethod<TPixel>::EndFrameSums()
 {
+  this->RestAfterFrameSums();
   std::optional<double> knownOffsetDn;
   if (m_Settings.offset)
   {
@@ -223,8 +224,6 @@ RefinedMethod<TPixel>::EndFrameSums()
   }
   m_Series.emplace(FindSceneSeries(
     *m_FrameSums, m_Settings.rollingShutter, knownOffsetDn, BlackLevel(m_Settings, *m_Scene, std::nullopt)));
-  m_FrameSums->ReleaseInstruments();
-  ReleaseNeighbourMean(m_Scene->frame);
   GiveBackFreedMemory(); // the most is needed from here on
   const MemoryNeed  need{ m_Geometry.Pixels(), m_Distinct.Count() };
   const std::size_t series = m_Series->basis.Size();

@@ -50,6 +50,9 @@ template <typename TPixel>
 class RefinedMethod final : public StackPasses<TPixel>
 {
 public:
+  /** Whether there is SumsPerPixel(). */
+  static constexpr bool HasManySums = true;
+
   /** \a mask, if given, has a nonzero value at the pixels to be used; \a parallelFor spreads the work. Throws
    * std::invalid_argument for settings out of range, see RefinedSettings::Validate(), and for a stack or a mask that
    * RequireStack() refuses. */
@@ -65,6 +68,22 @@ public:
   IsDone() const
   {
     return m_IsDone;
+  }
+  /** The sums of 8 bytes that the third pass has of every pixel; 0 before it. */
+  std::size_t
+  SumsPerPixel() const
+  {
+    return m_Projections ? m_Projections->SumsPerPixel() : 0;
+  }
+  /** All frames of the second pass are in, and it is to end later: gives back the memory that only adding needs. */
+  void
+  RestAfterFrameSums()
+  {
+    if (m_FrameSums)
+    {
+      m_FrameSums->ReleaseInstruments();
+      ReleaseNeighbourMean(m_Scene->frame);
+    }
   }
   const Report &
   GetReport() const
