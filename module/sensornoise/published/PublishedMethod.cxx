@@ -125,7 +125,7 @@ PublishedMethod<TPixel>::EndMoments()
   scene.summary = MakeStackMaps<TPixel>(
     m_Moments.Take(), m_Settings.codes, m_ParallelFor, scene.mean.data(), scene.variance.data(), scene.valid.data());
   SortPixels(scene, m_Settings, m_Geometry, m_Distinct.Count(), m_UserMask, m_ParallelFor);
-  FindSets(scene, m_Settings, m_Distinct.Count());
+  FindSets(scene, m_Settings, m_Distinct.Count(), m_ParallelFor);
   return scene;
 }
 

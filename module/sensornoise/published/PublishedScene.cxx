@@ -7,7 +7,9 @@
 #include "sensornoise/moments/StackRequirements.h"
 #include "sensornoise/published/VibrationMask.h"
 
+#include <array>
 #include <cmath>
+#include <optional>
 
 namespace sensornoise
 {
@@ -72,15 +74,34 @@ SortPixels(PublishedScene &                  scene,
 }
 
 void
-FindSets(PublishedScene & scene, const PublishedSettings & settings, std::size_t frames)
+FindSets(PublishedScene &          scene,
+         const PublishedSettings & settings,
+         std::size_t               frames,
+         const ParallelFor &       parallelFor)
 {
   try
   {
     RequireDistinctFrames(frames, scene.valid);
     const IsoIntensitySetFinder finder(
       scene.mean.data(), scene.variance.data(), scene.kept.data(), scene.mean.size(), frames);
-    scene.bright = finder.Find(settings.brightQuantile);
-    scene.dark = finder.Find(settings.darkQuantile);
+    std::array<std::optional<NothingToMeasure>, 2> obstacles;
+    parallelFor(2, [&](std::size_t k) {
+      try
+      {
+        (k == 0 ? scene.bright : scene.dark) = finder.Find(k == 0 ? settings.brightQuantile : settings.darkQuantile);
+      }
+      catch (const NothingToMeasure & obstacle)
+      {
+        obstacles[k] = obstacle;
+      }
+    });
+    for (const auto & obstacle : obstacles)
+    {
+      if (obstacle)
+      {
+        throw NothingToMeasure(*obstacle);
+      }
+    }
     if (settings.rollingShutter != RollingShutter::Off)
     {
       scene.rowSet = finder.FindRowSet(scene.bright);

@@ -47,7 +47,10 @@ SortPixels(PublishedScene &                  scene,
 
 /** Sets the iso-intensity sets of a scene whose pixels are sorted, or its obstacle. */
 SensorNoise_EXPORT void
-FindSets(PublishedScene & scene, const PublishedSettings & settings, std::size_t frames);
+FindSets(PublishedScene &          scene,
+         const PublishedSettings & settings,
+         std::size_t               frames,
+         const ParallelFor &       parallelFor);
 
 } // namespace sensornoise
 
