@@ -31,6 +31,28 @@ struct JudgingSquare
   double roughness{ 0.0 }; // mean class
 };
 
+/** What the line says of pixels that lie one after the other: in vectors, unlike the sums. */
+struct JudgedRow
+{
+  double excess[InPixels.judgingSquareSide];
+  double expected[InPixels.judgingSquareSide];
+  double chance[InPixels.judgingSquareSide];
+
+  JudgedRow(const VarianceLine & of, const VarianceData & data, std::size_t first, std::size_t pixels)
+  {
+    const VarianceLine   line = of; // which no pointer can point into
+    const double * const mean = data.mean + first;
+    const double * const variance = data.variance + first;
+    const float * const  freedom = data.freedom + first;
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      expected[i] = line.At(mean[i]);
+      excess[i] = variance[i] - expected[i];
+      chance[i] = 2.0 * expected[i] * expected[i] / line.SamplingFreedom(freedom[i], expected[i]);
+    }
+  }
+};
+
 JudgingSquare
 SumJudgingSquare(const VarianceLine &      line,
                  const VarianceData &      data,
@@ -41,26 +63,27 @@ SumJudgingSquare(const VarianceLine &      line,
   const FrameGeometry & geometry = projected.GetFrame().geometry;
   const double          reachDn2 =
     InMoments.defectiveNoiseFactor * InMoments.defectiveNoiseFactor * line.lowestDn2 / InPixels.lowestShare;
-  JudgingSquare square;
-  double        total = 0.0;
-  double        squares = 0.0;
-  double        chance = 0.0;
+  JudgingSquare     square;
+  double            total = 0.0;
+  double            squares = 0.0;
+  double            chance = 0.0;
+  const std::size_t across = std::min(InPixels.judgingSquareSide, geometry.width - left);
   for (std::size_t y = top; y < std::min(top + InPixels.judgingSquareSide, geometry.height); ++y)
   {
-    for (std::size_t x = left; x < std::min(left + InPixels.judgingSquareSide, geometry.width); ++x)
+    const std::size_t first = y * geometry.width + left;
+    const JudgedRow   row(line, data, first, across);
+    for (std::size_t i = 0; i < across; ++i)
     {
-      const std::size_t p = y * geometry.width + x;
-      const double      expected = data.mask[p] != 0 ? line.At(data.mean[p]) : 0.0;
-      const double      excess = data.variance[p] - expected;
-      if (data.mask[p] != 0 && excess < reachDn2 + expected)
+      const std::size_t p = first + i;
+      if (data.mask[p] != 0 && row.excess[i] < reachDn2 + row.expected[i])
       {
         square.pixels += 1.0;
         square.level += data.mean[p];
         square.roughness += projected.ClassOf(p);
-        square.excess += excess;
-        total += expected;
-        squares += excess * excess;
-        chance += 2.0 * expected * expected / line.SamplingFreedom(data.freedom[p], expected);
+        square.excess += row.excess[i];
+        total += row.expected[i];
+        squares += row.excess[i] * row.excess[i];
+        chance += row.chance[i];
       }
     }
   }

@@ -63,6 +63,31 @@ struct Square
   }
 };
 
+/** What pixels that lie one after the other differ by from their diagonal neighbours, squared [DN^2], and whether these
+ * are all usable: in vectors, unlike the sums. */
+struct PatternRow
+{
+  double       square[InPattern.squareSide];
+  std::uint8_t counts[InPattern.squareSide];
+
+  PatternRow(const ReferenceFrame & frame, const std::uint8_t * mask, std::size_t first, std::size_t pixels)
+  {
+    const std::size_t          width = frame.geometry.width;
+    const double * const       mean = frame.mean.data();
+    const std::uint8_t * const usable = frame.usable.data();
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      const double difference = mean[first + i] - DiagonalMean(mean, width, first + i);
+      square[i] = difference * difference;
+    }
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      const std::uint8_t isUsable = HasDiagonals(usable, width, first + i) ? 1 : 0;
+      counts[i] = std::min(mask[first + i], isUsable);
+    }
+  }
+};
+
 void
 SumPatternSquare(const ReferenceFrame & frame,
                  const VarianceData &   data,
@@ -72,19 +97,24 @@ SumPatternSquare(const ReferenceFrame & frame,
                  Square &               square)
 {
   const auto frames = static_cast<double>(frame.frames);
-  for (std::size_t y = top; y < std::min(top + side, frame.geometry.height); ++y)
+  const auto before = [side](std::size_t first, std::size_t size) {
+    return std::min(first + side, size - std::min(size, DiagonalReach));
+  };
+  const std::size_t begin = std::max(left, DiagonalReach); // no pixel that is nearer to the border is used
+  const std::size_t end = std::max(begin, before(left, frame.geometry.width));
+  for (std::size_t y = std::max(top, DiagonalReach); y < before(top, frame.geometry.height); ++y)
   {
-    for (std::size_t x = left; x < std::min(left + side, frame.geometry.width); ++x)
+    const PatternRow row(frame, data.mask, y * frame.geometry.width + begin, end - begin);
+    for (std::size_t x = begin; x < end; ++x)
     {
-      const std::size_t p = y * frame.geometry.width + x;
-      if (data.mask[p] != 0 && HasDiagonals(frame.usable.data(), frame.geometry.width, p))
+      if (row.counts[x - begin] != 0)
       {
         // As on a chequerboard: diagonal neighbours are of the same half, so that the halves have no pixel in common.
-        HalfSquare & half = square.half[(x + y) % 2];
-        const double difference = frame.mean[p] - DiagonalMean(frame.mean.data(), frame.geometry.width, p);
+        const std::size_t p = y * frame.geometry.width + x;
+        HalfSquare &      half = square.half[(x + y) % 2];
         half.pixels += 1.0;
         half.level += frame.mean[p];
-        half.squares += difference * difference;
+        half.squares += row.square[x - begin];
         half.noise += DifferenceVariance * data.variance[p] / frames;
       }
     }

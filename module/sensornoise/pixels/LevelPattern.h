@@ -6,6 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/Parallel.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -43,6 +44,9 @@ struct LevelPattern
   }
 };
 
+/** How far DiagonalMean() looks [pixels]. */
+inline constexpr std::size_t DiagonalReach = 2;
+
 /** The mean of the eight pixels that are one and two steps away on the diagonals: light without the pixel's own
  * pattern, or that of its row or column [DN]. \a p is two pixels from the border or more. */
 inline double
@@ -60,7 +64,7 @@ HasDiagonals(const std::uint8_t * usable, std::size_t width, std::size_t p)
 {
   const std::uint8_t * at = usable + p;
   const auto           w = static_cast<std::ptrdiff_t>(width);
-  return at[-w - 1] != 0 && at[-w + 1] != 0 && at[w - 1] != 0 && at[w + 1] != 0;
+  return std::min(std::min(at[-w - 1], at[-w + 1]), std::min(at[w - 1], at[w + 1])) != 0; // without branches
 }
 
 /** Measures the pattern of the pixels that are used, whose variance is \a data and follows \a line. Shares are relative
