@@ -31,24 +31,26 @@ struct JudgingSquare
   double roughness{ 0.0 }; // mean class
 };
 
-/** What the line says of pixels that lie one after the other: in vectors, unlike the sums. */
+/** What a line says of pixels that lie one after the other: in vectors, unlike the sums. */
 struct JudgedRow
 {
-  double excess[InPixels.judgingSquareSide];
-  double expected[InPixels.judgingSquareSide];
-  double chance[InPixels.judgingSquareSide];
+  VarianceLine line;
+  double       excess[InPixels.judgingSquareSide]{};
+  double       expected[InPixels.judgingSquareSide]{};
+  double       chance[InPixels.judgingSquareSide]{};
 
-  JudgedRow(const VarianceLine & of, const VarianceData & data, std::size_t first, std::size_t pixels)
+  void
+  Judge(const VarianceData & data, std::size_t first, std::size_t pixels)
   {
-    const VarianceLine   line = of; // which no pointer can point into
+    const VarianceLine   own = line; // which no pointer can point into
     const double * const mean = data.mean + first;
     const double * const variance = data.variance + first;
     const float * const  freedom = data.freedom + first;
     for (std::size_t i = 0; i < pixels; ++i)
     {
-      expected[i] = line.At(mean[i]);
+      expected[i] = own.At(mean[i]);
       excess[i] = variance[i] - expected[i];
-      chance[i] = 2.0 * expected[i] * expected[i] / line.SamplingFreedom(freedom[i], expected[i]);
+      chance[i] = 2.0 * expected[i] * expected[i] / own.SamplingFreedom(freedom[i], expected[i]);
     }
   }
 };
@@ -67,11 +69,12 @@ SumJudgingSquare(const VarianceLine &      line,
   double            total = 0.0;
   double            squares = 0.0;
   double            chance = 0.0;
+  JudgedRow         row{ line };
   const std::size_t across = std::min(InPixels.judgingSquareSide, geometry.width - left);
   for (std::size_t y = top; y < std::min(top + InPixels.judgingSquareSide, geometry.height); ++y)
   {
     const std::size_t first = y * geometry.width + left;
-    const JudgedRow   row(line, data, first, across);
+    row.Judge(data, first, across);
     for (std::size_t i = 0; i < across; ++i)
     {
       const std::size_t p = first + i;

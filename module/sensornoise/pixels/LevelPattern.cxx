@@ -67,10 +67,11 @@ struct Square
  * are all usable: in vectors, unlike the sums. */
 struct PatternRow
 {
-  double       square[InPattern.squareSide];
-  std::uint8_t counts[InPattern.squareSide];
+  double       square[InPattern.squareSide]{};
+  std::uint8_t counts[InPattern.squareSide]{};
 
-  PatternRow(const ReferenceFrame & frame, const std::uint8_t * mask, std::size_t first, std::size_t pixels)
+  void
+  Compare(const ReferenceFrame & frame, const std::uint8_t * mask, std::size_t first, std::size_t pixels)
   {
     const std::size_t          width = frame.geometry.width;
     const double * const       mean = frame.mean.data();
@@ -100,11 +101,12 @@ SumPatternSquare(const ReferenceFrame & frame,
   const auto before = [side](std::size_t first, std::size_t size) {
     return std::min(first + side, size - std::min(size, DiagonalReach));
   };
+  PatternRow        row;
   const std::size_t begin = std::max(left, DiagonalReach); // no pixel that is nearer to the border is used
   const std::size_t end = std::max(begin, before(left, frame.geometry.width));
   for (std::size_t y = std::max(top, DiagonalReach); y < before(top, frame.geometry.height); ++y)
   {
-    const PatternRow row(frame, data.mask, y * frame.geometry.width + begin, end - begin);
+    row.Compare(frame, data.mask, y * frame.geometry.width + begin, end - begin);
     for (std::size_t x = begin; x < end; ++x)
     {
       if (row.counts[x - begin] != 0)
