@@ -28,20 +28,20 @@ using BayerFilter = itk::BayerPlaneImageFilter<StackType>;
 constexpr unsigned int Side = 96;
 
 StackType::Pointer
-MakeMosaicStack(bool isDark = false, unsigned int frames = 24)
+MakeMosaicStack(bool isDark = false, unsigned int frames = 24, std::size_t side = Side)
 {
   sensornoise::SimulationSettings settings;
   settings.conditions = { 0.05, 0.05, 0.02 };
   settings.frames = frames;
   settings.isDark = isDark;
   settings.flaws.filters = { sensornoise::BayerPattern::GRBG, 0.6, 1.0, 0.4 };
-  const sensornoise::StackSimulator simulator(sensornoise::MakeTargetScene(Side, Side), Side, Side, settings);
+  const sensornoise::StackSimulator simulator(sensornoise::MakeTargetScene(side, side), side, side, settings);
   const auto                        stack = StackType::New();
-  stack->SetRegions(StackType::SizeType{ { Side, Side, frames } });
+  stack->SetRegions(StackType::SizeType{ { side, side, frames } });
   stack->Allocate();
   for (std::size_t t = 0; t < frames; ++t)
   {
-    simulator.RenderFrame(t, stack->GetBufferPointer() + t * Side * Side);
+    simulator.RenderFrame(t, stack->GetBufferPointer() + t * side * side);
   }
   return stack;
 }
@@ -194,6 +194,27 @@ TEST(SensorNoiseEstimatorBayer, EachPassReadsTheStackOnce)
   estimator->SetBayerPattern("auto");
   estimator->Update();
   EXPECT_EQ(reader->Reads(), 2U * 3U * 4U); // the first chunk is there already when the first pass begins
+}
+
+TEST(SensorNoiseEstimatorBayer, RowsOfLargeFramesTakeTurnsAndFindTheSame)
+{
+  // On the target there are 9 series or more, whose sums have more than 32 MiB.
+  constexpr unsigned int frames = 24;
+  const auto             stack = MakeMosaicStack(false, frames, 720);
+  const auto             reader = StackReader<StackType>::Of(stack);
+  const auto             inTurns = EstimatorOf<StackType>(reader->GetOutput());
+  inTurns->SetNumberOfStreamDivisions(4);
+  inTurns->SetBayerPattern("GRBG");
+  inTurns->Update();
+  EXPECT_EQ(reader->Reads(), (3U + 1U) * 4U);
+  const auto again = StackReader<StackType>::Of(stack);
+  const auto together = EstimatorOf<StackType>(again->GetOutput());
+  together->SetNumberOfStreamDivisions(4);
+  together->SetBayerPattern("GRBG");
+  together->SetMemoryLimit(1'000'000'000);
+  together->Update();
+  EXPECT_EQ(again->Reads(), 3U * 4U);
+  EXPECT_EQ(inTurns->GetReportAsJson(), together->GetReportAsJson());
 }
 
 TEST(SensorNoiseEstimatorBayer, AnUnknownPatternIsRefused)

@@ -208,7 +208,7 @@ private:
   EndPassBeforeLast()
   {
     this->EndPlanes(0, RedRows);
-    const std::size_t sums = m_Methods.front().SumsPerPixel();
+    const std::size_t sums = std::max(m_Methods[0].SumsPerPixel(), m_Methods[1].SumsPerPixel());
     const std::size_t bytes = sizeof(double) * sums * m_Planes.GetGeometry().frame.Pixels();
     if (sums <= m_ManySums->ofPixel || bytes <= m_ManySums->bytes)
     {
