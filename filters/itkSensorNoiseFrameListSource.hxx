@@ -21,10 +21,12 @@
 #include "itkSensorNoiseFrameListSource.h"
 #include "itkSensorNoiseFileErrors.h"
 #include "itkSensorNoiseMetaData.h"
+#include "sensornoise/base/ForAll.h"
+#include "sensornoise/base/Parallel.h"
 
 #include <algorithm>
 #include <cstddef>
-#include <exception>
+#include <functional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -234,38 +236,19 @@ SensorNoiseFrameListSource<TOutputStack>::ReadSideBySide(std::size_t       first
                                                          std::size_t       partFrames,
                                                          OutputPixelType * buffer)
 {
-  const std::size_t               parts = (end - first + partFrames - 1) / partFrames;
-  std::vector<std::exception_ptr> errors(parts);
-  const auto                      read = [&](std::size_t part) {
-    const std::size_t begin = part * partFrames;
-    try
-    {
-      sensornoise::ReadFrames(m_FrameList,
-                              first + begin,
-                              std::min(partFrames, end - first - begin),
-                              buffer + begin * m_FrameList.width * m_FrameList.height);
-    }
-    catch (...)
-    {
-      errors[part] = std::current_exception();
-    }
-  };
-  if (parts == 1)
-  {
-    read(0);
-  }
-  else
-  {
+  const std::size_t parts = (end - first + partFrames - 1) / partFrames;
+  const auto        sideBySide = [this](std::size_t count, const std::function<void(std::size_t)> & function) {
     this->GetMultiThreader()->SetNumberOfWorkUnits(this->GetNumberOfWorkUnits());
-    this->GetMultiThreader()->ParallelizeArray(0, parts, read, nullptr);
-  }
-  for (const std::exception_ptr & error : errors)
-  {
-    if (error)
-    {
-      std::rethrow_exception(error);
-    }
-  }
+    this->GetMultiThreader()->ParallelizeArray(0, count, function, nullptr);
+  };
+  const sensornoise::ParallelFor spread = parts == 1 ? sensornoise::ParallelFor(sensornoise::SerialFor) : sideBySide;
+  sensornoise::ForAll(parts, spread, [&](std::size_t part) {
+    const std::size_t begin = part * partFrames;
+    sensornoise::ReadFrames(m_FrameList,
+                            first + begin,
+                            std::min(partFrames, end - first - begin),
+                            buffer + begin * m_FrameList.width * m_FrameList.height);
+  });
 }
 
 template <typename TOutputStack>

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studies/InfluenceRun.h"
 
+#include "sensornoise/base/ForAll.h"
 #include "sensornoise/refined/RefinedMethod.h"
 #include "sensornoise/report/ReportJson.h"
 #include "studies/RobustnessEstimate.h"
@@ -9,7 +10,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <exception>
+#include <functional>
 #include <stdexcept>
 #include <thread>
 
@@ -23,36 +24,24 @@ template <typename TFunction>
 void
 ForEach(std::size_t count, unsigned int threads, TFunction function)
 {
-  std::atomic<std::size_t>        next{ 0 };
-  std::vector<std::exception_ptr> failures(count);
-  std::vector<std::thread>        workers;
-  for (unsigned int i = 0; i < std::max(1U, threads); ++i)
-  {
-    workers.emplace_back([&] {
-      for (std::size_t k = next++; k < count; k = next++)
-      {
-        try
-        {
-          function(k);
-        }
-        catch (...)
-        {
-          failures[k] = std::current_exception();
-        }
-      }
-    });
-  }
-  for (std::thread & worker : workers)
-  {
-    worker.join();
-  }
-  for (const std::exception_ptr & failure : failures)
-  {
-    if (failure)
+  const auto spread = [threads](std::size_t ofAll, const std::function<void(std::size_t)> & call) {
+    std::atomic<std::size_t> next{ 0 };
+    std::vector<std::thread> workers;
+    for (unsigned int i = 0; i < std::max(1U, threads); ++i)
     {
-      std::rethrow_exception(failure);
+      workers.emplace_back([&] {
+        for (std::size_t k = next++; k < ofAll; k = next++)
+        {
+          call(k);
+        }
+      });
     }
-  }
+    for (std::thread & worker : workers)
+    {
+      worker.join();
+    }
+  };
+  ForAll(count, spread, function);
 }
 } // namespace
 

@@ -4,6 +4,7 @@
 #define sensornoise_mosaic_MosaicMethod_h
 
 #include "sensornoise/base/FirstTouch.h"
+#include "sensornoise/base/ForAll.h"
 #include "sensornoise/base/FreeMemory.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/mosaic/MosaicGeometry.h"
@@ -14,7 +15,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <functional>
 #include <istream>
 #include <memory>
@@ -228,32 +228,23 @@ private:
   void
   EndPlanes(std::size_t first, std::size_t last)
   {
-    std::array<std::exception_ptr, BayerPlanes.size()> errors;
-    const auto                                         endPlane = [&](std::size_t k) {
-      try
-      {
-        if (!m_Methods[k].IsDone())
-        {
-          m_Methods[k].EndPass();
-        }
-      }
-      catch (...)
-      {
-        errors[k] = std::current_exception();
-      }
-    };
     *m_IsByPlane = m_Threads <= last - first;
-    const ParallelFor & spread = *m_IsByPlane ? m_ParallelFor : SerialFor;
-    spread(last - first, [&](std::size_t k) { endPlane(first + k); });
+    try
+    {
+      ForAll(last - first, *m_IsByPlane ? m_ParallelFor : SerialFor, [&](std::size_t k) {
+        if (!m_Methods[first + k].IsDone())
+        {
+          m_Methods[first + k].EndPass();
+        }
+      });
+    }
+    catch (...)
+    {
+      *m_IsByPlane = false;
+      throw;
+    }
     *m_IsByPlane = false;
     GiveBackFreedMemory(); // planes' maps are small enough to be kept by the system's library when they are freed
-    for (const std::exception_ptr & error : errors)
-    {
-      if (error)
-      {
-        std::rethrow_exception(error);
-      }
-    }
   }
 
   ParallelFor             m_ParallelFor;

@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/published/PublishedScene.h"
 
+#include "sensornoise/base/ForAll.h"
 #include "sensornoise/base/PixelUse.h"
 #include "sensornoise/base/RollingShutter.h"
 #include "sensornoise/moments/StackRequirements.h"
 #include "sensornoise/published/VibrationMask.h"
 
-#include <array>
 #include <cmath>
-#include <optional>
 
 namespace sensornoise
 {
@@ -84,24 +83,9 @@ FindSets(PublishedScene &          scene,
     RequireDistinctFrames(frames, scene.valid);
     const IsoIntensitySetFinder finder(
       scene.mean.data(), scene.variance.data(), scene.kept.data(), scene.mean.size(), frames);
-    std::array<std::optional<NothingToMeasure>, 2> obstacles;
-    parallelFor(2, [&](std::size_t k) {
-      try
-      {
-        (k == 0 ? scene.bright : scene.dark) = finder.Find(k == 0 ? settings.brightQuantile : settings.darkQuantile);
-      }
-      catch (const NothingToMeasure & obstacle)
-      {
-        obstacles[k] = obstacle;
-      }
+    ForAll(2, parallelFor, [&](std::size_t k) {
+      (k == 0 ? scene.bright : scene.dark) = finder.Find(k == 0 ? settings.brightQuantile : settings.darkQuantile);
     });
-    for (const auto & obstacle : obstacles)
-    {
-      if (obstacle)
-      {
-        throw NothingToMeasure(*obstacle);
-      }
-    }
     if (settings.rollingShutter != RollingShutter::Off)
     {
       scene.rowSet = finder.FindRowSet(scene.bright);
