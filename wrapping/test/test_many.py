@@ -358,6 +358,27 @@ def test_a_burst_that_kills_its_workers_is_a_row(client, bursts):
     assert rows[0]["status"] == "measured"
 
 
+def test_a_burst_is_not_blamed_for_what_its_neighbour_did(bursts):
+    distributed = pytest.importorskip("distributed", reason="Dask's distributed is not installed")
+
+    frames = bursts["a"]
+
+    def killed():
+        time.sleep(0.5)
+        os.kill(os.getpid(), signal.SIGKILL)
+
+    def beside():  # is at work at each end of the only worker
+        time.sleep(2)
+        return frames
+
+    with (
+        distributed.LocalCluster(n_workers=1, threads_per_worker=2, dashboard_address=":0") as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        rows = rows_of(estimate_many({"killed": killed, "beside": beside}, client))
+    assert [row["status"] for row in rows] == ["error", "measured"]
+
+
 @pytest.mark.parametrize("breaks", ["restart", "close"])
 def test_a_scheduler_that_restarts_or_goes_away_is_told(breaks, bursts, tmp_path):
     distributed = pytest.importorskip("distributed", reason="Dask's distributed is not installed")

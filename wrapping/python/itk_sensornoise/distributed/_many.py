@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 # What each source would have of its own, or only a person before a screen.
 _NOT_OF_MANY = ("frames", "maps", "progress")
+_KILLED = Outcome("every worker that measured it was killed: it may need more memory than they have", None)
 _ADVICE = "the same call goes on with a new client"  # where the scheduler went away
 
 
@@ -49,9 +50,10 @@ def estimate_many(
     client
         A dask.distributed.Client: each source is a task of its workers, measured by one thread (unless `threads` says
         otherwise). If its worker is killed, another one tries, as often as Dask's setting
-        distributed.scheduler.allowed-failures says. A task takes the memory that its worker's memory_limit leaves, as
-        `memory_limit` of estimate_sensor_noise() does; a burst that needs more is a row with its reason. An iterator
-        is not read further ahead than the workers need.
+        distributed.scheduler.allowed-failures says; then, at the end, as often again with no other task at work: Dask
+        blames all tasks that a killed worker had, also those that were waiting in it. A task takes the memory that its
+        worker's memory_limit leaves, as `memory_limit` of estimate_sensor_noise() does; a burst that needs more is a
+        row with its reason. An iterator is not read further ahead than the workers need.
         Default: one source after the other in this process, by all threads; Dask is not needed.
     output
         A file that ends in .jsonl: a line of JSON for each source as soon as it is measured, with `name`, `settings`,
@@ -126,6 +128,22 @@ def _here(todo: Iterator[tuple[str, Source]], settings: dict[str, Any]) -> Itera
 def _by_workers(
     client: "distributed.Client", todo: Iterator[tuple[str, Source]], settings: dict[str, Any]
 ) -> Iterator[tuple[str, Outcome]]:
+    """What the workers measured, as it comes. Those whose workers were killed once more at the end, each alone: which
+    of the tasks that a worker had killed it is not known."""
+    suspects: list[tuple[str, Source]] = []
+    for name, frames, outcome in _by_tasks(client, todo, settings):
+        if outcome is _KILLED:
+            suspects.append((name, frames))
+        else:
+            yield name, outcome
+    for suspect in suspects:
+        for name, _, outcome in _by_tasks(client, iter([suspect]), settings):
+            yield name, outcome
+
+
+def _by_tasks(
+    client: "distributed.Client", todo: Iterator[tuple[str, Source]], settings: dict[str, Any]
+) -> Iterator[tuple[str, Source, Outcome]]:
     """What the workers measured, as it comes. No more tasks are waiting than keep every worker busy."""
     import cloudpickle
     import distributed
@@ -133,32 +151,33 @@ def _by_workers(
     completed = distributed.as_completed(loop=client.loop)
     watch = Watch(client, _ADVICE)
     done = 0
-    names: dict[distributed.Future, str] = {}
+    tasks: dict[distributed.Future, tuple[str, Source]] = {}
     try:
         while True:
             taken = 0
-            for name, frames in islice(todo, max(_tasks_wanted(client, watch) - len(names), 0)):
+            for name, frames in islice(todo, max(_tasks_wanted(client, watch) - len(tasks), 0)):
                 taken += 1
                 try:
                     pickled = cloudpickle.dumps(frames)
                 except Exception as error:  # noqa: BLE001 - of whatever package the source is of
-                    yield name, Outcome(f"it cannot be pickled and sent to a worker: {reason_of(error)}", None)
+                    reason = f"it cannot be pickled and sent to a worker: {reason_of(error)}"
+                    yield name, frames, Outcome(reason, None)
                     continue
                 watch.require_scheduler()
                 future = client.submit(measure_pickled, pickled, settings, pure=False)
-                names[future] = name
+                tasks[future] = name, frames
                 completed.add(future)
-            if names:
+            if tasks:
                 while not completed.has_ready():  # next() would wait for ever where the scheduler goes away
-                    watch.wait(names, done)
+                    watch.wait(tasks, done)
                 future = next(completed)
                 done += 1
-                yield names.pop(future), _outcome(future, watch)
+                yield *tasks.pop(future), _outcome(future, watch)
             elif not taken:
                 return
     finally:
         if client.status == "running":
-            client.cancel(list(names))
+            client.cancel(list(tasks))
 
 
 def _tasks_wanted(client: "distributed.Client", watch: Watch) -> int:
@@ -179,7 +198,7 @@ def _outcome(future: "distributed.Future", watch: Watch) -> Outcome:
     try:
         outcome: Outcome = future.result()
     except distributed.KilledWorker:
-        return Outcome("every worker that measured it was killed: it may need more memory than they have", None)
+        return _KILLED
     except distributed.CancelledError as error:
         raise watch.gone() from error
     except Exception as error:  # noqa: BLE001 - of Dask, or of a worker without this package
