@@ -19,6 +19,7 @@
 #define itkSensorNoiseDarkSink_h
 
 #include "itkSensorNoiseStackSink.h"
+#include "sensornoise/base/FramesTogether.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/mosaic/PlaneFrames.h"
 #include "sensornoise/moments/CodeSettings.h"
@@ -79,7 +80,7 @@ public:
   void
   SetMosaic(const sensornoise::MosaicGeometry & geometry)
   {
-    m_Planes.emplace(geometry);
+    m_Planes.emplace(geometry, sensornoise::BytesTogether);
     this->Modified();
   }
 

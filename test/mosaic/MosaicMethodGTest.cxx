@@ -9,11 +9,13 @@
 #include "helpers/StackTestHelper.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <gtest/gtest.h>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
@@ -194,6 +196,41 @@ TEST(MosaicGeometry, SplitAndPutAreInverse)
   EXPECT_TRUE(geometry.Take(std::vector<int>(), BayerPlane::R).empty());
 }
 
+TEST(MosaicGeometry, FramesAreTakenAsEachOfThem)
+{
+  constexpr std::size_t count = 3;
+  for (const char * const name : { "RGGB", "GRBG", "GBRG", "BGGR" })
+  {
+    const MosaicGeometry geometry{ { 11, 7, 1 }, BayerPatternOf(name) }; // the last column and row are in no plane
+    const std::size_t    pixels = geometry.Plane().Pixels();
+    std::vector<Pixel>   frames(count * geometry.frame.Pixels());
+    std::iota(frames.begin(), frames.end(), Pixel{ 0 });
+    for (const auto & [first, last] : { std::pair{ 0, 4 }, { 0, 2 }, { 2, 4 } }) // of all planes, or of those of a row
+    {
+      std::array<std::vector<Pixel>, 4> taken;
+      std::array<Pixel *, 4>            to{};
+      for (int k = first; k < last; ++k)
+      {
+        taken[k].resize(count * pixels);
+        to[k] = taken[k].data();
+      }
+      geometry.TakeFrames(frames.data(), count, to, SerialFor);
+      for (int k = first; k < last; ++k)
+      {
+        std::vector<Pixel> expected;
+        for (std::size_t t = 0; t < count; ++t)
+        {
+          const auto begin = frames.begin() + static_cast<std::ptrdiff_t>(t * geometry.frame.Pixels());
+          const auto end = begin + static_cast<std::ptrdiff_t>(geometry.frame.Pixels());
+          const auto plane = geometry.Take(std::vector<Pixel>(begin, end), BayerPlanes[k]);
+          expected.insert(expected.end(), plane.begin(), plane.end());
+        }
+        EXPECT_EQ(taken[k], expected) << name << ", plane " << k << " of those from " << first;
+      }
+    }
+  }
+}
+
 namespace
 {
 /** A method that needs one pass more in each plane than in the one before. */
@@ -201,6 +238,7 @@ struct MorePassesInEachPlane
 {
   static constexpr unsigned int NumberOfPasses = 3;
   static constexpr bool         HasManySums = false;
+  static constexpr std::size_t  BytesTogether = 1;
 
   std::size_t passes;
   std::size_t frames{ 0 };

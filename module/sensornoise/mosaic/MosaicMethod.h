@@ -50,7 +50,7 @@ public:
     : m_ParallelFor(parallelFor)
     , m_Threads(threads)
     , m_IsByPlane(std::make_shared<bool>(false))
-    , m_Planes(geometry)
+    , m_Planes(geometry, TMethod::BytesTogether)
   {
     const ParallelFor withinPlane = [parallelFor, isByPlane = m_IsByPlane](std::size_t count, const auto & function) {
       // A single call: it is not spread, but whoever made parallelFor may stop the work there.
@@ -216,6 +216,7 @@ private:
       return;
     }
     m_Last = RedRows;
+    m_Planes.Release(); // from now on there are two planes in it
     for (std::size_t k = RedRows; k < m_Methods.size(); ++k)
     {
       m_Methods[k].RestAfterFrameSums();

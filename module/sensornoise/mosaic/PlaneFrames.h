@@ -9,6 +9,7 @@
 #include "sensornoise/mosaic/MosaicGeometry.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 
 namespace sensornoise
@@ -17,13 +18,15 @@ namespace sensornoise
 /** \class PlaneFrames
  * \brief Hands on the frames of a mosaic plane by plane, a few at a time.
  *
- * Holds those of two planes, which stand in the same rows of the mosaic. */
+ * Each part of the mosaic is read once for all planes. */
 template <typename TPixel>
 class PlaneFrames
 {
 public:
-  explicit PlaneFrames(const MosaicGeometry & geometry)
+  /** At most \a bytesOfPlane of each plane are copied together, or sensornoise::FramesTogether. */
+  explicit PlaneFrames(const MosaicGeometry & geometry, std::size_t bytesOfPlane)
     : m_Geometry(geometry)
+    , m_BytesOfPlane(bytesOfPlane)
   {}
 
   const MosaicGeometry &
@@ -45,17 +48,21 @@ public:
             TFunction           function)
   {
     const std::size_t pixels = m_Geometry.Plane().Pixels();
-    const std::size_t most = std::max(FramesTogether, BytesOfPlane / (pixels * sizeof(TPixel)));
+    const std::size_t most = std::max(FramesTogether, m_BytesOfPlane / (pixels * sizeof(TPixel)));
     for (std::size_t first = 0; first < count; first += most)
     {
-      const std::size_t now = std::min(most, count - first);
-      m_Buffer.resize(std::max(m_Buffer.size(), static_cast<Eigen::Index>(2 * pixels * now)));
-      TPixel * const planes[2] = { m_Buffer.data(), m_Buffer.data() + pixels * now };
-      for (std::size_t k = firstPlane; k < lastPlane; k += 2)
+      const std::size_t       now = std::min(most, count - first);
+      const std::size_t       size = (lastPlane - firstPlane) * pixels * now;
+      std::array<TPixel *, 4> planes{};
+      m_Buffer.resize(std::max(m_Buffer.size(), static_cast<Eigen::Index>(size)));
+      for (std::size_t k = firstPlane; k < lastPlane; ++k)
       {
-        m_Geometry.TakeFrames(mosaics + first * m_Geometry.frame.Pixels(), now, k == 0, planes, parallelFor);
-        function(k, planes[0], now);
-        function(k + 1, planes[1], now);
+        planes[k] = m_Buffer.data() + (k - firstPlane) * pixels * now;
+      }
+      m_Geometry.TakeFrames(mosaics + first * m_Geometry.frame.Pixels(), now, planes, parallelFor);
+      for (std::size_t k = firstPlane; k < lastPlane; ++k)
+      {
+        function(k, planes[k], now);
       }
     }
   }
@@ -68,11 +75,8 @@ public:
   }
 
 private:
-  /** At most so many bytes of a plane are copied together, or FramesTogether. Set by hand: what is made anew of the
-   * pixels for each part makes an estimate with half of it 5 % slower; with twice it is not faster. */
-  static constexpr std::size_t BytesOfPlane = std::size_t{ 16 } << 20;
-
   MosaicGeometry                          m_Geometry;
+  std::size_t                             m_BytesOfPlane;
   Eigen::Array<TPixel, Eigen::Dynamic, 1> m_Buffer; // unlike std::vector, not filled by one thread
 };
 

@@ -5,6 +5,7 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/FramesTogether.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/moments/StackPasses.h"
 #include "sensornoise/published/CorrectedVariance.h"
@@ -45,6 +46,9 @@ class PublishedMethod final : public StackPasses<TPixel>
 public:
   /** Whether the third pass has more than one sum of a pixel. */
   static constexpr bool HasManySums = false;
+
+  /** Bytes of frames that it is best given together. */
+  static constexpr std::size_t BytesTogether = sensornoise::BytesTogether;
 
   /** \a mask, if given, has a nonzero value at the pixels to be used; \a parallelFor spreads the work. Throws
    * std::invalid_argument for settings out of range, see PublishedSettings::Validate(), and for a stack or a mask that
