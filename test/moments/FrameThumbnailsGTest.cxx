@@ -109,6 +109,26 @@ TEST(SensorNoiseFrameThumbnails, WhatIsMaskedOrNotFiniteIsLeftOut)
   EXPECT_EQ(ChangeOf(Stack([&](auto, auto, auto) { return nan; })).share, 0.0);
 }
 
+TEST(SensorNoiseFrameThumbnails, CodesHaveTheBitsOfNumbers)
+{
+  std::vector<unsigned short> codes;
+  for (const double value : Stack([](double t, double x, double y) { return 290.0 * std::abs(Wave(x + t, y)); }))
+  {
+    codes.push_back(static_cast<unsigned short>(value)); // up to 49,000, so that steps need all their bits
+  }
+  codes.front() = std::numeric_limits<unsigned short>::max();
+  codes[1] = 0;
+  const std::vector<double> numbers(codes.begin(), codes.end());
+  std::ostringstream        saved[2];
+  FrameThumbnails           ofCodes(Geometry, Frames, {});
+  FrameThumbnails           ofNumbers(Geometry, Frames, {});
+  ofCodes.AddFrames(codes.data(), 0, Frames, SerialFor);
+  ofNumbers.AddFrames(numbers.data(), 0, Frames, SerialFor);
+  ofCodes.Save(saved[0]);
+  ofNumbers.Save(saved[1]);
+  EXPECT_EQ(saved[0].str(), saved[1].str());
+}
+
 TEST(SensorNoiseFrameThumbnails, FewFramesOrCellsTellNothing)
 {
   const auto      stack = Stack([](double t, double x, double y) { return Wave(x * t, y * t); });

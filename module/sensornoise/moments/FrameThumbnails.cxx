@@ -9,9 +9,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <type_traits>
 
 namespace sensornoise
 {
@@ -49,6 +51,84 @@ VariancesOf(const std::vector<double> & mean, const std::vector<double> & frame)
   constexpr double medianOfNormal = 0.6745; // of the absolute value, over the standard deviation
   const double     sd = Quantile(residuals, 0.5) / medianOfNormal;
   return { sd * sd, ofFrame / (count - 1.0) };
+}
+
+/** Sums over parts of rows. */
+struct RunSums
+{
+  double pixels{ 0.0 };
+  double sum{ 0.0 }; ///< [DN]
+  double pairs{ 0.0 };
+  double steps{ 0.0 }; ///< of the squares of differences of neighbours [DN^2]
+
+  RunSums &
+  operator+=(const RunSums & other)
+  {
+    pixels += other.pixels;
+    sum += other.sum;
+    pairs += other.pairs;
+    steps += other.steps;
+    return *this;
+  }
+};
+
+/** Of \a count pixels that all count: integers, whose sums are the same in any order and become vector instructions. */
+template <typename TPixel>
+RunSums
+SumCodes(const TPixel * from, std::size_t count)
+{
+  std::int64_t  sum = 0;
+  std::uint64_t steps = 0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    sum += static_cast<std::int32_t>(from[i]);
+  }
+  for (std::size_t i = 1; i < count; ++i)
+  {
+    const auto step =
+      static_cast<std::uint32_t>(static_cast<std::int32_t>(from[i]) - static_cast<std::int32_t>(from[i - 1]));
+    steps += step * step; // below 2^32, whatever its sign
+  }
+  return { static_cast<double>(count),
+           static_cast<double>(sum),
+           static_cast<double>(count - std::min<std::size_t>(1, count)),
+           static_cast<double>(steps) };
+}
+
+/** Of those that are finite, and not 0 in \a mask if that is not null. */
+template <typename TPixel>
+RunSums
+SumUsable(const TPixel * from, const std::uint8_t * mask, std::size_t count)
+{
+  RunSums sums;
+  double  last = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const auto level = static_cast<double>(from[i]);
+    if (std::isfinite(level) && (mask == nullptr || mask[i] != 0))
+    {
+      sums.sum += level;
+      sums.pixels += 1.0;
+      sums.steps += std::isfinite(last) ? (level - last) * (level - last) : 0.0;
+      sums.pairs += std::isfinite(last) ? 1.0 : 0.0;
+      last = level;
+    }
+  }
+  return sums;
+}
+
+template <typename TPixel>
+RunSums
+SumRun(const TPixel * from, const std::uint8_t * mask, std::size_t count)
+{
+  if constexpr (std::is_integral_v<TPixel>)
+  {
+    if (mask == nullptr)
+    {
+      return SumCodes(from, count);
+    }
+  }
+  return SumUsable(from, mask, count);
 }
 } // namespace
 
@@ -92,39 +172,25 @@ void
 FrameThumbnails::AddFrames(const TPixel * frames, std::size_t first, std::size_t count, const ParallelFor & parallelFor)
 {
   parallelFor(count, [&](std::size_t k) {
-    const TPixel * const frame = frames + k * m_Pixels;
-    std::vector<double>  sums(m_Cells, 0.0);
-    std::vector<double>  counts(m_Cells, 0.0);
-    std::vector<double>  steps(m_Cells, 0.0); // squares of differences of neighbours
-    std::vector<double>  pairs(m_Cells, 0.0);
+    std::vector<RunSums> cells(m_Cells);
     for (const Run & run : m_Runs)
     {
-      double last = std::numeric_limits<double>::quiet_NaN();
-      for (std::size_t p = run.begin; p < run.end; ++p)
-      {
-        const auto level = static_cast<double>(frame[p]);
-        if (std::isfinite(level) && (m_Mask.empty() || m_Mask[p] != 0))
-        {
-          sums[run.cell] += level;
-          counts[run.cell] += 1.0;
-          steps[run.cell] += std::isfinite(last) ? (level - last) * (level - last) : 0.0;
-          pairs[run.cell] += std::isfinite(last) ? 1.0 : 0.0;
-          last = level;
-        }
-      }
+      const std::uint8_t * const mask = m_Mask.empty() ? nullptr : m_Mask.data() + run.begin;
+      cells[run.cell] += SumRun(frames + k * m_Pixels + run.begin, mask, run.end - run.begin);
     }
     double noise = 0.0;
-    double cells = 0.0;
-    for (std::size_t cell = 0; cell < m_Cells; ++cell)
+    double seen = 0.0;
+    for (std::size_t i = 0; i < m_Cells; ++i)
     {
-      m_Means[(first + k) * m_Cells + cell] = sums[cell] / counts[cell]; // NaN: nothing there
-      if (pairs[cell] > 0.0)
+      const RunSums & cell = cells[i];
+      m_Means[(first + k) * m_Cells + i] = cell.sum / cell.pixels; // NaN: nothing there
+      if (cell.pairs > 0.0)
       {
-        noise += steps[cell] / (2.0 * pairs[cell] * counts[cell]);
-        cells += 1.0;
+        noise += cell.steps / (2.0 * cell.pairs * cell.pixels);
+        seen += 1.0;
       }
     }
-    m_Noise[first + k] = cells > 0.0 ? noise / cells : 0.0;
+    m_Noise[first + k] = seen > 0.0 ? noise / seen : 0.0;
   });
 }
 
