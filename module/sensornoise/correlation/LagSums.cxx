@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/correlation/LagSums.h"
 
+#include "sensornoise/base/WideVectors.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -109,15 +111,17 @@ SumProducts(const NoiseResiduals & residuals, std::size_t tile, const Lag & lag,
   using Four = std::integral_constant<std::size_t, 4>;
   using One = std::integral_constant<std::size_t, 1>;
   const std::size_t frames = tiles.frames > later ? tiles.frames - later : 0;
-  std::size_t       t = 0;
-  for (; t + Four::value <= frames; t += Four::value) // in order; the sums are loaded and stored a quarter as often
-  {
-    add(t, Four());
-  }
-  for (; t < frames; ++t)
-  {
-    add(t, One());
-  }
+  WithWideVectors([&] {
+    std::size_t t = 0;
+    for (; t + Four::value <= frames; t += Four::value) // in order; the sums are loaded and stored a quarter as often
+    {
+      add(t, Four());
+    }
+    for (; t < frames; ++t)
+    {
+      add(t, One());
+    }
+  });
 }
 
 PairSums &

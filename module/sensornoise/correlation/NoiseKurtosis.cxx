@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/correlation/NoiseKurtosis.h"
 
+#include "sensornoise/base/WideVectors.h"
 #include "sensornoise/correlation/Constants.h"
 
 #include <array>
@@ -26,30 +27,36 @@ template <std::size_t X, std::size_t Y>
 PowerSums
 SumPowers(const SampleTiles & tiles, const float * values)
 {
-  // No pointer can point into them: the loop over pixels becomes vector instructions.
-  PowerSums::OfPixels squares{};
-  PowerSums::OfPixels fourths{};
-  const std::size_t   last = tiles.Pixels() - (Y - 1) * tiles.side - (X - 1);
-  for (std::size_t t = 0; t < tiles.frames; ++t)
-  {
-    const float * frame = values + t * tiles.Pixels();
-    for (std::size_t p = 0; p < last; ++p)
+  PowerSums         powers{};
+  const std::size_t side = tiles.side;
+  const std::size_t frames = tiles.frames;
+  const std::size_t last = side * side - (Y - 1) * side - (X - 1);
+  WithWideVectors([&powers, values, side, frames, last] {
+    // No pointer can point into them: the loop over pixels becomes vector instructions.
+    PowerSums::OfPixels squares{};
+    PowerSums::OfPixels fourths{};
+    for (std::size_t t = 0; t < frames; ++t)
     {
-      float sum = 0.0F;
-      for (std::size_t y = 0; y < Y; ++y)
+      const float * frame = values + t * side * side;
+      for (std::size_t p = 0; p < last; ++p)
       {
-        for (std::size_t x = 0; x < X; ++x)
+        float sum = 0.0F;
+        for (std::size_t y = 0; y < Y; ++y)
         {
-          const float value = frame[p + y * tiles.side + x];
-          sum += (x + y) % 2 == 0 ? value : -value;
+          for (std::size_t x = 0; x < X; ++x)
+          {
+            const float value = frame[p + y * side + x];
+            sum += (x + y) % 2 == 0 ? value : -value;
+          }
         }
+        const float square = sum * sum;
+        squares[p] += square;
+        fourths[p] += square * square;
       }
-      const float square = sum * sum;
-      squares[p] += square;
-      fourths[p] += square * square;
     }
-  }
-  return { squares, fourths };
+    powers = { squares, fourths };
+  });
+  return powers;
 }
 
 template <std::size_t X, std::size_t Y>

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/correlation/NoiseResiduals.h"
 
+#include "sensornoise/base/WideVectors.h"
 #include "sensornoise/correlation/Constants.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -58,15 +60,17 @@ AddWeighed(const float * rows, const Weights & weights, std::size_t count, std::
     }
     return;
   }
-  for (std::size_t p = 0; p < size; ++p)
-  {
-    float own = sum[p];
-    for (std::size_t k = 0; k < Together; ++k)
+  WithWideVectors([&] {
+    for (std::size_t p = 0; p < size; ++p)
     {
-      own += weights[k] * rows[k * size + p];
+      float own = sum[p];
+      for (std::size_t k = 0; k < Together; ++k)
+      {
+        own += weights[k] * rows[k * size + p];
+      }
+      sum[p] = own;
     }
-    sum[p] = own;
-  }
+  });
 }
 
 /** A curve through points of growing x. */
@@ -189,18 +193,16 @@ NoiseResiduals::Weigh(const std::vector<std::uint8_t> & take)
 {
   m_Weight.assign(take.size(), 0.0F);
   m_Bin.assign(take.size(), 0);
-  std::vector<std::size_t> order;
+  std::vector<std::pair<float, std::uint32_t>> order; // light and pixel of those that are taken, by their light
   for (std::size_t k = 0; k < take.size(); ++k)
   {
     if (take[k] != 0)
     {
-      order.push_back(k);
+      order.emplace_back(m_Light[k], static_cast<std::uint32_t>(k));
     }
   }
   m_Pixels = order.size();
-  std::sort(order.begin(), order.end(), [this](std::size_t a, std::size_t b) {
-    return m_Light[a] != m_Light[b] ? m_Light[a] < m_Light[b] : a < b;
-  });
+  std::sort(order.begin(), order.end());
   const std::size_t bins =
     std::clamp<std::size_t>(order.size() / InCorrelation.leastPixelsOfBin, 1, InCorrelation.noiseBins);
   NoiseCurve curve;
@@ -212,18 +214,18 @@ NoiseResiduals::Weigh(const std::vector<std::uint8_t> & take)
     double            sum = 0.0;
     for (std::size_t k = first; k < last; ++k)
     {
-      light += m_Light[order[k]];
-      sum += m_Variance[order[k]];
+      light += order[k].first;
+      sum += m_Variance[order[k].second];
     }
     const auto count = static_cast<double>(std::max<std::size_t>(1, last - first));
     curve.Add(light / count, sum / count / std::max(1.0, this->GetFreedom()));
   }
   for (std::size_t rank = 0; rank < order.size(); ++rank)
   {
-    const std::size_t k = order[rank];
-    const double      typical = curve.At(m_Light[k]);
-    m_Weight[k] = typical > 0.0 ? static_cast<float>(1.0 / typical) : 0.0F;
-    m_Bin[k] = static_cast<std::uint8_t>(rank * LightBins / order.size());
+    const auto [light, pixel] = order[rank];
+    const double typical = curve.At(light);
+    m_Weight[pixel] = typical > 0.0 ? static_cast<float>(1.0 / typical) : 0.0F;
+    m_Bin[pixel] = static_cast<std::uint8_t>(rank * LightBins / order.size());
   }
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/correlation/SharedLight.h"
 
+#include "sensornoise/base/WideVectors.h"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -133,14 +135,16 @@ SumTile(const NoiseResiduals & residuals, std::size_t i)
   AddProducts(light, sums, &DistantSums::light, 1.0);
   sums.Sum([&](std::size_t p) { return static_cast<double>(w[p]) * z[p] * z[p]; });
   AddProducts(light, sums, &DistantSums::lightSquare, 1.0);
-  for (std::size_t t = 0; t < tiles.frames; ++t)
-  {
-    const float * values = residuals.OfTile(i) + t * size;
-    sums.Sum([&](std::size_t p) { return static_cast<double>(w[p] * values[p]); });
-    AddProducts(light, sums, &DistantSums::covariance, factor);
-    sums.Sum([&](std::size_t p) { return static_cast<double>(w[p] * z[p] * values[p]); });
-    light.far.lightCovariance += factor * CellProduct(sums.cells);
-  }
+  WithWideVectors([&] {
+    for (std::size_t t = 0; t < tiles.frames; ++t)
+    {
+      const float * values = residuals.OfTile(i) + t * size;
+      sums.Sum([&](std::size_t p) { return static_cast<double>(w[p] * values[p]); });
+      AddProducts(light, sums, &DistantSums::covariance, factor);
+      sums.Sum([&](std::size_t p) { return static_cast<double>(w[p] * z[p] * values[p]); });
+      light.far.lightCovariance += factor * CellProduct(sums.cells);
+    }
+  });
   return light;
 }
 } // namespace

@@ -3,6 +3,7 @@
 #include "sensornoise/pixels/LevelPattern.h"
 
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/WideVectors.h"
 #include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/VarianceLine.h"
 #include "sensornoise/scene/ReferenceFrame.h"
@@ -136,10 +137,12 @@ MakeSquares(const ReferenceFrame & frame, const VarianceData & data, const Paral
   const std::size_t   down = (frame.geometry.height + side - 1) / side;
   std::vector<Square> squares(across * down);
   parallelFor(down, [&](std::size_t row) {
-    for (std::size_t column = 0; column < across; ++column)
-    {
-      SumPatternSquare(frame, data, column * side, row * side, side, squares[row * across + column]);
-    }
+    WithWideVectors([&] {
+      for (std::size_t column = 0; column < across; ++column)
+      {
+        SumPatternSquare(frame, data, column * side, row * side, side, squares[row * across + column]);
+      }
+    });
   });
   squares.erase(std::remove_if(squares.begin(),
                                squares.end(),

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/pixels/PairProducts.h"
 
+#include "sensornoise/base/WideVectors.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -72,7 +74,7 @@ auto
 FindAddPairProducts()
 {
 #if defined(__GNUC__) && defined(__x86_64__)
-  return __builtin_cpu_supports("avx2") ? AddPairProductsAvx2 : AddPairProductsOneByOne;
+  return HasWideVectors() ? AddPairProductsAvx2 : AddPairProductsOneByOne;
 #else
   return AddPairProductsOneByOne;
 #endif

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/base/WideVectors.h"
 #include "sensornoise/pixels/VarianceFit.h"
 
 #include "sensornoise/base/ChiSquare.h"
@@ -60,52 +61,56 @@ VarianceFit::WeighRun(std::size_t first, std::size_t pixels, Run & run) const
 void
 VarianceFit::WeighByDistance(std::size_t first, std::size_t pixels, Run & run) const
 {
-  // Copies, which no pointer can point into.
-  const VarianceLine line = m_Line;
-  const VarianceData data = m_Data;
-  const double       reach = m_ReachDn2;
-  const double       reachBelow = m_ReachBelowDn2;
-  OfRun              counts;
-  for (std::size_t i = 0; i < pixels; ++i)
-  {
-    const std::size_t p = first + i;
-    const double      expected = line.At(data.neighbourMean[p]);
-    const double      excess = data.variance[p] - line.At(data.mean[p]);
-    run.weight[i] = WeightAt(line, 0.5 * data.freedom[p], expected);
-    run.value[i] = data.variance[p];
-    counts[i] = IsBetween(excess, -reachBelow, reach);
-  }
-  TakeWeights(counts, pixels, run.weight);
+  WithWideVectors([&] {
+    // Copies, which no pointer can point into.
+    const VarianceLine line = m_Line;
+    const VarianceData data = m_Data;
+    const double       reach = m_ReachDn2;
+    const double       reachBelow = m_ReachBelowDn2;
+    OfRun              counts;
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      const std::size_t p = first + i;
+      const double      expected = line.At(data.neighbourMean[p]);
+      const double      excess = data.variance[p] - line.At(data.mean[p]);
+      run.weight[i] = WeightAt(line, 0.5 * data.freedom[p], expected);
+      run.value[i] = data.variance[p];
+      counts[i] = IsBetween(excess, -reachBelow, reach);
+    }
+    TakeWeights(counts, pixels, run.weight);
+  });
 }
 
 void
 VarianceFit::WeighByLevel(std::size_t first, std::size_t pixels, Run & run) const
 {
-  const VarianceLine line = m_Line;
-  const VarianceData data = m_Data;
-  OfRun              freedom;
-  OfRun              ratio;
-  OfRun              counts;
-  for (std::size_t i = 0; i < pixels; ++i)
-  {
-    const std::size_t p = first + i;
-    const double      own = line.At(data.mean[p]);
-    const double      expected = line.At(data.neighbourMean[p]);
-    run.weight[i] = WeightAt(line, 0.5 * data.freedom[p], expected);
-    freedom[i] = line.EffectiveFreedom(data.freedom[p], own);
-    ratio[i] = data.variance[p] / own;
-  }
-  for (std::size_t i = 0; i < pixels; ++i)
-  {
-    const auto & limits = m_Trim->Of(freedom[i]);
-    counts[i] = IsBetween(ratio[i], limits.low, limits.high);
-    run.value[i] = limits.mean;
-  }
-  TakeWeights(counts, pixels, run.weight);
-  for (std::size_t i = 0; i < pixels; ++i)
-  {
-    run.value[i] = data.variance[first + i] / run.value[i];
-  }
+  WithWideVectors([&] {
+    const VarianceLine line = m_Line;
+    const VarianceData data = m_Data;
+    OfRun              freedom;
+    OfRun              ratio;
+    OfRun              counts;
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      const std::size_t p = first + i;
+      const double      own = line.At(data.mean[p]);
+      const double      expected = line.At(data.neighbourMean[p]);
+      run.weight[i] = WeightAt(line, 0.5 * data.freedom[p], expected);
+      freedom[i] = line.EffectiveFreedom(data.freedom[p], own);
+      ratio[i] = data.variance[p] / own;
+    }
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      const auto & limits = m_Trim->Of(freedom[i]);
+      counts[i] = IsBetween(ratio[i], limits.low, limits.high);
+      run.value[i] = limits.mean;
+    }
+    TakeWeights(counts, pixels, run.weight);
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      run.value[i] = data.variance[first + i] / run.value[i];
+    }
+  });
 }
 
 std::vector<double>
@@ -137,31 +142,33 @@ VarianceFit::SetReach()
 void
 VarianceFit::FindSpread(std::size_t first, std::size_t pixels, SpreadTerms & terms) const
 {
-  const VarianceLine line = m_Line;
-  const VarianceData data = m_Data;
-  const double       reach = m_ReachDn2;
-  const double       reachBelow = m_ReachBelowDn2;
-  OfRun              counts;
-  for (std::size_t i = 0; i < pixels; ++i)
-  {
-    const std::size_t p = first + i;
-    const double      expected = line.At(data.neighbourMean[p]);
-    const double      chance = 2.0 * expected * expected / line.SamplingFreedom(data.freedom[p], expected);
-    const double      excess = data.variance[p] - line.At(data.mean[p]);
-    terms.weight[i] = 1.0 / (chance * chance);
-    terms.more[i] = excess * excess - chance;
-    terms.chance[i] = chance;
-    counts[i] = IsBetween(excess, -reachBelow, reach) * data.mask[p];
-  }
-  TakeWeights(counts, pixels, terms.weight);
-  for (std::size_t i = 0; i < pixels; ++i)
-  {
-    const double weight = terms.weight[i];
-    const double more = weight * terms.more[i];
-    const double chance = weight * terms.chance[i];
-    terms.more[i] = weight > 0.0 ? more : 0.0; // without freedom it is infinite
-    terms.chance[i] = weight > 0.0 ? chance : 0.0;
-  }
+  WithWideVectors([&] {
+    const VarianceLine line = m_Line;
+    const VarianceData data = m_Data;
+    const double       reach = m_ReachDn2;
+    const double       reachBelow = m_ReachBelowDn2;
+    OfRun              counts;
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      const std::size_t p = first + i;
+      const double      expected = line.At(data.neighbourMean[p]);
+      const double      chance = 2.0 * expected * expected / line.SamplingFreedom(data.freedom[p], expected);
+      const double      excess = data.variance[p] - line.At(data.mean[p]);
+      terms.weight[i] = 1.0 / (chance * chance);
+      terms.more[i] = excess * excess - chance;
+      terms.chance[i] = chance;
+      counts[i] = IsBetween(excess, -reachBelow, reach) * data.mask[p];
+    }
+    TakeWeights(counts, pixels, terms.weight);
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      const double weight = terms.weight[i];
+      const double more = weight * terms.more[i];
+      const double chance = weight * terms.chance[i];
+      terms.more[i] = weight > 0.0 ? more : 0.0; // without freedom it is infinite
+      terms.chance[i] = weight > 0.0 ? chance : 0.0;
+    }
+  });
 }
 
 void

@@ -3,6 +3,7 @@
 #include "sensornoise/published/CorrectedVariance.h"
 
 #include "sensornoise/base/BinaryStream.h"
+#include "sensornoise/base/WideVectors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -121,10 +122,12 @@ CorrectedVariance::AddRow(const TPixel * firstFrame,
     else
     {
       const double factor = series[m_Rows > 1 ? y : 0];
-      for (std::size_t x = 0; x < width; ++x)
-      {
-        cross[x] += factor * static_cast<double>(row[x]);
-      }
+      WithWideVectors([&] {
+        for (std::size_t x = 0; x < width; ++x)
+        {
+          cross[x] += factor * static_cast<double>(row[x]);
+        }
+      });
     }
   }
 }

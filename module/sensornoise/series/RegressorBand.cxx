@@ -3,6 +3,7 @@
 #include "sensornoise/series/RegressorBand.h"
 
 #include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/WideVectors.h"
 #include "sensornoise/series/FrameProducts.h"
 
 #include <algorithm>
@@ -82,7 +83,7 @@ auto
 FindMultiplyGroup()
 {
 #if defined(__GNUC__) && defined(__x86_64__)
-  return __builtin_cpu_supports("avx2") ? MultiplyGroupAvx2 : MultiplyGroup;
+  return HasWideVectors() ? MultiplyGroupAvx2 : MultiplyGroup;
 #else
   return MultiplyGroup;
 #endif

@@ -3,6 +3,7 @@
 #include "sensornoise/series/TemporalBasis.h"
 
 #include "sensornoise/base/Stencils.h"
+#include "sensornoise/base/WideVectors.h"
 #include "sensornoise/series/Constants.h"
 #include "sensornoise/series/LocalIllumination.h"
 
@@ -97,30 +98,32 @@ void
 TemporalBasis::ToCoordinates(double * sums, std::size_t stride, const double * means, std::size_t pixels) const
 {
   const auto frames = static_cast<double>(m_Basis.rows());
-  for (std::size_t j = 0; j < this->Size(); ++j)
-  {
-    const double taken = m_Means(static_cast<Eigen::Index>(j)) * frames;
-    for (std::size_t i = 0; i < pixels; ++i)
+  WithWideVectors([&] {
+    for (std::size_t j = 0; j < this->Size(); ++j)
     {
-      sums[j * stride + i] = sums[j * stride + i] / Unit - taken * means[i];
-    }
-  }
-  for (std::size_t j = this->Size(); j-- > 0;)
-  {
-    const auto row = static_cast<Eigen::Index>(j);
-    for (std::size_t i = 0; i < pixels; ++i)
-    {
-      sums[j * stride + i] *= m_Inverse(row, row);
-    }
-    for (std::size_t k = 0; k < j; ++k)
-    {
-      const double factor = m_Inverse(row, static_cast<Eigen::Index>(k));
+      const double taken = m_Means(static_cast<Eigen::Index>(j)) * frames;
       for (std::size_t i = 0; i < pixels; ++i)
       {
-        sums[j * stride + i] += factor * sums[k * stride + i];
+        sums[j * stride + i] = sums[j * stride + i] / Unit - taken * means[i];
       }
     }
-  }
+    for (std::size_t j = this->Size(); j-- > 0;)
+    {
+      const auto row = static_cast<Eigen::Index>(j);
+      for (std::size_t i = 0; i < pixels; ++i)
+      {
+        sums[j * stride + i] *= m_Inverse(row, row);
+      }
+      for (std::size_t k = 0; k < j; ++k)
+      {
+        const double factor = m_Inverse(row, static_cast<Eigen::Index>(k));
+        for (std::size_t i = 0; i < pixels; ++i)
+        {
+          sums[j * stride + i] += factor * sums[k * stride + i];
+        }
+      }
+    }
+  });
 }
 
 } // namespace sensornoise
