@@ -130,6 +130,16 @@ def test_codes_that_are_not_there_are_told(names):
     assert refused(names).startswith(f"{names[3]}, strip or tile 0: damaged: ")
 
 
+def test_more_pixels_than_bytes_hold_are_told(names):
+    declared = (
+        names[3].read_bytes().replace(struct.pack("<HHII", 257, LONG, 1, 96), struct.pack("<HHII", 257, LONG, 1, 40000))
+    )
+    names[3].write_bytes(declared)
+    assert refused(names) == (
+        f"{names[3]}: truncated or damaged: declares 128 x 40000 pixels, more than its bytes can hold"
+    )
+
+
 def test_what_is_no_regular_file_is_refused(names):
     names[3].unlink()
     os.mkfifo(names[3])

@@ -18,6 +18,9 @@ ENDINGS = (
     *(".pef", ".raf", ".rw2", ".rwl", ".srw"),
 )
 
+# No raw file packs more; as LibRawFrame.cxx has it.
+_MOST_PIXELS_PER_BYTE = 32
+
 # Tags of a TIFF, which most raw files are.
 _MAKE, _MODEL, _TEXT = 271, 272, 2
 
@@ -112,6 +115,11 @@ def _require_whole(name: str, raw: Any) -> None:
     """LibRaw believes a DNG whose codes are not all there, and rawpy does not hand on what it noticed."""
     import itk
 
+    if raw.sizes.raw_width * raw.sizes.raw_height > _MOST_PIXELS_PER_BYTE * os.path.getsize(name):
+        raise ValueError(
+            f"{name}: truncated or damaged: declares {raw.sizes.raw_width} x {raw.sizes.raw_height} pixels, more than "
+            "its bytes can hold"
+        )
     with itk_errors(kind=ValueError):
         itk.SensorNoiseImageIO.RequireWholeRawTiff(name, raw.sizes.raw_width, raw.sizes.raw_height)
 
