@@ -109,6 +109,10 @@ struct SensorNoiseEstimation
         return make(0, stack.frame, stack.mask, parallelFor);
       }
       const sensornoise::MosaicGeometry & planes = stack.mosaic->geometry;
+      if constexpr (isRefined)
+      {
+        Refined::RequireLimit(ofStack.memoryLimitBytes, planes.Plane(), stack.frames, stack.offsets.size());
+      }
       const auto makeOfPlane = [&](sensornoise::BayerPlane plane, const sensornoise::ParallelFor & spread) {
         return make(static_cast<std::size_t>(plane), planes.Plane(), planes.Take(stack.mask, plane), spread);
       };

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "itkSensorNoiseEstimator.h"
+#include "sensornoise/base/FreeMemory.h"
 #include "sensornoise/pixels/ProjectionSums.h"
 #include "sensornoise/refined/MemoryNeed.h"
 #include "helpers/PipelineTestHelper.h"
@@ -50,6 +51,12 @@ TEST(SensorNoiseEstimatorMemory, ALimitBelowTheNeedIsRefused)
   estimator->SetMemoryLimit(1000);
   EXPECT_SAYS(ErrorOf(estimator), "the memory limit is 0.001 MB; expected at least ");
   EXPECT_SAYS(ErrorOf(estimator), " for frames of 65 x 63 pixels");
+  const sensornoise::MemoryNeed ofPlane{ 32 * 31, Frames };
+  estimator->SetBayerPattern("RGGB");
+  EXPECT_SAYS(ErrorOf(estimator),
+              "the memory limit is 0.001 MB; expected at least " + sensornoise::TextOfBytes(4.0 * ofPlane.Least()) +
+                " for 4 planes of 32 x 31 pixels");
+  estimator->SetBayerPattern("none");
   estimator->SetMethod("published");
   EXPECT_SAYS(ErrorOf(estimator), "the memory limit is 0.001 MB; expected at least 0.164 MB for the method published");
   estimator->SetMemoryLimit(0);

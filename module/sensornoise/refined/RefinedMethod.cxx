@@ -75,17 +75,28 @@ RefinedMethod<TPixel>::RefinedMethod(const RefinedSettings &           settings,
   , m_Scene(std::make_unique<StillScene>())
 {
   settings.Validate();
-  const double least = MemoryNeed{ geometry.Pixels(), frames }.Least();
-  if (settings.memoryLimitBytes < least)
-  {
-    throw std::invalid_argument("the memory limit is " + TextOfBytes(settings.memoryLimitBytes) +
-                                "; expected at least " + TextOfBytes(least) + " for frames of " +
-                                std::to_string(geometry.width) + " x " + std::to_string(geometry.height) + " pixels");
-  }
+  RequireLimit(settings.memoryLimitBytes, geometry, frames, 1);
   if constexpr (std::is_integral_v<TPixel>)
   {
     constexpr int bits = 8 * sizeof(TPixel);
     settings.RequireOffsetWithin(std::exp2(bits), "the number of codes of " + std::to_string(bits) + " bits");
+  }
+}
+
+template <typename TPixel>
+void
+RefinedMethod<TPixel>::RequireLimit(double                limitBytes,
+                                    const FrameGeometry & geometry,
+                                    std::size_t           frames,
+                                    std::size_t           planes)
+{
+  const double least = static_cast<double>(planes) * MemoryNeed{ geometry.Pixels(), frames }.Least();
+  if (limitBytes < least)
+  {
+    throw std::invalid_argument("the memory limit is " + TextOfBytes(limitBytes) + "; expected at least " +
+                                TextOfBytes(least) + " for " +
+                                (planes == 1 ? std::string("frames") : std::to_string(planes) + " planes") + " of " +
+                                std::to_string(geometry.width) + " x " + std::to_string(geometry.height) + " pixels");
   }
 }
 

@@ -67,6 +67,11 @@ public:
                 const std::vector<std::uint8_t> & mask = {},
                 ParallelFor                       parallelFor = SerialFor);
 
+  /** Throws std::invalid_argument if \a limitBytes are less than \a planes frames of the size \a geometry need at once.
+   */
+  static void
+  RequireLimit(double limitBytes, const FrameGeometry & geometry, std::size_t frames, std::size_t planes);
+
   /** Whether the report is there. That is after NumberOfPasses passes, or more if RefinedSettings::memoryLimitBytes
    * asks for it: these read the stack once more, like the third. */
   bool
