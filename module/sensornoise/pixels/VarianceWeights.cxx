@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/base/WideVectors.h"
 #include "sensornoise/pixels/VarianceFit.h"
 
 #include "sensornoise/base/ChiSquare.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/Quantiles.h"
+#include "sensornoise/base/WideVectors.h"
 #include "sensornoise/moments/Constants.h"
 #include "sensornoise/moments/DefectivePixels.h"
 #include "sensornoise/pixels/ChiSquareTrim.h"
