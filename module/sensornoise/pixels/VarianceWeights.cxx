@@ -50,6 +50,33 @@ IsBetween(double value, double low, double high)
 {
   return (value > low ? 1.0 : 0.0) * (value < high ? 1.0 : 0.0);
 }
+
+/** What variances depart from a line by. Made of copies, which no pointer can point into. */
+struct Departure
+{
+  VarianceLine line;
+  VarianceData data;
+  double       reach;      ///< above the line [DN^2]
+  double       reachBelow; ///< [DN^2]
+
+  /** By the level of the pixel's neighbours. */
+  double
+  Expected(std::size_t p) const
+  {
+    return line.At(data.neighbourMean[p]);
+  }
+  double
+  Excess(std::size_t p) const
+  {
+    return data.variance[p] - line.At(data.mean[p]);
+  }
+  /** 1 or 0. */
+  double
+  IsWithinReach(double excess) const
+  {
+    return IsBetween(excess, -reachBelow, reach);
+  }
+};
 } // namespace
 
 void
@@ -62,20 +89,14 @@ void
 VarianceFit::WeighByDistance(std::size_t first, std::size_t pixels, Run & run) const
 {
   WithWideVectors([&] {
-    // Copies, which no pointer can point into.
-    const VarianceLine line = m_Line;
-    const VarianceData data = m_Data;
-    const double       reach = m_ReachDn2;
-    const double       reachBelow = m_ReachBelowDn2;
-    OfRun              counts;
+    const Departure of{ m_Line, m_Data, m_ReachDn2, m_ReachBelowDn2 };
+    OfRun           counts;
     for (std::size_t i = 0; i < pixels; ++i)
     {
       const std::size_t p = first + i;
-      const double      expected = line.At(data.neighbourMean[p]);
-      const double      excess = data.variance[p] - line.At(data.mean[p]);
-      run.weight[i] = WeightAt(line, 0.5 * data.freedom[p], expected);
-      run.value[i] = data.variance[p];
-      counts[i] = IsBetween(excess, -reachBelow, reach);
+      run.weight[i] = WeightAt(of.line, 0.5 * of.data.freedom[p], of.Expected(p));
+      run.value[i] = of.data.variance[p];
+      counts[i] = of.IsWithinReach(of.Excess(p));
     }
     TakeWeights(counts, pixels, run.weight);
   });
@@ -85,7 +106,7 @@ void
 VarianceFit::WeighByLevel(std::size_t first, std::size_t pixels, Run & run) const
 {
   WithWideVectors([&] {
-    const VarianceLine line = m_Line;
+    const VarianceLine line = m_Line; // copies, here too
     const VarianceData data = m_Data;
     OfRun              freedom;
     OfRun              ratio;
@@ -143,21 +164,18 @@ void
 VarianceFit::FindSpread(std::size_t first, std::size_t pixels, SpreadTerms & terms) const
 {
   WithWideVectors([&] {
-    const VarianceLine line = m_Line;
-    const VarianceData data = m_Data;
-    const double       reach = m_ReachDn2;
-    const double       reachBelow = m_ReachBelowDn2;
-    OfRun              counts;
+    const Departure of{ m_Line, m_Data, m_ReachDn2, m_ReachBelowDn2 };
+    OfRun           counts;
     for (std::size_t i = 0; i < pixels; ++i)
     {
       const std::size_t p = first + i;
-      const double      expected = line.At(data.neighbourMean[p]);
-      const double      chance = 2.0 * expected * expected / line.SamplingFreedom(data.freedom[p], expected);
-      const double      excess = data.variance[p] - line.At(data.mean[p]);
+      const double      expected = of.Expected(p);
+      const double      chance = 2.0 * expected * expected / of.line.SamplingFreedom(of.data.freedom[p], expected);
+      const double      excess = of.Excess(p);
       terms.weight[i] = 1.0 / (chance * chance);
       terms.more[i] = excess * excess - chance;
       terms.chance[i] = chance;
-      counts[i] = IsBetween(excess, -reachBelow, reach) * data.mask[p];
+      counts[i] = of.IsWithinReach(excess) * of.data.mask[p];
     }
     TakeWeights(counts, pixels, terms.weight);
     for (std::size_t i = 0; i < pixels; ++i)
