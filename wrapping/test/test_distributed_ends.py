@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Clusters that cannot end a measurement: a clear end, never a wait without one."""
 
+import asyncio
 import os
 import pickle
 import signal
@@ -12,6 +13,7 @@ from types import SimpleNamespace
 import itk
 import numpy as np
 import pytest
+from itk_sensornoise import SensorNoiseSums
 from itk_sensornoise.distributed import _memory, _rounds, _task, _watch, _worker, estimate_many, estimate_sensor_noise
 
 distributed = pytest.importorskip(
@@ -171,6 +173,21 @@ def test_workers_forget_a_run_that_is_over(stack):
         while (_worker._STATE or cluster.scheduler.tasks) and time.monotonic() < deadline:
             time.sleep(0.05)
         assert not _worker._STATE and not cluster.scheduler.tasks  # the worker is a thread here
+
+
+def test_a_task_that_begins_after_its_run_is_over_leaves_nothing(stack, monkeypatch):
+    monkeypatch.setattr(distributed, "get_worker", worker_with(None))
+    start = SensorNoiseSums(stack.shape, stack.dtype, bayer="none")._given
+    try:
+        _worker.fill("run", start, [], stack, (0, 10), (0, 10), None)
+        assert list(_worker._STATE) == ["run"]
+        asyncio.run(_worker.forget("run"))
+        with pytest.raises(RuntimeError, match="run is over: nobody waits for this task"):
+            _worker.fill("run", start, [], stack, (0, 10), (0, 10), None)
+        assert not _worker._STATE
+    finally:
+        _worker._STATE.clear()
+        _worker._OVER.clear()
 
 
 def fail_late(first):

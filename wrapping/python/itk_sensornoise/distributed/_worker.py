@@ -3,6 +3,7 @@
 """What runs on a worker: tasks of one pass, which fill sums with a part of the frames, and merge them."""
 
 import threading
+from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -14,6 +15,11 @@ from .._sums import SensorNoiseSums, names_of
 # One run at a time has its state here, and one task at a time works on it: that is threaded itself.
 _LOCK = threading.RLock()
 _STATE: dict[str, SensorNoiseSums] = {}
+
+# Dask may begin a task that waited here after the run is forgotten; none waits for that many runs. Set by hand: half
+# and twice as many differ by some kB.
+_OVER: deque[str] = deque(maxlen=256)
+_STATE_LOCK = threading.Lock()  # of _STATE and _OVER, for no longer than to look
 
 
 @dataclass
@@ -31,13 +37,16 @@ class Part:
 
 def _state(run: str, start: dict[str, Any], ended: Sequence[Part]) -> SensorNoiseSums:
     """The sums of a run in the pass behind the `ended` ones, with nothing in them. What is here of other runs, and of
-    passes that are behind, is forgotten."""
+    passes that are behind, is forgotten. Raises RuntimeError where the run is over."""
     sums = _STATE.get(run)
     if sums is None or sums.passes_ended > len(ended):
         _STATE.clear()
         sums = SensorNoiseSums(**{"threads": _threads(), **start})
         sums.drop_history()
-        _STATE[run] = sums
+        with _STATE_LOCK:
+            if run in _OVER:
+                raise RuntimeError(f"{run} is over: nobody waits for this task")
+            _STATE[run] = sums
     sums.forget()
     try:
         for part in ended[sums.passes_ended :]:
@@ -99,9 +108,11 @@ def merge(run: str, start: dict[str, Any], ended: Sequence[Part], parts: Sequenc
 
 
 async def forget(run: str) -> None:
-    """Gives back the memory of a run. A coroutine, for which Dask's client does not wait; without the lock, as it is
-    called beside tasks: one that is at work keeps its own."""
-    _STATE.pop(run, None)
+    """Gives back the memory of a run. A coroutine, for which Dask's client does not wait; without the lock of the tasks,
+    as it is called beside them: one that is at work keeps its own."""
+    with _STATE_LOCK:
+        _OVER.append(run)
+        _STATE.pop(run, None)
 
 
 def same(value: Any) -> Any:
