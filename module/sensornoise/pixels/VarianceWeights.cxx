@@ -54,10 +54,10 @@ IsBetween(double value, double low, double high)
 /** What variances depart from a line by. Made of copies, which no pointer can point into. */
 struct Departure
 {
-  VarianceLine line;
-  VarianceData data;
-  double       reach;      ///< above the line [DN^2]
-  double       reachBelow; ///< [DN^2]
+  VarianceLine line{};
+  VarianceData data{};
+  double       reach{};      ///< above the line [DN^2]
+  double       reachBelow{}; ///< [DN^2]
 
   /** By the level of the pixel's neighbours. */
   double
