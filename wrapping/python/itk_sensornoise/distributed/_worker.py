@@ -108,8 +108,8 @@ def merge(run: str, start: dict[str, Any], ended: Sequence[Part], parts: Sequenc
 
 
 async def forget(run: str) -> None:
-    """Gives back the memory of a run. A coroutine, for which Dask's client does not wait; without the lock of the tasks,
-    as it is called beside them: one that is at work keeps its own."""
+    """Gives back the memory of a run. A coroutine, for which Dask's client does not wait; without the lock of tasks, as
+    it is called beside them: one that is at work keeps its own."""
     with _STATE_LOCK:
         _OVER.append(run)
         _STATE.pop(run, None)
