@@ -15,6 +15,10 @@ PIXEL_TYPES = ["uint8", "uint16", "int16", "float32", "float64"]
 ITK_TYPES = {"uint8": itk.UC, "uint16": itk.US, "int16": itk.SS, "float32": itk.F, "float64": itk.D}
 
 
+# Dask's LocalCluster looks 15 s after it first lost a worker, and closes for good what it does not see in that moment:
+# a worker that is killed again and again, on a slow machine.
+os.environ.setdefault("DASK_DISTRIBUTED__DEPLOY__LOST_WORKER_TIMEOUT", "1h")
+
 # Every module that SWIG makes warns of SWIG's own types; as an error that ends the interpreter.
 SWIG_WARNING = "ignore:builtin type:DeprecationWarning"
 
