@@ -238,6 +238,7 @@ struct MorePassesInEachPlane
 {
   static constexpr unsigned int NumberOfPasses = 3;
   static constexpr bool         HasManySums = false;
+  static constexpr bool         ReadsPlanesInPlace = false;
   static constexpr std::size_t  BytesTogether = 1;
 
   std::size_t passes;

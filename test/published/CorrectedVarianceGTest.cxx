@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/published/CorrectedVariance.h"
 #include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/PixelLayout.h"
 #include "sensornoise/published/FlickerEstimate.h"
 
 #include <algorithm>
@@ -22,6 +23,7 @@ constexpr std::size_t Width = 9;
 constexpr std::size_t Height = 7;
 constexpr std::size_t Pixels = Width * Height;
 constexpr std::size_t Frames = 21;
+const PixelLayout     Layout = PixelLayout::OfFrames({ Width, Height, 1 });
 constexpr double      OffsetDn = 100.0;
 
 enum class FlickerOf
@@ -107,7 +109,7 @@ ExpectVarianceOfTheExplicitStack(FlickerOf part)
   CorrectedVariance     corrected(flicker, geometry, Frames);
   for (std::size_t y = 0; y < Height; ++y)
   {
-    corrected.AddRow(stack.data(), Pixels, Frames, 0, y);
+    corrected.AddRow(stack.data(), Layout, Frames, 0, y);
   }
   for (std::size_t p = 0; p < Pixels; ++p)
   {
@@ -153,14 +155,14 @@ TEST(SensorNoiseCorrectedVariance, ChunksAndOrderOfRowsChangeNoBit)
     CorrectedVariance     whole(flicker, geometry, Frames);
     for (std::size_t y = 0; y < Height; ++y)
     {
-      whole.AddRow(stack.data(), Pixels, Frames, 0, y);
+      whole.AddRow(stack.data(), Layout, Frames, 0, y);
     }
     CorrectedVariance chunks(flicker, geometry, Frames);
     for (std::size_t t = 0; t < Frames; t += 4)
     {
       for (std::size_t y = Height; y-- > 0;)
       {
-        chunks.AddRow(stack.data() + t * Pixels, Pixels, std::min<std::size_t>(4, Frames - t), t, y);
+        chunks.AddRow(stack.data() + t * Pixels, Layout, std::min<std::size_t>(4, Frames - t), t, y);
       }
     }
     for (std::size_t p = 0; p < Pixels; ++p)
@@ -181,10 +183,10 @@ TEST(SensorNoiseCorrectedVariance, OrderOfIntegerFramesAndMergesChangeNoBit)
     CorrectedVariance     parts[2] = { whole, whole };
     for (std::size_t y = 0; y < Height; ++y)
     {
-      whole.AddRow(stack.data(), Pixels, Frames, 0, y);
+      whole.AddRow(stack.data(), Layout, Frames, 0, y);
       for (std::size_t t = Frames; t-- > 0;)
       {
-        parts[t % 2].AddRow(stack.data() + t * Pixels, Pixels, 1, t, y);
+        parts[t % 2].AddRow(stack.data() + t * Pixels, Layout, 1, t, y);
       }
     }
     std::stringstream sums;
@@ -220,7 +222,7 @@ TEST(SensorNoiseCorrectedVariance, NoiseFreeFlickerLeavesNothing)
   }
   const Series      raw([&](std::size_t t) { return static_cast<long double>(value(t)); });
   CorrectedVariance corrected(flicker, geometry, Frames);
-  corrected.AddRow(stack.data(), Pixels, Frames, 0, 3);
+  corrected.AddRow(stack.data(), Layout, Frames, 0, 3);
   // What cancels is the raw variance, (0.05 * 2000)^2 = 1e4 DN^2, to double precision.
   EXPECT_NEAR(corrected.GetVariance(p, static_cast<double>(raw.mean), static_cast<double>(raw.squares)), 0.0, 1e-9);
   EXPECT_GT(static_cast<double>(raw.squares) / (Frames - 1), 1e3);

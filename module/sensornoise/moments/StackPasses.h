@@ -153,6 +153,14 @@ protected:
     return m_InPass.GetPass();
   }
 
+  /** The next \a count frames of the current pass are added otherwise than by AddFrames(). Returns the first. Throws
+   * std::logic_error if there are not so many left. */
+  std::size_t
+  NextFrames(std::size_t count)
+  {
+    return m_InPass.Add(count);
+  }
+
   FrameGeometry             m_Geometry;
   std::vector<std::uint8_t> m_UserMask;
   ParallelFor               m_ParallelFor;

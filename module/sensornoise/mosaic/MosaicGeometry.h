@@ -6,6 +6,7 @@
 #include "sensornoise/base/BayerPattern.h"
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/PixelLayout.h"
 
 #include <algorithm>
 #include <array>
@@ -27,6 +28,14 @@ struct MosaicGeometry
   Plane() const
   {
     return { frame.width / 2, frame.height / 2, frame.shutterAxis };
+  }
+
+  /** Where the plane's pixels stand in frames one after the other. */
+  PixelLayout
+  LayoutOf(BayerPlane plane) const
+  {
+    const std::array<std::size_t, 2> corner = CornerOf(pattern, plane);
+    return { corner[1] * frame.width + corner[0], 2, 2 * frame.width, frame.Pixels() };
   }
 
   /** Values of the frame's pixels that are the plane's; none of none. */
@@ -108,12 +117,12 @@ private:
   void
   ForPixels(BayerPlane plane, const ParallelFor & parallelFor, TFunction function) const
   {
-    const FrameGeometry              size = this->Plane();
-    const std::array<std::size_t, 2> corner = CornerOf(pattern, plane);
+    const FrameGeometry size = this->Plane();
+    const PixelLayout   layout = this->LayoutOf(plane);
     parallelFor(size.height, [&](std::size_t y) {
       for (std::size_t x = 0; x < size.width; ++x)
       {
-        function(y * size.width + x, (2 * y + corner[1]) * frame.width + 2 * x + corner[0]);
+        function(y * size.width + x, layout.At(x, y));
       }
     });
   }

@@ -29,7 +29,8 @@ namespace sensornoise
  * \brief A method at work on the four planes of a mosaic at once: each pass reads the stack once for all of them.
  *
  * Usage as that of the method, RefinedMethod or PublishedMethod; what it finds of each plane has the bits that the
- * method alone finds of it. Frames are copied into their planes a few at a time, see PlaneFrames.
+ * method alone finds of it. Frames are copied into their planes a few at a time, see PlaneFrames, unless the method can
+ * read them where they stand.
  *
  * \tparam TPixel the type of the frames' pixels.
  * \tparam TMethod RefinedMethod or PublishedMethod of it. */
@@ -59,6 +60,10 @@ public:
     for (const BayerPlane plane : BayerPlanes)
     {
       m_Methods.push_back(makeMethod(plane, withinPlane));
+      if constexpr (TMethod::ReadsPlanesInPlace)
+      {
+        m_Methods.back().SetLayout(geometry.LayoutOf(plane));
+      }
     }
   }
 
@@ -66,6 +71,14 @@ public:
   void
   AddFrames(const TPixel * frames, std::size_t count)
   {
+    if constexpr (TMethod::ReadsPlanesInPlace)
+    {
+      if (m_Passes > 0)
+      {
+        this->AddInPlace(frames, count);
+        return;
+      }
+    }
     m_Planes.ForPlanes(
       frames, count, m_First, m_Last, m_ParallelFor, [this](std::size_t k, const TPixel * plane, std::size_t now) {
         if (!m_Methods[k].IsDone()) // some planes may need more passes than others
@@ -138,7 +151,7 @@ public:
   EndPass()
   {
     ++m_Passes;
-    if (m_Passes >= NumberOfPasses && m_Last == BayerPlanes.size()) // else it is needed again
+    if (TMethod::ReadsPlanesInPlace || (m_Passes >= NumberOfPasses && m_Last == BayerPlanes.size())) // no more copies
     {
       m_Planes.Release();
     }
@@ -201,6 +214,23 @@ private:
   {
     return std::all_of(
       m_Methods.begin(), m_Methods.begin() + planes, [](const TMethod & method) { return method.IsDone(); });
+  }
+
+  /** All planes of a part are read while it is near the processor. */
+  void
+  AddInPlace(const TPixel * frames, std::size_t count)
+  {
+    std::size_t first = 0;
+    for (TMethod & method : m_Methods)
+    {
+      first = method.BeginParts(count);
+    }
+    m_ParallelFor(m_Methods.front().NumberOfParts(count), [&](std::size_t part) {
+      for (TMethod & method : m_Methods)
+      {
+        method.AddPart(frames, first, count, part);
+      }
+    });
   }
 
   /** Ends it for the red rows, and for the blue ones unless these are to wait until those are done. */

@@ -31,6 +31,17 @@ StepOfSeries(double norm, std::size_t frames)
   std::frexp(rounded * norm * std::sqrt(static_cast<double>(frames)), &exponent); // that is <= 2^exponent
   return std::ldexp(1.0, exponent - (bitsOfSums - bitsOfPixels));
 }
+
+/** Adds \a factor times every \a TStep-th pixel. The step is a constant of the loop, for vector instructions. */
+template <std::size_t TStep, typename TPixel>
+void
+AddTimes(double factor, const TPixel * pixels, std::size_t count, double * sums)
+{
+  for (std::size_t x = 0; x < count; ++x)
+  {
+    sums[x] += factor * static_cast<double>(pixels[TStep * x]);
+  }
+}
 } // namespace
 
 CorrectedVariance::CorrectedVariance(const FlickerEstimate & flicker,
@@ -99,35 +110,31 @@ CorrectedVariance::Merge(std::istream & in)
 
 template <typename TPixel>
 void
-CorrectedVariance::AddRow(const TPixel * firstFrame,
-                          std::size_t    stride,
-                          std::size_t    frames,
-                          std::size_t    t,
-                          std::size_t    y)
+CorrectedVariance::AddRow(const TPixel *      frames,
+                          const PixelLayout & layout,
+                          std::size_t         count,
+                          std::size_t         t,
+                          std::size_t         y)
 {
   const std::size_t width = m_Geometry.width;
   double * const    cross = m_Cross.data() + y * width;
   const bool        alongRow = m_Rows > 1 && m_Geometry.shutterAxis == 0;
-  for (std::size_t k = 0; k < frames; ++k)
+  for (std::size_t k = 0; k < count; ++k)
   {
-    const TPixel * const row = firstFrame + k * stride + y * width;
+    const TPixel * const row = frames + k * layout.frame + layout.At(0, y);
     const double * const series = m_Series.data() + (t + k) * m_Rows;
     if (alongRow)
     {
       for (std::size_t x = 0; x < width; ++x)
       {
-        cross[x] += series[x] * static_cast<double>(row[x]);
+        cross[x] += series[x] * static_cast<double>(row[layout.step * x]);
       }
     }
     else
     {
       const double factor = series[m_Rows > 1 ? y : 0];
-      WithWideVectors([&] {
-        for (std::size_t x = 0; x < width; ++x)
-        {
-          cross[x] += factor * static_cast<double>(row[x]);
-        }
-      });
+      WithWideVectors(
+        [&] { layout.step == 1 ? AddTimes<1>(factor, row, width, cross) : AddTimes<2>(factor, row, width, cross); });
     }
   }
 }
@@ -149,14 +156,22 @@ CorrectedVariance::GetVariance(std::size_t p, double meanDn, double sumOfSquared
 }
 
 template SensorNoise_EXPORT void
-CorrectedVariance::AddRow<unsigned char>(const unsigned char *, std::size_t, std::size_t, std::size_t, std::size_t);
+CorrectedVariance::AddRow<unsigned char>(const unsigned char *,
+                                         const PixelLayout &,
+                                         std::size_t,
+                                         std::size_t,
+                                         std::size_t);
 template SensorNoise_EXPORT void
-CorrectedVariance::AddRow<unsigned short>(const unsigned short *, std::size_t, std::size_t, std::size_t, std::size_t);
+CorrectedVariance::AddRow<unsigned short>(const unsigned short *,
+                                          const PixelLayout &,
+                                          std::size_t,
+                                          std::size_t,
+                                          std::size_t);
 template SensorNoise_EXPORT void
-CorrectedVariance::AddRow<short>(const short *, std::size_t, std::size_t, std::size_t, std::size_t);
+CorrectedVariance::AddRow<short>(const short *, const PixelLayout &, std::size_t, std::size_t, std::size_t);
 template SensorNoise_EXPORT void
-CorrectedVariance::AddRow<float>(const float *, std::size_t, std::size_t, std::size_t, std::size_t);
+CorrectedVariance::AddRow<float>(const float *, const PixelLayout &, std::size_t, std::size_t, std::size_t);
 template SensorNoise_EXPORT void
-CorrectedVariance::AddRow<double>(const double *, std::size_t, std::size_t, std::size_t, std::size_t);
+CorrectedVariance::AddRow<double>(const double *, const PixelLayout &, std::size_t, std::size_t, std::size_t);
 
 } // namespace sensornoise

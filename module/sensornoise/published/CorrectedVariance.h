@@ -5,6 +5,7 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/PixelLayout.h"
 #include "sensornoise/published/FlickerEstimate.h"
 
 #include <cstddef>
@@ -37,12 +38,11 @@ class SensorNoise_EXPORT CorrectedVariance
 public:
   CorrectedVariance(const FlickerEstimate & flicker, const FrameGeometry & geometry, std::size_t frames);
 
-  /** Adds \a frames frames, of which the first is frame \a t, for the row \a y of the image. \a firstFrame points at
-   * pixel 0 of the first frame, and each next frame begins \a stride pixels later. Rows may be added at the same time.
-   */
+  /** Adds \a count frames, of which the first is frame \a t, for the row \a y of the image. They stand in \a frames as
+   * \a layout says. Rows may be added at the same time. */
   template <typename TPixel>
   void
-  AddRow(const TPixel * firstFrame, std::size_t stride, std::size_t frames, std::size_t t, std::size_t y);
+  AddRow(const TPixel * frames, const PixelLayout & layout, std::size_t count, std::size_t t, std::size_t y);
 
   /** No frame has been added. */
   void
@@ -73,15 +73,23 @@ private:
 };
 
 extern template SensorNoise_EXPORT void
-CorrectedVariance::AddRow<unsigned char>(const unsigned char *, std::size_t, std::size_t, std::size_t, std::size_t);
+CorrectedVariance::AddRow<unsigned char>(const unsigned char *,
+                                         const PixelLayout &,
+                                         std::size_t,
+                                         std::size_t,
+                                         std::size_t);
 extern template SensorNoise_EXPORT void
-CorrectedVariance::AddRow<unsigned short>(const unsigned short *, std::size_t, std::size_t, std::size_t, std::size_t);
+CorrectedVariance::AddRow<unsigned short>(const unsigned short *,
+                                          const PixelLayout &,
+                                          std::size_t,
+                                          std::size_t,
+                                          std::size_t);
 extern template SensorNoise_EXPORT void
-CorrectedVariance::AddRow<short>(const short *, std::size_t, std::size_t, std::size_t, std::size_t);
+CorrectedVariance::AddRow<short>(const short *, const PixelLayout &, std::size_t, std::size_t, std::size_t);
 extern template SensorNoise_EXPORT void
-CorrectedVariance::AddRow<float>(const float *, std::size_t, std::size_t, std::size_t, std::size_t);
+CorrectedVariance::AddRow<float>(const float *, const PixelLayout &, std::size_t, std::size_t, std::size_t);
 extern template SensorNoise_EXPORT void
-CorrectedVariance::AddRow<double>(const double *, std::size_t, std::size_t, std::size_t, std::size_t);
+CorrectedVariance::AddRow<double>(const double *, const PixelLayout &, std::size_t, std::size_t, std::size_t);
 
 } // namespace sensornoise
 

@@ -59,6 +59,7 @@ FlickerSums::FlickerSums(const IsoIntensitySet & bright,
                          std::size_t             frames,
                          const IsoIntensitySet & rowSet)
   : m_Frames(frames)
+  , m_Width(geometry.width)
   , m_Rows(rowSet.pixels.empty() ? 0 : geometry.Rows())
   , m_BrightRatios(frames, 0.0)
   , m_DarkResiduals(frames, 0.0)
@@ -74,6 +75,18 @@ FlickerSums::FlickerSums(const IsoIntensitySet & bright,
   {
     m_RowOf.push_back(static_cast<std::uint32_t>(geometry.RowOf(rowSet.pixels[i])));
     m_RowWeights[m_RowOf[i]] += rowSet.weights[i];
+  }
+}
+
+void
+FlickerSums::SetLayout(const PixelLayout & layout)
+{
+  for (WeightedPixels * const set : { &m_Bright, &m_Dark, &m_RowSet })
+  {
+    for (std::uint32_t & p : set->pixels)
+    {
+      p = static_cast<std::uint32_t>(layout.At(p % m_Width, p / m_Width));
+    }
   }
 }
 

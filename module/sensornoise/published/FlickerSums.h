@@ -5,6 +5,7 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/PixelLayout.h"
 #include "sensornoise/published/IsoIntensitySet.h"
 
 #include <array>
@@ -39,6 +40,10 @@ public:
               const FrameGeometry &   geometry,
               std::size_t             frames,
               const IsoIntensitySet & rowSet = {});
+
+  /** The pixels of the frames to come stand as \a layout says; without it, one after the other. To be told once. */
+  void
+  SetLayout(const PixelLayout & layout);
 
   /** Adds frame \a t. Different frames may be added at the same time. */
   template <typename TPixel>
@@ -126,7 +131,7 @@ private:
     double
     NoiseOfAverage(const std::vector<double> & spreads) const;
 
-    std::vector<std::uint32_t> pixels;
+    std::vector<std::uint32_t> pixels; // where they stand in the frame
     std::vector<double>        weights;
     std::vector<double>        means;
     double                     effectivePixels;
@@ -140,6 +145,7 @@ private:
   }
 
   std::size_t                m_Frames;
+  std::size_t                m_Width;
   std::size_t                m_Rows;
   std::vector<double>        m_BrightRatios;
   std::vector<double>        m_DarkResiduals;

@@ -31,6 +31,7 @@ PublishedMethod<TPixel>::PublishedMethod(const PublishedSettings &         setti
                                          ParallelFor                       parallelFor)
   : Passes("PublishedMethod", geometry, frames, mask, std::move(parallelFor))
   , m_Settings(settings)
+  , m_Layout(PixelLayout::OfFrames(geometry))
 {
   settings.Validate();
 }
@@ -46,7 +47,29 @@ PublishedMethod<TPixel>::AddDistinct(const TPixel * frames, std::size_t place, s
   }
   else
   {
-    m_ParallelFor(m_Geometry.height, [&](std::size_t y) { m_Correction->AddRow(frames, pixels, count, place, y); });
+    m_ParallelFor(m_Geometry.height, [&](std::size_t y) { m_Correction->AddRow(frames, m_Layout, count, place, y); });
+  }
+}
+
+template <typename TPixel>
+void
+PublishedMethod<TPixel>::AddPart(const TPixel * mosaics, std::size_t first, std::size_t count, std::size_t part)
+{
+  const auto addIfDistinct = [&](std::size_t k, const auto & add) {
+    if (m_Distinct.OriginalOf(first + k) == first + k)
+    {
+      add(mosaics + k * m_Layout.frame, m_Distinct.PlaceOf(first + k));
+    }
+  };
+  if (m_Sums)
+  {
+    addIfDistinct(part, [&](const TPixel * frame, std::size_t place) { m_Sums->AddFrame(frame, place); });
+    return;
+  }
+  for (std::size_t k = 0; m_Correction && k < count; ++k)
+  {
+    addIfDistinct(
+      k, [&](const TPixel * frame, std::size_t place) { m_Correction->AddRow(frame, m_Layout, 1, place, part); });
   }
 }
 
@@ -92,6 +115,7 @@ PublishedMethod<TPixel>::FinishPass(unsigned int pass)
     if (!m_Scene.obstacle)
     {
       m_Sums.emplace(m_Scene.bright, m_Scene.dark, m_Scene.mean.data(), m_Geometry, m_Distinct.Count(), m_Scene.rowSet);
+      m_Sums->SetLayout(m_Layout);
     }
   }
   else if (pass == 1 && m_Sums)

@@ -7,6 +7,7 @@
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/FramesTogether.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/PixelLayout.h"
 #include "sensornoise/moments/StackPasses.h"
 #include "sensornoise/published/CorrectedVariance.h"
 #include "sensornoise/published/FlickerEstimate.h"
@@ -50,6 +51,9 @@ public:
   /** Bytes of frames that it is best given together. */
   static constexpr std::size_t BytesTogether = sensornoise::BytesTogether;
 
+  /** Whether passes behind the first one need no copy of a mosaic's planes, see AddPart(). */
+  static constexpr bool ReadsPlanesInPlace = true;
+
   /** \a mask, if given, has a nonzero value at the pixels to be used; \a parallelFor spreads the work. Throws
    * std::invalid_argument for settings out of range, see PublishedSettings::Validate(), and for a stack or a mask that
    * RequireStack() refuses. */
@@ -58,6 +62,29 @@ public:
                   std::size_t                       frames,
                   const std::vector<std::uint8_t> & mask = {},
                   ParallelFor                       parallelFor = SerialFor);
+
+  /** Instead of AddFrames(), behind the first pass, for frames that stand as \a layout says, so that several methods
+   * may share what is read of them: the next \a count frames of the pass are \a mosaics. Each method's parts, from 0 to
+   * NumberOfParts(count) - 1, may be added at the same time, between BeginParts() and whatever else is called. */
+  void
+  SetLayout(const PixelLayout & layout)
+  {
+    m_Layout = layout;
+  }
+  /** Returns the first of the next \a count frames. Throws std::logic_error if there are not so many left. */
+  std::size_t
+  BeginParts(std::size_t count)
+  {
+    return this->NextFrames(count);
+  }
+  /** Frames in pass 2, rows in pass 3. */
+  std::size_t
+  NumberOfParts(std::size_t count) const
+  {
+    return this->GetPass() == 1 ? count : m_Geometry.height;
+  }
+  void
+  AddPart(const TPixel * mosaics, std::size_t first, std::size_t count, std::size_t part);
 
   /** Whether the last pass has ended. */
   bool
@@ -149,6 +176,7 @@ private:
   EndCorrection() const;
 
   PublishedSettings m_Settings;
+  PixelLayout       m_Layout;
 
   // What passes 2 and 3 gather, one of them at a time; neither if the stack cannot be measured.
   std::optional<FlickerSums>       m_Sums;

@@ -54,6 +54,9 @@ public:
   /** Whether there is SumsPerPixel(). */
   static constexpr bool HasManySums = true;
 
+  /** A mosaic's planes are copied for it: series are multiplied by frames of pixels that stand side by side. */
+  static constexpr bool ReadsPlanesInPlace = false;
+
   /** Bytes of frames that it is best given together. Set by hand: with half of it an estimate takes 12 % longer, for
    * what the second pass makes anew each time; with twice as long. */
   static constexpr std::size_t BytesTogether = 2 * sensornoise::BytesTogether;
