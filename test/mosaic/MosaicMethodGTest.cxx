@@ -70,6 +70,21 @@ RunPasses(TMethod & method, const Stack<Pixel> & stack, std::size_t chunk)
   }
 }
 
+/** What the method alone finds of a plane of \a stack. */
+template <typename TMethod>
+void
+RunOnPlane(TMethod & method, const Stack<Pixel> & stack, const MosaicGeometry & geometry, BayerPlane plane)
+{
+  Stack<Pixel> alone{ geometry.Plane().width, geometry.Plane().height, stack.frames, {} };
+  for (std::size_t t = 0; t < stack.frames; ++t)
+  {
+    const auto frame =
+      geometry.Take(std::vector<Pixel>(stack.Frame(t), stack.Frame(t) + geometry.frame.Pixels()), plane);
+    alone.pixels.insert(alone.pixels.end(), frame.begin(), frame.end());
+  }
+  RunPasses(method, alone, stack.frames);
+}
+
 template <typename TMethod>
 class MosaicMethodOf : public ::testing::Test
 {};
@@ -108,15 +123,8 @@ TYPED_TEST(MosaicMethodOf, FindsOfEachPlaneWhatItFindsOfItAlone)
                       static_cast<std::uint8_t>(PixelUse::Border));
     for (const BayerPlane plane : BayerPlanes)
     {
-      Stack<Pixel> alone{ geometry.Plane().width, geometry.Plane().height, stack.frames, {} };
-      for (std::size_t t = 0; t < stack.frames; ++t)
-      {
-        const auto frame =
-          geometry.Take(std::vector<Pixel>(stack.Frame(t), stack.Frame(t) + geometry.frame.Pixels()), plane);
-        alone.pixels.insert(alone.pixels.end(), frame.begin(), frame.end());
-      }
       auto method = MakeMethod<TypeParam>(geometry.Plane(), stack.frames, geometry.Take(mask, plane), SerialFor);
-      RunPasses(method, alone, stack.frames);
+      RunOnPlane(method, stack, geometry, plane);
       EXPECT_EQ(ToJson(reports.at(static_cast<std::size_t>(plane))), ToJson(method.GetReport())) << NameOf(plane);
       EXPECT_TRUE(HaveSameBits(geometry.Take(mean, plane), method.GetMean()));
       EXPECT_TRUE(HaveSameBits(geometry.Take(corrected, plane), method.GetCorrectedVariance()));
@@ -124,6 +132,41 @@ TYPED_TEST(MosaicMethodOf, FindsOfEachPlaneWhatItFindsOfItAlone)
     }
     EXPECT_TRUE(std::isnan(mean[96]));
     EXPECT_EQ(use[96], static_cast<std::uint8_t>(PixelUse::Border));
+  }
+}
+
+TEST(MosaicMethod, PublishedPlanesThatAreReadInPlaceAreThoseAlone)
+{
+  using Method = PublishedMethod<Pixel>;
+  Stack<Pixel>      stack = SimulateMosaic(BayerPattern::GRBG, 96, 90);
+  const std::size_t pixels = stack.width * stack.height;
+  const auto frame = [&](std::size_t t) { return stack.pixels.begin() + static_cast<std::ptrdiff_t>(t * pixels); };
+  std::copy_n(frame(3), pixels, frame(5)); // two that are equal,
+  for (std::size_t p = 0; p < pixels; ++p)
+  {
+    if (p / stack.width % 2 == 0) // and two that are in the red rows alone
+    {
+      stack.pixels[9 * pixels + p] = stack.pixels[8 * pixels + p];
+    }
+  }
+  for (const unsigned int shutterAxis : { 0U, 1U })
+  {
+    const MosaicGeometry geometry{ { stack.width, stack.height, shutterAxis }, BayerPattern::GRBG };
+    PublishedSettings    settings;
+    settings.rollingShutter = RollingShutter::Fixed;
+    const auto make = [&](BayerPlane, const ParallelFor & parallelFor) {
+      return Method(settings, geometry.Plane(), stack.frames, {}, parallelFor);
+    };
+    MosaicMethod<Pixel, Method> mosaic(geometry, make, Threads(3));
+    RunPasses(mosaic, stack, 7);
+    for (std::size_t k = 0; k < BayerPlanes.size(); ++k)
+    {
+      Method method = make(BayerPlanes.at(k), SerialFor);
+      RunOnPlane(method, stack, geometry, BayerPlanes.at(k));
+      EXPECT_EQ(method.GetReport().framesDistinct, stack.frames - (k < 2 ? 2 : 1));
+      EXPECT_EQ(ToJson(mosaic.GetReports().at(k)), ToJson(method.GetReport()));
+      EXPECT_TRUE(HaveSameBits(mosaic.GetMethods().at(k).GetCorrectedVariance(), method.GetCorrectedVariance()));
+    }
   }
 }
 
