@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <gtest/gtest.h>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -131,6 +132,37 @@ TEST(SensorNoiseProvisionalModel, FewPixelsAreAnErrorThatSaysHowMany)
   }
 }
 
+TEST(SensorNoiseProvisionalModel, SampleTakesEveryNthPixelOfTheMask)
+{
+  std::mt19937 random(17);
+  for (const std::size_t pixels : { 1, 15, 16, 17, 1003, 4096 })
+  {
+    for (const unsigned int oneIn : { 1U, 2U, 40U })
+    {
+      std::vector<std::uint8_t> mask(pixels);
+      std::vector<std::size_t>  ofMask;
+      for (std::size_t p = 0; p < pixels; ++p)
+      {
+        mask[p] = random() % oneIn == 0 ? 1 : 0;
+        if (mask[p] != 0)
+        {
+          ofMask.push_back(p);
+        }
+      }
+      for (const std::size_t most : { 1, 7, 100, 5000 })
+      {
+        const std::size_t        step = std::max<std::size_t>(1, ofMask.size() / most);
+        std::vector<std::size_t> expected;
+        for (std::size_t i = 0; i < ofMask.size(); i += step)
+        {
+          expected.push_back(ofMask[i]);
+        }
+        EXPECT_EQ(SamplePixels(mask.data(), pixels, most), expected) << pixels << " " << oneIn << " " << most;
+      }
+    }
+  }
+}
+
 TEST(SensorNoiseProvisionalModel, SampleIsEvenAndKeepsAllOfASmallFrame)
 {
   std::vector<std::uint8_t> mask(1000, 0);
@@ -141,7 +173,7 @@ TEST(SensorNoiseProvisionalModel, SampleIsEvenAndKeepsAllOfASmallFrame)
   const auto all = SamplePixels(mask);
   ASSERT_EQ(all.size(), 500u);
   EXPECT_EQ(all[7], 14u);
-  const auto some = SamplePixels(mask, 50);
+  const auto some = SamplePixels(mask.data(), mask.size(), 50);
   ASSERT_GE(some.size(), 50u);
   EXPECT_LT(some.size(), 100u);
   for (std::size_t i = 1; i < some.size(); ++i)

@@ -39,13 +39,13 @@ QuantileOf(std::vector<double> values, double q)
 }
 
 std::vector<std::size_t>
-SamplePixels(const std::vector<std::uint8_t> & mask, std::size_t most)
+SamplePixels(const std::uint8_t * mask, std::size_t pixels, std::size_t most)
 {
-  const auto               count = static_cast<std::size_t>(std::count(mask.begin(), mask.end(), std::uint8_t{ 1 }));
-  const std::size_t        stride = std::max<std::size_t>(1, count / most);
+  const std::size_t count = pixels - static_cast<std::size_t>(std::count(mask, mask + pixels, std::uint8_t{ 0 }));
+  const std::size_t stride = std::max<std::size_t>(1, count / most);
   std::vector<std::size_t> sample;
   std::size_t              skip = 0;
-  for (std::size_t p = 0; p < mask.size(); ++p)
+  for (std::size_t p = 0; p < pixels; ++p)
   {
     if (mask[p] != 0 && skip-- == 0)
     {

@@ -21,9 +21,14 @@ Quantile(std::vector<double> & values, double q);
 SensorNoise_EXPORT double
 QuantileOf(std::vector<double> values, double q);
 
-/** Pixels among which quantiles and rough fits are taken: all usable ones, or evenly spread ones of a large frame. */
+/** Pixels among which quantiles and rough fits are taken: all of the mask, or evenly spread ones of a large frame. */
 SensorNoise_EXPORT std::vector<std::size_t>
-SamplePixels(const std::vector<std::uint8_t> & mask, std::size_t most = 32768);
+SamplePixels(const std::uint8_t * mask, std::size_t pixels, std::size_t most = 32768);
+inline std::vector<std::size_t>
+SamplePixels(const std::vector<std::uint8_t> & mask)
+{
+  return SamplePixels(mask.data(), mask.size());
+}
 
 /** Median of the values of each of \a bins; NaN where a bin is empty. */
 SensorNoise_EXPORT std::vector<double>

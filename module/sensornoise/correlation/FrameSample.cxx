@@ -3,6 +3,7 @@
 #include "sensornoise/correlation/FrameSample.h"
 
 #include "sensornoise/base/BinaryStream.h"
+#include "sensornoise/base/FirstTouch.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -29,12 +30,16 @@ AboveMean(double value, double mean)
 }
 } // namespace
 
-FrameSample::FrameSample(const FrameGeometry & geometry, std::size_t frames, bool isInteger, double lowest)
+FrameSample::FrameSample(const FrameGeometry & geometry,
+                         std::size_t           frames,
+                         bool                  isInteger,
+                         double                lowest,
+                         const ParallelFor &   parallelFor)
   : m_Tiles(MakeSampleTiles(geometry, frames))
   , m_Width(geometry.width)
   , m_FramePixels(geometry.Pixels())
   , m_Lowest(lowest)
-  , m_Codes(isInteger ? m_Tiles.Values() : 0)
+  , m_Codes(MakeMap<std::uint16_t>(isInteger ? m_Tiles.Values() : 0, parallelFor))
   , m_Values(Eigen::ArrayXf::Zero(isInteger ? 0 : static_cast<Eigen::Index>(m_Tiles.Values())))
 {}
 

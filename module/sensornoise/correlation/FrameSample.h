@@ -35,12 +35,15 @@ public:
   /** The sample of a stack of \a frames frames of TPixel. */
   template <typename TPixel>
   static FrameSample
-  Of(const FrameGeometry & geometry, std::size_t frames)
+  Of(const FrameGeometry & geometry, std::size_t frames, const ParallelFor & parallelFor = SerialFor)
   {
     constexpr bool isInteger = std::is_integral_v<TPixel>;
     static_assert(!isInteger || sizeof(TPixel) <= sizeof(std::uint16_t));
-    return FrameSample(
-      geometry, frames, isInteger, isInteger ? static_cast<double>(std::numeric_limits<TPixel>::lowest()) : 0.0);
+    return FrameSample(geometry,
+                       frames,
+                       isInteger,
+                       isInteger ? static_cast<double>(std::numeric_limits<TPixel>::lowest()) : 0.0,
+                       parallelFor);
   }
 
   /** Adds frames firstFrame ... firstFrame + count - 1, stored one after the other, of the type that the sample is for;
@@ -75,7 +78,11 @@ public:
   TakeNoise(const std::vector<double> & mean, const ParallelFor & parallelFor = SerialFor);
 
 private:
-  FrameSample(const FrameGeometry & geometry, std::size_t frames, bool isInteger, double lowest);
+  FrameSample(const FrameGeometry & geometry,
+              std::size_t           frames,
+              bool                  isInteger,
+              double                lowest,
+              const ParallelFor &   parallelFor);
 
   SampleTiles                m_Tiles;
   std::size_t                m_Width{ 0 };

@@ -20,7 +20,7 @@ namespace sensornoise
 std::optional<VarianceLine>
 FitMedians(const VarianceData & data, const ChiSquareTrim & trim)
 {
-  const auto          sample = SamplePixels({ data.mask, data.mask + data.pixels });
+  const auto          sample = SamplePixels(data.mask, data.pixels);
   VarianceLine        line;
   std::vector<double> level;
   for (const std::size_t p : sample)

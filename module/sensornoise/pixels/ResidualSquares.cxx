@@ -3,6 +3,7 @@
 #include "sensornoise/pixels/ResidualSquares.h"
 
 #include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/FirstTouch.h"
 #include "sensornoise/pixels/PixelCoordinates.h"
 #include "sensornoise/scene/ReferenceFrame.h"
 #include "sensornoise/series/TemporalBasis.h"
@@ -27,8 +28,8 @@ AppendResidualSquares(const ReferenceFrame & frame,
   squares.rss.reserve(frame.mean.size());
   squares.skew.reserve(frame.mean.size());
   const auto append = [&](std::size_t firstPixel, std::size_t lastPixel) {
-    squares.rss.resize(lastPixel);
-    squares.skew.resize(lastPixel, 0.0F);
+    GrowMap(squares.rss, lastPixel, parallelFor);
+    GrowMap(squares.skew, lastPixel, parallelFor);
     ForBlocks(lastPixel - firstPixel, parallelFor, [&](std::size_t begin, std::size_t end) {
       end += firstPixel;
       for (std::size_t first = begin + firstPixel; first < end; first += PixelCoordinates::BlockPixels)

@@ -138,7 +138,7 @@ std::vector<double>
 VarianceFit::SampleLevels() const
 {
   std::vector<double> levels;
-  for (const std::size_t p : SamplePixels({ m_Data.mask, m_Data.mask + m_Data.pixels }))
+  for (const std::size_t p : SamplePixels(m_Data.mask, m_Data.pixels))
   {
     levels.push_back(m_Data.neighbourMean[p]);
   }

@@ -246,7 +246,7 @@ RefinedMethod<TPixel>::EndFrameSums()
                     " series of light and motion (a memory limit parts it)");
   }
   m_Projections.emplace(m_Geometry,
-                        FrameSample::Of<TPixel>(m_Geometry, m_Distinct.Count()),
+                        FrameSample::Of<TPixel>(m_Geometry, m_Distinct.Count(), m_ParallelFor),
                         m_Series->basis,
                         PixelProjections::SlabsWithin(left, series),
                         m_ParallelFor);
