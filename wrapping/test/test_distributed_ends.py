@@ -185,6 +185,10 @@ def test_a_task_that_begins_after_its_run_is_over_leaves_nothing(stack, monkeypa
         with pytest.raises(RuntimeError, match="run is over: nobody waits for this task"):
             _worker.fill("run", start, [], stack, (0, 10), (0, 10), None)
         assert not _worker._STATE
+        _worker.fill("other", start, [], stack, (0, 10), (0, 10), None)
+        with pytest.raises(RuntimeError, match="run is over: nobody waits for this task"):
+            _worker.fill("run", start, [], stack, (0, 10), (0, 10), None)
+        assert list(_worker._STATE) == ["other"]
     finally:
         _worker._STATE.clear()
         _worker._OVER.clear()

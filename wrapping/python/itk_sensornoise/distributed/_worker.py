@@ -40,12 +40,13 @@ def _state(run: str, start: dict[str, Any], ended: Sequence[Part]) -> SensorNois
     passes that are behind, is forgotten. Raises RuntimeError where the run is over."""
     sums = _STATE.get(run)
     if sums is None or sums.passes_ended > len(ended):
-        _STATE.clear()
+        with _STATE_LOCK:
+            _require_going(run)  # else what is here is that of a run at work
+            _STATE.clear()
         sums = SensorNoiseSums(**{"threads": _threads(), **start})
         sums.drop_history()
         with _STATE_LOCK:
-            if run in _OVER:
-                raise RuntimeError(f"{run} is over: nobody waits for this task")
+            _require_going(run)  # it may have ended meanwhile
             _STATE[run] = sums
     sums.forget()
     try:
@@ -56,6 +57,12 @@ def _state(run: str, start: dict[str, Any], ended: Sequence[Part]) -> SensorNois
         _STATE.clear()  # half of a pass is none
         raise
     return sums
+
+
+def _require_going(run: str) -> None:
+    """Raises RuntimeError where the run is over. To be called with _STATE_LOCK."""
+    if run in _OVER:
+        raise RuntimeError(f"{run} is over: nobody waits for this task")
 
 
 def _threads() -> int:
