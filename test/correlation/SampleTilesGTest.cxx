@@ -96,10 +96,28 @@ TEST(SensorNoiseSampleTiles, KeepToTheirBudgets)
       const std::size_t pixels = tiles.origins.size() * tiles.Pixels();
       EXPECT_EQ(tiles.frames, std::min(frames, SampleTiles::MostFrames));
       EXPECT_LE(pixels, SampleTiles::MostPixels);
-      EXPECT_LE(pixels * tiles.frames, SampleTiles::MostValues);
+      const std::size_t values = SampleTiles::MostValuesOf(geometry.Pixels());
+      EXPECT_LE(pixels * tiles.frames, values);
       // Whole columns and rows of tiles leave a third unused at most, where the frame has as many pixels.
-      const std::size_t most = std::min(SampleTiles::MostPixels, SampleTiles::MostValues / tiles.frames);
+      const std::size_t most = std::min(SampleTiles::MostPixels, values / tiles.frames);
       EXPECT_GE(3 * pixels, 2 * std::min(most, geometry.Pixels() / 2)) << geometry.width << " " << frames;
     }
   }
+}
+
+TEST(SensorNoiseSampleTiles, MayHaveAsManyValuesAsTheFrameHasPixelsFor)
+{
+  EXPECT_EQ(SampleTiles::MostValuesOf(0), SampleTiles::MostValuesOfSmall);
+  constexpr std::size_t most = SampleTiles::MostValues / SampleTiles::MostValuesPerPixel;
+  constexpr std::size_t least = SampleTiles::MostValuesOfSmall / SampleTiles::MostValuesPerPixel;
+  EXPECT_EQ(SampleTiles::MostValuesOf(least), SampleTiles::MostValuesOfSmall);
+  EXPECT_EQ(SampleTiles::MostValuesOf(3 * least / 2), 3 * SampleTiles::MostValuesOfSmall / 2);
+  EXPECT_EQ(SampleTiles::MostValuesOf(most), SampleTiles::MostValues);
+  EXPECT_EQ(SampleTiles::MostValuesOf(100 * most), SampleTiles::MostValues);
+}
+
+TEST(SensorNoiseSampleTiles, OneColumnMoreIsTakenWhereItLeavesLessUnused)
+{
+  const auto tiles = MakeSampleTiles({ 688, 520, 1 }, 100);
+  EXPECT_EQ(tiles.origins.size(), 40U); // 8 x 5 of at most 40; the square root would be 7 x 5
 }

@@ -27,7 +27,7 @@ namespace sensornoise
 {
 
 /** Version of what follows the header; a machine that is not little-endian reads another one. */
-inline constexpr std::uint32_t SumsVersion = 3;
+inline constexpr std::uint32_t SumsVersion = 4;
 
 /** Writes \a count numbers. Throws std::runtime_error if the stream does not take them. */
 template <typename TNumber>

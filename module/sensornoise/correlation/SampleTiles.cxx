@@ -22,14 +22,18 @@ MakeSampleTiles(const FrameGeometry & geometry, std::size_t frames)
   std::size_t       columns = geometry.width / tiles.side;
   std::size_t       rows = geometry.height / tiles.side;
   const std::size_t most =
-    std::min(SampleTiles::MostPixels, SampleTiles::MostValues / std::max<std::size_t>(1, tiles.frames)) /
+    std::min(SampleTiles::MostPixels,
+             SampleTiles::MostValuesOf(geometry.Pixels()) / std::max<std::size_t>(1, tiles.frames)) /
     tiles.Pixels();
   if (columns * rows > most)
   {
     const double ratio = static_cast<double>(columns) / static_cast<double>(rows);
-    const auto   wanted = static_cast<std::size_t>(std::sqrt(static_cast<double>(most) * ratio));
-    columns = std::clamp<std::size_t>(wanted, 1, std::min(columns, most));
-    rows = std::min(rows, most / columns);
+    const auto   square = static_cast<std::size_t>(std::sqrt(static_cast<double>(most) * ratio));
+    const auto   fewer = std::clamp<std::size_t>(square, 1, std::min(columns, most));
+    const auto   more = std::min(fewer + 1, std::min(columns, most));
+    const auto   rowsOf = [rows, most](std::size_t across) { return std::min(rows, most / across); };
+    columns = more * rowsOf(more) > fewer * rowsOf(fewer) ? more : fewer;
+    rows = rowsOf(columns);
   }
   for (std::size_t j = 0; j < rows; ++j)
   {

@@ -6,6 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/FrameGeometry.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -23,8 +24,13 @@ struct SensorNoise_EXPORT SampleTiles
   /** Pixels of all tiles (estimator.md, 3.12): coefficients of 100 frames come out to 0.0004. Set by hand: half and
    * twice change errors and cost, as the square root and in proportion. */
   static constexpr std::size_t MostPixels = std::size_t{ 1 } << 17;
-  /** Values of all tiles, of 2 or 4 bytes: 16 or 32 MiB. */
+  /** Values of all tiles, of 2 or 4 bytes: 16 or 32 MiB, see MostValuesOf(). */
   static constexpr std::size_t MostValues = std::size_t{ 1 } << 23;
+  /** Values for each pixel of a frame, and what a small frame may have however few it is. Set by hand, so that the four
+   * planes of a mosaic have no more memory than one frame of its size: with half of it the errors are 1.4 times as
+   * large, with twice, a mosaic of 1.4 megapixels takes a tenth more memory than that frame. */
+  static constexpr std::size_t MostValuesPerPixel = 8;
+  static constexpr std::size_t MostValuesOfSmall = std::size_t{ 1 } << 22;
   /** Frames; more would leave too few tiles to see all levels, and tell no more of what frames share. */
   static constexpr std::size_t MostFrames = 256;
   /** Tiles that a jackknife needs for an error to 20 %. */
@@ -38,6 +44,13 @@ struct SensorNoise_EXPORT SampleTiles
     std::size_t x;
     std::size_t y;
   };
+
+  /** Values of all tiles in frames of \a pixels pixels. */
+  static constexpr std::size_t
+  MostValuesOf(std::size_t pixels)
+  {
+    return std::clamp(MostValuesPerPixel * pixels, MostValuesOfSmall, MostValues);
+  }
 
   std::size_t         side{ 0 };   ///< [pixels]
   std::size_t         frames{ 0 }; ///< of the stack's first

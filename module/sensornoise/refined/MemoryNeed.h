@@ -47,7 +47,7 @@ private:
   double
   OfFrames() const
   {
-    const std::size_t sample = std::min(SampleTiles::MostValues, SampleTiles::MostPixels * frames);
+    const std::size_t sample = std::min(SampleTiles::MostValuesOf(pixels), SampleTiles::MostPixels * frames);
     return bytesPerFrame * static_cast<double>(frames) + 4.0 * static_cast<double>(sample);
   }
 };
