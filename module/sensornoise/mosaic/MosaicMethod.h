@@ -154,6 +154,7 @@ public:
     if (TMethod::ReadsPlanesInPlace || (m_Passes >= NumberOfPasses && m_Last == BayerPlanes.size())) // no more copies
     {
       m_Planes.Release();
+      GiveBackFreedMemory();
     }
     if constexpr (TMethod::HasManySums)
     {
