@@ -6,11 +6,32 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <stdexcept>
 #include <vector>
 
 namespace sensornoise
 {
+
+namespace
+{
+/** Bytes of a mask that are counted at once. */
+constexpr std::size_t Group = sizeof(std::uint64_t);
+
+/** How many bytes of a group are not zero. */
+std::size_t
+CountGroup(const std::uint8_t * mask)
+{
+  constexpr std::uint64_t ones = 0x0101010101010101U;
+  std::uint64_t           bytes = 0;
+  std::memcpy(&bytes, mask, Group);
+  for (const int shift : { 4, 2, 1 })
+  {
+    bytes |= bytes >> shift; // the lowest bit of a byte becomes 1 where any of its bits is
+  }
+  return static_cast<std::size_t>(((bytes & ones) * ones) >> 56U); // their sum is the highest byte of the product
+}
+} // namespace
 
 double
 Quantile(std::vector<double> & values, double q)
@@ -44,13 +65,24 @@ SamplePixels(const std::uint8_t * mask, std::size_t pixels, std::size_t most)
   const std::size_t count = pixels - static_cast<std::size_t>(std::count(mask, mask + pixels, std::uint8_t{ 0 }));
   const std::size_t stride = std::max<std::size_t>(1, count / most);
   std::vector<std::size_t> sample;
-  std::size_t              skip = 0;
-  for (std::size_t p = 0; p < pixels; ++p)
+  sample.reserve((count + stride - 1) / stride);
+  std::size_t skip = 0; // pixels of the mask before the next one
+  for (std::size_t p = 0; p < pixels;)
   {
-    if (mask[p] != 0 && skip-- == 0)
+    const std::size_t ofGroup = p + Group <= pixels ? CountGroup(mask + p) : Group;
+    if (ofGroup <= skip)
     {
-      sample.push_back(p);
-      skip = stride - 1;
+      skip -= ofGroup;
+      p += Group;
+      continue;
+    }
+    for (const std::size_t last = std::min(p + Group, pixels); p < last; ++p)
+    {
+      if (mask[p] != 0 && skip-- == 0)
+      {
+        sample.push_back(p);
+        skip = stride - 1;
+      }
     }
   }
   return sample;
@@ -75,12 +107,29 @@ MediansOfBins(const std::vector<double> & values, const std::vector<std::size_t>
 std::vector<double>
 EdgesOfEqualCount(std::vector<double> values, std::size_t bins)
 {
-  std::sort(values.begin(), values.end());
-  std::vector<double> edges;
-  for (std::size_t b = 1; b < bins && !values.empty(); ++b)
+  if (values.empty() || bins < 2)
   {
-    edges.push_back(values[b * values.size() / bins] - 1e-9 * (values.back() - values.front()));
+    return {};
   }
+  const auto [least, largest] = std::minmax_element(values.begin(), values.end());
+  const double        below = 1e-9 * (*largest - *least);
+  std::vector<double> edges(bins - 1);
+  // Values are sorted as far as their bins: the middle edge parts them, and so on in both halves.
+  const auto part = [&](std::size_t firstBin, std::size_t lastBin, const auto & again) -> void {
+    if (lastBin - firstBin > 1)
+    {
+      const auto at = [&](std::size_t bin) { return values.begin() + std::ptrdiff_t(bin * values.size() / bins); };
+      const std::size_t middle = (firstBin + lastBin) / 2;
+      if (at(middle) < at(lastBin))
+      {
+        std::nth_element(at(firstBin), at(middle), at(lastBin));
+      }
+      edges[middle - 1] = *at(middle) - below;
+      again(firstBin, middle, again);
+      again(middle, lastBin, again);
+    }
+  };
+  part(0, bins, part);
   return edges;
 }
 
