@@ -5,6 +5,7 @@
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/pixels/FarVariance.h"
+#include "sensornoise/pixels/JudgedRun.h"
 #include "sensornoise/pixels/JudgingLine.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
 #include "helpers/ProjectionTestHelper.h"
@@ -147,5 +148,46 @@ TEST(SensorNoiseStaticPixels, FarOffIsFourAndAHalfStandardDeviations)
     EXPECT_FALSE(IsFarAbove(below(6.0), freedom)) << freedom;
     EXPECT_FALSE(IsFarOff(below(3.8), freedom)) << freedom;
     EXPECT_TRUE(IsFarOff(below(5.2), freedom)) << freedom;
+  }
+}
+
+TEST(SensorNoiseStaticPixels, RunsAreJudgedAsSinglePixelsAre)
+{
+  Noise noise([](std::size_t p) { return p % 97 == 0 ? 3.0 : p % 89 == 0 ? 0.1 : 1.0; });
+  noise.line.line.gain = 0.1;
+  noise.line.line.noiseSpreadDn4 = 900.0;
+  const ReferenceFrame & frame = noise.projected.GetFrame();
+  const auto [darkest, brightest] = std::minmax_element(frame.mean.begin(), frame.mean.end());
+  for (const bool departs : { false, true })
+  {
+    if (departs)
+    {
+      const double range = *brightest - *darkest;
+      noise.line.levels = { *darkest + 0.2 * range, *darkest + 0.3 * range, *darkest + 0.7 * range };
+      noise.line.ratios = { 0.9, 1.2, 1.05 };
+    }
+    noise.line.byNeighbours = departs;
+    JudgedRun   run;
+    std::size_t far = 0;
+    ForJudgedRuns(Width, 20 * Width, [&](std::size_t first, std::size_t pixels) {
+      ASSERT_LE(pixels, JudgedRun::MostPixels);
+      run.Judge(noise.projected, noise.line, first, pixels);
+      for (std::size_t i = 0; i < pixels; ++i)
+      {
+        const std::size_t p = first + i;
+        if (noise.input.mask[p] != 0)
+        {
+          const double expected = noise.line.At(noise.line.LevelOf(frame, p));
+          const double ratio = noise.projected.GetVariance()[p] / expected;
+          const double freedom = noise.line.EffectiveFreedom(noise.projected.GetFreedom()[p], expected);
+          ASSERT_NEAR(run.expected[i], expected, 1e-12 * expected) << p;
+          ASSERT_NEAR(run.ratio[i], ratio, 1e-12 * ratio) << p;
+          ASSERT_EQ(run.isAbove[i] != 0.0, IsFarAbove(ratio, freedom)) << p;
+          ASSERT_EQ(run.isOff[i] != 0.0, IsFarOff(ratio, freedom)) << p;
+          far += IsFarOff(ratio, freedom) ? 1 : 0;
+        }
+      }
+    });
+    EXPECT_GT(far, 0U);
   }
 }

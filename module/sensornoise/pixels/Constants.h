@@ -61,6 +61,9 @@ struct PixelsConstants
    * count. Set by hand. */
   std::size_t judgingSquareSide{ 16 };
   double      leastSquarePixels{ 64.0 };
+  /** Squares that are enough: of twice as many or more every second counts, and so on. Set by hand: the medians of 16
+   * levels are known to 0.2 %. */
+  std::size_t enoughJudgingSquares{ 1024 };
   /** Levels at most, and squares of each at least. Set by hand. */
   std::size_t mostJudgingLevels{ 16 };
   std::size_t squaresPerLevel{ 8 };
@@ -86,6 +89,15 @@ struct PixelsConstants
   /** Pixels of a bin of the first line, and of a fit, at least. Set by hand. */
   double      fewestPixelsOfBin{ 5.0 };
   std::size_t fewestPixelsOfFit{ 10 };
+  /** Pixels, or up to twice as many, that draw a line by which pixels are judged, or from which a fit of all pixels
+   * starts. Set by hand: those of 100 frames know a variance to 0.05 %, the smallest effect that is judged is 0.15 %.
+   */
+  std::size_t pixelsOfRoughLine{ 65536 };
+  /** Steps from there to the line of all pixels. The weights change it by less than its error; each step divides what
+   * is off by the number of standard errors in the line, some hundreds. */
+  int stepsFromRoughLine{ 2 };
+  /** Determinant of a line's equations, relative to its diagonal, up to which the levels are one [1]: rounding. */
+  double leastDeterminant{ 1e-12 };
   /** Probability that chance carries a pixel of the brightest level beyond the reach of TrimRule::Distance [1]. Set by
    * hand, small enough to leave the mean alone: a tenth and ten times of it move no gain by 0.01 %. */
   double reachTail{ 1e-5 };

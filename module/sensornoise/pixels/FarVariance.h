@@ -10,22 +10,35 @@
 namespace sensornoise
 {
 
-/** Whether a chi-square variable over its \a freedom is farZ standard deviations above 1 or more: its cube root is
- * about normal (Wilson & Hilferty 1931). */
+/** Where a chi-square variable over its \a freedom is farZ standard deviations off 1: its cube root is about normal
+ * (Wilson & Hilferty 1931). */
+struct FarLimits
+{
+  double low;
+  double high;
+
+  explicit FarLimits(double freedom)
+  {
+    const double s = 2.0 / (9.0 * freedom);
+    const double far = InPixels.farZ * std::sqrt(s);
+    const double above = 1.0 - s + far;
+    const double below = 1.0 - s - far;
+    low = below * below * below;
+    high = above * above * above;
+  }
+};
+
+/** Whether such a variable is as far above 1 or more. */
 inline bool
 IsFarAbove(double ratio, double freedom)
 {
-  const double s = 2.0 / (9.0 * freedom);
-  const double limit = 1.0 - s + InPixels.farZ * std::sqrt(s);
-  return !(ratio < limit * limit * limit);
+  return !(ratio < FarLimits(freedom).high);
 }
 /** The same on either side. */
 inline bool
 IsFarOff(double ratio, double freedom)
 {
-  const double s = 2.0 / (9.0 * freedom);
-  const double limit = 1.0 - s - InPixels.farZ * std::sqrt(s);
-  return IsFarAbove(ratio, freedom) || !(ratio > limit * limit * limit);
+  return IsFarAbove(ratio, freedom) || !(ratio > FarLimits(freedom).low);
 }
 
 } // namespace sensornoise

@@ -50,7 +50,7 @@ struct JudgedRow
     {
       expected[i] = own.At(mean[i]);
       excess[i] = variance[i] - expected[i];
-      chance[i] = 2.0 * expected[i] * expected[i] / own.SamplingFreedom(freedom[i], expected[i]);
+      chance[i] = own.SamplingVariance(freedom[i], expected[i]);
     }
   }
 };
@@ -111,8 +111,9 @@ MakeJudgingSquares(const VarianceLine &      line,
   const std::size_t          across = (geometry.width + InPixels.judgingSquareSide - 1) / InPixels.judgingSquareSide;
   const std::size_t          down = (geometry.height + InPixels.judgingSquareSide - 1) / InPixels.judgingSquareSide;
   std::vector<JudgingSquare> squares(across * down);
+  const std::size_t          oneIn = std::max<std::size_t>(1, squares.size() / InPixels.enoughJudgingSquares);
   parallelFor(down, [&](std::size_t row) {
-    for (std::size_t column = 0; column < across; ++column)
+    for (std::size_t column = row % oneIn; column < across; column += oneIn)
     {
       squares[row * across + column] =
         SumJudgingSquare(line, data, projected, column * InPixels.judgingSquareSide, row * InPixels.judgingSquareSide);
@@ -142,12 +143,11 @@ MedianOf(const std::vector<JudgingSquare> & squares,
 double
 JudgingLine::RatioAt(double meanDn) const
 {
-  const auto above = std::upper_bound(levels.begin(), levels.end(), meanDn);
-  if (above == levels.begin() || above == levels.end())
+  const std::size_t i = BinOf(levels, meanDn); // of the first level above
+  if (i == 0 || i == levels.size())
   {
-    return above == levels.begin() ? ratios.front() : ratios.back();
+    return i == 0 ? ratios.front() : ratios.back();
   }
-  const auto   i = static_cast<std::size_t>(above - levels.begin());
   const double share = (meanDn - levels[i - 1]) / (levels[i] - levels[i - 1]);
   return ratios[i - 1] + share * (ratios[i] - ratios[i - 1]);
 }

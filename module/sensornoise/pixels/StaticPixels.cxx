@@ -2,16 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/pixels/StaticPixels.h"
 
-#include "sensornoise/base/BoxSum.h"
-#include "sensornoise/base/FirstTouch.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/Quantiles.h"
+#include "sensornoise/base/WideVectors.h"
 #include "sensornoise/pixels/Constants.h"
-#include "sensornoise/pixels/FarVariance.h"
-#include "sensornoise/pixels/ProjectedVariance.h"
+#include "sensornoise/pixels/JudgedRun.h"
 #include "sensornoise/pixels/JudgingLine.h"
+#include "sensornoise/pixels/ProjectedVariance.h"
 #include "sensornoise/scene/ReferenceFrame.h"
-#include "sensornoise/series/TemporalBasis.h"
 
 #include <algorithm>
 #include <array>
@@ -47,25 +45,42 @@ SumClasses(const ProjectedVariance &         projected,
            const ParallelFor &               parallelFor)
 {
   const ReferenceFrame & frame = projected.GetFrame();
-  return SumOverBlocks<ClassSums * Classes>(mask.size(), parallelFor, [&](std::size_t p, auto & s) {
-    if (mask[p] != 0)
-    {
-      const double expected = line.At(line.LevelOf(frame, p));
-      const double ratio = projected.GetVariance()[p] / expected;
-      const double near = expected / line.At(frame.neighbourMean[p]);
-      double *     own = s.data() + ClassSums * projected.ClassOf(p);
-      own[Pixels] += 1.0;
-      const double freedom = line.EffectiveFreedom(projected.GetFreedom()[p], expected);
-      if (!IsFarOff(ratio, freedom))
+  const double           sampling = 2.0 * line.sharedSquares / static_cast<double>(frame.frames - 1);
+  const auto             sumRun = [&](std::size_t first, std::size_t pixels, JudgedRun & run, double * sums) {
+    JudgedRun::OfRun weight;
+    JudgedRun::OfRun error;
+    WithWideVectors([&, level = frame.neighbourMean.data() + first, spread = line.line.noiseSpreadDn4] {
+      run.Judge(projected, line, first, pixels);
+      JudgedRun::Expect(line, level, pixels, weight);
+      for (std::size_t i = 0; i < pixels; ++i)
       {
-        own[Kept] += 1.0;
-        own[Weight] += near * near;
-        own[WeightedRatio] += near * near * ratio;
-        own[SquaredErrors] += 2.0 * line.sharedSquares / static_cast<double>(frame.frames - 1) +
-                              line.line.noiseSpreadDn4 / (expected * expected);
+        const double near = run.expected[i] / weight[i];
+        weight[i] = near * near;
+        error[i] = sampling + spread / (run.expected[i] * run.expected[i]);
+      }
+    });
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      if (mask[first + i] != 0)
+      {
+        double * own = sums + ClassSums * projected.ClassOf(first + i);
+        own[Pixels] += 1.0;
+        if (run.isOff[i] == 0.0)
+        {
+          own[Kept] += 1.0;
+          own[Weight] += weight[i];
+          own[WeightedRatio] += weight[i] * run.ratio[i];
+          own[SquaredErrors] += error[i];
+        }
       }
     }
-  });
+  };
+  return SumBlocks<ClassSums * Classes>(
+    mask.size(), parallelFor, [&](std::size_t begin, std::size_t end, SumsOfClasses & sums) {
+      JudgedRun run;
+      ForJudgedRuns(
+        begin, end, [&](std::size_t first, std::size_t pixels) { sumRun(first, pixels, run, sums.data()); });
+    });
 }
 
 /** What the classes are judged by. */
@@ -121,40 +136,6 @@ FirstBadClass(const ClassTable & table)
   return Classes;
 }
 
-/** How single pixels fit the line. */
-struct PixelFits
-{
-  std::vector<float>        ratio;    // of the variance to the line's; 0 unless it fits
-  std::vector<std::uint8_t> fits;     // 1: of the mask, and not far above the line
-  std::vector<std::uint8_t> rejected; // 1: far above it
-};
-
-PixelFits
-JudgePixels(const ProjectedVariance &         projected,
-            const JudgingLine &               line,
-            const std::vector<std::uint8_t> & mask,
-            const ParallelFor &               parallelFor)
-{
-  const ReferenceFrame & frame = projected.GetFrame();
-  PixelFits              pixels{ MakeMap<float>(mask.size(), parallelFor),
-                    std::vector<std::uint8_t>(mask.size(), 0),
-                    std::vector<std::uint8_t>(mask.size(), 0) };
-  ForBlocks(mask.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p)
-    {
-      if (mask[p] != 0)
-      {
-        const double expected = line.At(line.LevelOf(frame, p));
-        const double value = projected.GetVariance()[p] / expected;
-        const double own = line.EffectiveFreedom(projected.GetFreedom()[p], expected);
-        pixels.fits[p] = IsFarAbove(value, own) ? 0 : 1;
-        pixels.rejected[p] = 1 - pixels.fits[p];
-        pixels.ratio[p] = pixels.fits[p] != 0 ? static_cast<float>(value) : 0.0F;
-      }
-    }
-  });
-  return pixels;
-}
 } // namespace
 
 ClassFit
@@ -163,8 +144,13 @@ JudgeClasses(const ProjectedVariance &         projected,
              const std::vector<std::uint8_t> & mask,
              const ParallelFor &               parallelFor)
 {
-  ClassFit         fit;
-  const ClassTable table = MakeTable(SumClasses(projected, line, mask, parallelFor), fit.ratio);
+  ClassFit            fit;
+  const SumsOfClasses sums = SumClasses(projected, line, mask, parallelFor);
+  for (std::size_t c = 0; c < Classes; ++c)
+  {
+    fit.pixels.push_back(sums[ClassSums * c + Pixels]);
+  }
+  const ClassTable table = MakeTable(sums, fit.ratio);
   fit.firstBad = FirstBadClass(table);
   double chi2 = 0.0;
   double used = 0.0;
@@ -178,52 +164,6 @@ JudgeClasses(const ProjectedVariance &         projected,
   }
   fit.reducedChi2 = used > 1.0 ? chi2 / (used - 1.0) : 1.0;
   return fit;
-}
-
-std::vector<std::uint8_t>
-FindLocalMisfit(const ProjectedVariance &         projected,
-                const JudgingLine &               line,
-                const std::vector<std::uint8_t> & mask,
-                const ParallelFor &               parallelFor)
-{
-  const std::size_t         radius = InPixels.misfitRadius;
-  const double              side = 2.0 * static_cast<double>(radius) + 1.0;
-  const double              area = side * side;
-  const ReferenceFrame &    frame = projected.GetFrame();
-  const std::size_t         width = frame.geometry.width;
-  const std::size_t         height = frame.geometry.height;
-  const PixelFits           pixels = JudgePixels(projected, line, mask, parallelFor);
-  const auto                freedom = static_cast<double>(frame.frames - 1 - projected.GetBasis().Size());
-  std::vector<std::uint8_t> core(mask.size());
-  ForBoxBands(height, parallelFor, [&](std::size_t first, std::size_t last) {
-    BoxRows rejects(RowsOf(pixels.rejected, width), width, height, radius, first, last);
-    BoxRows ratios(RowsOf(pixels.ratio, width), width, height, radius, first, last);
-    BoxRows counts(RowsOf(pixels.fits, width), width, height, radius, first, last);
-    for (std::size_t y = first; y < last; ++y)
-    {
-      const double * const crowd = rejects.Next();
-      const double * const sum = ratios.Next();
-      const double * const count = counts.Next();
-      for (std::size_t x = 0; x < width; ++x)
-      {
-        const std::size_t p = y * width + x;
-        const double      excess = sum[x] / std::max(1.0, count[x]) - 1.0;
-        const double      own = line.EffectiveFreedom(freedom, line.At(frame.neighbourMean[p]));
-        const double      sd = std::sqrt(2.0 * line.sharedSquares / (own * std::max(1.0, count[x])));
-        const bool        isFar = excess > std::max(InPixels.misfitZ * sd, InPixels.leastMisfit) &&
-                           count[x] > InPixels.leastCountedShare * area;
-        core[p] = isFar || crowd[x] > InPixels.largestFarShare * area ? 1 : 0;
-      }
-    }
-  });
-  std::vector<std::uint8_t> misfit(mask.size());
-  const auto                cores = [&] { return RowsOf(core, width); };
-  ForBoxRows(cores, width, height, (2 * radius + 1) / 3, parallelFor, [&](std::size_t y, const double * near) {
-    std::transform(near, near + width, misfit.data() + y * width, [](double count) {
-      return static_cast<std::uint8_t>(count > 0.5);
-    });
-  });
-  return misfit;
 }
 
 } // namespace sensornoise

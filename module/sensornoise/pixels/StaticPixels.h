@@ -20,6 +20,7 @@ struct JudgingLine;
 struct ClassFit
 {
   std::size_t         firstBad{ ProjectedVariance::Classes }; ///< this class and all rougher ones are left out
+  std::vector<double> pixels;                                 ///< of each class
   std::vector<double> ratio;                                  ///< mean of variance over line
   double              reducedChi2{ 1.0 };                     ///< of the ratios of the classes that are kept
 };

@@ -53,14 +53,20 @@ struct VarianceLine
   double
   SamplingFreedom(double freedom, double varianceDn2) const
   {
-    return freedom / (1.0 + 0.5 * gain * gain / varianceDn2);
+    return freedom * varianceDn2 / (varianceDn2 + 0.5 * gain * gain);
   }
-  /** The same from pixel to pixel, whose own noise differs. */
+  /** The variance of that sample variance [DN^4]. */
+  double
+  SamplingVariance(double freedom, double varianceDn2) const
+  {
+    return 2.0 * varianceDn2 * (varianceDn2 + 0.5 * gain * gain) / freedom;
+  }
+  /** The same degrees from pixel to pixel, whose own noise differs. */
   double
   EffectiveFreedom(double freedom, double varianceDn2) const
   {
-    return freedom /
-           (1.0 + 0.5 * gain * gain / varianceDn2 + 0.5 * freedom * noiseSpreadDn4 / (varianceDn2 * varianceDn2));
+    const double square = varianceDn2 * varianceDn2;
+    return freedom * square / (square + 0.5 * (gain * gain * varianceDn2 + freedom * noiseSpreadDn4));
   }
   /** How far the parabola in the line's place departs from it [DN^2]. */
   double
