@@ -8,6 +8,7 @@
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/Quantiles.h"
 #include "sensornoise/base/Stencils.h"
+#include "sensornoise/base/WideVectors.h"
 #include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/VarianceLine.h"
 #include "sensornoise/scene/ProvisionalModel.h"
@@ -81,10 +82,14 @@ ProjectedVariance::Compute(double gain)
 {
   const double more = gain - std::exchange(m_Gain, gain);
   ForBlocks(m_Mask.size(), m_ParallelFor, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p)
-    {
-      m_Variance[p] += m_Mask[p] != 0 ? more * m_Skew[p] / m_Freedom[p] : 0.0;
-    }
+    WithWideVectors(
+      [=, mask = m_Mask.data(), skew = m_Skew.data(), freedom = m_Freedom.data(), own = m_Variance.data()] {
+        for (std::size_t p = begin; p < end; ++p)
+        {
+          const double added = more * skew[p] / freedom[p]; // outside of the condition, or no vectors
+          own[p] += mask[p] != 0 ? added : 0.0;
+        }
+      });
   });
 }
 

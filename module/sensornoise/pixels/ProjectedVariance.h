@@ -91,6 +91,11 @@ public:
   {
     return m_ClassOf[p];
   }
+  const std::vector<std::uint8_t> &
+  GetClasses() const
+  {
+    return m_ClassOf;
+  }
   const ReferenceFrame &
   GetFrame() const
   {

@@ -9,6 +9,7 @@
 #include "sensornoise/pixels/LevelPattern.h"
 #include "sensornoise/pixels/LightLine.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
+#include "sensornoise/pixels/SampledVariance.h"
 #include "sensornoise/pixels/StaticPixels.h"
 #include "sensornoise/pixels/VarianceFit.h"
 #include "sensornoise/pixels/VarianceLine.h"
@@ -29,20 +30,26 @@ namespace sensornoise
 namespace
 {
 /** A line without errors, good enough to judge pixels by. */
-JudgingLine
-FollowLine(const ProjectedVariance &           projected,
-           const std::vector<std::uint8_t> &   mask,
-           double                              blackDn,
-           const ParallelFor &                 parallelFor,
-           double                              sharedSquares,
-           const std::optional<VarianceLine> & start)
+VarianceLine
+FollowLine(const VarianceData & data, const std::optional<VarianceLine> & start, const ParallelFor & parallelFor)
 {
-  VarianceFit fit(projected.GetData(mask), parallelFor, start);
+  const SampledVariance sample(data, InPixels.pixelsOfRoughLine, parallelFor);
+  VarianceFit           fit(sample.GetData(), parallelFor, start);
   fit.Iterate(3);
-  JudgingLine judge = fit.GetLine().isDetermined ? MakeJudgingLine(fit.GetLine(), projected, mask, blackDn, parallelFor)
-                                                 : JudgingLine{ fit.GetLine(), {}, {} };
-  judge.sharedSquares = sharedSquares;
-  return judge;
+  return fit.GetLine();
+}
+
+/** The line of all pixels of the data, with its errors. */
+VarianceFit
+FitAllPixels(const VarianceData & data, const VarianceLine & start, double blackDn, const ParallelFor & parallelFor)
+{
+  const SampledVariance sample(data, InPixels.pixelsOfRoughLine, parallelFor);
+  VarianceFit           rough(sample.GetData(), parallelFor, start, TrimRule::Distance, blackDn);
+  rough.Iterate(8);
+  VarianceFit fit(data, rough);
+  fit.Iterate(InPixels.stepsFromRoughLine);
+  fit.FillErrors();
+  return fit;
 }
 
 std::vector<std::uint8_t>
@@ -50,10 +57,13 @@ MaskOfFlatClasses(const ProjectedVariance &         projected,
                   const std::vector<std::uint8_t> & usable,
                   const ParallelFor &               parallelFor)
 {
+  const auto                last = static_cast<std::uint8_t>(InPixels.flatShare * ProjectedVariance::Classes);
   std::vector<std::uint8_t> mask(usable.size());
-  ForPixels(mask.size(), parallelFor, [&](std::size_t p) {
-    mask[p] = usable[p] != 0 && projected.ClassOf(p) <= InPixels.flatShare * ProjectedVariance::Classes ? 1 : 0;
-  });
+  ForPixels(mask.size(),
+            parallelFor,
+            [last, usable = usable.data(), classOf = projected.GetClasses().data(), own = mask.data()](std::size_t p) {
+              own[p] = usable[p] != 0 && classOf[p] <= last ? 1 : 0;
+            });
   return mask;
 }
 
@@ -69,16 +79,21 @@ SelectPixels(const ProjectedVariance &         projected,
   ForPixels(
     misfit.size(), parallelFor, [&](std::size_t p) { found.mask[p] = usable[p] != 0 && misfit[p] == 0 ? 1 : 0; });
   found.classes = JudgeClasses(projected, line, found.mask, parallelFor);
-  ForPixels(misfit.size(), parallelFor, [&](std::size_t p) {
-    if (usable[p] != 0)
-    {
-      const bool isRough = projected.ClassOf(p) >= found.classes.firstBad;
-      found.pixelUse[p] = static_cast<std::uint8_t>(misfit[p] != 0 ? PixelUse::NotStatic
-                                                    : isRough      ? PixelUse::Vibration
-                                                                   : PixelUse::Used);
-      found.mask[p] = isRough ? 0 : found.mask[p];
-    }
-  });
+  ForPixels(misfit.size(),
+            parallelFor,
+            [usable = usable.data(),
+             misfit = misfit.data(),
+             classOf = projected.GetClasses().data(),
+             firstBad = found.classes.firstBad,
+             use = found.pixelUse.data(),
+             mask = found.mask.data()](std::size_t p) {
+              const bool isRough = classOf[p] >= firstBad;
+              const auto own = static_cast<std::uint8_t>(misfit[p] != 0 ? PixelUse::NotStatic
+                                                         : isRough      ? PixelUse::Vibration
+                                                                        : PixelUse::Used);
+              use[p] = usable[p] != 0 ? own : use[p];
+              mask[p] = isRough ? 0 : mask[p];
+            });
   return static_cast<std::size_t>(std::count(misfit.begin(), misfit.end(), std::uint8_t{ 1 }));
 }
 
@@ -110,31 +125,25 @@ FitStaticVariance(ProjectedVariance &               projected,
   // The line of the flat classes tells which neighbourhoods fit, and among these, which classes do.
   projected.Compute(slopeDn);
   found.mask = MaskOfFlatClasses(projected, usable, parallelFor);
-  const ReferenceFrame & frame = projected.GetFrame();
-  JudgingLine            judge = FollowLine(projected, found.mask, blackDn, parallelFor, sharedSquares, std::nullopt);
-  if (!judge.line.isDetermined)
+  VarianceLine drawn = FollowLine(projected.GetData(found.mask), std::nullopt, parallelFor);
+  bool         isJudged = false;
+  for (int round = 0; round < 2 && drawn.isDetermined && !isJudged; ++round)
+  {
+    JudgingLine judge = MakeJudgingLine(drawn, projected, found.mask, blackDn, parallelFor);
+    judge.sharedSquares = sharedSquares;
+    projected.Compute(drawn.gain);
+    const std::size_t misfits = SelectPixels(projected, judge, usable, found, parallelFor);
+    isJudged = static_cast<double>(misfits) < InPixels.fewMisfits * static_cast<double>(usable.size());
+    drawn = FollowLine(projected.GetData(found.mask), judge.line, parallelFor);
+  }
+  if (!drawn.isDetermined)
   {
     return found;
   }
-  projected.Compute(judge.line.gain);
-  for (int round = 0; round < 2; ++round)
-  {
-    const std::size_t misfits = SelectPixels(projected, judge, usable, found, parallelFor);
-    judge = FollowLine(projected, found.mask, blackDn, parallelFor, sharedSquares, judge.line);
-    if (!judge.line.isDetermined)
-    {
-      return found;
-    }
-    if (static_cast<double>(misfits) < InPixels.fewMisfits * static_cast<double>(usable.size()))
-    {
-      break; // too few to have drawn the line
-    }
-  }
-  projected.Compute(judge.line.gain);
-  VarianceFit fit(projected.GetData(found.mask), parallelFor, judge.line, TrimRule::Distance, blackDn);
-  fit.Iterate(8);
-  fit.FillErrors();
-  VarianceLine line = fit.GetLine();
+  projected.Compute(drawn.gain);
+  const VarianceData data = projected.GetData(found.mask);
+  const VarianceFit  fit = FitAllPixels(data, drawn, blackDn, parallelFor);
+  VarianceLine       line = fit.GetLine();
   if (!line.isDetermined)
   {
     return found;
@@ -143,8 +152,8 @@ FitStaticVariance(ProjectedVariance &               projected,
   ForPixels(trimmed.size(), parallelFor, [&](std::size_t p) {
     found.pixelUse[p] = trimmed[p] != 0 ? static_cast<std::uint8_t>(PixelUse::Outlier) : found.pixelUse[p];
   });
-  found.fromFlat = FitFlatHalf(projected, found.mask, line, parallelFor);
-  const VarianceData data = projected.GetData(found.mask);
+  found.fromFlat = FitFlatHalf(fit, projected, found.classes, found.mask, parallelFor);
+  const ReferenceFrame & frame = projected.GetFrame();
   found.pattern = MeasureLevelPattern(frame, data, line, blackDn, parallelFor);
   if (found.pattern.LargestShare() * std::abs(line.gain) >
       InPixels.negligiblePattern * std::sqrt(line.covariance(0, 0)))

@@ -3,7 +3,6 @@
 #include "sensornoise/pixels/VarianceFit.h"
 
 #include "sensornoise/base/Constants.h"
-#include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/Quantiles.h"
 #include "sensornoise/pixels/ChiSquareTrim.h"
@@ -29,11 +28,7 @@ VarianceFit::VarianceFit(const VarianceData &                data,
                          double                              blackDn)
   : m_Data(data)
   , m_ParallelFor(parallelFor)
-  , m_Freedoms(RangeOverPixels(
-      data.pixels,
-      parallelFor,
-      [&data](std::size_t p) { return data.mask[p] != 0; },
-      [&data](std::size_t p) { return static_cast<double>(data.freedom[p]); }))
+  , m_Freedoms(RangeOfMap(data.freedom, data.mask, data.pixels, parallelFor))
   , m_Rule(rule)
   , m_BlackDn(blackDn)
 {
@@ -61,6 +56,13 @@ VarianceFit::VarianceFit(const VarianceData &                data,
   }
 }
 
+VarianceFit::VarianceFit(const VarianceData & data, const VarianceFit & ofSample)
+  : VarianceFit(ofSample)
+{
+  m_Data = data;
+  m_Freedoms = RangeOfMap(data.freedom, data.mask, data.pixels, m_ParallelFor);
+}
+
 ChiSquareTrim
 VarianceFit::MakeTrim() const
 {
@@ -80,20 +82,14 @@ VarianceFit::Iterate(int iterations)
     WXV,
     Sums
   };
-  const double pivot = m_Line.pivotDn;
   for (int iteration = 0; m_Trim && iteration < iterations; ++iteration)
   {
-    const auto   s = this->SumWeighed<Sums>([&](std::size_t p, const Weighed & weighed, auto & sums) {
-      const auto [w, value] = weighed;
-      const double x = m_Data.mean[p] - pivot;
-      sums[W] += w;
-      sums[WX] += w * x;
-      sums[WXX] += w * x * x;
-      sums[WV] += w * value;
-      sums[WXV] += w * x * value;
+    const double pivot = m_Line.pivotDn;
+    const auto   s = this->SumTerms<Sums>(m_Data.mask, [](double w, double x, double value) {
+      return std::array<double, Sums>{ w, w * x, w * x * x, w * value, w * x * value };
     });
     const double determinant = s[W] * s[WXX] - s[WX] * s[WX];
-    m_Line.isDetermined = determinant > 1e-12 * s[W] * s[WXX];
+    m_Line.isDetermined = determinant > InPixels.leastDeterminant * s[W] * s[WXX];
     if (!m_Line.isDetermined)
     {
       return;
@@ -107,7 +103,7 @@ VarianceFit::Iterate(int iterations)
     m_Line.weightSum = s[W];
     m_Line.pivotDn = pivot + s[WX] / s[W];
     m_Line.spreadDn2 = determinant / s[W];
-    if (m_Rule == TrimRule::Distance && iteration < 3)
+    if (m_Rule == TrimRule::Distance && iteration < 3 && iteration + 1 < iterations)
     {
       this->SetReach();
       this->SetNoiseSpread();
@@ -117,68 +113,6 @@ VarianceFit::Iterate(int iterations)
       return;
     }
   }
-}
-
-void
-VarianceFit::FillErrors()
-{
-  if (!m_Line.isDetermined)
-  {
-    return;
-  }
-  // Sums of the weight and the residual R squared, times powers of x, the mean above the pivot; and of the weight times
-  // powers of x and R.
-  enum : std::size_t
-  {
-    WWRR,
-    WWRRX,
-    WWRRXX,
-    WX3,
-    WX4,
-    WXXR,
-    Trimmed,
-    Pixels,
-    W,
-    WXX,
-    Sums
-  };
-  const auto s = this->SumWeighed<Sums>([&](std::size_t p, const Weighed & weighed, auto & sums) {
-    const auto [w, value] = weighed;
-    const double x = m_Data.mean[p] - m_Line.pivotDn;
-    const double residual = value - m_Line.intercept - m_Line.gain * m_Data.mean[p];
-    const double square = w * w * residual * residual;
-    sums[WWRR] += square;
-    sums[WWRRX] += square * x;
-    sums[WWRRXX] += square * x * x;
-    sums[WX3] += w * x * x * x;
-    sums[WX4] += w * x * x * x * x;
-    sums[WXXR] += w * x * x * residual;
-    sums[Trimmed] += w > 0.0 ? 0.0 : 1.0;
-    sums[Pixels] += 1.0;
-    sums[W] += w;
-    sums[WXX] += w * x * x;
-  });
-  // In coordinates (gain, value at pivotDn) the information is diagonal.
-  Eigen::Matrix2d inverse;
-  inverse << 1.0 / m_Line.spreadDn2, 0.0, 0.0, 1.0 / m_Line.weightSum;
-  Eigen::Matrix2d meat;
-  meat << s[WWRRXX], s[WWRRX], s[WWRRX], s[WWRR];
-  Eigen::Matrix2d toIntercept;
-  toIntercept << 1.0, 0.0, -m_Line.pivotDn, 1.0;
-  m_Line.covariance = toIntercept * inverse * meat * inverse * toIntercept.transpose();
-  // The parabola's third column, freed of the first two: q = x^2 - a x - b.
-  const double a = s[WX3] / s[WXX];
-  const double b = s[WXX] / s[W];
-  const double quadratic = s[WX4] - a * s[WX3] - b * s[WXX];
-  if (quadratic > 0.0)
-  {
-    m_Line.curvature = s[WXXR] / quadratic;
-    m_Line.curvatureSd = 1.0 / std::sqrt(quadratic);
-    m_Line.curvatureTilt = a;
-    m_Line.curvatureLift = b;
-  }
-  m_Line.trimmedFraction = s[Trimmed] / s[Pixels];
-  m_Line.isDetermined = std::isfinite(m_Line.gain) && m_Line.covariance.allFinite();
 }
 
 std::vector<std::uint8_t>
@@ -206,17 +140,34 @@ VarianceFit::FindTrimmed() const
 VarianceCurve
 VarianceFit::CurveAbout(const VarianceLine & line) const
 {
+  using SumsOfBins = std::array<double, VarianceCurve::Bins * CurveBin::Sums>;
   const std::vector<double> edges = EdgesOfEqualCount(this->SampleLevels(), VarianceCurve::Bins);
-  const auto                s =
-    this->SumWeighed<VarianceCurve::Bins * CurveBin::Sums>([&](std::size_t p, const Weighed & weighed, auto & sums) {
-      const auto [w, value] = weighed;
-      const double x = m_Data.mean[p] - line.pivotDn;
-      const double excess = value - line.intercept - line.gain * m_Data.mean[p];
-      double *     own = sums.data() + CurveBin::Sums * BinOf(edges, m_Data.neighbourMean[p]);
-      own[0] += w > 0.0 ? 1.0 : 0.0;
-      own[1] += w;
-      own[2] += w * x;
-      own[3] += w * excess;
+  const double              toPivot = m_Line.pivotDn - line.pivotDn;
+  const double              atPivot = line.intercept + line.gain * m_Line.pivotDn;
+  const auto sumRun = [&](std::size_t first, std::size_t pixels, const KeptRun & kept, SumsOfBins & sums) {
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      const double w = kept.weight[i];
+      if (w > 0.0)
+      {
+        double * own = sums.data() + CurveBin::Sums * BinOf(edges, m_Data.neighbourMean[first + i]);
+        own[0] += 1.0;
+        own[1] += w;
+        own[2] += w * (kept.x[i] + toPivot);
+        own[3] += w * (kept.value[i] - atPivot - line.gain * kept.x[i]);
+      }
+    }
+  };
+  const auto s = SumBlocks<std::tuple_size_v<SumsOfBins>>(
+    m_Data.pixels, m_ParallelFor, [&](std::size_t begin, std::size_t end, SumsOfBins & sums) {
+      Run     run;
+      KeptRun kept;
+      for (std::size_t first = begin; first < end; first += Run::MostPixels)
+      {
+        const std::size_t pixels = std::min(Run::MostPixels, end - first);
+        this->KeepRun(first, pixels, m_Data.mask, run, kept);
+        sumRun(first, pixels, kept, sums);
+      }
     });
   VarianceCurve curve{ line, {} };
   for (std::size_t b = 0; b < VarianceCurve::Bins; ++b)

@@ -7,6 +7,7 @@
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/ValueRange.h"
+#include "sensornoise/base/WideVectors.h"
 #include "sensornoise/pixels/ChiSquareTrim.h"
 #include "sensornoise/pixels/VarianceCurve.h"
 #include "sensornoise/pixels/VarianceLine.h"
@@ -50,6 +51,10 @@ public:
               TrimRule                            rule = TrimRule::Level,
               double                              blackDn = 0.0);
 
+  /** Starts from the line, the spread and the limits that a sample of the \a data gave. With TrimRule::Level its pixels
+   * must have degrees of freedom as the data's. */
+  VarianceFit(const VarianceData & data, const VarianceFit & ofSample);
+
   /** Fits the line, without its errors. Not determined with fewer than 10 pixels or one intensity. */
   void
   Iterate(int iterations);
@@ -64,6 +69,11 @@ public:
   {
     return m_ReachDn2;
   }
+
+  /** The line through the pixels of \a mask, which is part of the fit's own, with its errors and without a curvature.
+   * The weights and the trimming are those of all pixels, so that it differs from their line by what the pixels say. */
+  VarianceLine
+  LineOfPart(const std::vector<std::uint8_t> & mask) const;
 
   /** 1 at the pixels of the mask that the line trims: they have no weight in it. */
   std::vector<std::uint8_t>
@@ -116,6 +126,14 @@ private:
   };
   using OfRun = std::array<double, Run::MostPixels>;
 
+  /** The same of those of a mask that are not trimmed, with their means above the pivot; at the others all is 0. */
+  struct KeptRun
+  {
+    OfRun weight;
+    OfRun x;
+    OfRun value;
+  };
+
   /** Weighs the pixels from \a first on. */
   void
   WeighRun(std::size_t first, std::size_t pixels, Run & run) const;
@@ -123,6 +141,52 @@ private:
   WeighByDistance(std::size_t first, std::size_t pixels, Run & run) const;
   void
   WeighByLevel(std::size_t first, std::size_t pixels, Run & run) const;
+  void
+  KeepRun(std::size_t first, std::size_t pixels, const std::uint8_t * mask, Run & run, KeptRun & kept) const;
+
+  /** Adds up terms(a[i], b[i], c[i]) of a run, in vectors. */
+  template <std::size_t VSums, typename TTerms>
+  static void
+  AddTerms(const OfRun & a, const OfRun & b, const OfRun & c, TTerms terms, std::array<double, VSums> & sums)
+  {
+    constexpr std::size_t lanes = 4; // each with sums of its own, which wait for none of the others
+    WithWideVectors([&a, &b, &c, &sums, terms] {
+      double own[VSums][lanes] = {};
+      for (std::size_t i = 0; i < Run::MostPixels; i += lanes)
+      {
+        for (std::size_t lane = 0; lane < lanes; ++lane)
+        {
+          const std::array<double, VSums> more = terms(a[i + lane], b[i + lane], c[i + lane]);
+          for (std::size_t k = 0; k < VSums; ++k)
+          {
+            own[k][lane] += more[k];
+          }
+        }
+      }
+      for (std::size_t k = 0; k < VSums; ++k)
+      {
+        sums[k] += (own[k][0] + own[k][1]) + (own[k][2] + own[k][3]);
+      }
+    });
+  }
+
+  /** The sums of terms(weight, mean above the pivot, variance) over the pixels of \a mask. For those that are trimmed
+   * all three are 0, and so have to be the terms. */
+  template <std::size_t VSums, typename TTerms>
+  std::array<double, VSums>
+  SumTerms(const std::uint8_t * mask, TTerms terms) const
+  {
+    return SumBlocks<VSums>(m_Data.pixels, m_ParallelFor, [&](std::size_t begin, std::size_t end, auto & sums) {
+      Run     run;
+      KeptRun kept;
+      for (std::size_t first = begin; first < end; first += Run::MostPixels)
+      {
+        this->KeepRun(first, std::min(Run::MostPixels, end - first), mask, run, kept);
+        AddTerms(kept.weight, kept.x, kept.value, terms, sums);
+      }
+    });
+  }
+
   /** Adds the shares of the pixels [begin, end) of the mask. */
   template <typename TFunction, typename TSums>
   void

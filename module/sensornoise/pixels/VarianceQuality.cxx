@@ -3,9 +3,8 @@
 #include "sensornoise/pixels/VarianceQuality.h"
 
 #include "sensornoise/base/Parallel.h"
-#include "sensornoise/base/Quantiles.h"
-#include "sensornoise/pixels/FarVariance.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
+#include "sensornoise/pixels/StaticPixels.h"
 #include "sensornoise/pixels/VarianceFit.h"
 #include "sensornoise/pixels/VarianceLine.h"
 
@@ -18,21 +17,26 @@ namespace sensornoise
 {
 
 VarianceLine
-FitFlatHalf(const ProjectedVariance &         projected,
+FitFlatHalf(const VarianceFit &               fit,
+            const ProjectedVariance &         projected,
+            const ClassFit &                  classes,
             const std::vector<std::uint8_t> & mask,
-            const VarianceLine &              line,
             const ParallelFor &               parallelFor)
 {
-  const auto counts = SumOverBlocks<ProjectedVariance::Classes>(
-    mask.size(), parallelFor, [&](std::size_t p, auto & count) { count[projected.ClassOf(p)] += mask[p]; });
-  const double total = std::accumulate(counts.begin(), counts.end(), 0.0);
-  std::size_t  last = 0;
-  for (double sum = counts[0]; last + 1 < counts.size() && 2.0 * sum < total; sum += counts[++last])
+  const auto   end = classes.pixels.begin() + static_cast<std::ptrdiff_t>(classes.firstBad);
+  const double total = std::accumulate(classes.pixels.begin(), end, 0.0);
+  std::uint8_t last = 0;
+  for (double sum = classes.pixels[0]; last + 1U < classes.firstBad && 2.0 * sum < total;)
   {
+    sum += classes.pixels[++last];
   }
-  std::vector<std::uint8_t> flat = mask;
-  ForPixels(mask.size(), parallelFor, [&](std::size_t p) { flat[p] = projected.ClassOf(p) <= last ? mask[p] : 0; });
-  return FitVarianceLine(projected.GetData(flat), parallelFor, line, 3, TrimRule::Distance);
+  std::vector<std::uint8_t> flat(mask.size());
+  ForPixels(mask.size(),
+            parallelFor,
+            [last, mask = mask.data(), classOf = projected.GetClasses().data(), own = flat.data()](std::size_t p) {
+              own[p] = classOf[p] <= last ? mask[p] : 0;
+            });
+  return fit.LineOfPart(flat);
 }
 
 } // namespace sensornoise

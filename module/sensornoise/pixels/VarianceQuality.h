@@ -17,12 +17,16 @@ namespace sensornoise
 {
 
 class ProjectedVariance;
+class VarianceFit;
+struct ClassFit;
 
-/** The line through the smoother half of the pixels, where motion could do least. */
+/** The line through the smoother half of the pixels of \a fit, those of \a mask, where motion could do least. All
+ * pixels of the classes that are kept must be in the mask. */
 SensorNoise_EXPORT VarianceLine
-FitFlatHalf(const ProjectedVariance &         projected,
+FitFlatHalf(const VarianceFit &               fit,
+            const ProjectedVariance &         projected,
+            const ClassFit &                  classes,
             const std::vector<std::uint8_t> & mask,
-            const VarianceLine &              line,
             const ParallelFor &               parallelFor);
 
 } // namespace sensornoise

@@ -13,6 +13,7 @@
 #include "sensornoise/pixels/VarianceLine.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -134,6 +135,28 @@ VarianceFit::WeighByLevel(std::size_t first, std::size_t pixels, Run & run) cons
   });
 }
 
+void
+VarianceFit::KeepRun(std::size_t first, std::size_t pixels, const std::uint8_t * mask, Run & run, KeptRun & kept) const
+{
+  this->WeighRun(first, pixels, run);
+  WithWideVectors([&, mean = m_Data.mean + first, used = mask + first, pivot = m_Line.pivotDn] {
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      const double weight = run.weight[i];
+      const bool   isKept = used[i] != 0 && weight > 0.0;
+      const double x = mean[i] - pivot;
+      const double value = run.value[i];
+      kept.weight[i] = isKept ? weight : 0.0;
+      kept.x[i] = isKept ? x : 0.0;
+      kept.value[i] = isKept ? value : 0.0;
+    }
+  });
+  for (OfRun * const numbers : { &kept.weight, &kept.x, &kept.value })
+  {
+    std::fill(numbers->begin() + static_cast<std::ptrdiff_t>(pixels), numbers->end(), 0.0);
+  }
+}
+
 std::vector<double>
 VarianceFit::SampleLevels() const
 {
@@ -170,7 +193,7 @@ VarianceFit::FindSpread(std::size_t first, std::size_t pixels, SpreadTerms & ter
     {
       const std::size_t p = first + i;
       const double      expected = of.Expected(p);
-      const double      chance = 2.0 * expected * expected / of.line.SamplingFreedom(of.data.freedom[p], expected);
+      const double      chance = of.line.SamplingVariance(of.data.freedom[p], expected);
       const double      excess = of.Excess(p);
       terms.weight[i] = 1.0 / (chance * chance);
       terms.more[i] = excess * excess - chance;
@@ -187,6 +210,10 @@ VarianceFit::FindSpread(std::size_t first, std::size_t pixels, SpreadTerms & ter
       terms.chance[i] = weight > 0.0 ? chance : 0.0;
     }
   });
+  for (OfRun * const numbers : { &terms.weight, &terms.more, &terms.chance })
+  {
+    std::fill(numbers->begin() + static_cast<std::ptrdiff_t>(pixels), numbers->end(), 0.0);
+  }
 }
 
 void
@@ -202,19 +229,16 @@ VarianceFit::SetNoiseSpread()
   };
   const auto   s = SumBlocks<Sums>(m_Data.pixels, m_ParallelFor, [&](std::size_t begin, std::size_t end, auto & sums) {
     SpreadTerms terms{};
-    auto        own = sums; // in registers
     for (std::size_t first = begin; first < end; first += Run::MostPixels)
     {
-      const std::size_t pixels = std::min(Run::MostPixels, end - first);
-      this->FindSpread(first, pixels, terms);
-      for (std::size_t i = 0; i < pixels; ++i)
-      {
-        own[WW] += terms.weight[i];
-        own[WWMore] += terms.more[i];
-        own[WWChance] += terms.chance[i];
-      }
+      this->FindSpread(first, std::min(Run::MostPixels, end - first), terms);
+      AddTerms(
+        terms.weight,
+        terms.more,
+        terms.chance,
+        [](double weight, double more, double chance) { return std::array<double, Sums>{ weight, more, chance }; },
+        sums);
     }
-    sums = own;
   });
   const double spread = s[WWMore] / std::max(1e-300, s[WW]);
   m_Line.noiseSpreadDn4 = spread * s[WW] > InPixels.leastNoiseSpread * s[WWChance] ? spread : 0.0;
