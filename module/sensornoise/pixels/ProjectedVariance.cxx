@@ -96,6 +96,10 @@ ProjectedVariance::Compute(double gain)
 void
 ProjectedVariance::TakeOffRest(const CodeNoise & noise)
 {
+  if (noise.restsDn2.empty())
+  {
+    return;
+  }
   ForBlocks(m_Mask.size(), m_ParallelFor, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p)
     {

@@ -308,11 +308,10 @@ RefinedMethod<TPixel>::MeasureVariance()
   }
   m_Correlation = std::move(noise.correlation);
   m_CorrectedVariance = projected.TakeVariance();
-  for (std::size_t p = 0; p < m_CorrectedVariance.size(); ++p)
-  {
+  ForPixels(m_CorrectedVariance.size(), m_ParallelFor, [&](std::size_t p) {
     m_CorrectedVariance[p] = frame.usable[p] != 0 ? m_CorrectedVariance[p] + codeNoise.RestAt(frame.mean[p])
                                                   : std::numeric_limits<double>::quiet_NaN();
-  }
+  });
 }
 
 template <typename TPixel>
