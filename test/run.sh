@@ -31,7 +31,8 @@ SECONDS=0
 sensornoise_install
 # A browser for the pages of --plot: 115 MB to download, 360 MB on the disk. Without it their tests are skipped.
 command -v chromium >/dev/null || sensornoise_install_if_possible chromium
-sensornoise_build "$here/build" -DBUILD_TESTING=ON -DSensorNoise_BUILD_STUDIES=ON
+sensornoise_build "$here/build" -DBUILD_TESTING=ON -DSensorNoise_BUILD_STUDIES=ON \
+  -DSensorNoise_BUILD_INFLUENCE=ON
 took "build"
 ctest --test-dir "$here/build" --output-on-failure -j "$(nproc)" "$@" || failed+=(C++)
 took "C++ tests"

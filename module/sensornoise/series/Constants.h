@@ -41,7 +41,7 @@ struct SeriesConstants
   ///@{
   /** Half width of the box that smooths the derivatives twice along each axis [pixels]: a triangle of standard
    * deviation 2.8 pixels, whose instruments see long wavelengths only. Set by hand. */
-  std::size_t instrumentRadius{ 3 };
+  static constexpr std::size_t instrumentRadius{ 3 };
   /** Half width of the box over which the weights fall to 0 where pixels are missing, and of that over which the noise
    * is averaged [pixels]. Set by hand. */
   std::size_t missingRadius{ 4 };
