@@ -187,32 +187,33 @@ TEST(SensorNoiseIntensityIndex, ConstantPixelsHaveOneQuantileAndNoReach)
   EXPECT_EQ(index.QuantileDn(0.01), 321.5);
   EXPECT_EQ(index.QuantileDn(1.0), 321.5);
   EXPECT_EQ(index.ReachDn(321.5, 25), 0.0);
-  EXPECT_LT(index.BinOf(321.5, 256), 256u);
+  EXPECT_LT(IntensityIndex::Bins(index, 256).Of(321.5), 256u);
 }
 
 TEST(SensorNoiseIntensityIndex, BinsHoldNearlyTheSameNumberOfPixels)
 {
-  constexpr std::size_t      bins = 16;
+  constexpr std::size_t      count = 16;
   std::mt19937_64            random(11);
   std::normal_distribution<> normal(0.0, 1.0);
   std::vector<double>        values(40000);
   std::generate(values.begin(), values.end(), [&] { return std::exp(normal(random)); }); // skewed
-  const Scene              scene(std::move(values));
-  const IntensityIndex     index = scene.Index();
-  std::vector<std::size_t> counts(bins, 0);
-  std::size_t              last = 0;
+  const Scene                scene(std::move(values));
+  const IntensityIndex       index = scene.Index();
+  const IntensityIndex::Bins bins(index, count);
+  std::vector<std::size_t>   counts(count, 0);
+  std::size_t                last = 0;
   for (const double value : scene.Sorted())
   {
-    const std::size_t bin = index.BinOf(value, bins);
+    const std::size_t bin = bins.Of(value);
     ASSERT_GE(bin, last); // bins ascend with the mean
     last = bin;
     ++counts[bin];
   }
   // A bin's ends move by one cell each: the densest cell of exp(normal) over [0, 65] has 0.65 * 1e-3 of the pixels.
-  const auto expected = static_cast<double>(index.Count()) / bins;
-  for (const std::size_t count : counts)
+  const auto expected = static_cast<double>(index.Count()) / count;
+  for (const std::size_t own : counts)
   {
-    EXPECT_NEAR(static_cast<double>(count), expected, 2.0 * 1e-3 * static_cast<double>(index.Count()));
+    EXPECT_NEAR(static_cast<double>(own), expected, 2.0 * 1e-3 * static_cast<double>(index.Count()));
   }
 }
 

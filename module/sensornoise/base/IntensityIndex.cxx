@@ -2,44 +2,65 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/base/IntensityIndex.h"
 
+#include "sensornoise/base/ValueRange.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace sensornoise
 {
 
-IntensityIndex::IntensityIndex(const double * mean, const std::uint8_t * mask, std::size_t pixels)
+IntensityIndex::IntensityIndex(const double *       mean,
+                               const std::uint8_t * mask,
+                               std::size_t          pixels,
+                               const ParallelFor &  parallelFor)
   : m_Mean(mean)
   , m_Mask(mask)
   , m_Pixels(pixels)
   , m_Cumulative(Cells + 1, 0)
 {
-  m_Lowest = std::numeric_limits<double>::infinity();
-  double highest = -m_Lowest;
-  for (std::size_t p = 0; p < pixels; ++p)
-  {
-    if (mask[p] != 0)
+  const ValueRange range = RangeOverPixels(
+    pixels, parallelFor, [mask](std::size_t p) { return mask[p] != 0; }, [mean](std::size_t p) { return mean[p]; });
+  m_Lowest = range.lowest;
+  m_CellsPerDn = range.highest > range.lowest ? static_cast<double>(Cells) / (range.highest - range.lowest) : 0.0;
+  constexpr std::size_t                   fewest = std::size_t{ 1 } << 17; // pixels that are worth a histogram
+  const std::size_t                       parts = std::clamp<std::size_t>(pixels / fewest, 1, 8);
+  std::vector<std::vector<std::uint32_t>> counts(parts);
+  parallelFor(parts, [&](std::size_t part) {
+    std::vector<std::uint32_t> own(Cells, 0);
+    for (std::size_t p = part * pixels / parts; p < (part + 1) * pixels / parts; ++p)
     {
-      m_Lowest = std::min(m_Lowest, mean[p]);
-      highest = std::max(highest, mean[p]);
+      if (mask[p] != 0)
+      {
+        ++own[this->CellOf(mean[p])];
+      }
     }
-  }
-  m_CellsPerDn = highest > m_Lowest ? static_cast<double>(Cells) / (highest - m_Lowest) : 0.0;
-  for (std::size_t p = 0; p < pixels; ++p)
-  {
-    if (mask[p] != 0)
-    {
-      ++m_Cumulative[this->CellOf(mean[p]) + 1];
-    }
-  }
+    counts[part] = std::move(own);
+  });
   for (std::size_t cell = 0; cell < Cells; ++cell)
   {
-    m_Cumulative[cell + 1] += m_Cumulative[cell];
+    m_Cumulative[cell + 1] = m_Cumulative[cell];
+    for (const std::vector<std::uint32_t> & part : counts)
+    {
+      m_Cumulative[cell + 1] += part[cell];
+    }
+  }
+}
+
+IntensityIndex::Bins::Bins(const IntensityIndex & index, std::size_t bins)
+  : m_Index(index)
+  , m_OfCell(Cells)
+{
+  const std::size_t count = std::max<std::size_t>(1, index.Count());
+  for (std::size_t cell = 0; cell < Cells; ++cell)
+  {
+    const std::size_t middle = (index.m_Cumulative[cell] + index.m_Cumulative[cell + 1]) / 2;
+    m_OfCell[cell] = static_cast<std::uint16_t>(std::min(bins - 1, middle * bins / count));
   }
 }
 

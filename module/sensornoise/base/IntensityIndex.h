@@ -4,6 +4,7 @@
 #define sensornoise_base_IntensityIndex_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/base/Parallel.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -23,7 +24,10 @@ namespace sensornoise
 class SensorNoise_EXPORT IntensityIndex
 {
 public:
-  IntensityIndex(const double * mean, const std::uint8_t * mask, std::size_t pixels);
+  IntensityIndex(const double *       mean,
+                 const std::uint8_t * mask,
+                 std::size_t          pixels,
+                 const ParallelFor &  parallelFor = SerialFor);
 
   /** Number of pixels of the mask. */
   std::size_t
@@ -40,14 +44,24 @@ public:
   double
   ReachDn(double levelDn, std::size_t count) const;
 
-  /** Which of \a bins bins of equal count holds a pixel of mean \a meanDn. */
-  std::size_t
-  BinOf(double meanDn, std::size_t bins) const
+  /** \class Bins
+   * \brief Bins of equal count, one cell after the other. */
+  class SensorNoise_EXPORT Bins
   {
-    const std::size_t cell = this->CellOf(meanDn);
-    const std::size_t middle = (m_Cumulative[cell] + m_Cumulative[cell + 1]) / 2;
-    return std::min(bins - 1, middle * bins / std::max<std::size_t>(1, this->Count()));
-  }
+  public:
+    Bins(const IntensityIndex & index, std::size_t bins);
+
+    /** Which of them holds a pixel of mean \a meanDn. */
+    std::size_t
+    Of(double meanDn) const
+    {
+      return m_OfCell[m_Index.CellOf(meanDn)];
+    }
+
+  private:
+    const IntensityIndex &     m_Index;
+    std::vector<std::uint16_t> m_OfCell;
+  };
 
 private:
   static constexpr std::size_t Cells = 65536;

@@ -17,68 +17,38 @@ namespace sensornoise
 
 namespace
 {
-
-/** Solves the normal equations in x = (mean - centre) / scale and puts the coefficients of the mean into \a fit.
- * \a moments: sum w x^k; \a products: sum w x^k v. */
+/** Of what the normal equations in x = (mean - centre) / scale are made, which is within -1 and 1, so that they are
+ * well conditioned. Those of a polynomial of lower degree are among them. */
 template <int VDegree>
-void
-Solve(const std::array<double, 2 * VDegree + 1> & moments,
-      const std::array<double, VDegree + 1> &     products,
-      double                                      centre,
-      double                                      scale,
-      PolynomialFit &                             fit)
+struct NormalSums
 {
-  using Matrix = Eigen::Matrix<double, VDegree + 1, VDegree + 1>;
-  using Vector = Eigen::Matrix<double, VDegree + 1, 1>;
-  Matrix gram;
-  Vector right;
-  for (int i = 0; i <= VDegree; ++i)
-  {
-    right(i) = products[static_cast<std::size_t>(i)];
-    for (int j = 0; j <= VDegree; ++j)
-    {
-      gram(i, j) = moments[static_cast<std::size_t>(i + j)];
-    }
-  }
-  const Eigen::LDLT<Matrix> solver(gram);
-  const Vector              c = solver.solve(right);
-  fit.isDetermined = c.allFinite();
-  fit.slope = c(1) / scale;
-  fit.intercept = c(0) - c(1) * centre / scale;
-  if constexpr (VDegree == 2)
-  {
-    const Matrix covariance = solver.solve(Matrix::Identity());
-    fit.curvature = c(2) / (scale * scale);
-    fit.slope -= 2.0 * fit.curvature * centre;
-    fit.intercept += fit.curvature * centre * centre;
-    fit.curvatureUnitSd = std::sqrt(std::max(0.0, covariance(2, 2))) / (scale * scale);
-  }
-}
+  std::array<double, 2 * VDegree + 1> moments{};  // sum w x^k
+  std::array<double, VDegree + 1>     products{}; // sum w x^k v
+  double                              centre{ 0.0 };
+  double                              scale{ 1.0 };
+  std::size_t                         pixels{ 0 };
+  bool                                isSpread{ false }; // over more than one intensity
+};
 
-/** Least squares of degree 1 or 2; \a weight(mean) weighs a pixel. The abscissa is centred and scaled, so that the
- * normal equations are well conditioned. */
+/** Sums over all pixels; \a weight(mean) weighs a pixel. */
 template <int VDegree, typename TWeight>
-PolynomialFit
-FitPolynomial(const RegressionData & data, const ParallelFor & parallelFor, TWeight weight)
+NormalSums<VDegree>
+SumNormal(const RegressionData & data, const ParallelFor & parallelFor, TWeight weight)
 {
-  PolynomialFit    fit;
+  using Sums = NormalSums<VDegree>;
   const ValueRange range = RangeOverPixels(
     data.pixels, parallelFor, [&](std::size_t p) { return data.Has(p); }, [&](std::size_t p) { return data.mean[p]; });
-  fit.pixels = range.values;
-  if (fit.pixels <= VDegree || !(range.highest > range.lowest))
+  Sums total;
+  total.pixels = range.values;
+  total.isSpread = range.highest > range.lowest;
+  if (!total.isSpread)
   {
-    return fit;
+    return total;
   }
   const double centre = 0.5 * (range.lowest + range.highest);
   const double scale = 0.5 * (range.highest - range.lowest);
-
-  struct Sums
-  {
-    std::array<double, 2 * VDegree + 1> moments;  // sum w x^k
-    std::array<double, VDegree + 1>     products; // sum w x^k v
-  };
-  const auto parts = PartsOfBlocks<Sums>(data.pixels, parallelFor, [&](auto begin, auto end, Sums & part) {
-    Sums own{}; // in registers
+  const auto   parts = PartsOfBlocks<Sums>(data.pixels, parallelFor, [&](auto begin, auto end, Sums & part) {
+    Sums own; // in registers
     for (std::size_t p = begin; p < end; ++p)
     {
       if (data.Has(p))
@@ -97,7 +67,6 @@ FitPolynomial(const RegressionData & data, const ParallelFor & parallelFor, TWei
     }
     part = own;
   });
-  Sums       total{};
   for (const Sums & part : parts)
   {
     std::transform(
@@ -105,8 +74,57 @@ FitPolynomial(const RegressionData & data, const ParallelFor & parallelFor, TWei
     std::transform(
       part.products.begin(), part.products.end(), total.products.begin(), total.products.begin(), std::plus<double>());
   }
-  Solve<VDegree>(total.moments, total.products, centre, scale, fit);
+  total.centre = centre;
+  total.scale = scale;
+  return total;
+}
+
+/** The polynomial of degree 1 or 2 of sums for that degree or more. */
+template <int VDegree, int VDegreeOfSums>
+PolynomialFit
+Solve(const NormalSums<VDegreeOfSums> & sums)
+{
+  static_assert(VDegree <= VDegreeOfSums);
+  using Matrix = Eigen::Matrix<double, VDegree + 1, VDegree + 1>;
+  using Vector = Eigen::Matrix<double, VDegree + 1, 1>;
+  PolynomialFit fit;
+  fit.pixels = sums.pixels;
+  if (fit.pixels <= VDegree || !sums.isSpread)
+  {
+    return fit;
+  }
+  Matrix gram;
+  Vector right;
+  for (int i = 0; i <= VDegree; ++i)
+  {
+    right(i) = sums.products[static_cast<std::size_t>(i)];
+    for (int j = 0; j <= VDegree; ++j)
+    {
+      gram(i, j) = sums.moments[static_cast<std::size_t>(i + j)];
+    }
+  }
+  const Eigen::LDLT<Matrix> solver(gram);
+  const Vector              c = solver.solve(right);
+  fit.isDetermined = c.allFinite();
+  fit.slope = c(1) / sums.scale;
+  fit.intercept = c(0) - c(1) * sums.centre / sums.scale;
+  if constexpr (VDegree == 2)
+  {
+    const Matrix covariance = solver.solve(Matrix::Identity());
+    const double scale2 = sums.scale * sums.scale;
+    fit.curvature = c(2) / scale2;
+    fit.slope -= 2.0 * fit.curvature * sums.centre;
+    fit.intercept += fit.curvature * sums.centre * sums.centre;
+    fit.curvatureUnitSd = std::sqrt(std::max(0.0, covariance(2, 2))) / scale2;
+  }
   return fit;
+}
+
+/** Of an ordinary regression. */
+double
+WeighAlike(double /*mean*/)
+{
+  return 1.0;
 }
 
 } // namespace
@@ -114,13 +132,20 @@ FitPolynomial(const RegressionData & data, const ParallelFor & parallelFor, TWei
 PolynomialFit
 FitLine(const RegressionData & data, const ParallelFor & parallelFor)
 {
-  return FitPolynomial<1>(data, parallelFor, [](double) { return 1.0; });
+  return Solve<1>(SumNormal<1>(data, parallelFor, WeighAlike));
 }
 
 PolynomialFit
 FitParabola(const RegressionData & data, const ParallelFor & parallelFor)
 {
-  return FitPolynomial<2>(data, parallelFor, [](double) { return 1.0; });
+  return Solve<2>(SumNormal<2>(data, parallelFor, WeighAlike));
+}
+
+LineAndParabola
+FitLineAndParabola(const RegressionData & data, const ParallelFor & parallelFor)
+{
+  const NormalSums<2> sums = SumNormal<2>(data, parallelFor, WeighAlike);
+  return { Solve<1>(sums), Solve<2>(sums) };
 }
 
 FitQuality
@@ -147,10 +172,10 @@ JudgeLine(const RegressionData & data, const PolynomialFit & line, std::size_t f
     return deviation * deviation;
   });
   quality.reducedChi2 = squares / relativeVariance / static_cast<double>(line.pixels);
-  const PolynomialFit parabola = FitPolynomial<2>(data, parallelFor, [&varianceOf](double mean) {
+  const PolynomialFit parabola = Solve<2>(SumNormal<2>(data, parallelFor, [&varianceOf](double mean) {
     const double expected = varianceOf(mean);
     return 1.0 / (expected * expected);
-  });
+  }));
   const double error = parabola.curvatureUnitSd * std::sqrt(relativeVariance * std::max(1.0, quality.reducedChi2));
   if (parabola.isDetermined && error > 0.0)
   {

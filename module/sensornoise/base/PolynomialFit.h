@@ -49,6 +49,15 @@ FitLine(const RegressionData & data, const ParallelFor & parallelFor = SerialFor
 SensorNoise_EXPORT PolynomialFit
 FitParabola(const RegressionData & data, const ParallelFor & parallelFor = SerialFor);
 
+/** Both, in one walk over the maps. */
+struct LineAndParabola
+{
+  PolynomialFit line;
+  PolynomialFit parabola;
+};
+SensorNoise_EXPORT LineAndParabola
+FitLineAndParabola(const RegressionData & data, const ParallelFor & parallelFor = SerialFor);
+
 /** How well a line describes the corrected variance. */
 struct FitQuality
 {

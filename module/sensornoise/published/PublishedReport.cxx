@@ -224,7 +224,7 @@ MakePublishedReport(const PublishedFindings & found, const ParallelFor & paralle
   FillBaselines(report, raw, parallelFor);
   FillNoise(report, found, corrected, line);
   FillQuality(report, found, corrected, line, parallelFor);
-  FillScatter(report, scene.mean, scene.variance, maps.variance, maps.pixelUse, parallelFor);
+  FillScatter(report, scene.mean, scene.variance, maps.variance, MaskOfUsed(maps.pixelUse), parallelFor);
   return report;
 }
 

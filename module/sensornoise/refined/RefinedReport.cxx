@@ -122,12 +122,10 @@ DescribeInput(const RefinedSettings & settings, const StillScene & scene, const 
 void
 FillCurves(Report & report, const RefinedResults & found, const ParallelFor & parallelFor)
 {
-  const std::vector<std::uint8_t> & pixelUse = found.variance.pixelUse;
-  const std::vector<std::uint8_t>   used = MaskOfUsed(pixelUse);
-  const StillScene &                scene = found.scene;
-  FillBaselines(
-    report, { scene.frame.mean.data(), scene.frame.variance.data(), used.data(), used.size() }, parallelFor);
-  FillScatter(report, scene.frame.mean, scene.frame.variance, found.correctedVariance, pixelUse, parallelFor);
+  const std::vector<std::uint8_t> used = MaskOfUsed(found.variance.pixelUse);
+  const ReferenceFrame &          frame = found.scene.frame;
+  FillBaselines(report, { frame.mean.data(), frame.variance.data(), used.data(), used.size() }, parallelFor);
+  FillScatter(report, frame.mean, frame.variance, found.correctedVariance, used, parallelFor);
 }
 
 /** Degrees of freedom of the 95 % intervals. */

@@ -133,7 +133,7 @@ FillScatter(Report &                          report,
             const std::vector<double> &       mean,
             const std::vector<double> &       variance,
             const std::vector<double> &       correctedVariance,
-            const std::vector<std::uint8_t> & pixelUse,
+            const std::vector<std::uint8_t> & used,
             const ParallelFor &               parallelFor)
 {
   // The sums of each bin.
@@ -145,14 +145,14 @@ FillScatter(Report &                          report,
     Pixels,
     Sums
   };
-  constexpr std::size_t           bins = 256;
-  const std::size_t               pixels = mean.size();
-  const std::vector<std::uint8_t> used = MaskOfUsed(pixelUse);
-  const IntensityIndex            index(mean.data(), used.data(), pixels);
-  const std::vector<double> sums = SumOverBlocks(pixels, parallelFor, bins * Sums, [&](std::size_t p, double * sum) {
+  constexpr std::size_t      count = 256;
+  const std::size_t          pixels = mean.size();
+  const IntensityIndex       index(mean.data(), used.data(), pixels, parallelFor);
+  const IntensityIndex::Bins bins(index, count);
+  const std::vector<double>  sums = SumOverBlocks(pixels, parallelFor, count * Sums, [&](std::size_t p, double * sum) {
     if (used[p] != 0)
     {
-      double * const own = sum + Sums * index.BinOf(mean[p], bins);
+      double * const own = sum + Sums * bins.Of(mean[p]);
       own[Mean] += mean[p];
       own[Variance] += variance[p];
       own[Corrected] += correctedVariance[p];
@@ -175,8 +175,7 @@ FillScatter(Report &                          report,
 void
 FillBaselines(Report & report, const RegressionData & raw, const ParallelFor & parallelFor)
 {
-  const PolynomialFit affine = FitLine(raw, parallelFor);
-  const PolynomialFit parabola = FitParabola(raw, parallelFor);
+  const auto [affine, parabola] = FitLineAndParabola(raw, parallelFor);
   report.affineBaseline = Report::Baseline{ 0.0, affine.slope, affine.intercept };
   report.quadraticBaseline = Report::Baseline{ parabola.curvature, parabola.slope, parabola.intercept };
 }

@@ -42,13 +42,13 @@ WarnOfMosaic(Report &                    report,
 SensorNoise_EXPORT std::vector<std::uint8_t>
 MaskOfUsed(const std::vector<std::uint8_t> & pixelUse);
 
-/** Files Figure 4: averages over 256 bins of equal count of the pixels used. */
+/** Files Figure 4: averages over 256 bins of equal count of the pixels that are \a used, the mask's. */
 SensorNoise_EXPORT void
 FillScatter(Report &                          report,
             const std::vector<double> &       mean,
             const std::vector<double> &       variance,
             const std::vector<double> &       correctedVariance,
-            const std::vector<std::uint8_t> & pixelUse,
+            const std::vector<std::uint8_t> & used,
             const ParallelFor &               parallelFor);
 
 /** Files the line and the parabola through the uncorrected variance, what tools that ignore flicker would say. */
