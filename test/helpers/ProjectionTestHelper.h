@@ -112,9 +112,9 @@ struct Input
   ProjectedVariance
   Project(const ParallelFor & parallelFor = SerialFor)
   {
-    coordinates.emplace(std::move(sums), Basis(), frame.mean, parallelFor);
     ResidualSquares squares;
-    AppendResidualSquares(frame, Basis(), *coordinates, true, parallelFor, squares);
+    AppendResidualSquares(frame, Basis(), sums, true, parallelFor, squares);
+    coordinates.emplace(std::move(sums));
     return { frame, Basis(), motion, std::move(squares), model, mask, parallelFor };
   }
 };

@@ -4,7 +4,6 @@
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/pixels/Constants.h"
-#include "sensornoise/pixels/PixelCoordinates.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
 #include "sensornoise/pixels/ProjectionSums.h"
 #include "sensornoise/pixels/StaticPixels.h"
@@ -101,9 +100,8 @@ struct Burst
     model.slopeDn = 0.4;
     model.darkestDn = BlackDn + 20.0;
     motion.inverseGram.resize(0, 0);
-    PixelCoordinates coordinates(std::move(sums), *basis, frame.mean, SerialFor);
-    ResidualSquares  squares;
-    AppendResidualSquares(frame, *basis, coordinates, false, SerialFor, squares);
+    ResidualSquares squares;
+    AppendResidualSquares(frame, *basis, sums, false, SerialFor, squares);
     projected =
       std::make_unique<ProjectedVariance>(frame, *basis, motion, std::move(squares), model, frame.usable, SerialFor);
     projected->Compute(0.0);

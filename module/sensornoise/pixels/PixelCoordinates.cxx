@@ -34,4 +34,8 @@ PixelCoordinates::PixelCoordinates(ProjectionSums &&           sums,
   });
 }
 
+PixelCoordinates::PixelCoordinates(ProjectionSums && coordinates)
+  : m_Coordinates(std::move(coordinates))
+{}
+
 } // namespace sensornoise

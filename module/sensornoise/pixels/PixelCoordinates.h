@@ -34,6 +34,8 @@ public:
                             const TemporalBasis &       basis,
                             const std::vector<double> & mean,
                             const ParallelFor &         parallelFor);
+  /** Takes over sums that are coordinates already. */
+  explicit PixelCoordinates(ProjectionSums && coordinates);
 
   /** The pixels [first, last) whose coordinates are held. */
   std::size_t
@@ -45,12 +47,6 @@ public:
   LastPixel() const
   {
     return m_Coordinates.LastPixel();
-  }
-  /** Gives the memory of the first slab that is held back, see ProjectionSums. */
-  void
-  ReleaseFirstSlab()
-  {
-    m_Coordinates.ReleaseFirstSlab();
   }
 
   /** The coordinate of pixel \a p on series \a j. */

@@ -11,7 +11,7 @@
 namespace sensornoise
 {
 
-class PixelCoordinates;
+class ProjectionSums;
 class TemporalBasis;
 struct ReferenceFrame;
 
@@ -23,12 +23,13 @@ struct ResidualSquares
   std::vector<float>  skew; ///< sum_i S_i sum_j K_ij, K_ij = sum_t Q_tj^2 Q_ti [DN]
 };
 
-/** Appends the squares of the pixels whose \a coordinates are held, which follow those that \a squares has already.
- * Unless they are to be kept, the coordinates are given back one slab after the other. */
+/** Appends the squares of the pixels whose \a sums are held, which follow those that \a squares has already. Their
+ * coordinates take the place of the sums if they are to be kept, else the sums are given back one slab after the other.
+ */
 SensorNoise_EXPORT void
 AppendResidualSquares(const ReferenceFrame & frame,
                       const TemporalBasis &  basis,
-                      PixelCoordinates &     coordinates,
+                      ProjectionSums &       sums,
                       bool                   keepCoordinates,
                       const ParallelFor &    parallelFor,
                       ResidualSquares &      squares);

@@ -96,11 +96,10 @@ PixelProjections::EndPass(const ReferenceFrame & frame, bool keepForLight)
   m_HasSample = true;
   const std::size_t pixels = m_Geometry.Pixels();
   const bool        isWhole = m_Sums.FirstPixel() == 0 && m_Sums.LastPixel() == pixels;
-  PixelCoordinates  coordinates(std::move(m_Sums), m_Basis, frame.mean, m_ParallelFor);
-  AppendResidualSquares(frame, m_Basis, coordinates, keepForLight && isWhole, m_ParallelFor, m_Squares);
+  AppendResidualSquares(frame, m_Basis, m_Sums, keepForLight && isWhole, m_ParallelFor, m_Squares);
   if (keepForLight && isWhole)
   {
-    m_Coordinates = std::move(coordinates);
+    m_Coordinates = PixelCoordinates(std::move(m_Sums));
   }
   const bool isLast = m_Squares.rss.size() == pixels;
   if (!isLast)
