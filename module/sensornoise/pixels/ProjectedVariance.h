@@ -7,6 +7,7 @@
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/pixels/CodeNoise.h"
 #include "sensornoise/pixels/ResidualSquares.h"
+#include "sensornoise/pixels/RoughnessClasses.h"
 #include "sensornoise/pixels/VarianceLine.h"
 
 #include <cstddef>
@@ -42,12 +43,11 @@ struct ReferenceFrame;
  * - With both, every series can be projected out of every pixel, for 5 to 15 % of the degrees of freedom; no class of
  *   pixels need be told which series it pays for, and no bias below a threshold is left.
  *
- * Pixels are sorted into 24 classes by the energy of the derivatives in their neighbourhood over the noise, for the
- * test of fit (JudgeClasses). */
+ * Pixels are sorted into RoughnessClasses for the test of fit (JudgeClasses). */
 class SensorNoise_EXPORT ProjectedVariance
 {
 public:
-  static constexpr std::size_t Classes = 24;
+  static constexpr std::size_t Classes = RoughnessClasses;
 
   /** \a squares are those of the basis' coordinates. All references must outlive the object. */
   ProjectedVariance(const ReferenceFrame &            frame,
@@ -113,8 +113,6 @@ private:
   /** The degrees of freedom of the mask's pixels, by which their squares are divided. */
   void
   CountFreedom(const MotionSeries & motion, const ProvisionalModel & model);
-  void
-  Classify(const ProvisionalModel & model);
 
   const ReferenceFrame &            m_Frame;
   const TemporalBasis &             m_Basis;
