@@ -31,15 +31,18 @@ Differences(const BlockPhases & sums)
   return coefficients;
 }
 
+/** \a products: of the pixels of the tile with their neighbours along the axis. */
 void
-AddAxis(const NoiseResiduals & residuals, std::size_t tile, std::size_t axis, BlockPhases & sums)
+AddAxis(const NoiseResiduals &     residuals,
+        std::size_t                tile,
+        std::size_t                axis,
+        const std::vector<float> & products,
+        BlockPhases &              sums)
 {
-  const SampleTiles & tiles = residuals.GetTiles();
-  const std::size_t   size = tiles.Pixels();
-  const std::size_t   shift = axis == 0 ? 1 : tiles.side;
-  const float *       weight = residuals.WeightOf(tile);
-  std::vector<float>  products;
-  SumProducts(residuals, tile, axis == 0 ? Lag{ 1, 0, 0 } : Lag{ 0, 1, 0 }, products);
+  const SampleTiles &         tiles = residuals.GetTiles();
+  const std::size_t           size = tiles.Pixels();
+  const std::size_t           shift = axis == 0 ? 1 : tiles.side;
+  const float *               weight = residuals.WeightOf(tile);
   const SampleTiles::Origin & origin = tiles.origins[tile];
   for (std::size_t p = 0; p + shift < size; ++p)
   {
@@ -72,8 +75,9 @@ SumBlockPhases(const NoiseResiduals & residuals, const ParallelFor & parallelFor
 {
   std::vector<BlockPhases> sums(residuals.GetTiles().origins.size());
   parallelFor(sums.size(), [&](std::size_t i) {
-    AddAxis(residuals, i, 0, sums[i]);
-    AddAxis(residuals, i, 1, sums[i]);
+    const auto products = SumProducts(residuals, i, { Lag{ 1, 0, 0 }, Lag{ 0, 1, 0 } });
+    AddAxis(residuals, i, 0, products[0], sums[i]);
+    AddAxis(residuals, i, 1, products[1], sums[i]);
   });
   return sums;
 }

@@ -16,6 +16,24 @@ Ratio(double sum, double count)
   return count > 0.0 ? sum / count : 0.0;
 }
 
+/** Half of the lags at a distance in space. */
+std::vector<Lag>
+LagsOfRing(int distance)
+{
+  std::vector<Lag> lags;
+  for (int y = 0; y <= distance; ++y)
+  {
+    for (int x = -distance; x <= distance; ++x)
+    {
+      if (std::max(std::abs(x), y) == distance && (y > 0 || x > 0))
+      {
+        lags.push_back({ x, y, 0 });
+      }
+    }
+  }
+  return lags;
+}
+
 template <typename TPredicate>
 CorrelationSums::Lags
 IndicesWhere(const std::vector<Lag> & lags, TPredicate predicate)
@@ -45,20 +63,31 @@ TileSums::operator+=(const TileSums & other)
   return *this;
 }
 
-CorrelationSums::CorrelationSums(const NoiseResiduals & residuals, double codesDn2, const ParallelFor & parallelFor)
+CorrelationSums::CorrelationSums(const NoiseResiduals & residuals,
+                                 double                 codesDn2,
+                                 int                    rings,
+                                 int                    timeLags,
+                                 const ParallelFor &    parallelFor)
   : m_Residuals(residuals)
   , m_CodesDn2(codesDn2)
   , m_ParallelFor(parallelFor)
   , m_Tiles(residuals.GetTiles().origins.size())
+  , m_Lags{ Lag{} }
 {
-  const std::vector<SharedLight>  shared = SumSharedLight(residuals, parallelFor);
-  const std::vector<KurtosisSums> kurtosis = SumKurtosis(residuals, parallelFor);
-  for (std::size_t i = 0; i < m_Tiles.size(); ++i)
+  for (int distance = 1; distance <= rings; ++distance)
   {
-    m_Tiles[i].shared = shared[i];
-    m_Tiles[i].kurtosis = kurtosis[i];
+    const std::vector<Lag> ring = LagsOfRing(distance);
+    m_Lags.insert(m_Lags.end(), ring.begin(), ring.end());
   }
-  this->AddLags({ Lag{} });
+  const std::vector<Lag> time = this->NextTimeLags(timeLags);
+  m_Lags.insert(m_Lags.end(), time.begin(), time.end());
+  const LagSummation lags(residuals, m_Lags);
+  const double       kurtosis = NormalKurtosis(residuals);
+  parallelFor(m_Tiles.size(), [&](std::size_t i) {
+    m_Tiles[i].shared = SharedLightOfTile(residuals, i);
+    m_Tiles[i].kurtosis = KurtosisOfTile(residuals, i, kurtosis);
+    m_Tiles[i].lags = lags.OfTile(i);
+  });
 }
 
 void
@@ -75,22 +104,17 @@ CorrelationSums::AddLags(const std::vector<Lag> & lags)
 void
 CorrelationSums::AddRing(int distance)
 {
-  std::vector<Lag> lags;
-  for (int y = 0; y <= distance; ++y)
-  {
-    for (int x = -distance; x <= distance; ++x)
-    {
-      if (std::max(std::abs(x), y) == distance && (y > 0 || x > 0))
-      {
-        lags.push_back({ x, y, 0 });
-      }
-    }
-  }
-  this->AddLags(lags);
+  this->AddLags(LagsOfRing(distance));
 }
 
 void
 CorrelationSums::AddTimeLags(int last)
+{
+  this->AddLags(this->NextTimeLags(last));
+}
+
+std::vector<Lag>
+CorrelationSums::NextTimeLags(int last) const
 {
   const int        frames = static_cast<int>(m_Residuals.GetTiles().frames);
   std::vector<Lag> lags;
@@ -98,7 +122,7 @@ CorrelationSums::AddTimeLags(int last)
   {
     lags.push_back({ 0, 0, t });
   }
-  this->AddLags(lags);
+  return lags;
 }
 
 CorrelationSums::Lags

@@ -41,8 +41,14 @@ class SensorNoise_EXPORT CorrelationSums
 public:
   using Lags = std::vector<std::size_t>;
 
-  /** \a codesDn2: noise of the codes' steps, which no filter has seen. The references must outlive the object. */
-  CorrelationSums(const NoiseResiduals & residuals, double codesDn2, const ParallelFor & parallelFor);
+  /** \a codesDn2: noise of the codes' steps, which no filter has seen. The lags that are looked at in any case, \a
+   * rings in space and \a timeLags frames, see AddRing() and AddTimeLags(), are summed while a tile is in the cache.
+   * The references must outlive the object. */
+  CorrelationSums(const NoiseResiduals & residuals,
+                  double                 codesDn2,
+                  int                    rings,
+                  int                    timeLags,
+                  const ParallelFor &    parallelFor);
 
   /** Adds half of the lags in space at a distance: the other half is the same. */
   void
@@ -106,6 +112,9 @@ public:
 private:
   void
   AddLags(const std::vector<Lag> & lags);
+  /** The lags in time from the first that is not there up to \a last. */
+  std::vector<Lag>
+  NextTimeLags(int last) const;
 
   const NoiseResiduals & m_Residuals;
   double                 m_CodesDn2;

@@ -5,11 +5,11 @@
 #include "sensornoise/base/WideVectors.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -45,83 +45,164 @@ PeriodlessWeights(std::size_t count)
   return weights;
 }
 
-LagSums
-SumPairs(const NoiseResiduals & residuals, std::size_t tile, const Lag & lag, const std::vector<float> & products)
+/** What the pairs of a row of a tile add to the sums. */
+struct PairTerms
 {
-  const auto           side = static_cast<int>(residuals.GetTiles().side);
-  const float *        light = residuals.LightOf(tile);
-  const float *        weight = residuals.WeightOf(tile);
-  const std::uint8_t * bin = residuals.BinOf(tile);
-  const double         inverseFreedom = 1.0 / residuals.GetFreedom();
-  const auto           ofColumns = PeriodlessWeights(static_cast<std::size_t>(side - std::abs(lag.x)));
-  const auto           ofRows = PeriodlessWeights(static_cast<std::size_t>(side - std::abs(lag.y)));
-  const int            firstX = std::max(0, -lag.x);
-  const int            firstY = std::max(0, -lag.y);
-  LagSums              sums;
-  for (int y = firstY; y < side - std::max(0, lag.y); ++y)
+  using OfRow = std::array<double, SampleTiles::Side>;
+  OfRow pairs;
+  OfRow covariance;
+  OfRow constant;
+  OfRow light;
+  OfRow square;
+
+  void
+  AddTo(PairSums & sums, std::size_t k) const
   {
-    for (int x = firstX; x < side - std::max(0, lag.x); ++x)
-    {
-      const double share =
-        ofRows[static_cast<std::size_t>(y - firstY)] * ofColumns[static_cast<std::size_t>(x - firstX)];
-      const int    p = y * side + x;
-      const int    q = p + lag.y * side + lag.x;
-      const double w = static_cast<double>(weight[p]) * weight[q];
-      if (w > 0.0)
-      {
-        const double inverse = share * std::sqrt(w);
-        const double z = 0.5 * (static_cast<double>(light[p]) + light[q]);
-        PairSums &   sum = sums.bins[bin[p]];
-        sum.pairs += share;
-        sum.covariance += inverseFreedom * products[static_cast<std::size_t>(p)] * inverse;
-        sum.constant += inverse;
-        sum.light += z * inverse;
-        sum.square += z * z * inverse;
-      }
-    }
+    sums.pairs += pairs[k];
+    sums.covariance += covariance[k];
+    sums.constant += constant[k];
+    sums.light += light[k];
+    sums.square += square[k];
   }
-  return sums;
+};
+
+/** One end of the pairs of a row. */
+struct RowOfPixels
+{
+  const double * root; // of the weight
+  const float *  light;
+};
+
+/** \a shares: of the places in the row; \a products: over time, of the first end. */
+PairTerms
+MakeTerms(const RowOfPixels &         here,
+          const RowOfPixels &         there,
+          const float *               products,
+          const std::vector<double> & shares,
+          double                      ofRow,
+          double                      inverseFreedom)
+{
+  PairTerms terms;
+  for (std::size_t k = 0; k < shares.size(); ++k)
+  {
+    const double share = ofRow * shares[k];
+    const double root = here.root[k] * there.root[k];
+    const double inverse = share * root;
+    const double z = 0.5 * (static_cast<double>(here.light[k]) + there.light[k]);
+    terms.pairs[k] = root > 0.0 ? share : 0.0;
+    terms.covariance[k] = inverseFreedom * products[k] * inverse;
+    terms.constant[k] = inverse;
+    terms.light[k] = z * inverse;
+    terms.square[k] = z * z * inverse;
+  }
+  return terms;
+}
+
+/** Adds products of \a VTogether frames. \a there is \a shift values from \a here, and both have \a size a frame. */
+template <std::size_t VTogether>
+void
+AddProductsOfFrames(const float * here, const float * there, std::size_t size, std::ptrdiff_t shift, float * products)
+{
+  const std::size_t first = shift < 0 ? static_cast<std::size_t>(-shift) : 0;
+  const std::size_t last = shift < 0 ? size : size - static_cast<std::size_t>(shift);
+  for (std::size_t p = first; p < last; ++p)
+  {
+    float sum = products[p];
+    for (std::size_t k = 0; k < VTogether; ++k)
+    {
+      sum += here[p + k * size] * there[p + k * size];
+    }
+    products[p] = sum;
+  }
 }
 } // namespace
 
-void
-SumProducts(const NoiseResiduals & residuals, std::size_t tile, const Lag & lag, std::vector<float> & products)
+std::vector<std::vector<float>>
+SumProducts(const NoiseResiduals & residuals, std::size_t tile, const std::vector<Lag> & lags)
 {
-  const SampleTiles &  tiles = residuals.GetTiles();
-  const std::size_t    size = tiles.Pixels();
-  const float *        values = residuals.OfTile(tile);
-  const auto           later = static_cast<std::size_t>(lag.t);
-  const std::ptrdiff_t shift = static_cast<std::ptrdiff_t>(lag.y) * static_cast<std::ptrdiff_t>(tiles.side) + lag.x;
-  const std::size_t    first = shift < 0 ? static_cast<std::size_t>(-shift) : 0;
-  const std::size_t    last = shift < 0 ? size : size - static_cast<std::size_t>(shift);
-  products.assign(size, 0.0F);
-  const auto add = [&](std::size_t t, auto together) {
-    const float * here = values + t * size;
-    const float * there = values + (t + later) * size + shift;
-    for (std::size_t p = first; p < last; ++p)
-    {
-      float sum = products[p];
-      for (std::size_t k = 0; k < together; ++k)
-      {
-        sum += here[p + k * size] * there[p + k * size];
-      }
-      products[p] = sum;
-    }
-  };
-  using Four = std::integral_constant<std::size_t, 4>;
-  using One = std::integral_constant<std::size_t, 1>;
-  const std::size_t frames = tiles.frames > later ? tiles.frames - later : 0;
+  const SampleTiles &             tiles = residuals.GetTiles();
+  const std::size_t               size = tiles.Pixels();
+  constexpr std::size_t           together = 4; // frames: the sums are loaded and stored a quarter as often
+  std::vector<std::vector<float>> products(lags.size(), std::vector<float>(size, 0.0F));
   WithWideVectors([&] {
-    std::size_t t = 0;
-    for (; t + Four::value <= frames; t += Four::value) // in order; the sums are loaded and stored a quarter as often
+    // All lags of a few frames, which stay in the first-level cache, and then the next.
+    for (std::size_t first = 0; first < tiles.frames; first += together)
     {
-      add(t, Four());
-    }
-    for (; t < frames; ++t)
-    {
-      add(t, One());
+      const float * here = residuals.OfTile(tile) + first * size;
+      for (std::size_t k = 0; k < lags.size(); ++k)
+      {
+        const auto           later = static_cast<std::size_t>(lags[k].t);
+        const std::ptrdiff_t shift =
+          static_cast<std::ptrdiff_t>(lags[k].y) * static_cast<std::ptrdiff_t>(tiles.side) + lags[k].x;
+        const float * there = here + later * size + shift;
+        const auto    frames = tiles.frames - std::min(tiles.frames, first + later);
+        if (frames >= together)
+        {
+          AddProductsOfFrames<together>(here, there, size, shift, products[k].data());
+          continue;
+        }
+        for (std::size_t t = 0; t < frames; ++t)
+        {
+          AddProductsOfFrames<1>(here + t * size, there + t * size, size, shift, products[k].data());
+        }
+      }
     }
   });
+  return products;
+}
+
+LagSummation::LagSummation(const NoiseResiduals & residuals, std::vector<Lag> lags)
+  : m_Residuals(residuals)
+  , m_Lags(std::move(lags))
+{
+  const auto side = static_cast<int>(residuals.GetTiles().side);
+  for (const Lag & lag : m_Lags)
+  {
+    m_Weights.push_back({ PeriodlessWeights(static_cast<std::size_t>(side - std::abs(lag.x))),
+                          PeriodlessWeights(static_cast<std::size_t>(side - std::abs(lag.y))) });
+  }
+}
+
+std::vector<LagSums>
+LagSummation::OfTile(std::size_t tile) const
+{
+  const std::vector<std::vector<float>> products = SumProducts(m_Residuals, tile, m_Lags);
+  const std::size_t                     side = m_Residuals.GetTiles().side;
+  const float *                         light = m_Residuals.LightOf(tile);
+  const float *                         weight = m_Residuals.WeightOf(tile);
+  const std::uint8_t *                  bin = m_Residuals.BinOf(tile);
+  const double                          inverseFreedom = 1.0 / m_Residuals.GetFreedom();
+  std::vector<double>                   roots(side * side);
+  std::transform(weight, weight + side * side, roots.begin(), [](double w) { return std::sqrt(w); });
+  std::vector<LagSums> sums(m_Lags.size());
+  WithWideVectors([&] {
+    for (std::size_t k = 0; k < m_Lags.size(); ++k)
+    {
+      const PlaceWeights & weights = m_Weights[k];
+      const auto           x = static_cast<std::size_t>(std::max(0, -m_Lags[k].x));
+      const auto           firstY = static_cast<std::size_t>(std::max(0, -m_Lags[k].y));
+      LagSums              odd; // two sums side by side, so that not every addition waits for the one before
+      for (std::size_t y = 0; y < weights.rows.size(); ++y)
+      {
+        const std::size_t p = (firstY + y) * side + x;
+        const std::size_t q = static_cast<std::size_t>(
+          static_cast<std::ptrdiff_t>(p) +
+          static_cast<std::ptrdiff_t>(m_Lags[k].y) * static_cast<std::ptrdiff_t>(side) + m_Lags[k].x);
+        const PairTerms terms = MakeTerms({ roots.data() + p, light + p },
+                                          { roots.data() + q, light + q },
+                                          products[k].data() + p,
+                                          weights.columns,
+                                          weights.rows[y],
+                                          inverseFreedom);
+        for (std::size_t i = 0; i < weights.columns.size(); ++i)
+        {
+          terms.AddTo((i % 2 == 0 ? sums[k] : odd).bins[bin[p + i]], i);
+        }
+      }
+      sums[k] += odd;
+    }
+  });
+  return sums;
 }
 
 PairSums &
@@ -159,16 +240,9 @@ LagSums::Total() const
 std::vector<std::vector<LagSums>>
 SumLags(const NoiseResiduals & residuals, const std::vector<Lag> & lags, const ParallelFor & parallelFor)
 {
-  const SampleTiles &               tiles = residuals.GetTiles();
-  std::vector<std::vector<LagSums>> sums(tiles.origins.size(), std::vector<LagSums>(lags.size()));
-  parallelFor(tiles.origins.size(), [&](std::size_t i) {
-    std::vector<float> products;
-    for (std::size_t k = 0; k < lags.size(); ++k)
-    {
-      SumProducts(residuals, i, lags[k], products);
-      sums[i][k] = SumPairs(residuals, i, lags[k], products);
-    }
-  });
+  const LagSummation                summation(residuals, lags);
+  std::vector<std::vector<LagSums>> sums(residuals.GetTiles().origins.size());
+  parallelFor(sums.size(), [&](std::size_t i) { sums[i] = summation.OfTile(i); });
   return sums;
 }
 

@@ -47,12 +47,37 @@ struct LagSums
   Total() const;
 };
 
-/** Sums over time of the products of the residuals of tile \a tile with those \a lag away, of the pixels of the tile:
- * products[p] is that of pixel p. Where the other pixel is in another row, the product has no meaning. */
-SensorNoise_EXPORT void
-SumProducts(const NoiseResiduals & residuals, std::size_t tile, const Lag & lag, std::vector<float> & products);
+/** Sums over time of the products of the residuals of tile \a tile with those one of the \a lags away, of the pixels of
+ * the tile: [lag][pixel]. Where the other pixel is in another row, the product has no meaning. */
+SensorNoise_EXPORT std::vector<std::vector<float>>
+SumProducts(const NoiseResiduals & residuals, std::size_t tile, const std::vector<Lag> & lags);
 
-/** The sums of every tile, for each lag: [tile][lag]. y is sum_t r_t(p) r_(t + lag.t)(q), over the freedom. */
+/** \class LagSummation
+ * \brief Makes the sums of a tile, for each lag. y is sum_t r_t(p) r_(t + lag.t)(q), over the freedom.
+ *
+ * The residuals must outlive the object. */
+class SensorNoise_EXPORT LagSummation
+{
+public:
+  LagSummation(const NoiseResiduals & residuals, std::vector<Lag> lags);
+
+  std::vector<LagSums>
+  OfTile(std::size_t tile) const;
+
+private:
+  /** What pairs count by their place in the tile. */
+  struct PlaceWeights
+  {
+    std::vector<double> columns;
+    std::vector<double> rows;
+  };
+
+  const NoiseResiduals &    m_Residuals;
+  std::vector<Lag>          m_Lags;
+  std::vector<PlaceWeights> m_Weights; // of each lag
+};
+
+/** The sums of every tile, for each lag: [tile][lag]. */
 SensorNoise_EXPORT std::vector<std::vector<LagSums>>
 SumLags(const NoiseResiduals & residuals, const std::vector<Lag> & lags, const ParallelFor & parallelFor);
 

@@ -228,12 +228,7 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const
   {
     return {};
   }
-  CorrelationSums sums(residuals, codesDn2, parallelFor);
-  for (int distance = 1; distance <= FirstRings; ++distance)
-  {
-    sums.AddRing(distance);
-  }
-  sums.AddTimeLags(FirstTimeLags);
+  CorrelationSums  sums(residuals, codesDn2, FirstRings, FirstTimeLags, parallelFor);
   NoiseCorrelation found;
   found.kind = NoiseKind::White;
   FindCoefficients(sums, found);

@@ -5,6 +5,7 @@
 #include "sensornoise/base/WideVectors.h"
 #include "sensornoise/correlation/Constants.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -14,89 +15,109 @@ namespace sensornoise
 
 namespace
 {
-/** Of every pixel of a tile: sums over time of the squares and fourth powers of the alternating sum of the \a X by \a Y
- * pixels that begin there. Where these run over the end of a row they mean nothing. */
+/** How many pixels a kind of series has, along x and y: they are summed in turn. */
+struct KindOfSeries
+{
+  std::size_t columns;
+  std::size_t rows;
+};
+constexpr std::array<KindOfSeries, KurtosisSums::Kinds> KindsOfSeries{
+  { { 1, 1 }, { 2, 1 }, { 1, 2 }, { 2, 2 }, { 8, 1 }, { 1, 8 } }
+};
+
+/** Of every pixel of a tile: sums over time of the squares and fourth powers of each kind of series that begins there.
+ * Where these run over the end of a row or of the tile they mean nothing. */
 struct PowerSums
 {
   using OfPixels = std::array<float, SampleTiles::Side * SampleTiles::Side>;
-  OfPixels squares;
-  OfPixels fourths;
+  std::array<OfPixels, KurtosisSums::Kinds> squares;
+  std::array<OfPixels, KurtosisSums::Kinds> fourths;
 };
 
-template <std::size_t X, std::size_t Y>
-PowerSums
-SumPowers(const SampleTiles & tiles, const float * values)
+/** The alternating sums of all kinds that begin at \a v, a pixel of a tile of \a VSide columns. */
+template <std::size_t VSide>
+std::array<float, KurtosisSums::Kinds>
+AlternatingSums(const float * v)
 {
-  PowerSums         powers{};
-  const std::size_t side = tiles.side;
-  const std::size_t frames = tiles.frames;
-  const std::size_t last = side * side - (Y - 1) * side - (X - 1);
-  WithWideVectors([&powers, values, side, frames, last] {
-    // No pointer can point into them: the loop over pixels becomes vector instructions.
-    PowerSums::OfPixels squares{};
-    PowerSums::OfPixels fourths{};
-    for (std::size_t t = 0; t < frames; ++t)
+  const float right = v[0] - v[1];
+  const float below = v[0] - v[VSide];
+  const float square = right - v[VSide] + v[VSide + 1];
+  const float row = right + v[2] - v[3] + v[4] - v[5] + v[6] - v[7];
+  const float column = below + v[2 * VSide] - v[3 * VSide] + v[4 * VSide] - v[5 * VSide] + v[6 * VSide] - v[7 * VSide];
+  return { v[0], right, below, square, row, column };
+}
+
+template <std::size_t VSide>
+void
+SumPowers(const NoiseResiduals & residuals, std::size_t i, PowerSums & sums)
+{
+  constexpr std::size_t size = VSide * VSide;
+  constexpr std::size_t padded = size + 8 * VSide; // series may begin at the last pixel
+  constexpr std::size_t together = 4;              // frames: the sums are loaded and stored a quarter as often
+  const std::size_t     frames = residuals.GetTiles().frames;
+  std::vector<float>    values(together * padded, 0.0F);
+  WithWideVectors([&] {
+    PowerSums own{}; // no pointer can point into it: the loop over pixels becomes vector instructions
+    for (std::size_t first = 0; first < frames; first += together)
     {
-      const float * frame = values + t * side * side;
-      for (std::size_t p = 0; p < last; ++p)
+      const std::size_t count = std::min(together, frames - first);
+      for (std::size_t k = 0; k < together; ++k)
       {
-        float sum = 0.0F;
-        for (std::size_t y = 0; y < Y; ++y)
+        const float * frame = residuals.OfTile(i) + (first + k) * size;
+        k < count ? std::copy(frame, frame + size, values.data() + k * padded)
+                  : std::fill_n(values.data() + k * padded, size, 0.0F);
+      }
+      const float * const begin = values.data();
+      for (std::size_t p = 0; p < size; ++p)
+      {
+        for (std::size_t k = 0; k < together; ++k)
         {
-          for (std::size_t x = 0; x < X; ++x)
+          const auto series = AlternatingSums<VSide>(begin + k * padded + p);
+          for (std::size_t kind = 0; kind < series.size(); ++kind)
           {
-            const float value = frame[p + y * side + x];
-            sum += (x + y) % 2 == 0 ? value : -value;
+            const float square = series[kind] * series[kind];
+            own.squares[kind][p] += square;
+            own.fourths[kind][p] += square * square;
           }
         }
-        const float square = sum * sum;
-        squares[p] += square;
-        fourths[p] += square * square;
       }
     }
-    powers = { squares, fourths };
+    sums = own;
   });
-  return powers;
 }
 
-template <std::size_t X, std::size_t Y>
-bool
-AllAreTaken(const float * weight, std::size_t side, std::size_t p)
+/** How many pixels of a tile are taken, one after the other from each of them on: along x, and along y. */
+struct TakenRuns
 {
-  if (p % side + X > side || p / side + Y > side)
-  {
-    return false;
-  }
-  for (std::size_t k = 0; k < X * Y; ++k)
-  {
-    if (!(weight[p + k / X * side + k % X] > 0.0F))
-    {
-      return false;
-    }
-  }
-  return true;
-}
+  std::vector<std::size_t> right;
+  std::vector<std::size_t> down;
 
-/** Adds the ratios of one kind of series of tile \a i; \a normal: of sum r^4 over (sum r^2)^2, of normal noise. */
-template <std::size_t X, std::size_t Y>
-void
-AddRatios(const NoiseResiduals & residuals, std::size_t i, double normal, std::size_t kind, KurtosisSums & sums)
-{
-  const SampleTiles & tiles = residuals.GetTiles();
-  const PowerSums     powers = SumPowers<X, Y>(tiles, residuals.OfTile(i));
-  const float *       weight = residuals.WeightOf(i);
-  const auto          least = InCorrelation.leastNoise * static_cast<float>(residuals.GetFreedom());
-  for (std::size_t p = 0; p < tiles.Pixels(); ++p)
+  TakenRuns(const float * weight, std::size_t side)
+    : right(side * side, 0)
+    , down(side * side, 0)
   {
-    // Of pixels that are copies of each other nothing is left but rounding.
-    if (powers.squares[p] * weight[p] > least && AllAreTaken<X, Y>(weight, tiles.side, p))
+    for (std::size_t p = side * side; p-- > 0;)
     {
-      const double square = powers.squares[p];
-      sums.series[kind] += 1.0;
-      sums.ratio[kind] += powers.fourths[p] / (square * square) / normal;
+      if (weight[p] > 0.0F)
+      {
+        right[p] = 1 + ((p + 1) % side != 0 ? right[p + 1] : 0);
+        down[p] = 1 + (p + side < down.size() ? down[p + side] : 0);
+      }
     }
   }
-}
+
+  /** Whether a series that begins at pixel \a p is whole. */
+  bool
+  Hold(std::size_t p, const KindOfSeries & kind, std::size_t side) const
+  {
+    bool all = down[p] >= kind.rows;
+    for (std::size_t y = 0; all && y < kind.rows; ++y)
+    {
+      all = right[p + y * side] >= kind.columns;
+    }
+    return all;
+  }
+};
 } // namespace
 
 KurtosisSums &
@@ -110,21 +131,47 @@ KurtosisSums::operator+=(const KurtosisSums & other)
   return *this;
 }
 
+double
+NormalKurtosis(const NoiseResiduals & residuals)
+{
+  const double         freedom = residuals.GetFreedom();
+  const Eigen::ArrayXd kept = 1.0 - residuals.GetBasis().array().square().rowwise().sum();
+  return 3.0 * kept.square().sum() / (freedom * (freedom + 2.0));
+}
+
+KurtosisSums
+KurtosisOfTile(const NoiseResiduals & residuals, std::size_t i, double normal)
+{
+  const std::size_t side = residuals.GetTiles().side;
+  const float *     weight = residuals.WeightOf(i);
+  const auto        least = InCorrelation.leastNoise * static_cast<float>(residuals.GetFreedom());
+  const TakenRuns   taken(weight, side);
+  PowerSums         powers;
+  side == SampleTiles::Side ? SumPowers<SampleTiles::Side>(residuals, i, powers)
+                                    : SumPowers<SampleTiles::SmallSide>(residuals, i, powers);
+  KurtosisSums sums;
+  for (std::size_t kind = 0; kind < KurtosisSums::Kinds; ++kind)
+  {
+    for (std::size_t p = 0; p < side * side; ++p)
+    {
+      // Of pixels that are copies of each other nothing is left but rounding.
+      if (powers.squares[kind][p] * weight[p] > least && taken.Hold(p, KindsOfSeries[kind], side))
+      {
+        const double square = powers.squares[kind][p];
+        sums.series[kind] += 1.0;
+        sums.ratio[kind] += powers.fourths[kind][p] / (square * square * normal);
+      }
+    }
+  }
+  return sums;
+}
+
 std::vector<KurtosisSums>
 SumKurtosis(const NoiseResiduals & residuals, const ParallelFor & parallelFor)
 {
-  const double              freedom = residuals.GetFreedom();
-  const Eigen::ArrayXd      kept = 1.0 - residuals.GetBasis().array().square().rowwise().sum();
-  const double              normal = 3.0 * kept.square().sum() / (freedom * (freedom + 2.0));
+  const double              normal = NormalKurtosis(residuals);
   std::vector<KurtosisSums> sums(residuals.GetTiles().origins.size());
-  parallelFor(sums.size(), [&](std::size_t i) {
-    AddRatios<1, 1>(residuals, i, normal, 0, sums[i]);
-    AddRatios<2, 1>(residuals, i, normal, 1, sums[i]);
-    AddRatios<1, 2>(residuals, i, normal, 2, sums[i]);
-    AddRatios<2, 2>(residuals, i, normal, 3, sums[i]);
-    AddRatios<8, 1>(residuals, i, normal, 4, sums[i]);
-    AddRatios<1, 8>(residuals, i, normal, 5, sums[i]);
-  });
+  parallelFor(sums.size(), [&](std::size_t i) { sums[i] = KurtosisOfTile(residuals, i, normal); });
   return sums;
 }
 

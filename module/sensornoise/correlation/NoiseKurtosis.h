@@ -41,6 +41,13 @@ struct KurtosisSums
   }
 };
 
+/** K of normal noise. */
+SensorNoise_EXPORT double
+NormalKurtosis(const NoiseResiduals & residuals);
+/** The sums of a tile; \a normal is NormalKurtosis(). */
+SensorNoise_EXPORT KurtosisSums
+KurtosisOfTile(const NoiseResiduals & residuals, std::size_t i, double normal);
+
 /** The sums of every tile. */
 SensorNoise_EXPORT std::vector<KurtosisSums>
 SumKurtosis(const NoiseResiduals & residuals, const ParallelFor & parallelFor);

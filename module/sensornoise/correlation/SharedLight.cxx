@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <numeric>
 #include <vector>
 
 namespace sensornoise
@@ -18,81 +19,89 @@ namespace
  * apart. */
 constexpr std::size_t Segments = 4;
 
-/** Sums over the segments of the tile's rows, of its columns, and over its cells. */
+/** [segment][line]: the lines of a sum lie side by side. */
+template <std::size_t VSide>
+using LineSums = std::array<std::array<double, VSide>, Segments>;
+using CellSums = std::array<double, Segments * Segments>;
+
+/** Sums over the segments of a tile's rows, of its columns, and over its cells. */
+template <std::size_t VSide>
 struct SegmentSums
 {
-  std::vector<std::array<double, Segments>> rows;
-  std::vector<std::array<double, Segments>> columns;
-  std::array<double, Segments * Segments>   cells;
+  static constexpr std::size_t Length = VSide / Segments; // of a segment
+  using Line = std::array<double, VSide>;
 
-  explicit SegmentSums(std::size_t side)
-    : rows(side)
-    , columns(side)
-    , cells{}
-  {}
+  LineSums<VSide> rows;
+  LineSums<VSide> columns;
+  CellSums        cells;
 
   template <typename TFunction>
   void
   Sum(TFunction valueOf)
   {
-    const std::size_t side = rows.size();
-    const std::size_t length = side / Segments;
-    using Line = std::array<double, SampleTiles::Side>;
-    std::array<Line, Segments> ofColumns{};
-    cells.fill(0.0);
-    for (std::size_t y = 0; y < side; ++y)
+    columns = {};
+    for (std::size_t y = 0; y < VSide; ++y)
     {
       Line   values;
-      Line & column = ofColumns[y / length];
-      for (std::size_t x = 0; x < side; ++x)
+      Line & column = columns[y / Length];
+      for (std::size_t x = 0; x < VSide; ++x)
       {
-        values[x] = valueOf(y * side + x);
+        values[x] = valueOf(y * VSide + x);
         column[x] += values[x];
       }
-      // Of all segments side by side: one after the other, every addition would wait for the one before.
-      std::array<double, Segments> own{};
-      for (std::size_t x = 0; x < length; ++x)
+      this->SumRow(values, y);
+    }
+    this->SumCells();
+  }
+
+  /** The cells alone. */
+  template <typename TFunction>
+  void
+  SumOfCells(TFunction valueOf)
+  {
+    columns = {};
+    for (std::size_t y = 0; y < VSide; ++y)
+    {
+      Line & column = columns[y / Length];
+      for (std::size_t x = 0; x < VSide; ++x)
       {
-        for (std::size_t s = 0; s < Segments; ++s)
-        {
-          own[s] += values[s * length + x];
-        }
-      }
-      rows[y] = own;
-      for (std::size_t s = 0; s < Segments; ++s)
-      {
-        cells[y / length * Segments + s] += own[s];
+        column[x] += valueOf(y * VSide + x);
       }
     }
-    for (std::size_t x = 0; x < side; ++x)
+    this->SumCells();
+  }
+
+private:
+  /** Four values of a segment side by side: one after the other, every addition would wait for the one before. */
+  void
+  SumRow(const Line & values, std::size_t y)
+  {
+    for (std::size_t s = 0; s < Segments; ++s)
     {
-      for (std::size_t s = 0; s < Segments; ++s)
+      std::array<double, 4> own{};
+      for (std::size_t x = s * Length; x < (s + 1) * Length; x += own.size())
       {
-        columns[x][s] = ofColumns[s][x];
+        for (std::size_t k = 0; k < own.size(); ++k)
+        {
+          own[k] += values[x + k];
+        }
       }
+      rows[s][y] = (own[0] + own[1]) + (own[2] + own[3]);
+    }
+  }
+  void
+  SumCells()
+  {
+    for (std::size_t k = 0; k < cells.size(); ++k)
+    {
+      const double * const first = columns[k / Segments].data() + k % Segments * Length;
+      cells[k] = std::accumulate(first, first + Length, 0.0);
     }
   }
 };
 
 double
-FarProduct(const std::array<double, Segments> & a, const std::array<double, Segments> & b)
-{
-  return a[0] * (b[2] + b[3]) + a[1] * b[3] + b[0] * (a[2] + a[3]) + b[1] * a[3];
-}
-
-double
-LineProduct(const std::vector<std::array<double, Segments>> & lines, std::size_t apart)
-{
-  double sum = 0.0;
-  for (std::size_t y = 0; y + apart < lines.size(); ++y)
-  {
-    sum += FarProduct(lines[y], lines[y + apart]);
-  }
-  return sum;
-}
-
-double
-CellProduct(const std::array<double, Segments * Segments> & cells)
+CellProduct(const CellSums & cells)
 {
   double sum = 0.0;
   for (std::size_t i = 0; i < cells.size(); ++i)
@@ -107,43 +116,98 @@ CellProduct(const std::array<double, Segments * Segments> & cells)
   return sum;
 }
 
-/** Adds the products of a tile's sums, times \a factor, to one member of all DistantSums. */
-void
-AddProducts(SharedLight & light, const SegmentSums & sums, double DistantSums::* member, double factor)
+/** Sums of products of segments that are far apart, of lines at some distances: [distance][line]. */
+template <std::size_t VSide>
+struct LineProducts
 {
-  for (std::size_t d = 0; d < SharedLight::Lines; ++d)
-  {
-    light.rows[d].*member += factor * LineProduct(sums.rows, d);
-    light.columns[d].*member += factor * LineProduct(sums.columns, d);
-  }
-  light.far.*member += factor * CellProduct(sums.cells);
-}
+  std::array<std::array<double, VSide>, SharedLight::Lines> sums{};
 
+  void
+  Add(const LineSums<VSide> & lines)
+  {
+    std::array<double, VSide> last; // two segments
+    for (std::size_t y = 0; y < VSide; ++y)
+    {
+      last[y] = lines[2][y] + lines[3][y];
+    }
+    for (std::size_t d = 0; d < SharedLight::Lines; ++d)
+    {
+      for (std::size_t y = 0; y < VSide - d; ++y)
+      {
+        sums[d][y] += lines[0][y] * last[y + d] + lines[1][y] * lines[3][y + d] + lines[0][y + d] * last[y] +
+                      lines[1][y + d] * lines[3][y];
+      }
+    }
+  }
+  double
+  Total(std::size_t d) const
+  {
+    return std::accumulate(sums[d].begin(), sums[d].end(), 0.0);
+  }
+};
+
+/** All products of segments that are far apart. */
+template <std::size_t VSide>
+struct SegmentProducts
+{
+  LineProducts<VSide> rows;
+  LineProducts<VSide> columns;
+  double              cells{ 0.0 };
+
+  void
+  Add(const SegmentSums<VSide> & sums)
+  {
+    rows.Add(sums.rows);
+    columns.Add(sums.columns);
+    cells += CellProduct(sums.cells);
+  }
+  /** To one member of all DistantSums, times \a factor. */
+  void
+  AddTo(SharedLight & light, double DistantSums::* member, double factor) const
+  {
+    for (std::size_t d = 0; d < SharedLight::Lines; ++d)
+    {
+      light.rows[d].*member += factor * rows.Total(d);
+      light.columns[d].*member += factor * columns.Total(d);
+    }
+    light.far.*member += factor * cells;
+  }
+};
+
+template <std::size_t VSide>
 SharedLight
 SumTile(const NoiseResiduals & residuals, std::size_t i)
 {
-  const SampleTiles & tiles = residuals.GetTiles();
-  const std::size_t   size = tiles.Pixels();
-  const float *       w = residuals.WeightOf(i);
-  const float *       z = residuals.LightOf(i);
-  const double        factor = 1.0 / residuals.GetFreedom();
-  SharedLight         light;
-  SegmentSums         sums(tiles.side);
-  sums.Sum([&](std::size_t p) { return w[p]; });
-  AddProducts(light, sums, &DistantSums::constant, 1.0);
-  sums.Sum([&](std::size_t p) { return static_cast<double>(w[p]) * z[p]; });
-  AddProducts(light, sums, &DistantSums::light, 1.0);
-  sums.Sum([&](std::size_t p) { return static_cast<double>(w[p]) * z[p] * z[p]; });
-  AddProducts(light, sums, &DistantSums::lightSquare, 1.0);
+  constexpr std::size_t size = VSide * VSide;
+  const std::size_t     frames = residuals.GetTiles().frames;
+  const float *         w = residuals.WeightOf(i);
+  const float *         z = residuals.LightOf(i);
+  const double          factor = 1.0 / residuals.GetFreedom();
+  SharedLight           light;
+  const auto            addOnce = [&light](double DistantSums::* member, auto valueOf) {
+    SegmentSums<VSide>     sums;
+    SegmentProducts<VSide> products;
+    sums.Sum(valueOf);
+    products.Add(sums);
+    products.AddTo(light, member, 1.0);
+  };
+  addOnce(&DistantSums::constant, [=](std::size_t p) { return w[p]; });
+  addOnce(&DistantSums::light, [=](std::size_t p) { return static_cast<double>(w[p]) * z[p]; });
+  addOnce(&DistantSums::lightSquare, [=](std::size_t p) { return static_cast<double>(w[p]) * z[p] * z[p]; });
   WithWideVectors([&] {
-    for (std::size_t t = 0; t < tiles.frames; ++t)
+    SegmentSums<VSide>     sums;
+    SegmentProducts<VSide> products;
+    double                 ofLight = 0.0;
+    for (std::size_t t = 0; t < frames; ++t)
     {
       const float * values = residuals.OfTile(i) + t * size;
-      sums.Sum([&](std::size_t p) { return static_cast<double>(w[p] * values[p]); });
-      AddProducts(light, sums, &DistantSums::covariance, factor);
-      sums.Sum([&](std::size_t p) { return static_cast<double>(w[p] * z[p] * values[p]); });
-      light.far.lightCovariance += factor * CellProduct(sums.cells);
+      sums.Sum([=](std::size_t p) { return static_cast<double>(w[p] * values[p]); });
+      products.Add(sums);
+      sums.SumOfCells([=](std::size_t p) { return static_cast<double>(w[p] * z[p] * values[p]); });
+      ofLight += CellProduct(sums.cells);
     }
+    products.AddTo(light, &DistantSums::covariance, factor);
+    light.far.lightCovariance += factor * ofLight;
   });
   return light;
 }
@@ -172,11 +236,18 @@ SharedLight::operator+=(const SharedLight & other)
   return *this;
 }
 
+SharedLight
+SharedLightOfTile(const NoiseResiduals & residuals, std::size_t i)
+{
+  return residuals.GetTiles().side == SampleTiles::Side ? SumTile<SampleTiles::Side>(residuals, i)
+                                                        : SumTile<SampleTiles::SmallSide>(residuals, i);
+}
+
 std::vector<SharedLight>
 SumSharedLight(const NoiseResiduals & residuals, const ParallelFor & parallelFor)
 {
   std::vector<SharedLight> sums(residuals.GetTiles().origins.size());
-  parallelFor(sums.size(), [&](std::size_t i) { sums[i] = SumTile(residuals, i); });
+  parallelFor(sums.size(), [&](std::size_t i) { sums[i] = SharedLightOfTile(residuals, i); });
   return sums;
 }
 

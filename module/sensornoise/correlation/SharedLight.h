@@ -47,6 +47,9 @@ struct SharedLight
   operator+=(const SharedLight & other);
 };
 
+SensorNoise_EXPORT SharedLight
+SharedLightOfTile(const NoiseResiduals & residuals, std::size_t i);
+
 /** The sums of every tile. */
 SensorNoise_EXPORT std::vector<SharedLight>
 SumSharedLight(const NoiseResiduals & residuals, const ParallelFor & parallelFor);
