@@ -4,8 +4,10 @@
 
 #include "sensornoise/base/BinaryStream.h"
 #include "sensornoise/base/FirstTouch.h"
+#include "sensornoise/base/WideVectors.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -135,29 +137,49 @@ FrameSample::Restore(std::istream & in)
 NoiseSample
 FrameSample::TakeNoise(const std::vector<double> & mean, const ParallelFor & parallelFor)
 {
+  NoiseSample noise = this->StartNoise();
+  parallelFor(m_Tiles.origins.size(), [&](std::size_t i) { this->FillNoise(i, mean, noise); });
+  *this = FrameSample();
+  return noise;
+}
+
+NoiseSample
+FrameSample::StartNoise()
+{
   if (m_Codes.empty())
   {
-    return { std::exchange(m_Tiles, {}), m_Width, std::exchange(m_Values, {}) };
+    return { m_Tiles, m_Width, std::exchange(m_Values, {}) };
   }
-  Eigen::ArrayXf noise(static_cast<Eigen::Index>(m_Codes.size())); // each thread touches its tiles first
-  parallelFor(m_Tiles.origins.size(), [&](std::size_t i) {
-    std::vector<double> ofTile(m_Tiles.Pixels());
-    for (std::size_t p = 0; p < ofTile.size(); ++p)
-    {
-      ofTile[p] = mean[m_Tiles.PixelOf(i, p, m_Width)];
-    }
+  Eigen::ArrayXf values(static_cast<Eigen::Index>(m_Codes.size())); // each thread touches its tiles first
+  return { m_Tiles, m_Width, std::move(values) };
+}
+
+void
+FrameSample::FillNoise(std::size_t i, const std::vector<double> & mean, NoiseSample & noise) const
+{
+  if (m_Codes.empty())
+  {
+    return; // the values were above the mean already
+  }
+  std::vector<double> ofTile(m_Tiles.Pixels());
+  std::vector<double> factors(m_Tiles.Pixels()); // 0: the pixel has no mean
+  for (std::size_t p = 0; p < ofTile.size(); ++p)
+  {
+    const double own = mean[m_Tiles.PixelOf(i, p, m_Width)];
+    factors[p] = std::isfinite(own) ? 1.0 : 0.0;
+    ofTile[p] = std::isfinite(own) ? own : 0.0;
+  }
+  WithWideVectors([&] {
     for (std::size_t t = 0; t < m_Tiles.frames; ++t)
     {
-      const std::uint16_t * codes = m_Codes.data() + m_Tiles.PlaceOf(i, t);
-      std::transform(codes,
-                     codes + ofTile.size(),
-                     ofTile.begin(),
-                     noise.data() + m_Tiles.PlaceOf(i, t),
-                     [this](std::uint16_t code, double ofPixel) { return AboveMean(m_Lowest + code, ofPixel); });
+      const std::uint16_t * const codes = m_Codes.data() + m_Tiles.PlaceOf(i, t);
+      float * const               values = noise.OfTile(i) + t * ofTile.size();
+      for (std::size_t p = 0; p < ofTile.size(); ++p)
+      {
+        values[p] = static_cast<float>(factors[p] * (m_Lowest + codes[p] - ofTile[p]));
+      }
     }
   });
-  std::exchange(m_Codes, {}); // "= {}" would keep the memory
-  return { std::exchange(m_Tiles, {}), m_Width, std::move(noise) };
 }
 
 } // namespace sensornoise

@@ -77,6 +77,13 @@ public:
   NoiseSample
   TakeNoise(const std::vector<double> & mean, const ParallelFor & parallelFor = SerialFor);
 
+  /** The same in two steps, for one who goes on with a tile while it is in the cache: memory for all values, and then
+   * those of each tile \a i, which are written to \a noise. */
+  NoiseSample
+  StartNoise();
+  void
+  FillNoise(std::size_t i, const std::vector<double> & mean, NoiseSample & noise) const;
+
 private:
   FrameSample(const FrameGeometry & geometry,
               std::size_t           frames,

@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/WideVectors.h"
 #include "sensornoise/correlation/Constants.h"
+#include "sensornoise/correlation/PixelsByLight.h"
 
 #include <algorithm>
 #include <array>
@@ -45,35 +46,42 @@ BasisOf(const Eigen::MatrixXd & series, std::size_t frames)
 constexpr std::size_t Together = 4;
 using Weights = std::array<float, Together>;
 
+template <std::size_t VCount>
+void
+AddRows(const float * rows, const Weights & weights, std::size_t size, float * sum)
+{
+  for (std::size_t p = 0; p < size; ++p)
+  {
+    float own = sum[p];
+    for (std::size_t k = 0; k < VCount; ++k)
+    {
+      own += weights[k] * rows[k * size + p];
+    }
+    sum[p] = own;
+  }
+}
+
 /** Adds the first \a count of Together rows of \a size values, times their weights, to \a sum, one after the other. */
 void
 AddWeighed(const float * rows, const Weights & weights, std::size_t count, std::size_t size, float * sum)
 {
-  if (count < Together)
-  {
-    for (std::size_t k = 0; k < count; ++k)
+  static_assert(Together == 4);
+  WithWideVectors([=, &weights] {
+    switch (count)
     {
-      for (std::size_t p = 0; p < size; ++p)
-      {
-        sum[p] += weights[k] * rows[k * size + p];
-      }
-    }
-    return;
-  }
-  WithWideVectors([&] {
-    for (std::size_t p = 0; p < size; ++p)
-    {
-      float own = sum[p];
-      for (std::size_t k = 0; k < Together; ++k)
-      {
-        own += weights[k] * rows[k * size + p];
-      }
-      sum[p] = own;
+      case 1:
+        return AddRows<1>(rows, weights, size, sum);
+      case 2:
+        return AddRows<2>(rows, weights, size, sum);
+      case 3:
+        return AddRows<3>(rows, weights, size, sum);
+      default:
+        return AddRows<Together>(rows, weights, size, sum);
     }
   });
 }
 
-/** A curve through points of growing x. */
+/** A curve through points of growing x, which is asked for at growing x. */
 class NoiseCurve
 {
 public:
@@ -83,20 +91,24 @@ public:
     m_Points.emplace_back(x, y);
   }
   double
-  At(double x) const
+  AtNext(double x)
   {
-    const auto above = std::upper_bound(
-      m_Points.begin(), m_Points.end(), x, [](double value, const auto & p) { return value < p.first; });
-    if (above == m_Points.begin() || above == m_Points.end())
+    while (m_Above < m_Points.size() && !(x < m_Points[m_Above].first))
     {
-      return above == m_Points.end() ? m_Points.back().second : m_Points.front().second;
+      ++m_Above;
     }
-    const auto & a = *(above - 1);
-    return a.second + (above->second - a.second) * (x - a.first) / (above->first - a.first);
+    if (m_Above == 0 || m_Above == m_Points.size())
+    {
+      return m_Above == 0 ? m_Points.front().second : m_Points.back().second;
+    }
+    const auto & a = m_Points[m_Above - 1];
+    const auto & b = m_Points[m_Above];
+    return a.second + (b.second - a.second) * (x - a.first) / (b.first - a.first);
   }
 
 private:
   std::vector<std::pair<double, double>> m_Points;
+  std::size_t                            m_Above{ 0 }; // the point above the last x
 };
 } // namespace
 
@@ -107,25 +119,36 @@ NoiseResiduals::NoiseResiduals(NoiseSample             sample,
   : m_Sample(std::move(sample))
   , m_Basis(BasisOf(series, m_Sample.GetTiles().frames))
 {
+  this->Project(pixels, parallelFor, [](std::size_t) {});
+}
+
+NoiseResiduals::NoiseResiduals(FrameSample             sample,
+                               const Eigen::MatrixXd & series,
+                               const SampledPixels &   pixels,
+                               const ParallelFor &     parallelFor)
+  : m_Sample(sample.StartNoise())
+  , m_Basis(BasisOf(series, m_Sample.GetTiles().frames))
+{
+  this->Project(pixels, parallelFor, [&](std::size_t i) { sample.FillNoise(i, pixels.mean, m_Sample); });
+}
+
+template <typename TFillTile>
+void
+NoiseResiduals::Project(const SampledPixels & pixels, const ParallelFor & parallelFor, TFillTile fillTile)
+{
   const SampleTiles & tiles = m_Sample.GetTiles();
   const std::size_t   size = tiles.Pixels();
   m_Light.resize(tiles.origins.size() * size);
-  m_Variance.assign(m_Light.size(), 0.0F);
+  m_Variance.resize(m_Light.size());
   parallelFor(tiles.origins.size(), [&](std::size_t i) {
     for (std::size_t p = 0; p < size; ++p)
     {
       const double light = pixels.mean[m_Sample.PixelOf(i, p)] - pixels.blackDn;
       m_Light[i * size + p] = std::isfinite(light) ? static_cast<float>(light) : 0.0F;
     }
+    fillTile(i);
     this->ProjectTile(i);
-    for (std::size_t t = 0; t < tiles.frames; ++t)
-    {
-      const float * values = this->OfTile(i) + t * size;
-      for (std::size_t p = 0; p < size; ++p)
-      {
-        m_Variance[i * size + p] += values[p] * values[p];
-      }
-    }
+    this->SumSquares(i);
   });
   this->Take(pixels.take, parallelFor);
 }
@@ -189,20 +212,30 @@ NoiseResiduals::ProjectTile(std::size_t i)
 }
 
 void
+NoiseResiduals::SumSquares(std::size_t i)
+{
+  const std::size_t size = this->GetTiles().Pixels();
+  WithWideVectors([this, i, size] {
+    std::array<float, SampleTiles::Side * SampleTiles::Side> sums{}; // no pointer can point into them
+    for (std::size_t t = 0; t < this->GetTiles().frames; ++t)
+    {
+      const float * values = this->OfTile(i) + t * size;
+      for (std::size_t p = 0; p < size; ++p)
+      {
+        sums[p] += values[p] * values[p];
+      }
+    }
+    std::copy_n(sums.begin(), size, m_Variance.data() + i * size);
+  });
+}
+
+void
 NoiseResiduals::Weigh(const std::vector<std::uint8_t> & take)
 {
   m_Weight.assign(take.size(), 0.0F);
   m_Bin.assign(take.size(), 0);
-  std::vector<std::pair<float, std::uint32_t>> order; // light and pixel of those that are taken, by their light
-  for (std::size_t k = 0; k < take.size(); ++k)
-  {
-    if (take[k] != 0)
-    {
-      order.emplace_back(m_Light[k], static_cast<std::uint32_t>(k));
-    }
-  }
+  const std::vector<std::uint32_t> order = PixelsByLight(m_Light, take);
   m_Pixels = order.size();
-  std::sort(order.begin(), order.end());
   const std::size_t bins =
     std::clamp<std::size_t>(order.size() / InCorrelation.leastPixelsOfBin, 1, InCorrelation.noiseBins);
   NoiseCurve curve;
@@ -214,16 +247,16 @@ NoiseResiduals::Weigh(const std::vector<std::uint8_t> & take)
     double            sum = 0.0;
     for (std::size_t k = first; k < last; ++k)
     {
-      light += order[k].first;
-      sum += m_Variance[order[k].second];
+      light += m_Light[order[k]];
+      sum += m_Variance[order[k]];
     }
     const auto count = static_cast<double>(std::max<std::size_t>(1, last - first));
     curve.Add(light / count, sum / count / std::max(1.0, this->GetFreedom()));
   }
   for (std::size_t rank = 0; rank < order.size(); ++rank)
   {
-    const auto [light, pixel] = order[rank];
-    const double typical = curve.At(light);
+    const std::uint32_t pixel = order[rank];
+    const double        typical = curve.AtNext(m_Light[pixel]);
     m_Weight[pixel] = typical > 0.0 ? static_cast<float>(1.0 / typical) : 0.0F;
     m_Bin[pixel] = static_cast<std::uint8_t>(rank * LightBins / order.size());
   }

@@ -7,6 +7,7 @@
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/correlation/Constants.h"
+#include "sensornoise/correlation/FrameSample.h"
 #include "sensornoise/correlation/NoiseSample.h"
 
 #include <cstddef>
@@ -47,6 +48,11 @@ public:
 
   /** \a series: frames x series, of all frames or of those of the sample. Takes the sample's memory. */
   NoiseResiduals(NoiseSample             sample,
+                 const Eigen::MatrixXd & series,
+                 const SampledPixels &   pixels,
+                 const ParallelFor &     parallelFor);
+  /** Of a sample of frames, above the pixels' means, whose tiles are worked on while they are in the cache. */
+  NoiseResiduals(FrameSample             sample,
                  const Eigen::MatrixXd & series,
                  const SampledPixels &   pixels,
                  const ParallelFor &     parallelFor);
@@ -110,8 +116,14 @@ public:
   }
 
 private:
+  /** \a fillTile(i) sees to it that the values of a tile are there. */
+  template <typename TFillTile>
+  void
+  Project(const SampledPixels & pixels, const ParallelFor & parallelFor, TFillTile fillTile);
   void
   ProjectTile(std::size_t i);
+  void
+  SumSquares(std::size_t i);
   /** The variance along the light, and its inverse at every pixel. */
   void
   Weigh(const std::vector<std::uint8_t> & take);

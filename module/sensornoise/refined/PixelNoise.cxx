@@ -40,10 +40,8 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   std::vector<std::uint8_t> used = MaskOfUsed(noise.variance.pixelUse);
   const bool                isTold = settings.offset.has_value() || series->isOffsetTold;
   const double   zeroDn = isTold ? blackDn : ZeroOfLight(scene.model.darkestDn, scene.model.brightestDn, blackDn);
-  NoiseResiduals residuals(sample.TakeNoise(scene.frame.mean, parallelFor),
-                           series->basis.GetBasis(),
-                           { scene.frame.mean, used, zeroDn },
-                           parallelFor);
+  NoiseResiduals residuals(
+    std::move(sample), series->basis.GetBasis(), { scene.frame.mean, used, zeroDn }, parallelFor);
   noise.correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
   const double sharedSquares = SharedSquares(noise.correlation.space);
   if (noise.correlation.IsShared() && sharedSquares > InRefined.leastSharedSquares)
