@@ -29,7 +29,8 @@ constexpr std::array<KindOfSeries, KurtosisSums::Kinds> KindsOfSeries{
  * Where these run over the end of a row or of the tile they mean nothing. */
 struct PowerSums
 {
-  using OfPixels = std::array<float, SampleTiles::Side * SampleTiles::Side>;
+  /** A cache line more than a tile: sums a power of two apart would compete for the same places in the cache. */
+  using OfPixels = std::array<float, SampleTiles::Side * SampleTiles::Side + 16>;
   std::array<OfPixels, KurtosisSums::Kinds> squares;
   std::array<OfPixels, KurtosisSums::Kinds> fourths;
 };
