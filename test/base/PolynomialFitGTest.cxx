@@ -84,6 +84,21 @@ TEST(SensorNoisePolynomialFit, ParabolaIsRecoveredExactly)
   EXPECT_NEAR(fit.intercept, -50.0, 1e-10 * 45000.0); // of the largest variance
 }
 
+TEST(SensorNoisePolynomialFit, LineAndParabolaOfOneWalkAreThoseOfTwo)
+{
+  const auto scatter = ExactScatter(40000, 100.0, 4000.0, -50.0, 1.25, 0.0025);
+  const auto both = FitLineAndParabola(scatter.Data());
+  const auto line = FitLine(scatter.Data());
+  const auto parabola = FitParabola(scatter.Data());
+  EXPECT_EQ(both.line.pixels, line.pixels);
+  EXPECT_EQ(both.line.slope, line.slope);
+  EXPECT_EQ(both.line.intercept, line.intercept);
+  EXPECT_EQ(both.line.curvature, 0.0);
+  EXPECT_EQ(both.parabola.slope, parabola.slope);
+  EXPECT_EQ(both.parabola.intercept, parabola.intercept);
+  EXPECT_EQ(both.parabola.curvature, parabola.curvature);
+}
+
 TEST(SensorNoisePolynomialFit, LargeOffsetsOfTheMeanKeepTheDigits)
 {
   // Means from 1e7 to 1e7 + 100: the variances themselves are rounded to 1e7 * 1e-16 = 1e-9, the slope to that / 100.

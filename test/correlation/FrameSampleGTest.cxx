@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/correlation/FrameSample.h"
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/correlation/NoiseResiduals.h"
 #include "sensornoise/simulation/Random.h"
 #include "helpers/StackTestHelper.h"
 
@@ -199,6 +201,38 @@ TEST(SensorNoiseFrameSample, WhatIsNotFiniteIsNoNoise)
   expected[noise.GetTiles().PlaceOf(1, 0) + 7] = 0.0F;
   expected[noise.GetTiles().PlaceOf(2, 0) + 3] = 0.0F;
   EXPECT_TRUE(HaveSameBits(ValuesOf(SampleOfStack(stack)), expected));
+}
+
+TEST(SensorNoiseFrameSample, PixelsWithoutAMeanHaveNoNoise)
+{
+  std::vector<double> mean = SomeMean();
+  auto                expected = ValuesOf(SampleOfStack(RandomStack()));
+  const NoiseSample   known = SampleOfStack(RandomStack()).TakeNoise(mean);
+  mean[known.PixelOf(1, 7)] = std::numeric_limits<double>::quiet_NaN();
+  const NoiseSample noise = SampleOfStack(RandomStack()).TakeNoise(mean);
+  for (std::size_t t = 0; t < Frames; ++t)
+  {
+    expected[noise.GetTiles().PlaceOf(1, t) + 7] = 0.0F;
+  }
+  EXPECT_TRUE(HaveSameBits(ValuesOf(noise), expected));
+}
+
+TEST(SensorNoiseFrameSample, ResidualsAreThoseOfTheNoiseTaken)
+{
+  const std::vector<double>       mean = SomeMean();
+  const std::vector<std::uint8_t> take(mean.size(), 1);
+  const Eigen::MatrixXd           series = Eigen::VectorXd::LinSpaced(Frames, -1.0, 1.0);
+  const auto                      expectSame = [&](const auto & stack) {
+    const NoiseResiduals expected(SampleOfStack(stack).TakeNoise(mean), series, { mean, take, 100.0 }, SerialFor);
+    const NoiseResiduals residuals(SampleOfStack(stack), series, { mean, take, 100.0 }, Threads(3));
+    const std::size_t    tiles = expected.GetTiles().origins.size();
+    EXPECT_TRUE(HaveSameBits(std::vector<float>(residuals.OfTile(0), residuals.OfTile(tiles)),
+                             std::vector<float>(expected.OfTile(0), expected.OfTile(tiles))));
+    EXPECT_TRUE(HaveSameBits(std::vector<float>(residuals.WeightOf(0), residuals.WeightOf(tiles)),
+                             std::vector<float>(expected.WeightOf(0), expected.WeightOf(tiles))));
+  };
+  expectSame(RandomStack());
+  expectSame(RandomStack().Map<float>([](std::uint16_t u) { return u; }));
 }
 
 TEST(SensorNoiseFrameSample, LongStacksLeaveTheirFirstFrames)
