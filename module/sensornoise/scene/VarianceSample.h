@@ -23,11 +23,12 @@ struct VarianceSample
 
   using Coefficients = Eigen::Matrix<double, Terms, 1>;
 
-  Eigen::Matrix<double, Eigen::Dynamic, Terms> design;
-  std::vector<double>                          level;        ///< neighbours' mean [DN]
-  std::vector<double>                          raw;          ///< variance [DN^2]
-  std::vector<double>                          energy;       ///< square of the gradient [DN^2/pixel^2]
-  double                                       scale{ 1.0 }; ///< of x in the design [DN]
+  Eigen::Matrix<double, Eigen::Dynamic, Terms, Eigen::RowMajor> design;
+
+  std::vector<double> level;        ///< neighbours' mean [DN]
+  std::vector<double> raw;          ///< variance [DN^2]
+  std::vector<double> energy;       ///< square of the gradient [DN^2/pixel^2]
+  double              scale{ 1.0 }; ///< of x in the design [DN]
 
   std::size_t
   Size() const
