@@ -4,6 +4,7 @@
 #define sensornoise_base_BoxSum_h
 
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/WideVectors.h"
 #include "SensorNoiseExport.h"
 
 #include <algorithm>
@@ -164,11 +165,13 @@ ForBoxRows(TMakeSource         makeSource,
            TUse                use)
 {
   ForBoxBands(height, parallelFor, [&](std::size_t first, std::size_t last) {
-    BoxRows<decltype(makeSource())> sums(makeSource(), width, height, radius, first, last);
-    for (std::size_t y = first; y < last; ++y)
-    {
-      use(y, sums.Next());
-    }
+    WithWideVectors([&] {
+      BoxRows<decltype(makeSource())> sums(makeSource(), width, height, radius, first, last);
+      for (std::size_t y = first; y < last; ++y)
+      {
+        use(y, sums.Next());
+      }
+    });
   });
 }
 

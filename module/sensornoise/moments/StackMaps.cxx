@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/moments/StackMaps.h"
 
+#include "sensornoise/base/ForAll.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/Quantiles.h"
 #include "sensornoise/moments/CodeRange.h"
@@ -52,20 +53,28 @@ CodeRange
 FindCodesOfStack(const IntegerMoments<TPixel> & moments,
                  const StackEnds &              ends,
                  const CodeSettings &           settings,
-                 const ParallelFor &,
-                 const double * mean,
-                 const double * variance)
+                 const ParallelFor &            parallelFor,
+                 const double *                 mean,
+                 const double *                 variance)
 {
   CodeHistogram minima;
   CodeHistogram maxima;
-  for (std::size_t p = 0; p < moments.GetNumberOfPixels(); ++p)
-  {
-    minima.Add(moments.GetMinimum(p));
-    maxima.Add(moments.GetMaximum(p));
-  }
-  const ExtremeDepths depths{ MedianDepth(moments, OutermostLevels::End::Low, ends.low, mean, variance),
-                              MedianDepth(moments, OutermostLevels::End::High, ends.high, mean, variance) };
-  CodeRange           codes = FindCodes(minima, maxima, TypicalVariance(moments, variance), settings, depths);
+  ExtremeDepths depths;
+  ForAll(2, parallelFor, [&](std::size_t isHigh) {
+    const std::size_t pixels = moments.GetNumberOfPixels();
+    for (std::size_t p = 0; p < pixels && isHigh == 0; ++p)
+    {
+      minima.Add(moments.GetMinimum(p));
+    }
+    for (std::size_t p = 0; p < pixels && isHigh == 1; ++p)
+    {
+      maxima.Add(moments.GetMaximum(p));
+    }
+    const auto end = isHigh == 1 ? OutermostLevels::End::High : OutermostLevels::End::Low;
+    (isHigh == 1 ? depths.high : depths.low) =
+      MedianDepth(moments, end, isHigh == 1 ? ends.high : ends.low, mean, variance);
+  });
+  CodeRange codes = FindCodes(minima, maxima, TypicalVariance(moments, variance), settings, depths);
   // A signed 16-bit number ends at 32767, whatever 16 bits would hold.
   const double largest = std::numeric_limits<TPixel>::max();
   codes.clipHighDn = std::min(codes.clipHighDn.value_or(largest), largest);

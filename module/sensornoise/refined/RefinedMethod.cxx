@@ -52,13 +52,19 @@ FrameRegressors
 RegressorsOf(const StillScene & scene, const ParallelFor & parallelFor)
 {
   const std::vector<std::uint8_t> unexplained = FindUnexplained(scene.frame, scene.model, parallelFor);
-  std::vector<std::uint8_t>       take = scene.frame.usable;
-  std::vector<std::uint8_t>       whole = take; // holes of single pixels would roughen the instruments
-  for (std::size_t p = 0; p < take.size(); ++p)
-  {
-    whole[p] = unexplained[p] == 2 ? 0 : whole[p];
-    take[p] = unexplained[p] != 0 ? 0 : take[p];
-  }
+  const std::size_t               pixels = unexplained.size();
+  std::vector<std::uint8_t>       take(pixels);
+  std::vector<std::uint8_t>       whole(pixels); // holes of single pixels would roughen the instruments
+  ForBlocks(pixels, parallelFor, [&](std::size_t begin, std::size_t end) {
+    const std::uint8_t * const why = unexplained.data();
+    const std::uint8_t * const usable = scene.frame.usable.data() + begin;
+    std::transform(why + begin, why + end, usable, take.data() + begin, [](std::uint8_t own, std::uint8_t use) {
+      return own == 0 ? use : std::uint8_t{ 0 };
+    });
+    std::transform(why + begin, why + end, usable, whole.data() + begin, [](std::uint8_t own, std::uint8_t use) {
+      return own == 2 ? std::uint8_t{ 0 } : use;
+    });
+  });
   ShiftInstruments instruments = MakeShiftInstruments(scene.frame, scene.model, whole, parallelFor);
   return FrameRegressors(scene.frame, scene.model, take, std::move(instruments), parallelFor);
 }

@@ -3,13 +3,58 @@
 #include "sensornoise/scene/GuardBand.h"
 
 #include "sensornoise/base/Stencils.h"
+#include "sensornoise/base/WideVectors.h"
+#include "sensornoise/scene/InnerBlocks.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace sensornoise
 {
+
+namespace
+{
+/** Levels that the noise must not reach, and how far light and noise go. */
+struct GuardedLevels
+{
+  double lowDn;
+  double highDn;
+  double brightest;
+  double darkest;
+  double sds;
+};
+
+/** Marks the usable pixels of [begin, end) that reach a level. What is read once by value: what is written could else
+ * be that, and no vectors be made. */
+void
+MarkGuarded(const ReferenceFrame & frame,
+            ProvisionalModel       model,
+            GuardedLevels          guard,
+            std::size_t            begin,
+            std::size_t            end,
+            std::uint8_t *         guarded)
+{
+  const double * const       mean = frame.mean.data();
+  const double * const       neighbourMean = frame.neighbourMean.data();
+  const std::uint8_t * const usable = frame.usable.data();
+  const std::size_t          width = frame.geometry.width;
+  for (std::size_t p = begin; p < end; ++p)
+  {
+    const auto [gx, gy] = ApplyGradient(mean, width, p);
+    const double level = neighbourMean[p];
+    const double flux = std::max(0.0, level - model.darkestDn);
+    const double noise = model.NoiseVariance(level);
+    const double motion = model.MotionVariance(gx, gy);
+    const double high =
+      level + guard.brightest * flux + guard.sds * std::sqrt(noise * (1.0 + guard.brightest) + motion);
+    const double low = level + guard.darkest * flux - guard.sds * std::sqrt(noise + motion);
+    const bool   isReached = (high >= guard.highDn) | (low <= guard.lowDn); // both: no branch
+    guarded[p] = usable[p] != 0 && isReached ? 1 : 0;
+  }
+}
+} // namespace
 
 std::vector<std::uint8_t>
 FindGuardBand(const ReferenceFrame &   frame,
@@ -25,26 +70,14 @@ FindGuardBand(const ReferenceFrame &   frame,
   {
     return guarded;
   }
-  const double halfLow = 0.5 * codes.StepAt(codes.clipLowDn.value_or(0.0));
-  const double halfHigh = 0.5 * codes.StepAt(codes.clipHighDn.value_or(0.0));
-  ForBlocks(guarded.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p)
-    {
-      if (frame.usable[p] != 0)
-      {
-        const auto [gx, gy] = ApplyGradient(frame.mean.data(), frame.geometry.width, p);
-        const double level = frame.neighbourMean[p];
-        const double flux = std::max(0.0, level - model.darkestDn);
-        const double noise = model.NoiseVariance(level);
-        const double motion = model.MotionVariance(gx, gy);
-        const double high = level + brightest * flux + sds * std::sqrt(noise * (1.0 + brightest) + motion);
-        const double low = level + darkest * flux - sds * std::sqrt(noise + motion);
-        guarded[p] = (codes.clipHighDn && high >= *codes.clipHighDn - halfHigh) ||
-                         (codes.clipLowDn && low <= *codes.clipLowDn + halfLow)
-                       ? 1
-                       : 0;
-      }
-    }
+  constexpr double    never = std::numeric_limits<double>::infinity();
+  const GuardedLevels guard{ codes.clipLowDn ? *codes.clipLowDn + 0.5 * codes.StepAt(*codes.clipLowDn) : -never,
+                             codes.clipHighDn ? *codes.clipHighDn - 0.5 * codes.StepAt(*codes.clipHighDn) : never,
+                             brightest,
+                             darkest,
+                             sds };
+  ForInnerBlocks(frame.geometry, parallelFor, [&](std::size_t begin, std::size_t end) {
+    WithWideVectors([&] { MarkGuarded(frame, model, guard, begin, end, guarded.data()); });
   });
   return guarded;
 }

@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/FirstTouch.h"
 #include "sensornoise/base/Stencils.h"
+#include "sensornoise/base/WideVectors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -70,6 +71,7 @@ FillUsable(const std::vector<double> &       variance,
            std::size_t                       y,
            std::uint8_t *                    usable)
 {
+  const double * const       own = variance.data() + y * width;
   const std::uint8_t * const here = valid.data() + y * width;
   const std::uint8_t * const above = here - width;
   const std::uint8_t * const below = here + width;
@@ -78,8 +80,7 @@ FillUsable(const std::vector<double> &       variance,
   for (std::size_t x = StencilMargin; x + StencilMargin < width; ++x)
   {
     const bool isComplete = (column(x - 1) & column(x) & column(x + 1)) != 0;
-    usable[x] =
-      static_cast<std::uint8_t>(isComplete && variance[y * width + x] > 0.0 && std::isfinite(variance[y * width + x]));
+    usable[x] = static_cast<std::uint8_t>(isComplete && own[x] > 0.0 && std::isfinite(own[x]));
   }
 }
 } // namespace
@@ -102,7 +103,7 @@ MakeReferenceFrame(std::vector<double>               mean,
   parallelFor(geometry.height, [&](std::size_t y) {
     if (y >= StencilMargin && y + StencilMargin < geometry.height)
     {
-      FillUsable(frame.variance, valid, width, y, frame.usable.data() + y * width);
+      WithWideVectors([&] { FillUsable(frame.variance, valid, width, y, frame.usable.data() + y * width); });
     }
   });
   FillNeighbourMean(frame, parallelFor);
@@ -126,7 +127,8 @@ FillNeighbourMean(ReferenceFrame & frame, const ParallelFor & parallelFor)
   UncoverUnknown(frame, parallelFor); // what was filled in for a pixel is no neighbour's mean
   frame.neighbourMean = MakeMap<double>(frame.mean.size(), parallelFor);
   parallelFor(frame.geometry.height, [&](std::size_t y) {
-    FillNeighbourMeans(frame.mean, frame.geometry, y, frame.neighbourMean.data() + y * frame.geometry.width);
+    double * const means = frame.neighbourMean.data() + y * frame.geometry.width;
+    WithWideVectors([&] { FillNeighbourMeans(frame.mean, frame.geometry, y, means); });
   });
   ForBlocks(frame.mean.size(), parallelFor, [&frame](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p)

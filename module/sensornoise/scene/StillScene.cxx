@@ -46,7 +46,7 @@ MakeStillScene(const StackSummary &              summary,
   StillScene scene;
   scene.summary = summary;
   scene.frame = MakeReferenceFrame(std::move(mean), std::move(variance), valid, geometry, frames, parallelFor);
-  scene.pixelUse = FindPixelUse(scene.frame, valid, userMask);
+  scene.pixelUse = FindPixelUse(scene.frame, valid, userMask, parallelFor);
   // After the reference frame: a masked pixel is a good neighbour.
   for (std::size_t p = 0; p < userMask.size(); ++p)
   {

@@ -4,7 +4,9 @@
 
 #include "sensornoise/base/BoxSum.h"
 #include "sensornoise/base/Stencils.h"
+#include "sensornoise/base/WideVectors.h"
 #include "sensornoise/scene/Constants.h"
+#include "sensornoise/scene/InnerBlocks.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -12,31 +14,50 @@
 namespace sensornoise
 {
 
+namespace
+{
+/** Marks the pixels [begin, end) whose variance \a model does not explain. The model by value: what is written could
+ * else be its numbers, and no vectors be made. */
+void
+MarkUnexplained(const ReferenceFrame & frame,
+                ProvisionalModel       model,
+                std::size_t            begin,
+                std::size_t            end,
+                std::uint8_t *         unexplained)
+{
+  const double * const       mean = frame.mean.data();
+  const double * const       level = frame.neighbourMean.data();
+  const double * const       variance = frame.variance.data();
+  const std::uint8_t * const usable = frame.usable.data();
+  const std::size_t          width = frame.geometry.width;
+  const double               leastDn2 = InScene.leastShareOfDarkest * model.interceptDn2;
+  for (std::size_t p = begin; p < end; ++p)
+  {
+    const auto [gx, gy] = ApplyGradient(mean, width, p);
+    const double expected = std::max(leastDn2, model.RawVariance(level[p], gx, gy));
+    const bool   isAbove = variance[p] > model.largestRatio * expected;
+    unexplained[p] = usable[p] != 0 && isAbove ? 1 : 0;
+  }
+}
+} // namespace
+
 std::vector<std::uint8_t>
 FindUnexplained(const ReferenceFrame & frame, const ProvisionalModel & model, const ParallelFor & parallelFor)
 {
   std::vector<std::uint8_t> unexplained(frame.mean.size(), 0);
-  ForBlocks(unexplained.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p)
-    {
-      if (frame.usable[p] != 0)
-      {
-        const auto [gx, gy] = ApplyGradient(frame.mean.data(), frame.geometry.width, p);
-        const double expected =
-          std::max(InScene.leastShareOfDarkest * model.interceptDn2, model.RawVariance(frame.neighbourMean[p], gx, gy));
-        unexplained[p] = frame.variance[p] > model.largestRatio * expected ? 1 : 0;
-      }
-    }
+  ForInnerBlocks(frame.geometry, parallelFor, [&](std::size_t begin, std::size_t end) {
+    WithWideVectors([&] { MarkUnexplained(frame, model, begin, end, unexplained.data()); });
   });
   const std::size_t         width = frame.geometry.width;
   const auto                rows = [&] { return RowsOf(unexplained, width); };
-  std::vector<std::uint8_t> crowded = unexplained;
+  std::vector<std::uint8_t> crowded(unexplained.size());
   ForBoxRows(rows, width, frame.geometry.height, 3, parallelFor, [&](std::size_t y, const double * crowd) {
-    for (std::size_t x = 0; x < width; ++x)
-    {
-      std::uint8_t & own = crowded[y * width + x];
-      own = crowd[x] > InScene.largestFarShare * 49.0 ? 2 : own;
-    }
+    const double most = InScene.largestFarShare * 49.0;
+    std::transform(crowd,
+                   crowd + width,
+                   unexplained.data() + y * width,
+                   crowded.data() + y * width,
+                   [most](double near, std::uint8_t own) { return near > most ? std::uint8_t{ 2 } : own; });
   });
   return crowded;
 }

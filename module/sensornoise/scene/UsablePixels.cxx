@@ -11,6 +11,7 @@
 #include "sensornoise/scene/GuardBand.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -61,14 +62,14 @@ ExtremesOfLight(const ReferenceFrame & frame, const ProvisionalModel & model, co
 std::vector<std::uint8_t>
 FindPixelUse(const ReferenceFrame &            frame,
              const std::vector<std::uint8_t> & valid,
-             const std::vector<std::uint8_t> & userMask)
+             const std::vector<std::uint8_t> & userMask,
+             const ParallelFor &               parallelFor)
 {
   std::vector<std::uint8_t> pixelUse(frame.mean.size());
-  for (std::size_t p = 0; p < pixelUse.size(); ++p)
-  {
+  ForPixels(pixelUse.size(), parallelFor, [&](std::size_t p) {
     const bool isMasked = !userMask.empty() && userMask[p] == 0;
     pixelUse[p] = static_cast<std::uint8_t>(isMasked ? PixelUse::Masked : UseOf(frame, valid, p));
-  }
+  });
   return pixelUse;
 }
 
@@ -80,14 +81,12 @@ LeaveOutCoarseAndGuarded(const ReferenceFrame &      frame,
                          std::vector<std::uint8_t>   pixelUse,
                          const ParallelFor &         parallelFor)
 {
-  const auto usable = static_cast<double>(std::count(frame.usable.begin(), frame.usable.end(), std::uint8_t{ 1 }));
   const auto [darkest, brightest] = ExtremesOfLight(frame, model, frameMeans);
   const auto   guarded = FindGuardBand(frame, model, codes, brightest, darkest, parallelFor);
   UsablePixels pixels;
   pixels.usable = frame.usable;
   pixels.pixelUse = std::move(pixelUse);
-  for (std::size_t p = 0; p < guarded.size(); ++p)
-  {
+  const auto counts = SumOverBlocks<4>(guarded.size(), parallelFor, [&](std::size_t p, std::array<double, 4> & count) {
     if (frame.usable[p] != 0)
     {
       const double level = frame.neighbourMean[p];
@@ -97,12 +96,16 @@ LeaveOutCoarseAndGuarded(const ReferenceFrame &      frame,
       {
         pixels.pixelUse[p] = static_cast<std::uint8_t>(isCoarse ? PixelUse::CoarseCodes : PixelUse::NearClip);
         pixels.usable[p] = 0;
-        ++(isCoarse ? pixels.coarse : pixels.nearClip);
-        pixels.coarseInLight += isCoarse && codes.steps.IsCompanded() && level > model.centreDn ? 1 : 0;
+        count[isCoarse ? 1 : 2] += 1.0;
+        count[3] += isCoarse && codes.steps.IsCompanded() && level > model.centreDn ? 1.0 : 0.0;
       }
+      count[0] += 1.0;
     }
-  }
-  pixels.count = usable - static_cast<double>(pixels.coarse + pixels.nearClip);
+  });
+  pixels.coarse = static_cast<std::size_t>(counts[1]);
+  pixels.nearClip = static_cast<std::size_t>(counts[2]);
+  pixels.coarseInLight = static_cast<std::size_t>(counts[3]);
+  pixels.count = counts[0] - counts[1] - counts[2];
   return pixels;
 }
 

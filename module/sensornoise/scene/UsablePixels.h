@@ -21,7 +21,8 @@ namespace sensornoise
 SensorNoise_EXPORT std::vector<std::uint8_t>
 FindPixelUse(const ReferenceFrame &            frame,
              const std::vector<std::uint8_t> & valid,
-             const std::vector<std::uint8_t> & userMask);
+             const std::vector<std::uint8_t> & userMask,
+             const ParallelFor &               parallelFor = SerialFor);
 
 /** The usable pixels of a frame that are free of clipping, its guard band and coarse codes. */
 struct UsablePixels

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_scene_InnerBlocks_h
+#define sensornoise_scene_InnerBlocks_h
+
+#include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/Stencils.h"
+
+#include <cstddef>
+
+namespace sensornoise
+{
+
+/** Calls function(begin, end) for blocks of the pixels of all rows but those next to the border, in any order and
+ * possibly at the same time: there a stencil reads nothing behind the map, not even at the ends of the rows, where what
+ * it gives is of no meaning. So loops over whole blocks need not ask, and become vectors. */
+template <typename TFunction>
+void
+ForInnerBlocks(const FrameGeometry & geometry, const ParallelFor & parallelFor, TFunction function)
+{
+  if (geometry.height > 2 * StencilMargin)
+  {
+    const std::size_t first = StencilMargin * geometry.width;
+    ForBlocks(geometry.Pixels() - 2 * first, parallelFor, [&function, first](std::size_t begin, std::size_t end) {
+      function(first + begin, first + end);
+    });
+  }
+}
+
+} // namespace sensornoise
+
+#endif
