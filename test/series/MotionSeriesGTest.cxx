@@ -10,7 +10,10 @@
 #include "sensornoise/series/FrameSums.h"
 #include "sensornoise/series/ShiftInstruments.h"
 #include "helpers/FrameTestHelper.h"
+#include "helpers/StackTestHelper.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <gtest/gtest.h>
 #include <vector>
@@ -174,6 +177,49 @@ TEST(SensorNoiseMotionSeries, SmoothedDerivativeOfARampIsItsSlope)
   const std::size_t middle = 20 * 50 + 25;
   EXPECT_NEAR(SmoothedDerivative(ramp, StencilX, SerialFor)[middle], 3.0, 1e-12);
   EXPECT_NEAR(SmoothedDerivative(ramp, StencilY, SerialFor)[middle], -2.0, 1e-12);
+}
+
+TEST(SensorNoiseMotionSeries, SmoothedDerivativeIsThatOfTwoBoxesInEveryRow)
+{
+  ReferenceFrame frame; // higher than two bands of box sums
+  frame.geometry = { 23, 140, 1 };
+  const int width = 23;
+  const int height = 140;
+  for (int p = 0; p < width * height; ++p)
+  {
+    frame.mean.push_back(100.0 * std::sin(0.7 * p * p));
+  }
+  std::vector<double> expected(frame.mean.size(), 0.0);
+  for (int y = 2; y + 2 < height; ++y)
+  {
+    for (int x = 2; x + 2 < width; ++x)
+    {
+      const auto p = static_cast<std::size_t>(y * width + x);
+      expected[p] = ApplyStencil(MotionStencils()[StencilY], frame.mean.data(), frame.geometry.width, p);
+    }
+  }
+  for (int box = 0; box < 2; ++box)
+  {
+    const std::vector<double> before = expected;
+    for (int p = 0; p < width * height; ++p)
+    {
+      double sum = 0.0;
+      for (int y = std::max(0, p / width - 3); y <= std::min(height - 1, p / width + 3); ++y)
+      {
+        for (int x = std::max(0, p % width - 3); x <= std::min(width - 1, p % width + 3); ++x)
+        {
+          sum += before[static_cast<std::size_t>(y * width + x)];
+        }
+      }
+      expected[static_cast<std::size_t>(p)] = sum / 49.0;
+    }
+  }
+  const auto smoothed = SmoothedDerivative(frame, StencilY, Threads(3));
+  for (std::size_t p = 0; p < expected.size(); ++p)
+  {
+    EXPECT_NEAR(smoothed[p], expected[p], 1e-12) << p;
+  }
+  EXPECT_TRUE(HaveSameBits(smoothed, SmoothedDerivative(frame, StencilY, SerialFor)));
 }
 
 TEST(SensorNoiseMotionSeries, InstrumentWeightIsTheInverseNoiseAndFallsToZeroWherePixelsAreMissing)

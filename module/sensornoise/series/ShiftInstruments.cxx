@@ -4,21 +4,17 @@
 
 #include "sensornoise/base/BoxSum.h"
 #include "sensornoise/base/FirstTouch.h"
+#include "sensornoise/base/WideVectors.h"
 #include "sensornoise/series/Constants.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace sensornoise
 {
 
 namespace
 {
-/** Adds \a weight times the values of \a from to those of \a to. */
-void
-AddScaled(const double * from, double weight, double * to, std::size_t count)
-{
-  std::transform(to, to + count, from, to, [weight](double sum, double value) { return sum + weight * value; });
-}
 /** \class DerivativeRows
  * \brief The derivative of the mean by a stencil over the pixels of two boxes, row by row; 0 where it reaches over the
  * border. */
@@ -29,24 +25,30 @@ public:
     : m_Frame(frame)
     , m_Taps(MotionStencils()[k].taps)
     , m_Row(frame.geometry.width)
+    , m_Zeros(frame.geometry.width)
   {}
 
   const double *
   operator()(std::size_t y)
   {
-    constexpr double  side = 2.0 * static_cast<double>(InSeries.instrumentRadius) + 1.0;
     const std::size_t width = m_Frame.geometry.width;
-    std::fill(m_Row.begin(), m_Row.end(), 0.0);
-    if (y >= StencilMargin && y + StencilMargin < m_Frame.geometry.height && width > 2 * StencilMargin)
+    if (y < StencilMargin || y + StencilMargin >= m_Frame.geometry.height || width <= 2 * StencilMargin)
     {
-      const std::size_t first = y * width + StencilMargin;
-      const std::size_t count = width - 2 * StencilMargin;
-      double * const    row = m_Row.data() + StencilMargin;
-      for (const StencilTap & tap : m_Taps)
+      return m_Zeros.data();
+    }
+    constexpr double     side = 2.0 * static_cast<double>(InSeries.instrumentRadius) + 1.0;
+    const double * const mean = m_Frame.mean.data() + y * width + StencilMargin;
+    double * const       row = m_Row.data() + StencilMargin;
+    const std::size_t    count = width - 2 * StencilMargin;
+    for (const StencilTap * tap = m_Taps.begin(); tap != m_Taps.end(); ++tap)
+    {
+      const double         weight = tap->weight / (side * side * side * side);
+      const bool           isFirst = tap == m_Taps.begin();
+      const double * const from = mean + tap->Offset(width);
+      for (std::size_t x = 0; x < count; ++x)
       {
-        AddScaled(m_Frame.mean.data() + static_cast<std::ptrdiff_t>(first) + tap.Offset(width), tap.weight, row, count);
+        row[x] = (isFirst ? 0.0 : row[x]) + weight * from[x];
       }
-      std::transform(row, row + count, row, [](double d) { return d / (side * side * side * side); });
     }
     return m_Row.data();
   }
@@ -55,6 +57,47 @@ private:
   const ReferenceFrame & m_Frame;
   const StencilTaps &    m_Taps;
   std::vector<double>    m_Row;
+  std::vector<double>    m_Zeros;
+};
+
+/** \class BoxedRows
+ * \brief The box sums of a source as the source of the rows [first, last) of another BoxRows of that radius, which asks
+ * for each row twice: those between are kept. */
+template <typename TSource>
+class BoxedRows
+{
+public:
+  BoxedRows(TSource source, const FrameGeometry & geometry, std::size_t radius, std::size_t first, std::size_t last)
+    : m_Width(geometry.width)
+    , m_Next(first - std::min(first, radius))
+    , m_Kept(2 * radius + 2)
+    , m_Sums(std::move(source),
+             geometry.width,
+             geometry.height,
+             radius,
+             m_Next,
+             std::min(geometry.height, last + radius))
+    , m_Rows(m_Kept * m_Width)
+  {}
+
+  const double *
+  operator()(std::size_t y)
+  {
+    double * const row = m_Rows.data() + y % m_Kept * m_Width;
+    if (y == m_Next)
+    {
+      std::copy_n(m_Sums.Next(), m_Width, row);
+      ++m_Next;
+    }
+    return row;
+  }
+
+private:
+  std::size_t         m_Width;
+  std::size_t         m_Next;
+  std::size_t         m_Kept;
+  BoxRows<TSource>    m_Sums;
+  std::vector<double> m_Rows;
 };
 } // namespace
 
@@ -64,15 +107,18 @@ SmoothedDerivative(const ReferenceFrame & frame, StencilIndex k, const ParallelF
   const std::size_t width = frame.geometry.width;
   const std::size_t height = frame.geometry.height;
   const std::size_t radius = InSeries.instrumentRadius;
-  const auto        boxSum = [&](const auto & makeSource) {
-    auto sums = MakeMap<double>(frame.mean.size(), parallelFor);
-    ForBoxRows(makeSource, width, height, radius, parallelFor, [&](std::size_t y, const double * row) {
-      std::copy_n(row, width, sums.data() + y * width);
+  auto              smoothed = MakeMap<double>(frame.mean.size(), parallelFor);
+  ForBoxBands(height, parallelFor, [&](std::size_t first, std::size_t last) {
+    WithWideVectors([&] {
+      BoxedRows once(DerivativeRows(frame, k), frame.geometry, radius, first, last);
+      BoxRows   twice(std::move(once), width, height, radius, first, last);
+      for (std::size_t y = first; y < last; ++y)
+      {
+        std::copy_n(twice.Next(), width, smoothed.data() + y * width);
+      }
     });
-    return sums;
-  };
-  const std::vector<double> once = boxSum([&] { return DerivativeRows(frame, k); });
-  return boxSum([&] { return RowsOf(once, width); });
+  });
+  return smoothed;
 }
 
 std::vector<double>
@@ -87,19 +133,20 @@ InstrumentWeight(const ReferenceFrame &            frame,
   const std::size_t height = frame.geometry.height;
   const auto        missingRows = [&] {
     return [&, row = std::vector<std::uint8_t>(width)](std::size_t y) mutable {
-      const bool isInner = y >= StencilMargin && y + StencilMargin < height;
-      for (std::size_t x = 0; x < width; ++x)
+      const bool                 isInner = y >= StencilMargin && y + StencilMargin < height;
+      const std::uint8_t * const own = mask.data() + y * width;
+      for (std::size_t x = StencilMargin; x + StencilMargin < width; ++x)
       {
-        const bool isMissing = isInner && x >= StencilMargin && x + StencilMargin < width && mask[y * width + x] == 0;
-        row[x] = isMissing ? 1 : 0;
+        row[x] = isInner && own[x] == 0 ? 1 : 0;
       }
       return row.data();
     };
   };
   const auto noiseRows = [&] {
     return [&, row = std::vector<double>(width)](std::size_t y) mutable {
-      const double * const level = frame.neighbourMean.data() + y * width;
-      std::transform(level, level + width, row.begin(), [&model](double own) { return model.NoiseVariance(own); });
+      const ProvisionalModel own = model; // no number of the row can be one of its: vectors
+      const double * const   level = frame.neighbourMean.data() + y * width;
+      std::transform(level, level + width, row.begin(), [&own](double mean) { return own.NoiseVariance(mean); });
       return row.data();
     };
   };
@@ -113,15 +160,17 @@ InstrumentWeight(const ReferenceFrame &            frame,
   const double reachSide = 2.0 * static_cast<double>(reach) + 1.0;
   auto         weight = MakeMap<double>(mask.size(), parallelFor);
   ForBoxBands(height, parallelFor, [&](std::size_t first, std::size_t last) {
-    BoxRows completes(RowsOf(complete, width), width, height, reach, first, last);
-    BoxRows noises(noiseRows(), width, height, radius, first, last);
-    for (std::size_t y = first; y < last; ++y)
-    {
-      const double * const near = completes.Next();
-      std::transform(near, near + width, noises.Next(), weight.data() + y * width, [&](double whole, double smooth) {
-        return whole * (side * side / (reachSide * reachSide * smooth));
-      });
-    }
+    WithWideVectors([&] {
+      BoxRows completes(RowsOf(complete, width), width, height, reach, first, last);
+      BoxRows noises(noiseRows(), width, height, radius, first, last);
+      for (std::size_t y = first; y < last; ++y)
+      {
+        const double * const near = completes.Next();
+        std::transform(near, near + width, noises.Next(), weight.data() + y * width, [=](double whole, double smooth) {
+          return whole * (side * side / (reachSide * reachSide * smooth));
+        });
+      }
+    });
   });
   return weight;
 }
