@@ -125,7 +125,8 @@ TEST(SensorNoiseFrameSums, InstrumentsEqualBruteForce)
   {
     if (Frames().take[p] != 0)
     {
-      const Eigen::Vector2d instruments(sums.GetRegressors().InstrumentX(p), sums.GetRegressors().InstrumentY(p));
+      const ShiftInstruments & own = sums.GetRegressors().GetInstruments();
+      const Eigen::Vector2d    instruments(own.x[p] * own.weight[p], own.y[p] * own.weight[p]);
       sum += (Frames().Frame(t)[p] - Frames().reference.mean[p]) * instruments;
       gram += instruments * Frames().ColumnsOf(p).transpose();
     }

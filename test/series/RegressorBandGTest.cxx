@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/series/RegressorBand.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/Stencils.h"
+#include "sensornoise/series/Constants.h"
 #include "sensornoise/series/FrameRegressors.h"
 #include "sensornoise/series/FrameSums.h"
 #include "helpers/FrameTestHelper.h"
@@ -27,6 +29,30 @@ Sums()
   static const SyntheticFrames frames(Width, Height, FlickerAndMotion(8, 100.0, 0.1), 1.0);
   static const FrameSums       sums = frames.EmptySums();
   return sums;
+}
+
+/** The columns of pixel \a p, times their weights. */
+FrameRegressors::WeightedColumns
+ColumnsAt(const FrameRegressors & regressors, std::size_t p)
+{
+  const ReferenceFrame &           frame = regressors.GetFrame();
+  const ProvisionalModel &         model = regressors.GetModel();
+  const ShiftInstruments &         instruments = regressors.GetInstruments();
+  const auto                       derivatives = ApplyStencils(frame.mean.data(), Width, p);
+  const double                     noise = model.NoiseVariance(frame.neighbourMean[p]);
+  const double                     motion = model.MotionVariance(derivatives[StencilX], derivatives[StencilY]);
+  const double                     ofCell = 1.0 / (noise + InSeries.motionLeftInCells * motion);
+  const double                     level = frame.mean[p] - model.centreDn;
+  FrameRegressors::WeightedColumns columns{ 1.0 / noise, 1.0 / noise * level };
+  for (std::size_t k = 0; k < derivatives.size(); ++k)
+  {
+    columns[2 + k] = 1.0 / noise * derivatives[k];
+  }
+  columns[FrameColumns] = instruments.x[p] * instruments.weight[p];
+  columns[FrameColumns + 1] = instruments.y[p] * instruments.weight[p];
+  columns[FrameColumns + 2] = ofCell;
+  columns[FrameColumns + 3] = ofCell * level;
+  return columns;
 }
 
 double
@@ -63,7 +89,7 @@ TEST(SensorNoiseRegressorBand, ProductsAreTheSumsOneAfterTheOther)
         const std::size_t p = band.First() + band.GetOrder()[place];
         EXPECT_EQ(regressors.ClassOf(p), group.gradientClass);
         EXPECT_EQ(p % Width * Cells / Width, group.cell);
-        const auto columns = regressors.WeightedColumnsOf(p, regressors.ValuesOf(p));
+        const auto columns = ColumnsAt(regressors, p);
         for (std::size_t k = 0; k < RegressorBand::Together; ++k)
         {
           for (std::size_t c = 0; c < columns.size(); ++c)

@@ -3,13 +3,48 @@
 #include "sensornoise/series/FrameRegressors.h"
 
 #include "sensornoise/base/Quantiles.h"
+#include "sensornoise/base/Stencils.h"
+#include "sensornoise/base/WideVectors.h"
+#include "sensornoise/scene/InnerBlocks.h"
 #include "sensornoise/series/Constants.h"
 
-#include <numeric>
+#include <algorithm>
 #include <utility>
 
 namespace sensornoise
 {
+
+namespace
+{
+using Edges = std::array<double, GradientClasses - 1>;
+
+/** The classes of those pixels of [first, last) that \a take has, whose roughness is parted by \a edges. By value: what
+ * is written could else be theirs, and no vectors be made. */
+void
+FillClasses(const ReferenceFrame & frame,
+            ProvisionalModel       model,
+            Edges                  edges,
+            const std::uint8_t *   take,
+            std::size_t            first,
+            std::size_t            last,
+            std::uint8_t *         classes)
+{
+  const double * const mean = frame.mean.data();
+  const double * const neighbourMean = frame.neighbourMean.data();
+  const std::size_t    width = frame.geometry.width;
+  for (std::size_t p = first; p < last; ++p)
+  {
+    // All edges are compared: a search would branch by chance, which costs more.
+    const double rough = StencilEnergyAt(mean, width, p) / model.NoiseVariance(neighbourMean[p]);
+    unsigned int above = 0;
+    for (const double edge : edges)
+    {
+      above += edge < rough ? 1 : 0;
+    }
+    classes[p] = static_cast<std::uint8_t>(take[p] != 0 ? above : FrameRegressors::Unused);
+  }
+}
+} // namespace
 
 FrameRegressors::FrameRegressors(const ReferenceFrame &            frame,
                                  const ProvisionalModel &          model,
@@ -37,23 +72,22 @@ FrameRegressors::ClassifyPixels(const std::vector<std::uint8_t> & take, const Pa
   {
     values.push_back(roughness(p));
   }
-  std::array<double, GradientClasses - 1> edges = InSeries.classEdges;
+  Edges edges = InSeries.classEdges;
   for (double & edge : edges)
   {
     edge = values.empty() ? 0.0 : Quantile(values, edge);
   }
-  ForBlocks(take.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p)
-    {
-      if (take[p] != 0)
-      {
-        // All edges are compared: a search would branch by chance, which costs more.
-        const double rough = roughness(p);
-        m_ClassOf[p] = static_cast<std::uint8_t>(std::accumulate(
-          edges.begin(), edges.end(), 0, [rough](int count, double edge) { return count + (edge < rough); }));
-      }
-    }
+  ForInnerBlocks(m_Frame->geometry, parallelFor, [&](std::size_t begin, std::size_t end) {
+    WithWideVectors([&] { FillClasses(*m_Frame, m_Model, edges, take.data(), begin, end, m_ClassOf.data()); });
   });
+  m_PixelsOfClass = SumBlocks<GradientClasses>(
+    m_ClassOf.size(), parallelFor, [this](std::size_t begin, std::size_t end, auto & counts) {
+      for (std::size_t c = 0; c < GradientClasses; ++c)
+      {
+        counts[c] = static_cast<double>(
+          std::count(m_ClassOf.data() + begin, m_ClassOf.data() + end, static_cast<std::uint8_t>(c)));
+      }
+    });
 }
 
 } // namespace sensornoise

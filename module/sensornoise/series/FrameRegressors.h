@@ -5,14 +5,11 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/Parallel.h"
-#include "sensornoise/base/Stencils.h"
 #include "sensornoise/scene/ProvisionalModel.h"
 #include "sensornoise/scene/ReferenceFrame.h"
-#include "sensornoise/series/Constants.h"
 #include "sensornoise/series/FrameProducts.h"
 #include "sensornoise/series/ShiftInstruments.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -37,9 +34,8 @@ public:
   static constexpr std::size_t  Columns = FrameColumns + Instruments + CellColumns;
   static constexpr std::uint8_t Unused = 255;
 
-  using Values = std::array<double, FrameColumns>;
   using WeightedColumns = std::array<double, 16>; // Columns, padded for the vector units
-  static_assert(Columns <= 16, "the array holds all columns");
+  static_assert(Columns + 1 == std::tuple_size_v<WeightedColumns>, "the array holds all columns");
 
   /** \a take has a nonzero value at the pixels that serve; they must be usable. The object and its copies hold the
    * address of \a frame, which must outlive them at its place. */
@@ -71,63 +67,33 @@ public:
   {
     return m_ClassOf[p];
   }
-  double
-  InstrumentX(std::size_t p) const
+  const ShiftInstruments &
+  GetInstruments() const
   {
-    return m_Instruments.x[p] * m_Instruments.weight[p];
+    return m_Instruments;
   }
+  /** Pixels of a gradient class that serve. */
   double
-  InstrumentY(std::size_t p) const
+  PixelsOfClass(std::size_t gradientClass) const
   {
-    return m_Instruments.y[p] * m_Instruments.weight[p];
+    return m_PixelsOfClass[gradientClass];
   }
-  double
-  InstrumentWeight(std::size_t p) const
-  {
-    return m_Instruments.weight[p];
-  }
-  /** Gives their memory back: from then on no instrument nor weighted column may be asked for. */
+  /** Gives the memory of the instruments back, which are nowhere from then on. */
   void
   ReleaseInstruments()
   {
     std::exchange(m_Instruments, {});
   }
 
-  /** 1, the mean minus the centre, and its derivatives at pixel \a p. */
-  Values
-  ValuesOf(std::size_t p) const
-  {
-    Values     values{ 1.0, m_Frame->mean[p] - m_Model.centreDn };
-    const auto derivatives = ApplyStencils(m_Frame->mean.data(), m_Frame->geometry.width, p);
-    std::copy(derivatives.begin(), derivatives.end(), values.begin() + 2);
-    return values;
-  }
-
-  /** All columns of pixel \a p, whose values are \a values, times their weights. */
-  WeightedColumns
-  WeightedColumnsOf(std::size_t p, const Values & values) const
-  {
-    const double    noise = m_Model.NoiseVariance(m_Frame->neighbourMean[p]);
-    const double    w = 1.0 / noise;
-    WeightedColumns columns{};
-    std::transform(values.begin(), values.end(), columns.begin(), [w](double value) { return w * value; });
-    columns[FrameColumns] = this->InstrumentX(p);
-    columns[FrameColumns + 1] = this->InstrumentY(p);
-    // Motion that the derivatives do not explain is noise to the light's local changes.
-    const double motion = m_Model.MotionVariance(values[2 + StencilX], values[2 + StencilY]);
-    columns[FrameColumns + Instruments] = 1.0 / (noise + InSeries.motionLeftInCells * motion);
-    columns[FrameColumns + Instruments + 1] = columns[FrameColumns + Instruments] * values[1];
-    return columns;
-  }
-
 private:
   void
   ClassifyPixels(const std::vector<std::uint8_t> & take, const ParallelFor & parallelFor);
 
-  const ReferenceFrame *    m_Frame;
-  ProvisionalModel          m_Model;
-  std::vector<std::uint8_t> m_ClassOf;
-  ShiftInstruments          m_Instruments;
+  const ReferenceFrame *              m_Frame;
+  ProvisionalModel                    m_Model;
+  std::vector<std::uint8_t>           m_ClassOf;
+  std::array<double, GradientClasses> m_PixelsOfClass{};
+  ShiftInstruments                    m_Instruments;
 };
 
 } // namespace sensornoise

@@ -3,10 +3,11 @@
 #include "sensornoise/series/FrameSums.h"
 
 #include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/WideVectors.h"
+#include "sensornoise/series/InstrumentRun.h"
 #include "sensornoise/series/RegressorBand.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <functional>
 #include <utility>
 
@@ -94,31 +95,18 @@ FrameSums::SumColumns(const ParallelFor & parallelFor)
 {
   std::vector<std::array<ClassColumns, FrameColumns>> parts(m_CellRows);
   parallelFor(m_CellRows, [&](std::size_t cellRow) {
-    Cell * const                         cells = m_Cells.data() + cellRow * m_CellsPerRow;
-    RegressorBand                        band(m_Regressors, m_CellsPerRow);
-    std::vector<FrameRegressors::Values> columns;
+    Cell * const  cells = m_Cells.data() + cellRow * m_CellsPerRow;
+    RegressorBand band(m_Regressors, m_CellsPerRow);
     ForBands(this->GetFrame().geometry, cellRow, m_CellRows, band, [&] {
       for (const RegressorBand::Group & group : band.GetGroups())
       {
         cells[group.cell].pixels += group.end - group.begin;
       }
-      columns.resize(band.Pixels());
-      for (const std::uint32_t i : band.GetOrder())
-      {
-        columns[i] = m_Regressors.ValuesOf(band.First() + i);
-      }
       for (std::size_t first = 0; first < FrameColumns; first += RegressorBand::Together)
       {
-        const std::size_t count = std::min(RegressorBand::Together, FrameColumns - first);
-        for (std::size_t k = 0; k < count; ++k)
-        {
-          std::transform(columns.begin(), columns.end(), band.Series(k), [&](const FrameRegressors::Values & values) {
-            return values[first + k];
-          });
-        }
         AddToClasses(band,
-                     band.Multiply(),
-                     count,
+                     band.MultiplyByValues(first),
+                     std::min(RegressorBand::Together, FrameColumns - first),
                      &parts[cellRow][first],
                      [&](std::size_t cell, std::size_t k, double w, double wI) {
                        cells[cell].sum[first + k] += w;
@@ -145,21 +133,17 @@ FrameSums::SumColumns(const ParallelFor & parallelFor)
 void
 FrameSums::SumInstruments(const ParallelFor & parallelFor)
 {
-  const auto pixels = this->GetFrame().mean.size();
-  const auto sums = SumOverBlocks<8>(pixels, parallelFor, [this](std::size_t p, auto & s) {
-    if (m_Regressors.ClassOf(p) != FrameRegressors::Unused)
-    {
-      const double x = m_Regressors.InstrumentX(p);
-      const double y = m_Regressors.InstrumentY(p);
-      const double level = this->GetFrame().neighbourMean[p];
-      const double terms[4] = { m_Regressors.InstrumentWeight(p), x * x, x * y, y * y };
-      for (std::size_t k = 0; k < 4; ++k)
+  const auto sums = SumBlocks<2 * InstrumentRun::Terms>(
+    this->GetFrame().mean.size(), parallelFor, [this](std::size_t begin, std::size_t end, auto & total) {
+      InstrumentRun run;
+      for (std::size_t first = begin; first < end; first += InstrumentRun::Pixels)
       {
-        s[k] += terms[k];
-        s[4 + k] += terms[k] * level;
+        WithWideVectors([&, last = std::min(end, first + InstrumentRun::Pixels)] {
+          run.Fill(m_Regressors, first, last);
+          run.AddTo(total);
+        });
       }
-    }
-  });
+    });
   m_OfOne.variance = sums[0];
   m_OfOne.squares << sums[1], sums[2], sums[2], sums[3];
   m_OfLevel.variance = sums[4];
@@ -181,8 +165,11 @@ FrameSums::AddBatch(const TPixel * frames, std::size_t first, std::size_t count,
         for (std::size_t k = 0; k < together; ++k)
         {
           const TPixel * const frame = frames + (t + k) * this->GetFrame().mean.size() + band.First();
-          std::transform(frame, frame + band.Pixels(), mean, band.Series(k), [](TPixel value, double expected) {
-            return static_cast<double>(value) - expected;
+          double * const       series = band.Series(k);
+          WithWideVectors([&] {
+            std::transform(frame, frame + band.Pixels(), mean, series, [](TPixel value, double expected) {
+              return static_cast<double>(value) - expected;
+            });
           });
         }
         AddToClasses(band,

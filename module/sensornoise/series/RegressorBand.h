@@ -76,12 +76,49 @@ public:
   /** Sums over the pixels of every group of their columns times the values of the series, until the next call. A
    * series' bits do not depend on those beside it. */
   const std::vector<Sums> &
-  Multiply();
+  Multiply()
+  {
+    return this->MultiplyBy(m_Series.data());
+  }
+  /** The same where the series are Together of the pixels' own values from column \a first on; those behind the last
+   * column are of no meaning. */
+  const std::vector<Sums> &
+  MultiplyByValues(std::size_t first)
+  {
+    return this->MultiplyBy(m_Rows.data() + first * m_Pixels);
+  }
 
 private:
+  /** Numbers of the pixels, each kind in a row by itself, so that vectors make them: the columns' values, and behind
+   * them these. */
+  enum Row : std::size_t
+  {
+    InstrumentX = FrameColumns,
+    InstrumentY,
+    Weight,
+    CellWeight,
+    NumberOfRows
+  };
+  static_assert(NumberOfRows >= (FrameColumns + Together - 1) / Together * Together, "MultiplyByValues() stays inside");
+
+  double *
+  RowOf(std::size_t kind)
+  {
+    return m_Rows.data() + kind * m_Pixels;
+  }
   template <typename TFunction>
   void
   ForUsed(TFunction function) const;
+  void
+  FindOrder();
+  void
+  FillValues();
+  void
+  FillWeights();
+  void
+  FillColumns();
+  const std::vector<Sums> &
+  MultiplyBy(const double * series);
 
   const FrameRegressors &                       m_Regressors;
   std::size_t                                   m_Cells;
@@ -91,6 +128,7 @@ private:
   std::vector<Group>                            m_Groups;
   std::vector<std::uint32_t>                    m_Order;
   std::vector<FrameRegressors::WeightedColumns> m_Columns;
+  std::vector<double>                           m_Rows;
   std::vector<double>                           m_Series;
   std::vector<Sums>                             m_Sums;
 };

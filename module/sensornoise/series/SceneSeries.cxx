@@ -20,12 +20,9 @@ RegressorNoise
 NoiseOfModel(const FrameRegressors & regressors)
 {
   RegressorNoise noise;
-  for (std::size_t p = 0; p < regressors.GetFrame().mean.size(); ++p)
+  for (std::size_t c = 0; c < GradientClasses; ++c)
   {
-    if (regressors.ClassOf(p) != FrameRegressors::Unused)
-    {
-      noise.variance[regressors.ClassOf(p)] += 1.0;
-    }
+    noise.variance[c] = regressors.PixelsOfClass(c);
   }
   return noise;
 }

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_series_InstrumentRun_h
+#define sensornoise_series_InstrumentRun_h
+
+#include "sensornoise/series/FrameRegressors.h"
+#include "sensornoise/series/ShiftInstruments.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <numeric>
+
+namespace sensornoise
+{
+
+/** \class InstrumentRun
+ * \brief A few pixels' terms of what noise does to the instruments, side by side for vectors. */
+class InstrumentRun
+{
+public:
+  static constexpr std::size_t Pixels = 256;
+  static constexpr std::size_t Terms = 4; ///< w, and of the instruments times their weights w: xx, xy, yy
+
+  /** Takes the pixels [first, last); those that do not serve have 0. */
+  void
+  Fill(const FrameRegressors & regressors, std::size_t first, std::size_t last)
+  {
+    const ShiftInstruments & instruments = regressors.GetInstruments();
+    const double * const     weights = instruments.weight.data() + first;
+    const double * const     xs = instruments.x.data() + first;
+    const double * const     ys = instruments.y.data() + first;
+    for (std::size_t i = 0; i < last - first; ++i)
+    {
+      const bool   serves = regressors.ClassOf(first + i) != FrameRegressors::Unused;
+      const double weight = serves ? weights[i] : 0.0;
+      const double x = serves ? xs[i] * weight : 0.0;
+      const double y = serves ? ys[i] * weight : 0.0;
+      m_Terms[0][i] = weight;
+      m_Terms[1][i] = x * x;
+      m_Terms[2][i] = x * y;
+      m_Terms[3][i] = y * y;
+    }
+    for (auto & terms : m_Terms)
+    {
+      std::fill(terms.begin() + static_cast<std::ptrdiff_t>(last - first), terms.end(), 0.0);
+    }
+    const double * const level = regressors.GetFrame().neighbourMean.data();
+    std::fill(std::copy(level + first, level + last, m_Level.begin()), m_Level.end(), 0.0);
+  }
+  /** Adds the sums of the terms, and of the terms times the level. */
+  void
+  AddTo(std::array<double, 2 * Terms> & total) const
+  {
+    constexpr std::size_t lanes = 4;
+    for (std::size_t k = 0; k < Terms; ++k)
+    {
+      double ofOne[lanes] = {};
+      double ofLevel[lanes] = {};
+      for (std::size_t i = 0; i < Pixels; i += lanes)
+      {
+        for (std::size_t lane = 0; lane < lanes; ++lane)
+        {
+          ofOne[lane] += m_Terms[k][i + lane];
+          ofLevel[lane] += m_Terms[k][i + lane] * m_Level[i + lane];
+        }
+      }
+      total[k] += std::accumulate(ofOne, ofOne + lanes, 0.0);
+      total[Terms + k] += std::accumulate(ofLevel, ofLevel + lanes, 0.0);
+    }
+  }
+
+private:
+  std::array<std::array<double, Pixels>, Terms> m_Terms;
+  std::array<double, Pixels>                    m_Level;
+};
+
+} // namespace sensornoise
+
+#endif
