@@ -22,7 +22,7 @@ AddSquares(const double * row, std::size_t width, double weight, double * bounds
 {
   if (weight > 0.0)
   {
-    for (std::size_t x = 0; x < width - 2 * StencilMargin; ++x)
+    for (std::size_t x = 0; x + 2 * StencilMargin < width; ++x)
     {
       const double derivative = detail::ValueOfStencil<VStencil>(row + x, static_cast<std::ptrdiff_t>(width));
       bounds[x] += weight * derivative * derivative;

@@ -39,7 +39,7 @@ EnergyMap(const ReferenceFrame & frame, const ParallelFor & parallelFor)
       const std::uint8_t * const usable = frame.usable.data() + y * width;
       float * const              own = energy.data() + y * width;
       WithWideVectors([=] {
-        for (std::size_t x = StencilMargin; x < width - StencilMargin; ++x)
+        for (std::size_t x = StencilMargin; x + StencilMargin < width; ++x)
         {
           const auto found = static_cast<float>(StencilEnergyAt(mean, width, x));
           own[x] = usable[x] != 0 ? found : 0.0F;
