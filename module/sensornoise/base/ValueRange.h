@@ -66,8 +66,8 @@ RangeOfMap(const float * values, const std::uint8_t * mask, std::size_t count, c
   ValueRange            range;
   for (const ValueRange & part :
        PartsOfBlocks<ValueRange>(count, parallelFor, [&](std::size_t begin, std::size_t end, ValueRange & own) {
-         std::array<float, lanes> low;
-         std::array<float, lanes> high;
+         std::array<float, lanes> low{};
+         std::array<float, lanes> high{};
          low.fill(infinity);
          high.fill(-infinity);
          for (std::size_t p = begin; p + lanes <= end; p += lanes)

@@ -82,7 +82,7 @@ MakeTerms(const RowOfPixels &         here,
           double                      ofRow,
           double                      inverseFreedom)
 {
-  PairTerms terms;
+  PairTerms terms{};
   for (std::size_t k = 0; k < shares.size(); ++k)
   {
     const double share = ofRow * shares[k];

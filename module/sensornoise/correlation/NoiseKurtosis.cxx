@@ -147,7 +147,7 @@ KurtosisOfTile(const NoiseResiduals & residuals, std::size_t i, double normal)
   const float *     weight = residuals.WeightOf(i);
   const auto        least = InCorrelation.leastNoise * static_cast<float>(residuals.GetFreedom());
   const TakenRuns   taken(weight, side);
-  PowerSums         powers;
+  PowerSums         powers{};
   side == SampleTiles::Side ? SumPowers<SampleTiles::Side>(residuals, i, powers)
                                     : SumPowers<SampleTiles::SmallSide>(residuals, i, powers);
   KurtosisSums sums;

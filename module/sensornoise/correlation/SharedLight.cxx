@@ -125,7 +125,7 @@ struct LineProducts
   void
   Add(const LineSums<VSide> & lines)
   {
-    std::array<double, VSide> last; // two segments
+    std::array<double, VSide> last{}; // two segments
     for (std::size_t y = 0; y < VSide; ++y)
     {
       last[y] = lines[2][y] + lines[3][y];
@@ -185,7 +185,7 @@ SumTile(const NoiseResiduals & residuals, std::size_t i)
   const double          factor = 1.0 / residuals.GetFreedom();
   SharedLight           light;
   const auto            addOnce = [&light](double DistantSums::* member, auto valueOf) {
-    SegmentSums<VSide>     sums;
+    SegmentSums<VSide>     sums{};
     SegmentProducts<VSide> products;
     sums.Sum(valueOf);
     products.Add(sums);
@@ -195,7 +195,7 @@ SumTile(const NoiseResiduals & residuals, std::size_t i)
   addOnce(&DistantSums::light, [=](std::size_t p) { return static_cast<double>(w[p]) * z[p]; });
   addOnce(&DistantSums::lightSquare, [=](std::size_t p) { return static_cast<double>(w[p]) * z[p] * z[p]; });
   WithWideVectors([&] {
-    SegmentSums<VSide>     sums;
+    SegmentSums<VSide>     sums{};
     SegmentProducts<VSide> products;
     double                 ofLight = 0.0;
     for (std::size_t t = 0; t < frames; ++t)

@@ -45,7 +45,7 @@ JudgePixels(const ProjectedVariance &         projected,
 {
   PixelFits fits{ MakeMap<float>(mask.size(), parallelFor), MakeMap<std::uint16_t>(mask.size(), parallelFor) };
   ForBlocks(mask.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
-    JudgedRun run;
+    JudgedRun run{};
     ForJudgedRuns(begin, end, [&](std::size_t first, std::size_t pixels) {
       WithWideVectors([&, used = mask.data() + first, ratio = fits.ratio.data() + first] {
         run.Judge(projected, line, first, pixels);
@@ -113,11 +113,11 @@ FindLocalMisfit(const ProjectedVariance &         projected,
                 const std::vector<std::uint8_t> & mask,
                 const ParallelFor &               parallelFor)
 {
-  const std::size_t               radius = InPixels.misfitRadius;
-  const std::size_t               width = projected.GetFrame().geometry.width;
-  const std::size_t               height = projected.GetFrame().geometry.height;
-  const PixelFits                 pixels = JudgePixels(projected, line, mask, parallelFor);
-  const std::vector<std::uint8_t> core = FindMisfitCores(projected, line, pixels, radius, parallelFor);
+  const std::size_t         radius = InPixels.misfitRadius;
+  const std::size_t         width = projected.GetFrame().geometry.width;
+  const std::size_t         height = projected.GetFrame().geometry.height;
+  const PixelFits           pixels = JudgePixels(projected, line, mask, parallelFor);
+  std::vector<std::uint8_t> core = FindMisfitCores(projected, line, pixels, radius, parallelFor);
   if (std::find(core.begin(), core.end(), std::uint8_t{ 1 }) == core.end())
   {
     return core;

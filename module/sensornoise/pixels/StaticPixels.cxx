@@ -77,7 +77,7 @@ SumClasses(const ProjectedVariance &         projected,
   };
   return SumBlocks<ClassSums * Classes>(
     mask.size(), parallelFor, [&](std::size_t begin, std::size_t end, SumsOfClasses & sums) {
-      JudgedRun run;
+      JudgedRun run{};
       ForJudgedRuns(
         begin, end, [&](std::size_t first, std::size_t pixels) { sumRun(first, pixels, run, sums.data()); });
     });

@@ -61,7 +61,7 @@ MaskOfFlatClasses(const ProjectedVariance &         projected,
   std::vector<std::uint8_t> mask(usable.size());
   ForPixels(mask.size(),
             parallelFor,
-            [last, usable = usable.data(), classOf = projected.GetClasses().data(), own = mask.data()](std::size_t p) {
+            [=, usable = usable.data(), classOf = projected.GetClasses().data(), own = mask.data()](std::size_t p) {
               own[p] = usable[p] != 0 && classOf[p] <= last ? 1 : 0;
             });
   return mask;

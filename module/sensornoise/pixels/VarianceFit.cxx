@@ -160,8 +160,8 @@ VarianceFit::CurveAbout(const VarianceLine & line) const
   };
   const auto s = SumBlocks<std::tuple_size_v<SumsOfBins>>(
     m_Data.pixels, m_ParallelFor, [&](std::size_t begin, std::size_t end, SumsOfBins & sums) {
-      Run     run;
-      KeptRun kept;
+      Run     run{};
+      KeptRun kept{};
       for (std::size_t first = begin; first < end; first += Run::MostPixels)
       {
         const std::size_t pixels = std::min(Run::MostPixels, end - first);

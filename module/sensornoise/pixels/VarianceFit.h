@@ -177,8 +177,8 @@ private:
   SumTerms(const std::uint8_t * mask, TTerms terms) const
   {
     return SumBlocks<VSums>(m_Data.pixels, m_ParallelFor, [&](std::size_t begin, std::size_t end, auto & sums) {
-      Run     run;
-      KeptRun kept;
+      Run     run{};
+      KeptRun kept{};
       for (std::size_t first = begin; first < end; first += Run::MostPixels)
       {
         this->KeepRun(first, std::min(Run::MostPixels, end - first), mask, run, kept);

@@ -135,7 +135,7 @@ FrameSums::SumInstruments(const ParallelFor & parallelFor)
 {
   const auto sums = SumBlocks<2 * InstrumentRun::Terms>(
     this->GetFrame().mean.size(), parallelFor, [this](std::size_t begin, std::size_t end, auto & total) {
-      InstrumentRun run;
+      InstrumentRun run{};
       for (std::size_t first = begin; first < end; first += InstrumentRun::Pixels)
       {
         WithWideVectors([&, last = std::min(end, first + InstrumentRun::Pixels)] {
