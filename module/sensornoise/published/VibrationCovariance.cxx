@@ -17,9 +17,6 @@ namespace
 using Matrix = Eigen::Matrix<double, 6, 6>;
 using Vector = Eigen::Matrix<double, 6, 1>;
 
-/** Pixels whose products are summed at once. */
-constexpr Eigen::Index RowsTogether = 512;
-
 /** The frame-sized maps of the regression. */
 struct Maps
 {
@@ -85,32 +82,27 @@ FindScales(const Maps & maps, const ParallelFor & parallelFor)
 std::optional<Vector>
 FitCoefficients(const Maps & maps, const Scales & scales, const ParallelFor & parallelFor)
 {
-  // The products of all columns, the last of which is the variance.
-  constexpr Eigen::Index columns = 7;
-  const auto             sums = SumBlocks<columns * columns>(
+  constexpr std::size_t columns = 6;
+  // Row by row the products of each column with all of them, and with the variance.
+  const auto sums = SumBlocks<columns *(columns + 1)>(
     maps.width * maps.height, parallelFor, [&](std::size_t begin, std::size_t end, auto & sum) {
-      Eigen::Map<Eigen::Matrix<double, columns, columns>> own(sum.data());
-      Eigen::Matrix<double, columns, Eigen::Dynamic>      rows(columns, RowsTogether);
-      Eigen::Index                                        count = 0;
-      const auto                                          add = [&] {
-        own.noalias() += rows.leftCols(count) * rows.leftCols(count).transpose();
-        count = 0;
-      };
       ForInnerPixels(maps, begin, end, [&](std::size_t p, const Gradient & gradient) {
         const double u = maps.mean[p] / scales.mean;
         const double gx = gradient.x / scales.gradient;
         const double gy = gradient.y / scales.gradient;
-        rows.col(count++) << 1.0, u, u * u, gx * gx, gy * gy, gx * gy, maps.variance[p];
-        if (count == RowsTogether)
+        const double row[columns + 1] = { 1.0, u, u * u, gx * gx, gy * gy, gx * gy, maps.variance[p] };
+        for (std::size_t i = 0; i < columns; ++i)
         {
-          add();
+          for (std::size_t j = 0; j <= columns; ++j)
+          {
+            sum[i * (columns + 1) + j] += row[i] * row[j];
+          }
         }
       });
-      add();
     });
-  const Eigen::Map<const Eigen::Matrix<double, columns, columns>> products(sums.data());
-  const Matrix                                                    full = products.topLeftCorner<6, 6>();
-  const Vector                                                    right = products.topRightCorner<6, 1>();
+  const Eigen::Map<const Eigen::Matrix<double, 6, 7, Eigen::RowMajor>> products(sums.data());
+  const Matrix                                                         full = products.leftCols<6>();
+  const Vector                                                         right = products.rightCols<1>();
   const Vector diagonal = full.diagonal().cwiseSqrt().cwiseMax(1e-300);
   const Matrix scaled = diagonal.cwiseInverse().asDiagonal() * full * diagonal.cwiseInverse().asDiagonal();
   const Eigen::ColPivHouseholderQR<Matrix> solver(scaled);
