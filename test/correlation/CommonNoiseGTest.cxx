@@ -63,6 +63,12 @@ NoiseWith(const Common & common)
   };
 }
 
+std::vector<SharedLight>
+SumSharedLight(const NoiseResiduals & residuals, const ParallelFor & parallelFor)
+{
+  return OfTiles(residuals, parallelFor, [&](std::size_t i) { return SharedLightOfTile(residuals, i); });
+}
+
 /** Light, rows 0 ... 6 apart, columns 0 ... 6 apart. */
 JackknifeEstimate
 Measure(const FrameOf & noise)

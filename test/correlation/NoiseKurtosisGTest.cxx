@@ -22,6 +22,13 @@ constexpr FrameGeometry Geometry{ 128, 128, 1 };
 /** How many values are added with alternating signs: the excess of a sum of n is a nth of theirs. */
 constexpr std::array<double, KurtosisSums::Kinds> Added{ 1.0, 2.0, 2.0, 4.0, 8.0, 8.0 };
 
+std::vector<KurtosisSums>
+SumKurtosis(const NoiseResiduals & residuals, const ParallelFor & parallelFor)
+{
+  const double normal = NormalKurtosis(residuals);
+  return OfTiles(residuals, parallelFor, [&](std::size_t i) { return KurtosisOfTile(residuals, i, normal); });
+}
+
 JackknifeEstimate
 Measure(const NoiseResiduals & residuals)
 {

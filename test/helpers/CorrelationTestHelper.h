@@ -5,6 +5,7 @@
 
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/Parallel.h"
 #include "sensornoise/correlation/Jackknife.h"
 #include "sensornoise/correlation/NoiseResiduals.h"
 #include "sensornoise/correlation/FrameSample.h"
@@ -63,6 +64,16 @@ ResidualsOf(const FrameGeometry &       geometry,
 {
   const std::vector<std::uint8_t> all(geometry.Pixels(), 1);
   return { SampleOf(geometry, frames, frameOf), series, { light, all, 0.0 }, SerialFor };
+}
+
+/** ofTile(i) of every tile. */
+template <typename TOfTile>
+auto
+OfTiles(const NoiseResiduals & residuals, const ParallelFor & parallelFor, TOfTile ofTile)
+{
+  std::vector<decltype(ofTile(std::size_t{}))> sums(residuals.GetTiles().origins.size());
+  parallelFor(sums.size(), [&](std::size_t i) { sums[i] = ofTile(i); });
+  return sums;
 }
 
 /** White normal noise, 1 DN. */

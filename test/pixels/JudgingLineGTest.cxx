@@ -221,7 +221,7 @@ TEST(SensorNoiseJudgingLine, PixelsOfTheirOwnOffsetAreJudgedByTheirNeighbours)
   const Burst       burst(StraightVariance, 60.0);
   const JudgingLine judging = burst.Judge();
   EXPECT_TRUE(judging.byNeighbours);
-  EXPECT_EQ(judging.LevelOf(burst.frame, 1000), burst.frame.neighbourMean[1000]);
+  EXPECT_EQ(judging.LevelsOf(burst.frame)[1000], burst.frame.neighbourMean[1000]);
   EXPECT_EQ(Count(burst.Misfit(judging)), 0u);
 }
 

@@ -4,6 +4,7 @@
 #include "sensornoise/base/ChiSquare.h"
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/PixelRuns.h"
 #include "sensornoise/pixels/FarVariance.h"
 #include "sensornoise/pixels/JudgedRun.h"
 #include "sensornoise/pixels/JudgingLine.h"
@@ -60,6 +61,18 @@ struct Noise
     return FindLocalMisfit(projected, line, input.mask, SerialFor);
   }
 };
+
+/** Whether a pixel's ratio is far above 1, and whether it is so on either side. */
+bool
+IsFarAbove(double ratio, double freedom)
+{
+  return !(ratio < FarLimits(freedom).high);
+}
+bool
+IsFarOff(double ratio, double freedom)
+{
+  return IsFarAbove(ratio, freedom) || !(ratio > FarLimits(freedom).low);
+}
 
 double
 Everywhere(std::size_t)
@@ -169,15 +182,15 @@ TEST(SensorNoiseStaticPixels, RunsAreJudgedAsSinglePixelsAre)
     noise.line.byNeighbours = departs;
     JudgedRun   run;
     std::size_t far = 0;
-    ForJudgedRuns(Width, 20 * Width, [&](std::size_t first, std::size_t pixels) {
-      ASSERT_LE(pixels, JudgedRun::MostPixels);
+    ForRuns(Width, 20 * Width, [&](std::size_t first, std::size_t pixels) {
+      ASSERT_LE(pixels, PixelsPerRun);
       run.Judge(noise.projected, noise.line, first, pixels);
       for (std::size_t i = 0; i < pixels; ++i)
       {
         const std::size_t p = first + i;
         if (noise.input.mask[p] != 0)
         {
-          const double expected = noise.line.At(noise.line.LevelOf(frame, p));
+          const double expected = noise.line.At(noise.line.LevelsOf(frame)[p]);
           const double ratio = noise.projected.GetVariance()[p] / expected;
           const double freedom = noise.line.EffectiveFreedom(noise.projected.GetFreedom()[p], expected);
           ASSERT_NEAR(run.expected[i], expected, 1e-12 * expected) << p;

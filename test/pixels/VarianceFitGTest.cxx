@@ -55,7 +55,10 @@ struct Maps
   VarianceLine
   Fit(const ParallelFor & parallelFor = SerialFor) const
   {
-    return FitVarianceLine(this->Data(), parallelFor);
+    VarianceFit fit(this->Data(), parallelFor, std::nullopt);
+    fit.Iterate(8);
+    fit.FillErrors();
+    return fit.GetLine();
   }
 };
 } // namespace

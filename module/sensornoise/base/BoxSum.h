@@ -145,13 +145,14 @@ private:
   std::vector<double> m_Sums;
 };
 
-/** Calls function(first, last) for the bands of rows whose box sums are made together. */
+/** Calls function(first, last) for the bands of rows whose box sums are made together, compiled for wide vectors. */
 template <typename TFunction>
 void
 ForBoxBands(std::size_t height, const ParallelFor & parallelFor, TFunction function)
 {
   constexpr std::size_t band = 64; // rows
-  parallelFor((height + band - 1) / band, [&](std::size_t b) { function(b * band, std::min(height, (b + 1) * band)); });
+  parallelFor((height + band - 1) / band,
+              [&](std::size_t b) { WithWideVectors([&] { function(b * band, std::min(height, (b + 1) * band)); }); });
 }
 
 /** Calls use(y, sums) with the box sums of every row; \a makeSource() makes the source of a BoxRows. */
@@ -165,13 +166,11 @@ ForBoxRows(TMakeSource         makeSource,
            TUse                use)
 {
   ForBoxBands(height, parallelFor, [&](std::size_t first, std::size_t last) {
-    WithWideVectors([&] {
-      BoxRows<decltype(makeSource())> sums(makeSource(), width, height, radius, first, last);
-      for (std::size_t y = first; y < last; ++y)
-      {
-        use(y, sums.Next());
-      }
-    });
+    BoxRows<decltype(makeSource())> sums(makeSource(), width, height, radius, first, last);
+    for (std::size_t y = first; y < last; ++y)
+    {
+      use(y, sums.Next());
+    }
   });
 }
 

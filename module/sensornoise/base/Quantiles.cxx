@@ -59,6 +59,20 @@ QuantileOf(std::vector<double> values, double q)
   return Quantile(values, q);
 }
 
+double
+SortedQuantile(const std::vector<double> & sorted, double q)
+{
+  if (sorted.empty())
+  {
+    throw std::invalid_argument("a quantile of no value was asked for");
+  }
+  const double position = q * static_cast<double>(sorted.size() - 1);
+  const auto   below = static_cast<std::size_t>(position);
+  const double lower = sorted[below];
+  const double upper = sorted[std::min(below + 1, sorted.size() - 1)];
+  return lower + (position - static_cast<double>(below)) * (upper - lower);
+}
+
 std::vector<std::size_t>
 SamplePixels(const std::uint8_t * mask, std::size_t pixels, std::size_t most)
 {

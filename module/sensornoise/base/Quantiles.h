@@ -21,6 +21,10 @@ Quantile(std::vector<double> & values, double q);
 SensorNoise_EXPORT double
 QuantileOf(std::vector<double> values, double q);
 
+/** The same of values in rising order. */
+SensorNoise_EXPORT double
+SortedQuantile(const std::vector<double> & sorted, double q);
+
 /** Pixels among which quantiles and rough fits are taken: all of the mask, or evenly spread ones of a large frame. */
 SensorNoise_EXPORT std::vector<std::size_t>
 SamplePixels(const std::uint8_t * mask, std::size_t pixels, std::size_t most = 32768);

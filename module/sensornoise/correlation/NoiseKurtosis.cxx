@@ -167,13 +167,4 @@ KurtosisOfTile(const NoiseResiduals & residuals, std::size_t i, double normal)
   return sums;
 }
 
-std::vector<KurtosisSums>
-SumKurtosis(const NoiseResiduals & residuals, const ParallelFor & parallelFor)
-{
-  const double              normal = NormalKurtosis(residuals);
-  std::vector<KurtosisSums> sums(residuals.GetTiles().origins.size());
-  parallelFor(sums.size(), [&](std::size_t i) { sums[i] = KurtosisOfTile(residuals, i, normal); });
-  return sums;
-}
-
 } // namespace sensornoise

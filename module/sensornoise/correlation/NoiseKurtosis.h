@@ -4,7 +4,6 @@
 #define sensornoise_correlation_NoiseKurtosis_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/base/Parallel.h"
 #include "sensornoise/correlation/NoiseResiduals.h"
 
 #include <array>
@@ -47,10 +46,6 @@ NormalKurtosis(const NoiseResiduals & residuals);
 /** The sums of a tile; \a normal is NormalKurtosis(). */
 SensorNoise_EXPORT KurtosisSums
 KurtosisOfTile(const NoiseResiduals & residuals, std::size_t i, double normal);
-
-/** The sums of every tile. */
-SensorNoise_EXPORT std::vector<KurtosisSums>
-SumKurtosis(const NoiseResiduals & residuals, const ParallelFor & parallelFor);
 
 } // namespace sensornoise
 

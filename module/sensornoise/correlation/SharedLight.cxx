@@ -243,12 +243,4 @@ SharedLightOfTile(const NoiseResiduals & residuals, std::size_t i)
                                                         : SumTile<SampleTiles::SmallSide>(residuals, i);
 }
 
-std::vector<SharedLight>
-SumSharedLight(const NoiseResiduals & residuals, const ParallelFor & parallelFor)
-{
-  std::vector<SharedLight> sums(residuals.GetTiles().origins.size());
-  parallelFor(sums.size(), [&](std::size_t i) { sums[i] = SharedLightOfTile(residuals, i); });
-  return sums;
-}
-
 } // namespace sensornoise

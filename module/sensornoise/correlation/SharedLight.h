@@ -4,7 +4,6 @@
 #define sensornoise_correlation_SharedLight_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/base/Parallel.h"
 #include "sensornoise/correlation/NoiseResiduals.h"
 
 #include <array>
@@ -47,12 +46,9 @@ struct SharedLight
   operator+=(const SharedLight & other);
 };
 
+/** The sums of tile \a i. */
 SensorNoise_EXPORT SharedLight
 SharedLightOfTile(const NoiseResiduals & residuals, std::size_t i);
-
-/** The sums of every tile. */
-SensorNoise_EXPORT std::vector<SharedLight>
-SumSharedLight(const NoiseResiduals & residuals, const ParallelFor & parallelFor);
 
 } // namespace sensornoise
 

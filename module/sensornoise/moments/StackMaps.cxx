@@ -61,14 +61,10 @@ FindCodesOfStack(const IntegerMoments<TPixel> & moments,
   CodeHistogram maxima;
   ExtremeDepths depths;
   ForAll(2, parallelFor, [&](std::size_t isHigh) {
-    const std::size_t pixels = moments.GetNumberOfPixels();
-    for (std::size_t p = 0; p < pixels && isHigh == 0; ++p)
+    CodeHistogram & extremes = isHigh == 1 ? maxima : minima;
+    for (std::size_t p = 0; p < moments.GetNumberOfPixels(); ++p)
     {
-      minima.Add(moments.GetMinimum(p));
-    }
-    for (std::size_t p = 0; p < pixels && isHigh == 1; ++p)
-    {
-      maxima.Add(moments.GetMaximum(p));
+      extremes.Add(isHigh == 1 ? moments.GetMaximum(p) : moments.GetMinimum(p));
     }
     const auto end = isHigh == 1 ? OutermostLevels::End::High : OutermostLevels::End::Low;
     (isHigh == 1 ? depths.high : depths.low) =

@@ -28,19 +28,6 @@ struct FarLimits
   }
 };
 
-/** Whether such a variable is as far above 1 or more. */
-inline bool
-IsFarAbove(double ratio, double freedom)
-{
-  return !(ratio < FarLimits(freedom).high);
-}
-/** The same on either side. */
-inline bool
-IsFarOff(double ratio, double freedom)
-{
-  return IsFarAbove(ratio, freedom) || !(ratio > FarLimits(freedom).low);
-}
-
 } // namespace sensornoise
 
 #endif

@@ -140,18 +140,6 @@ MedianOf(const std::vector<JudgingSquare> & squares,
 }
 } // namespace
 
-double
-JudgingLine::RatioAt(double meanDn) const
-{
-  const std::size_t i = BinOf(levels, meanDn); // of the first level above
-  if (i == 0 || i == levels.size())
-  {
-    return i == 0 ? ratios.front() : ratios.back();
-  }
-  const double share = (meanDn - levels[i - 1]) / (levels[i] - levels[i - 1]);
-  return ratios[i - 1] + share * (ratios[i] - ratios[i - 1]);
-}
-
 JudgingLine
 MakeJudgingLine(const VarianceLine &              line,
                 const ProjectedVariance &         projected,

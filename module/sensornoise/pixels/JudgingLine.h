@@ -5,9 +5,11 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/PixelRuns.h"
 #include "sensornoise/pixels/VarianceLine.h"
 #include "sensornoise/scene/ReferenceFrame.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -32,23 +34,52 @@ struct SensorNoise_EXPORT JudgingLine
   double
   At(double meanDn) const
   {
-    return levels.empty() ? line.At(meanDn) : line.At(meanDn) * this->RatioAt(meanDn);
+    OfRun variance{};
+    this->FillVariance(&meanDn, 1, variance);
+    return variance[0];
   }
-  /** The level that pixel \a p of \a frame is judged at [DN]. */
-  double
-  LevelOf(const ReferenceFrame & frame, std::size_t p) const
+  /** The same at the levels of a run of pixels, in vectors. */
+  void
+  FillVariance(const double * meanDn, std::size_t pixels, OfRun & variance) const
   {
-    return byNeighbours ? frame.neighbourMean[p] : frame.mean[p];
+    const VarianceLine own = line; // which no pointer can point into
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      variance[i] = own.At(meanDn[i]);
+    }
+    if (levels.empty())
+    {
+      return;
+    }
+    // The ratios, as a sum of what they rise by from each level to the next.
+    OfRun ratio{};
+    std::fill_n(ratio.begin(), pixels, ratios[0]);
+    for (std::size_t k = 0; k + 1 < levels.size(); ++k)
+    {
+      const double low = levels[k];
+      const double high = levels[k + 1];
+      const double slope = (ratios[k + 1] - ratios[k]) / (high - low);
+      for (std::size_t i = 0; i < pixels; ++i)
+      {
+        ratio[i] += slope * (std::max(low, std::min(high, meanDn[i])) - low);
+      }
+    }
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      variance[i] *= ratio[i];
+    }
+  }
+  /** The levels that the pixels of \a frame are judged at [DN]. */
+  const std::vector<double> &
+  LevelsOf(const ReferenceFrame & frame) const
+  {
+    return byNeighbours ? frame.neighbourMean : frame.mean;
   }
   double
   EffectiveFreedom(double freedom, double varianceDn2) const
   {
     return line.EffectiveFreedom(freedom, varianceDn2);
   }
-
-private:
-  double
-  RatioAt(double meanDn) const;
 };
 
 /** Finds what the sensor departs from \a line by. What a sensor does it does everywhere, things that move are in

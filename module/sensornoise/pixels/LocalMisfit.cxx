@@ -46,7 +46,7 @@ JudgePixels(const ProjectedVariance &         projected,
   PixelFits fits{ MakeMap<float>(mask.size(), parallelFor), MakeMap<std::uint16_t>(mask.size(), parallelFor) };
   ForBlocks(mask.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
     JudgedRun run{};
-    ForJudgedRuns(begin, end, [&](std::size_t first, std::size_t pixels) {
+    ForRuns(begin, end, [&](std::size_t first, std::size_t pixels) {
       WithWideVectors([&, used = mask.data() + first, ratio = fits.ratio.data() + first] {
         run.Judge(projected, line, first, pixels);
         for (std::size_t i = 0; i < pixels; ++i)

@@ -6,7 +6,6 @@
 #include "sensornoise/base/FirstTouch.h"
 #include "sensornoise/base/Quantiles.h"
 #include "sensornoise/base/Stencils.h"
-#include "sensornoise/base/WideVectors.h"
 #include "sensornoise/pixels/Constants.h"
 #include "sensornoise/scene/ProvisionalModel.h"
 #include "sensornoise/scene/ReferenceFrame.h"
@@ -38,13 +37,11 @@ EnergyMap(const ReferenceFrame & frame, const ParallelFor & parallelFor)
       const double * const       mean = frame.mean.data() + y * width;
       const std::uint8_t * const usable = frame.usable.data() + y * width;
       float * const              own = energy.data() + y * width;
-      WithWideVectors([=] {
-        for (std::size_t x = StencilMargin; x + StencilMargin < width; ++x)
-        {
-          const auto found = static_cast<float>(StencilEnergyAt(mean, width, x));
-          own[x] = usable[x] != 0 ? found : 0.0F;
-        }
-      });
+      for (std::size_t x = StencilMargin; x + StencilMargin < width; ++x)
+      {
+        const auto found = static_cast<float>(StencilEnergyAt(mean, width, x));
+        own[x] = usable[x] != 0 ? found : 0.0F;
+      }
     }
   });
   return energy;
@@ -79,11 +76,7 @@ EdgesOf(std::vector<double> roughness)
   for (std::size_t c = 1; c < RoughnessClasses && !roughness.empty(); ++c)
   {
     const double rank = c <= 15 ? 0.06 * static_cast<double>(c) : 0.92 + 0.075 * static_cast<double>(c - 16) / 7.0;
-    const double position = rank * static_cast<double>(roughness.size() - 1);
-    const auto   below = static_cast<std::size_t>(position);
-    const double lower = roughness[below];
-    const double upper = roughness[std::min(below + 1, roughness.size() - 1)];
-    edges[c - 1] = lower + (position - static_cast<double>(below)) * (upper - lower);
+    edges[c - 1] = SortedQuantile(roughness, rank);
   }
   return edges;
 }
@@ -98,29 +91,27 @@ ClassifyRow(const double *           sums,
             std::uint8_t *           classOf)
 {
   constexpr std::size_t together = 64; // pixels whose counts stay in the first-level cache
-  WithWideVectors([=, &model, &edges] {
-    for (std::size_t first = 0; first < width; first += together)
+  for (std::size_t first = 0; first < width; first += together)
+  {
+    const std::size_t pixels = std::min(together, width - first);
+    double            roughness[together] = {};
+    double            below[together] = {}; // edges
+    for (std::size_t k = 0; k < pixels; ++k)
     {
-      const std::size_t pixels = std::min(together, width - first);
-      double            roughness[together] = {};
-      double            below[together] = {}; // edges
-      for (std::size_t k = 0; k < pixels; ++k)
+      roughness[k] = sums[first + k] / model.NoiseVariance(neighbourMean[first + k]);
+    }
+    for (const double edge : edges)
+    {
+      for (std::size_t k = 0; k < together; ++k)
       {
-        roughness[k] = sums[first + k] / model.NoiseVariance(neighbourMean[first + k]);
-      }
-      for (const double edge : edges)
-      {
-        for (std::size_t k = 0; k < together; ++k)
-        {
-          below[k] += edge < roughness[k] ? 1.0 : 0.0;
-        }
-      }
-      for (std::size_t k = 0; k < pixels; ++k)
-      {
-        classOf[first + k] = static_cast<std::uint8_t>(static_cast<int>(below[k]));
+        below[k] += edge < roughness[k] ? 1.0 : 0.0;
       }
     }
-  });
+    for (std::size_t k = 0; k < pixels; ++k)
+    {
+      classOf[first + k] = static_cast<std::uint8_t>(static_cast<int>(below[k]));
+    }
+  }
 }
 } // namespace
 

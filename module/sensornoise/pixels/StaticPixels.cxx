@@ -47,11 +47,11 @@ SumClasses(const ProjectedVariance &         projected,
   const ReferenceFrame & frame = projected.GetFrame();
   const double           sampling = 2.0 * line.sharedSquares / static_cast<double>(frame.frames - 1);
   const auto             sumRun = [&](std::size_t first, std::size_t pixels, JudgedRun & run, double * sums) {
-    JudgedRun::OfRun weight;
-    JudgedRun::OfRun error;
+    OfRun weight{};
+    OfRun error{};
     WithWideVectors([&, level = frame.neighbourMean.data() + first, spread = line.line.noiseSpreadDn4] {
       run.Judge(projected, line, first, pixels);
-      JudgedRun::Expect(line, level, pixels, weight);
+      line.FillVariance(level, pixels, weight);
       for (std::size_t i = 0; i < pixels; ++i)
       {
         const double near = run.expected[i] / weight[i];
@@ -78,8 +78,7 @@ SumClasses(const ProjectedVariance &         projected,
   return SumBlocks<ClassSums * Classes>(
     mask.size(), parallelFor, [&](std::size_t begin, std::size_t end, SumsOfClasses & sums) {
       JudgedRun run{};
-      ForJudgedRuns(
-        begin, end, [&](std::size_t first, std::size_t pixels) { sumRun(first, pixels, run, sums.data()); });
+      ForRuns(begin, end, [&](std::size_t first, std::size_t pixels) { sumRun(first, pixels, run, sums.data()); });
     });
 }
 

@@ -123,15 +123,13 @@ VarianceFit::FindTrimmed() const
   {
     ForBlocks(m_Data.pixels, m_ParallelFor, [&](std::size_t begin, std::size_t end) {
       Run run{};
-      for (std::size_t first = begin; first < end; first += Run::MostPixels)
-      {
-        const std::size_t pixels = std::min(Run::MostPixels, end - first);
+      ForRuns(begin, end, [&](std::size_t first, std::size_t pixels) {
         this->WeighRun(first, pixels, run);
         for (std::size_t i = 0; i < pixels; ++i)
         {
           trimmed[first + i] = m_Data.mask[first + i] != 0 && !(run.weight[i] > 0.0) ? 1 : 0;
         }
-      }
+      });
     });
   }
   return trimmed;
@@ -160,14 +158,9 @@ VarianceFit::CurveAbout(const VarianceLine & line) const
   };
   const auto s = SumBlocks<std::tuple_size_v<SumsOfBins>>(
     m_Data.pixels, m_ParallelFor, [&](std::size_t begin, std::size_t end, SumsOfBins & sums) {
-      Run     run{};
-      KeptRun kept{};
-      for (std::size_t first = begin; first < end; first += Run::MostPixels)
-      {
-        const std::size_t pixels = std::min(Run::MostPixels, end - first);
-        this->KeepRun(first, pixels, m_Data.mask, run, kept);
+      this->ForKept(begin, end, m_Data.mask, [&](std::size_t first, std::size_t pixels, const KeptRun & kept) {
         sumRun(first, pixels, kept, sums);
-      }
+      });
     });
   VarianceCurve curve{ line, {} };
   for (std::size_t b = 0; b < VarianceCurve::Bins; ++b)
@@ -179,19 +172,6 @@ VarianceFit::CurveAbout(const VarianceLine & line) const
     }
   }
   return curve;
-}
-
-VarianceLine
-FitVarianceLine(const VarianceData &                data,
-                const ParallelFor &                 parallelFor,
-                const std::optional<VarianceLine> & start,
-                int                                 iterations,
-                TrimRule                            rule)
-{
-  VarianceFit fit(data, parallelFor, start, rule);
-  fit.Iterate(iterations);
-  fit.FillErrors();
-  return fit.GetLine();
 }
 
 } // namespace sensornoise

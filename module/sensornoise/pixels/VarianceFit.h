@@ -6,6 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/PixelRuns.h"
 #include "sensornoise/base/ValueRange.h"
 #include "sensornoise/base/WideVectors.h"
 #include "sensornoise/pixels/ChiSquareTrim.h"
@@ -119,12 +120,9 @@ private:
   /** What pixels that lie one after the other count for, of the mask or not: weighed together, in vectors. */
   struct Run
   {
-    static constexpr std::size_t MostPixels = 512;
-
-    std::array<double, MostPixels> weight;
-    std::array<double, MostPixels> value;
+    OfRun weight;
+    OfRun value;
   };
-  using OfRun = std::array<double, Run::MostPixels>;
 
   /** The same of those of a mask that are not trimmed, with their means above the pivot; at the others all is 0. */
   struct KeptRun
@@ -152,7 +150,7 @@ private:
     constexpr std::size_t lanes = 4; // each with sums of its own, which wait for none of the others
     WithWideVectors([&a, &b, &c, &sums, terms] {
       double own[VSums][lanes] = {};
-      for (std::size_t i = 0; i < Run::MostPixels; i += lanes)
+      for (std::size_t i = 0; i < PixelsPerRun; i += lanes)
       {
         for (std::size_t lane = 0; lane < lanes; ++lane)
         {
@@ -170,6 +168,19 @@ private:
     });
   }
 
+  /** Calls function(first, pixels, what is kept of them) for the runs of [begin, end). */
+  template <typename TFunction>
+  void
+  ForKept(std::size_t begin, std::size_t end, const std::uint8_t * mask, TFunction function) const
+  {
+    Run     run{};
+    KeptRun kept{};
+    ForRuns(begin, end, [&](std::size_t first, std::size_t pixels) {
+      this->KeepRun(first, pixels, mask, run, kept);
+      function(first, pixels, kept);
+    });
+  }
+
   /** The sums of terms(weight, mean above the pivot, variance) over the pixels of \a mask. For those that are trimmed
    * all three are 0, and so have to be the terms. */
   template <std::size_t VSums, typename TTerms>
@@ -177,13 +188,9 @@ private:
   SumTerms(const std::uint8_t * mask, TTerms terms) const
   {
     return SumBlocks<VSums>(m_Data.pixels, m_ParallelFor, [&](std::size_t begin, std::size_t end, auto & sums) {
-      Run     run{};
-      KeptRun kept{};
-      for (std::size_t first = begin; first < end; first += Run::MostPixels)
-      {
-        this->KeepRun(first, std::min(Run::MostPixels, end - first), mask, run, kept);
+      this->ForKept(begin, end, mask, [&](std::size_t, std::size_t, const KeptRun & kept) {
         AddTerms(kept.weight, kept.x, kept.value, terms, sums);
-      }
+      });
     });
   }
 
@@ -194,9 +201,7 @@ private:
   {
     TSums own = sums; // in registers, if they are few
     Run   run{};
-    for (std::size_t first = begin; first < end; first += Run::MostPixels)
-    {
-      const std::size_t pixels = std::min(Run::MostPixels, end - first);
+    ForRuns(begin, end, [&](std::size_t first, std::size_t pixels) {
       this->WeighRun(first, pixels, run);
       for (std::size_t i = 0; i < pixels; ++i)
       {
@@ -205,7 +210,7 @@ private:
           function(first + i, Weighed{ run.weight[i], run.value[i] }, own);
         }
       }
-    }
+    });
     sums = own;
   }
 
@@ -244,14 +249,6 @@ private:
   double                       m_ReachDn2{ 0.0 };
   double                       m_ReachBelowDn2{ 0.0 };
 };
-
-/** The line that fits the data, with its errors. */
-SensorNoise_EXPORT VarianceLine
-FitVarianceLine(const VarianceData &                data,
-                const ParallelFor &                 parallelFor,
-                const std::optional<VarianceLine> & start = std::nullopt,
-                int                                 iterations = 8,
-                TrimRule                            rule = TrimRule::Level);
 
 } // namespace sensornoise
 

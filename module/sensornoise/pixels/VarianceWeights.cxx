@@ -38,6 +38,14 @@ TakeWeights(const TNumbers & counts, std::size_t pixels, TNumbers & weights)
   }
 }
 
+/** Sets the numbers behind the first \a pixels of a run to 0, which add nothing. */
+template <typename... TNumbers>
+void
+ClearBehind(std::size_t pixels, TNumbers &... numbers)
+{
+  (std::fill(numbers.begin() + static_cast<std::ptrdiff_t>(pixels), numbers.end(), 0.0), ...);
+}
+
 /** The weight of a variance, half of whose degrees of freedom are given, where \a expected is due [1/DN^4]. */
 double
 WeightAt(const VarianceLine & line, double halfFreedom, double expected)
@@ -151,10 +159,7 @@ VarianceFit::KeepRun(std::size_t first, std::size_t pixels, const std::uint8_t *
       kept.value[i] = isKept ? value : 0.0;
     }
   });
-  for (OfRun * const numbers : { &kept.weight, &kept.x, &kept.value })
-  {
-    std::fill(numbers->begin() + static_cast<std::ptrdiff_t>(pixels), numbers->end(), 0.0);
-  }
+  ClearBehind(pixels, kept.weight, kept.x, kept.value);
 }
 
 std::vector<double>
@@ -210,10 +215,7 @@ VarianceFit::FindSpread(std::size_t first, std::size_t pixels, SpreadTerms & ter
       terms.chance[i] = weight > 0.0 ? chance : 0.0;
     }
   });
-  for (OfRun * const numbers : { &terms.weight, &terms.more, &terms.chance })
-  {
-    std::fill(numbers->begin() + static_cast<std::ptrdiff_t>(pixels), numbers->end(), 0.0);
-  }
+  ClearBehind(pixels, terms.weight, terms.more, terms.chance);
 }
 
 void
@@ -229,16 +231,15 @@ VarianceFit::SetNoiseSpread()
   };
   const auto   s = SumBlocks<Sums>(m_Data.pixels, m_ParallelFor, [&](std::size_t begin, std::size_t end, auto & sums) {
     SpreadTerms terms{};
-    for (std::size_t first = begin; first < end; first += Run::MostPixels)
-    {
-      this->FindSpread(first, std::min(Run::MostPixels, end - first), terms);
+    ForRuns(begin, end, [&](std::size_t first, std::size_t pixels) {
+      this->FindSpread(first, pixels, terms);
       AddTerms(
         terms.weight,
         terms.more,
         terms.chance,
         [](double weight, double more, double chance) { return std::array<double, Sums>{ weight, more, chance }; },
         sums);
-    }
+    });
   });
   const double spread = s[WWMore] / std::max(1e-300, s[WW]);
   m_Line.noiseSpreadDn4 = spread * s[WW] > InPixels.leastNoiseSpread * s[WWChance] ? spread : 0.0;

@@ -4,7 +4,6 @@
 
 #include "sensornoise/base/BoxSum.h"
 #include "sensornoise/base/FirstTouch.h"
-#include "sensornoise/base/WideVectors.h"
 #include "sensornoise/series/Constants.h"
 
 #include <algorithm>
@@ -109,14 +108,12 @@ SmoothedDerivative(const ReferenceFrame & frame, StencilIndex k, const ParallelF
   const std::size_t radius = InSeries.instrumentRadius;
   auto              smoothed = MakeMap<double>(frame.mean.size(), parallelFor);
   ForBoxBands(height, parallelFor, [&](std::size_t first, std::size_t last) {
-    WithWideVectors([&] {
-      BoxedRows once(DerivativeRows(frame, k), frame.geometry, radius, first, last);
-      BoxRows   twice(std::move(once), width, height, radius, first, last);
-      for (std::size_t y = first; y < last; ++y)
-      {
-        std::copy_n(twice.Next(), width, smoothed.data() + y * width);
-      }
-    });
+    BoxedRows once(DerivativeRows(frame, k), frame.geometry, radius, first, last);
+    BoxRows   twice(std::move(once), width, height, radius, first, last);
+    for (std::size_t y = first; y < last; ++y)
+    {
+      std::copy_n(twice.Next(), width, smoothed.data() + y * width);
+    }
   });
   return smoothed;
 }
@@ -160,17 +157,15 @@ InstrumentWeight(const ReferenceFrame &            frame,
   const double reachSide = 2.0 * static_cast<double>(reach) + 1.0;
   auto         weight = MakeMap<double>(mask.size(), parallelFor);
   ForBoxBands(height, parallelFor, [&](std::size_t first, std::size_t last) {
-    WithWideVectors([&] {
-      BoxRows completes(RowsOf(complete, width), width, height, reach, first, last);
-      BoxRows noises(noiseRows(), width, height, radius, first, last);
-      for (std::size_t y = first; y < last; ++y)
-      {
-        const double * const near = completes.Next();
-        std::transform(near, near + width, noises.Next(), weight.data() + y * width, [=](double whole, double smooth) {
-          return whole * (side * side / (reachSide * reachSide * smooth));
-        });
-      }
-    });
+    BoxRows completes(RowsOf(complete, width), width, height, reach, first, last);
+    BoxRows noises(noiseRows(), width, height, radius, first, last);
+    for (std::size_t y = first; y < last; ++y)
+    {
+      const double * const near = completes.Next();
+      std::transform(near, near + width, noises.Next(), weight.data() + y * width, [=](double whole, double smooth) {
+        return whole * (side * side / (reachSide * reachSide * smooth));
+      });
+    }
   });
   return weight;
 }

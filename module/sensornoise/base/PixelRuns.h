@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_base_PixelRuns_h
+#define sensornoise_base_PixelRuns_h
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace sensornoise
+{
+
+/** Pixels of a run, which are worked on at once, in vectors: what is made of them stays in the caches. */
+inline constexpr std::size_t PixelsPerRun = 512;
+
+/** A number of each pixel of a run. */
+using OfRun = std::array<double, PixelsPerRun>;
+
+/** Calls function(first, pixels) for the runs of the pixels [begin, end), one after the other. */
+template <typename TFunction>
+void
+ForRuns(std::size_t begin, std::size_t end, TFunction function)
+{
+  for (std::size_t first = begin; first < end; first += PixelsPerRun)
+  {
+    function(first, std::min(PixelsPerRun, end - first));
+  }
+}
+
+} // namespace sensornoise
+
+#endif
