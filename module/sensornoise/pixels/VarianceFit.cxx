@@ -21,6 +21,19 @@
 namespace sensornoise
 {
 
+namespace
+{
+ValueRange
+RangeOfFreedoms(const VarianceData & data, const ParallelFor & parallelFor)
+{
+  return RangeOverPixels(
+    data.pixels,
+    parallelFor,
+    [&data](std::size_t p) { return data.mask[p] != 0; },
+    [&data](std::size_t p) { return static_cast<double>(data.freedom[p]); });
+}
+} // namespace
+
 VarianceFit::VarianceFit(const VarianceData &                data,
                          const ParallelFor &                 parallelFor,
                          const std::optional<VarianceLine> & start,
@@ -28,7 +41,7 @@ VarianceFit::VarianceFit(const VarianceData &                data,
                          double                              blackDn)
   : m_Data(data)
   , m_ParallelFor(parallelFor)
-  , m_Freedoms(RangeOfMap(data.freedom, data.mask, data.pixels, parallelFor))
+  , m_Freedoms(RangeOfFreedoms(data, parallelFor))
   , m_Rule(rule)
   , m_BlackDn(blackDn)
 {
@@ -60,7 +73,7 @@ VarianceFit::VarianceFit(const VarianceData & data, const VarianceFit & ofSample
   : VarianceFit(ofSample)
 {
   m_Data = data;
-  m_Freedoms = RangeOfMap(data.freedom, data.mask, data.pixels, m_ParallelFor);
+  m_Freedoms = RangeOfFreedoms(data, m_ParallelFor);
 }
 
 ChiSquareTrim
