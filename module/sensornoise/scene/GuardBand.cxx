@@ -3,7 +3,6 @@
 #include "sensornoise/scene/GuardBand.h"
 
 #include "sensornoise/base/Stencils.h"
-#include "sensornoise/base/WideVectors.h"
 #include "sensornoise/scene/InnerBlocks.h"
 
 #include <algorithm>
@@ -77,7 +76,7 @@ FindGuardBand(const ReferenceFrame &   frame,
                              darkest,
                              sds };
   ForInnerBlocks(frame.geometry, parallelFor, [&](std::size_t begin, std::size_t end) {
-    WithWideVectors([&] { MarkGuarded(frame, model, guard, begin, end, guarded.data()); });
+    MarkGuarded(frame, model, guard, begin, end, guarded.data());
   });
   return guarded;
 }

@@ -6,6 +6,7 @@
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/Stencils.h"
+#include "sensornoise/base/WideVectors.h"
 
 #include <cstddef>
 
@@ -14,7 +15,9 @@ namespace sensornoise
 
 /** Calls function(begin, end) for blocks of the pixels of all rows but those next to the border, in any order and
  * possibly at the same time: there a stencil reads nothing behind the map, not even at the ends of the rows, where what
- * it gives is of no meaning. So loops over whole blocks need not ask, and become vectors. */
+ * it gives is of no meaning. So loops over whole blocks need not ask, and become vectors, for which they are compiled
+ * wide.
+ */
 template <typename TFunction>
 void
 ForInnerBlocks(const FrameGeometry & geometry, const ParallelFor & parallelFor, TFunction function)
@@ -23,7 +26,7 @@ ForInnerBlocks(const FrameGeometry & geometry, const ParallelFor & parallelFor, 
   {
     const std::size_t first = StencilMargin * geometry.width;
     ForBlocks(geometry.Pixels() - 2 * first, parallelFor, [&function, first](std::size_t begin, std::size_t end) {
-      function(first + begin, first + end);
+      WithWideVectors([&] { function(first + begin, first + end); });
     });
   }
 }

@@ -4,7 +4,6 @@
 
 #include "sensornoise/base/BoxSum.h"
 #include "sensornoise/base/Stencils.h"
-#include "sensornoise/base/WideVectors.h"
 #include "sensornoise/scene/Constants.h"
 #include "sensornoise/scene/InnerBlocks.h"
 
@@ -46,7 +45,7 @@ FindUnexplained(const ReferenceFrame & frame, const ProvisionalModel & model, co
 {
   std::vector<std::uint8_t> unexplained(frame.mean.size(), 0);
   ForInnerBlocks(frame.geometry, parallelFor, [&](std::size_t begin, std::size_t end) {
-    WithWideVectors([&] { MarkUnexplained(frame, model, begin, end, unexplained.data()); });
+    MarkUnexplained(frame, model, begin, end, unexplained.data());
   });
   const std::size_t         width = frame.geometry.width;
   const auto                rows = [&] { return RowsOf(unexplained, width); };

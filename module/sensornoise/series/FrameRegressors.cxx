@@ -4,7 +4,6 @@
 
 #include "sensornoise/base/Quantiles.h"
 #include "sensornoise/base/Stencils.h"
-#include "sensornoise/base/WideVectors.h"
 #include "sensornoise/scene/InnerBlocks.h"
 #include "sensornoise/series/Constants.h"
 
@@ -78,7 +77,7 @@ FrameRegressors::ClassifyPixels(const std::vector<std::uint8_t> & take, const Pa
     edge = values.empty() ? 0.0 : Quantile(values, edge);
   }
   ForInnerBlocks(m_Frame->geometry, parallelFor, [&](std::size_t begin, std::size_t end) {
-    WithWideVectors([&] { FillClasses(*m_Frame, m_Model, edges, take.data(), begin, end, m_ClassOf.data()); });
+    FillClasses(*m_Frame, m_Model, edges, take.data(), begin, end, m_ClassOf.data());
   });
   m_PixelsOfClass = SumBlocks<GradientClasses>(
     m_ClassOf.size(), parallelFor, [this](std::size_t begin, std::size_t end, auto & counts) {
