@@ -103,10 +103,10 @@ TemporalStatisticsImageFilter<TStack>::ProcessFrames(unsigned int,
                                                      SizeValueType,
                                                      SizeValueType count)
 {
-  const SizeValueType width = this->GetFrameRegion().GetSize(0);
-  const SizeValueType height = this->GetFrameRegion().GetSize(1);
-  this->GetParallelFor()(
-    height, [&](std::size_t y) { m_Moments.AddFrames(frames, width * height, count, y * width, (y + 1) * width); });
+  const SizeValueType pixels = this->GetFrameRegion().GetNumberOfPixels();
+  sensornoise::ForBlocks(pixels, this->GetParallelFor(), [&](std::size_t begin, std::size_t end) {
+    m_Moments.AddFrames(frames, pixels, count, begin, end);
+  });
   m_Moments.AdvanceFrames(count);
 }
 

@@ -91,12 +91,13 @@ public:
 
   /** Sum of the squared deviations of pixel \a p from its mean [DN^2].
    *
-   * With S = q n + r, the sum about the integer q is A = Q - q (S + r), exact; about the mean it is A - r^2/n. */
+   * With S = q n + r, the sum about the integer q is A = Q - q (S + r), exact; about the mean it is A - r^2/n. S / n is
+   * no integer by rounding: |S| <= 2^46 is further from the next multiple of n <= 2^31 than 2^-53 of it. */
   double
   GetSumOfSquaredDeviations(std::size_t p) const
   {
     const auto         n = static_cast<std::int64_t>(m_Frames);
-    const std::int64_t q = m_Sum[p] / n;
+    const auto         q = static_cast<std::int64_t>(static_cast<double>(m_Sum[p]) / static_cast<double>(n));
     const std::int64_t r = m_Sum[p] - q * n;
     const std::int64_t aboutQ = static_cast<std::int64_t>(m_SumOfSquares[p]) - q * (m_Sum[p] + r);
     return static_cast<double>(aboutQ) - static_cast<double>(r) * static_cast<double>(r) / static_cast<double>(n);
@@ -125,21 +126,8 @@ private:
   // Only unsigned 16-bit values need to be shifted to fit a signed 16-bit number.
   static constexpr std::int32_t Centre = std::is_unsigned_v<TPixel> && sizeof(TPixel) == 2 ? 32768 : 0;
 
-  // A block's sums stay in the caches while all frames pass by. It is long enough for the processor to see, within a
-  // frame, what it will be asked for next: shorter ones wait for the memory.
-  static constexpr std::size_t BlockSize = 4096;
-
-  // As many frames as the block's 32-bit sums hold: |sum s| <= 2^15 2^15, and 2^14 pairs of squares' lower halves.
-  static constexpr std::size_t FramesPerFlush = 32768;
-
-  static std::int16_t
-  Shifted(TPixel value)
-  {
-    return static_cast<std::int16_t>(static_cast<std::int32_t>(value) - Centre);
-  }
-
   void
-  AddBlock(const TPixel * first, std::size_t stride, std::size_t frames, std::size_t block, std::size_t size);
+  AddBlock(const TPixel * first, std::size_t stride, std::size_t frames, std::size_t begin, std::size_t size);
 
   std::size_t                m_Frames{ 0 };
   std::vector<std::int64_t>  m_Sum;
