@@ -5,6 +5,7 @@
 #include "sensornoise/base/BinaryStream.h"
 #include "sensornoise/base/BytesFingerprint.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/WideVectors.h"
 #include "sensornoise/moments/ChosenFrames.h"
 #include "sensornoise/moments/TemporalMoments.h"
 
@@ -27,15 +28,23 @@ namespace sensornoise
 namespace
 {
 
-/** Sum of the finite ones of \a count pixels. */
+/** Sum of the finite ones of \a count pixels, at most those of a block of fingerprints: 32 bits hold that of integers.
+ */
 template <typename TPixel>
 double
 SumOfPixels(const TPixel * pixels, std::size_t count)
 {
   if constexpr (std::is_integral_v<TPixel>)
   {
-    using Sum = std::conditional_t<std::is_signed_v<TPixel>, std::int64_t, std::uint64_t>;
-    return static_cast<double>(std::accumulate(pixels, pixels + count, Sum{ 0 }));
+    static_assert(FingerprintBlockBytes <= 32768 && sizeof(TPixel) <= 2);
+    std::int32_t sum = 0;
+    WithWideVectors([&] {
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        sum += pixels[i];
+      }
+    });
+    return sum;
   }
   else
   {
