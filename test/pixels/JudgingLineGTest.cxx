@@ -95,7 +95,7 @@ struct Burst
     }
     basis = std::make_unique<TemporalBasis>(gamma, wave, wave.array().square().matrix());
     ProjectionSums sums(Pixels, basis->Size());
-    sums.AddFrames(*basis, stack.data(), 0, Frames, 0, Pixels);
+    sums.AddFrames(ProjectedFrames(*basis, stack.data(), Pixels, 0, Frames), 0, Pixels);
     model.interceptDn2 = 108.0;
     model.slopeDn = 0.4;
     model.darkestDn = BlackDn + 20.0;

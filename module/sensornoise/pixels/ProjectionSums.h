@@ -6,6 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/pixels/ProjectedFrames.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -17,24 +18,20 @@
 namespace sensornoise
 {
 
-class TemporalBasis;
-
 /** \class ProjectionSums
  * \brief The third pass: the sums over time of every pixel with each series of a TemporalBasis.
  *
  * With moments and these sums, the residual sum of squares of any pixel about any of the series follows without reading
- * the stack again (estimator.md, 6). For integer pixels they are exact integers, held in doubles: they are below 2^53
- * for up to 2^34 frames (the series have the norm 2^20, and a pixel's values one of at most 2^16 times the root of the
- * frames), so frames may be added and parts merged in any order, with the same bits. Floating-point frames are added
- * one by one in time order.
+ * the stack again (estimator.md, 6). For integer pixels they are exact, see ProjectedFrames, so frames may be added and
+ * parts merged in any order, with the same bits. Floating-point frames are added one by one in time order.
  *
  * Memory: 8 bytes a pixel and series, in slabs that can be given back one by one. Of a large frame the sums of some
  * slabs can be made by themselves. */
 class SensorNoise_EXPORT ProjectionSums
 {
 public:
-  /** Pixels whose sums with one series lie side by side; those of a block stay in the first-level cache. */
-  static constexpr std::size_t BlockPixels = 256;
+  /** Pixels whose sums with one series lie side by side. */
+  static constexpr std::size_t BlockPixels = ProjectedFrames<float>::BlockPixels;
   /** Pixels of a slab. Set by hand: with one series it has 4 MiB, which the system takes back at once. */
   static constexpr std::size_t SlabPixels = std::size_t{ 1 } << 19;
 
@@ -74,16 +71,11 @@ public:
     m_Slabs[m_FirstSlab++].resize(0);
   }
 
-  /** Adds frames firstFrame ... firstFrame + count - 1, stored one after the other, for the pixels [begin, end), which
-   * must be held. Different ranges may be added at the same time. */
+  /** Adds frames of the same size, projected on the same number of series, for the pixels [begin, end), which must be
+   * held. Different ranges may be added at the same time. */
   template <typename TPixel>
   void
-  AddFrames(const TemporalBasis & basis,
-            const TPixel *        frames,
-            std::size_t           firstFrame,
-            std::size_t           count,
-            std::size_t           begin,
-            std::size_t           end);
+  AddFrames(const ProjectedFrames<TPixel> & frames, std::size_t begin, std::size_t end);
 
   /** Adds the sums of other frames of the same pixels. */
   void
@@ -116,23 +108,6 @@ public:
   }
 
 private:
-  /** Adds integers of at most 32 frames, in whole numbers: in any order the same sums. */
-  template <typename TPixel>
-  void
-  AddTogether(const TemporalBasis & basis,
-              const TPixel *        frames,
-              std::size_t           firstFrame,
-              std::size_t           count,
-              std::size_t           begin,
-              std::size_t           end);
-  template <typename TPixel>
-  void
-  AddOneByOne(const TemporalBasis & basis,
-              const TPixel *        frames,
-              std::size_t           firstFrame,
-              std::size_t           count,
-              std::size_t           begin,
-              std::size_t           end);
   std::size_t
   IndexInSlab(std::size_t p, std::size_t j) const
   {
@@ -147,25 +122,15 @@ private:
 };
 
 extern template SensorNoise_EXPORT void
-ProjectionSums::AddFrames(const TemporalBasis &,
-                          const unsigned char *,
-                          std::size_t,
-                          std::size_t,
-                          std::size_t,
-                          std::size_t);
+ProjectionSums::AddFrames(const ProjectedFrames<unsigned char> &, std::size_t, std::size_t);
 extern template SensorNoise_EXPORT void
-ProjectionSums::AddFrames(const TemporalBasis &,
-                          const unsigned short *,
-                          std::size_t,
-                          std::size_t,
-                          std::size_t,
-                          std::size_t);
+ProjectionSums::AddFrames(const ProjectedFrames<unsigned short> &, std::size_t, std::size_t);
 extern template SensorNoise_EXPORT void
-ProjectionSums::AddFrames(const TemporalBasis &, const short *, std::size_t, std::size_t, std::size_t, std::size_t);
+ProjectionSums::AddFrames(const ProjectedFrames<short> &, std::size_t, std::size_t);
 extern template SensorNoise_EXPORT void
-ProjectionSums::AddFrames(const TemporalBasis &, const float *, std::size_t, std::size_t, std::size_t, std::size_t);
+ProjectionSums::AddFrames(const ProjectedFrames<float> &, std::size_t, std::size_t);
 extern template SensorNoise_EXPORT void
-ProjectionSums::AddFrames(const TemporalBasis &, const double *, std::size_t, std::size_t, std::size_t, std::size_t);
+ProjectionSums::AddFrames(const ProjectedFrames<double> &, std::size_t, std::size_t);
 
 } // namespace sensornoise
 

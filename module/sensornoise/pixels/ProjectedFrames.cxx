@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/pixels/ProjectedFrames.h"
+
+#include "sensornoise/base/Prefetch.h"
+#include "sensornoise/series/TemporalBasis.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** Frames of integers that are added together. */
+constexpr std::size_t MostTogether = 2 * FramePairs::MostPairs;
+
+/** What is taken off a value, so that 16 bits with a sign hold it. */
+template <typename TPixel>
+constexpr int Middle = std::is_same_v<TPixel, unsigned short> ? 32768 : 0;
+
+/** Takes the values of \a pixels pixels; where the number of frames is odd, the last is its own partner. */
+template <typename TPixel>
+void
+TakePairs(const TPixel * frames, std::size_t stride, std::size_t count, std::size_t pixels, FramePairs & pairs)
+{
+  for (std::size_t k = 0; 2 * k < count; ++k)
+  {
+    const TPixel * first = frames + 2 * k * stride;
+    const TPixel * second = 2 * k + 1 < count ? first + stride : first;
+    std::int16_t * pair = pairs.values[k];
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      pair[2 * i] = static_cast<std::int16_t>(first[i] - Middle<TPixel>);
+      pair[2 * i + 1] = static_cast<std::int16_t>(second[i] - Middle<TPixel>);
+    }
+    std::fill(pair + 2 * pixels, pair + 2 * FramePairs::Padded(pixels), std::int16_t{ 0 });
+  }
+}
+} // namespace
+
+template <typename TPixel>
+ProjectedFrames<TPixel>::ProjectedFrames(const TemporalBasis & basis,
+                                         const TPixel *        frames,
+                                         std::size_t           framePixels,
+                                         std::size_t           firstFrame,
+                                         std::size_t           count)
+  : m_Basis(&basis)
+  , m_Frames(frames)
+  , m_FramePixels(framePixels)
+  , m_First(firstFrame)
+  , m_Count(count)
+{
+  for (std::size_t t = 0; std::is_integral_v<TPixel> && t < count; t += MostTogether)
+  {
+    std::vector<Weights> & weights = m_Weights.emplace_back();
+    for (std::size_t j = 0; j < basis.Size(); ++j)
+    {
+      weights.push_back(this->WeightsOf(j, firstFrame + t, std::min(MostTogether, count - t)));
+    }
+  }
+}
+
+template <typename TPixel>
+auto
+ProjectedFrames<TPixel>::WeightsOf(std::size_t series, std::size_t first, std::size_t count) const -> Weights
+{
+  Weights weights;
+  for (std::size_t t = 0; t < count; t += 2)
+  {
+    const double own = m_Basis->Rounded(first + t, series);
+    const double partner = t + 1 < count ? m_Basis->Rounded(first + t + 1, series) : 0.0;
+    weights.pairs.emplace_back(own, partner);
+    weights.ofMiddle += Middle<TPixel> * (own + partner);
+  }
+  return weights;
+}
+
+template <typename TPixel>
+void
+ProjectedFrames<TPixel>::AddTo(double * sums, std::size_t begin, std::size_t end, bool isLast, const double * next)
+  const
+{
+  if constexpr (std::is_integral_v<TPixel>)
+  {
+    this->AddTogether(sums, begin, end, isLast, next);
+  }
+  else
+  {
+    this->AddOneByOne(sums, begin, end);
+  }
+}
+
+template <typename TPixel>
+void
+ProjectedFrames<TPixel>::AddTogether(double *       sums,
+                                     std::size_t    begin,
+                                     std::size_t    end,
+                                     bool           isLast,
+                                     const double * next) const
+{
+  const std::size_t series = m_Basis->Size();
+  FramePairs        values{};
+  for (std::size_t n = 0; n < m_Weights.size(); ++n)
+  {
+    const TPixel * const frames = m_Frames + n * MostTogether * m_FramePixels;
+    const std::size_t    count = std::min(MostTogether, m_Count - n * MostTogether);
+    TakePairs(frames + begin, m_FramePixels, count, end - begin, values);
+    for (std::size_t j = 0; j < series; ++j)
+    {
+      for (std::size_t t = j; !isLast && t < count; t += series)
+      {
+        PrefetchValues(frames + t * m_FramePixels + end, BlockPixels);
+      }
+      if (n == 0 && next != nullptr)
+      {
+        PrefetchValues(next + j * BlockPixels, BlockPixels);
+      }
+      const Weights & weights = m_Weights[n][j];
+      AddPairProducts(values, weights.pairs, weights.ofMiddle, end - begin, sums + j * BlockPixels);
+    }
+  }
+}
+
+template <typename TPixel>
+void
+ProjectedFrames<TPixel>::AddOneByOne(double * sums, std::size_t begin, std::size_t end) const
+{
+  for (std::size_t t = 0; t < m_Count; ++t)
+  {
+    double values[BlockPixels];
+    std::copy(m_Frames + t * m_FramePixels + begin, m_Frames + t * m_FramePixels + end, values);
+    for (std::size_t j = 0; j < m_Basis->Size(); ++j)
+    {
+      const double   weight = m_Basis->Rounded(m_First + t, j);
+      double * const sum = sums + j * BlockPixels;
+      for (std::size_t i = 0; i < end - begin; ++i)
+      {
+        sum[i] += weight * values[i];
+      }
+    }
+  }
+}
+
+template class ProjectedFrames<unsigned char>;
+template class ProjectedFrames<unsigned short>;
+template class ProjectedFrames<short>;
+template class ProjectedFrames<float>;
+template class ProjectedFrames<double>;
+
+} // namespace sensornoise
