@@ -93,7 +93,8 @@ TEST(SensorNoiseFrameSums, ClassSumsEqualBruteForce)
 
 TEST(SensorNoiseFrameSums, ClassGramsEqualBruteForce)
 {
-  const FrameSums              sums = Frames().EmptySums();
+  FrameSums sums = Frames().EmptySums();
+  sums.EndFrames(SerialFor);
   std::vector<Eigen::MatrixXd> gram(GradientClasses, Eigen::MatrixXd::Zero(FrameColumns, FrameColumns));
   std::vector<std::size_t>     count(GradientClasses, 0);
   for (std::size_t p = 0; p < Frames().Pixels(); ++p)
@@ -179,7 +180,8 @@ TEST(SensorNoiseFrameSums, CellsPartTheWholeFrame)
 
 TEST(SensorNoiseFrameSums, RougherClassesHaveLargerGradients)
 {
-  const FrameSums     sums = Frames().EmptySums();
+  FrameSums sums = Frames().EmptySums();
+  sums.EndFrames(SerialFor);
   std::vector<double> energy; // mean of w (x^2 + y^2)
   for (std::size_t c = 0; c < GradientClasses; ++c)
   {
@@ -216,12 +218,14 @@ TEST(SensorNoiseFrameSums, MergedPartsHaveTheWholesBits)
   PartOf(0, 3).Save(stream);
   FrameSums restored = Frames().EmptySums();
   restored.Restore(stream);
+  restored.EndFrames(Threads(2));
   ExpectSameBits(restored, PartOf(0, 3));
   merged.Merge(restored.GetProducts());
   merged.Merge(PartOf(1, 3).GetProducts());
   ExpectSameBits(merged, expected);
   FrameSums none = Frames().EmptySums(); // a process that adds no frame
   none.Merge(expected.GetProducts());
+  none.EndFrames(SerialFor);
   ExpectSameBits(none, expected);
 }
 

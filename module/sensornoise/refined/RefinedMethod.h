@@ -94,7 +94,7 @@ public:
   {
     if (m_FrameSums)
     {
-      m_FrameSums->ReleaseInstruments();
+      m_FrameSums->EndFrames(m_ParallelFor);
       ReleaseNeighbourMean(m_Scene->frame);
     }
   }

@@ -72,10 +72,25 @@ FrameSums::FrameSums(FrameRegressors regressors, const ParallelFor & parallelFor
   , m_Products(this->GetFrame().mean.size(), this->GetFrame().frames, m_CellRows * m_CellsPerRow)
   , m_ClassGram(GradientClasses, ClassMatrix::Zero())
   , m_InstrumentGram(Eigen::Matrix<double, Instruments, FrameColumns>::Zero())
-  , m_Cells(m_CellRows * m_CellsPerRow)
 {
-  this->SumColumns(parallelFor);
   this->SumInstruments(parallelFor);
+}
+
+void
+FrameSums::EndFrames(const ParallelFor & parallelFor)
+{
+  if (!m_HasColumns) // no frame has been added here
+  {
+    std::vector<ColumnSums> columns = this->StartColumns();
+    parallelFor(m_CellRows, [&](std::size_t cellRow) {
+      RegressorBand band(m_Regressors, m_CellsPerRow);
+      ForBands(this->GetFrame().geometry, cellRow, m_CellRows, band, [&] {
+        this->AddColumns(band, cellRow, columns[cellRow]);
+      });
+    });
+    this->TakeColumns(columns);
+  }
+  m_Regressors.ReleaseInstruments();
 }
 
 template <typename TPixel>
@@ -89,44 +104,56 @@ FrameSums::AddFrames(const TPixel * frames, std::size_t first, std::size_t count
   }
 }
 
-/** What needs no frame: the weighted columns times the columns' own values. */
-void
-FrameSums::SumColumns(const ParallelFor & parallelFor)
+/** For every cell row, unless they are there already. */
+std::vector<FrameSums::ColumnSums>
+FrameSums::StartColumns()
 {
-  std::vector<std::array<ClassColumns, FrameColumns>> parts(m_CellRows);
-  parallelFor(m_CellRows, [&](std::size_t cellRow) {
-    Cell * const  cells = m_Cells.data() + cellRow * m_CellsPerRow;
-    RegressorBand band(m_Regressors, m_CellsPerRow);
-    ForBands(this->GetFrame().geometry, cellRow, m_CellRows, band, [&] {
-      for (const RegressorBand::Group & group : band.GetGroups())
-      {
-        cells[group.cell].pixels += group.end - group.begin;
-      }
-      for (std::size_t first = 0; first < FrameColumns; first += RegressorBand::Together)
-      {
-        AddToClasses(band,
-                     band.MultiplyByValues(first),
-                     std::min(RegressorBand::Together, FrameColumns - first),
-                     &parts[cellRow][first],
-                     [&](std::size_t cell, std::size_t k, double w, double wI) {
-                       cells[cell].sum[first + k] += w;
-                       cells[cell].sumI[first + k] += wI;
-                     });
-      }
-    });
-  });
-  for (const auto & part : parts)
+  if (m_HasColumns)
+  {
+    return {};
+  }
+  m_Cells.assign(m_CellRows * m_CellsPerRow, Cell());
+  return std::vector<ColumnSums>(m_CellRows);
+}
+
+/** What needs no frame: a band's weighted columns times the columns' own values. */
+void
+FrameSums::AddColumns(RegressorBand & band, std::size_t cellRow, ColumnSums & columns)
+{
+  Cell * const cells = m_Cells.data() + cellRow * m_CellsPerRow;
+  for (const RegressorBand::Group & group : band.GetGroups())
+  {
+    cells[group.cell].pixels += group.end - group.begin;
+  }
+  for (std::size_t first = 0; first < FrameColumns; first += RegressorBand::Together)
+  {
+    AddToClasses(band,
+                 band.MultiplyByValues(first),
+                 std::min(RegressorBand::Together, FrameColumns - first),
+                 &columns[first],
+                 [&](std::size_t cell, std::size_t k, double w, double wI) {
+                   cells[cell].sum[first + k] += w;
+                   cells[cell].sumI[first + k] += wI;
+                 });
+  }
+}
+
+void
+FrameSums::TakeColumns(const std::vector<ColumnSums> & ofCellRows)
+{
+  for (const ColumnSums & columns : ofCellRows)
   {
     for (std::size_t k = 0; k < FrameColumns; ++k)
     {
       const auto column = static_cast<Eigen::Index>(k);
       for (std::size_t c = 0; c < GradientClasses; ++c)
       {
-        m_ClassGram[c].col(column) += Eigen::Map<const ColumnVector>(part[k][c].data());
-        m_InstrumentGram.col(column) += Eigen::Map<const Eigen::Vector2d>(part[k][c].data() + FrameColumns);
+        m_ClassGram[c].col(column) += Eigen::Map<const ColumnVector>(columns[k][c].data());
+        m_InstrumentGram.col(column) += Eigen::Map<const Eigen::Vector2d>(columns[k][c].data() + FrameColumns);
       }
     }
   }
+  m_HasColumns = true;
 }
 
 /** Noise is a line of the level: sums with 1 and with the level give what any line does to the instruments. */
@@ -155,9 +182,14 @@ void
 FrameSums::AddBatch(const TPixel * frames, std::size_t first, std::size_t count, const ParallelFor & parallelFor)
 {
   std::vector<std::vector<ClassColumns>> parts(m_CellRows, std::vector<ClassColumns>(count));
+  std::vector<ColumnSums>                columns = this->StartColumns();
   parallelFor(m_CellRows, [&](std::size_t cellRow) {
     RegressorBand band(m_Regressors, m_CellsPerRow);
     ForBands(this->GetFrame().geometry, cellRow, m_CellRows, band, [&] {
+      if (!columns.empty()) // the band need not be made again for them
+      {
+        this->AddColumns(band, cellRow, columns[cellRow]);
+      }
       const double * const mean = this->GetFrame().mean.data() + band.First();
       for (std::size_t t = 0; t < count; t += RegressorBand::Together)
       {
@@ -185,6 +217,10 @@ FrameSums::AddBatch(const TPixel * frames, std::size_t first, std::size_t count,
       }
     });
   });
+  if (!columns.empty())
+  {
+    this->TakeColumns(columns);
+  }
   for (const std::vector<ClassColumns> & part : parts)
   {
     for (std::size_t t = 0; t < count; ++t)

@@ -19,6 +19,8 @@
 namespace sensornoise
 {
 
+class RegressorBand;
+
 /** Sums of what noise of variance V does to the instruments: of w V, and of z z' V, z the instruments with their
  * weights. */
 struct InstrumentNoise
@@ -40,7 +42,7 @@ struct InstrumentNoise
  *
  * A frame's sums are made row by row in bands of a fixed height: they do not depend on the chunks or the threads.
  * Sums of different frames are separate numbers, so parts of a stack are merged with the same bits. What needs no frame
- * is made by the constructor. Memory: 16 kB a frame. */
+ * is made together with the first frames, or by EndFrames(). Memory: 16 kB a frame. */
 class SensorNoise_EXPORT FrameSums
 {
 public:
@@ -104,12 +106,10 @@ public:
   {
     return m_Regressors.GetFrame();
   }
-  /** Gives the memory of the instruments back, when all frames have been added. */
+  /** All frames have been added: gives the memory of the instruments back. Before it, there may be no cells and no
+   * Grams. */
   void
-  ReleaseInstruments()
-  {
-    m_Regressors.ReleaseInstruments();
-  }
+  EndFrames(const ParallelFor & parallelFor);
   /** For the variance V = \a intercept + \a gain mean. */
   InstrumentNoise
   NoiseOfInstruments(double gain, double intercept) const
@@ -150,8 +150,15 @@ public:
   }
 
 private:
+  /** Of a cell row: the sums of every column's weighted values times the values of each. */
+  using ColumnSums = std::array<std::array<FrameRegressors::WeightedColumns, GradientClasses>, FrameColumns>;
+
+  std::vector<ColumnSums>
+  StartColumns();
   void
-  SumColumns(const ParallelFor & parallelFor);
+  AddColumns(RegressorBand & band, std::size_t cellRow, ColumnSums & columns);
+  void
+  TakeColumns(const std::vector<ColumnSums> & ofCellRows);
   void
   SumInstruments(const ParallelFor & parallelFor);
 
@@ -164,6 +171,7 @@ private:
   std::size_t     m_CellsPerRow;
 
   FrameProducts                                    m_Products;
+  bool                                             m_HasColumns{ false }; // the next three are there
   std::vector<ClassMatrix>                         m_ClassGram;
   Eigen::Matrix<double, Instruments, FrameColumns> m_InstrumentGram;
   std::vector<Cell>                                m_Cells;
