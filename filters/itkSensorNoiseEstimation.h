@@ -33,6 +33,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <istream>
@@ -83,13 +84,13 @@ struct SensorNoiseEstimation
   std::vector<DarkMapsPointer> dark{}; ///< of each plane; null: fewer than two frames
 
   /** The method that has the \a settings, before its first pass. A memory limit is that of all planes. \a parallelFor
-   * has \a threads threads. \a mayTakeTurns: see MosaicMethod::LetRowsTakeTurns(). */
+   * has \a threads threads. \a sumsStay: no sums are saved or merged, which needs less memory. */
   static SensorNoiseEstimation
   Start(const Settings &                 settings,
         const SensorNoiseStack &         stack,
         const sensornoise::ParallelFor & parallelFor,
         std::size_t                      threads,
-        bool                             mayTakeTurns)
+        bool                             sumsStay)
   {
     const auto start = [&](const auto & ofStack) -> decltype(method) {
       constexpr bool isRefined = std::is_same_v<decltype(ofStack), const sensornoise::RefinedSettings &>;
@@ -106,7 +107,15 @@ struct SensorNoiseEstimation
         };
       if (!stack.mosaic)
       {
-        return make(0, stack.frame, stack.mask, parallelFor);
+        OfFrame ofFrame = make(0, stack.frame, stack.mask, parallelFor);
+        if constexpr (isRefined)
+        {
+          if (sumsStay)
+          {
+            ofFrame.LetSumsStay();
+          }
+        }
+        return ofFrame;
       }
       const sensornoise::MosaicGeometry & planes = stack.mosaic->geometry;
       if constexpr (isRefined)
@@ -117,9 +126,12 @@ struct SensorNoiseEstimation
         return make(static_cast<std::size_t>(plane), planes.Plane(), planes.Take(stack.mask, plane), spread);
       };
       sensornoise::MosaicMethod<TPixel, OfFrame> ofMosaic(planes, makeOfPlane, parallelFor, threads);
-      if (mayTakeTurns)
+      if constexpr (isRefined)
       {
-        ofMosaic.LetRowsTakeTurns({});
+        if (sumsStay && std::isinf(ofStack.memoryLimitBytes))
+        {
+          ofMosaic.LetRowsTakeTurns({});
+        }
       }
       return ofMosaic;
     };

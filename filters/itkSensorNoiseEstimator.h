@@ -242,8 +242,8 @@ public:
 
   /** Most memory that the estimate may take beside one chunk of a stack that is not in memory [bytes] (Refined only).
    * 0 (default): as much as it needs, 56 bytes a pixel of a frame and 8 more for each series of light and motion that
-   * is found. With less the stack is read more often, with the same result; less than 64 bytes a pixel, 20 kB a frame
-   * and 32 MiB is refused. */
+   * is found. With less the stack is read more often, with the same result, unless it is in memory and no mosaic, which
+   * needs no more than that; less than 64 bytes a pixel, 20 kB a frame and 32 MiB is refused. */
   itkSetMacro(MemoryLimit, SizeValueType);
   itkGetConstMacro(MemoryLimit, SizeValueType);
 
@@ -484,6 +484,12 @@ protected:
   GenerateNthInputRequestedRegion(unsigned int number) override;
   void
   StartPasses() override;
+  /** All: what is made anew of the pixels for each piece, and their sums, then need not be. */
+  SizeValueType
+  BytesAtOnce() const override
+  {
+    return NumericTraits<SizeValueType>::max();
+  }
   void
   ProcessFrames(unsigned int pass, const PixelType * frames, SizeValueType first, SizeValueType count) override;
   void
@@ -496,9 +502,9 @@ protected:
 private:
   friend class SensorNoiseSums<TStack>; // goes through the passes itself
 
-  /** \a mayTakeTurns: the rows of a mosaic may be projected one after the other, MosaicMethod::LetRowsTakeTurns(). */
+  /** \a sumsStay: no sums are saved or merged. */
   void
-  StartEstimation(bool mayTakeTurns);
+  StartEstimation(bool sumsStay);
 
   // The six maps of the dark frames stand after the others.
   static constexpr DataObjectPointerArraySizeType FirstPixelOutput = 5;

@@ -152,12 +152,12 @@ template <typename TStack>
 void
 SensorNoiseEstimator<TStack>::StartPasses()
 {
-  this->StartEstimation(m_MemoryLimit == 0);
+  this->StartEstimation(true);
 }
 
 template <typename TStack>
 void
-SensorNoiseEstimator<TStack>::StartEstimation(bool mayTakeTurns)
+SensorNoiseEstimator<TStack>::StartEstimation(bool sumsStay)
 {
   const auto       size = this->GetFrameRegion().GetSize();
   SensorNoiseStack stack{ { size[0], size[1], m_ShutterAxis }, this->GetNumberOfFrames(), {}, {}, {} };
@@ -175,7 +175,7 @@ SensorNoiseEstimator<TStack>::StartEstimation(bool mayTakeTurns)
   const auto settings = m_Method == MethodEnum::Refined ? typename Work::Settings(this->MakeRefinedSettings())
                                                         : typename Work::Settings(this->MakePublishedSettings());
   m_Estimation = std::make_unique<Estimation>(
-    Estimation{ Work::Start(settings, stack, this->GetParallelFor(), this->GetNumberOfThreads(), mayTakeTurns) });
+    Estimation{ Work::Start(settings, stack, this->GetParallelFor(), this->GetNumberOfThreads(), sumsStay) });
 }
 
 template <typename TStack>

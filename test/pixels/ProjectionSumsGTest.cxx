@@ -3,6 +3,9 @@
 #include "sensornoise/pixels/ProjectionSums.h"
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/moments/IntegerMoments.h"
+#include "sensornoise/moments/TemporalMoments.h"
+#include "sensornoise/pixels/ResidualSquares.h"
+#include "sensornoise/scene/ReferenceFrame.h"
 #include "sensornoise/series/TemporalBasis.h"
 
 #include <algorithm>
@@ -68,9 +71,10 @@ SumsOf(const std::vector<TPixel> & stack, std::size_t first, std::size_t last, s
   ProjectionSums sums(Pixels, Series);
   for (std::size_t t = first; t < last; t += chunk)
   {
-    const std::size_t count = std::min(chunk, last - t);
-    sums.AddFrames(Basis(), stack.data() + t * Pixels, t, count, 100, Pixels);
-    sums.AddFrames(Basis(), stack.data() + t * Pixels, t, count, 0, 100);
+    const std::size_t     count = std::min(chunk, last - t);
+    const ProjectedFrames frames(Basis(), stack.data() + t * Pixels, Pixels, t, count);
+    sums.AddFrames(frames, 100, Pixels);
+    sums.AddFrames(frames, 0, 100);
   }
   return sums;
 }
@@ -182,6 +186,35 @@ TEST(SensorNoiseProjectionSums, ResidualSquaresOfMergedChunksAreTheWholes)
   EXPECT_GT(*std::min_element(whole.begin(), whole.end()), 0.0);
 }
 
+TYPED_TEST(SensorNoiseProjectionSumsOf, AllFramesAtOnceHaveTheResidualSquaresOfTheirSums)
+{
+  constexpr std::size_t      light = 2;
+  const auto                 stack = Stack<TypeParam>();
+  TemporalMoments<TypeParam> moments(Pixels);
+  ReferenceFrame             frame;
+  frame.frames = Frames;
+  moments.AddFrames(stack.data(), Pixels, Frames, 0, Pixels);
+  moments.AdvanceFrames(Frames);
+  for (std::size_t p = 0; p < Pixels; ++p)
+  {
+    frame.mean.push_back(moments.GetMean(p));
+    frame.variance.push_back(moments.GetVariance(p));
+  }
+  ProjectionSums  sums = SumsOf(stack, 0, Frames);
+  ResidualSquares expected;
+  AppendResidualSquares(frame, Basis(), sums, true, SerialFor, expected);
+
+  ProjectionSums        kept(Pixels, light);
+  const ProjectedFrames frames(Basis(), stack.data(), Pixels, 0, Frames);
+  const ResidualSquares squares = MakeResidualSquares(frame, Basis(), frames, kept, SerialFor);
+  EXPECT_EQ(squares.rss, expected.rss);
+  EXPECT_EQ(squares.skew, expected.skew);
+  for (std::size_t i = 0; i < Pixels * light; ++i)
+  {
+    ASSERT_EQ(kept.At(i / light, i % light), sums.At(i / light, i % light)) << i;
+  }
+}
+
 TYPED_TEST(SensorNoiseProjectionSumsOf, ManyFramesOfTheLargestProductsAreExact)
 {
   // Two series of frames that are as far from 0 as possible, and pixels at either end of their range.
@@ -203,7 +236,7 @@ TYPED_TEST(SensorNoiseProjectionSumsOf, ManyFramesOfTheLargestProductsAreExact)
       stack[i] = p % 3 == 0 ? Limits::max() : p % 3 == 1 ? Limits::lowest() : static_cast<TypeParam>(i * 2654435761U);
     }
     ProjectionSums sums(Pixels, 2);
-    sums.AddFrames(basis, stack.data(), 0, frames, 0, Pixels);
+    sums.AddFrames(ProjectedFrames(basis, stack.data(), Pixels, 0, frames), 0, Pixels);
     for (std::size_t i = 0; i < 2 * Pixels; ++i)
     {
       double sum = 0.0;
@@ -231,7 +264,7 @@ TEST(SensorNoiseProjectionSums, SlabsByThemselvesHaveTheBitsOfAllTogether)
   std::generate(stack.begin(), stack.end(), [&random] { return static_cast<unsigned short>(random()); });
   const auto sumsOf = [&](std::size_t firstSlab, std::size_t lastSlab) {
     ProjectionSums sums(pixels, Series, SerialFor, firstSlab, lastSlab);
-    sums.AddFrames(Basis(), stack.data(), 0, Frames, sums.FirstPixel(), sums.LastPixel());
+    sums.AddFrames(ProjectedFrames(Basis(), stack.data(), pixels, 0, Frames), sums.FirstPixel(), sums.LastPixel());
     return sums;
   };
   ASSERT_EQ(ProjectionSums::NumberOfSlabs(pixels), 3U);

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <random>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -75,6 +76,40 @@ MeasureWithin(const Stack<Codes> & stack, double bytes)
   return limited;
 }
 
+/** With sums that stay, and as little memory as there may be. The third pass is given all frames together, which it is
+ * told to forget, and then \a atOnce at a time. */
+Limited
+MeasureWithSumsThatStay(const Stack<Codes> & stack, std::size_t atOnce)
+{
+  RefinedSettings settings = WithCodes();
+  settings.memoryLimitBytes = MemoryNeed{ Width * Height, Frames }.Least();
+  Limited limited{ RefinedMethod<Codes>(settings, GeometryOf(stack), Frames, {}, Threads(2)) };
+  limited.method.LetSumsStay();
+  for (; !limited.method.IsDone(); ++limited.passes)
+  {
+    limited.method.AddFrames(stack.Frame(0), Frames);
+    if (limited.passes == 2)
+    {
+      limited.method.ForgetSums();
+      for (std::size_t t = 0; t < Frames; t += atOnce)
+      {
+        limited.method.AddFrames(stack.Frame(t), atOnce);
+      }
+    }
+    limited.method.EndPass();
+  }
+  return limited;
+}
+
+void
+ExpectSameBits(const Limited & a, const Limited & b)
+{
+  EXPECT_EQ(ToJson(a.method.GetReport()), ToJson(b.method.GetReport()));
+  EXPECT_TRUE(HaveSameBits(a.method.GetMean(), b.method.GetMean()));
+  EXPECT_TRUE(HaveSameBits(a.method.GetCorrectedVariance(), b.method.GetCorrectedVariance()));
+  EXPECT_TRUE(HaveSameBits(a.method.GetPixelUse(), b.method.GetPixelUse()));
+}
+
 class SensorNoiseMemoryLimit : public ::testing::TestWithParam<bool>
 {};
 } // namespace
@@ -87,15 +122,39 @@ TEST_P(SensorNoiseMemoryLimit, ReadsMoreOftenAndChangesNoBit)
   EXPECT_EQ(HasWarning(free.method.GetReport(), WarningCode::LocalLight), this->GetParam());
   const Limited limited = MeasureWithin(stack, MemoryNeed{ Width * Height, Frames }.Least());
   EXPECT_GT(limited.passes, this->GetParam() ? 4U : 3U); // one for the light alone
-  EXPECT_EQ(ToJson(limited.method.GetReport()), ToJson(free.method.GetReport()));
-  EXPECT_TRUE(HaveSameBits(limited.method.GetMean(), free.method.GetMean()));
-  EXPECT_TRUE(HaveSameBits(limited.method.GetCorrectedVariance(), free.method.GetCorrectedVariance()));
-  EXPECT_TRUE(HaveSameBits(limited.method.GetPixelUse(), free.method.GetPixelUse()));
+  ExpectSameBits(limited, free);
+}
+
+TEST_P(SensorNoiseMemoryLimit, AllFramesAtOnceNeedNoSumsAndNoMorePasses)
+{
+  const Stack<Codes> stack = FramesOf(this->GetParam());
+  const Limited      free = MeasureWithin(stack, std::numeric_limits<double>::infinity());
+  const Limited      atOnce = MeasureWithSumsThatStay(stack, Frames);
+  EXPECT_EQ(atOnce.passes, 3U);
+  ExpectSameBits(atOnce, free);
+  const Limited inHalves = MeasureWithSumsThatStay(stack, Frames / 2);
+  EXPECT_GT(inHalves.passes, this->GetParam() ? 4U : 3U);
+  ExpectSameBits(inHalves, free);
 }
 
 INSTANTIATE_TEST_SUITE_P(Light, SensorNoiseMemoryLimit, ::testing::Bool(), [](const auto & light) {
   return light.param ? "Local" : "Common";
 });
+
+TEST(SensorNoiseMemoryLimit, SumsThatStayAreNotSavedOrMerged)
+{
+  const Stack<Codes>   stack = FramesOf(false);
+  RefinedMethod<Codes> method(WithCodes(), GeometryOf(stack), Frames, {}, Threads(2));
+  method.LetSumsStay();
+  std::stringstream sums;
+  for (int pass = 0; pass < 2; ++pass)
+  {
+    method.AddFrames(stack.Frame(0), Frames);
+    EXPECT_NO_THROW(method.SaveSums(sums));
+    method.EndPass();
+  }
+  EXPECT_THROW(method.SaveSums(sums), std::logic_error);
+}
 
 TEST(SensorNoiseMemoryLimit, BelowTheLeastIsRefused)
 {

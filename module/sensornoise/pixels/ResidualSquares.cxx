@@ -5,6 +5,7 @@
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/FirstTouch.h"
 #include "sensornoise/base/WideVectors.h"
+#include "sensornoise/pixels/ProjectedFrames.h"
 #include "sensornoise/pixels/ProjectionSums.h"
 #include "sensornoise/scene/ReferenceFrame.h"
 #include "sensornoise/series/TemporalBasis.h"
@@ -20,37 +21,53 @@ namespace
 {
 constexpr std::size_t BlockPixels = ProjectionSums::BlockPixels;
 
-/** The squares of the pixels of a block, whose \a coordinates on each series lie side by side. */
-void
-FillSquares(const std::vector<double> & factors, // of the coordinates in the skew
-            double                      freedom,
-            const double *              coordinates,
-            const double *              variance,
-            std::size_t                 pixels,
-            double *                    rss,
-            float *                     skew)
+/** \class SquaresOfBlocks
+ * \brief Fills the squares of the pixels of a block from its coordinates, those on each series side by side. */
+class SquaresOfBlocks
 {
-  WithWideVectors([&] {
-    double squares[BlockPixels]; // no pointer can point into them
-    float  skews[BlockPixels] = {};
-    for (std::size_t i = 0; i < pixels; ++i)
-    {
-      squares[i] = freedom * variance[i];
-    }
-    for (std::size_t j = 0; j < factors.size(); ++j)
-    {
-      const double * const own = coordinates + j * BlockPixels;
-      const double         factor = factors[j];
+public:
+  SquaresOfBlocks(const ReferenceFrame & frame, const TemporalBasis & basis, ResidualSquares & squares)
+    : m_Variance(frame.variance.data())
+    , m_Squares(squares)
+    , m_Freedom(static_cast<double>(frame.frames - 1))
+  {
+    const Eigen::MatrixXd & q = basis.GetBasis();
+    const Eigen::VectorXd   skew = q.transpose() * q.cwiseAbs2().rowwise().sum();
+    m_Factors.assign(skew.data(), skew.data() + skew.size());
+  }
+
+  void
+  Fill(const double * coordinates, std::size_t first, std::size_t pixels) const
+  {
+    WithWideVectors([&] {
+      double               squares[BlockPixels]; // no pointer can point into them
+      float                skews[BlockPixels] = {};
+      const double * const variance = m_Variance + first;
       for (std::size_t i = 0; i < pixels; ++i)
       {
-        squares[i] -= own[i] * own[i];
-        skews[i] += static_cast<float>(factor * own[i]);
+        squares[i] = m_Freedom * variance[i];
       }
-    }
-    std::copy_n(squares, pixels, rss);
-    std::copy_n(skews, pixels, skew);
-  });
-}
+      for (std::size_t j = 0; j < m_Factors.size(); ++j)
+      {
+        const double * const own = coordinates + j * BlockPixels;
+        const double         factor = m_Factors[j];
+        for (std::size_t i = 0; i < pixels; ++i)
+        {
+          squares[i] -= own[i] * own[i];
+          skews[i] += static_cast<float>(factor * own[i]);
+        }
+      }
+      std::copy_n(squares, pixels, m_Squares.rss.data() + first);
+      std::copy_n(skews, pixels, m_Squares.skew.data() + first);
+    });
+  }
+
+private:
+  const double *      m_Variance;
+  ResidualSquares &   m_Squares;
+  double              m_Freedom;
+  std::vector<double> m_Factors; // of the coordinates in the skew
+};
 } // namespace
 
 void
@@ -61,38 +78,20 @@ AppendResidualSquares(const ReferenceFrame & frame,
                       const ParallelFor &    parallelFor,
                       ResidualSquares &      squares)
 {
-  const Eigen::MatrixXd &   q = basis.GetBasis();
-  const Eigen::VectorXd     skew = q.transpose() * q.cwiseAbs2().rowwise().sum();
-  const std::vector<double> factors(skew.data(), skew.data() + skew.size());
-  const auto                freedom = static_cast<double>(frame.frames - 1);
+  const SquaresOfBlocks blocks(frame, basis, squares);
   squares.rss.reserve(frame.mean.size());
   squares.skew.reserve(frame.mean.size());
   const auto append = [&](std::size_t firstPixel, std::size_t lastPixel) {
     GrowMap(squares.rss, lastPixel, parallelFor);
     GrowMap(squares.skew, lastPixel, parallelFor);
     ForBlocks(lastPixel - firstPixel, parallelFor, [&](std::size_t begin, std::size_t end) {
-      std::vector<double> copy(BlockPixels * basis.Size()); // what is given back is not written to
       end += firstPixel;
       for (std::size_t first = begin + firstPixel; first < end; first += BlockPixels)
       {
         const std::size_t pixels = std::min(BlockPixels, end - first);
-        double *          own = copy.data();
-        if (basis.Size() > 0 && keepCoordinates)
-        {
-          own = &sums.At(first, 0);
-        }
-        else if (basis.Size() > 0)
-        {
-          std::copy_n(&sums.At(first, 0), copy.size(), own);
-        }
+        double * const    own = basis.Size() > 0 ? &sums.At(first, 0) : nullptr;
         basis.ToCoordinates(own, BlockPixels, frame.mean.data() + first, pixels);
-        FillSquares(factors,
-                    freedom,
-                    own,
-                    frame.variance.data() + first,
-                    pixels,
-                    squares.rss.data() + first,
-                    squares.skew.data() + first);
+        blocks.Fill(own, first, pixels);
       }
     });
   };
@@ -106,5 +105,65 @@ AppendResidualSquares(const ReferenceFrame & frame,
     }
   }
 }
+
+template <typename TPixel>
+ResidualSquares
+MakeResidualSquares(const ReferenceFrame &          frame,
+                    const TemporalBasis &           basis,
+                    const ProjectedFrames<TPixel> & frames,
+                    ProjectionSums &                coordinates,
+                    const ParallelFor &             parallelFor)
+{
+  const std::size_t     pixels = frame.mean.size();
+  ResidualSquares       squares{ MakeMap<double>(pixels, parallelFor), MakeMap<float>(pixels, parallelFor) };
+  const SquaresOfBlocks blocks(frame, basis, squares);
+  ForBlocks(pixels, parallelFor, [&](std::size_t begin, std::size_t end) {
+    std::vector<double> sums(basis.Size() * BlockPixels);
+    for (std::size_t first = begin; first < end; first += BlockPixels)
+    {
+      const std::size_t last = std::min(end, first + BlockPixels);
+      std::fill(sums.begin(), sums.end(), 0.0);
+      frames.AddTo(sums.data(), first, last, last == end);
+      basis.ToCoordinates(sums.data(), BlockPixels, frame.mean.data() + first, last - first);
+      blocks.Fill(sums.data(), first, last - first);
+      for (std::size_t j = 0; j < coordinates.GetNumberOfSeries(); ++j)
+      {
+        std::copy_n(sums.data() + j * BlockPixels, last - first, &coordinates.At(first, j));
+      }
+    }
+  });
+  return squares;
+}
+
+template SensorNoise_EXPORT ResidualSquares
+MakeResidualSquares(const ReferenceFrame &,
+                    const TemporalBasis &,
+                    const ProjectedFrames<unsigned char> &,
+                    ProjectionSums &,
+                    const ParallelFor &);
+template SensorNoise_EXPORT ResidualSquares
+MakeResidualSquares(const ReferenceFrame &,
+                    const TemporalBasis &,
+                    const ProjectedFrames<unsigned short> &,
+                    ProjectionSums &,
+                    const ParallelFor &);
+template SensorNoise_EXPORT ResidualSquares
+MakeResidualSquares(const ReferenceFrame &,
+                    const TemporalBasis &,
+                    const ProjectedFrames<short> &,
+                    ProjectionSums &,
+                    const ParallelFor &);
+template SensorNoise_EXPORT ResidualSquares
+MakeResidualSquares(const ReferenceFrame &,
+                    const TemporalBasis &,
+                    const ProjectedFrames<float> &,
+                    ProjectionSums &,
+                    const ParallelFor &);
+template SensorNoise_EXPORT ResidualSquares
+MakeResidualSquares(const ReferenceFrame &,
+                    const TemporalBasis &,
+                    const ProjectedFrames<double> &,
+                    ProjectionSums &,
+                    const ParallelFor &);
 
 } // namespace sensornoise

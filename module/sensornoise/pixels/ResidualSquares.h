@@ -13,6 +13,8 @@ namespace sensornoise
 
 class ProjectionSums;
 class TemporalBasis;
+template <typename TPixel>
+class ProjectedFrames;
 struct ReferenceFrame;
 
 /** What is left of every pixel's squared deviations when the series of a basis are taken out of its time series: all
@@ -33,6 +35,47 @@ AppendResidualSquares(const ReferenceFrame & frame,
                       bool                   keepCoordinates,
                       const ParallelFor &    parallelFor,
                       ResidualSquares &      squares);
+
+/** The squares of all pixels, with the same bits, from \a frames that are all of a stack: no sums are held but those of
+ * the blocks at work. \a coordinates, of as many of the first series as it has, are filled. */
+template <typename TPixel>
+ResidualSquares
+MakeResidualSquares(const ReferenceFrame &          frame,
+                    const TemporalBasis &           basis,
+                    const ProjectedFrames<TPixel> & frames,
+                    ProjectionSums &                coordinates,
+                    const ParallelFor &             parallelFor);
+
+extern template SensorNoise_EXPORT ResidualSquares
+MakeResidualSquares(const ReferenceFrame &,
+                    const TemporalBasis &,
+                    const ProjectedFrames<unsigned char> &,
+                    ProjectionSums &,
+                    const ParallelFor &);
+extern template SensorNoise_EXPORT ResidualSquares
+MakeResidualSquares(const ReferenceFrame &,
+                    const TemporalBasis &,
+                    const ProjectedFrames<unsigned short> &,
+                    ProjectionSums &,
+                    const ParallelFor &);
+extern template SensorNoise_EXPORT ResidualSquares
+MakeResidualSquares(const ReferenceFrame &,
+                    const TemporalBasis &,
+                    const ProjectedFrames<short> &,
+                    ProjectionSums &,
+                    const ParallelFor &);
+extern template SensorNoise_EXPORT ResidualSquares
+MakeResidualSquares(const ReferenceFrame &,
+                    const TemporalBasis &,
+                    const ProjectedFrames<float> &,
+                    ProjectionSums &,
+                    const ParallelFor &);
+extern template SensorNoise_EXPORT ResidualSquares
+MakeResidualSquares(const ReferenceFrame &,
+                    const TemporalBasis &,
+                    const ProjectedFrames<double> &,
+                    ProjectionSums &,
+                    const ParallelFor &);
 
 } // namespace sensornoise
 

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/refined/PixelProjections.h"
 
+#include "sensornoise/base/FreeMemory.h"
 #include "sensornoise/refined/MemoryNeed.h"
 #include "sensornoise/scene/ReferenceFrame.h"
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace sensornoise
@@ -14,15 +17,19 @@ namespace sensornoise
 PixelProjections::PixelProjections(const FrameGeometry & geometry,
                                    FrameSample           sample,
                                    TemporalBasis         basis,
-                                   std::size_t           slabsAtOnce,
+                                   const Options &       options,
                                    ParallelFor           parallelFor)
   : m_Geometry(geometry)
   , m_Basis(std::move(basis))
-  , m_SlabsAtOnce(slabsAtOnce)
+  , m_Options(options)
   , m_ParallelFor(std::move(parallelFor))
-  , m_Sums(this->SumsOfNextSlabs())
   , m_Sample(std::move(sample))
-{}
+{
+  if (!m_Options.sumsStay)
+  {
+    this->HoldSumsOfNextSlabs();
+  }
+}
 
 std::size_t
 PixelProjections::SlabsWithin(double bytes, std::size_t series)
@@ -31,12 +38,24 @@ PixelProjections::SlabsWithin(double bytes, std::size_t series)
   return static_cast<std::size_t>(std::clamp(bytes / slab, 1.0, 1e9)); // of no limit, too
 }
 
-ProjectionSums
-PixelProjections::SumsOfNextSlabs()
+void
+PixelProjections::HoldSumsOfNextSlabs()
 {
+  const std::size_t pixels = m_Geometry.Pixels();
+  const std::size_t series = m_Basis.Size();
   const std::size_t first = m_NextSlab;
-  m_NextSlab = std::min(ProjectionSums::NumberOfSlabs(m_Geometry.Pixels()), first + m_SlabsAtOnce);
-  return ProjectionSums(m_Geometry.Pixels(), m_Basis.Size(), m_ParallelFor, first, m_NextSlab);
+  m_NextSlab = std::min(ProjectionSums::NumberOfSlabs(pixels), first + m_Options.slabsAtOnce);
+  if (first == 0)
+  {
+    GiveBackFreedMemory(); // the most is needed from here on
+  }
+  if (m_NextSlab - first == ProjectionSums::NumberOfSlabs(pixels))
+  {
+    RequireMemory(MemoryNeed{ pixels, 0 }.OfProjections(series),
+                  "the projection of all pixels on " + std::to_string(series) +
+                    " series of light and motion (a memory limit parts it)");
+  }
+  m_Sums = ProjectionSums(pixels, series, m_ParallelFor, first, m_NextSlab);
 }
 
 template <typename TPixel>
@@ -46,20 +65,50 @@ PixelProjections::AddFrames(const TPixel *         frames,
                             std::size_t            count,
                             const ReferenceFrame & frame)
 {
-  const std::size_t first = m_Sums.FirstPixel();
-  ForBlocks(m_Sums.LastPixel() - first, m_ParallelFor, [&](std::size_t begin, std::size_t end) {
-    m_Sums.AddFrames(m_Basis, frames, firstFrame, count, first + begin, first + end);
-  });
+  const ProjectedFrames<TPixel> projected(m_Basis, frames, m_Geometry.Pixels(), firstFrame, count);
+  if (m_NextSlab == 0 && count == frame.frames)
+  {
+    this->ProjectAll(projected, frame);
+  }
+  else
+  {
+    if (m_NextSlab == 0)
+    {
+      this->HoldSumsOfNextSlabs();
+    }
+    const std::size_t first = m_Sums.FirstPixel();
+    ForBlocks(m_Sums.LastPixel() - first, m_ParallelFor, [&](std::size_t begin, std::size_t end) {
+      m_Sums.AddFrames(projected, first + begin, first + end);
+    });
+  }
   if (!m_HasSample)
   {
     m_Sample.AddFrames(frames, firstFrame, count, frame.mean, m_ParallelFor);
   }
 }
 
+template <typename TPixel>
+void
+PixelProjections::ProjectAll(const ProjectedFrames<TPixel> & frames, const ReferenceFrame & frame)
+{
+  ProjectionSums light(m_Geometry.Pixels(), m_Options.keepLight ? m_Basis.NumberOfLightFactors() : 0, m_ParallelFor);
+  m_Squares = MakeResidualSquares(frame, m_Basis, frames, light, m_ParallelFor);
+  if (m_Options.keepLight)
+  {
+    m_Coordinates = PixelCoordinates(std::move(light));
+  }
+  m_IsProjected = true;
+}
+
 void
 PixelProjections::Forget()
 {
   m_Sums.Clear(m_ParallelFor);
+  if (std::exchange(m_IsProjected, false))
+  {
+    m_Squares = {};
+    m_Coordinates = {};
+  }
   if (!m_HasSample)
   {
     m_Sample.Clear();
@@ -67,8 +116,18 @@ PixelProjections::Forget()
 }
 
 void
+PixelProjections::RequireShared() const
+{
+  if (m_Options.sumsStay)
+  {
+    throw std::logic_error("the sums of the third pass were to stay here; they are not saved or merged");
+  }
+}
+
+void
 PixelProjections::Save(std::ostream & out) const
 {
+  this->RequireShared();
   m_Sums.Save(out);
   if (!m_HasSample)
   {
@@ -79,6 +138,7 @@ PixelProjections::Save(std::ostream & out) const
 void
 PixelProjections::Merge(std::istream & in)
 {
+  this->RequireShared();
   ProjectionSums others = m_Sums;
   others.Restore(in);
   if (!m_HasSample)
@@ -91,20 +151,24 @@ PixelProjections::Merge(std::istream & in)
 }
 
 bool
-PixelProjections::EndPass(const ReferenceFrame & frame, bool keepForLight)
+PixelProjections::EndPass(const ReferenceFrame & frame)
 {
   m_HasSample = true;
+  if (m_IsProjected)
+  {
+    return true;
+  }
   const std::size_t pixels = m_Geometry.Pixels();
-  const bool        isWhole = m_Sums.FirstPixel() == 0 && m_Sums.LastPixel() == pixels;
-  AppendResidualSquares(frame, m_Basis, m_Sums, keepForLight && isWhole, m_ParallelFor, m_Squares);
-  if (keepForLight && isWhole)
+  const bool        keepAll = m_Options.keepLight && m_Sums.FirstPixel() == 0 && m_Sums.LastPixel() == pixels;
+  AppendResidualSquares(frame, m_Basis, m_Sums, keepAll, m_ParallelFor, m_Squares);
+  if (keepAll)
   {
     m_Coordinates = PixelCoordinates(std::move(m_Sums));
   }
   const bool isLast = m_Squares.rss.size() == pixels;
   if (!isLast)
   {
-    m_Sums = this->SumsOfNextSlabs();
+    this->HoldSumsOfNextSlabs();
   }
   return isLast;
 }
@@ -114,8 +178,8 @@ PixelProjections::StartLight()
 {
   m_Basis = m_Basis.OfLight();
   m_NextSlab = 0;
-  m_SlabsAtOnce = ProjectionSums::NumberOfSlabs(m_Geometry.Pixels());
-  m_Sums = this->SumsOfNextSlabs();
+  m_Options.slabsAtOnce = ProjectionSums::NumberOfSlabs(m_Geometry.Pixels());
+  this->HoldSumsOfNextSlabs();
 }
 
 void

@@ -26,17 +26,24 @@ struct ReferenceFrame;
  * \brief What the third pass gathers: the sums of every pixel with every series, and a sample of whole time series.
  *
  * Where the sums of all pixels at once are too large for the memory, the pass is repeated, each time for as many slabs
- * of pixels as fit; a last one, if the light is local, is for the series of light alone, of all pixels. Each pixel's
- * numbers have the same bits in either way. */
+ * of pixels as fit; a last one, if the light is local, is for the series of light alone, of all pixels. Where no other
+ * process adds to the sums, and all frames are added together, none are held: a block of pixels is projected at once.
+ * Each pixel's numbers have the same bits in every way. */
 class SensorNoise_EXPORT PixelProjections
 {
 public:
-  /** For frames of \a geometry, of which \a slabsAtOnce slabs (ProjectionSums) are projected in a pass; \a sample is
-   * to be filled in the first. */
+  struct Options
+  {
+    std::size_t slabsAtOnce{ 1 };   ///< slabs (ProjectionSums) that are projected in a pass
+    bool        keepLight{ false }; ///< the coordinates on the series of light are needed
+    bool        sumsStay{ false };  ///< no sums are saved or merged
+  };
+
+  /** For frames of \a geometry; \a sample is to be filled in the first pass. */
   PixelProjections(const FrameGeometry & geometry,
                    FrameSample           sample,
                    TemporalBasis         basis,
-                   std::size_t           slabsAtOnce,
+                   const Options &       options,
                    ParallelFor           parallelFor);
 
   /** The slabs of frames of \a pixels pixels that can be projected at once in \a bytes bytes: at least 1. */
@@ -59,17 +66,17 @@ public:
   void
   Forget();
 
-  /** Writes the sums of the current pass, see BinaryStream. */
+  /** Writes the sums of the current pass, see BinaryStream. Throws std::logic_error if sums stay. */
   void
   Save(std::ostream & out) const;
-  /** Adds the sums of other frames that another object saved in the same pass. */
+  /** Adds the sums of other frames that another object saved in the same pass. Throws std::logic_error if sums stay. */
   void
   Merge(std::istream & in);
 
   /** Ends a pass. Returns whether all pixels have been projected, else the next pass is for the slabs that follow. The
    * coordinates are given back, unless all pixels' were made in one pass and are to be kept for the light. */
   bool
-  EndPass(const ReferenceFrame & frame, bool keepForLight);
+  EndPass(const ReferenceFrame & frame);
 
   /** Whether the coordinates of all pixels on the series of light are there. */
   bool
@@ -101,14 +108,20 @@ public:
   }
 
 private:
-  ProjectionSums
-  SumsOfNextSlabs();
+  void
+  HoldSumsOfNextSlabs();
+  void
+  RequireShared() const;
+  template <typename TPixel>
+  void
+  ProjectAll(const ProjectedFrames<TPixel> & frames, const ReferenceFrame & frame);
 
   FrameGeometry    m_Geometry;
   TemporalBasis    m_Basis; // of the current pass
-  std::size_t      m_SlabsAtOnce;
+  Options          m_Options;
   ParallelFor      m_ParallelFor;
   std::size_t      m_NextSlab{ 0 };
+  bool             m_IsProjected{ false }; // all pixels, without sums
   ProjectionSums   m_Sums;
   FrameSample      m_Sample;
   bool             m_HasSample{ false };

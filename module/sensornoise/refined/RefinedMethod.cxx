@@ -241,20 +241,13 @@ RefinedMethod<TPixel>::EndFrameSums()
   }
   m_Series.emplace(FindSceneSeries(
     *m_FrameSums, m_Settings.rollingShutter, knownOffsetDn, BlackLevel(m_Settings, *m_Scene, std::nullopt)));
-  GiveBackFreedMemory(); // the most is needed from here on
   const MemoryNeed  need{ m_Geometry.Pixels(), m_Distinct.Count() };
-  const std::size_t series = m_Series->basis.Size();
   const double      left = m_Settings.memoryLimitBytes - need.BesideProjections();
-  if (std::isinf(left))
-  {
-    RequireMemory(need.OfProjections(series),
-                  "the projection of all pixels on " + std::to_string(series) +
-                    " series of light and motion (a memory limit parts it)");
-  }
+  const std::size_t slabs = PixelProjections::SlabsWithin(left, m_Series->basis.Size());
   m_Projections.emplace(m_Geometry,
                         FrameSample::Of<TPixel>(m_Geometry, m_Distinct.Count(), m_ParallelFor),
                         m_Series->basis,
-                        PixelProjections::SlabsWithin(left, series),
+                        PixelProjections::Options{ slabs, m_Series->local.series.cols() > 0, m_SumsStay },
                         m_ParallelFor);
 }
 
@@ -268,7 +261,7 @@ RefinedMethod<TPixel>::EndProjections()
   {
     m_Projections->EndLight(m_Scene->frame);
   }
-  else if (!m_Projections->EndPass(m_Scene->frame, isLightLocal))
+  else if (!m_Projections->EndPass(m_Scene->frame))
   {
     return false;
   }

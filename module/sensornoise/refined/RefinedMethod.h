@@ -75,6 +75,14 @@ public:
   static void
   RequireLimit(double limitBytes, const FrameGeometry & geometry, std::size_t frames, std::size_t planes);
 
+  /** No sums of the third pass are saved or merged: where all frames are added to it together, it needs no memory for
+   * them. To be told before it. */
+  void
+  LetSumsStay()
+  {
+    m_SumsStay = true;
+  }
+
   /** Whether the report is there. That is after NumberOfPasses passes, or more if RefinedSettings::memoryLimitBytes
    * asks for it: these read the stack once more, like the third. */
   bool
@@ -201,6 +209,7 @@ private:
   NoiseCorrelation                      m_Correlation;
   std::vector<double>                   m_CorrectedVariance;
   std::optional<const NothingToMeasure> m_Obstacle;
+  bool                                  m_SumsStay{ false };
   bool                                  m_IsDone{ false };
   Report                                m_Report;
 };
