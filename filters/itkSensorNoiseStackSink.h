@@ -22,6 +22,7 @@
 #include "sensornoise/base/Parallel.h"
 #include "itkImage.h"
 #include "itkImageSink.h"
+#include "itkSensorNoiseChunks.h"
 
 #include <chrono>
 #include <ostream>
@@ -38,8 +39,8 @@ namespace itk
  * the whole stack each time; still only the chunk asked for is handed on.
  *
  * An error, or an abort, resets the pipeline: the next Update() starts afresh, never from a partial result. An abort
- * takes effect within the time of a chunk, also if the stack is in memory, and between the passes: observers of
- * progress are asked before each piece of work, at most every 50 ms.
+ * takes effect within a moment, also if the stack is in memory, and between the passes: observers of progress are asked
+ * again and again while the threads work, at most every 50 ms.
  *
  * A subclass implements NumberOfPasses(), StartPasses(), ProcessFrames() and EndPass().
  *
@@ -124,7 +125,15 @@ protected:
   DropPasses()
   {}
 
-  /** Spreads work over this filter's threads. Throws ProcessAborted, before that, if an abort was asked for. */
+  /** Bytes of a stack in memory that ProcessFrames() is given at a time, whole frames. */
+  virtual SizeValueType
+  BytesAtOnce() const
+  {
+    return SensorNoisePieceBytes;
+  }
+
+  /** Spreads work over this filter's threads. Throws ProcessAborted, before that or in its midst, if an abort was asked
+   * for. */
   sensornoise::ParallelFor
   GetParallelFor();
   /** That it spreads work over. */
@@ -169,16 +178,18 @@ private:
   /** Gives the pixels of the chunk, which is there, to ProcessFrames(). */
   void
   ProcessChunk(unsigned int number);
-  /** Asks the observers of progress, unless they were asked a moment ago, and throws ProcessAborted if an abort is
-   * asked for. Does nothing on another thread than that of Update(). */
+  /** Tells the observers that the progress \a reached so much, unless they were told a moment ago, and throws
+   * ProcessAborted if an abort is asked for. Does nothing on another thread than that of Update(). */
   void
-  TakeBreath();
+  TakeBreath(float reached);
 
   unsigned int                          m_NumberOfStreamDivisions{ 0 };
   unsigned int                          m_Chunks{ 1 };
   StackRegionType                       m_Chunk;
   std::thread::id                       m_Thread; // of Update()
   std::chrono::steady_clock::time_point m_LastBreath{};
+  float                                 m_Reached{ 0.0F };     // the progress, at least
+  float                                 m_NextReached{ 0.0F }; // when the frames at work are done
 };
 
 // Instantiated once, in the library.

@@ -23,8 +23,10 @@
 #include "sensornoise/base/Parallel.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <exception>
 #include <functional>
 #include <ostream>
 #include <thread>
@@ -70,14 +72,51 @@ sensornoise::ParallelFor
 SensorNoiseStackSink<TStack>::GetParallelFor()
 {
   return [this](std::size_t count, const std::function<void(std::size_t)> & function) {
-    this->TakeBreath();
+    this->TakeBreath(m_Reached);
     if (count == 1)
     {
       function(0); // also of a function that runs in one of the threads already
       return;
     }
+    // How many calls make up a piece of work is not known: each is taken for half of what is left of it.
+    const bool         isOfUpdate = std::this_thread::get_id() == m_Thread;
+    const float        from = m_Reached;
+    const float        to = isOfUpdate ? 0.5F * (m_Reached + m_NextReached) : m_Reached;
+    const float        ofThread = static_cast<float>(this->GetNumberOfThreads()) / static_cast<float>(count);
+    std::exception_ptr aborted;
+    std::atomic<bool>  isAborted{ false };
     this->GetMultiThreader()->SetNumberOfWorkUnits(this->GetNumberOfWorkUnits());
-    this->GetMultiThreader()->ParallelizeArray(0, count, [&function](SizeValueType i) { function(i); }, nullptr);
+    this->GetMultiThreader()->ParallelizeArray(
+      0,
+      count,
+      [&](SizeValueType i) {
+        if (isAborted)
+        {
+          return;
+        }
+        function(i);
+        if (std::this_thread::get_id() == m_Thread) // the others must end before an exception leaves
+        {
+          try
+          {
+            this->TakeBreath(from + (to - from) * std::min(1.0F, static_cast<float>(i + 1) * ofThread));
+          }
+          catch (...)
+          {
+            aborted = std::current_exception();
+            isAborted = true;
+          }
+        }
+      },
+      nullptr);
+    if (aborted)
+    {
+      std::rethrow_exception(aborted);
+    }
+    if (isOfUpdate)
+    {
+      m_Reached = to;
+    }
   };
 }
 
@@ -90,7 +129,7 @@ SensorNoiseStackSink<TStack>::GetNumberOfThreads() const
 
 template <typename TStack>
 void
-SensorNoiseStackSink<TStack>::TakeBreath()
+SensorNoiseStackSink<TStack>::TakeBreath(float reached)
 {
   if (std::this_thread::get_id() != m_Thread)
   {
@@ -100,7 +139,7 @@ SensorNoiseStackSink<TStack>::TakeBreath()
   if (now - m_LastBreath >= std::chrono::milliseconds(50))
   {
     m_LastBreath = now;
-    this->InvokeEvent(ProgressEvent());
+    this->UpdateProgress(std::max(this->GetProgress(), reached)); // a pass that is repeated stands still
   }
   if (this->GetAbortGenerateData())
   {
@@ -180,6 +219,8 @@ SensorNoiseStackSink<TStack>::BeforeStreamedGenerateData()
 {
   m_Chunks = this->ChooseNumberOfChunks();
   m_Thread = std::this_thread::get_id();
+  m_Reached = 0.0F;
+  m_NextReached = 0.0F;
   Superclass::BeforeStreamedGenerateData();
   this->StartPasses();
 }
@@ -253,16 +294,20 @@ SensorNoiseStackSink<TStack>::ProcessChunk(unsigned int number)
     static_cast<SizeValueType>(m_Chunk.GetIndex(2) - stack->GetLargestPossibleRegion().GetIndex(2));
   const SizeValueType framePixels = this->GetFrameRegion().GetNumberOfPixels();
   const SizeValueType count = m_Chunk.GetSize(2);
-  const SizeValueType atOnce = SensorNoiseFramesPerChunk(framePixels * sizeof(PixelType), SensorNoisePieceBytes);
+  const SizeValueType atOnce = SensorNoiseFramesPerChunk(framePixels * sizeof(PixelType), this->BytesAtOnce());
   const PixelType *   frames = stack->GetBufferPointer() + stack->ComputeOffset(m_Chunk.GetIndex());
+  const auto          reachedAt = [&](SizeValueType frame) {
+    const auto done = static_cast<float>(std::min(frame, count)) / static_cast<float>(count);
+    return (static_cast<float>(number) + 0.99F * done) / static_cast<float>(this->GetNumberOfInputRequestedRegions());
+  };
   for (SizeValueType begin = 0; begin < count; begin += atOnce)
   {
-    this->TakeBreath();
+    m_Reached = reachedAt(begin);
+    m_NextReached = reachedAt(begin + atOnce);
+    this->TakeBreath(m_Reached);
     this->ProcessFrames(pass, frames + begin * framePixels, first + begin, std::min(atOnce, count - begin));
-    const auto done = static_cast<float>(std::min(begin + atOnce, count)) / static_cast<float>(count);
-    const auto share =
-      (static_cast<float>(number) + 0.99F * done) / static_cast<float>(this->GetNumberOfInputRequestedRegions());
-    this->UpdateProgress(std::max(this->GetProgress(), share)); // a pass that is repeated stands still
+    m_Reached = m_NextReached;
+    this->UpdateProgress(std::max(this->GetProgress(), m_Reached));
   }
 }
 
@@ -270,7 +315,7 @@ template <typename TStack>
 void
 SensorNoiseStackSink<TStack>::AfterStreamedGenerateData()
 {
-  this->TakeBreath();
+  this->TakeBreath(m_Reached);
   Superclass::AfterStreamedGenerateData();
 }
 
