@@ -65,7 +65,7 @@ IntensityIndex::Bins::Bins(const IntensityIndex & index, std::size_t bins)
 }
 
 double
-IntensityIndex::QuantileDn(double q) const
+IntensityIndex::QuantileDn(double q, const ParallelFor & parallelFor) const
 {
   if (this->Count() == 0)
   {
@@ -76,12 +76,18 @@ IntensityIndex::QuantileDn(double q) const
   const std::size_t   first = this->CellOfRank(below);
   const std::size_t   last = this->CellOfRank(std::min(below + 1, this->Count() - 1));
   std::vector<double> values;
-  for (std::size_t p = 0; p < m_Pixels; ++p)
+  for (const std::vector<double> &part :
+       PartsOfBlocks<std::vector<double>>(m_Pixels, parallelFor, [&](std::size_t begin, std::size_t end, auto & own) {
+         for (std::size_t p = begin; p < end; ++p)
+         {
+           if (m_Mask[p] != 0 && this->CellOf(m_Mean[p]) >= first && this->CellOf(m_Mean[p]) <= last)
+           {
+             own.push_back(m_Mean[p]);
+           }
+         }
+       }))
   {
-    if (m_Mask[p] != 0 && this->CellOf(m_Mean[p]) >= first && this->CellOf(m_Mean[p]) <= last)
-    {
-      values.push_back(m_Mean[p]);
-    }
+    values.insert(values.end(), part.begin(), part.end());
   }
   std::sort(values.begin(), values.end());
   const std::size_t rank = below - m_Cumulative[first];

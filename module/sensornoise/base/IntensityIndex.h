@@ -38,7 +38,7 @@ public:
 
   /** The quantile \a q (0 to 1) of the mean [DN]. */
   double
-  QuantileDn(double q) const;
+  QuantileDn(double q, const ParallelFor & parallelFor = SerialFor) const;
 
   /** The distance from \a levelDn within which the \a count nearest pixels lie [DN]. */
   double

@@ -27,6 +27,28 @@ ForRuns(std::size_t begin, std::size_t end, TFunction function)
   }
 }
 
+/** The sum of term(i) for i = 0 ... count - 1: in four lanes, which become vectors. */
+template <typename TTerm>
+double
+SumOfRun(std::size_t count, TTerm term)
+{
+  constexpr std::size_t lanes = 4;
+  double                sums[lanes] = {};
+  std::size_t           i = 0;
+  for (; i + lanes <= count; i += lanes)
+  {
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+    {
+      sums[lane] += term(i + lane);
+    }
+  }
+  for (; i < count; ++i)
+  {
+    sums[i % lanes] += term(i);
+  }
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+}
+
 } // namespace sensornoise
 
 #endif

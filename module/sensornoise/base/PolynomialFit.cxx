@@ -3,7 +3,9 @@
 #include "sensornoise/base/PolynomialFit.h"
 
 #include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/PixelRuns.h"
 #include "sensornoise/base/ValueRange.h"
+#include "sensornoise/base/WideVectors.h"
 
 #include <algorithm>
 #include <array>
@@ -30,6 +32,30 @@ struct NormalSums
   bool                                isSpread{ false }; // over more than one intensity
 };
 
+/** Mean and variance of the pixels of a run, 0 where they do not take part. */
+struct RegressionRun
+{
+  OfRun mean;
+  OfRun variance;
+  OfRun has; ///< not 0: takes part
+
+  void
+  Take(const RegressionData & data, std::size_t first, std::size_t count)
+  {
+    std::copy_n(data.mask + first, count, has.begin());
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const double level = data.mean[first + i];
+      const double own = data.variance[first + i];
+      const double inMask = has[i];
+      const double taken = own - own == 0.0 ? inMask : 0.0; // unlike std::isfinite(), a vector instruction
+      has[i] = taken;
+      mean[i] = taken != 0.0 ? level : 0.0;
+      variance[i] = taken != 0.0 ? own : 0.0;
+    }
+  }
+};
+
 /** Sums over all pixels; \a weight(mean) weighs a pixel. */
 template <int VDegree, typename TWeight>
 NormalSums<VDegree>
@@ -48,24 +74,28 @@ SumNormal(const RegressionData & data, const ParallelFor & parallelFor, TWeight 
   const double centre = 0.5 * (range.lowest + range.highest);
   const double scale = 0.5 * (range.highest - range.lowest);
   const auto   parts = PartsOfBlocks<Sums>(data.pixels, parallelFor, [&](auto begin, auto end, Sums & part) {
-    Sums own; // in registers
-    for (std::size_t p = begin; p < end; ++p)
-    {
-      if (data.Has(p))
-      {
-        const double x = (data.mean[p] - centre) / scale;
-        double       power = weight(data.mean[p]);
-        for (std::size_t k = 0; k < own.moments.size(); ++k, power *= x)
+    RegressionRun run{};
+    OfRun         power{};
+    ForRuns(begin, end, [&](std::size_t first, std::size_t count) {
+      WithWideVectors([&] {
+        run.Take(data, first, count);
+        for (std::size_t i = 0; i < count; ++i)
         {
-          own.moments[k] += power;
-          if (k < own.products.size())
-          {
-            own.products[k] += power * data.variance[p];
-          }
+          const double own = weight(run.mean[i]);
+          power[i] = run.has[i] != 0.0 ? own : 0.0;
+          run.mean[i] = (run.mean[i] - centre) / scale;
         }
-      }
-    }
-    part = own;
+        for (std::size_t k = 0; k < part.moments.size(); ++k)
+        {
+          part.moments[k] += SumOfRun(count, [&](std::size_t i) { return power[i]; });
+          if (k < part.products.size())
+          {
+            part.products[k] += SumOfRun(count, [&](std::size_t i) { return power[i] * run.variance[i]; });
+          }
+          std::transform(power.data(), power.data() + count, run.mean.data(), power.data(), std::multiplies<double>());
+        }
+      });
+    });
   });
   for (const Sums & part : parts)
   {
@@ -121,11 +151,7 @@ Solve(const NormalSums<VDegreeOfSums> & sums)
 }
 
 /** Of an ordinary regression. */
-double
-WeighAlike(double /*mean*/)
-{
-  return 1.0;
-}
+constexpr auto WeighAlike = [](double /*mean*/) { return 1.0; };
 
 } // namespace
 
@@ -158,8 +184,17 @@ JudgeLine(const RegressionData & data, const PolynomialFit & line, std::size_t f
   }
   const double relativeVariance = 2.0 / static_cast<double>(frames - 1);
   const auto   sumOf = [&](auto term) {
-    return SumOverBlocks<1>(data.pixels, parallelFor, [&](std::size_t p, auto & sum) {
-      sum[0] += data.Has(p) ? term(data.mean[p], data.variance[p]) : 0.0;
+    return SumBlocks<1>(data.pixels, parallelFor, [&](std::size_t begin, std::size_t end, auto & sum) {
+      RegressionRun run{};
+      ForRuns(begin, end, [&](std::size_t first, std::size_t count) {
+        WithWideVectors([&] {
+          run.Take(data, first, count);
+          sum[0] += SumOfRun(count, [&](std::size_t i) {
+            const double own = term(run.mean[i], run.variance[i]);
+            return run.has[i] != 0.0 ? own : 0.0;
+          });
+        });
+      });
     })[0];
   };
   const auto onLine = [&line](double mean) { return line.intercept + line.slope * mean; };

@@ -5,6 +5,7 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/PixelLayout.h"
 #include "sensornoise/published/FlickerEstimate.h"
 
@@ -36,7 +37,10 @@ namespace sensornoise
 class SensorNoise_EXPORT CorrectedVariance
 {
 public:
-  CorrectedVariance(const FlickerEstimate & flicker, const FrameGeometry & geometry, std::size_t frames);
+  CorrectedVariance(const FlickerEstimate & flicker,
+                    const FrameGeometry &   geometry,
+                    std::size_t             frames,
+                    const ParallelFor &     parallelFor = SerialFor);
 
   /** Adds \a count frames, of which the first is frame \a t, for the row \a y of the image. They stand in \a frames as
    * \a layout says. Rows may be added at the same time. */

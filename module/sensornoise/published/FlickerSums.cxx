@@ -3,6 +3,9 @@
 #include "sensornoise/published/FlickerSums.h"
 
 #include "sensornoise/base/BinaryStream.h"
+#include "sensornoise/base/PixelRuns.h"
+#include "sensornoise/base/Prefetch.h"
+#include "sensornoise/base/WideVectors.h"
 
 #include <algorithm>
 #include <array>
@@ -26,18 +29,39 @@ FlickerSums::WeightedPixels::WeightedPixels(const IsoIntensitySet & set, const d
   }
 }
 
+template <typename TPixel, typename TValue, typename TFunction>
+void
+FlickerSums::WeightedPixels::ForRunsOf(const TPixel * frame, TValue value, TFunction function) const
+{
+  ForRuns(0, pixels.size(), [&](std::size_t first, std::size_t count) {
+    OfRun             values{};
+    const std::size_t ahead = std::min(count, pixels.size() - first - count); // whose memory is asked for meanwhile
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      values[i] = static_cast<double>(frame[pixels[first + i]]);
+      if (i < ahead)
+      {
+        PrefetchValues(frame + pixels[first + count + i], 1);
+      }
+    }
+    WithWideVectors([&] {
+      std::transform(values.data(), values.data() + count, means.data() + first, values.data(), value);
+      function(first, count, values);
+    });
+  });
+}
+
 template <typename TPixel, typename TValue>
 void
 FlickerSums::WeightedPixels::Average(const TPixel * frame, TValue value, double & average, double & spread) const
 {
   average = 0.0;
   double squares = 0.0;
-  for (std::size_t i = 0; i < pixels.size(); ++i)
-  {
-    const double v = value(static_cast<double>(frame[pixels[i]]), means[i]);
-    average += weights[i] * v;
-    squares += weights[i] * v * v;
-  }
+  this->ForRunsOf(frame, value, [&](std::size_t first, std::size_t count, const OfRun & values) {
+    const double * const weight = weights.data() + first;
+    average += SumOfRun(count, [&](std::size_t i) { return weight[i] * values[i]; });
+    squares += SumOfRun(count, [&](std::size_t i) { return weight[i] * values[i] * values[i]; });
+  });
   spread = squares - average * average;
 }
 
@@ -101,10 +125,21 @@ FlickerSums::AddFrame(const TPixel * frame, std::size_t t)
   m_Dark.Average(frame, residual, m_DarkResiduals[t], m_DarkSpreads[t]);
 
   double * const rows = m_RowSums.data() + t * m_Rows;
-  for (std::size_t i = 0; i < m_RowSet.pixels.size(); ++i)
-  {
-    rows[m_RowOf[i]] += m_RowSet.weights[i] * ratio(static_cast<double>(frame[m_RowSet.pixels[i]]), m_RowSet.means[i]);
-  }
+  m_RowSet.ForRunsOf(frame, ratio, [&](std::size_t first, std::size_t count, const OfRun & values) {
+    std::size_t row = m_RowOf[first];
+    double      sum = rows[row]; // of the row of the pixels that come one after the other
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      if (m_RowOf[first + i] != row)
+      {
+        rows[row] = sum;
+        row = m_RowOf[first + i];
+        sum = rows[row];
+      }
+      sum += m_RowSet.weights[first + i] * values[i];
+    }
+    rows[row] = sum;
+  });
 }
 
 void

@@ -122,6 +122,12 @@ private:
   {
     WeightedPixels(const IsoIntensitySet & set, const double * mean);
 
+    /** Calls function(first, count, values) for the runs of pixels, one after the other, with their values: value(u,
+     * mean). */
+    template <typename TPixel, typename TValue, typename TFunction>
+    void
+    ForRunsOf(const TPixel * frame, TValue value, TFunction function) const;
+
     /** Weighted average and variance over the set of \a value(u, mean). */
     template <typename TPixel, typename TValue>
     void

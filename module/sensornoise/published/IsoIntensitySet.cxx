@@ -28,13 +28,14 @@ IsoIntensitySetFinder::IsoIntensitySetFinder(const double *       mean,
                                              const double *       variance,
                                              const std::uint8_t * mask,
                                              std::size_t          pixels,
-                                             std::size_t          frames)
+                                             std::size_t          frames,
+                                             const ParallelFor &  parallelFor)
   : m_Mean(mean)
   , m_Variance(variance)
   , m_Mask(mask)
   , m_Pixels(pixels)
   , m_Frames(frames)
-  , m_Index(mean, mask, pixels)
+  , m_Index(mean, mask, pixels, parallelFor)
 {
   if (m_Index.Count() < IsoIntensitySet::MinimumPixels)
   {

@@ -5,6 +5,7 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/IntensityIndex.h"
+#include "sensornoise/base/Parallel.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -56,7 +57,8 @@ public:
                         const double *       variance,
                         const std::uint8_t * mask,
                         std::size_t          pixels,
-                        std::size_t          frames);
+                        std::size_t          frames,
+                        const ParallelFor &  parallelFor = SerialFor);
 
   /** The set at \a quantile (0 to 1); where it is too small the quantile moves towards 1/2 (Remark 3). Throws
    * NothingToMeasure if no width of the band gives enough pixels. */

@@ -122,7 +122,7 @@ PublishedMethod<TPixel>::FinishPass(unsigned int pass)
   {
     m_Flicker = EstimateFlicker(*m_Sums, m_Scene.bright, m_Scene.dark, m_Settings.rollingShutter, m_Settings.sigmaRows);
     m_Sums.reset(); // their memory
-    m_Correction.emplace(m_Flicker, m_Geometry, m_Distinct.Count());
+    m_Correction.emplace(m_Flicker, m_Geometry, m_Distinct.Count(), m_ParallelFor);
   }
   else if (pass + 1 == Passes::NumberOfPasses)
   {

@@ -153,7 +153,8 @@ void
 FillNoise(Report &                  report,
           const PublishedFindings & found,
           const RegressionData &    corrected,
-          const PolynomialFit &     line)
+          const PolynomialFit &     line,
+          const ParallelFor &       parallelFor)
 {
   const PublishedScene &  scene = found.scene;
   const FlickerEstimate & flicker = found.flicker;
@@ -164,8 +165,8 @@ FillNoise(Report &                  report,
                 TextOfFaintFlicker(flicker.flickerZ) + ": a lamp that flickers more, or more frames, would help");
   }
   // The darkest mean bounds the offset (flux >= 0); being a mean of noise it may lie below it by some of its errors.
-  const IntensityIndex index(scene.mean.data(), scene.valid.data(), corrected.pixels);
-  const double         darkestDn = index.QuantileDn(0.001) + 3.0 * scene.dark.levelSdDn;
+  const IntensityIndex index(scene.mean.data(), scene.valid.data(), corrected.pixels, parallelFor);
+  const double         darkestDn = index.QuantileDn(0.001, parallelFor) + 3.0 * scene.dark.levelSdDn;
   FillNoiseParameters(report, line, isIdentified ? std::optional<double>(flicker.offsetDn) : std::nullopt, darkestDn);
 }
 
@@ -222,7 +223,7 @@ MakePublishedReport(const PublishedFindings & found, const ParallelFor & paralle
   const RegressionData raw{ scene.mean.data(), scene.variance.data(), scene.kept.data(), pixels };
   const PolynomialFit  line = FitLine(corrected, parallelFor);
   FillBaselines(report, raw, parallelFor);
-  FillNoise(report, found, corrected, line);
+  FillNoise(report, found, corrected, line, parallelFor);
   FillQuality(report, found, corrected, line, parallelFor);
   FillScatter(report, scene.mean, scene.variance, maps.variance, MaskOfUsed(maps.pixelUse), parallelFor);
   return report;

@@ -82,7 +82,7 @@ FindSets(PublishedScene &          scene,
   {
     RequireDistinctFrames(frames, scene.valid);
     const IsoIntensitySetFinder finder(
-      scene.mean.data(), scene.variance.data(), scene.kept.data(), scene.mean.size(), frames);
+      scene.mean.data(), scene.variance.data(), scene.kept.data(), scene.mean.size(), frames, parallelFor);
     ForAll(2, parallelFor, [&](std::size_t k) {
       (k == 0 ? scene.bright : scene.dark) = finder.Find(k == 0 ? settings.brightQuantile : settings.darkQuantile);
     });

@@ -3,10 +3,14 @@
 #include "sensornoise/published/VibrationCovariance.h"
 
 #include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/PixelRuns.h"
+#include "sensornoise/base/WideVectors.h"
 #include "sensornoise/published/VibrationMask.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 
 namespace sensornoise
@@ -78,32 +82,76 @@ FindScales(const Maps & maps, const ParallelFor & parallelFor)
   return scales;
 }
 
-/** The coefficients of the scaled columns 1, u, u^2, gx^2, gy^2, gx gy; none if the scene does not tell them apart. */
+/** \class ProductSums
+ * \brief Sums over pixels of the products of the scaled columns 1, u, u^2, gx^2, gy^2, gx gy, and of these with the
+ * variance: a run of pixels at a time, in vectors. */
+class ProductSums
+{
+public:
+  static constexpr std::size_t Columns = 7; // with the variance
+  using Products = std::array<double, Columns * Columns>;
+
+  explicit ProductSums(Products & products)
+    : m_Products(products)
+  {}
+
+  void
+  Add(double u, double gx, double gy, double variance)
+  {
+    const std::array<double, Columns> row{ 1.0, u, u * u, gx * gx, gy * gy, gx * gy, variance };
+    for (std::size_t k = 0; k < Columns; ++k)
+    {
+      m_Columns[k][m_Pixels] = row[k];
+    }
+    if (++m_Pixels == PixelsPerRun)
+    {
+      this->Fold();
+    }
+  }
+
+  /** Adds what is not yet in the products: those of each column with the next ones. */
+  void
+  Fold()
+  {
+    WithWideVectors([this] {
+      for (std::size_t j = 0; j < Columns; ++j)
+      {
+        for (std::size_t k = j; k < Columns; ++k)
+        {
+          const double * const one = m_Columns[j].data();
+          const double * const other = m_Columns[k].data();
+          m_Products[j * Columns + k] += SumOfRun(m_Pixels, [=](std::size_t i) { return one[i] * other[i]; });
+        }
+      }
+    });
+    m_Pixels = 0;
+  }
+
+private:
+  Products &                 m_Products;
+  std::array<OfRun, Columns> m_Columns{};
+  std::size_t                m_Pixels{ 0 };
+};
+
+/** The coefficients of the scaled columns; none if the scene does not tell them apart. */
 std::optional<Vector>
 FitCoefficients(const Maps & maps, const Scales & scales, const ParallelFor & parallelFor)
 {
-  constexpr std::size_t columns = 6;
-  // Row by row the products of each column with all of them, and with the variance.
-  const auto sums = SumBlocks<columns *(columns + 1)>(
-    maps.width * maps.height, parallelFor, [&](std::size_t begin, std::size_t end, auto & sum) {
+  constexpr std::size_t columns = ProductSums::Columns;
+  const auto            products = SumBlocks<columns * columns>(
+    maps.width * maps.height, parallelFor, [&](std::size_t begin, std::size_t end, ProductSums::Products & block) {
+      ProductSums sums(block);
       ForInnerPixels(maps, begin, end, [&](std::size_t p, const Gradient & gradient) {
-        const double u = maps.mean[p] / scales.mean;
-        const double gx = gradient.x / scales.gradient;
-        const double gy = gradient.y / scales.gradient;
-        const double row[columns + 1] = { 1.0, u, u * u, gx * gx, gy * gy, gx * gy, maps.variance[p] };
-        for (std::size_t i = 0; i < columns; ++i)
-        {
-          for (std::size_t j = 0; j <= columns; ++j)
-          {
-            sum[i * (columns + 1) + j] += row[i] * row[j];
-          }
-        }
+        sums.Add(
+          maps.mean[p] / scales.mean, gradient.x / scales.gradient, gradient.y / scales.gradient, maps.variance[p]);
       });
+      sums.Fold();
     });
-  const Eigen::Map<const Eigen::Matrix<double, 6, 7, Eigen::RowMajor>> products(sums.data());
-  const Matrix                                                         full = products.leftCols<6>();
-  const Vector                                                         right = products.rightCols<1>();
-  const Vector diagonal = full.diagonal().cwiseSqrt().cwiseMax(1e-300);
+  using Upper = Eigen::Matrix<double, columns, columns, Eigen::RowMajor>;
+  const Eigen::Map<const Upper> upper(products.data());
+  const Matrix                  full = upper.topLeftCorner<6, 6>().selfadjointView<Eigen::Upper>();
+  const Vector                  right = upper.rightCols<1>().head<6>();
+  const Vector                  diagonal = full.diagonal().cwiseSqrt().cwiseMax(1e-300);
   const Matrix scaled = diagonal.cwiseInverse().asDiagonal() * full * diagonal.cwiseInverse().asDiagonal();
   const Eigen::ColPivHouseholderQR<Matrix> solver(scaled);
   if (solver.rank() != 6)
