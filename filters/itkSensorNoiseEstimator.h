@@ -484,6 +484,8 @@ protected:
   GenerateNthInputRequestedRegion(unsigned int number) override;
   void
   StartPasses() override;
+  SizeValueType
+  ChunkBytes(unsigned int pass) const override;
   /** All: what is made anew of the pixels for each piece, and their sums, then need not be. */
   SizeValueType
   BytesAtOnce() const override

@@ -27,6 +27,7 @@
 #include <chrono>
 #include <ostream>
 #include <thread>
+#include <vector>
 
 namespace itk
 {
@@ -34,9 +35,10 @@ namespace itk
 /** \class SensorNoiseStackSink
  * \brief Reads a stack, an image whose last axis is time, in chunks of whole frames and as often as a subclass wants.
  *
- * The number of requested regions is passes x chunks. By default the number of chunks is chosen: one if the stack is in
- * memory already, else as many as keep a chunk under 32 MiB. Readers that cannot stream (NRRD, multi-page TIFF) give
- * the whole stack each time; still only the chunk asked for is handed on.
+ * The number of requested regions is that of all passes' chunks. By default their number is chosen: one if the stack is
+ * in memory already, else as many as keep a chunk under ChunkBytes(), 32 MiB unless a subclass can do with more.
+ * Readers that cannot stream (NRRD, multi-page TIFF) give the whole stack each time; still only the chunk asked for is
+ * handed on.
  *
  * An error, or an abort, resets the pipeline: the next Update() starts afresh, never from a partial result. An abort
  * takes effect within a moment, also if the stack is in memory, and between the passes: observers of progress are asked
@@ -125,6 +127,12 @@ protected:
   DropPasses()
   {}
 
+  /** Bytes of a chunk of a stack that is not in memory; of the first pass before StartPasses(), of all after it. */
+  virtual SizeValueType
+  ChunkBytes(unsigned int) const
+  {
+    return SensorNoiseChunkBytes;
+  }
   /** Bytes of a stack in memory that ProcessFrames() is given at a time, whole frames. */
   virtual SizeValueType
   BytesAtOnce() const
@@ -154,10 +162,7 @@ protected:
   }
 
   unsigned int
-  GetNumberOfInputRequestedRegions() override
-  {
-    return this->NumberOfPasses() * m_Chunks;
-  }
+  GetNumberOfInputRequestedRegions() override;
   void
   GenerateNthInputRequestedRegion(unsigned int number) override;
   void
@@ -173,8 +178,19 @@ protected:
   PrintSelf(std::ostream & os, Indent indent) const override;
 
 private:
+  /** Of a requested region: its pass, and its place among the pass's chunks. */
+  struct Place
+  {
+    unsigned int pass;
+    unsigned int chunk;
+    unsigned int chunks;
+  };
+  Place
+  PlaceOf(unsigned int number) const;
   unsigned int
-  ChooseNumberOfChunks() const;
+  ChooseNumberOfChunks(unsigned int pass) const;
+  void
+  ChooseChunks();
   /** Gives the pixels of the chunk, which is there, to ProcessFrames(). */
   void
   ProcessChunk(unsigned int number);
@@ -184,7 +200,7 @@ private:
   TakeBreath(float reached);
 
   unsigned int                          m_NumberOfStreamDivisions{ 0 };
-  unsigned int                          m_Chunks{ 1 };
+  std::vector<unsigned int>             m_Chunks; // of each pass, when they have started
   StackRegionType                       m_Chunk;
   std::thread::id                       m_Thread; // of Update()
   std::chrono::steady_clock::time_point m_LastBreath{};

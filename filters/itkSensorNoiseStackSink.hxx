@@ -28,6 +28,7 @@
 #include <cstddef>
 #include <exception>
 #include <functional>
+#include <numeric>
 #include <ostream>
 #include <thread>
 
@@ -194,7 +195,7 @@ SensorNoiseStackSink<TStack>::CopyFrameInformation(TFrame * frame) const
 
 template <typename TStack>
 unsigned int
-SensorNoiseStackSink<TStack>::ChooseNumberOfChunks() const
+SensorNoiseStackSink<TStack>::ChooseNumberOfChunks(unsigned int pass) const
 {
   const StackType *   stack = this->GetInput();
   const SizeValueType frames = std::max<SizeValueType>(1, this->GetNumberOfFrames());
@@ -209,7 +210,7 @@ SensorNoiseStackSink<TStack>::ChooseNumberOfChunks() const
     return 1;
   }
   const SizeValueType framesPerChunk =
-    SensorNoiseFramesPerChunk(this->GetFrameRegion().GetNumberOfPixels() * sizeof(PixelType));
+    SensorNoiseFramesPerChunk(this->GetFrameRegion().GetNumberOfPixels() * sizeof(PixelType), this->ChunkBytes(pass));
   return static_cast<unsigned int>((frames + framesPerChunk - 1) / framesPerChunk);
 }
 
@@ -217,12 +218,48 @@ template <typename TStack>
 void
 SensorNoiseStackSink<TStack>::BeforeStreamedGenerateData()
 {
-  m_Chunks = this->ChooseNumberOfChunks();
+  this->ChooseChunks(); // of which the first may be looked at to start
   m_Thread = std::this_thread::get_id();
   m_Reached = 0.0F;
   m_NextReached = 0.0F;
   Superclass::BeforeStreamedGenerateData();
   this->StartPasses();
+  this->ChooseChunks();
+}
+
+template <typename TStack>
+void
+SensorNoiseStackSink<TStack>::ChooseChunks()
+{
+  m_Chunks.clear();
+  for (unsigned int pass = 0; pass < this->NumberOfPasses(); ++pass)
+  {
+    m_Chunks.push_back(this->ChooseNumberOfChunks(pass));
+  }
+}
+
+template <typename TStack>
+unsigned int
+SensorNoiseStackSink<TStack>::GetNumberOfInputRequestedRegions()
+{
+  return m_Chunks.empty() ? this->NumberOfPasses() : std::accumulate(m_Chunks.begin(), m_Chunks.end(), 0U);
+}
+
+template <typename TStack>
+auto
+SensorNoiseStackSink<TStack>::PlaceOf(unsigned int number) const -> Place
+{
+  Place place{ 0, number, 1 };
+  for (; place.pass < m_Chunks.size(); ++place.pass)
+  {
+    place.chunks = m_Chunks[place.pass];
+    if (place.chunk < place.chunks)
+    {
+      return place;
+    }
+    place.chunk -= place.chunks;
+  }
+  return { number, 0, 1 }; // the passes have not started
 }
 
 template <typename TStack>
@@ -233,14 +270,14 @@ SensorNoiseStackSink<TStack>::GenerateNthInputRequestedRegion(unsigned int numbe
   ProcessObject::GenerateInputRequestedRegion();
   auto *              stack = const_cast<StackType *>(this->GetInput());
   const SizeValueType frames = this->GetNumberOfFrames();
-  const SizeValueType chunk = number % m_Chunks;
+  const Place         place = this->PlaceOf(number);
   // The larger chunks come first: a buffer that has to grow is there twice while its pixels move.
-  const SizeValueType size = frames / m_Chunks;
-  const SizeValueType larger = frames % m_Chunks;
-  const SizeValueType first = chunk * size + std::min(chunk, larger);
+  const SizeValueType size = frames / place.chunks;
+  const SizeValueType larger = frames % place.chunks;
+  const SizeValueType first = place.chunk * size + std::min<SizeValueType>(place.chunk, larger);
   m_Chunk = stack->GetLargestPossibleRegion();
   m_Chunk.SetIndex(2, m_Chunk.GetIndex(2) + static_cast<IndexValueType>(first));
-  m_Chunk.SetSize(2, chunk < larger ? size + 1 : size);
+  m_Chunk.SetSize(2, place.chunk < larger ? size + 1 : size);
   stack->SetRequestedRegion(m_Chunk);
 }
 
@@ -249,8 +286,8 @@ void
 SensorNoiseStackSink<TStack>::StreamedGenerateData(unsigned int number)
 {
   this->ProcessChunk(number);
-  const unsigned int pass = number / m_Chunks;
-  if (number % m_Chunks + 1 < m_Chunks)
+  const auto [pass, chunk, chunks] = this->PlaceOf(number);
+  if (chunk + 1 < chunks)
   {
     return;
   }
@@ -265,7 +302,7 @@ SensorNoiseStackSink<TStack>::StreamedGenerateData(unsigned int number)
   this->EndPass(pass);
   while (this->RepeatsPass(pass))
   {
-    for (unsigned int again = pass * m_Chunks; again <= number; ++again)
+    for (unsigned int again = number - chunk; again <= number; ++again)
     {
       this->GenerateNthInputRequestedRegion(again);
       stack->PropagateRequestedRegion();
@@ -289,7 +326,7 @@ SensorNoiseStackSink<TStack>::ProcessChunk(unsigned int number)
                                                     << " was asked for");
   }
   RequirePixels(stack, "the stack");
-  const unsigned int  pass = number / m_Chunks;
+  const unsigned int  pass = this->PlaceOf(number).pass;
   const SizeValueType first =
     static_cast<SizeValueType>(m_Chunk.GetIndex(2) - stack->GetLargestPossibleRegion().GetIndex(2));
   const SizeValueType framePixels = this->GetFrameRegion().GetNumberOfPixels();
