@@ -17,15 +17,15 @@
 namespace sensornoise
 {
 
-namespace
+namespace detail
 {
-constexpr std::size_t BlockPixels = ProjectionSums::BlockPixels;
-
 /** \class SquaresOfBlocks
  * \brief Fills the squares of the pixels of a block from its coordinates, those on each series side by side. */
 class SquaresOfBlocks
 {
 public:
+  static constexpr std::size_t BlockPixels = ProjectionSums::BlockPixels;
+
   SquaresOfBlocks(const ReferenceFrame & frame, const TemporalBasis & basis, ResidualSquares & squares)
     : m_Variance(frame.variance.data())
     , m_Squares(squares)
@@ -68,7 +68,7 @@ private:
   double              m_Freedom;
   std::vector<double> m_Factors; // of the coordinates in the skew
 };
-} // namespace
+} // namespace detail
 
 void
 AppendResidualSquares(const ReferenceFrame & frame,
@@ -78,7 +78,8 @@ AppendResidualSquares(const ReferenceFrame & frame,
                       const ParallelFor &    parallelFor,
                       ResidualSquares &      squares)
 {
-  const SquaresOfBlocks blocks(frame, basis, squares);
+  constexpr std::size_t         BlockPixels = ProjectionSums::BlockPixels;
+  const detail::SquaresOfBlocks blocks(frame, basis, squares);
   squares.rss.reserve(frame.mean.size());
   squares.skew.reserve(frame.mean.size());
   const auto append = [&](std::size_t firstPixel, std::size_t lastPixel) {
@@ -114,9 +115,10 @@ MakeResidualSquares(const ReferenceFrame &          frame,
                     ProjectionSums &                coordinates,
                     const ParallelFor &             parallelFor)
 {
-  const std::size_t     pixels = frame.mean.size();
-  ResidualSquares       squares{ MakeMap<double>(pixels, parallelFor), MakeMap<float>(pixels, parallelFor) };
-  const SquaresOfBlocks blocks(frame, basis, squares);
+  const std::size_t             pixels = frame.mean.size();
+  ResidualSquares               squares{ MakeMap<double>(pixels, parallelFor), MakeMap<float>(pixels, parallelFor) };
+  constexpr std::size_t         BlockPixels = ProjectionSums::BlockPixels;
+  const detail::SquaresOfBlocks blocks(frame, basis, squares);
   ForBlocks(pixels, parallelFor, [&](std::size_t begin, std::size_t end) {
     std::vector<double> sums(basis.Size() * BlockPixels);
     for (std::size_t first = begin; first < end; first += BlockPixels)

@@ -55,21 +55,27 @@ template <typename TPixel>
 void
 PublishedMethod<TPixel>::AddPart(const TPixel * mosaics, std::size_t first, std::size_t count, std::size_t part)
 {
-  const auto addIfDistinct = [&](std::size_t k, const auto & add) {
-    if (m_Distinct.OriginalOf(first + k) == first + k)
-    {
-      add(mosaics + k * m_Layout.frame, m_Distinct.PlaceOf(first + k));
-    }
-  };
+  const auto isDistinct = [&](std::size_t k) { return m_Distinct.OriginalOf(first + k) == first + k; };
   if (m_Sums)
   {
-    addIfDistinct(part, [&](const TPixel * frame, std::size_t place) { m_Sums->AddFrame(frame, place); });
+    if (isDistinct(part))
+    {
+      m_Sums->AddFrame(mosaics + part * m_Layout.frame, m_Distinct.PlaceOf(first + part));
+    }
     return;
   }
-  for (std::size_t k = 0; m_Correction && k < count; ++k)
+  for (std::size_t k = 0; m_Correction && k < count;)
   {
-    addIfDistinct(
-      k, [&](const TPixel * frame, std::size_t place) { m_Correction->AddRow(frame, m_Layout, 1, place, part); });
+    std::size_t last = k;
+    while (last < count && isDistinct(last))
+    {
+      ++last;
+    }
+    if (last > k)
+    {
+      m_Correction->AddRow(mosaics + k * m_Layout.frame, m_Layout, last - k, m_Distinct.PlaceOf(first + k), part);
+    }
+    k = last + 1; // frame `last` is none that counts
   }
 }
 
