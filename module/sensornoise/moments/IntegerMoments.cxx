@@ -33,7 +33,7 @@ IntegerStreamName()
 /** Frames whose values are added in registers, before they are to the sums of a block, which have more memory than the
  * first-level cache. Set by hand: with half of them the sums take a quarter longer, with a quarter of them two thirds.
  */
-constexpr std::size_t FramesTogether = 8;
+constexpr std::size_t FramesInRegisters = 8;
 
 // A block's sums stay in the second-level cache while all frames pass by. It is long enough for the processor to see,
 // within a frame, what it will be asked for next: shorter ones wait for the memory.
@@ -113,9 +113,9 @@ IntegerMoments<TPixel>::AddBlock(const TPixel * first,
     std::copy_n(m_Minimum.begin() + begin, size, block.minimum);
     std::copy_n(m_Maximum.begin() + begin, size, block.maximum);
     std::size_t t = 0;
-    for (; t + FramesTogether <= frames; t += FramesTogether)
+    for (; t + FramesInRegisters <= frames; t += FramesInRegisters)
     {
-      AddPairs<Centre>(first + t * stride, stride, -1, size, block, std::make_index_sequence<FramesTogether / 2>());
+      AddPairs<Centre>(first + t * stride, stride, -1, size, block, std::make_index_sequence<FramesInRegisters / 2>());
     }
     for (; t < frames; t += 2)
     {

@@ -36,7 +36,7 @@ StepOfSeries(double norm, std::size_t frames)
 
 /** Frames that are added to sums while these are in registers. Set by hand: with half of them, or twice, it takes a
  * tenth longer. */
-constexpr std::size_t FramesTogether = 8;
+constexpr std::size_t FramesInRegisters = 8;
 
 /** Adds the factors of VFrames frames times every \a TStep-th of their pixels, frame by frame. The step is a constant
  * of the loop, for vector instructions. */
@@ -68,10 +68,10 @@ AddTimes(const std::vector<double> & factors,
          double *                    sums)
 {
   std::size_t k = 0;
-  for (; k + FramesTogether <= factors.size(); k += FramesTogether)
+  for (; k + FramesInRegisters <= factors.size(); k += FramesInRegisters)
   {
     AddFramesTimes<TStep>(
-      factors.data() + k, pixels + k * stride, stride, count, sums, std::make_index_sequence<FramesTogether>());
+      factors.data() + k, pixels + k * stride, stride, count, sums, std::make_index_sequence<FramesInRegisters>());
   }
   for (; k < factors.size(); ++k)
   {

@@ -182,13 +182,13 @@ void
 FrameSums::AddBatch(const TPixel * frames, std::size_t first, std::size_t count, const ParallelFor & parallelFor)
 {
   std::vector<std::vector<ClassColumns>> parts(m_CellRows, std::vector<ClassColumns>(count));
-  std::vector<ColumnSums>                columns = this->StartColumns();
+  std::vector<ColumnSums>                ofColumns = this->StartColumns();
   parallelFor(m_CellRows, [&](std::size_t cellRow) {
     RegressorBand band(m_Regressors, m_CellsPerRow);
     ForBands(this->GetFrame().geometry, cellRow, m_CellRows, band, [&] {
-      if (!columns.empty()) // the band need not be made again for them
+      if (!ofColumns.empty()) // the band need not be made again for them
       {
-        this->AddColumns(band, cellRow, columns[cellRow]);
+        this->AddColumns(band, cellRow, ofColumns[cellRow]);
       }
       const double * const mean = this->GetFrame().mean.data() + band.First();
       for (std::size_t t = 0; t < count; t += RegressorBand::Together)
@@ -217,9 +217,9 @@ FrameSums::AddBatch(const TPixel * frames, std::size_t first, std::size_t count,
       }
     });
   });
-  if (!columns.empty())
+  if (!ofColumns.empty())
   {
-    this->TakeColumns(columns);
+    this->TakeColumns(ofColumns);
   }
   for (const std::vector<ClassColumns> & part : parts)
   {
