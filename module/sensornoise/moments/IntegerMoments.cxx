@@ -35,20 +35,20 @@ IntegerStreamName()
  */
 constexpr std::size_t FramesInRegisters = 8;
 
-// A block's sums stay in the second-level cache while all frames pass by. It is long enough for the processor to see,
-// within a frame, what it will be asked for next: shorter ones wait for the memory.
-constexpr std::size_t BlockSize = 4096;
-
 // As many frames as the block's 32-bit sums hold: |sum s| <= 2^15 2^15, and 2^14 pairs of squares' lower halves.
 constexpr std::size_t FramesPerFlush = 32768;
 
 struct BlockSums
 {
-  std::int32_t  sum[BlockSize] = {};
-  std::uint32_t low[BlockSize] = {};  // sum of the lower 16 bits of the squares of two frames
-  std::uint32_t high[BlockSize] = {}; // and of the upper 16 bits: 32-bit sums vectorise, 64-bit ones hardly do
-  std::int16_t  minimum[BlockSize] = {};
-  std::int16_t  maximum[BlockSize] = {};
+  // They stay in the second-level cache while all frames pass by. A block is long enough for the processor to see,
+  // within a frame, what it will be asked for next: shorter ones wait for the memory.
+  static constexpr std::size_t Pixels = 4096;
+
+  std::int32_t  sum[Pixels] = {};
+  std::uint32_t low[Pixels] = {};  // sum of the lower 16 bits of the squares of two frames
+  std::uint32_t high[Pixels] = {}; // and of the upper 16 bits: 32-bit sums vectorise, 64-bit ones hardly do
+  std::int16_t  minimum[Pixels] = {};
+  std::int16_t  maximum[Pixels] = {};
 };
 
 /** Adds as many pairs of frames as there are VPairs. Of the second frame of each what \a keep has: all bits, or none.
@@ -141,9 +141,9 @@ IntegerMoments<TPixel>::AddFrames(const TPixel * firstFrame,
                                   std::size_t    begin,
                                   std::size_t    end)
 {
-  for (std::size_t block = begin; block < end; block += BlockSize)
+  for (std::size_t block = begin; block < end; block += BlockSums::Pixels)
   {
-    const std::size_t size = std::min(BlockSize, end - block);
+    const std::size_t size = std::min(BlockSums::Pixels, end - block);
     for (std::size_t t = 0; t < frames; t += FramesPerFlush)
     {
       this->AddBlock(firstFrame + t * stride + block, stride, std::min(FramesPerFlush, frames - t), block, size);
