@@ -32,9 +32,9 @@ itk.estimate_sensor_noise(list(small), dark=small)  # ITK loads its modules at t
 random = np.random.default_rng(1)
 level = np.linspace(200, 3000, 1024, dtype=np.float32)
 noise = np.sqrt(level) * random.standard_normal((8, 1024, 1024), np.float32)
-stack = np.stack([(level * (1 + 0.02 * np.sin(t)) + np.roll(noise[t % 8], t, 0)).astype(np.uint16) for t in range(120)])
+stack = np.stack([(level * (1 + 0.02 * np.sin(t)) + np.roll(noise[t % 8], t, 0)).astype(np.uint16) for t in range(240)])
 del noise
-dark = np.concatenate([stack] * 4) if estimate == "dark" else None
+dark = np.concatenate([stack] * 2) if estimate == "dark" else None
 run = {
     "function": lambda: itk.estimate_sensor_noise(stack, progress=progress),
     "list": lambda: itk.estimate_sensor_noise(list(stack), progress=progress),
@@ -42,7 +42,7 @@ run = {
     "dark": lambda: itk.estimate_sensor_noise(stack[:20], dark=dark, progress=progress),
 }[estimate]
 before = megabytes()
-kill = subprocess.Popen(["sh", "-c", f"sleep 0.7; kill -INT {os.getpid()}; date +%s.%N"], stdout=subprocess.PIPE)
+kill = subprocess.Popen(["sh", "-c", f"sleep 0.3; kill -INT {os.getpid()}; date +%s.%N"], stdout=subprocess.PIPE)
 try:
     run()
     print("not interrupted")
