@@ -80,7 +80,7 @@ public:
   void
   SetMosaic(const sensornoise::MosaicGeometry & geometry)
   {
-    m_Planes.emplace(geometry, sensornoise::BytesTogether);
+    m_Planes.emplace(geometry);
     this->Modified();
   }
 
@@ -145,10 +145,9 @@ protected:
       m_Parts.front().AddFrames(frames, count, parallelFor);
       return;
     }
-    m_Planes->ForPlanes(
-      frames, count, 0, m_Parts.size(), parallelFor, [&](std::size_t k, const PixelType * plane, std::size_t now) {
-        m_Parts[k].AddFrames(plane, now, parallelFor);
-      });
+    m_Planes->ForPlanes(frames, count, parallelFor, [&](std::size_t k, const PixelType * plane, std::size_t now) {
+      m_Parts[k].AddFrames(plane, now, parallelFor);
+    });
   }
   void
   EndPass(unsigned int) override

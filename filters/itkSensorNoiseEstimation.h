@@ -128,9 +128,10 @@ struct SensorNoiseEstimation
       sensornoise::MosaicMethod<TPixel, OfFrame> ofMosaic(planes, makeOfPlane, parallelFor, threads);
       if constexpr (isRefined)
       {
-        if (sumsStay && std::isinf(ofStack.memoryLimitBytes))
+        if (sumsStay)
         {
-          ofMosaic.LetRowsTakeTurns({});
+          using ManySums = typename MosaicRefined::ManySums;
+          ofMosaic.LetSumsStay(std::isinf(ofStack.memoryLimitBytes) ? std::optional(ManySums{}) : std::nullopt);
         }
       }
       return ofMosaic;

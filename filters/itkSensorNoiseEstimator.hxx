@@ -72,8 +72,7 @@ SensorNoiseEstimator<TStack>::ChunkBytes(unsigned int pass) const
   // What the second pass of Refined makes anew of the pixels for each chunk takes as long as some eight frames. It
   // holds 16 bytes a pixel less than the third one does, for the fewest series that there are.
   constexpr SizeValueType lessBytes = 16;
-  const bool              isOfFrame = m_Estimation && !m_Estimation->mosaic; // whose planes are copied in parts
-  const bool              isLarger = m_Method == MethodEnum::Refined && pass == 1 && m_MemoryLimit == 0 && isOfFrame;
+  const bool              isLarger = m_Method == MethodEnum::Refined && pass == 1 && m_MemoryLimit == 0;
   return Superclass::ChunkBytes(pass) + (isLarger ? lessBytes * this->GetFrameRegion().GetNumberOfPixels() : 0);
 }
 

@@ -102,7 +102,8 @@ struct Input
     frame =
       MakeReferenceFrame(mean, variance, std::vector<std::uint8_t>(Pixels, 1), { Width, Height, 1 }, Frames, SerialFor);
     mask = frame.usable;
-    sums.AddFrames(ProjectedFrames(Basis(), stack.data(), Pixels, 0, Frames), 0, Pixels);
+    sums.AddFrames(
+      ProjectedFrames(Basis(), stack.data(), PixelLayout::OfFrames({ Pixels, 1, 1 }), 0, Frames), 0, Pixels);
     model.interceptDn2 = 100.0;
     model.slopeDn = 0.3;
     model.darkestDn = 300.0;

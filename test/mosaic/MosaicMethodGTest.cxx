@@ -16,6 +16,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
@@ -39,20 +40,18 @@ SimulateMosaic(BayerPattern pattern, std::size_t width, std::size_t height)
 }
 
 template <typename TMethod>
+using SettingsOf =
+  std::conditional_t<std::is_same_v<TMethod, RefinedMethod<Pixel>>, RefinedSettings, PublishedSettings>;
+
+template <typename TMethod>
 TMethod
 MakeMethod(const FrameGeometry &             frame,
            std::size_t                       frames,
            const std::vector<std::uint8_t> & mask,
-           ParallelFor                       parallelFor)
+           ParallelFor                       parallelFor,
+           const SettingsOf<TMethod> &       settings = {})
 {
-  if constexpr (std::is_same_v<TMethod, RefinedMethod<Pixel>>)
-  {
-    return TMethod(RefinedSettings(), frame, frames, mask, std::move(parallelFor));
-  }
-  else
-  {
-    return TMethod(PublishedSettings(), frame, frames, mask, std::move(parallelFor));
-  }
+  return TMethod(settings, frame, frames, mask, std::move(parallelFor));
 }
 
 /** Runs a method through its passes, \a chunk frames at a time. */
@@ -135,9 +134,9 @@ TYPED_TEST(MosaicMethodOf, FindsOfEachPlaneWhatItFindsOfItAlone)
   }
 }
 
-TEST(MosaicMethod, PublishedPlanesThatAreReadInPlaceAreThoseAlone)
+TYPED_TEST(MosaicMethodOf, PlanesThatAreReadInPlaceAreThoseAlone)
 {
-  using Method = PublishedMethod<Pixel>;
+  using Method = TypeParam;
   Stack<Pixel>      stack = SimulateMosaic(BayerPattern::GRBG, 96, 90);
   const std::size_t pixels = stack.width * stack.height;
   const auto frame = [&](std::size_t t) { return stack.pixels.begin() + static_cast<std::ptrdiff_t>(t * pixels); };
@@ -152,10 +151,10 @@ TEST(MosaicMethod, PublishedPlanesThatAreReadInPlaceAreThoseAlone)
   for (const unsigned int shutterAxis : { 0U, 1U })
   {
     const MosaicGeometry geometry{ { stack.width, stack.height, shutterAxis }, BayerPattern::GRBG };
-    PublishedSettings    settings;
+    SettingsOf<Method>   settings;
     settings.rollingShutter = RollingShutter::Fixed;
     const auto make = [&](BayerPlane, const ParallelFor & parallelFor) {
-      return Method(settings, geometry.Plane(), stack.frames, {}, parallelFor);
+      return MakeMethod<Method>(geometry.Plane(), stack.frames, {}, parallelFor, settings);
     };
     MosaicMethod<Pixel, Method> mosaic(geometry, make, Threads(3));
     RunPasses(mosaic, stack, 7);
@@ -170,42 +169,63 @@ TEST(MosaicMethod, PublishedPlanesThatAreReadInPlaceAreThoseAlone)
   }
 }
 
+/** What RefinedMethod finds of the planes, in how many passes, if \a many sums make the rows take turns. */
+struct InTurns
+{
+  using Method = MosaicMethod<Pixel, RefinedMethod<Pixel>>;
+
+  Method      method;
+  std::size_t passes{ 0 };
+
+  InTurns(const Stack<Pixel> &                    stack,
+          std::size_t                             chunk,
+          const std::optional<Method::ManySums> & many,
+          const ParallelFor &                     parallelFor,
+          std::size_t                             threads)
+    : method(
+        { { stack.width, stack.height, 1 }, BayerPattern::GRBG },
+        [&](BayerPlane, const ParallelFor & withinPlane) {
+          return MakeMethod<RefinedMethod<Pixel>>(
+            { stack.width / 2, stack.height / 2, 1 }, stack.frames, {}, withinPlane);
+        },
+        parallelFor,
+        threads)
+  {
+    method.LetSumsStay(many);
+    for (; !method.IsDone(); ++passes)
+    {
+      for (std::size_t t = 0; t < stack.frames; t += chunk)
+      {
+        method.AddFrames(stack.Frame(t), std::min(chunk, stack.frames - t));
+      }
+      method.EndPass();
+      EXPECT_EQ(method.GetMethods()[1].IsDone(), passes >= 2);
+    }
+  }
+};
+
 TEST(MosaicMethod, RowsThatTakeTurnsFindTheSame)
 {
-  using Method = RefinedMethod<Pixel>;
-  const Stack<Pixel>   stack = SimulateMosaic(BayerPattern::GRBG, 96, 90);
-  const MosaicGeometry geometry{ { stack.width, stack.height, 1 }, BayerPattern::GRBG };
-  const auto           make = [&](BayerPlane, const ParallelFor & parallelFor) {
-    return MakeMethod<Method>(geometry.Plane(), stack.frames, {}, parallelFor);
-  };
-  MosaicMethod<Pixel, Method> together(geometry, make);
-  RunPasses(together, stack, stack.frames);
-  ASSERT_TRUE(together.IsDone());
+  const Stack<Pixel> stack = SimulateMosaic(BayerPattern::GRBG, 96, 90);
+  InTurns            together(stack, stack.frames, std::nullopt, SerialFor, 1);
+  EXPECT_EQ(together.passes, 3U);
   const auto threads = Threads(3);
-  // By plane with fewer threads than planes, else plane after plane.
-  for (const std::size_t number : { 2, 3 })
+  // By plane with fewer threads than planes, else plane after plane. There are no sums of frames that come together.
+  for (const auto & [number, chunk, passes] :
+       { std::array<std::size_t, 3>{ 2, 7, 4 }, { 3, 7, 4 }, { 2, stack.frames, 3 }, { 3, stack.frames, 3 } })
   {
-    MosaicMethod<Pixel, Method> inTurns(geometry, make, threads, number);
-    inTurns.LetRowsTakeTurns({ 0, 0 });
-    RunPasses(inTurns, stack, 7);
-    EXPECT_FALSE(inTurns.IsDone());
-    EXPECT_TRUE(inTurns.GetMethods()[1].IsDone());
-    inTurns.AddFrames(stack.Frame(0), stack.frames);
-    inTurns.EndPass();
-    ASSERT_TRUE(inTurns.IsDone());
+    InTurns inTurns(stack, chunk, InTurns::Method::ManySums{ 0, 0 }, threads, number);
+    EXPECT_EQ(inTurns.passes, passes);
     for (std::size_t k = 0; k < BayerPlanes.size(); ++k)
     {
-      EXPECT_EQ(ToJson(inTurns.GetReports().at(k)), ToJson(together.GetReports().at(k)));
-      EXPECT_TRUE(
-        HaveSameBits(inTurns.GetMethods()[k].GetCorrectedVariance(), together.GetMethods()[k].GetCorrectedVariance()));
+      EXPECT_EQ(ToJson(inTurns.method.GetReports().at(k)), ToJson(together.method.GetReports().at(k)));
+      EXPECT_TRUE(HaveSameBits(inTurns.method.GetMethods()[k].GetCorrectedVariance(),
+                               together.method.GetMethods()[k].GetCorrectedVariance()));
     }
   }
   for (const auto & [ofPixel, bytes] : { std::pair<std::size_t, std::size_t>{ 100, 0 }, { 0, 1'000'000'000 } })
   {
-    MosaicMethod<Pixel, Method> notMany(geometry, make);
-    notMany.LetRowsTakeTurns({ ofPixel, bytes });
-    RunPasses(notMany, stack, stack.frames);
-    EXPECT_TRUE(notMany.IsDone());
+    EXPECT_EQ(InTurns(stack, 7, InTurns::Method::ManySums{ ofPixel, bytes }, SerialFor, 1).passes, 3U);
   }
 }
 
@@ -248,28 +268,25 @@ TEST(MosaicGeometry, FramesAreTakenAsEachOfThem)
     const std::size_t    pixels = geometry.Plane().Pixels();
     std::vector<Pixel>   frames(count * geometry.frame.Pixels());
     std::iota(frames.begin(), frames.end(), Pixel{ 0 });
-    for (const auto & [first, last] : { std::pair{ 0, 4 }, { 0, 2 }, { 2, 4 } }) // of all planes, or of those of a row
+    std::array<std::vector<Pixel>, 4> taken;
+    std::array<Pixel *, 4>            to{};
+    for (std::size_t k = 0; k < to.size(); ++k)
     {
-      std::array<std::vector<Pixel>, 4> taken;
-      std::array<Pixel *, 4>            to{};
-      for (int k = first; k < last; ++k)
+      taken[k].resize(count * pixels);
+      to[k] = taken[k].data();
+    }
+    geometry.TakeFrames(frames.data(), count, to, SerialFor);
+    for (std::size_t k = 0; k < to.size(); ++k)
+    {
+      std::vector<Pixel> expected;
+      for (std::size_t t = 0; t < count; ++t)
       {
-        taken[k].resize(count * pixels);
-        to[k] = taken[k].data();
+        const auto begin = frames.begin() + static_cast<std::ptrdiff_t>(t * geometry.frame.Pixels());
+        const auto end = begin + static_cast<std::ptrdiff_t>(geometry.frame.Pixels());
+        const auto plane = geometry.Take(std::vector<Pixel>(begin, end), BayerPlanes[k]);
+        expected.insert(expected.end(), plane.begin(), plane.end());
       }
-      geometry.TakeFrames(frames.data(), count, to, SerialFor);
-      for (int k = first; k < last; ++k)
-      {
-        std::vector<Pixel> expected;
-        for (std::size_t t = 0; t < count; ++t)
-        {
-          const auto begin = frames.begin() + static_cast<std::ptrdiff_t>(t * geometry.frame.Pixels());
-          const auto end = begin + static_cast<std::ptrdiff_t>(geometry.frame.Pixels());
-          const auto plane = geometry.Take(std::vector<Pixel>(begin, end), BayerPlanes[k]);
-          expected.insert(expected.end(), plane.begin(), plane.end());
-        }
-        EXPECT_EQ(taken[k], expected) << name << ", plane " << k << " of those from " << first;
-      }
+      EXPECT_EQ(taken[k], expected) << name << ", plane " << k;
     }
   }
 }
@@ -281,19 +298,38 @@ struct MorePassesInEachPlane
 {
   static constexpr unsigned int NumberOfPasses = 3;
   static constexpr bool         HasManySums = false;
-  static constexpr bool         ReadsPlanesInPlace = false;
-  static constexpr std::size_t  BytesTogether = 1;
 
   std::size_t passes;
   std::size_t frames{ 0 };
   std::size_t ended{ 0 };
   Report      report{};
 
+  std::vector<std::uint8_t> has{};
+
+  void
+  SetLayout(const PixelLayout &)
+  {}
+  const std::vector<std::uint8_t> &
+  GetHas() const
+  {
+    return has;
+  }
   void
   AddFrames(const Pixel *, std::size_t count)
   {
     EXPECT_FALSE(this->IsDone());
     frames += count;
+  }
+  static void
+  AddFrames(const std::vector<MorePassesInEachPlane *> & planes,
+            const Pixel *                                mosaics,
+            std::size_t                                  count,
+            const ParallelFor &)
+  {
+    for (MorePassesInEachPlane * const plane : planes)
+    {
+      plane->AddFrames(mosaics, count);
+    }
   }
   void
   EndPass()

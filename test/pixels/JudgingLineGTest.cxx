@@ -95,7 +95,8 @@ struct Burst
     }
     basis = std::make_unique<TemporalBasis>(gamma, wave, wave.array().square().matrix());
     ProjectionSums sums(Pixels, basis->Size());
-    sums.AddFrames(ProjectedFrames(*basis, stack.data(), Pixels, 0, Frames), 0, Pixels);
+    sums.AddFrames(
+      ProjectedFrames(*basis, stack.data(), PixelLayout::OfFrames({ Pixels, 1, 1 }), 0, Frames), 0, Pixels);
     model.interceptDn2 = 108.0;
     model.slopeDn = 0.4;
     model.darkestDn = BlackDn + 20.0;

@@ -72,7 +72,7 @@ SumsOf(const std::vector<TPixel> & stack, std::size_t first, std::size_t last, s
   for (std::size_t t = first; t < last; t += chunk)
   {
     const std::size_t     count = std::min(chunk, last - t);
-    const ProjectedFrames frames(Basis(), stack.data() + t * Pixels, Pixels, t, count);
+    const ProjectedFrames frames(Basis(), stack.data() + t * Pixels, PixelLayout::OfFrames({ Pixels, 1, 1 }), t, count);
     sums.AddFrames(frames, 100, Pixels);
     sums.AddFrames(frames, 0, 100);
   }
@@ -205,8 +205,9 @@ TYPED_TEST(SensorNoiseProjectionSumsOf, AllFramesAtOnceHaveTheResidualSquaresOfT
   AppendResidualSquares(frame, Basis(), sums, true, SerialFor, expected);
 
   ProjectionSums        kept(Pixels, light);
-  const ProjectedFrames frames(Basis(), stack.data(), Pixels, 0, Frames);
-  const ResidualSquares squares = MakeResidualSquares(frame, Basis(), frames, kept, SerialFor);
+  const ProjectedFrames frames(Basis(), stack.data(), PixelLayout::OfFrames({ Pixels, 1, 1 }), 0, Frames);
+  ResidualSquares       squares{ std::vector<double>(Pixels), std::vector<float>(Pixels) };
+  FillResidualSquares(frame, Basis(), frames, 0, Pixels, squares, kept);
   EXPECT_EQ(squares.rss, expected.rss);
   EXPECT_EQ(squares.skew, expected.skew);
   for (std::size_t i = 0; i < Pixels * light; ++i)
@@ -236,7 +237,7 @@ TYPED_TEST(SensorNoiseProjectionSumsOf, ManyFramesOfTheLargestProductsAreExact)
       stack[i] = p % 3 == 0 ? Limits::max() : p % 3 == 1 ? Limits::lowest() : static_cast<TypeParam>(i * 2654435761U);
     }
     ProjectionSums sums(Pixels, 2);
-    sums.AddFrames(ProjectedFrames(basis, stack.data(), Pixels, 0, frames), 0, Pixels);
+    sums.AddFrames(ProjectedFrames(basis, stack.data(), PixelLayout::OfFrames({ Pixels, 1, 1 }), 0, frames), 0, Pixels);
     for (std::size_t i = 0; i < 2 * Pixels; ++i)
     {
       double sum = 0.0;
@@ -264,7 +265,9 @@ TEST(SensorNoiseProjectionSums, SlabsByThemselvesHaveTheBitsOfAllTogether)
   std::generate(stack.begin(), stack.end(), [&random] { return static_cast<unsigned short>(random()); });
   const auto sumsOf = [&](std::size_t firstSlab, std::size_t lastSlab) {
     ProjectionSums sums(pixels, Series, SerialFor, firstSlab, lastSlab);
-    sums.AddFrames(ProjectedFrames(Basis(), stack.data(), pixels, 0, Frames), sums.FirstPixel(), sums.LastPixel());
+    sums.AddFrames(ProjectedFrames(Basis(), stack.data(), PixelLayout::OfFrames({ pixels, 1, 1 }), 0, Frames),
+                   sums.FirstPixel(),
+                   sums.LastPixel());
     return sums;
   };
   ASSERT_EQ(ProjectionSums::NumberOfSlabs(pixels), 3U);

@@ -77,7 +77,7 @@ TEST(SensorNoiseRegressorBand, ProductsAreTheSumsOneAfterTheOther)
         band.Series(k)[i] = SeriesAt(k, band.First() + i);
       }
     }
-    const std::vector<RegressorBand::Sums> & sums = band.Multiply();
+    const std::vector<RegressorBand::Sums> & sums = band.Multiply([](std::size_t) {});
     ASSERT_EQ(sums.size(), band.GetGroups().size());
     ASSERT_GT(sums.size(), Cells);
     for (std::size_t g = 0; g < sums.size(); ++g)

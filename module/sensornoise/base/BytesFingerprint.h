@@ -4,13 +4,10 @@
 #define sensornoise_base_BytesFingerprint_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/base/Parallel.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace sensornoise
 {
@@ -31,28 +28,11 @@ FingerprintOfBlock(const void * bytes, std::size_t size);
 SensorNoise_EXPORT BytesFingerprint
 FingerprintOfBlocks(const BytesFingerprint * begin, const BytesFingerprint * end);
 
-/** The fingerprints of \a count runs of \a size bytes each, stored one after the other from \a bytes on. They do not
- * depend on the number of threads, nor on which runs are asked for together. Calls visit(run, block, first byte, size)
- * for each block, in any order and possibly at the same time, when the block is in the cache. */
-template <typename TVisitor>
-std::vector<BytesFingerprint>
-FingerprintsOf(const void * bytes, std::size_t size, std::size_t count, const ParallelFor & parallelFor, TVisitor visit)
+/** How many blocks \a size bytes have. */
+inline std::size_t
+NumberOfFingerprintBlocks(std::size_t size)
 {
-  const auto * const            first = static_cast<const unsigned char *>(bytes);
-  const std::size_t             blocks = (size + FingerprintBlockBytes - 1) / FingerprintBlockBytes;
-  std::vector<BytesFingerprint> ofBlocks(count * blocks);
-  parallelFor(ofBlocks.size(), [&](std::size_t b) {
-    const std::size_t begin = b % blocks * FingerprintBlockBytes;
-    const std::size_t ofBlock = std::min(FingerprintBlockBytes, size - begin);
-    ofBlocks[b] = FingerprintOfBlock(first + b / blocks * size + begin, ofBlock);
-    visit(b / blocks, b % blocks, begin, ofBlock);
-  });
-  std::vector<BytesFingerprint> fingerprints;
-  for (std::size_t k = 0; k < count; ++k)
-  {
-    fingerprints.push_back(FingerprintOfBlocks(ofBlocks.data() + k * blocks, ofBlocks.data() + (k + 1) * blocks));
-  }
-  return fingerprints;
+  return (size + FingerprintBlockBytes - 1) / FingerprintBlockBytes;
 }
 
 } // namespace sensornoise

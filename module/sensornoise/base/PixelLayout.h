@@ -4,8 +4,12 @@
 #define sensornoise_base_PixelLayout_h
 
 #include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/Prefetch.h"
+#include "sensornoise/base/WideVectors.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace sensornoise
 {
@@ -17,12 +21,19 @@ struct PixelLayout
   std::size_t step{ 1 };  ///< from a pixel to the next one of its row: 1 or 2
   std::size_t row{ 0 };   ///< from a row to the next one
   std::size_t frame{ 0 }; ///< from a frame to the next one
+  std::size_t width{ 0 }; ///< pixels of a row
 
+  /** Frames of \a pixels pixels side by side, \a stride from one to the next. */
+  static PixelLayout
+  OfPixels(std::size_t pixels, std::size_t stride)
+  {
+    return { 0, 1, pixels, stride, pixels };
+  }
   /** Frames one after the other. */
   static PixelLayout
   OfFrames(const FrameGeometry & geometry)
   {
-    return { 0, 1, geometry.width, geometry.Pixels() };
+    return { 0, 1, geometry.width, geometry.Pixels(), geometry.width };
   }
 
   /** Place of a pixel of the first frame. */
@@ -30,6 +41,82 @@ struct PixelLayout
   At(std::size_t x, std::size_t y) const
   {
     return first + y * row + x * step;
+  }
+  /** Of pixel \a p, counted row by row. */
+  std::size_t
+  At(std::size_t p) const
+  {
+    return this->At(p % width, p / width);
+  }
+
+  /** Whether a frame's pixels stand side by side, all of them. */
+  bool
+  AreSideBySide() const
+  {
+    return step == 1 && row == width;
+  }
+
+  /** Asks for the memory of the pixels [begin, end), counted row by row, of \a frame, which will be needed soon. */
+  template <typename TPixel>
+  void
+  Prefetch(const TPixel * frame, std::size_t begin, std::size_t end) const
+  {
+    for (std::size_t p = begin; p < end;)
+    {
+      const std::size_t count = this->AreSideBySide() ? end - p : std::min(end - p, width - p % width);
+      PrefetchValues(frame + this->At(p), step * count);
+      p += count;
+    }
+  }
+
+  /** The pixels [begin, end), counted row by row, of \a frame, one of the frames: side by side, where they stand or
+   * copied to \a room, which has room for them. */
+  template <typename TPixel>
+  const TPixel *
+  SideBySide(const TPixel * frame, std::size_t begin, std::size_t end, TPixel * room) const
+  {
+    if (this->AreSideBySide())
+    {
+      return frame + first + begin;
+    }
+    for (std::size_t p = begin; p < end;)
+    {
+      const std::size_t count = std::min(end - p, width - p % width);
+      const TPixel *    from = frame + this->At(p);
+      TPixel * const    to = room + (p - begin);
+      WithWideVectors([&] { step == 2 ? CopyEvery<2>(from, count, to) : CopyEvery<1>(from, count, to); });
+      p += count;
+    }
+    return room;
+  }
+
+  /** The same of \a count frames, which \a room has room for: where the first one's pixels are, and how far from it
+   * those of the next one. */
+  template <typename TPixel>
+  std::pair<const TPixel *, std::size_t>
+  SideBySide(const TPixel * frames, std::size_t count, std::size_t begin, std::size_t end, TPixel * room) const
+  {
+    if (this->AreSideBySide())
+    {
+      return { frames + first + begin, frame };
+    }
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      this->SideBySide(frames + k * frame, begin, end, room + k * (end - begin));
+    }
+    return { room, end - begin };
+  }
+
+private:
+  /** The step is a constant, so that vectors are sorted in the processor. */
+  template <std::size_t VStep, typename TPixel>
+  static void
+  CopyEvery(const TPixel * from, std::size_t count, TPixel * to)
+  {
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      to[i] = from[VStep * i];
+    }
   }
 };
 

@@ -40,6 +40,7 @@ FrameSample::FrameSample(const FrameGeometry & geometry,
   : m_Tiles(MakeSampleTiles(geometry, frames))
   , m_Width(geometry.width)
   , m_FramePixels(geometry.Pixels())
+  , m_Layout(PixelLayout::OfFrames(geometry))
   , m_Lowest(lowest)
   , m_Codes(MakeMap<std::uint16_t>(isInteger ? m_Tiles.Values() : 0, parallelFor))
   , m_Values(Eigen::ArrayXf::Zero(isInteger ? 0 : static_cast<Eigen::Index>(m_Tiles.Values())))
@@ -59,13 +60,15 @@ FrameSample::AddFrames(const TPixel *              frames,
     return;
   }
   parallelFor(m_Tiles.origins.size(), [&](std::size_t i) {
+    std::vector<TPixel> room(m_Tiles.side);
     for (std::size_t t = firstFrame; t < last; ++t)
     {
       for (std::size_t row = 0; row < m_Tiles.side; ++row)
       {
         const std::size_t pixel = m_Tiles.PixelOf(i, row * m_Tiles.side, m_Width);
         const std::size_t place = m_Tiles.PlaceOf(i, t) + row * m_Tiles.side;
-        const TPixel *    values = frames + (t - firstFrame) * m_FramePixels + pixel;
+        const TPixel *    values =
+          m_Layout.SideBySide(frames + (t - firstFrame) * m_Layout.frame, pixel, pixel + m_Tiles.side, room.data());
         if constexpr (std::is_integral_v<TPixel>)
         {
           std::transform(values, values + m_Tiles.side, m_Codes.data() + place, [](TPixel value) {

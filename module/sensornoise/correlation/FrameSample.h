@@ -7,6 +7,7 @@
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/PixelLayout.h"
 #include "sensornoise/correlation/NoiseSample.h"
 #include "sensornoise/correlation/SampleTiles.h"
 
@@ -46,8 +47,15 @@ public:
                        parallelFor);
   }
 
-  /** Adds frames firstFrame ... firstFrame + count - 1, stored one after the other, of the type that the sample is for;
-   * \a mean is that of every pixel. */
+  /** The pixels of the frames to come stand as \a layout says; without it, one frame after the other. */
+  void
+  SetLayout(const PixelLayout & layout)
+  {
+    m_Layout = layout;
+  }
+
+  /** Adds frames firstFrame ... firstFrame + count - 1, of the type that the sample is for; \a mean is that of every
+   * pixel. */
   template <typename TPixel>
   void
   AddFrames(const TPixel *              frames,
@@ -94,6 +102,7 @@ private:
   SampleTiles                m_Tiles;
   std::size_t                m_Width{ 0 };
   std::size_t                m_FramePixels{ 0 };
+  PixelLayout                m_Layout;
   double                     m_Lowest{ 0.0 }; // what code 0 stands for: a frame that is not here is 0 in a merge
   std::vector<std::uint16_t> m_Codes;         // of integers
   Eigen::ArrayXf             m_Values;        // of other numbers

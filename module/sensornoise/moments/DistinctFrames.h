@@ -7,6 +7,7 @@
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/moments/ChosenFrames.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -41,6 +42,19 @@ public:
   OriginalOf(std::size_t t) const
   {
     return m_Originals[t];
+  }
+  /** Whether all of the frames first ... first + count - 1 that there are are counted. */
+  bool
+  AreDistinct(std::size_t first, std::size_t count) const
+  {
+    for (std::size_t t = first; t < std::min(first + count, m_Originals.size()); ++t)
+    {
+      if (m_Originals[t] != t)
+      {
+        return false;
+      }
+    }
+    return true;
   }
   /** The place of frame \a t's original among the distinct frames, from 0. */
   std::size_t

@@ -40,23 +40,24 @@ FloatingMoments<TPixel>::FloatingMoments(std::size_t pixels, const ParallelFor &
 
 template <typename TPixel>
 void
-FloatingMoments<TPixel>::AddFrames(const TPixel * firstFrame,
-                                   std::size_t    stride,
-                                   std::size_t    frames,
-                                   std::size_t    begin,
-                                   std::size_t    end)
+FloatingMoments<TPixel>::AddFrames(const TPixel *      firstFrame,
+                                   const PixelLayout & layout,
+                                   std::size_t         frames,
+                                   std::size_t         begin,
+                                   std::size_t         end)
 {
   constexpr std::size_t blockSize = 512; // the block's sums stay in the first-level cache
+  TPixel                room[blockSize];
   for (std::size_t block = begin; block < end; block += blockSize)
   {
     const std::size_t blockEnd = std::min(block + blockSize, end);
     for (std::size_t t = 0; t < frames; ++t)
     {
-      const TPixel * const frame = firstFrame + t * stride;
+      const TPixel * const values = layout.SideBySide(firstFrame + t * layout.frame, block, blockEnd, room);
       const double         share = 1.0 / static_cast<double>(m_Frames + t + 1);
       for (std::size_t p = block; p < blockEnd; ++p)
       {
-        const double value = frame[p];
+        const double value = values[p - block];
         const double deviation = value - m_Mean[p];
         m_Mean[p] += deviation * share;
         m_Squares[p] += deviation * (value - m_Mean[p]);

@@ -5,6 +5,7 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/PixelLayout.h"
 
 #include <cmath>
 #include <cstddef>
@@ -42,7 +43,17 @@ public:
   /** Adds \a frames frames for the pixels [begin, end). \a firstFrame points at pixel 0 of the first frame, and each
    * next frame begins \a stride pixels later. */
   void
-  AddFrames(const TPixel * firstFrame, std::size_t stride, std::size_t frames, std::size_t begin, std::size_t end);
+  AddFrames(const TPixel * firstFrame, std::size_t stride, std::size_t frames, std::size_t begin, std::size_t end)
+  {
+    this->AddFrames(firstFrame, PixelLayout::OfPixels(m_Mean.size(), stride), frames, begin, end);
+  }
+  /** The same for frames whose pixels stand as \a layout says. */
+  void
+  AddFrames(const TPixel *      firstFrame,
+            const PixelLayout & layout,
+            std::size_t         frames,
+            std::size_t         begin,
+            std::size_t         end);
 
   /** Tells that \a frames frames have been added for every pixel. */
   void

@@ -169,14 +169,21 @@ FrameThumbnails::FrameThumbnails(const FrameGeometry &             geometry,
 
 template <typename TPixel>
 void
-FrameThumbnails::AddFrames(const TPixel * frames, std::size_t first, std::size_t count, const ParallelFor & parallelFor)
+FrameThumbnails::AddFrames(const TPixel *      frames,
+                           const PixelLayout & layout,
+                           std::size_t         first,
+                           std::size_t         count,
+                           const ParallelFor & parallelFor)
 {
   parallelFor(count, [&](std::size_t k) {
     std::vector<RunSums> cells(m_Cells);
+    std::vector<TPixel>  room;
     for (const Run & run : m_Runs)
     {
       const std::uint8_t * const mask = m_Mask.empty() ? nullptr : m_Mask.data() + run.begin;
-      cells[run.cell] += SumRun(frames + k * m_Pixels + run.begin, mask, run.end - run.begin);
+      room.resize(layout.AreSideBySide() ? 0 : run.end - run.begin);
+      const TPixel * const values = layout.SideBySide(frames + k * layout.frame, run.begin, run.end, room.data());
+      cells[run.cell] += SumRun(values, mask, run.end - run.begin);
     }
     double noise = 0.0;
     double seen = 0.0;
@@ -256,15 +263,14 @@ FrameThumbnails::FindChange() const
   return { Quantile(shares, 0.5), level > 0.0 ? std::sqrt(Quantile(changed, 0.5)) / level : 0.0 };
 }
 
-template void
-FrameThumbnails::AddFrames(const unsigned char *, std::size_t, std::size_t, const ParallelFor &);
-template void
-FrameThumbnails::AddFrames(const unsigned short *, std::size_t, std::size_t, const ParallelFor &);
-template void
-FrameThumbnails::AddFrames(const short *, std::size_t, std::size_t, const ParallelFor &);
-template void
-FrameThumbnails::AddFrames(const float *, std::size_t, std::size_t, const ParallelFor &);
-template void
-FrameThumbnails::AddFrames(const double *, std::size_t, std::size_t, const ParallelFor &);
+#define SensorNoise_INSTANTIATE(TPixel)                        \
+  template SensorNoise_EXPORT void FrameThumbnails::AddFrames( \
+    const TPixel *, const PixelLayout &, std::size_t, std::size_t, const ParallelFor &)
+SensorNoise_INSTANTIATE(unsigned char);
+SensorNoise_INSTANTIATE(unsigned short);
+SensorNoise_INSTANTIATE(short);
+SensorNoise_INSTANTIATE(float);
+SensorNoise_INSTANTIATE(double);
+#undef SensorNoise_INSTANTIATE
 
 } // namespace sensornoise

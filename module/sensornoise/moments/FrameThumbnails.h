@@ -6,6 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/PixelLayout.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -43,7 +44,18 @@ public:
   /** Adds frames first ... first + count - 1, stored one after the other. */
   template <typename TPixel>
   void
-  AddFrames(const TPixel * frames, std::size_t first, std::size_t count, const ParallelFor & parallelFor);
+  AddFrames(const TPixel * frames, std::size_t first, std::size_t count, const ParallelFor & parallelFor)
+  {
+    this->AddFrames(frames, PixelLayout::OfPixels(m_Pixels, m_Pixels), first, count, parallelFor);
+  }
+  /** The same for frames whose pixels stand as \a layout says. */
+  template <typename TPixel>
+  void
+  AddFrames(const TPixel *      frames,
+            const PixelLayout & layout,
+            std::size_t         first,
+            std::size_t         count,
+            const ParallelFor & parallelFor);
 
   void
   Save(std::ostream & out) const;
@@ -75,17 +87,6 @@ private:
   std::vector<double>       m_Means; // of the cells, frame by frame [DN]; NaN: nothing finite
   std::vector<double>       m_Noise; // of these means, the mean over the cells [DN^2]
 };
-
-extern template SensorNoise_EXPORT void
-FrameThumbnails::AddFrames(const unsigned char *, std::size_t, std::size_t, const ParallelFor &);
-extern template SensorNoise_EXPORT void
-FrameThumbnails::AddFrames(const unsigned short *, std::size_t, std::size_t, const ParallelFor &);
-extern template SensorNoise_EXPORT void
-FrameThumbnails::AddFrames(const short *, std::size_t, std::size_t, const ParallelFor &);
-extern template SensorNoise_EXPORT void
-FrameThumbnails::AddFrames(const float *, std::size_t, std::size_t, const ParallelFor &);
-extern template SensorNoise_EXPORT void
-FrameThumbnails::AddFrames(const double *, std::size_t, std::size_t, const ParallelFor &);
 
 } // namespace sensornoise
 

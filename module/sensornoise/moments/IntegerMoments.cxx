@@ -102,26 +102,32 @@ IntegerMoments<TPixel>::IntegerMoments(std::size_t pixels, const ParallelFor & p
 
 template <typename TPixel>
 void
-IntegerMoments<TPixel>::AddBlock(const TPixel * first,
-                                 std::size_t    stride,
-                                 std::size_t    frames,
-                                 std::size_t    begin,
-                                 std::size_t    size)
+IntegerMoments<TPixel>::AddBlock(const TPixel *      firstFrame,
+                                 const PixelLayout & layout,
+                                 std::size_t         frames,
+                                 std::size_t         begin,
+                                 std::size_t         size,
+                                 TPixel *            room)
 {
   WithWideVectors([&] {
     BlockSums block;
     std::copy_n(m_Minimum.begin() + begin, size, block.minimum);
     std::copy_n(m_Maximum.begin() + begin, size, block.maximum);
-    std::size_t t = 0;
-    for (; t + FramesInRegisters <= frames; t += FramesInRegisters)
+    for (std::size_t t = 0; t < frames; t += FramesInRegisters)
     {
-      AddPairs<Centre>(first + t * stride, stride, -1, size, block, std::make_index_sequence<FramesInRegisters / 2>());
-    }
-    for (; t < frames; t += 2)
-    {
-      const bool isPaired = t + 1 < frames; // an odd last frame is its own partner, of which nothing is added
-      AddPairs<Centre>(
-        first + t * stride, isPaired ? stride : 0, isPaired ? -1 : 0, size, block, std::index_sequence<0>());
+      const std::size_t now = std::min(FramesInRegisters, frames - t);
+      const auto [first, stride] = layout.SideBySide(firstFrame + t * layout.frame, now, begin, begin + size, room);
+      if (now == FramesInRegisters)
+      {
+        AddPairs<Centre>(first, stride, -1, size, block, std::make_index_sequence<FramesInRegisters / 2>());
+        continue;
+      }
+      for (std::size_t k = 0; k < now; k += 2)
+      {
+        const bool isPaired = k + 1 < now; // an odd last frame is its own partner, of which nothing is added
+        AddPairs<Centre>(
+          first + k * stride, isPaired ? stride : 0, isPaired ? -1 : 0, size, block, std::index_sequence<0>());
+      }
     }
     for (std::size_t i = 0; i < size; ++i)
     {
@@ -135,18 +141,20 @@ IntegerMoments<TPixel>::AddBlock(const TPixel * first,
 
 template <typename TPixel>
 void
-IntegerMoments<TPixel>::AddFrames(const TPixel * firstFrame,
-                                  std::size_t    stride,
-                                  std::size_t    frames,
-                                  std::size_t    begin,
-                                  std::size_t    end)
+IntegerMoments<TPixel>::AddFrames(const TPixel *      firstFrame,
+                                  const PixelLayout & layout,
+                                  std::size_t         frames,
+                                  std::size_t         begin,
+                                  std::size_t         end)
 {
+  std::vector<TPixel> room(layout.AreSideBySide() ? 0 : FramesInRegisters * BlockSums::Pixels);
   for (std::size_t block = begin; block < end; block += BlockSums::Pixels)
   {
     const std::size_t size = std::min(BlockSums::Pixels, end - block);
     for (std::size_t t = 0; t < frames; t += FramesPerFlush)
     {
-      this->AddBlock(firstFrame + t * stride + block, stride, std::min(FramesPerFlush, frames - t), block, size);
+      this->AddBlock(
+        firstFrame + t * layout.frame, layout, std::min(FramesPerFlush, frames - t), block, size, room.data());
     }
   }
 }

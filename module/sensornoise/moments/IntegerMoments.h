@@ -5,6 +5,7 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/PixelLayout.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -42,7 +43,17 @@ public:
   /** Adds \a frames frames for the pixels [begin, end). \a firstFrame points at pixel 0 of the first frame, and each
    * next frame begins \a stride pixels later. */
   void
-  AddFrames(const TPixel * firstFrame, std::size_t stride, std::size_t frames, std::size_t begin, std::size_t end);
+  AddFrames(const TPixel * firstFrame, std::size_t stride, std::size_t frames, std::size_t begin, std::size_t end)
+  {
+    this->AddFrames(firstFrame, PixelLayout::OfPixels(m_Sum.size(), stride), frames, begin, end);
+  }
+  /** The same for frames whose pixels stand as \a layout says. */
+  void
+  AddFrames(const TPixel *      firstFrame,
+            const PixelLayout & layout,
+            std::size_t         frames,
+            std::size_t         begin,
+            std::size_t         end);
 
   /** Tells that \a frames frames have been added for every pixel. */
   void
@@ -127,7 +138,12 @@ private:
   static constexpr std::int32_t Centre = std::is_unsigned_v<TPixel> && sizeof(TPixel) == 2 ? 32768 : 0;
 
   void
-  AddBlock(const TPixel * first, std::size_t stride, std::size_t frames, std::size_t begin, std::size_t size);
+  AddBlock(const TPixel *      firstFrame,
+           const PixelLayout & layout,
+           std::size_t         frames,
+           std::size_t         begin,
+           std::size_t         size,
+           TPixel *            room);
 
   std::size_t                m_Frames{ 0 };
   std::vector<std::int64_t>  m_Sum;

@@ -28,6 +28,13 @@ public:
     return m_Pass;
   }
 
+  /** The frame that is to be added next. */
+  std::size_t
+  GetNext() const
+  {
+    return m_Next;
+  }
+
   /** The next \a count frames are added: returns the first. Throws std::logic_error if there are not so many left, or
    * one has been added before. */
   std::size_t

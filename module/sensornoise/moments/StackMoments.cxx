@@ -54,33 +54,47 @@ SumOfPixels(const TPixel * pixels, std::size_t count)
   }
 }
 
-/** A frame's bytes pass the cache once for its mean and its fingerprint. */
-template <typename TPixel>
-std::vector<BytesFingerprint>
-FindMeansAndFingerprints(const TPixel *      frames,
-                         std::size_t         pixels,
-                         std::size_t         count,
-                         const ParallelFor & parallelFor,
-                         double *            means)
+/** Of a frame of a plane. */
+struct MeanAndFingerprint
 {
-  constexpr std::size_t         pixelsOfBlock = FingerprintBlockBytes / sizeof(TPixel);
-  const std::size_t             blocks = (pixels + pixelsOfBlock - 1) / pixelsOfBlock;
-  std::vector<double>           sums(count * blocks);
-  std::vector<BytesFingerprint> fingerprints =
-    FingerprintsOf(frames,
-                   pixels * sizeof(TPixel),
-                   count,
-                   parallelFor,
-                   [&](std::size_t k, std::size_t block, std::size_t firstByte, std::size_t bytes) {
-                     sums[k * blocks + block] =
-                       SumOfPixels(frames + k * pixels + firstByte / sizeof(TPixel), bytes / sizeof(TPixel));
-                   });
-  for (std::size_t k = 0; k < count; ++k)
+  double           mean;
+  BytesFingerprint fingerprint;
+};
+
+/** Of every frame, frame by frame of each of the planes: their pixels pass the cache once. */
+template <typename TPixel>
+std::vector<MeanAndFingerprint>
+FindMeansAndFingerprints(const std::vector<PixelLayout> & planes,
+                         std::size_t                      pixels,
+                         const TPixel *                   frames,
+                         std::size_t                      count,
+                         const ParallelFor &              parallelFor)
+{
+  constexpr std::size_t         blockPixels = FingerprintBlockBytes / sizeof(TPixel);
+  const std::size_t             blocks = NumberOfFingerprintBlocks(pixels * sizeof(TPixel));
+  std::vector<double>           sums(planes.size() * count * blocks);
+  std::vector<BytesFingerprint> fingerprints(sums.size());
+  parallelFor(count * blocks, [&](std::size_t i) {
+    std::vector<TPixel> room(planes.front().AreSideBySide() ? 0 : blockPixels);
+    const std::size_t   begin = i % blocks * blockPixels;
+    const std::size_t   end = std::min(pixels, begin + blockPixels);
+    for (std::size_t plane = 0; plane < planes.size(); ++plane)
+    {
+      const PixelLayout &  layout = planes[plane];
+      const TPixel * const block = layout.SideBySide(frames + i / blocks * layout.frame, begin, end, room.data());
+      fingerprints[plane * count * blocks + i] = FingerprintOfBlock(block, (end - begin) * sizeof(TPixel));
+      sums[plane * count * blocks + i] = SumOfPixels(block, end - begin);
+    }
+  });
+  std::vector<MeanAndFingerprint> found;
+  for (std::size_t i = 0; i < sums.size(); i += blocks)
   {
-    const double * const first = sums.data() + k * blocks;
-    means[k] = std::accumulate(first, first + blocks, 0.0) / static_cast<double>(pixels);
+    const double * const           sum = sums.data() + i;
+    const BytesFingerprint * const block = fingerprints.data() + i;
+    found.push_back({ std::accumulate(sum, sum + blocks, 0.0) / static_cast<double>(pixels),
+                      FingerprintOfBlocks(block, block + blocks) });
   }
-  return fingerprints;
+  return found;
 }
 
 } // namespace
@@ -95,20 +109,61 @@ StackMoments<TPixel>::StackMoments(std::size_t pixels, std::size_t frames, const
 
 template <typename TPixel>
 void
-StackMoments<TPixel>::AddFrames(const TPixel *      frames,
-                                std::size_t         first,
-                                std::size_t         count,
-                                const ParallelFor & parallelFor)
+StackMoments<TPixel>::AddFrames(const std::vector<Plane> & planes,
+                                const TPixel *             frames,
+                                std::size_t                first,
+                                std::size_t                count,
+                                const ParallelFor &        parallelFor)
 {
-  m_First = std::min(m_First, first);
-  const std::vector<std::uint8_t> isNew = m_Fingerprints.Add(
-    first, FindMeansAndFingerprints(frames, m_Pixels, count, parallelFor, m_FrameMeans.data() + first));
-  ForChosenFrames(frames, m_Pixels, isNew, parallelFor, [&](const TPixel * chosen, std::size_t number) {
-    ForBlocks(m_Pixels, parallelFor, [&](std::size_t begin, std::size_t end) {
-      m_Own.AddFrames(chosen, m_Pixels, number, begin, end);
+  std::vector<PixelLayout> layouts;
+  for (const Plane & plane : planes)
+  {
+    layouts.push_back(plane.layout);
+  }
+  const std::size_t  pixels = planes.front().moments->m_Pixels;
+  const auto         found = FindMeansAndFingerprints(layouts, pixels, frames, count, parallelFor);
+  std::vector<Plane> together;
+  for (std::size_t i = 0; i < planes.size(); ++i)
+  {
+    StackMoments &                own = *planes[i].moments;
+    std::vector<BytesFingerprint> fingerprints;
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      own.m_FrameMeans[first + k] = found[i * count + k].mean;
+      fingerprints.push_back(found[i * count + k].fingerprint);
+    }
+    own.m_First = std::min(own.m_First, first);
+    const std::vector<std::uint8_t> isNew = own.m_Fingerprints.Add(first, fingerprints);
+    if (std::find(isNew.begin(), isNew.end(), std::uint8_t{ 0 }) == isNew.end())
+    {
+      together.push_back(planes[i]);
+      continue;
+    }
+    ForChosenFrames(frames, planes[i].layout.frame, isNew, parallelFor, [&](const TPixel * chosen, std::size_t number) {
+      AddDistinct({ planes[i] }, chosen, number, parallelFor);
     });
-    m_Own.AdvanceFrames(number);
+  }
+  AddDistinct(together, frames, count, parallelFor);
+}
+
+template <typename TPixel>
+void
+StackMoments<TPixel>::AddDistinct(const std::vector<Plane> & planes,
+                                  const TPixel *             frames,
+                                  std::size_t                count,
+                                  const ParallelFor &        parallelFor)
+{
+  const std::size_t pixels = planes.empty() ? 0 : planes.front().moments->m_Pixels;
+  ForBlocks(pixels, parallelFor, [&](std::size_t begin, std::size_t end) {
+    for (const Plane & plane : planes)
+    {
+      plane.moments->m_Own.AddFrames(frames, plane.layout, count, begin, end);
+    }
   });
+  for (const Plane & plane : planes)
+  {
+    plane.moments->m_Own.AdvanceFrames(count);
+  }
 }
 
 template <typename TPixel>

@@ -4,6 +4,7 @@
 #define sensornoise_moments_StackMoments_h
 
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/PixelLayout.h"
 #include "sensornoise/moments/DistinctFrames.h"
 #include "sensornoise/moments/FrameFingerprints.h"
 #include "sensornoise/moments/TemporalMoments.h"
@@ -35,7 +36,24 @@ public:
 
   /** Adds frames first ... first + count - 1, stored one after the other. */
   void
-  AddFrames(const TPixel * frames, std::size_t first, std::size_t count, const ParallelFor & parallelFor);
+  AddFrames(const TPixel * frames, std::size_t first, std::size_t count, const ParallelFor & parallelFor)
+  {
+    AddFrames({ { this, PixelLayout::OfPixels(m_Pixels, m_Pixels) } }, frames, first, count, parallelFor);
+  }
+
+  /** The moments of one of the planes of a mosaic, and how its pixels stand there. */
+  struct Plane
+  {
+    StackMoments * moments;
+    PixelLayout    layout;
+  };
+  /** Adds the frames to all \a planes, of one size: what one has read of a row is near when the next comes to it. */
+  static void
+  AddFrames(const std::vector<Plane> & planes,
+            const TPixel *             frames,
+            std::size_t                first,
+            std::size_t                count,
+            const ParallelFor &        parallelFor);
 
   /** What to do with frames that another process counts, see FrameFingerprints. Before they are added. */
   void
@@ -82,6 +100,13 @@ public:
   }
 
 private:
+  /** Adds frames that are not repeated. */
+  static void
+  AddDistinct(const std::vector<Plane> & planes,
+              const TPixel *             frames,
+              std::size_t                count,
+              const ParallelFor &        parallelFor);
+
   std::size_t             m_Pixels;
   std::vector<double>     m_FrameMeans; // 0 where a frame was not added
   FrameFingerprints       m_Fingerprints;

@@ -17,6 +17,7 @@ StackPasses<TPixel>::StackPasses(const std::string &               method,
                                  const std::vector<std::uint8_t> & mask,
                                  ParallelFor                       parallelFor)
   : m_Geometry(geometry)
+  , m_Layout(PixelLayout::OfFrames(geometry))
   , m_UserMask(mask)
   , m_ParallelFor(std::move(parallelFor))
   , m_Moments(geometry.Pixels(), frames, m_ParallelFor)
@@ -32,16 +33,16 @@ template <typename TPixel>
 void
 StackPasses<TPixel>::AddFrames(const TPixel * chunk, std::size_t frames)
 {
-  const std::size_t first = m_InPass.Add(frames);
   if (this->GetPass() == 0)
   {
-    m_Moments.AddFrames(chunk, first, frames, m_ParallelFor);
-    m_Thumbnails.AddFrames(chunk, first, frames, m_ParallelFor);
+    AddToMoments(std::vector<StackPasses *>{ this }, chunk, frames, m_ParallelFor);
+    return;
   }
-  else if (this->HasSums())
+  const std::size_t first = m_InPass.Add(frames);
+  if (this->HasSums())
   {
     m_Distinct.ForDistinct(chunk,
-                           m_Geometry.Pixels(),
+                           m_Layout.frame,
                            first,
                            frames,
                            m_ParallelFor,

@@ -6,6 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/PixelLayout.h"
 #include "sensornoise/moments/DistinctFrames.h"
 #include "sensornoise/moments/FrameFingerprints.h"
 #include "sensornoise/moments/FrameThumbnails.h"
@@ -67,8 +68,16 @@ public:
   /** How often a stack is read; more often where RefinedSettings::memoryLimitBytes asks for it. */
   static constexpr unsigned int NumberOfPasses = 3;
 
-  /** Adds the next \a frames frames of the current pass, stored one after the other. Throws std::logic_error if there
-   * are not so many left. */
+  /** The pixels of the frames to come stand as \a layout says; without it, one frame after the other. To be told once,
+   * before the first pass ends. */
+  void
+  SetLayout(const PixelLayout & layout)
+  {
+    m_Layout = layout;
+  }
+
+  /** Adds the next \a frames frames of the current pass, stored one after the other or as the layout says. Throws
+   * std::logic_error if there are not so many left. */
   void
   AddFrames(const TPixel * chunk, std::size_t frames);
 
@@ -153,6 +162,25 @@ protected:
     return m_InPass.GetPass();
   }
 
+  /** Adds the next \a count frames of the first pass to all \a planes, of one size. */
+  template <typename TMethod>
+  static void
+  AddToMoments(const std::vector<TMethod *> & planes,
+               const TPixel *                 frames,
+               std::size_t                    count,
+               const ParallelFor &            parallelFor)
+  {
+    std::vector<typename StackMoments<TPixel>::Plane> moments;
+    std::size_t                                       first = 0; // the same of all
+    for (StackPasses * const plane : planes)
+    {
+      first = plane->NextFrames(count);
+      moments.push_back({ &plane->m_Moments, plane->m_Layout });
+      plane->m_Thumbnails.AddFrames(frames, plane->m_Layout, first, count, parallelFor);
+    }
+    StackMoments<TPixel>::AddFrames(moments, frames, first, count, parallelFor);
+  }
+
   /** The next \a count frames of the current pass are added otherwise than by AddFrames(). Returns the first. Throws
    * std::logic_error if there are not so many left. */
   std::size_t
@@ -161,7 +189,15 @@ protected:
     return m_InPass.Add(count);
   }
 
+  /** Whether one of the next \a count frames equals one before it. */
+  bool
+  HasRepeated(std::size_t count) const
+  {
+    return !m_Distinct.AreDistinct(m_InPass.GetNext(), count);
+  }
+
   FrameGeometry             m_Geometry;
+  PixelLayout               m_Layout;
   std::vector<std::uint8_t> m_UserMask;
   ParallelFor               m_ParallelFor;
   StackMoments<TPixel>      m_Moments;
@@ -172,8 +208,8 @@ private:
   /** Whether the method sums in the current pass: not in the first one, nor if the stack cannot be measured. */
   virtual bool
   HasSums() const = 0;
-  /** What follows is only asked for where it has sums. Adds \a count distinct frames, one after the other, the first of
-   * which has the given place among them. */
+  /** What follows is only asked for where it has sums. Adds \a count distinct frames, the first of which has the given
+   * place among them. */
   virtual void
   AddDistinct(const TPixel * frames, std::size_t place, std::size_t count) = 0;
   virtual void

@@ -35,7 +35,7 @@ struct MosaicGeometry
   LayoutOf(BayerPlane plane) const
   {
     const std::array<std::size_t, 2> corner = CornerOf(pattern, plane);
-    return { corner[1] * frame.width + corner[0], 2, 2 * frame.width, frame.Pixels() };
+    return { corner[1] * frame.width + corner[0], 2, 2 * frame.width, frame.Pixels(), frame.width / 2 };
   }
 
   /** Values of the frame's pixels that are the plane's; none of none. */
@@ -64,9 +64,8 @@ struct MosaicGeometry
     }
   }
 
-  /** Copies planes of \a count frames that lie one after the other, in the order of BayerPlanes, to where there is room
-   * for them: R and G1, which stand in the same rows, if to[0] and to[1] are not null, G2 and B, if to[2] and to[3] are
-   * not. Each row is read once; to read every second one, for two of the planes, takes as long as to read all. */
+  /** Copies the planes of \a count frames that lie one after the other to where there is room for them, in the order of
+   * BayerPlanes. Each row is read once. */
   template <typename TPixel>
   void
   TakeFrames(const TPixel *                  frames,
@@ -84,14 +83,11 @@ struct MosaicGeometry
         const TPixel * pair = frames + row / size.height * frame.Pixels() + row % size.height * 2 * frame.width;
         for (std::size_t y = 0; y < 2; ++y)
         {
-          const std::size_t first = y == red[1] ? 0 : 2;
-          if (to[first] != nullptr) // G2 stands in the columns of R, B in those of G1
-          {
-            TakeRow(pair + y * frame.width,
-                    size.width,
-                    to[first + red[0]] + row * size.width,
-                    to[first + 1 - red[0]] + row * size.width);
-          }
+          const std::size_t first = FirstOfRow(y, red);
+          TakeRow(pair + y * frame.width,
+                  size.width,
+                  to[first + red[0]] + row * size.width,
+                  to[first + 1 - red[0]] + row * size.width);
         }
       }
     });
@@ -101,6 +97,13 @@ private:
   /** Pixels of a mosaic that a thread copies in one go. Set by hand: with a quarter of them copying takes a fifth
    * longer, as every thread then jumps from row to row in memory; with four times as many it is not faster. */
   static constexpr std::size_t PixelsTogether = std::size_t{ 1 } << 16;
+
+  /** The first of the two planes of a row. G2 stands in the columns of R, B in those of G1. */
+  static std::size_t
+  FirstOfRow(std::size_t y, const std::array<std::size_t, 2> & red)
+  {
+    return y == red[1] ? 0 : 2;
+  }
 
   template <typename TPixel>
   static void

@@ -4,11 +4,10 @@
 #define sensornoise_mosaic_MosaicMethod_h
 
 #include "sensornoise/base/FirstTouch.h"
-#include "sensornoise/base/ForAll.h"
 #include "sensornoise/base/FreeMemory.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/mosaic/MosaicGeometry.h"
-#include "sensornoise/mosaic/PlaneFrames.h"
+#include "sensornoise/mosaic/PlaneWork.h"
 #include "sensornoise/report/Report.h"
 
 #include <algorithm>
@@ -17,7 +16,6 @@
 #include <cstdint>
 #include <functional>
 #include <istream>
-#include <memory>
 #include <optional>
 #include <ostream>
 #include <vector>
@@ -29,8 +27,8 @@ namespace sensornoise
  * \brief A method at work on the four planes of a mosaic at once: each pass reads the stack once for all of them.
  *
  * Usage as that of the method, RefinedMethod or PublishedMethod; what it finds of each plane has the bits that the
- * method alone finds of it. Frames are copied into their planes a few at a time, see PlaneFrames, unless the method can
- * read them where they stand.
+ * method alone finds of it. The planes' pixels are read where they stand, those of a part of the frame for all planes
+ * while they are near.
  *
  * \tparam TPixel the type of the frames' pixels.
  * \tparam TMethod RefinedMethod or PublishedMethod of it. */
@@ -49,21 +47,13 @@ public:
                const ParallelFor &    parallelFor = SerialFor,
                std::size_t            threads = 1)
     : m_ParallelFor(parallelFor)
-    , m_Threads(threads)
-    , m_IsByPlane(std::make_shared<bool>(false))
-    , m_Planes(geometry, TMethod::BytesTogether)
+    , m_Work(parallelFor, threads)
+    , m_Geometry(geometry)
   {
-    const ParallelFor withinPlane = [parallelFor, isByPlane = m_IsByPlane](std::size_t count, const auto & function) {
-      // A single call: it is not spread, but whoever made parallelFor may stop the work there.
-      *isByPlane ? parallelFor(1, [&](std::size_t) { SerialFor(count, function); }) : parallelFor(count, function);
-    };
     for (const BayerPlane plane : BayerPlanes)
     {
-      m_Methods.push_back(makeMethod(plane, withinPlane));
-      if constexpr (TMethod::ReadsPlanesInPlace)
-      {
-        m_Methods.back().SetLayout(geometry.LayoutOf(plane));
-      }
+      m_Methods.push_back(makeMethod(plane, m_Work.WithinPlane()));
+      m_Methods.back().SetLayout(geometry.LayoutOf(plane));
     }
   }
 
@@ -71,21 +61,23 @@ public:
   void
   AddFrames(const TPixel * frames, std::size_t count)
   {
-    if constexpr (TMethod::ReadsPlanesInPlace)
+    if (this->DoBlueRowsWait() && count == this->GetHas().size())
     {
-      if (m_Passes > 0)
+      this->EndPlanes(RedRows, BayerPlanes.size()); // the pass before: there will be no sums
+      m_Last = BayerPlanes.size();
+    }
+    std::vector<TMethod *> planes;
+    for (std::size_t k = m_First; k < m_Last; ++k)
+    {
+      if (!m_Methods[k].IsDone()) // some planes may need more passes than others
       {
-        this->AddInPlace(frames, count);
-        return;
+        planes.push_back(&m_Methods[k]);
       }
     }
-    m_Planes.ForPlanes(
-      frames, count, m_First, m_Last, m_ParallelFor, [this](std::size_t k, const TPixel * plane, std::size_t now) {
-        if (!m_Methods[k].IsDone()) // some planes may need more passes than others
-        {
-          m_Methods[k].AddFrames(plane, now);
-        }
-      });
+    if (count > 0 && !planes.empty())
+    {
+      TMethod::AddFrames(planes, frames, count, m_ParallelFor);
+    }
   }
 
   /** Frame \a t is the next one of the current pass. */
@@ -137,13 +129,17 @@ public:
     std::size_t bytes = std::size_t{ 32 } << 20; ///< and more: less than a chunk of the stack is not worth a pass
   };
 
-  /** Where RefinedMethod's third pass has many sums, it is for the planes of the red rows alone, and one more for those
-   * of the blue rows: half of their memory, and not more to copy. To be told before the first pass; not where sums are
-   * saved or merged. */
+  /** No sums of RefinedMethod's third pass are saved or merged. Where all frames are added to it together there are
+   * none; where there are \a many, the pass is for the planes of the red rows alone, and one more for those of the blue
+   * rows: half of their memory. To be told before the first pass. */
   void
-  LetRowsTakeTurns(const ManySums & many)
+  LetSumsStay(const std::optional<ManySums> & many)
   {
     m_ManySums = many;
+    for (TMethod & method : m_Methods)
+    {
+      method.LetSumsStay();
+    }
   }
 
   /** Ends the current pass. */
@@ -151,11 +147,6 @@ public:
   EndPass()
   {
     ++m_Passes;
-    if (TMethod::ReadsPlanesInPlace || (m_Passes >= NumberOfPasses && m_Last == BayerPlanes.size())) // no more copies
-    {
-      m_Planes.Release();
-      GiveBackFreedMemory();
-    }
     if constexpr (TMethod::HasManySums)
     {
       if (m_ManySums && m_Passes + 1 == NumberOfPasses)
@@ -165,7 +156,7 @@ public:
       }
     }
     this->EndPlanes(m_First, m_Last);
-    if (m_Last == RedRows && this->AreDone(RedRows))
+    if (this->DoBlueRowsWait() && this->AreDone(RedRows))
     {
       m_First = RedRows;
       m_Last = BayerPlanes.size();
@@ -196,11 +187,10 @@ public:
   std::vector<T>
   JoinMaps(TFunction mapOf, T missing)
   {
-    const MosaicGeometry & geometry = m_Planes.GetGeometry();
-    std::vector<T>         map = MakeMap<T>(geometry.frame.Pixels(), m_ParallelFor, missing);
+    std::vector<T> map = MakeMap<T>(m_Geometry.frame.Pixels(), m_ParallelFor, missing);
     for (std::size_t k = 0; k < m_Methods.size(); ++k)
     {
-      geometry.Put(mapOf(m_Methods[k]), BayerPlanes[k], map.data(), m_ParallelFor);
+      m_Geometry.Put(mapOf(m_Methods[k]), BayerPlanes[k], map.data(), m_ParallelFor);
     }
     GiveBackFreedMemory(); // of maps that were taken
     return map;
@@ -217,21 +207,11 @@ private:
       m_Methods.begin(), m_Methods.begin() + planes, [](const TMethod & method) { return method.IsDone(); });
   }
 
-  /** All planes of a part are read while it is near the processor. */
-  void
-  AddInPlace(const TPixel * frames, std::size_t count)
+  /** The third pass is that of the red rows. */
+  bool
+  DoBlueRowsWait() const
   {
-    std::size_t first = 0;
-    for (TMethod & method : m_Methods)
-    {
-      first = method.BeginParts(count);
-    }
-    m_ParallelFor(m_Methods.front().NumberOfParts(count), [&](std::size_t part) {
-      for (TMethod & method : m_Methods)
-      {
-        method.AddPart(frames, first, count, part);
-      }
-    });
+    return m_Last == RedRows;
   }
 
   /** Ends it for the red rows, and for the blue ones unless these are to wait until those are done. */
@@ -240,14 +220,13 @@ private:
   {
     this->EndPlanes(0, RedRows);
     const std::size_t sums = std::max(m_Methods[0].SumsPerPixel(), m_Methods[1].SumsPerPixel());
-    const std::size_t bytes = sizeof(double) * sums * m_Planes.GetGeometry().frame.Pixels();
+    const std::size_t bytes = sizeof(double) * sums * m_Geometry.frame.Pixels();
     if (sums <= m_ManySums->ofPixel || bytes <= m_ManySums->bytes)
     {
       this->EndPlanes(RedRows, m_Last);
       return;
     }
     m_Last = RedRows;
-    m_Planes.Release(); // from now on there are two planes in it
     for (std::size_t k = RedRows; k < m_Methods.size(); ++k)
     {
       m_Methods[k].RestAfterFrameSums();
@@ -255,35 +234,24 @@ private:
     GiveBackFreedMemory();
   }
 
-  /** Ends the current pass of the planes from \a first on and below \a last, all at once unless there are more threads:
-   * much of what is left to do then are single sums and sorts. */
+  /** Ends the current pass of the planes from \a first on and below \a last, at the same time: much of what is left to
+   * do then are single sums and sorts. */
   void
   EndPlanes(std::size_t first, std::size_t last)
   {
-    *m_IsByPlane = m_Threads <= last - first;
-    try
-    {
-      ForAll(last - first, *m_IsByPlane ? m_ParallelFor : SerialFor, [&](std::size_t k) {
-        if (!m_Methods[first + k].IsDone())
-        {
-          m_Methods[first + k].EndPass();
-        }
-      });
-    }
-    catch (...)
-    {
-      *m_IsByPlane = false;
-      throw;
-    }
-    *m_IsByPlane = false;
+    m_Work.ForPlanes(first, last, [this](std::size_t k) {
+      if (!m_Methods[k].IsDone())
+      {
+        m_Methods[k].EndPass();
+      }
+    });
     GiveBackFreedMemory(); // planes' maps are small enough to be kept by the system's library when they are freed
   }
 
   ParallelFor             m_ParallelFor;
-  std::size_t             m_Threads;
-  std::shared_ptr<bool>   m_IsByPlane; // the planes are worked on at the same time, and each by one thread
+  PlaneWork               m_Work;
   std::vector<TMethod>    m_Methods;
-  PlaneFrames<TPixel>     m_Planes;
+  MosaicGeometry          m_Geometry;
   unsigned int            m_Passes{ 0 }; // that have ended
   std::optional<ManySums> m_ManySums;    // none: rows do not take turns
   std::size_t             m_First{ 0 };  // the planes whose turn it is

@@ -23,10 +23,8 @@ template <typename TPixel>
 class PlaneFrames
 {
 public:
-  /** At most \a bytesOfPlane of each plane are copied together, or sensornoise::FramesTogether. */
-  explicit PlaneFrames(const MosaicGeometry & geometry, std::size_t bytesOfPlane)
+  explicit PlaneFrames(const MosaicGeometry & geometry)
     : m_Geometry(geometry)
-    , m_BytesOfPlane(bytesOfPlane)
   {}
 
   const MosaicGeometry &
@@ -35,32 +33,26 @@ public:
     return m_Geometry;
   }
 
-  /** Calls function(k, frames, count), for the planes k from \a firstPlane on and below \a lastPlane, both even, in the
-   * order of BayerPlanes, for as many frames of that plane as are copied together, until all \a count frames of the
-   * mosaic are through. */
+  /** Calls function(k, frames, count), for the planes k in the order of BayerPlanes, for as many frames of that plane
+   * as are copied together, until all \a count frames of the mosaic are through. */
   template <typename TFunction>
   void
-  ForPlanes(const TPixel *      mosaics,
-            std::size_t         count,
-            std::size_t         firstPlane,
-            std::size_t         lastPlane,
-            const ParallelFor & parallelFor,
-            TFunction           function)
+  ForPlanes(const TPixel * mosaics, std::size_t count, const ParallelFor & parallelFor, TFunction function)
   {
     const std::size_t pixels = m_Geometry.Plane().Pixels();
-    const std::size_t most = std::max(FramesTogether, m_BytesOfPlane / (pixels * sizeof(TPixel)));
+    const std::size_t most = std::max(FramesTogether, BytesTogether / (pixels * sizeof(TPixel)));
     for (std::size_t first = 0; first < count; first += most)
     {
       const std::size_t       now = std::min(most, count - first);
-      const std::size_t       size = (lastPlane - firstPlane) * pixels * now;
+      const std::size_t       size = BayerPlanes.size() * pixels * now;
       std::array<TPixel *, 4> planes{};
       m_Buffer.resize(std::max(m_Buffer.size(), static_cast<Eigen::Index>(size)));
-      for (std::size_t k = firstPlane; k < lastPlane; ++k)
+      for (std::size_t k = 0; k < planes.size(); ++k)
       {
-        planes[k] = m_Buffer.data() + (k - firstPlane) * pixels * now;
+        planes[k] = m_Buffer.data() + k * pixels * now;
       }
       m_Geometry.TakeFrames(mosaics + first * m_Geometry.frame.Pixels(), now, planes, parallelFor);
-      for (std::size_t k = firstPlane; k < lastPlane; ++k)
+      for (std::size_t k = 0; k < planes.size(); ++k)
       {
         function(k, planes[k], now);
       }
@@ -76,7 +68,6 @@ public:
 
 private:
   MosaicGeometry                          m_Geometry;
-  std::size_t                             m_BytesOfPlane;
   Eigen::Array<TPixel, Eigen::Dynamic, 1> m_Buffer; // unlike std::vector, not filled by one thread
 };
 

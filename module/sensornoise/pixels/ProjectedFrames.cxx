@@ -22,15 +22,23 @@ constexpr std::size_t MostTogether = 2 * FramePairs::MostPairs;
 template <typename TPixel>
 constexpr int Middle = std::is_same_v<TPixel, unsigned short> ? 32768 : 0;
 
-/** Takes the values of \a pixels pixels; where the number of frames is odd, the last is its own partner. */
+/** Takes the values of the pixels [begin, end) of \a count frames; where that is odd, the last is its own partner. */
 template <typename TPixel>
 void
-TakePairs(const TPixel * frames, std::size_t stride, std::size_t count, std::size_t pixels, FramePairs & pairs)
+TakePairs(const TPixel *      frames,
+          const PixelLayout & layout,
+          std::size_t         count,
+          std::size_t         begin,
+          std::size_t         end,
+          FramePairs &        pairs)
 {
+  const std::size_t pixels = end - begin;
   for (std::size_t k = 0; 2 * k < count; ++k)
   {
-    const TPixel * first = frames + 2 * k * stride;
-    const TPixel * second = 2 * k + 1 < count ? first + stride : first;
+    TPixel         rooms[2][FramePairs::MostPixels];
+    const TPixel * frame = frames + 2 * k * layout.frame;
+    const TPixel * first = layout.SideBySide(frame, begin, end, rooms[0]);
+    const TPixel * second = 2 * k + 1 < count ? layout.SideBySide(frame + layout.frame, begin, end, rooms[1]) : first;
     std::int16_t * pair = pairs.values[k];
     for (std::size_t i = 0; i < pixels; ++i)
     {
@@ -45,12 +53,12 @@ TakePairs(const TPixel * frames, std::size_t stride, std::size_t count, std::siz
 template <typename TPixel>
 ProjectedFrames<TPixel>::ProjectedFrames(const TemporalBasis & basis,
                                          const TPixel *        frames,
-                                         std::size_t           framePixels,
+                                         const PixelLayout &   layout,
                                          std::size_t           firstFrame,
                                          std::size_t           count)
   : m_Basis(&basis)
   , m_Frames(frames)
-  , m_FramePixels(framePixels)
+  , m_Layout(layout)
   , m_First(firstFrame)
   , m_Count(count)
 {
@@ -81,12 +89,15 @@ ProjectedFrames<TPixel>::WeightsOf(std::size_t series, std::size_t first, std::s
 
 template <typename TPixel>
 void
-ProjectedFrames<TPixel>::AddTo(double * sums, std::size_t begin, std::size_t end, bool isLast, const double * next)
-  const
+ProjectedFrames<TPixel>::AddTo(double *       sums,
+                               std::size_t    begin,
+                               std::size_t    end,
+                               std::size_t    ahead,
+                               const double * next) const
 {
   if constexpr (std::is_integral_v<TPixel>)
   {
-    this->AddTogether(sums, begin, end, isLast, next);
+    this->AddTogether(sums, begin, end, ahead, next);
   }
   else
   {
@@ -99,21 +110,21 @@ void
 ProjectedFrames<TPixel>::AddTogether(double *       sums,
                                      std::size_t    begin,
                                      std::size_t    end,
-                                     bool           isLast,
+                                     std::size_t    ahead,
                                      const double * next) const
 {
   const std::size_t series = m_Basis->Size();
   FramePairs        values{};
   for (std::size_t n = 0; n < m_Weights.size(); ++n)
   {
-    const TPixel * const frames = m_Frames + n * MostTogether * m_FramePixels;
+    const TPixel * const frames = m_Frames + n * MostTogether * m_Layout.frame;
     const std::size_t    count = std::min(MostTogether, m_Count - n * MostTogether);
-    TakePairs(frames + begin, m_FramePixels, count, end - begin, values);
+    TakePairs(frames, m_Layout, count, begin, end, values);
     for (std::size_t j = 0; j < series; ++j)
     {
-      for (std::size_t t = j; !isLast && t < count; t += series)
+      for (std::size_t t = j; t < count; t += series)
       {
-        PrefetchValues(frames + t * m_FramePixels + end, BlockPixels);
+        m_Layout.Prefetch(frames + t * m_Layout.frame, end, ahead);
       }
       if (n == 0 && next != nullptr)
       {
@@ -131,8 +142,10 @@ ProjectedFrames<TPixel>::AddOneByOne(double * sums, std::size_t begin, std::size
 {
   for (std::size_t t = 0; t < m_Count; ++t)
   {
-    double values[BlockPixels];
-    std::copy(m_Frames + t * m_FramePixels + begin, m_Frames + t * m_FramePixels + end, values);
+    TPixel               room[BlockPixels];
+    const TPixel * const frame = m_Layout.SideBySide(m_Frames + t * m_Layout.frame, begin, end, room);
+    double               values[BlockPixels];
+    std::copy(frame, frame + (end - begin), values);
     for (std::size_t j = 0; j < m_Basis->Size(); ++j)
     {
       const double   weight = m_Basis->Rounded(m_First + t, j);

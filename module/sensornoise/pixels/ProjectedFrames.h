@@ -4,6 +4,7 @@
 #define sensornoise_pixels_ProjectedFrames_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/base/PixelLayout.h"
 #include "sensornoise/pixels/PairProducts.h"
 
 #include <cstddef>
@@ -27,19 +28,19 @@ public:
   /** Pixels of a block, whose sums with one series lie side by side; they stay in the first-level cache. */
   static constexpr std::size_t BlockPixels = FramePairs::MostPixels;
 
-  /** Frames firstFrame ... firstFrame + count - 1 of \a framePixels pixels, stored one after the other, which must
-   * outlive the object, as must \a basis. */
+  /** Frames firstFrame ... firstFrame + count - 1, whose pixels stand as \a layout says, and which must outlive the
+   * object, as must \a basis. */
   ProjectedFrames(const TemporalBasis & basis,
                   const TPixel *        frames,
-                  std::size_t           framePixels,
+                  const PixelLayout &   layout,
                   std::size_t           firstFrame,
                   std::size_t           count);
 
   /** Adds the sums of the pixels [begin, end), at most those of a block, to sums[j BlockPixels + i], i from 0, of each
-   * series j. The memory of the frames from \a end on is asked for meanwhile, unless \a isLast, and that of \a next,
-   * their sums, if there are any. */
+   * series j. Meanwhile the memory of the pixels [end, ahead) of the frames is asked for, and that of \a next, their
+   * sums, if there are any. */
   void
-  AddTo(double * sums, std::size_t begin, std::size_t end, bool isLast, const double * next = nullptr) const;
+  AddTo(double * sums, std::size_t begin, std::size_t end, std::size_t ahead, const double * next = nullptr) const;
 
 private:
   /** What the frames that are added together are multiplied by, of one series. */
@@ -52,13 +53,13 @@ private:
   Weights
   WeightsOf(std::size_t series, std::size_t first, std::size_t count) const;
   void
-  AddTogether(double * sums, std::size_t begin, std::size_t end, bool isLast, const double * next) const;
+  AddTogether(double * sums, std::size_t begin, std::size_t end, std::size_t ahead, const double * next) const;
   void
   AddOneByOne(double * sums, std::size_t begin, std::size_t end) const;
 
   const TemporalBasis *             m_Basis;
   const TPixel *                    m_Frames;
-  std::size_t                       m_FramePixels;
+  PixelLayout                       m_Layout;
   std::size_t                       m_First;
   std::size_t                       m_Count;
   std::vector<std::vector<Weights>> m_Weights; // of frames that are added together, and series

@@ -63,7 +63,7 @@ ProjectionSums::AddFrames(const ProjectedFrames<TPixel> & frames, std::size_t be
   {
     const std::size_t next = std::min(end, (p / BlockPixels + 1) * BlockPixels);
     const bool        isLast = next == end;
-    frames.AddTo(&this->At(p, 0), p, next, isLast, isLast ? nullptr : &this->At(next, 0));
+    frames.AddTo(&this->At(p, 0), p, next, std::min(end, next + BlockPixels), isLast ? nullptr : &this->At(next, 0));
     p = next;
   }
 }

@@ -108,64 +108,45 @@ AppendResidualSquares(const ReferenceFrame & frame,
 }
 
 template <typename TPixel>
-ResidualSquares
-MakeResidualSquares(const ReferenceFrame &          frame,
+void
+FillResidualSquares(const ReferenceFrame &          frame,
                     const TemporalBasis &           basis,
                     const ProjectedFrames<TPixel> & frames,
-                    ProjectionSums &                coordinates,
-                    const ParallelFor &             parallelFor)
+                    std::size_t                     begin,
+                    std::size_t                     end,
+                    ResidualSquares &               squares,
+                    ProjectionSums &                coordinates)
 {
-  const std::size_t             pixels = frame.mean.size();
-  ResidualSquares               squares{ MakeMap<double>(pixels, parallelFor), MakeMap<float>(pixels, parallelFor) };
   constexpr std::size_t         BlockPixels = ProjectionSums::BlockPixels;
   const detail::SquaresOfBlocks blocks(frame, basis, squares);
-  ForBlocks(pixels, parallelFor, [&](std::size_t begin, std::size_t end) {
-    std::vector<double> sums(basis.Size() * BlockPixels);
-    for (std::size_t first = begin; first < end; first += BlockPixels)
+  std::vector<double>           sums(basis.Size() * BlockPixels);
+  for (std::size_t first = begin; first < end; first += BlockPixels)
+  {
+    const std::size_t last = std::min(end, first + BlockPixels);
+    std::fill(sums.begin(), sums.end(), 0.0);
+    frames.AddTo(sums.data(), first, last, std::min(end, last + BlockPixels));
+    basis.ToCoordinates(sums.data(), BlockPixels, frame.mean.data() + first, last - first);
+    blocks.Fill(sums.data(), first, last - first);
+    for (std::size_t j = 0; j < coordinates.GetNumberOfSeries(); ++j)
     {
-      const std::size_t last = std::min(end, first + BlockPixels);
-      std::fill(sums.begin(), sums.end(), 0.0);
-      frames.AddTo(sums.data(), first, last, last == end);
-      basis.ToCoordinates(sums.data(), BlockPixels, frame.mean.data() + first, last - first);
-      blocks.Fill(sums.data(), first, last - first);
-      for (std::size_t j = 0; j < coordinates.GetNumberOfSeries(); ++j)
-      {
-        std::copy_n(sums.data() + j * BlockPixels, last - first, &coordinates.At(first, j));
-      }
+      std::copy_n(sums.data() + j * BlockPixels, last - first, &coordinates.At(first, j));
     }
-  });
-  return squares;
+  }
 }
 
-template SensorNoise_EXPORT ResidualSquares
-MakeResidualSquares(const ReferenceFrame &,
-                    const TemporalBasis &,
-                    const ProjectedFrames<unsigned char> &,
-                    ProjectionSums &,
-                    const ParallelFor &);
-template SensorNoise_EXPORT ResidualSquares
-MakeResidualSquares(const ReferenceFrame &,
-                    const TemporalBasis &,
-                    const ProjectedFrames<unsigned short> &,
-                    ProjectionSums &,
-                    const ParallelFor &);
-template SensorNoise_EXPORT ResidualSquares
-MakeResidualSquares(const ReferenceFrame &,
-                    const TemporalBasis &,
-                    const ProjectedFrames<short> &,
-                    ProjectionSums &,
-                    const ParallelFor &);
-template SensorNoise_EXPORT ResidualSquares
-MakeResidualSquares(const ReferenceFrame &,
-                    const TemporalBasis &,
-                    const ProjectedFrames<float> &,
-                    ProjectionSums &,
-                    const ParallelFor &);
-template SensorNoise_EXPORT ResidualSquares
-MakeResidualSquares(const ReferenceFrame &,
-                    const TemporalBasis &,
-                    const ProjectedFrames<double> &,
-                    ProjectionSums &,
-                    const ParallelFor &);
+#define SensorNoise_INSTANTIATE(TPixel)                                                 \
+  template SensorNoise_EXPORT void FillResidualSquares(const ReferenceFrame &,          \
+                                                       const TemporalBasis &,           \
+                                                       const ProjectedFrames<TPixel> &, \
+                                                       std::size_t,                     \
+                                                       std::size_t,                     \
+                                                       ResidualSquares &,               \
+                                                       ProjectionSums &)
+SensorNoise_INSTANTIATE(unsigned char);
+SensorNoise_INSTANTIATE(unsigned short);
+SensorNoise_INSTANTIATE(short);
+SensorNoise_INSTANTIATE(float);
+SensorNoise_INSTANTIATE(double);
+#undef SensorNoise_INSTANTIATE
 
 } // namespace sensornoise

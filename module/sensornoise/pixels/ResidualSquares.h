@@ -6,6 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/Parallel.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace sensornoise
@@ -36,46 +37,18 @@ AppendResidualSquares(const ReferenceFrame & frame,
                       const ParallelFor &    parallelFor,
                       ResidualSquares &      squares);
 
-/** The squares of all pixels, with the same bits, from \a frames that are all of a stack: no sums are held but those of
- * the blocks at work. \a coordinates, of as many of the first series as it has, are filled. */
+/** Fills \a squares, which are of all pixels, at those of [begin, end), with the same bits, from \a frames that are all
+ * of a stack: no sums are held. \a begin must be a multiple of ProjectionSums::BlockPixels. \a coordinates, of as many
+ * of the first series as it has, are filled there, too. Different pixels may be filled at the same time. */
 template <typename TPixel>
-ResidualSquares
-MakeResidualSquares(const ReferenceFrame &          frame,
+void
+FillResidualSquares(const ReferenceFrame &          frame,
                     const TemporalBasis &           basis,
                     const ProjectedFrames<TPixel> & frames,
-                    ProjectionSums &                coordinates,
-                    const ParallelFor &             parallelFor);
-
-extern template SensorNoise_EXPORT ResidualSquares
-MakeResidualSquares(const ReferenceFrame &,
-                    const TemporalBasis &,
-                    const ProjectedFrames<unsigned char> &,
-                    ProjectionSums &,
-                    const ParallelFor &);
-extern template SensorNoise_EXPORT ResidualSquares
-MakeResidualSquares(const ReferenceFrame &,
-                    const TemporalBasis &,
-                    const ProjectedFrames<unsigned short> &,
-                    ProjectionSums &,
-                    const ParallelFor &);
-extern template SensorNoise_EXPORT ResidualSquares
-MakeResidualSquares(const ReferenceFrame &,
-                    const TemporalBasis &,
-                    const ProjectedFrames<short> &,
-                    ProjectionSums &,
-                    const ParallelFor &);
-extern template SensorNoise_EXPORT ResidualSquares
-MakeResidualSquares(const ReferenceFrame &,
-                    const TemporalBasis &,
-                    const ProjectedFrames<float> &,
-                    ProjectionSums &,
-                    const ParallelFor &);
-extern template SensorNoise_EXPORT ResidualSquares
-MakeResidualSquares(const ReferenceFrame &,
-                    const TemporalBasis &,
-                    const ProjectedFrames<double> &,
-                    ProjectionSums &,
-                    const ParallelFor &);
+                    std::size_t                     begin,
+                    std::size_t                     end,
+                    ResidualSquares &               squares,
+                    ProjectionSums &                coordinates);
 
 } // namespace sensornoise
 

@@ -31,7 +31,6 @@ PublishedMethod<TPixel>::PublishedMethod(const PublishedSettings &         setti
                                          ParallelFor                       parallelFor)
   : Passes("PublishedMethod", geometry, frames, mask, std::move(parallelFor))
   , m_Settings(settings)
-  , m_Layout(PixelLayout::OfFrames(geometry))
 {
   settings.Validate();
 }
@@ -40,15 +39,40 @@ template <typename TPixel>
 void
 PublishedMethod<TPixel>::AddDistinct(const TPixel * frames, std::size_t place, std::size_t count)
 {
-  const std::size_t pixels = m_Geometry.Pixels();
   if (m_Sums)
   {
-    m_ParallelFor(count, [&](std::size_t k) { m_Sums->AddFrame(frames + k * pixels, place + k); });
+    m_ParallelFor(count, [&](std::size_t k) { m_Sums->AddFrame(frames + k * m_Layout.frame, place + k); });
   }
   else
   {
     m_ParallelFor(m_Geometry.height, [&](std::size_t y) { m_Correction->AddRow(frames, m_Layout, count, place, y); });
   }
+}
+
+template <typename TPixel>
+void
+PublishedMethod<TPixel>::AddFrames(const std::vector<PublishedMethod *> & planes,
+                                   const TPixel *                         mosaics,
+                                   std::size_t                            count,
+                                   const ParallelFor &                    parallelFor)
+{
+  if (planes.front()->GetPass() == 0)
+  {
+    Passes::AddToMoments(planes, mosaics, count, parallelFor);
+    return;
+  }
+  std::size_t first = 0; // the same of all
+  for (PublishedMethod * const plane : planes)
+  {
+    first = plane->NextFrames(count);
+  }
+  const PublishedMethod & front = *planes.front();
+  parallelFor(front.GetPass() == 1 ? count : front.m_Geometry.height, [&](std::size_t part) {
+    for (PublishedMethod * const plane : planes)
+    {
+      plane->AddPart(mosaics, first, count, part);
+    }
+  });
 }
 
 template <typename TPixel>

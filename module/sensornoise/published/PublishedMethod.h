@@ -48,12 +48,6 @@ public:
   /** Whether the third pass has more than one sum of a pixel. */
   static constexpr bool HasManySums = false;
 
-  /** Bytes of frames that it is best given together. */
-  static constexpr std::size_t BytesTogether = sensornoise::BytesTogether;
-
-  /** Whether passes behind the first one need no copy of a mosaic's planes, see AddPart(). */
-  static constexpr bool ReadsPlanesInPlace = true;
-
   /** \a mask, if given, has a nonzero value at the pixels to be used; \a parallelFor spreads the work. Throws
    * std::invalid_argument for settings out of range, see PublishedSettings::Validate(), and for a stack or a mask that
    * RequireStack() refuses. */
@@ -63,28 +57,14 @@ public:
                   const std::vector<std::uint8_t> & mask = {},
                   ParallelFor                       parallelFor = SerialFor);
 
-  /** Instead of AddFrames(), behind the first pass, for frames that stand as \a layout says, so that several methods
-   * may share what is read of them: the next \a count frames of the pass are \a mosaics. Each method's parts, from 0 to
-   * NumberOfParts(count) - 1, may be added at the same time, between BeginParts() and whatever else is called. */
-  void
-  SetLayout(const PixelLayout & layout)
-  {
-    m_Layout = layout;
-  }
-  /** Returns the first of the next \a count frames. Throws std::logic_error if there are not so many left. */
-  std::size_t
-  BeginParts(std::size_t count)
-  {
-    return this->NextFrames(count);
-  }
-  /** Frames in pass 2, rows in pass 3. */
-  std::size_t
-  NumberOfParts(std::size_t count) const
-  {
-    return this->GetPass() == 1 ? count : m_Geometry.height;
-  }
-  void
-  AddPart(const TPixel * mosaics, std::size_t first, std::size_t count, std::size_t part);
+  /** Adds the next \a count frames of the current pass, not the first one, to \a planes, which are those of mosaics,
+   * have one size and each its layout: what one has read of a row is near when the next comes to it. */
+  static void
+  AddFrames(const std::vector<PublishedMethod *> & planes,
+            const TPixel *                         mosaics,
+            std::size_t                            count,
+            const ParallelFor &                    parallelFor);
+  using StackPasses<TPixel>::AddFrames;
 
   /** Whether the last pass has ended. */
   bool
@@ -147,6 +127,7 @@ private:
   using Passes = StackPasses<TPixel>;
   using Passes::m_Distinct;
   using Passes::m_Geometry;
+  using Passes::m_Layout;
   using Passes::m_Moments;
   using Passes::m_ParallelFor;
   using Passes::m_Thumbnails;
@@ -159,6 +140,10 @@ private:
   }
   void
   AddDistinct(const TPixel * frames, std::size_t place, std::size_t count) override;
+  /** Adds part \a part of the frames \a first ... first + count - 1: a frame in pass 2, a row in pass 3. Different
+   * parts may be added at the same time. */
+  void
+  AddPart(const TPixel * frames, std::size_t first, std::size_t count, std::size_t part);
   void
   ForgetOwnSums() override;
   void
@@ -176,7 +161,6 @@ private:
   EndCorrection() const;
 
   PublishedSettings m_Settings;
-  PixelLayout       m_Layout;
 
   // What passes 2 and 3 gather, one of them at a time; neither if the stack cannot be measured.
   std::optional<FlickerSums>       m_Sums;

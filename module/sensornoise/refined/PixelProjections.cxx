@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/refined/PixelProjections.h"
 
+#include "sensornoise/base/FirstTouch.h"
 #include "sensornoise/base/FreeMemory.h"
+#include "sensornoise/pixels/ProjectedFrames.h"
 #include "sensornoise/refined/MemoryNeed.h"
 #include "sensornoise/scene/ReferenceFrame.h"
 
@@ -20,6 +22,7 @@ PixelProjections::PixelProjections(const FrameGeometry & geometry,
                                    const Options &       options,
                                    ParallelFor           parallelFor)
   : m_Geometry(geometry)
+  , m_Layout(PixelLayout::OfFrames(geometry))
   , m_Basis(std::move(basis))
   , m_Options(options)
   , m_ParallelFor(std::move(parallelFor))
@@ -58,46 +61,85 @@ PixelProjections::HoldSumsOfNextSlabs()
   m_Sums = ProjectionSums(pixels, series, m_ParallelFor, first, m_NextSlab);
 }
 
+/** Frames on their way into a plane's sums, or its squares if they are all frames. */
 template <typename TPixel>
-void
-PixelProjections::AddFrames(const TPixel *         frames,
-                            std::size_t            firstFrame,
-                            std::size_t            count,
-                            const ReferenceFrame & frame)
+struct PixelProjections::Batch
 {
-  const ProjectedFrames<TPixel> projected(m_Basis, frames, m_Geometry.Pixels(), firstFrame, count);
-  if (m_NextSlab == 0 && count == frame.frames)
+  PixelProjections *      to;
+  const ReferenceFrame *  frame;
+  ProjectedFrames<TPixel> projected;
+  ProjectionSums          light; // of all frames
+
+  Batch(const Plane & plane, const TPixel * frames, std::size_t count)
+    : to(plane.projections)
+    , frame(plane.frame)
+    , projected(to->m_Basis, frames, to->m_Layout, plane.first, count)
   {
-    this->ProjectAll(projected, frame);
-  }
-  else
-  {
-    if (m_NextSlab == 0)
+    if (to->m_NextSlab > 0) // sums are held
     {
-      this->HoldSumsOfNextSlabs();
+      return;
     }
-    const std::size_t first = m_Sums.FirstPixel();
-    ForBlocks(m_Sums.LastPixel() - first, m_ParallelFor, [&](std::size_t begin, std::size_t end) {
-      m_Sums.AddFrames(projected, first + begin, first + end);
-    });
+    if (count < frame->frames)
+    {
+      to->HoldSumsOfNextSlabs();
+      return;
+    }
+    const std::size_t pixels = to->m_Geometry.Pixels();
+    light = ProjectionSums(pixels, to->m_Options.keepLight ? to->m_Basis.NumberOfLightFactors() : 0, to->m_ParallelFor);
+    to->m_Squares = { MakeMap<double>(pixels, to->m_ParallelFor), MakeMap<float>(pixels, to->m_ParallelFor) };
+    to->m_IsProjected = true;
   }
-  if (!m_HasSample)
+
+  /** Those of the pixels [begin, end) whose turn it is. */
+  void
+  AddBlock(std::size_t begin, std::size_t end)
   {
-    m_Sample.AddFrames(frames, firstFrame, count, frame.mean, m_ParallelFor);
+    if (to->m_IsProjected)
+    {
+      FillResidualSquares(*frame, to->m_Basis, projected, begin, end, to->m_Squares, light);
+      return;
+    }
+    begin = std::max(begin, to->m_Sums.FirstPixel());
+    to->m_Sums.AddFrames(projected, begin, std::max(begin, std::min(end, to->m_Sums.LastPixel())));
   }
-}
+
+  void
+  End()
+  {
+    if (to->m_IsProjected && to->m_Options.keepLight)
+    {
+      to->m_Coordinates = PixelCoordinates(std::move(light));
+    }
+  }
+};
 
 template <typename TPixel>
 void
-PixelProjections::ProjectAll(const ProjectedFrames<TPixel> & frames, const ReferenceFrame & frame)
+PixelProjections::AddFrames(const std::vector<Plane> & planes,
+                            const TPixel *             frames,
+                            std::size_t                count,
+                            const ParallelFor &        parallelFor)
 {
-  ProjectionSums light(m_Geometry.Pixels(), m_Options.keepLight ? m_Basis.NumberOfLightFactors() : 0, m_ParallelFor);
-  m_Squares = MakeResidualSquares(frame, m_Basis, frames, light, m_ParallelFor);
-  if (m_Options.keepLight)
+  std::vector<Batch<TPixel>> batches;
+  for (const Plane & plane : planes)
   {
-    m_Coordinates = PixelCoordinates(std::move(light));
+    batches.emplace_back(plane, frames, count);
   }
-  m_IsProjected = true;
+  ForBlocks(planes.front().projections->m_Geometry.Pixels(), parallelFor, [&](std::size_t begin, std::size_t end) {
+    for (Batch<TPixel> & batch : batches)
+    {
+      batch.AddBlock(begin, end);
+    }
+  });
+  for (std::size_t i = 0; i < planes.size(); ++i)
+  {
+    batches[i].End();
+    PixelProjections & own = *planes[i].projections;
+    if (!own.m_HasSample)
+    {
+      own.m_Sample.AddFrames(frames, planes[i].first, count, planes[i].frame->mean, parallelFor);
+    }
+  }
 }
 
 void
@@ -188,15 +230,14 @@ PixelProjections::EndLight(const ReferenceFrame & frame)
   m_Coordinates = PixelCoordinates(std::move(m_Sums), m_Basis, frame.mean, m_ParallelFor);
 }
 
-template SensorNoise_EXPORT void
-PixelProjections::AddFrames(const unsigned char *, std::size_t, std::size_t, const ReferenceFrame &);
-template SensorNoise_EXPORT void
-PixelProjections::AddFrames(const unsigned short *, std::size_t, std::size_t, const ReferenceFrame &);
-template SensorNoise_EXPORT void
-PixelProjections::AddFrames(const short *, std::size_t, std::size_t, const ReferenceFrame &);
-template SensorNoise_EXPORT void
-PixelProjections::AddFrames(const float *, std::size_t, std::size_t, const ReferenceFrame &);
-template SensorNoise_EXPORT void
-PixelProjections::AddFrames(const double *, std::size_t, std::size_t, const ReferenceFrame &);
+#define SensorNoise_INSTANTIATE(TPixel)                         \
+  template SensorNoise_EXPORT void PixelProjections::AddFrames( \
+    const std::vector<Plane> &, const TPixel *, std::size_t, const ParallelFor &)
+SensorNoise_INSTANTIATE(unsigned char);
+SensorNoise_INSTANTIATE(unsigned short);
+SensorNoise_INSTANTIATE(short);
+SensorNoise_INSTANTIATE(float);
+SensorNoise_INSTANTIATE(double);
+#undef SensorNoise_INSTANTIATE
 
 } // namespace sensornoise

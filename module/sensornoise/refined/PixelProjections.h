@@ -6,6 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/PixelLayout.h"
 #include "sensornoise/correlation/FrameSample.h"
 #include "sensornoise/pixels/PixelCoordinates.h"
 #include "sensornoise/pixels/ProjectionSums.h"
@@ -16,6 +17,7 @@
 #include <istream>
 #include <ostream>
 #include <utility>
+#include <vector>
 
 namespace sensornoise
 {
@@ -56,11 +58,30 @@ public:
     return m_Basis.Size();
   }
 
-  /** Adds frames firstFrame ... firstFrame + count - 1, stored one after the other; \a frame is what they are compared
-   * with. */
-  template <typename TPixel>
+  /** The pixels of the frames to come stand as \a layout says; without it, one frame after the other. */
   void
-  AddFrames(const TPixel * frames, std::size_t firstFrame, std::size_t count, const ReferenceFrame & frame);
+  SetLayout(const PixelLayout & layout)
+  {
+    m_Layout = layout;
+    m_Sample.SetLayout(layout);
+  }
+
+  /** One of the planes of a mosaic, or a frame: the number of the first frame among its own, and what its frames are
+   * compared with. */
+  struct Plane
+  {
+    PixelProjections *     projections;
+    std::size_t            first;
+    const ReferenceFrame * frame;
+  };
+  /** Adds \a count frames to all \a planes, of one size: what one has read of a row is near when the next comes to it.
+   */
+  template <typename TPixel>
+  static void
+  AddFrames(const std::vector<Plane> & planes,
+            const TPixel *             frames,
+            std::size_t                count,
+            const ParallelFor &        parallelFor);
 
   /** Takes back all that was added in the current pass. */
   void
@@ -113,10 +134,10 @@ private:
   void
   RequireShared() const;
   template <typename TPixel>
-  void
-  ProjectAll(const ProjectedFrames<TPixel> & frames, const ReferenceFrame & frame);
+  struct Batch;
 
   FrameGeometry    m_Geometry;
+  PixelLayout      m_Layout;
   TemporalBasis    m_Basis; // of the current pass
   Options          m_Options;
   ParallelFor      m_ParallelFor;
@@ -128,17 +149,6 @@ private:
   ResidualSquares  m_Squares;
   PixelCoordinates m_Coordinates;
 };
-
-extern template SensorNoise_EXPORT void
-PixelProjections::AddFrames(const unsigned char *, std::size_t, std::size_t, const ReferenceFrame &);
-extern template SensorNoise_EXPORT void
-PixelProjections::AddFrames(const unsigned short *, std::size_t, std::size_t, const ReferenceFrame &);
-extern template SensorNoise_EXPORT void
-PixelProjections::AddFrames(const short *, std::size_t, std::size_t, const ReferenceFrame &);
-extern template SensorNoise_EXPORT void
-PixelProjections::AddFrames(const float *, std::size_t, std::size_t, const ReferenceFrame &);
-extern template SensorNoise_EXPORT void
-PixelProjections::AddFrames(const double *, std::size_t, std::size_t, const ReferenceFrame &);
 
 } // namespace sensornoise
 

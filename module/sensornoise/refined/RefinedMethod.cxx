@@ -110,13 +110,60 @@ template <typename TPixel>
 void
 RefinedMethod<TPixel>::AddDistinct(const TPixel * frames, std::size_t place, std::size_t count)
 {
-  if (this->GetPass() == 1)
+  AddTogether({ { this, place } }, frames, count, m_ParallelFor);
+}
+
+template <typename TPixel>
+void
+RefinedMethod<TPixel>::AddTogether(const std::vector<Plane> & planes,
+                                   const TPixel *             frames,
+                                   std::size_t                count,
+                                   const ParallelFor &        parallelFor)
+{
+  if (planes.front().method->GetPass() == 1)
   {
-    m_FrameSums->AddFrames(frames, place, count, m_ParallelFor);
+    std::vector<FrameSums::Plane> ofSums;
+    for (const auto & [method, place] : planes)
+    {
+      ofSums.push_back({ method->m_FrameSums.get(), place });
+    }
+    FrameSums::AddFrames(ofSums, frames, count, parallelFor);
+    return;
   }
-  else
+  std::vector<PixelProjections::Plane> projected;
+  for (const auto & [method, place] : planes)
   {
-    m_Projections->AddFrames(frames, place, count, m_Scene->frame);
+    projected.push_back({ &*method->m_Projections, place, &method->m_Scene->frame });
+  }
+  PixelProjections::AddFrames(projected, frames, count, parallelFor);
+}
+
+template <typename TPixel>
+void
+RefinedMethod<TPixel>::AddFrames(const std::vector<RefinedMethod *> & planes,
+                                 const TPixel *                       mosaics,
+                                 std::size_t                          count,
+                                 const ParallelFor &                  parallelFor)
+{
+  if (planes.front()->GetPass() == 0)
+  {
+    Passes::AddToMoments(planes, mosaics, count, parallelFor);
+    return;
+  }
+  std::vector<Plane> together;
+  for (RefinedMethod * const plane : planes)
+  {
+    if (!plane->HasSums() || plane->HasRepeated(count))
+    {
+      plane->AddFrames(mosaics, count);
+      continue;
+    }
+    const std::size_t first = plane->NextFrames(count);
+    together.push_back({ plane, plane->m_Distinct.PlaceOf(first) });
+  }
+  if (!together.empty())
+  {
+    AddTogether(together, mosaics, count, parallelFor);
   }
 }
 
@@ -227,6 +274,7 @@ RefinedMethod<TPixel>::EndMoments()
                                    "1000 times the largest level of the frames");
   }
   m_FrameSums = std::make_unique<FrameSums>(RegressorsOf(*m_Scene, m_ParallelFor), m_ParallelFor);
+  m_FrameSums->SetLayout(m_Layout);
 }
 
 template <typename TPixel>
@@ -249,6 +297,7 @@ RefinedMethod<TPixel>::EndFrameSums()
                         m_Series->basis,
                         PixelProjections::Options{ slabs, m_Series->local.series.cols() > 0, m_SumsStay },
                         m_ParallelFor);
+  m_Projections->SetLayout(m_Layout);
 }
 
 /** Whether all that is needed has been read. */

@@ -5,7 +5,6 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/FrameGeometry.h"
-#include "sensornoise/base/FramesTogether.h"
 #include "sensornoise/base/NothingToMeasure.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/correlation/NoiseCorrelation.h"
@@ -54,13 +53,6 @@ public:
   /** Whether there is SumsPerPixel(). */
   static constexpr bool HasManySums = true;
 
-  /** A mosaic's planes are copied for it: series are multiplied by frames of pixels that stand side by side. */
-  static constexpr bool ReadsPlanesInPlace = false;
-
-  /** Bytes of frames that it is best given together. Set by hand: with half of it an estimate takes 12 % longer, for
-   * what the second pass makes anew each time; with twice as long. */
-  static constexpr std::size_t BytesTogether = 2 * sensornoise::BytesTogether;
-
   /** \a mask, if given, has a nonzero value at the pixels to be used; \a parallelFor spreads the work. Throws
    * std::invalid_argument for settings out of range, see RefinedSettings::Validate(), and for a stack or a mask that
    * RequireStack() refuses. */
@@ -82,6 +74,15 @@ public:
   {
     m_SumsStay = true;
   }
+
+  /** Adds the next \a count frames of the current pass, not the first one, to \a planes, which are those of mosaics,
+   * have one size and each its layout: what one has read of a row is near when the next comes to it. */
+  static void
+  AddFrames(const std::vector<RefinedMethod *> & planes,
+            const TPixel *                       mosaics,
+            std::size_t                          count,
+            const ParallelFor &                  parallelFor);
+  using StackPasses<TPixel>::AddFrames;
 
   /** Whether the report is there. That is after NumberOfPasses passes, or more if RefinedSettings::memoryLimitBytes
    * asks for it: these read the stack once more, like the third. */
@@ -160,6 +161,7 @@ private:
   using Passes = StackPasses<TPixel>;
   using Passes::m_Distinct;
   using Passes::m_Geometry;
+  using Passes::m_Layout;
   using Passes::m_Moments;
   using Passes::m_ParallelFor;
   using Passes::m_Thumbnails;
@@ -182,6 +184,18 @@ private:
   AddFindings(Fingerprint & fingerprint) const override;
   void
   FinishPass(unsigned int pass) override;
+
+  struct Plane
+  {
+    RefinedMethod * method;
+    std::size_t     place; ///< of the first frame among the distinct ones
+  };
+  /** Adds distinct frames. */
+  static void
+  AddTogether(const std::vector<Plane> & planes,
+              const TPixel *             frames,
+              std::size_t                count,
+              const ParallelFor &        parallelFor);
 
   void
   EndMoments();

@@ -6,6 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/PixelLayout.h"
 #include "sensornoise/scene/ReferenceFrame.h"
 #include "sensornoise/series/FrameProducts.h"
 #include "sensornoise/series/FrameRegressors.h"
@@ -62,10 +63,35 @@ public:
   /** The frame of \a regressors must outlive the object and its copies, at its place. */
   explicit FrameSums(FrameRegressors regressors, const ParallelFor & parallelFor = SerialFor);
 
-  /** Adds frames first ... first + count - 1, stored one after the other. */
+  /** The pixels of the frames to come stand as \a layout says; without it, one frame after the other. */
+  void
+  SetLayout(const PixelLayout & layout)
+  {
+    m_Layout = layout;
+  }
+
+  /** Adds frames first ... first + count - 1. */
   template <typename TPixel>
   void
-  AddFrames(const TPixel * frames, std::size_t first, std::size_t count, const ParallelFor & parallelFor);
+  AddFrames(const TPixel * frames, std::size_t first, std::size_t count, const ParallelFor & parallelFor)
+  {
+    AddFrames({ { this, first } }, frames, count, parallelFor);
+  }
+
+  /** The sums of one of the planes of a mosaic, and the number of the first frame among its own. */
+  struct Plane
+  {
+    FrameSums * sums;
+    std::size_t first;
+  };
+  /** Adds \a count frames to the sums of all \a planes: what one has read of a row is near when the next comes to it.
+   */
+  template <typename TPixel>
+  static void
+  AddFrames(const std::vector<Plane> & planes,
+            const TPixel *             frames,
+            std::size_t                count,
+            const ParallelFor &        parallelFor);
 
   /** Adds the sums of other frames, made with the same frame, model and pixels. */
   void
@@ -163,10 +189,10 @@ private:
   SumInstruments(const ParallelFor & parallelFor);
 
   template <typename TPixel>
-  void
-  AddBatch(const TPixel * frames, std::size_t first, std::size_t count, const ParallelFor & parallelFor);
+  struct Batch;
 
   FrameRegressors m_Regressors;
+  PixelLayout     m_Layout;
   std::size_t     m_CellRows;
   std::size_t     m_CellsPerRow;
 
@@ -178,17 +204,6 @@ private:
   InstrumentNoise                                  m_OfOne;   // of the variance 1
   InstrumentNoise                                  m_OfLevel; // of a variance that is the neighbours' mean
 };
-
-extern template SensorNoise_EXPORT void
-FrameSums::AddFrames(const unsigned char *, std::size_t, std::size_t, const ParallelFor &);
-extern template SensorNoise_EXPORT void
-FrameSums::AddFrames(const unsigned short *, std::size_t, std::size_t, const ParallelFor &);
-extern template SensorNoise_EXPORT void
-FrameSums::AddFrames(const short *, std::size_t, std::size_t, const ParallelFor &);
-extern template SensorNoise_EXPORT void
-FrameSums::AddFrames(const float *, std::size_t, std::size_t, const ParallelFor &);
-extern template SensorNoise_EXPORT void
-FrameSums::AddFrames(const double *, std::size_t, std::size_t, const ParallelFor &);
 
 } // namespace sensornoise
 

@@ -183,15 +183,10 @@ RegressorBand::FillColumns()
   }
 }
 
-const std::vector<RegressorBand::Sums> &
-RegressorBand::MultiplyBy(const double * series)
+void
+RegressorBand::MultiplyGroupBy(std::size_t group, const double * series)
 {
-  const GroupFactors of{ m_Columns.data(), m_Order.data(), series, m_Pixels };
-  for (std::size_t g = 0; g < m_Groups.size(); ++g)
-  {
-    MultiplyGroup(m_Groups[g], of, m_Sums[g]);
-  }
-  return m_Sums;
+  MultiplyGroup(m_Groups[group], { m_Columns.data(), m_Order.data(), series, m_Pixels }, m_Sums[group]);
 }
 
 } // namespace sensornoise

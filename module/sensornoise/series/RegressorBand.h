@@ -74,18 +74,28 @@ public:
     return m_Series.data() + k * m_Pixels;
   }
   /** Sums over the pixels of every group of their columns times the values of the series, until the next call. A
-   * series' bits do not depend on those beside it. */
+   * series' bits do not depend on those beside it. Calls meanwhile(g) before each group g. */
+  template <typename TFunction>
   const std::vector<Sums> &
-  Multiply()
+  Multiply(TFunction meanwhile)
   {
-    return this->MultiplyBy(m_Series.data());
+    for (std::size_t g = 0; g < m_Groups.size(); ++g)
+    {
+      meanwhile(g);
+      this->MultiplyGroupBy(g, m_Series.data());
+    }
+    return m_Sums;
   }
   /** The same where the series are Together of the pixels' own values from column \a first on; those behind the last
    * column are of no meaning. */
   const std::vector<Sums> &
   MultiplyByValues(std::size_t first)
   {
-    return this->MultiplyBy(m_Rows.data() + first * m_Pixels);
+    for (std::size_t g = 0; g < m_Groups.size(); ++g)
+    {
+      this->MultiplyGroupBy(g, m_Rows.data() + first * m_Pixels);
+    }
+    return m_Sums;
   }
 
 private:
@@ -117,8 +127,8 @@ private:
   FillWeights();
   void
   FillColumns();
-  const std::vector<Sums> &
-  MultiplyBy(const double * series);
+  void
+  MultiplyGroupBy(std::size_t group, const double * series);
 
   const FrameRegressors &                       m_Regressors;
   std::size_t                                   m_Cells;
