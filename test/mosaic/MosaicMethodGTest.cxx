@@ -259,6 +259,23 @@ TEST(MosaicGeometry, SplitAndPutAreInverse)
   EXPECT_TRUE(geometry.Take(std::vector<int>(), BayerPlane::R).empty());
 }
 
+TEST(MosaicGeometry, JoinIsPutOfEachPlane)
+{
+  for (const char * const name : { "RGGB", "GRBG", "GBRG", "BGGR" })
+  {
+    const MosaicGeometry geometry{ { 11, 7, 1 }, BayerPatternOf(name) }; // the last column and row are in none
+    std::array<std::vector<int>, 4> ofPlanes;
+    std::vector<int>                expected(77, -1);
+    for (std::size_t k = 0; k < ofPlanes.size(); ++k)
+    {
+      ofPlanes[k].resize(k == 2 ? 0 : 15); // of one there is no map
+      std::iota(ofPlanes[k].begin(), ofPlanes[k].end(), static_cast<int>(100 * k));
+      geometry.Put(ofPlanes[k], BayerPlanes.at(k), expected.data());
+    }
+    EXPECT_EQ(geometry.Join(ofPlanes, -1, Threads(3)), expected) << name;
+  }
+}
+
 TEST(MosaicGeometry, FramesAreTakenAsEachOfThem)
 {
   constexpr std::size_t count = 3;

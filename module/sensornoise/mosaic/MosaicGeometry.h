@@ -4,6 +4,7 @@
 #define sensornoise_mosaic_MosaicGeometry_h
 
 #include "sensornoise/base/BayerPattern.h"
+#include "sensornoise/base/FirstTouch.h"
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/PixelLayout.h"
@@ -62,6 +63,33 @@ struct MosaicGeometry
       this->ForPixels(
         plane, parallelFor, [&](std::size_t inPlane, std::size_t inFrame) { ofFrame[inFrame] = ofPlane[inPlane]; });
     }
+  }
+
+  /** The frame's values of those of its planes, in the order of BayerPlanes. Where a plane has none, and in a last
+   * column or row that is in no plane, \a missing. */
+  template <typename T>
+  std::vector<T>
+  Join(const std::array<std::vector<T>, 4> & ofPlanes, T missing, const ParallelFor & parallelFor) const
+  {
+    const FrameGeometry              size = this->Plane();
+    const std::array<std::size_t, 2> red = CornerOf(pattern, BayerPlane::R);
+    const std::vector<T>             none(size.width, missing);
+    std::vector<T>                   ofFrame = MakeMap<T>(frame.Pixels(), parallelFor, missing);
+    parallelFor(2 * size.height, [&](std::size_t y) {
+      const std::size_t first = FirstOfRow(y % 2, red);
+      const auto        rowOf = [&](std::size_t plane) {
+        return ofPlanes[plane].empty() ? none.data() : ofPlanes[plane].data() + y / 2 * size.width;
+      };
+      const T * const left = rowOf(first + red[0]);
+      const T * const right = rowOf(first + 1 - red[0]);
+      T * const       to = ofFrame.data() + y * frame.width;
+      for (std::size_t x = 0; x < size.width; ++x)
+      {
+        to[2 * x] = left[x];
+        to[2 * x + 1] = right[x];
+      }
+    });
+    return ofFrame;
   }
 
   /** Copies the planes of \a count frames that lie one after the other to where there is room for them, in the order of

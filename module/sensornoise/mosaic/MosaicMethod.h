@@ -3,7 +3,6 @@
 #ifndef sensornoise_mosaic_MosaicMethod_h
 #define sensornoise_mosaic_MosaicMethod_h
 
-#include "sensornoise/base/FirstTouch.h"
 #include "sensornoise/base/FreeMemory.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/mosaic/MosaicGeometry.h"
@@ -187,11 +186,13 @@ public:
   std::vector<T>
   JoinMaps(TFunction mapOf, T missing)
   {
-    std::vector<T> map = MakeMap<T>(m_Geometry.frame.Pixels(), m_ParallelFor, missing);
-    for (std::size_t k = 0; k < m_Methods.size(); ++k)
+    std::array<std::vector<T>, 4> ofPlanes;
+    for (std::size_t k = 0; k < ofPlanes.size(); ++k)
     {
-      m_Geometry.Put(mapOf(m_Methods[k]), BayerPlanes[k], map.data(), m_ParallelFor);
+      ofPlanes[k] = mapOf(m_Methods[k]);
     }
+    std::vector<T> map = m_Geometry.Join(ofPlanes, missing, m_ParallelFor);
+    ofPlanes = {};
     GiveBackFreedMemory(); // of maps that were taken
     return map;
   }
