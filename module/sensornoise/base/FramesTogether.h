@@ -12,10 +12,6 @@ namespace sensornoise
  * are handed on at a time at least, however large they are. */
 inline constexpr std::size_t FramesTogether = 4;
 
-/** Bytes of frames that are handed on at a time where they are copied for it, as the planes of a mosaic. Set by hand:
- * with half of it the published method takes a tenth longer, with twice as long and more memory. */
-inline constexpr std::size_t BytesTogether = std::size_t{ 8 } << 20;
-
 } // namespace sensornoise
 
 #endif

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <utility>
 
 namespace sensornoise
 {
@@ -56,55 +55,46 @@ struct PixelLayout
     return step == 1 && row == width;
   }
 
-  /** Asks for the memory of the pixels [begin, end), counted row by row, of \a frame, which will be needed soon. */
-  template <typename TPixel>
+  /** Calls function(p, place, count) for the runs of the pixels [begin, end), counted row by row, that stand at equal
+   * distances: the first one of each, its place in a frame, and how many they are. */
+  template <typename TFunction>
   void
-  Prefetch(const TPixel * frame, std::size_t begin, std::size_t end) const
+  ForRuns(std::size_t begin, std::size_t end, TFunction function) const
   {
     for (std::size_t p = begin; p < end;)
     {
       const std::size_t count = this->AreSideBySide() ? end - p : std::min(end - p, width - p % width);
-      PrefetchValues(frame + this->At(p), step * count);
+      function(p, this->At(p), count);
       p += count;
     }
   }
 
-  /** The pixels [begin, end), counted row by row, of \a frame, one of the frames: side by side, where they stand or
-   * copied to \a room, which has room for them. */
+  /** Asks for the memory of the pixels [begin, end) of the frame that begins at \a start, which will be needed soon. */
+  template <typename TPixel>
+  void
+  Prefetch(const TPixel * start, std::size_t begin, std::size_t end) const
+  {
+    this->ForRuns(begin, end, [&](std::size_t, std::size_t place, std::size_t count) {
+      PrefetchValues(start + place, step * count);
+    });
+  }
+
+  /** The pixels [begin, end) of the frame that begins at \a start: side by side, where they stand or copied to
+   * \a room, which has room for them. */
   template <typename TPixel>
   const TPixel *
-  SideBySide(const TPixel * frame, std::size_t begin, std::size_t end, TPixel * room) const
+  SideBySide(const TPixel * start, std::size_t begin, std::size_t end, TPixel * room) const
   {
     if (this->AreSideBySide())
     {
-      return frame + first + begin;
+      return start + first + begin;
     }
-    for (std::size_t p = begin; p < end;)
-    {
-      const std::size_t count = std::min(end - p, width - p % width);
-      const TPixel *    from = frame + this->At(p);
-      TPixel * const    to = room + (p - begin);
+    this->ForRuns(begin, end, [&](std::size_t p, std::size_t place, std::size_t count) {
+      const TPixel * const from = start + place;
+      TPixel * const       to = room + (p - begin);
       WithWideVectors([&] { step == 2 ? CopyEvery<2>(from, count, to) : CopyEvery<1>(from, count, to); });
-      p += count;
-    }
+    });
     return room;
-  }
-
-  /** The same of \a count frames, which \a room has room for: where the first one's pixels are, and how far from it
-   * those of the next one. */
-  template <typename TPixel>
-  std::pair<const TPixel *, std::size_t>
-  SideBySide(const TPixel * frames, std::size_t count, std::size_t begin, std::size_t end, TPixel * room) const
-  {
-    if (this->AreSideBySide())
-    {
-      return { frames + first + begin, frame };
-    }
-    for (std::size_t k = 0; k < count; ++k)
-    {
-      this->SideBySide(frames + k * frame, begin, end, room + k * (end - begin));
-    }
-    return { room, end - begin };
   }
 
 private:

@@ -29,7 +29,10 @@ IntegerStreamName()
 {
   return "IntegerMoments " + PixelName<TPixel>();
 }
+} // namespace
 
+namespace detail
+{
 /** Frames whose values are added in registers, before they are to the sums of a block, which have more memory than the
  * first-level cache. Set by hand: with half of them the sums take a quarter longer, with a quarter of them two thirds.
  */
@@ -51,14 +54,15 @@ struct BlockSums
   std::int16_t  maximum[Pixels] = {};
 };
 
-/** Adds as many pairs of frames as there are VPairs. Of the second frame of each what \a keep has: all bits, or none.
- */
-template <std::int32_t VCentre, typename TPixel, std::size_t... VPairs>
+/** Adds as many pairs of frames as there are VPairs, of every VStep-th value, to the sums from \a offset on. Of the
+ * second frame of each pair what \a keep has: all bits, or none. */
+template <std::int32_t VCentre, std::size_t VStep, typename TPixel, std::size_t... VPairs>
 void
 AddPairs(const TPixel * first,
          std::size_t    stride,
          std::int32_t   keep,
          std::size_t    size,
+         std::size_t    offset,
          BlockSums &    block,
          std::index_sequence<VPairs...>)
 {
@@ -67,12 +71,12 @@ AddPairs(const TPixel * first,
     std::int32_t  sum = 0;
     std::uint32_t low = 0;
     std::uint32_t high = 0;
-    std::int16_t  minimum = block.minimum[i];
-    std::int16_t  maximum = block.maximum[i];
+    std::int16_t  minimum = block.minimum[offset + i];
+    std::int16_t  maximum = block.maximum[offset + i];
     const auto    add = [&](std::size_t k) {
-      const auto          a = static_cast<std::int16_t>(std::int32_t{ first[2 * k * stride + i] } - VCentre);
-      const auto          b = static_cast<std::int16_t>(std::int32_t{ first[(2 * k + 1) * stride + i] } - VCentre);
-      const auto          c = static_cast<std::int16_t>(b & keep);
+      const auto a = static_cast<std::int16_t>(std::int32_t{ first[2 * k * stride + VStep * i] } - VCentre);
+      const auto b = static_cast<std::int16_t>(std::int32_t{ first[(2 * k + 1) * stride + VStep * i] } - VCentre);
+      const auto c = static_cast<std::int16_t>(b & keep);
       const std::uint32_t squares =
         static_cast<std::uint32_t>(std::int32_t{ a } * a) + static_cast<std::uint32_t>(std::int32_t{ c } * c);
       sum += std::int32_t{ a } + c;
@@ -82,15 +86,39 @@ AddPairs(const TPixel * first,
       maximum = std::max(maximum, std::max(a, b));
     };
     (add(VPairs), ...);
-    block.sum[i] += sum;
-    block.low[i] += low;
-    block.high[i] += high;
-    block.minimum[i] = minimum;
-    block.maximum[i] = maximum;
+    block.sum[offset + i] += sum;
+    block.low[offset + i] += low;
+    block.high[offset + i] += high;
+    block.minimum[offset + i] = minimum;
+    block.maximum[offset + i] = maximum;
   }
 }
 
-} // namespace
+/** Adds \a frames frames, whose first one's values begin at \a first, to the sums from \a offset on. */
+template <std::int32_t VCentre, std::size_t VStep, typename TPixel>
+void
+AddRun(const TPixel * first,
+       std::size_t    stride,
+       std::size_t    frames,
+       std::size_t    size,
+       std::size_t    offset,
+       BlockSums &    block)
+{
+  std::size_t t = 0;
+  for (; t + FramesInRegisters <= frames; t += FramesInRegisters)
+  {
+    AddPairs<VCentre, VStep>(
+      first + t * stride, stride, -1, size, offset, block, std::make_index_sequence<FramesInRegisters / 2>());
+  }
+  for (; t < frames; t += 2)
+  {
+    const bool isPaired = t + 1 < frames; // an odd last frame is its own partner, of which nothing is added
+    AddPairs<VCentre, VStep>(
+      first + t * stride, isPaired ? stride : 0, isPaired ? -1 : 0, size, offset, block, std::index_sequence<0>());
+  }
+}
+
+} // namespace detail
 
 template <typename TPixel>
 IntegerMoments<TPixel>::IntegerMoments(std::size_t pixels, const ParallelFor & parallelFor)
@@ -106,29 +134,17 @@ IntegerMoments<TPixel>::AddBlock(const TPixel *      firstFrame,
                                  const PixelLayout & layout,
                                  std::size_t         frames,
                                  std::size_t         begin,
-                                 std::size_t         size,
-                                 TPixel *            room)
+                                 std::size_t         size)
 {
   WithWideVectors([&] {
-    BlockSums block;
+    detail::BlockSums block;
     std::copy_n(m_Minimum.begin() + begin, size, block.minimum);
     std::copy_n(m_Maximum.begin() + begin, size, block.maximum);
-    for (std::size_t t = 0; t < frames; t += FramesInRegisters)
-    {
-      const std::size_t now = std::min(FramesInRegisters, frames - t);
-      const auto [first, stride] = layout.SideBySide(firstFrame + t * layout.frame, now, begin, begin + size, room);
-      if (now == FramesInRegisters)
-      {
-        AddPairs<Centre>(first, stride, -1, size, block, std::make_index_sequence<FramesInRegisters / 2>());
-        continue;
-      }
-      for (std::size_t k = 0; k < now; k += 2)
-      {
-        const bool isPaired = k + 1 < now; // an odd last frame is its own partner, of which nothing is added
-        AddPairs<Centre>(
-          first + k * stride, isPaired ? stride : 0, isPaired ? -1 : 0, size, block, std::index_sequence<0>());
-      }
-    }
+    layout.ForRuns(begin, begin + size, [&](std::size_t p, std::size_t place, std::size_t count) {
+      const TPixel * const first = firstFrame + place;
+      layout.step == 1 ? detail::AddRun<Centre, 1>(first, layout.frame, frames, count, p - begin, block)
+                       : detail::AddRun<Centre, 2>(first, layout.frame, frames, count, p - begin, block);
+    });
     for (std::size_t i = 0; i < size; ++i)
     {
       m_Sum[begin + i] += block.sum[i];
@@ -147,14 +163,12 @@ IntegerMoments<TPixel>::AddFrames(const TPixel *      firstFrame,
                                   std::size_t         begin,
                                   std::size_t         end)
 {
-  std::vector<TPixel> room(layout.AreSideBySide() ? 0 : FramesInRegisters * BlockSums::Pixels);
-  for (std::size_t block = begin; block < end; block += BlockSums::Pixels)
+  for (std::size_t block = begin; block < end; block += detail::BlockSums::Pixels)
   {
-    const std::size_t size = std::min(BlockSums::Pixels, end - block);
-    for (std::size_t t = 0; t < frames; t += FramesPerFlush)
+    const std::size_t size = std::min(detail::BlockSums::Pixels, end - block);
+    for (std::size_t t = 0; t < frames; t += detail::FramesPerFlush)
     {
-      this->AddBlock(
-        firstFrame + t * layout.frame, layout, std::min(FramesPerFlush, frames - t), block, size, room.data());
+      this->AddBlock(firstFrame + t * layout.frame, layout, std::min(detail::FramesPerFlush, frames - t), block, size);
     }
   }
 }

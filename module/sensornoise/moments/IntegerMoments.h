@@ -142,8 +142,7 @@ private:
            const PixelLayout & layout,
            std::size_t         frames,
            std::size_t         begin,
-           std::size_t         size,
-           TPixel *            room);
+           std::size_t         size);
 
   std::size_t                m_Frames{ 0 };
   std::vector<std::int64_t>  m_Sum;

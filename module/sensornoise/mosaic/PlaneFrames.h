@@ -16,7 +16,7 @@ namespace sensornoise
 {
 
 /** \class PlaneFrames
- * \brief Hands on the frames of a mosaic plane by plane, a few at a time.
+ * \brief Copies the frames of a mosaic plane by plane, a few at a time, for one who looks at pixels here and there.
  *
  * Each part of the mosaic is read once for all planes. */
 template <typename TPixel>
@@ -67,6 +67,10 @@ public:
   }
 
 private:
+  /** Bytes of each plane that are copied together. Set by hand, when the published method still copied its planes: with
+   * half of it that took a tenth longer, with twice as long and more memory. */
+  static constexpr std::size_t BytesTogether = std::size_t{ 8 } << 20;
+
   MosaicGeometry                          m_Geometry;
   Eigen::Array<TPixel, Eigen::Dynamic, 1> m_Buffer; // unlike std::vector, not filled by one thread
 };
