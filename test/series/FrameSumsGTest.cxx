@@ -24,7 +24,7 @@ namespace
 constexpr std::size_t Width = 70;
 constexpr std::size_t Height = 45;
 
-/** 70 frames, more than are summed together, of noise and change. */
+/** 70 frames, of noise and change. */
 const SyntheticFrames &
 Frames()
 {
@@ -208,6 +208,20 @@ TEST(SensorNoiseFrameSums, ChunksAndThreadsChangeNoBit)
     }
     ExpectSameBits(sums, expected);
   }
+}
+
+TEST(SensorNoiseFrameSums, ManyFramesAreAddedInBatchesWithTheSameBits)
+{
+  constexpr std::size_t count = 700; // 64 rows of cells: 682 are a batch
+  const SyntheticFrames frames(16, 512, FlickerAndMotion(count, 100.0, 0.1), 1.0);
+  FrameSums             inParts = frames.EmptySums();
+  for (std::size_t t = 0; t < count; t += 300)
+  {
+    inParts.AddFrames(frames.Frame(t), t, std::min<std::size_t>(300, count - t), SerialFor);
+  }
+  FrameSums atOnce = frames.EmptySums();
+  atOnce.AddFrames(frames.Frame(0), 0, count, Threads(2));
+  ExpectSameBits(atOnce, inParts);
 }
 
 TEST(SensorNoiseFrameSums, MergedPartsHaveTheWholesBits)

@@ -15,7 +15,10 @@ namespace sensornoise
 
 namespace
 {
-constexpr std::size_t FramesOfABatch = 128; // bounds the memory of the parts
+/** Bytes of the cell rows' sums of frames that are added together: 680 large ones, 170 of each plane of a mosaic. The
+ * columns are made anew for every batch, which takes as long as a dozen frames. Set by hand: half of it makes two
+ * batches of a mosaic of 100 frames; twice as much makes one of 200. */
+constexpr std::size_t BytesOfBatch = std::size_t{ 16 } << 20;
 } // namespace
 
 FrameSums::FrameSums(FrameRegressors regressors, const ParallelFor & parallelFor)
@@ -54,7 +57,10 @@ FrameSums::AddFrames(const std::vector<Plane> & planes,
                      std::size_t                count,
                      const ParallelFor &        parallelFor)
 {
-  for (std::size_t begin = 0; begin < count; begin += FramesOfABatch)
+  const std::size_t cellRows = planes.front().sums->m_CellRows;
+  const std::size_t together =
+    std::max(RegressorBand::Together, BytesOfBatch / (planes.size() * cellRows * sizeof(detail::ClassColumns)));
+  for (std::size_t begin = 0; begin < count; begin += together)
   {
     std::vector<Batch<TPixel>> batches;
     for (const Plane & plane : planes)
@@ -63,11 +69,11 @@ FrameSums::AddFrames(const std::vector<Plane> & planes,
       batches.push_back({ &sums,
                           frames + begin * sums.m_Layout.frame,
                           plane.first + begin,
-                          std::min(FramesOfABatch, count - begin),
-                          std::vector<std::vector<detail::ClassColumns>>(sums.m_CellRows),
+                          std::min(together, count - begin),
+                          std::vector<std::vector<detail::ClassColumns>>(cellRows),
                           sums.StartColumns() });
     }
-    parallelFor(planes.front().sums->m_CellRows, [&](std::size_t cellRow) {
+    parallelFor(cellRows, [&](std::size_t cellRow) {
       for (Batch<TPixel> & batch : batches)
       {
         batch.AddCellRow(cellRow);
