@@ -116,6 +116,7 @@ StackMoments<TPixel>::AddFrames(const std::vector<Plane> & planes,
                                 const ParallelFor &        parallelFor)
 {
   std::vector<PixelLayout> layouts;
+  layouts.reserve(planes.size());
   for (const Plane & plane : planes)
   {
     layouts.push_back(plane.layout);

@@ -77,14 +77,14 @@ PublishedMethod<TPixel>::AddFrames(const std::vector<PublishedMethod *> & planes
 
 template <typename TPixel>
 void
-PublishedMethod<TPixel>::AddPart(const TPixel * mosaics, std::size_t first, std::size_t count, std::size_t part)
+PublishedMethod<TPixel>::AddPart(const TPixel * frames, std::size_t first, std::size_t count, std::size_t part)
 {
   const auto isDistinct = [&](std::size_t k) { return m_Distinct.OriginalOf(first + k) == first + k; };
   if (m_Sums)
   {
     if (isDistinct(part))
     {
-      m_Sums->AddFrame(mosaics + part * m_Layout.frame, m_Distinct.PlaceOf(first + part));
+      m_Sums->AddFrame(frames + part * m_Layout.frame, m_Distinct.PlaceOf(first + part));
     }
     return;
   }
@@ -97,7 +97,7 @@ PublishedMethod<TPixel>::AddPart(const TPixel * mosaics, std::size_t first, std:
     }
     if (last > k)
     {
-      m_Correction->AddRow(mosaics + k * m_Layout.frame, m_Layout, last - k, m_Distinct.PlaceOf(first + k), part);
+      m_Correction->AddRow(frames + k * m_Layout.frame, m_Layout, last - k, m_Distinct.PlaceOf(first + k), part);
     }
     k = last + 1; // frame `last` is none that counts
   }

@@ -121,6 +121,7 @@ PixelProjections::AddFrames(const std::vector<Plane> & planes,
                             const ParallelFor &        parallelFor)
 {
   std::vector<Batch<TPixel>> batches;
+  batches.reserve(planes.size());
   for (const Plane & plane : planes)
   {
     batches.emplace_back(plane, frames, count);

@@ -123,6 +123,7 @@ RefinedMethod<TPixel>::AddTogether(const std::vector<Plane> & planes,
   if (planes.front().method->GetPass() == 1)
   {
     std::vector<FrameSums::Plane> ofSums;
+    ofSums.reserve(planes.size());
     for (const auto & [method, place] : planes)
     {
       ofSums.push_back({ method->m_FrameSums.get(), place });
@@ -131,6 +132,7 @@ RefinedMethod<TPixel>::AddTogether(const std::vector<Plane> & planes,
     return;
   }
   std::vector<PixelProjections::Plane> projected;
+  projected.reserve(planes.size());
   for (const auto & [method, place] : planes)
   {
     projected.push_back({ &*method->m_Projections, place, &method->m_Scene->frame });

@@ -72,10 +72,10 @@ AddToClasses(const RegressorBand &                    band,
 template <typename TPixel>
 struct FrameSums::Batch
 {
-  FrameSums *                                    sums;
-  const TPixel *                                 frames;
-  std::size_t                                    first;
-  std::size_t                                    count;
+  FrameSums *                                    sums{ nullptr };
+  const TPixel *                                 frames{ nullptr };
+  std::size_t                                    first{ 0 };
+  std::size_t                                    count{ 0 };
   std::vector<std::vector<detail::ClassColumns>> parts;     // of each cell row, and frame
   std::vector<ColumnSums>                        ofColumns; // of each cell row; none: they are known
 
