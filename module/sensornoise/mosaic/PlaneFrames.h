@@ -59,13 +59,6 @@ public:
     }
   }
 
-  /** Gives the memory back. */
-  void
-  Release()
-  {
-    m_Buffer.resize(0);
-  }
-
 private:
   /** Bytes of each plane that are copied together. Set by hand, when the published method still copied its planes: with
    * half of it that took a tenth longer, with twice as long and more memory. */
