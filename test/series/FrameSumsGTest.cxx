@@ -212,7 +212,7 @@ TEST(SensorNoiseFrameSums, ChunksAndThreadsChangeNoBit)
 
 TEST(SensorNoiseFrameSums, ManyFramesAreAddedInBatchesWithTheSameBits)
 {
-  constexpr std::size_t count = 700; // 64 rows of cells: 682 are a batch
+  constexpr std::size_t count = 700; // 64 rows of cells: 170 are a batch
   const SyntheticFrames frames(16, 512, FlickerAndMotion(count, 100.0, 0.1), 1.0);
   FrameSums             inParts = frames.EmptySums();
   for (std::size_t t = 0; t < count; t += 300)

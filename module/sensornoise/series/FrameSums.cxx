@@ -15,10 +15,10 @@ namespace sensornoise
 
 namespace
 {
-/** Bytes of the cell rows' sums of frames that are added together: 680 large ones, 170 of each plane of a mosaic. The
- * columns are made anew for every batch, which takes as long as a dozen frames. Set by hand: half of it makes two
- * batches of a mosaic of 100 frames; twice as much makes one of 200. */
-constexpr std::size_t BytesOfBatch = std::size_t{ 16 } << 20;
+/** Bytes of a plane's sums, by rows of cells, of frames that are added together: 170 frames of 512 rows or more. A
+ * plane's columns are made anew for every batch, which takes as long as a dozen frames. Set by hand: half makes two
+ * batches of 100 frames; twice as much makes one of 200 and takes 4 MiB more. */
+constexpr std::size_t BytesOfBatch = std::size_t{ 4 } << 20;
 } // namespace
 
 FrameSums::FrameSums(FrameRegressors regressors, const ParallelFor & parallelFor)
@@ -59,7 +59,7 @@ FrameSums::AddFrames(const std::vector<Plane> & planes,
 {
   const std::size_t cellRows = planes.front().sums->m_CellRows;
   const std::size_t together =
-    std::max(RegressorBand::Together, BytesOfBatch / (planes.size() * cellRows * sizeof(detail::ClassColumns)));
+    std::max(RegressorBand::Together, BytesOfBatch / (cellRows * sizeof(detail::ClassColumns)));
   for (std::size_t begin = 0; begin < count; begin += together)
   {
     std::vector<Batch<TPixel>> batches;
