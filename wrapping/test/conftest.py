@@ -10,6 +10,7 @@ from pathlib import Path
 import itk
 import numpy as np
 import pytest
+from many_bursts import NAMES
 
 PIXEL_TYPES = ["uint8", "uint16", "int16", "float32", "float64"]
 ITK_TYPES = {"uint8": itk.UC, "uint16": itk.US, "int16": itk.SS, "float32": itk.F, "float64": itk.D}
@@ -65,6 +66,27 @@ def stack(codes, pixel) -> np.ndarray:
 def burst() -> np.ndarray:
     """A stack (60, 96, 128) of camera B in condition 3."""
     return itk.simulate_sensor_noise(frames=60, size=(128, 96), seed=5)[0]
+
+
+@pytest.fixture(scope="session")
+def bursts() -> dict[str, np.ndarray]:
+    """Three small bursts for estimate_many()."""
+    return {name: itk.simulate_sensor_noise(frames=30, size=(96, 64), seed=n)[0] for n, name in enumerate(NAMES)}
+
+
+@pytest.fixture(scope="session")
+def reports(bursts):
+    """What each of them measures by itself."""
+    return {name: itk.estimate_sensor_noise(frames) for name, frames in bursts.items()}
+
+
+@pytest.fixture
+def burst_files(bursts, tmp_path) -> list[str]:
+    """They as files."""
+    names = [os.fspath(tmp_path / f"{name}.mha") for name in bursts]
+    for name, frames in zip(names, bursts.values(), strict=True):
+        itk.imwrite(itk.image_view_from_array(frames), name)
+    return names
 
 
 @pytest.fixture(scope="session")
