@@ -3,13 +3,13 @@
 #ifndef sensornoise_series_InstrumentRun_h
 #define sensornoise_series_InstrumentRun_h
 
+#include "sensornoise/base/PixelRuns.h"
 #include "sensornoise/series/FrameRegressors.h"
 #include "sensornoise/series/ShiftInstruments.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <numeric>
 
 namespace sensornoise
 {
@@ -41,38 +41,27 @@ public:
       m_Terms[2][i] = x * y;
       m_Terms[3][i] = y * y;
     }
-    for (auto & terms : m_Terms)
-    {
-      std::fill(terms.begin() + static_cast<std::ptrdiff_t>(last - first), terms.end(), 0.0);
-    }
     const double * const level = regressors.GetFrame().neighbourMean.data();
-    std::fill(std::copy(level + first, level + last, m_Level.begin()), m_Level.end(), 0.0);
+    std::copy(level + first, level + last, m_Level.begin());
+    m_Pixels = last - first;
   }
   /** Adds the sums of the terms, and of the terms times the level. */
   void
   AddTo(std::array<double, 2 * Terms> & total) const
   {
-    constexpr std::size_t lanes = 4;
     for (std::size_t k = 0; k < Terms; ++k)
     {
-      double ofOne[lanes] = {};
-      double ofLevel[lanes] = {};
-      for (std::size_t i = 0; i < Pixels; i += lanes)
-      {
-        for (std::size_t lane = 0; lane < lanes; ++lane)
-        {
-          ofOne[lane] += m_Terms[k][i + lane];
-          ofLevel[lane] += m_Terms[k][i + lane] * m_Level[i + lane];
-        }
-      }
-      total[k] += std::accumulate(ofOne, ofOne + lanes, 0.0);
-      total[Terms + k] += std::accumulate(ofLevel, ofLevel + lanes, 0.0);
+      const double * const terms = m_Terms[k].data();
+      const double * const level = m_Level.data();
+      total[k] += SumOfRun(m_Pixels, [=](std::size_t i) { return terms[i]; });
+      total[Terms + k] += SumOfRun(m_Pixels, [=](std::size_t i) { return terms[i] * level[i]; });
     }
   }
 
 private:
   std::array<std::array<double, Pixels>, Terms> m_Terms;
   std::array<double, Pixels>                    m_Level;
+  std::size_t                                   m_Pixels{ 0 };
 };
 
 } // namespace sensornoise
