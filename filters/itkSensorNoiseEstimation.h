@@ -26,6 +26,7 @@
 #include "sensornoise/mosaic/MosaicMethod.h"
 #include "sensornoise/published/PublishedMethod.h"
 #include "sensornoise/published/PublishedSettings.h"
+#include "sensornoise/refined/MemoryNeed.h"
 #include "sensornoise/refined/RefinedMethod.h"
 #include "sensornoise/refined/RefinedSettings.h"
 #include "sensornoise/report/ChannelReports.h"
@@ -120,7 +121,7 @@ struct SensorNoiseEstimation
       const sensornoise::MosaicGeometry & planes = stack.mosaic->geometry;
       if constexpr (isRefined)
       {
-        Refined::RequireLimit(ofStack.memoryLimitBytes, planes.Plane(), stack.frames, stack.offsets.size());
+        sensornoise::RequireMemoryLimit(ofStack.memoryLimitBytes, planes.Plane(), stack.frames, stack.offsets.size());
       }
       const auto makeOfPlane = [&](sensornoise::BayerPlane plane, const sensornoise::ParallelFor & spread) {
         return make(static_cast<std::size_t>(plane), planes.Plane(), planes.Take(stack.mask, plane), spread);

@@ -313,6 +313,8 @@ namespace
 /** A method that needs one pass more in each plane than in the one before. */
 struct MorePassesInEachPlane
 {
+  using Passes = MorePassesInEachPlane;
+
   static constexpr unsigned int NumberOfPasses = 3;
   static constexpr bool         HasManySums = false;
 

@@ -35,7 +35,7 @@ StackPasses<TPixel>::AddFrames(const TPixel * chunk, std::size_t frames)
 {
   if (this->GetPass() == 0)
   {
-    AddToMoments(std::vector<StackPasses *>{ this }, chunk, frames, m_ParallelFor);
+    AddToMoments({ this }, chunk, frames, m_ParallelFor);
     return;
   }
   const std::size_t first = m_InPass.Add(frames);
@@ -47,9 +47,57 @@ StackPasses<TPixel>::AddFrames(const TPixel * chunk, std::size_t frames)
                            frames,
                            m_ParallelFor,
                            [&](const TPixel * distinct, std::size_t place, std::size_t count) {
-                             this->AddDistinct(distinct, place, count);
+                             this->AddDistinct({ { this, place } }, distinct, count, m_ParallelFor);
                            });
   }
+}
+
+template <typename TPixel>
+void
+StackPasses<TPixel>::AddFrames(const std::vector<StackPasses *> & planes,
+                               const TPixel *                     mosaics,
+                               std::size_t                        count,
+                               const ParallelFor &                parallelFor)
+{
+  if (planes.front()->GetPass() == 0)
+  {
+    AddToMoments(planes, mosaics, count, parallelFor);
+    return;
+  }
+  std::vector<Plane> together;
+  for (StackPasses * const plane : planes)
+  {
+    if (!plane->HasSums() || !plane->m_Distinct.AreDistinct(plane->m_InPass.GetNext(), count))
+    {
+      plane->AddFrames(mosaics, count);
+      continue;
+    }
+    const std::size_t first = plane->m_InPass.Add(count);
+    together.push_back({ plane, plane->m_Distinct.PlaceOf(first) });
+  }
+  if (!together.empty())
+  {
+    together.front().passes->AddDistinct(together, mosaics, count, parallelFor);
+  }
+}
+
+template <typename TPixel>
+void
+StackPasses<TPixel>::AddToMoments(const std::vector<StackPasses *> & planes,
+                                  const TPixel *                     frames,
+                                  std::size_t                        count,
+                                  const ParallelFor &                parallelFor)
+{
+  std::vector<typename StackMoments<TPixel>::Plane> moments;
+  moments.reserve(planes.size());
+  std::size_t first = 0; // the same of all
+  for (StackPasses * const plane : planes)
+  {
+    first = plane->m_InPass.Add(count);
+    moments.push_back({ &plane->m_Moments, plane->m_Layout });
+    plane->m_Thumbnails.AddFrames(frames, plane->m_Layout, first, count, parallelFor);
+  }
+  StackMoments<TPixel>::AddFrames(moments, frames, first, count, parallelFor);
 }
 
 template <typename TPixel>

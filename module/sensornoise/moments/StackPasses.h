@@ -65,6 +65,8 @@ template <typename TPixel>
 class StackPasses
 {
 public:
+  using Passes = StackPasses;
+
   /** How often a stack is read; more often where RefinedSettings::memoryLimitBytes asks for it. */
   static constexpr unsigned int NumberOfPasses = 3;
 
@@ -80,6 +82,14 @@ public:
    * std::logic_error if there are not so many left. */
   void
   AddFrames(const TPixel * chunk, std::size_t frames);
+
+  /** Adds the next \a count frames of the current pass, which are mosaics, to all \a planes of theirs, of one method
+   * and size and each with its layout: what one has read of a row is near when the next comes to it. */
+  static void
+  AddFrames(const std::vector<StackPasses *> & planes,
+            const TPixel *                     mosaics,
+            std::size_t                        count,
+            const ParallelFor &                parallelFor);
 
   /** The next \a frames frames of the current pass are added by other processes. */
   void
@@ -162,39 +172,12 @@ protected:
     return m_InPass.GetPass();
   }
 
-  /** Adds the next \a count frames of the first pass to all \a planes, of one size. */
-  template <typename TMethod>
-  static void
-  AddToMoments(const std::vector<TMethod *> & planes,
-               const TPixel *                 frames,
-               std::size_t                    count,
-               const ParallelFor &            parallelFor)
+  /** One of the frames that frames are added to together. */
+  struct Plane
   {
-    std::vector<typename StackMoments<TPixel>::Plane> moments;
-    std::size_t                                       first = 0; // the same of all
-    for (StackPasses * const plane : planes)
-    {
-      first = plane->NextFrames(count);
-      moments.push_back({ &plane->m_Moments, plane->m_Layout });
-      plane->m_Thumbnails.AddFrames(frames, plane->m_Layout, first, count, parallelFor);
-    }
-    StackMoments<TPixel>::AddFrames(moments, frames, first, count, parallelFor);
-  }
-
-  /** The next \a count frames of the current pass are added otherwise than by AddFrames(). Returns the first. Throws
-   * std::logic_error if there are not so many left. */
-  std::size_t
-  NextFrames(std::size_t count)
-  {
-    return m_InPass.Add(count);
-  }
-
-  /** Whether one of the next \a count frames equals one before it. */
-  bool
-  HasRepeated(std::size_t count) const
-  {
-    return !m_Distinct.AreDistinct(m_InPass.GetNext(), count);
-  }
+    StackPasses * passes; ///< of the method that is asked
+    std::size_t   place;  ///< of the first frame among the distinct ones
+  };
 
   FrameGeometry             m_Geometry;
   PixelLayout               m_Layout;
@@ -205,13 +188,23 @@ protected:
   DistinctFrames            m_Distinct; // when the first pass has ended
 
 private:
+  /** Adds \a count frames of the first pass. */
+  static void
+  AddToMoments(const std::vector<StackPasses *> & planes,
+               const TPixel *                     frames,
+               std::size_t                        count,
+               const ParallelFor &                parallelFor);
+
   /** Whether the method sums in the current pass: not in the first one, nor if the stack cannot be measured. */
   virtual bool
   HasSums() const = 0;
-  /** What follows is only asked for where it has sums. Adds \a count distinct frames, the first of which has the given
-   * place among them. */
+  /** What follows is only asked for where it has sums. Adds \a count distinct frames to \a planes, this one or all of
+   * a mosaic's. */
   virtual void
-  AddDistinct(const TPixel * frames, std::size_t place, std::size_t count) = 0;
+  AddDistinct(const std::vector<Plane> & planes,
+              const TPixel *             frames,
+              std::size_t                count,
+              const ParallelFor &        parallelFor) const = 0;
   virtual void
   ForgetOwnSums() = 0;
   virtual void

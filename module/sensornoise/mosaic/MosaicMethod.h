@@ -65,7 +65,7 @@ public:
       this->EndPlanes(RedRows, BayerPlanes.size()); // the pass before: there will be no sums
       m_Last = BayerPlanes.size();
     }
-    std::vector<TMethod *> planes;
+    std::vector<typename TMethod::Passes *> planes;
     for (std::size_t k = m_First; k < m_Last; ++k)
     {
       if (!m_Methods[k].IsDone()) // some planes may need more passes than others

@@ -37,70 +37,26 @@ PublishedMethod<TPixel>::PublishedMethod(const PublishedSettings &         setti
 
 template <typename TPixel>
 void
-PublishedMethod<TPixel>::AddDistinct(const TPixel * frames, std::size_t place, std::size_t count)
+PublishedMethod<TPixel>::AddDistinct(const std::vector<Plane> & planes,
+                                     const TPixel *             frames,
+                                     std::size_t                count,
+                                     const ParallelFor &        parallelFor) const
 {
-  if (m_Sums)
-  {
-    m_ParallelFor(count, [&](std::size_t k) { m_Sums->AddFrame(frames + k * m_Layout.frame, place + k); });
-  }
-  else
-  {
-    m_ParallelFor(m_Geometry.height, [&](std::size_t y) { m_Correction->AddRow(frames, m_Layout, count, place, y); });
-  }
-}
-
-template <typename TPixel>
-void
-PublishedMethod<TPixel>::AddFrames(const std::vector<PublishedMethod *> & planes,
-                                   const TPixel *                         mosaics,
-                                   std::size_t                            count,
-                                   const ParallelFor &                    parallelFor)
-{
-  if (planes.front()->GetPass() == 0)
-  {
-    Passes::AddToMoments(planes, mosaics, count, parallelFor);
-    return;
-  }
-  std::size_t first = 0; // the same of all
-  for (PublishedMethod * const plane : planes)
-  {
-    first = plane->NextFrames(count);
-  }
-  const PublishedMethod & front = *planes.front();
-  parallelFor(front.GetPass() == 1 ? count : front.m_Geometry.height, [&](std::size_t part) {
-    for (PublishedMethod * const plane : planes)
+  const bool areSummed = this->GetPass() == 1;
+  parallelFor(areSummed ? count : m_Geometry.height, [&](std::size_t part) {
+    for (const auto & [passes, place] : planes)
     {
-      plane->AddPart(mosaics, first, count, part);
+      auto & method = static_cast<PublishedMethod &>(*passes);
+      if (areSummed)
+      {
+        method.m_Sums->AddFrame(frames + part * m_Layout.frame, place + part);
+      }
+      else
+      {
+        method.m_Correction->AddRow(frames, method.m_Layout, count, place, part);
+      }
     }
   });
-}
-
-template <typename TPixel>
-void
-PublishedMethod<TPixel>::AddPart(const TPixel * frames, std::size_t first, std::size_t count, std::size_t part)
-{
-  const auto isDistinct = [&](std::size_t k) { return m_Distinct.OriginalOf(first + k) == first + k; };
-  if (m_Sums)
-  {
-    if (isDistinct(part))
-    {
-      m_Sums->AddFrame(frames + part * m_Layout.frame, m_Distinct.PlaceOf(first + part));
-    }
-    return;
-  }
-  for (std::size_t k = 0; m_Correction && k < count;)
-  {
-    std::size_t last = k;
-    while (last < count && isDistinct(last))
-    {
-      ++last;
-    }
-    if (last > k)
-    {
-      m_Correction->AddRow(frames + k * m_Layout.frame, m_Layout, last - k, m_Distinct.PlaceOf(first + k), part);
-    }
-    k = last + 1; // frame `last` is none that counts
-  }
 }
 
 template <typename TPixel>

@@ -45,6 +45,8 @@ template <typename TPixel>
 class PublishedMethod final : public StackPasses<TPixel>
 {
 public:
+  using typename StackPasses<TPixel>::Passes;
+
   /** Whether the third pass has more than one sum of a pixel. */
   static constexpr bool HasManySums = false;
 
@@ -56,15 +58,6 @@ public:
                   std::size_t                       frames,
                   const std::vector<std::uint8_t> & mask = {},
                   ParallelFor                       parallelFor = SerialFor);
-
-  /** Adds the next \a count frames of the current pass, not the first one, to \a planes, which are those of mosaics,
-   * have one size and each its layout: what one has read of a row is near when the next comes to it. */
-  static void
-  AddFrames(const std::vector<PublishedMethod *> & planes,
-            const TPixel *                         mosaics,
-            std::size_t                            count,
-            const ParallelFor &                    parallelFor);
-  using StackPasses<TPixel>::AddFrames;
 
   /** Whether the last pass has ended. */
   bool
@@ -124,7 +117,7 @@ public:
   }
 
 private:
-  using Passes = StackPasses<TPixel>;
+  using typename StackPasses<TPixel>::Plane;
   using Passes::m_Distinct;
   using Passes::m_Geometry;
   using Passes::m_Layout;
@@ -139,11 +132,10 @@ private:
     return m_Sums || m_Correction;
   }
   void
-  AddDistinct(const TPixel * frames, std::size_t place, std::size_t count) override;
-  /** Adds part \a part of the frames \a first ... first + count - 1: a frame in pass 2, a row in pass 3. Different
-   * parts may be added at the same time. */
-  void
-  AddPart(const TPixel * frames, std::size_t first, std::size_t count, std::size_t part);
+  AddDistinct(const std::vector<Plane> & planes,
+              const TPixel *             frames,
+              std::size_t                count,
+              const ParallelFor &        parallelFor) const override;
   void
   ForgetOwnSums() override;
   void

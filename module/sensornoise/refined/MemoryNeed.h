@@ -3,6 +3,8 @@
 #ifndef sensornoise_refined_MemoryNeed_h
 #define sensornoise_refined_MemoryNeed_h
 
+#include "SensorNoiseExport.h"
+#include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/correlation/SampleTiles.h"
 
 #include <algorithm>
@@ -51,6 +53,11 @@ private:
     return bytesPerFrame * static_cast<double>(frames) + 4.0 * static_cast<double>(sample);
   }
 };
+
+/** Throws std::invalid_argument if \a limitBytes are less than \a planes frames of the size \a geometry need at once.
+ */
+SensorNoise_EXPORT void
+RequireMemoryLimit(double limitBytes, const FrameGeometry & geometry, std::size_t frames, std::size_t planes);
 
 } // namespace sensornoise
 

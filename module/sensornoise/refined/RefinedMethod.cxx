@@ -4,7 +4,6 @@
 
 #include "sensornoise/base/BinaryStream.h"
 #include "sensornoise/base/FirstTouch.h"
-#include "sensornoise/base/FreeMemory.h"
 #include "sensornoise/moments/DarkMaps.h"
 #include "sensornoise/moments/StackMaps.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
@@ -17,15 +16,12 @@
 #include "sensornoise/report/StackReport.h"
 #include "sensornoise/report/StackSettings.h"
 #include "sensornoise/series/FrameProducts.h"
-#include "sensornoise/scene/UnexplainedPixels.h"
-#include "sensornoise/series/FrameRegressors.h"
-#include "sensornoise/series/ShiftInstruments.h"
+#include "sensornoise/series/SceneRegressors.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -46,28 +42,6 @@ LargestMeanDn(const std::vector<double> & mean)
   }
   return largest;
 }
-
-/** The regressors of the second pass, of all usable pixels but those that one pass cannot explain. */
-FrameRegressors
-RegressorsOf(const StillScene & scene, const ParallelFor & parallelFor)
-{
-  const std::vector<std::uint8_t> unexplained = FindUnexplained(scene.frame, scene.model, parallelFor);
-  const std::size_t               pixels = unexplained.size();
-  std::vector<std::uint8_t>       take(pixels);
-  std::vector<std::uint8_t>       whole(pixels); // holes of single pixels would roughen the instruments
-  ForBlocks(pixels, parallelFor, [&](std::size_t begin, std::size_t end) {
-    const std::uint8_t * const why = unexplained.data();
-    const std::uint8_t * const usable = scene.frame.usable.data() + begin;
-    std::transform(why + begin, why + end, usable, take.data() + begin, [](std::uint8_t own, std::uint8_t use) {
-      return own == 0 ? use : std::uint8_t{ 0 };
-    });
-    std::transform(why + begin, why + end, usable, whole.data() + begin, [](std::uint8_t own, std::uint8_t use) {
-      return own == 2 ? std::uint8_t{ 0 } : use;
-    });
-  });
-  ShiftInstruments instruments = MakeShiftInstruments(scene.frame, scene.model, whole, parallelFor);
-  return FrameRegressors(scene.frame, scene.model, take, std::move(instruments), parallelFor);
-}
 } // namespace
 
 template <typename TPixel>
@@ -81,7 +55,7 @@ RefinedMethod<TPixel>::RefinedMethod(const RefinedSettings &           settings,
   , m_Scene(std::make_unique<StillScene>())
 {
   settings.Validate();
-  RequireLimit(settings.memoryLimitBytes, geometry, frames, 1);
+  RequireMemoryLimit(settings.memoryLimitBytes, geometry, frames, 1);
   if constexpr (std::is_integral_v<TPixel>)
   {
     constexpr int bits = 8 * sizeof(TPixel);
@@ -91,81 +65,32 @@ RefinedMethod<TPixel>::RefinedMethod(const RefinedSettings &           settings,
 
 template <typename TPixel>
 void
-RefinedMethod<TPixel>::RequireLimit(double                limitBytes,
-                                    const FrameGeometry & geometry,
-                                    std::size_t           frames,
-                                    std::size_t           planes)
-{
-  const double least = static_cast<double>(planes) * MemoryNeed{ geometry.Pixels(), frames }.Least();
-  if (limitBytes < least)
-  {
-    throw std::invalid_argument("the memory limit is " + TextOfBytes(limitBytes) + "; expected at least " +
-                                TextOfBytes(least) + " for " +
-                                (planes == 1 ? std::string("frames") : std::to_string(planes) + " planes") + " of " +
-                                std::to_string(geometry.width) + " x " + std::to_string(geometry.height) + " pixels");
-  }
-}
-
-template <typename TPixel>
-void
-RefinedMethod<TPixel>::AddDistinct(const TPixel * frames, std::size_t place, std::size_t count)
-{
-  AddTogether({ { this, place } }, frames, count, m_ParallelFor);
-}
-
-template <typename TPixel>
-void
-RefinedMethod<TPixel>::AddTogether(const std::vector<Plane> & planes,
+RefinedMethod<TPixel>::AddDistinct(const std::vector<Plane> & planes,
                                    const TPixel *             frames,
                                    std::size_t                count,
-                                   const ParallelFor &        parallelFor)
+                                   const ParallelFor &        parallelFor) const
 {
-  if (planes.front().method->GetPass() == 1)
-  {
-    std::vector<FrameSums::Plane> ofSums;
-    ofSums.reserve(planes.size());
-    for (const auto & [method, place] : planes)
-    {
-      ofSums.push_back({ method->m_FrameSums.get(), place });
-    }
-    FrameSums::AddFrames(ofSums, frames, count, parallelFor);
-    return;
-  }
+  std::vector<FrameSums::Plane>        summed;
   std::vector<PixelProjections::Plane> projected;
-  projected.reserve(planes.size());
-  for (const auto & [method, place] : planes)
+  for (const auto & [passes, place] : planes)
   {
-    projected.push_back({ &*method->m_Projections, place, &method->m_Scene->frame });
-  }
-  PixelProjections::AddFrames(projected, frames, count, parallelFor);
-}
-
-template <typename TPixel>
-void
-RefinedMethod<TPixel>::AddFrames(const std::vector<RefinedMethod *> & planes,
-                                 const TPixel *                       mosaics,
-                                 std::size_t                          count,
-                                 const ParallelFor &                  parallelFor)
-{
-  if (planes.front()->GetPass() == 0)
-  {
-    Passes::AddToMoments(planes, mosaics, count, parallelFor);
-    return;
-  }
-  std::vector<Plane> together;
-  for (RefinedMethod * const plane : planes)
-  {
-    if (!plane->HasSums() || plane->HasRepeated(count))
+    auto & method = static_cast<RefinedMethod &>(*passes);
+    if (this->GetPass() == 1)
     {
-      plane->AddFrames(mosaics, count);
-      continue;
+      summed.push_back({ method.m_FrameSums.get(), place });
     }
-    const std::size_t first = plane->NextFrames(count);
-    together.push_back({ plane, plane->m_Distinct.PlaceOf(first) });
+    else
+    {
+      projected.push_back({ &*method.m_Projections, place, &method.m_Scene->frame });
+    }
   }
-  if (!together.empty())
+  if (this->GetPass() == 1)
   {
-    AddTogether(together, mosaics, count, parallelFor);
+    FrameSums::AddFrames(summed, frames, count, parallelFor);
+  }
+  else
+  {
+    PixelProjections::AddFrames(projected, frames, count, parallelFor);
   }
 }
 
@@ -275,7 +200,7 @@ RefinedMethod<TPixel>::EndMoments()
     m_Settings.RequireOffsetWithin(1000.0 * LargestMeanDn(m_Scene->frame.mean),
                                    "1000 times the largest level of the frames");
   }
-  m_FrameSums = std::make_unique<FrameSums>(RegressorsOf(*m_Scene, m_ParallelFor), m_ParallelFor);
+  m_FrameSums = std::make_unique<FrameSums>(MakeSceneRegressors(*m_Scene, m_ParallelFor), m_ParallelFor);
   m_FrameSums->SetLayout(m_Layout);
 }
 

@@ -50,6 +50,8 @@ template <typename TPixel>
 class RefinedMethod final : public StackPasses<TPixel>
 {
 public:
+  using typename StackPasses<TPixel>::Passes;
+
   /** Whether there is SumsPerPixel(). */
   static constexpr bool HasManySums = true;
 
@@ -62,11 +64,6 @@ public:
                 const std::vector<std::uint8_t> & mask = {},
                 ParallelFor                       parallelFor = SerialFor);
 
-  /** Throws std::invalid_argument if \a limitBytes are less than \a planes frames of the size \a geometry need at once.
-   */
-  static void
-  RequireLimit(double limitBytes, const FrameGeometry & geometry, std::size_t frames, std::size_t planes);
-
   /** No sums of the third pass are saved or merged: where all frames are added to it together, it needs no memory for
    * them. To be told before it. */
   void
@@ -74,15 +71,6 @@ public:
   {
     m_SumsStay = true;
   }
-
-  /** Adds the next \a count frames of the current pass, not the first one, to \a planes, which are those of mosaics,
-   * have one size and each its layout: what one has read of a row is near when the next comes to it. */
-  static void
-  AddFrames(const std::vector<RefinedMethod *> & planes,
-            const TPixel *                       mosaics,
-            std::size_t                          count,
-            const ParallelFor &                  parallelFor);
-  using StackPasses<TPixel>::AddFrames;
 
   /** Whether the report is there. That is after NumberOfPasses passes, or more if RefinedSettings::memoryLimitBytes
    * asks for it: these read the stack once more, like the third. */
@@ -158,7 +146,7 @@ public:
   }
 
 private:
-  using Passes = StackPasses<TPixel>;
+  using typename StackPasses<TPixel>::Plane;
   using Passes::m_Distinct;
   using Passes::m_Geometry;
   using Passes::m_Layout;
@@ -173,7 +161,10 @@ private:
     return m_FrameSums != nullptr;
   }
   void
-  AddDistinct(const TPixel * frames, std::size_t place, std::size_t count) override;
+  AddDistinct(const std::vector<Plane> & planes,
+              const TPixel *             frames,
+              std::size_t                count,
+              const ParallelFor &        parallelFor) const override;
   void
   ForgetOwnSums() override;
   void
@@ -184,18 +175,6 @@ private:
   AddFindings(Fingerprint & fingerprint) const override;
   void
   FinishPass(unsigned int pass) override;
-
-  struct Plane
-  {
-    RefinedMethod * method;
-    std::size_t     place; ///< of the first frame among the distinct ones
-  };
-  /** Adds distinct frames. */
-  static void
-  AddTogether(const std::vector<Plane> & planes,
-              const TPixel *             frames,
-              std::size_t                count,
-              const ParallelFor &        parallelFor);
 
   void
   EndMoments();
