@@ -59,8 +59,8 @@ public:
   }
 
 private:
-  std::array<std::array<double, Pixels>, Terms> m_Terms;
-  std::array<double, Pixels>                    m_Level;
+  std::array<std::array<double, Pixels>, Terms> m_Terms{};
+  std::array<double, Pixels>                    m_Level{};
   std::size_t                                   m_Pixels{ 0 };
 };
 
