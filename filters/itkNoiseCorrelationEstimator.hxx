@@ -164,23 +164,16 @@ template <typename TStack>
 void
 NoiseCorrelationEstimator<TStack>::FindMeanAndMask()
 {
-  const SizeValueType             pixels = this->GetFrameRegion().GetNumberOfPixels();
-  std::vector<double>             mean(pixels);
-  std::vector<double>             variance(pixels);
-  std::vector<std::uint8_t>       valid(pixels);
-  const sensornoise::StackSummary summary = sensornoise::MakeStackMaps<PixelType>(
-    m_Measurement->moments,
+  auto maps = sensornoise::MakeStackMaps<PixelType>(
+    std::move(m_Measurement->moments),
     sensornoise::MakeCodeSettings(0, std::nan(""), std::nan(""), m_QuantisationStep),
-    this->GetParallelFor(),
-    mean.data(),
-    variance.data(),
-    valid.data());
-  m_Measurement->moments = sensornoise::TemporalMoments<PixelType>();
-  m_Measurement->settings.quantisationStepDn = summary.codes.quantisationStepDn;
+    this->GetParallelFor());
+  m_Measurement->settings.quantisationStepDn = maps.summary.codes.quantisationStepDn;
   if (m_Measurement->mean.empty())
   {
-    m_Measurement->mean = std::move(mean);
+    m_Measurement->mean = std::move(maps.mean);
   }
+  std::vector<std::uint8_t> & valid = maps.valid;
   for (std::size_t p = 0; p < m_Measurement->mask.size(); ++p)
   {
     valid[p] = valid[p] != 0 && m_Measurement->mask[p] != 0 ? 1 : 0;

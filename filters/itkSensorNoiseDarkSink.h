@@ -106,7 +106,7 @@ public:
     for (Part & part : m_Parts)
     {
       offsets.push_back(sensornoise::MeasureDarkFrames<PixelType>(
-        part.moments, codes, part.usedPixels, this->GetParallelFor(), part.drift));
+        std::move(part.moments), codes, part.usedPixels, this->GetParallelFor(), part.drift));
     }
     return offsets;
   }

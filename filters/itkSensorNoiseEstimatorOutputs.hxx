@@ -110,10 +110,7 @@ SensorNoiseEstimator<TStack>::FillOutputs()
   }
   const std::size_t pixels = this->GetMean()->GetLargestPossibleRegion().GetNumberOfPixels();
   const auto        fill = [&](auto * image, auto missing, const auto & mapOf) {
-    const auto pixelsOfImage = SensorNoiseMapContainer<decltype(missing)>::New();
-    pixelsOfImage->TakeOver(m_Estimation->TakeMap(mapOf, missing, pixels));
-    image->SetBufferedRegion(image->GetLargestPossibleRegion());
-    image->SetPixelContainer(pixelsOfImage);
+    GiveToImage(image, m_Estimation->TakeMap(mapOf, missing, pixels));
   };
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   fill(this->GetMean(), nan, [](auto & method) { return method.TakeMean(); });

@@ -67,6 +67,17 @@ private:
   std::vector<TElement> m_Values;
 };
 
+/** Makes \a values, of an image's largest possible region, its pixels. */
+template <typename TImage>
+void
+GiveToImage(TImage * image, std::vector<typename TImage::PixelType> && values)
+{
+  const auto pixels = SensorNoiseMapContainer<typename TImage::PixelType>::New();
+  pixels->TakeOver(std::move(values));
+  image->SetBufferedRegion(image->GetLargestPossibleRegion());
+  image->SetPixelContainer(pixels);
+}
+
 } // namespace itk
 
 #endif

@@ -43,7 +43,7 @@ namespace itk
  * Bytes of the sums: in pass 1, 20 a pixel (floating point: 32) and 2 kB a frame that is in; in pass 2, 16 kB a frame;
  * in pass 3, 8 a pixel and series (4 to 20), and a sample of at most 32 MiB. Method Published: 32 a frame and 8 a frame
  * and row in pass 2, 8 a pixel in pass 3. They are for the same version of the module on the same kind of machine. Up
- * to 2^24 frames, for which sums of integers are exact. Memory: that of the estimator, and twice the sums.
+ * to 2^22 frames, for which sums of integers are exact. Memory: that of the estimator, and twice the sums.
  *
  * \tparam TStack itk::Image of 3 dimensions (x, y, time) of unsigned char, unsigned short, short, float or double.
  * \ingroup SensorNoise

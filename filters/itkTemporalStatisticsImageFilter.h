@@ -43,7 +43,8 @@ namespace itk
  *
  * Reads the stack once, in chunks (see SensorNoiseStackSink); threaded over rows. Integer pixels are summed exactly,
  * floating-point ones by Welford's recurrence in time order: the same bits for any number of threads and chunks.
- * Memory: 20 bytes a pixel for integers, 32 for floating point, beside outputs and one chunk.
+ * Memory: 21 bytes a pixel for integers, 33 for floating point, outputs included, beside one chunk. At most 2^22 frames
+ * of integers.
  *
  * Sections 2.3.1 and 3.1 of F. Sur, M. Gredi\'ac, SIAM J. Imaging Sci. 8(1), 2015, https://doi.org/10.1137/140977035.
  *
@@ -177,8 +178,6 @@ protected:
   GenerateOutputInformation() override;
   void
   EnlargeOutputRequestedRegion(DataObject * output) override;
-  void
-  AllocateOutputs() override;
 
   unsigned int
   NumberOfPasses() const override

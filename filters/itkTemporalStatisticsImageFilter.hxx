@@ -22,9 +22,11 @@
 #include "sensornoise/moments/Codes.h"
 #include "sensornoise/moments/StackMaps.h"
 #include "sensornoise/moments/TemporalMoments.h"
+#include "itkSensorNoiseMapContainer.h"
 
 #include <cstddef>
 #include <ostream>
+#include <utility>
 
 namespace itk
 {
@@ -70,19 +72,6 @@ TemporalStatisticsImageFilter<TStack>::EnlargeOutputRequestedRegion(DataObject *
 
 template <typename TStack>
 void
-TemporalStatisticsImageFilter<TStack>::AllocateOutputs()
-{
-  const auto allocate = [](auto * image) {
-    image->SetBufferedRegion(image->GetLargestPossibleRegion());
-    image->Allocate();
-  };
-  allocate(this->GetMean());
-  allocate(this->GetVariance());
-  allocate(this->GetValidMask());
-}
-
-template <typename TStack>
-void
 TemporalStatisticsImageFilter<TStack>::StartPasses()
 {
   if (this->GetNumberOfFrames() < 2)
@@ -114,14 +103,14 @@ template <typename TStack>
 void
 TemporalStatisticsImageFilter<TStack>::EndPass(unsigned int)
 {
-  m_Summary = sensornoise::MakeStackMaps<PixelType>(
-    m_Moments,
+  auto maps = sensornoise::MakeStackMaps<PixelType>(
+    std::move(m_Moments),
     sensornoise::MakeCodeSettings(m_BitDepth, m_ClipLow, m_ClipHigh, m_QuantisationStep),
-    this->GetParallelFor(),
-    this->GetMean()->GetBufferPointer(),
-    this->GetVariance()->GetBufferPointer(),
-    this->GetValidMask()->GetBufferPointer());
-  m_Moments = sensornoise::TemporalMoments<PixelType>();
+    this->GetParallelFor());
+  m_Summary = maps.summary;
+  GiveToImage(this->GetMean(), std::move(maps.mean));
+  GiveToImage(this->GetVariance(), std::move(maps.variance));
+  GiveToImage(this->GetValidMask(), std::move(maps.valid));
 }
 
 template <typename TStack>

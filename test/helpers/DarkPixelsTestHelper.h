@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <functional>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 /** \file
@@ -103,7 +104,7 @@ MeasureDarkStack(const Stack<TPixel> &             stack,
     moments.AdvanceFrames(count);
     drift.AddFrames(stack.Frame(first), count, parallelFor);
   }
-  return MeasureDarkFrames<TPixel>(moments, {}, mask, parallelFor, drift);
+  return MeasureDarkFrames<TPixel>(std::move(moments), {}, mask, parallelFor, drift);
 }
 
 /** The middle value. */

@@ -16,6 +16,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace sensornoise;
@@ -53,7 +54,7 @@ Measure(const Stack<TPixel> &             stack,
   TemporalMoments<TPixel> moments(pixels);
   moments.AddFrames(stack.Frame(0), pixels, stack.frames, 0, pixels);
   moments.AdvanceFrames(stack.frames);
-  return MeasureDarkFrames<TPixel>(moments, codes, mask, parallelFor);
+  return MeasureDarkFrames<TPixel>(std::move(moments), codes, mask, parallelFor);
 }
 
 /** What is measured lies within 4 of its standard errors of the truth. */

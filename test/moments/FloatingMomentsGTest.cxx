@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/moments/FloatingMoments.h"
+#include "helpers/StackTestHelper.h"
+#include "sensornoise/base/Parallel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -158,6 +160,30 @@ TYPED_TEST(SensorNoiseFloatingMoments, OnePixelThatIsNotFiniteOnceStaysNotFinite
       EXPECT_TRUE(moments.IsFinite(0));
       EXPECT_TRUE(moments.IsFinite(2));
       EXPECT_FALSE(MomentsOf(stack, 3, 0, 9).IsFinite(1)) << bad << " in frame " << when;
+    }
+  }
+}
+
+TYPED_TEST(SensorNoiseFloatingMoments, MapsHaveTheBitsOfTheMoments)
+{
+  constexpr std::size_t pixels = 2 * PixelsPerBlock + 100;
+  for (const std::size_t frames : { 1, 2, 9 })
+  {
+    auto stack = NormalFrames<TypeParam>(pixels, frames, 300.0, 20.0);
+    stack[7] = std::numeric_limits<TypeParam>::infinity();
+    auto       moments = MomentsOf(stack, pixels, 0, frames);
+    const auto kept = moments;
+    const auto maps = moments.TakeMaps(test::Threads(2));
+    EXPECT_EQ(moments.GetNumberOfPixels(), 0U); // they are given away
+    ASSERT_EQ(maps.GetNumberOfPixels(), pixels);
+    for (std::size_t p = 0; p < pixels; ++p)
+    {
+      ASSERT_EQ(maps.IsFinite(p), p != 7) << p;
+      ASSERT_TRUE(p == 7 ? std::isnan(maps.mean[p]) : maps.mean[p] == kept.GetMean(p)) << p;
+      const double expected = frames > 1 ? kept.GetVariance(p) : 0.0;
+      ASSERT_TRUE(p == 7 ? std::isnan(maps.variance[p]) : maps.variance[p] == expected) << p;
+      ASSERT_EQ(maps.GetMinimum(p), kept.GetMinimum(p)) << p;
+      ASSERT_EQ(maps.GetMaximum(p), kept.GetMaximum(p)) << p;
     }
   }
 }

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/moments/IntegerMoments.h"
+#include "helpers/StackTestHelper.h"
+#include "sensornoise/base/Parallel.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -199,6 +201,54 @@ TYPED_TEST(SensorNoiseIntegerMoments, SeventyThousandFramesAtTheEndsOfTheRangeAr
     ExpectTwoPointLaw<TypeParam>(70000, high, Limits::min(), Limits::max());
   }
   ExpectTwoPointLaw<TypeParam>(70001, 30000, Limits::min(), Limits::max());
+}
+
+TYPED_TEST(SensorNoiseIntegerMoments, AsManyFramesAsThereMayBeAreExact)
+{
+  using Limits = std::numeric_limits<TypeParam>;
+  // Pixel 0 is low in one of four frames, pixel 1 high, pixel 2 never changes.
+  const TypeParam              low = Limits::min();
+  const TypeParam              high = Limits::max();
+  const std::vector<TypeParam> four = { low, high, low, high, low, low, high, low, low, high, low, low };
+  IntegerMoments<TypeParam>    moments = MomentsOf(four, 3);
+  while (2 * moments.GetNumberOfFrames() <= IntegerMoments<TypeParam>::MostFrames)
+  {
+    const IntegerMoments<TypeParam> same = moments;
+    moments.Merge(same);
+  }
+  const auto   n = static_cast<double>(IntegerMoments<TypeParam>::MostFrames);
+  const double height = static_cast<double>(high) - static_cast<double>(low);
+  ASSERT_EQ(moments.GetNumberOfFrames(), IntegerMoments<TypeParam>::MostFrames);
+  for (const std::size_t p : { 0, 1 }) // a quarter times three quarters of the frames: less than 2^53, exact
+  {
+    EXPECT_EQ(moments.GetSumOfSquaredDeviations(p), 3.0 / 16.0 * n * height * height) << p;
+  }
+  EXPECT_EQ(moments.GetSumOfSquaredDeviations(2), 0.0);
+  EXPECT_EQ(moments.GetMean(2), static_cast<double>(low));
+  EXPECT_THROW(moments.AdvanceFrames(1), std::invalid_argument);
+  EXPECT_THROW(moments.Merge(MomentsOf(four, 3)), std::invalid_argument);
+  EXPECT_EQ(moments.GetNumberOfFrames(), IntegerMoments<TypeParam>::MostFrames); // nothing was lost
+}
+
+TYPED_TEST(SensorNoiseIntegerMoments, MapsHaveTheBitsOfTheMoments)
+{
+  constexpr std::size_t pixels = 2 * PixelsPerBlock + 100;
+  for (const std::size_t frames : { 1, 2, 9 })
+  {
+    auto       moments = MomentsOf(RandomFrames<TypeParam>(pixels, frames, 3), pixels);
+    const auto kept = moments;
+    const auto maps = moments.TakeMaps(test::Threads(2));
+    EXPECT_EQ(moments.GetNumberOfPixels(), 0U); // they are given away
+    ASSERT_EQ(maps.GetNumberOfPixels(), pixels);
+    for (std::size_t p = 0; p < pixels; ++p)
+    {
+      ASSERT_EQ(maps.mean[p], kept.GetMean(p)) << p;
+      ASSERT_EQ(maps.variance[p], frames > 1 ? kept.GetVariance(p) : 0.0) << p;
+      ASSERT_EQ(maps.GetMinimum(p), kept.GetMinimum(p)) << p;
+      ASSERT_EQ(maps.GetMaximum(p), kept.GetMaximum(p)) << p;
+      ASSERT_TRUE(maps.IsFinite(p));
+    }
+  }
 }
 
 TYPED_TEST(SensorNoiseIntegerMoments, FramesMayLieApart)

@@ -24,27 +24,8 @@ constexpr std::size_t Width = 130; // 12,480 pixels: two blocks
 constexpr std::size_t Height = 96;
 constexpr std::size_t Frames = 16;
 
-struct Maps
-{
-  StackSummary              summary;
-  std::vector<std::uint8_t> valid;
-};
-
 template <typename TPixel>
-Maps
-MapsOf(const TemporalMoments<TPixel> & moments, const ParallelFor & parallelFor = SerialFor)
-{
-  const std::size_t   pixels = moments.GetNumberOfPixels();
-  std::vector<double> mean(pixels);
-  std::vector<double> variance(pixels);
-  Maps                maps;
-  maps.valid.resize(pixels);
-  maps.summary = MakeStackMaps<TPixel>(moments, {}, parallelFor, mean.data(), variance.data(), maps.valid.data());
-  return maps;
-}
-
-template <typename TPixel>
-Maps
+StackMaps
 MapsOf(const Stack<TPixel> & stack, std::size_t chunk = Frames, const ParallelFor & parallelFor = SerialFor)
 {
   StackMoments<TPixel> sums(stack.width * stack.height, stack.frames);
@@ -52,7 +33,7 @@ MapsOf(const Stack<TPixel> & stack, std::size_t chunk = Frames, const ParallelFo
   {
     sums.AddFrames(stack.Frame(t), t, std::min(chunk, stack.frames - t), parallelFor);
   }
-  return MapsOf<TPixel>(sums.Take(), parallelFor);
+  return MakeStackMaps<TPixel>(sums.Take(), {}, parallelFor);
 }
 
 /** Codes of a sensor that attains the levels \a low to \a high only. */
@@ -66,7 +47,7 @@ CodesBetween(std::optional<double> low, std::optional<double> high, std::size_t 
 }
 
 void
-ExpectTheSame(const Maps & maps, const Maps & expected)
+ExpectTheSame(const StackMaps & maps, const StackMaps & expected)
 {
   EXPECT_EQ(maps.summary.codes.clipLowDn, expected.summary.codes.clipLowDn);
   EXPECT_EQ(maps.summary.codes.clipHighDn, expected.summary.codes.clipHighDn);
@@ -89,9 +70,9 @@ TYPED_TEST(SensorNoiseStackMapsOfFloating, CopiesOfCodesThatSaturateLeaveOutTheS
   {
     for (const std::size_t width : { 48, 130, 400 })
     {
-      const auto codes = CodesBetween({}, 2500.0, width);
-      const Maps expected = MapsOf(codes);
-      const Maps maps = MapsOf(codes.Map<TypeParam>([&](std::uint16_t u) { return scale * u; }));
+      const auto      codes = CodesBetween({}, 2500.0, width);
+      const StackMaps expected = MapsOf(codes);
+      const StackMaps maps = MapsOf(codes.Map<TypeParam>([&](std::uint16_t u) { return scale * u; }));
       ASSERT_EQ(expected.summary.codes.clipSource, "low: code range, high: pile-up");
       EXPECT_EQ(maps.summary.codes.clipSource, "low: none, high: pile-up");
       EXPECT_EQ(maps.summary.codes.clipHighDn, static_cast<double>(static_cast<TypeParam>(scale * 2500.0)));
@@ -105,24 +86,24 @@ TYPED_TEST(SensorNoiseStackMapsOfFloating, CopiesOfCodesThatSaturateLeaveOutTheS
 
 TYPED_TEST(SensorNoiseStackMapsOfFloating, ClipLevelThatMostPixelsAttainIsFound)
 {
-  const auto codes = CodesBetween({}, 600.0);
-  const Maps expected = MapsOf(codes);
+  const auto      codes = CodesBetween({}, 600.0);
+  const StackMaps expected = MapsOf(codes);
   EXPECT_EQ(expected.summary.codes.clipSource, "low: code range, high: pile-up");
   EXPECT_EQ(expected.summary.codes.clipHighDn, 600.0);
   EXPECT_GT(expected.summary.clipped, Width * Height / 2);
-  const Maps maps = MapsOf(codes.Map<TypeParam>([](std::uint16_t u) { return u / 16.0; }));
+  const StackMaps maps = MapsOf(codes.Map<TypeParam>([](std::uint16_t u) { return u / 16.0; }));
   EXPECT_EQ(maps.summary.codes.clipHighDn, 600.0 / 16.0);
   EXPECT_EQ(maps.valid, expected.valid);
 }
 
 TYPED_TEST(SensorNoiseStackMapsOfFloating, FloorIsFoundBelowAboveAndAtZero)
 {
-  const auto codes = CodesBetween(500.0, {});
-  const Maps expected = MapsOf(codes);
+  const auto      codes = CodesBetween(500.0, {});
+  const StackMaps expected = MapsOf(codes);
   ASSERT_EQ(expected.summary.codes.clipSource, "low: pile-up, high: code range");
   for (const double floorDn : { 500.0, 0.0, -300.0 })
   {
-    const Maps maps = MapsOf(codes.Map<TypeParam>([&](std::uint16_t u) { return u - 500.0 + floorDn; }));
+    const StackMaps maps = MapsOf(codes.Map<TypeParam>([&](std::uint16_t u) { return u - 500.0 + floorDn; }));
     EXPECT_EQ(maps.summary.codes.clipLowDn, floorDn);
     EXPECT_FALSE(maps.summary.codes.clipHighDn);
     EXPECT_EQ(maps.summary.codes.clipSource, "low: pile-up, high: none");
@@ -134,8 +115,8 @@ TYPED_TEST(SensorNoiseStackMapsOfFloating, LevelsBetweenCodesSaturateToo)
 {
   const auto stack = Simulate<TypeParam>(FlickeringSettings(Frames), Width, Height);
   EXPECT_EQ(MapsOf(stack).summary.codes.clipSource, "none");
-  const auto saturated = stack.Map([](TypeParam u) { return std::clamp<TypeParam>(u, 500, 2500); });
-  const Maps maps = MapsOf(saturated);
+  const auto      saturated = stack.Map([](TypeParam u) { return std::clamp<TypeParam>(u, 500, 2500); });
+  const StackMaps maps = MapsOf(saturated);
   EXPECT_EQ(maps.summary.codes.clipLowDn, 500.0);
   EXPECT_EQ(maps.summary.codes.clipHighDn, 2500.0);
   EXPECT_EQ(maps.summary.codes.clipSource, "pile-up");
@@ -158,7 +139,7 @@ TYPED_TEST(SensorNoiseStackMapsOfFloating, WithoutSaturationNothingIsLeftOut)
     const auto codes = CodesBetween({}, {}, width);
     for (const double stepDn : { 1.0, 16.0, 60.0, 250.0 }) // the noise is from 3 to 40 DN
     {
-      const Maps maps =
+      const StackMaps maps =
         MapsOf(codes.Map<TypeParam>([&](std::uint16_t u) { return stepDn * static_cast<int>(u / stepDn + 0.5); }));
       EXPECT_EQ(maps.summary.codes.clipSource, "none") << width << ", " << stepDn;
       EXPECT_EQ(maps.summary.clipped, 0u);
@@ -169,8 +150,8 @@ TYPED_TEST(SensorNoiseStackMapsOfFloating, WithoutSaturationNothingIsLeftOut)
 
 TYPED_TEST(SensorNoiseStackMapsOfFloating, PixelsThatAreNotFiniteHideNoClipLevel)
 {
-  auto       stack = CodesBetween({}, 2500.0).Map<TypeParam>([](std::uint16_t u) { return u; });
-  const Maps expected = MapsOf(stack);
+  auto            stack = CodesBetween({}, 2500.0).Map<TypeParam>([](std::uint16_t u) { return u; });
+  const StackMaps expected = MapsOf(stack);
   for (const TypeParam value : { std::numeric_limits<TypeParam>::quiet_NaN(),
                                  std::numeric_limits<TypeParam>::infinity(),
                                  -std::numeric_limits<TypeParam>::infinity() })
@@ -180,7 +161,7 @@ TYPED_TEST(SensorNoiseStackMapsOfFloating, PixelsThatAreNotFiniteHideNoClipLevel
       stack.pixels[(k % Frames) * Width * Height + 7 * k] = value;
       stack.pixels[((k + 1) % Frames) * Width * Height + 7 * k] = 9999; // beyond the clip level
     }
-    const Maps maps = MapsOf(stack);
+    const StackMaps maps = MapsOf(stack);
     EXPECT_EQ(maps.summary.codes.clipHighDn, 2500.0);
     EXPECT_EQ(maps.summary.codes.clipSource, expected.summary.codes.clipSource);
     EXPECT_EQ(maps.summary.notFinite, 20u);
@@ -190,15 +171,15 @@ TYPED_TEST(SensorNoiseStackMapsOfFloating, PixelsThatAreNotFiniteHideNoClipLevel
     }
   }
   std::fill(stack.pixels.begin(), stack.pixels.end(), std::numeric_limits<TypeParam>::quiet_NaN());
-  const Maps maps = MapsOf(stack);
+  const StackMaps maps = MapsOf(stack);
   EXPECT_EQ(maps.summary.codes.clipSource, "none");
   EXPECT_EQ(maps.summary.notFinite, Width * Height);
 }
 
 TYPED_TEST(SensorNoiseStackMapsOfFloating, AreTheSameForAnyChunksThreadsAndProcesses)
 {
-  const auto stack = CodesBetween(500.0, 2500.0).Map<TypeParam>([](std::uint16_t u) { return u / 3.0; });
-  const Maps expected = MapsOf(stack);
+  const auto      stack = CodesBetween(500.0, 2500.0).Map<TypeParam>([](std::uint16_t u) { return u / 3.0; });
+  const StackMaps expected = MapsOf(stack);
   ASSERT_EQ(expected.summary.codes.clipSource, "pile-up");
   for (const std::size_t chunk : { 1, 5 })
   {
@@ -214,5 +195,5 @@ TYPED_TEST(SensorNoiseStackMapsOfFloating, AreTheSameForAnyChunksThreadsAndProce
     part.Save(stream);
     whole.Merge(stream);
   }
-  ExpectTheSame(MapsOf<TypeParam>(whole.Take()), expected);
+  ExpectTheSame(MakeStackMaps<TypeParam>(whole.Take(), {}, SerialFor), expected);
 }

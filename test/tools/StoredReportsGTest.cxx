@@ -25,6 +25,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 // Whole reports of small simulated stacks, as test/reports/*.json has them: what no other test looks at cannot change
@@ -149,7 +150,7 @@ MeasureDark(SimulationSettings settings)
   TemporalMoments<float> moments(pixels);
   moments.AddFrames(stack.Frame(0), pixels, stack.frames, 0, pixels);
   moments.AdvanceFrames(stack.frames);
-  return MeasureDarkFrames<float>(moments);
+  return MeasureDarkFrames<float>(std::move(moments));
 }
 
 std::string

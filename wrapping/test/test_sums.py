@@ -195,7 +195,7 @@ def test_wrong_use_is_refused(codes):
     refused(r"shape is \(40, 64\); expected \(t, y, x\)", (40, 64), "uint8")
     refused("dtype is int64; expected uint8", (40, 64, 96), "int64")
     refused("frames; expected at least 5", (4, 64, 96), "uint8", bayer="none")
-    refused("expected at most 16777216", ((1 << 24) + 1, 3, 3), "uint8", bayer="none")
+    refused("expected at most 4194304", ((1 << 22) + 1, 3, 3), "uint8", bayer="none")
     refused('the Bayer pattern is "auto" and the stack\'s metadata do not have it', codes.shape, "uint8")
     refused("method is 'x'", codes.shape, "uint8", method="x")
     sums = SensorNoiseSums(codes.shape, codes.dtype, bayer="none")

@@ -14,6 +14,7 @@
 #include "sensornoise/moments/NoiseMedian.h"
 #include "sensornoise/moments/RoundingError.h"
 #include "sensornoise/moments/StackMaps.h"
+#include "sensornoise/moments/TemporalMaps.h"
 #include "sensornoise/moments/TemporalMoments.h"
 
 #include <algorithm>
@@ -42,35 +43,37 @@ struct DarkSurvey
   std::size_t clipped{ 0 };
 };
 
-/** Offsets, variances without the drift, and the pixels that are finite, never clipped and not masked. */
+/** Offsets, variances without the drift, and the pixels that are finite, never clipped and not masked. Takes mean and
+ * variance. */
 template <typename TPixel>
 DarkSurvey
-SurveyPixels(const TemporalMoments<TPixel> &   moments,
+SurveyPixels(TemporalMaps<TPixel> &            ofStack,
+             std::size_t                       frames,
              const CodeSettings &              codes,
              const std::vector<std::uint8_t> & mask,
              const ParallelFor &               parallelFor,
              const DarkDrift &                 drift)
 {
   constexpr double  nan = std::numeric_limits<double>::quiet_NaN();
-  const std::size_t pixels = moments.GetNumberOfPixels();
-  const auto        frames = moments.GetNumberOfFrames();
+  const std::size_t pixels = ofStack.GetNumberOfPixels();
+  const double      freedom = static_cast<double>(frames) - 1.0;
   DarkSurvey        survey;
   DarkMaps &        maps = survey.maps;
-  maps = { std::vector<double>(pixels), std::vector<double>(pixels), std::vector<std::uint8_t>(pixels), frames, 0.0 };
-  survey.codes = MakeStackMaps<TPixel>(
-                   moments, codes, parallelFor, maps.offsetDn.data(), maps.varianceDn2.data(), maps.usable.data())
-                   .codes;
+  maps.frames = frames;
+  maps.usable.resize(pixels);
+  survey.codes = SummariseStack<TPixel>(ofStack, codes, parallelFor, maps.usable.data()).codes;
+  maps.offsetDn = std::move(ofStack.mean);
+  maps.varianceDn2 = std::move(ofStack.variance);
   maps.stepDn = survey.codes.quantisationStepDn;
   for (std::size_t p = 0; p < pixels; ++p)
   {
     const bool isMasked = !mask.empty() && mask[p] == 0;
-    survey.clipped += !isMasked && maps.usable[p] == 0 && moments.IsFinite(p) ? 1 : 0;
+    survey.clipped += !isMasked && maps.usable[p] == 0 && std::isfinite(maps.offsetDn[p]) ? 1 : 0;
     maps.usable[p] = isMasked ? 0 : maps.usable[p];
     survey.usable += maps.usable[p];
-    const double squares = moments.GetSumOfSquaredDeviations(p);
-    maps.varianceDn2[p] = maps.usable[p] != 0 && frames > 1
-                            ? drift.SquaresWithoutDrift(p, squares, maps.offsetDn[p]) / static_cast<double>(frames - 1)
-                            : nan;
+    const double squares = freedom * maps.varianceDn2[p];
+    maps.varianceDn2[p] =
+      maps.usable[p] != 0 && frames > 1 ? drift.SquaresWithoutDrift(p, squares, maps.offsetDn[p]) / freedom : nan;
     maps.offsetDn[p] = maps.usable[p] != 0 ? maps.offsetDn[p] : nan;
   }
   return survey;
@@ -126,7 +129,7 @@ ChanceOfOneCode(double noiseDn, double stepDn, double frames)
 /** Takes the defective pixels out of the usable ones. Returns how many they are. */
 template <typename TPixel>
 std::size_t
-ExcludeDefective(DarkMaps & maps, const TemporalMoments<TPixel> & moments)
+ExcludeDefective(DarkMaps & maps, const TemporalMaps<TPixel> & ofStack)
 {
   const double freedom = static_cast<double>(maps.frames) - 1.0;
   const double share = MedianShareOfVariance(freedom);
@@ -144,7 +147,7 @@ ExcludeDefective(DarkMaps & maps, const TemporalMoments<TPixel> & moments)
   std::size_t defective = 0;
   for (std::size_t p = 0; p < maps.usable.size(); ++p)
   {
-    const bool isStuck = mustChange && moments.GetMinimum(p) == moments.GetMaximum(p);
+    const bool isStuck = mustChange && ofStack.GetMinimum(p) == ofStack.GetMaximum(p);
     if (maps.usable[p] != 0 && (isStuck || maps.varianceDn2[p] > limitDn2))
     {
       maps.usable[p] = 0;
@@ -176,13 +179,15 @@ MeanWithin(const std::vector<double> & values, double low, double high)
 
 template <typename TPixel>
 KnownOffset
-MeasureDarkFrames(const TemporalMoments<TPixel> &   moments,
+MeasureDarkFrames(TemporalMoments<TPixel>           moments,
                   const CodeSettings &              codes,
                   const std::vector<std::uint8_t> & mask,
                   const ParallelFor &               parallelFor,
                   const DarkDrift &                 drift)
 {
-  DarkSurvey survey = SurveyPixels<TPixel>(moments, codes, mask, parallelFor, drift);
+  const std::size_t    frames = moments.GetNumberOfFrames();
+  TemporalMaps<TPixel> ofStack = moments.TakeMaps(parallelFor);
+  DarkSurvey           survey = SurveyPixels<TPixel>(ofStack, frames, codes, mask, parallelFor, drift);
   RequireDarkLevel(survey);
   DarkMaps &          maps = survey.maps;
   std::vector<double> levels = UsableValues(maps.offsetDn, maps.usable);
@@ -197,7 +202,7 @@ MeasureDarkFrames(const TemporalMoments<TPixel> &   moments,
   dark.darkFrames = maps.frames;
   if (dark.darkFrames > 1)
   {
-    dark.numberDefective = ExcludeDefective<TPixel>(maps, moments);
+    dark.numberDefective = ExcludeDefective<TPixel>(maps, ofStack);
     const std::vector<double> variances = UsableValues(maps.varianceDn2, maps.usable);
     const MeanOfPixels        mean = MeanWithin(variances, 0.0, std::numeric_limits<double>::max());
     dark.variance = { mean.value, mean.standardError };
@@ -213,31 +218,31 @@ MeasureDarkFrames(const TemporalMoments<TPixel> &   moments,
 }
 
 template SensorNoise_EXPORT KnownOffset
-MeasureDarkFrames<unsigned char>(const TemporalMoments<unsigned char> &,
+MeasureDarkFrames<unsigned char>(TemporalMoments<unsigned char>,
                                  const CodeSettings &,
                                  const std::vector<std::uint8_t> &,
                                  const ParallelFor &,
                                  const DarkDrift &);
 template SensorNoise_EXPORT KnownOffset
-MeasureDarkFrames<unsigned short>(const TemporalMoments<unsigned short> &,
+MeasureDarkFrames<unsigned short>(TemporalMoments<unsigned short>,
                                   const CodeSettings &,
                                   const std::vector<std::uint8_t> &,
                                   const ParallelFor &,
                                   const DarkDrift &);
 template SensorNoise_EXPORT KnownOffset
-MeasureDarkFrames<short>(const TemporalMoments<short> &,
+MeasureDarkFrames<short>(TemporalMoments<short>,
                          const CodeSettings &,
                          const std::vector<std::uint8_t> &,
                          const ParallelFor &,
                          const DarkDrift &);
 template SensorNoise_EXPORT KnownOffset
-MeasureDarkFrames<float>(const TemporalMoments<float> &,
+MeasureDarkFrames<float>(TemporalMoments<float>,
                          const CodeSettings &,
                          const std::vector<std::uint8_t> &,
                          const ParallelFor &,
                          const DarkDrift &);
 template SensorNoise_EXPORT KnownOffset
-MeasureDarkFrames<double>(const TemporalMoments<double> &,
+MeasureDarkFrames<double>(TemporalMoments<double>,
                           const CodeSettings &,
                           const std::vector<std::uint8_t> &,
                           const ParallelFor &,

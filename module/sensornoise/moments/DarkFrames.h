@@ -40,43 +40,43 @@ MeanWithin(const std::vector<double> & values, double low, double high);
  * with a chance of 1e-6 of being wrong. Its standard error is the pixels' scatter. The median pixel's read noise, see
  * MedianReadNoiseOf(), stands beside it.
  *
- * \a drift, of the same frames, is taken off all variances; without it a level that drifts adds to them. \a mask, if
- * given, has a nonzero value at the pixels to be used. Throws std::invalid_argument if fewer than 30 pixels are left,
- * or if the frames are cut off at a clip level. */
+ * The moments are given away, their memory serves for the maps. \a drift, of the same frames, is taken off all
+ * variances; without it a level that drifts adds to them. \a mask, if given, has a nonzero value at the pixels to be
+ * used. Throws std::invalid_argument if fewer than 30 pixels are left, or if the frames are cut off at a clip level. */
 template <typename TPixel>
 KnownOffset
-MeasureDarkFrames(const TemporalMoments<TPixel> &   moments,
+MeasureDarkFrames(TemporalMoments<TPixel>           moments,
                   const CodeSettings &              codes = {},
                   const std::vector<std::uint8_t> & mask = {},
                   const ParallelFor &               parallelFor = SerialFor,
                   const DarkDrift &                 drift = {});
 
 extern template SensorNoise_EXPORT KnownOffset
-MeasureDarkFrames<unsigned char>(const TemporalMoments<unsigned char> &,
+MeasureDarkFrames<unsigned char>(TemporalMoments<unsigned char>,
                                  const CodeSettings &,
                                  const std::vector<std::uint8_t> &,
                                  const ParallelFor &,
                                  const DarkDrift &);
 extern template SensorNoise_EXPORT KnownOffset
-MeasureDarkFrames<unsigned short>(const TemporalMoments<unsigned short> &,
+MeasureDarkFrames<unsigned short>(TemporalMoments<unsigned short>,
                                   const CodeSettings &,
                                   const std::vector<std::uint8_t> &,
                                   const ParallelFor &,
                                   const DarkDrift &);
 extern template SensorNoise_EXPORT KnownOffset
-MeasureDarkFrames<short>(const TemporalMoments<short> &,
+MeasureDarkFrames<short>(TemporalMoments<short>,
                          const CodeSettings &,
                          const std::vector<std::uint8_t> &,
                          const ParallelFor &,
                          const DarkDrift &);
 extern template SensorNoise_EXPORT KnownOffset
-MeasureDarkFrames<float>(const TemporalMoments<float> &,
+MeasureDarkFrames<float>(TemporalMoments<float>,
                          const CodeSettings &,
                          const std::vector<std::uint8_t> &,
                          const ParallelFor &,
                          const DarkDrift &);
 extern template SensorNoise_EXPORT KnownOffset
-MeasureDarkFrames<double>(const TemporalMoments<double> &,
+MeasureDarkFrames<double>(TemporalMoments<double>,
                           const CodeSettings &,
                           const std::vector<std::uint8_t> &,
                           const ParallelFor &,

@@ -69,6 +69,21 @@ FloatingMoments<TPixel>::AddFrames(const TPixel *      firstFrame,
 }
 
 template <typename TPixel>
+TemporalMaps<TPixel>
+FloatingMoments<TPixel>::TakeMaps(const ParallelFor & parallelFor)
+{
+  ForBlocks(m_Mean.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p)
+    {
+      m_Mean[p] = this->GetMean(p);
+      m_Squares[p] = m_Frames > 1 ? this->GetVariance(p) : 0.0 * m_Mean[p]; // not finite: NaN
+    }
+  });
+  m_Frames = 0;
+  return { std::move(m_Mean), std::move(m_Squares), std::move(m_Minimum), std::move(m_Maximum) };
+}
+
+template <typename TPixel>
 void
 FloatingMoments<TPixel>::Merge(const FloatingMoments & later)
 {

@@ -6,6 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/PixelLayout.h"
+#include "sensornoise/moments/TemporalMaps.h"
 
 #include <cmath>
 #include <cstddef>
@@ -74,6 +75,10 @@ public:
    * or those of another type or number of pixels, or ends early. */
   void
   Restore(std::istream & in);
+
+  /** Mean, variance and extremes as maps, in the memory of the moments, which are given away. */
+  TemporalMaps<TPixel>
+  TakeMaps(const ParallelFor & parallelFor = SerialFor);
 
   std::size_t
   GetNumberOfPixels() const

@@ -27,7 +27,18 @@ template <typename TPixel>
 std::string
 IntegerStreamName()
 {
-  return "IntegerMoments " + PixelName<TPixel>();
+  return "IntegerMoments 2 " + PixelName<TPixel>(); // 2: sums are doubles
+}
+
+/** Throws std::invalid_argument if sums over so many frames need not be exact. */
+void
+RequireExact(std::size_t frames, std::size_t most)
+{
+  if (frames > most)
+  {
+    throw std::invalid_argument("the stack has " + std::to_string(frames) + " frames; expected at most " +
+                                std::to_string(most) + ", up to which sums are exact");
+  }
 }
 } // namespace
 
@@ -38,7 +49,8 @@ namespace detail
  */
 constexpr std::size_t FramesInRegisters = 8;
 
-// As many frames as the block's 32-bit sums hold: |sum s| <= 2^15 2^15, and 2^14 pairs of squares' lower halves.
+// As many frames as the block's 32-bit sums hold, signed: |sum s| <= 2^15 2^15, and 2^14 pairs of squares' lower
+// halves.
 constexpr std::size_t FramesPerFlush = 32768;
 
 struct BlockSums
@@ -122,8 +134,8 @@ AddRun(const TPixel * first,
 
 template <typename TPixel>
 IntegerMoments<TPixel>::IntegerMoments(std::size_t pixels, const ParallelFor & parallelFor)
-  : m_Sum(MakeMap<std::int64_t>(pixels, parallelFor))
-  , m_SumOfSquares(MakeMap<std::uint64_t>(pixels, parallelFor))
+  : m_Sum(MakeMap<double>(pixels, parallelFor))
+  , m_SumOfSquares(MakeMap<double>(pixels, parallelFor))
   , m_Minimum(MakeMap(pixels, parallelFor, std::numeric_limits<std::int16_t>::max()))
   , m_Maximum(MakeMap(pixels, parallelFor, std::numeric_limits<std::int16_t>::min()))
 {}
@@ -148,7 +160,9 @@ IntegerMoments<TPixel>::AddBlock(const TPixel *      firstFrame,
     for (std::size_t i = 0; i < size; ++i)
     {
       m_Sum[begin + i] += block.sum[i];
-      m_SumOfSquares[begin + i] += block.low[i] + (std::uint64_t{ block.high[i] } << 16);
+      // As signed numbers, which they fit: their conversion is an instruction.
+      m_SumOfSquares[begin + i] +=
+        static_cast<std::int32_t>(block.low[i]) + 65536.0 * static_cast<std::int32_t>(block.high[i]);
       m_Minimum[begin + i] = block.minimum[i];
       m_Maximum[begin + i] = block.maximum[i];
     }
@@ -175,6 +189,32 @@ IntegerMoments<TPixel>::AddFrames(const TPixel *      firstFrame,
 
 template <typename TPixel>
 void
+IntegerMoments<TPixel>::AdvanceFrames(std::size_t frames)
+{
+  RequireExact(m_Frames + frames, MostFrames);
+  m_Frames += frames;
+}
+
+template <typename TPixel>
+TemporalMaps<TPixel>
+IntegerMoments<TPixel>::TakeMaps(const ParallelFor & parallelFor)
+{
+  ForBlocks(m_Sum.size(), parallelFor, [&](std::size_t begin, std::size_t end) {
+    WithWideVectors([&] {
+      for (std::size_t p = begin; p < end; ++p)
+      {
+        const double mean = this->GetMean(p);
+        m_SumOfSquares[p] = m_Frames > 1 ? this->GetVariance(p) : 0.0;
+        m_Sum[p] = mean;
+      }
+    });
+  });
+  m_Frames = 0;
+  return { std::move(m_Sum), std::move(m_SumOfSquares), std::move(m_Minimum), std::move(m_Maximum) };
+}
+
+template <typename TPixel>
+void
 IntegerMoments<TPixel>::Merge(const IntegerMoments & other)
 {
   if (other.GetNumberOfPixels() != this->GetNumberOfPixels())
@@ -183,6 +223,7 @@ IntegerMoments<TPixel>::Merge(const IntegerMoments & other)
                                 " pixels cannot be merged into those of frames of " +
                                 std::to_string(this->GetNumberOfPixels()) + " pixels");
   }
+  RequireExact(m_Frames + other.m_Frames, MostFrames);
   for (std::size_t p = 0; p < m_Sum.size(); ++p)
   {
     m_Sum[p] += other.m_Sum[p];

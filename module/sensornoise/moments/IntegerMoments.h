@@ -6,6 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/PixelLayout.h"
+#include "sensornoise/moments/TemporalMaps.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -21,14 +22,15 @@ namespace sensornoise
  * \brief Exact sums over time of every pixel of a stack of 8- or 16-bit frames: mean, variance, minimum, maximum.
  *
  * Each value u [DN] is held as s = u - centre, which fits a signed 16-bit number, and the sums S = sum s and
- * Q = sum s^2 are exact integers. So frames may be added, and parts merged, in any order and in any number of
+ * Q = sum s^2 are exact: doubles hold integers up to 2^53, and the maps of mean and variance can take their memory. So
+ * frames may be added, and parts merged, in any order and in any number of
  * threads: the result has the same bits. The variance is unbiased (section 2.3.1 of Sur & Gredi\'ac 2015,
- * https://doi.org/10.1137/140977035) and its subtraction is done in integers.
+ * https://doi.org/10.1137/140977035) and what is subtracted for it is exact, too.
  *
  * Usage: for each run of frames, call AddFrames() for ranges of pixels that cover the frame once (ranges may be added
  * at the same time by different threads), then AdvanceFrames() once.
  *
- * Memory: 20 bytes a pixel, whatever the number of frames. Up to 2^31 frames.
+ * Memory: 20 bytes a pixel, whatever the number of frames, of which there may be MostFrames.
  *
  * \tparam TPixel unsigned char, signed char, unsigned short or short.
  */
@@ -38,6 +40,9 @@ class IntegerMoments
   static_assert(std::is_integral_v<TPixel> && sizeof(TPixel) <= 2, "IntegerMoments holds 8- and 16-bit pixels");
 
 public:
+  /** With them S^2 / n and Q are at most 2^52, and so are the terms of which the variance is the difference. */
+  static constexpr std::size_t MostFrames = std::size_t{ 1 } << 22;
+
   explicit IntegerMoments(std::size_t pixels = 0, const ParallelFor & parallelFor = SerialFor);
 
   /** Adds \a frames frames for the pixels [begin, end). \a firstFrame points at pixel 0 of the first frame, and each
@@ -55,14 +60,13 @@ public:
             std::size_t         begin,
             std::size_t         end);
 
-  /** Tells that \a frames frames have been added for every pixel. */
+  /** Tells that \a frames frames have been added for every pixel. Throws std::invalid_argument if there are more than
+   * MostFrames. */
   void
-  AdvanceFrames(std::size_t frames)
-  {
-    m_Frames += frames;
-  }
+  AdvanceFrames(std::size_t frames);
 
-  /** Adds the sums of other frames of the same pixels: exact, in any order. */
+  /** Adds the sums of other frames of the same pixels: exact, in any order. Throws std::invalid_argument if these have
+   * another number of pixels, or both together more than MostFrames. */
   void
   Merge(const IntegerMoments & other);
 
@@ -74,6 +78,10 @@ public:
    * those of another type or number of pixels, or ends early. */
   void
   Restore(std::istream & in);
+
+  /** Mean, variance and extremes as maps, in the memory of the sums, which are given away. */
+  TemporalMaps<TPixel>
+  TakeMaps(const ParallelFor & parallelFor = SerialFor);
 
   std::size_t
   GetNumberOfPixels() const
@@ -97,21 +105,21 @@ public:
   double
   GetMean(std::size_t p) const
   {
-    return static_cast<double>(m_Sum[p]) / static_cast<double>(m_Frames) + Centre;
+    return m_Sum[p] / static_cast<double>(m_Frames) + Centre;
   }
 
   /** Sum of the squared deviations of pixel \a p from its mean [DN^2].
    *
    * With S = q n + r, the sum about the integer q is A = Q - q (S + r), exact; about the mean it is A - r^2/n. S / n is
-   * no integer by rounding: |S| <= 2^46 is further from the next multiple of n <= 2^31 than 2^-53 of it. */
+   * no integer by rounding: |S| <= 2^37 is further from the next multiple of n <= 2^22 than 2^-53 of it. */
   double
   GetSumOfSquaredDeviations(std::size_t p) const
   {
-    const auto         n = static_cast<std::int64_t>(m_Frames);
-    const auto         q = static_cast<std::int64_t>(static_cast<double>(m_Sum[p]) / static_cast<double>(n));
-    const std::int64_t r = m_Sum[p] - q * n;
-    const std::int64_t aboutQ = static_cast<std::int64_t>(m_SumOfSquares[p]) - q * (m_Sum[p] + r);
-    return static_cast<double>(aboutQ) - static_cast<double>(r) * static_cast<double>(r) / static_cast<double>(n);
+    const auto   n = static_cast<double>(m_Frames);
+    const double q = static_cast<std::int32_t>(m_Sum[p] / n);
+    const double r = m_Sum[p] - q * n;
+    const double aboutQ = m_SumOfSquares[p] - q * (m_Sum[p] + r);
+    return aboutQ - r * r / n;
   }
 
   /** Unbiased variance of pixel \a p over time [DN^2]; needs two frames. */
@@ -134,8 +142,7 @@ public:
   }
 
 private:
-  // Only unsigned 16-bit values need to be shifted to fit a signed 16-bit number.
-  static constexpr std::int32_t Centre = std::is_unsigned_v<TPixel> && sizeof(TPixel) == 2 ? 32768 : 0;
+  static constexpr std::int32_t Centre = TemporalMaps<TPixel>::Centre;
 
   void
   AddBlock(const TPixel *      firstFrame,
@@ -144,11 +151,11 @@ private:
            std::size_t         begin,
            std::size_t         size);
 
-  std::size_t                m_Frames{ 0 };
-  std::vector<std::int64_t>  m_Sum;
-  std::vector<std::uint64_t> m_SumOfSquares;
-  std::vector<std::int16_t>  m_Minimum;
-  std::vector<std::int16_t>  m_Maximum;
+  std::size_t               m_Frames{ 0 };
+  std::vector<double>       m_Sum;          // integers
+  std::vector<double>       m_SumOfSquares; // integers
+  std::vector<std::int16_t> m_Minimum;
+  std::vector<std::int16_t> m_Maximum;
 };
 
 extern template class SensorNoise_EXPORT IntegerMoments<unsigned char>;

@@ -5,6 +5,7 @@
 
 #include "sensornoise/base/Quantiles.h"
 #include "sensornoise/moments/OutermostLevels.h"
+#include "sensornoise/moments/TemporalMaps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,17 +39,17 @@ struct StackEnds
   StackEnd low;
   StackEnd high;
 
-  /** Adds the pixels [begin, end) of \a moments, see TemporalMoments. */
-  template <typename TMoments>
+  /** Adds the pixels [begin, end). */
+  template <typename TPixel>
   void
-  AddPixels(const TMoments & moments, std::size_t begin, std::size_t end)
+  AddPixels(const TemporalMaps<TPixel> & maps, std::size_t begin, std::size_t end)
   {
     for (std::size_t p = begin; p < end; ++p)
     {
-      if (moments.IsFinite(p))
+      if (maps.IsFinite(p))
       {
-        low.Add(-moments.GetMinimum(p), 1);
-        high.Add(moments.GetMaximum(p), 1);
+        low.Add(-maps.GetMinimum(p), 1);
+        high.Add(maps.GetMaximum(p), 1);
       }
     }
   }
@@ -62,41 +63,37 @@ struct StackEnds
 };
 
 /** How far the end \a level of a stack lies from the mean of the pixels that attain it, see ExtremeDepths. */
-template <typename TMoments>
+template <typename TPixel>
 double
-MedianDepth(const TMoments &     moments,
-            OutermostLevels::End end,
-            const StackEnd &     level,
-            const double *       mean,
-            const double *       variance)
+MedianDepth(const TemporalMaps<TPixel> & maps, OutermostLevels::End end, const StackEnd & level)
 {
   const bool          isHigh = end == OutermostLevels::End::High;
   std::vector<double> depths;
-  for (std::size_t p = 0; p < moments.GetNumberOfPixels(); ++p)
+  for (std::size_t p = 0; p < maps.GetNumberOfPixels(); ++p)
   {
-    if (level.outwards == (isHigh ? moments.GetMaximum(p) : -moments.GetMinimum(p)) && moments.IsFinite(p))
+    if (level.outwards == (isHigh ? maps.GetMaximum(p) : -maps.GetMinimum(p)) && maps.IsFinite(p))
     {
-      const double distanceDn = level.outwards - (isHigh ? mean[p] : -mean[p]);
-      depths.push_back(variance[p] > 0.0 ? distanceDn / std::sqrt(variance[p]) : 0.0);
+      const double distanceDn = level.outwards - (isHigh ? maps.mean[p] : -maps.mean[p]);
+      depths.push_back(maps.variance[p] > 0.0 ? distanceDn / std::sqrt(maps.variance[p]) : 0.0);
     }
   }
   return Quantile(depths, 0.5);
 }
 
 /** The levels next to an end of a stack. */
-template <typename TMoments>
+template <typename TPixel>
 OutermostLevels
-LevelsAt(OutermostLevels::End end, const TMoments & moments)
+LevelsAt(OutermostLevels::End end, const TemporalMaps<TPixel> & maps)
 {
   OutermostLevels levels(end);
   const auto      add = [&](std::size_t p) {
-    if (moments.IsFinite(p))
+    if (maps.IsFinite(p))
     {
-      levels.Add(end == OutermostLevels::End::High ? moments.GetMaximum(p) : moments.GetMinimum(p));
+      levels.Add(end == OutermostLevels::End::High ? maps.GetMaximum(p) : maps.GetMinimum(p));
     }
   };
   // Some pixels of everywhere first: then most of the others are seen at once to lie inside of the levels kept.
-  const std::size_t pixels = moments.GetNumberOfPixels();
+  const std::size_t pixels = maps.GetNumberOfPixels();
   const std::size_t stride = std::max<std::size_t>(1, pixels / 8192);
   for (std::size_t first = 0; first < pixels; first += stride)
   {

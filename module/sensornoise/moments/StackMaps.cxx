@@ -10,17 +10,18 @@
 #include "sensornoise/moments/Codes.h"
 #include "sensornoise/moments/Constants.h"
 #include "sensornoise/moments/FloatingLevels.h"
-#include "sensornoise/moments/FloatingMoments.h"
-#include "sensornoise/moments/IntegerMoments.h"
 #include "sensornoise/moments/OutermostLevels.h"
 #include "sensornoise/moments/PileUp.h"
 #include "sensornoise/moments/StackEnds.h"
+#include "sensornoise/moments/TemporalMaps.h"
 #include "sensornoise/moments/TemporalMoments.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace sensornoise
@@ -31,17 +32,17 @@ namespace
 
 /** The median temporal variance [DN^2] of the pixels that vary: some thousand, evenly spread, tell the typical noise.
  * Pixels that a clip level holds fast do not vary, and may be most of them. */
-template <typename TMoments>
+template <typename TPixel>
 double
-TypicalVariance(const TMoments & moments, const double * variance)
+TypicalVariance(const TemporalMaps<TPixel> & maps)
 {
-  const std::size_t   pixels = moments.GetNumberOfPixels();
+  const std::size_t   pixels = maps.GetNumberOfPixels();
   std::vector<double> variances;
   for (std::size_t p = 0; p < pixels; p += std::max<std::size_t>(1, pixels / 8192))
   {
-    if (moments.IsFinite(p) && variance[p] > 0.0)
+    if (maps.IsFinite(p) && maps.variance[p] > 0.0)
     {
-      variances.push_back(variance[p]);
+      variances.push_back(maps.variance[p]);
     }
   }
   return variances.empty() ? 0.0 : Quantile(variances, 0.5);
@@ -50,27 +51,24 @@ TypicalVariance(const TMoments & moments, const double * variance)
 /** The codes of an integer stack, from every pixel's extremes. */
 template <typename TPixel>
 CodeRange
-FindCodesOfStack(const IntegerMoments<TPixel> & moments,
-                 const StackEnds &              ends,
-                 const CodeSettings &           settings,
-                 const ParallelFor &            parallelFor,
-                 const double *                 mean,
-                 const double *                 variance)
+FindCodesOfIntegers(const TemporalMaps<TPixel> & maps,
+                    const StackEnds &            ends,
+                    const CodeSettings &         settings,
+                    const ParallelFor &          parallelFor)
 {
   CodeHistogram minima;
   CodeHistogram maxima;
   ExtremeDepths depths;
   ForAll(2, parallelFor, [&](std::size_t isHigh) {
     CodeHistogram & extremes = isHigh == 1 ? maxima : minima;
-    for (std::size_t p = 0; p < moments.GetNumberOfPixels(); ++p)
+    for (std::size_t p = 0; p < maps.GetNumberOfPixels(); ++p)
     {
-      extremes.Add(isHigh == 1 ? moments.GetMaximum(p) : moments.GetMinimum(p));
+      extremes.Add(isHigh == 1 ? maps.GetMaximum(p) : maps.GetMinimum(p));
     }
     const auto end = isHigh == 1 ? OutermostLevels::End::High : OutermostLevels::End::Low;
-    (isHigh == 1 ? depths.high : depths.low) =
-      MedianDepth(moments, end, isHigh == 1 ? ends.high : ends.low, mean, variance);
+    (isHigh == 1 ? depths.high : depths.low) = MedianDepth(maps, end, isHigh == 1 ? ends.high : ends.low);
   });
-  CodeRange codes = FindCodes(minima, maxima, TypicalVariance(moments, variance), settings, depths);
+  CodeRange codes = FindCodes(minima, maxima, TypicalVariance(maps), settings, depths);
   // A signed 16-bit number ends at 32767, whatever 16 bits would hold.
   const double largest = std::numeric_limits<TPixel>::max();
   codes.clipHighDn = std::min(codes.clipHighDn.value_or(largest), largest);
@@ -80,12 +78,10 @@ FindCodesOfStack(const IntegerMoments<TPixel> & moments,
 /** The clip levels of a floating-point stack, from every finite pixel's extremes. */
 template <typename TPixel>
 CodeRange
-FindCodesOfStack(const FloatingMoments<TPixel> & moments,
-                 const StackEnds &               ends,
-                 const CodeSettings &            settings,
-                 const ParallelFor &             parallelFor,
-                 const double *                  mean,
-                 const double *                  variance)
+FindLevelsOfFloating(const TemporalMaps<TPixel> & maps,
+                     const StackEnds &            ends,
+                     const CodeSettings &         settings,
+                     const ParallelFor &          parallelFor)
 {
   // An end with fewer pixels, as nearly always without a clip level, needs no second look.
   OutermostLevels minima(OutermostLevels::End::Low);
@@ -96,32 +92,22 @@ FindCodesOfStack(const FloatingMoments<TPixel> & moments,
     const StackEnd & level = isHigh == 1 ? ends.high : ends.low;
     if (level.pixels >= InMoments.fewestPixelsOfPileUp)
     {
-      (isHigh == 1 ? maxima : minima) = LevelsAt(end, moments);
-      (isHigh == 1 ? depths.high : depths.low) = MedianDepth(moments, end, level, mean, variance);
+      (isHigh == 1 ? maxima : minima) = LevelsAt(end, maps);
+      (isHigh == 1 ? depths.high : depths.low) = MedianDepth(maps, end, level);
     }
   });
-  return FindLevels(minima, maxima, TypicalVariance(moments, variance), settings, depths);
+  return FindLevels(minima, maxima, TypicalVariance(maps), settings, depths);
 }
 
-/** Fills the maps, and finds the ends of the stack on the way. */
 template <typename TPixel>
 StackEnds
-FillMeanAndVariance(const TemporalMoments<TPixel> & moments,
-                    const ParallelFor &             parallelFor,
-                    double *                        mean,
-                    double *                        variance)
+FindEnds(const TemporalMaps<TPixel> & maps, const ParallelFor & parallelFor)
 {
-  const std::size_t      pixels = moments.GetNumberOfPixels();
-  const bool             hasVariance = moments.GetNumberOfFrames() > 1;
+  const std::size_t      pixels = maps.GetNumberOfPixels();
   std::vector<StackEnds> blocks((pixels + PixelsPerBlock - 1) / PixelsPerBlock);
   ForBlocks(pixels, parallelFor, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p)
-    {
-      mean[p] = moments.GetMean(p);
-      variance[p] = hasVariance ? moments.GetVariance(p) : 0.0 * mean[p]; // not finite: NaN
-    }
     StackEnds block;
-    block.AddPixels(moments, begin, end);
+    block.AddPixels(maps, begin, end);
     blocks[begin / PixelsPerBlock] = block;
   });
   StackEnds ends;
@@ -136,26 +122,30 @@ FillMeanAndVariance(const TemporalMoments<TPixel> & moments,
 
 template <typename TPixel>
 StackSummary
-MakeStackMaps(const TemporalMoments<TPixel> & moments,
-              const CodeSettings &            settings,
-              const ParallelFor &             parallelFor,
-              double *                        mean,
-              double *                        variance,
-              std::uint8_t *                  valid)
+SummariseStack(const TemporalMaps<TPixel> & maps,
+               const CodeSettings &         settings,
+               const ParallelFor &          parallelFor,
+               std::uint8_t *               valid)
 {
-  const std::size_t pixels = moments.GetNumberOfPixels();
-  const StackEnds   ends = FillMeanAndVariance<TPixel>(moments, parallelFor, mean, variance);
-
-  StackSummary summary;
-  summary.codes = FindCodesOfStack(moments, ends, settings, parallelFor, mean, variance);
+  const std::size_t pixels = maps.GetNumberOfPixels();
+  const StackEnds   ends = FindEnds(maps, parallelFor);
+  StackSummary      summary;
+  if constexpr (std::is_integral_v<TPixel>)
+  {
+    summary.codes = FindCodesOfIntegers(maps, ends, settings, parallelFor);
+  }
+  else
+  {
+    summary.codes = FindLevelsOfFloating(maps, ends, settings, parallelFor);
+  }
 
   std::vector<StackSummary> counts((pixels + PixelsPerBlock - 1) / PixelsPerBlock);
   ForBlocks(pixels, parallelFor, [&](std::size_t begin, std::size_t end) {
     StackSummary & count = counts[begin / PixelsPerBlock];
     for (std::size_t p = begin; p < end; ++p)
     {
-      const bool finite = moments.IsFinite(p);
-      const bool clipped = finite && summary.codes.IsClipped(moments.GetMinimum(p), moments.GetMaximum(p));
+      const bool finite = maps.IsFinite(p);
+      const bool clipped = finite && summary.codes.IsClipped(maps.GetMinimum(p), maps.GetMaximum(p));
       valid[p] = finite && !clipped ? 1 : 0;
       count.clipped += clipped ? 1 : 0;
       count.notFinite += finite ? 0 : 1;
@@ -169,40 +159,45 @@ MakeStackMaps(const TemporalMoments<TPixel> & moments,
   return summary;
 }
 
+template <typename TPixel>
+StackMaps
+MakeStackMaps(TemporalMoments<TPixel> moments, const CodeSettings & settings, const ParallelFor & parallelFor)
+{
+  TemporalMaps<TPixel> ofStack = moments.TakeMaps(parallelFor);
+  StackMaps            maps;
+  maps.valid.resize(ofStack.GetNumberOfPixels());
+  maps.summary = SummariseStack(ofStack, settings, parallelFor, maps.valid.data());
+  maps.mean = std::move(ofStack.mean);
+  maps.variance = std::move(ofStack.variance);
+  return maps;
+}
+
 template SensorNoise_EXPORT StackSummary
-MakeStackMaps<unsigned char>(const TemporalMoments<unsigned char> &,
-                             const CodeSettings &,
-                             const ParallelFor &,
-                             double *,
-                             double *,
-                             std::uint8_t *);
-template SensorNoise_EXPORT StackSummary
-MakeStackMaps<unsigned short>(const TemporalMoments<unsigned short> &,
+SummariseStack<unsigned char>(const TemporalMaps<unsigned char> &,
                               const CodeSettings &,
                               const ParallelFor &,
-                              double *,
-                              double *,
                               std::uint8_t *);
 template SensorNoise_EXPORT StackSummary
-MakeStackMaps<short>(const TemporalMoments<short> &,
-                     const CodeSettings &,
-                     const ParallelFor &,
-                     double *,
-                     double *,
-                     std::uint8_t *);
+SummariseStack<unsigned short>(const TemporalMaps<unsigned short> &,
+                               const CodeSettings &,
+                               const ParallelFor &,
+                               std::uint8_t *);
 template SensorNoise_EXPORT StackSummary
-MakeStackMaps<float>(const TemporalMoments<float> &,
-                     const CodeSettings &,
-                     const ParallelFor &,
-                     double *,
-                     double *,
-                     std::uint8_t *);
+SummariseStack<short>(const TemporalMaps<short> &, const CodeSettings &, const ParallelFor &, std::uint8_t *);
 template SensorNoise_EXPORT StackSummary
-MakeStackMaps<double>(const TemporalMoments<double> &,
-                      const CodeSettings &,
-                      const ParallelFor &,
-                      double *,
-                      double *,
-                      std::uint8_t *);
+SummariseStack<float>(const TemporalMaps<float> &, const CodeSettings &, const ParallelFor &, std::uint8_t *);
+template SensorNoise_EXPORT StackSummary
+SummariseStack<double>(const TemporalMaps<double> &, const CodeSettings &, const ParallelFor &, std::uint8_t *);
+
+template SensorNoise_EXPORT StackMaps
+MakeStackMaps<unsigned char>(TemporalMoments<unsigned char>, const CodeSettings &, const ParallelFor &);
+template SensorNoise_EXPORT StackMaps
+MakeStackMaps<unsigned short>(TemporalMoments<unsigned short>, const CodeSettings &, const ParallelFor &);
+template SensorNoise_EXPORT StackMaps
+MakeStackMaps<short>(TemporalMoments<short>, const CodeSettings &, const ParallelFor &);
+template SensorNoise_EXPORT StackMaps
+MakeStackMaps<float>(TemporalMoments<float>, const CodeSettings &, const ParallelFor &);
+template SensorNoise_EXPORT StackMaps
+MakeStackMaps<double>(TemporalMoments<double>, const CodeSettings &, const ParallelFor &);
 
 } // namespace sensornoise

@@ -6,11 +6,13 @@
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/moments/CodeRange.h"
 #include "sensornoise/moments/CodeSettings.h"
+#include "sensornoise/moments/TemporalMaps.h"
 #include "sensornoise/moments/TemporalMoments.h"
 #include "SensorNoiseExport.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace sensornoise
 {
@@ -23,54 +25,57 @@ struct StackSummary
   std::size_t notFinite{ 0 }; ///< pixels that are NaN or infinite in a frame
 };
 
-/** Turns the moments of a stack into frame-sized maps: mean [DN], unbiased variance [DN^2] and the valid mask (1:
- * finite and never at a clip level). The variance of a single frame is 0. Codes and clip levels are given or found, see
- * FindCodes() and FindLevels(). NaN stands where a pixel was not finite. Throws std::invalid_argument if the data pass
- * the given bit depth. */
+/** What was found of a stack of these \a maps; to \a valid, which has room for a frame's pixels, goes 1 where a pixel
+ * is finite and never at a clip level, else 0. Codes and clip levels are given or found, see FindCodes() and
+ * FindLevels(). Throws std::invalid_argument if the data pass the given bit depth. */
 template <typename TPixel>
 StackSummary
-MakeStackMaps(const TemporalMoments<TPixel> & moments,
-              const CodeSettings &            settings,
-              const ParallelFor &             parallelFor,
-              double *                        mean,
-              double *                        variance,
-              std::uint8_t *                  valid);
+SummariseStack(const TemporalMaps<TPixel> & maps,
+               const CodeSettings &         settings,
+               const ParallelFor &          parallelFor,
+               std::uint8_t *               valid);
+
+/** The maps of a stack, of a frame's size, and what was found of it. */
+struct StackMaps
+{
+  StackSummary              summary;
+  std::vector<double>       mean;     ///< [DN]; NaN where a pixel was not finite in a frame
+  std::vector<double>       variance; ///< unbiased [DN^2]; of a single frame 0
+  std::vector<std::uint8_t> valid;    ///< see SummariseStack()
+};
+
+/** Of the moments, which are given away: mean and variance take the memory of the sums. */
+template <typename TPixel>
+StackMaps
+MakeStackMaps(TemporalMoments<TPixel> moments, const CodeSettings & settings, const ParallelFor & parallelFor);
 
 extern template SensorNoise_EXPORT StackSummary
-MakeStackMaps<unsigned char>(const TemporalMoments<unsigned char> &,
-                             const CodeSettings &,
-                             const ParallelFor &,
-                             double *,
-                             double *,
-                             std::uint8_t *);
-extern template SensorNoise_EXPORT StackSummary
-MakeStackMaps<unsigned short>(const TemporalMoments<unsigned short> &,
+SummariseStack<unsigned char>(const TemporalMaps<unsigned char> &,
                               const CodeSettings &,
                               const ParallelFor &,
-                              double *,
-                              double *,
                               std::uint8_t *);
 extern template SensorNoise_EXPORT StackSummary
-MakeStackMaps<short>(const TemporalMoments<short> &,
-                     const CodeSettings &,
-                     const ParallelFor &,
-                     double *,
-                     double *,
-                     std::uint8_t *);
+SummariseStack<unsigned short>(const TemporalMaps<unsigned short> &,
+                               const CodeSettings &,
+                               const ParallelFor &,
+                               std::uint8_t *);
 extern template SensorNoise_EXPORT StackSummary
-MakeStackMaps<float>(const TemporalMoments<float> &,
-                     const CodeSettings &,
-                     const ParallelFor &,
-                     double *,
-                     double *,
-                     std::uint8_t *);
+SummariseStack<short>(const TemporalMaps<short> &, const CodeSettings &, const ParallelFor &, std::uint8_t *);
 extern template SensorNoise_EXPORT StackSummary
-MakeStackMaps<double>(const TemporalMoments<double> &,
-                      const CodeSettings &,
-                      const ParallelFor &,
-                      double *,
-                      double *,
-                      std::uint8_t *);
+SummariseStack<float>(const TemporalMaps<float> &, const CodeSettings &, const ParallelFor &, std::uint8_t *);
+extern template SensorNoise_EXPORT StackSummary
+SummariseStack<double>(const TemporalMaps<double> &, const CodeSettings &, const ParallelFor &, std::uint8_t *);
+
+extern template SensorNoise_EXPORT StackMaps
+MakeStackMaps<unsigned char>(TemporalMoments<unsigned char>, const CodeSettings &, const ParallelFor &);
+extern template SensorNoise_EXPORT StackMaps
+MakeStackMaps<unsigned short>(TemporalMoments<unsigned short>, const CodeSettings &, const ParallelFor &);
+extern template SensorNoise_EXPORT StackMaps
+MakeStackMaps<short>(TemporalMoments<short>, const CodeSettings &, const ParallelFor &);
+extern template SensorNoise_EXPORT StackMaps
+MakeStackMaps<float>(TemporalMoments<float>, const CodeSettings &, const ParallelFor &);
+extern template SensorNoise_EXPORT StackMaps
+MakeStackMaps<double>(TemporalMoments<double>, const CodeSettings &, const ParallelFor &);
 
 } // namespace sensornoise
 

@@ -21,10 +21,11 @@ struct FrameGeometry;
 /** Frames of the shortest stack that the methods measure. */
 inline constexpr std::size_t MinimumFrames = 5;
 
-/** Frames of the longest: all sums over integer pixels are exact. The moments' are for up to 2^31 frames, the refined
- * method's projections for 2^34; of the published method's series, rounded so that their sums are exact, 13 bits are
- * left at 2^24 frames, whose rounding, by at most 1e-4 of the flicker, is far below any noise. */
-inline constexpr std::size_t MaximumFrames = std::size_t{ 1 } << 24;
+/** Frames of the longest: all sums over integer pixels are exact. The moments' are for up to 2^22 frames, see
+ * IntegerMoments::MostFrames, the refined method's projections for 2^34; of the published method's series, rounded so
+ * that their sums are exact, 15 bits are left at 2^22 frames, whose rounding, by at most 3e-5 of the flicker, is far
+ * below any noise. */
+inline constexpr std::size_t MaximumFrames = std::size_t{ 1 } << 22;
 
 /** Throws std::invalid_argument if a stack has fewer than MinimumFrames or more than MaximumFrames frames, frames of
  * fewer than 3 x 3 pixels, or a mask of another size than a frame; \a maskPixels is 0 without a mask. */

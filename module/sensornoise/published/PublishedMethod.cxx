@@ -127,13 +127,12 @@ template <typename TPixel>
 PublishedScene
 PublishedMethod<TPixel>::EndMoments()
 {
-  const std::size_t pixels = m_Geometry.Pixels();
-  PublishedScene    scene;
-  scene.mean = MakeMap<double>(pixels, m_ParallelFor);
-  scene.variance = MakeMap<double>(pixels, m_ParallelFor);
-  scene.valid.resize(pixels);
-  scene.summary = MakeStackMaps<TPixel>(
-    m_Moments.Take(), m_Settings.codes, m_ParallelFor, scene.mean.data(), scene.variance.data(), scene.valid.data());
+  StackMaps      maps = MakeStackMaps<TPixel>(m_Moments.Take(), m_Settings.codes, m_ParallelFor);
+  PublishedScene scene;
+  scene.summary = maps.summary;
+  scene.mean = std::move(maps.mean);
+  scene.variance = std::move(maps.variance);
+  scene.valid = std::move(maps.valid);
   SortPixels(scene, m_Settings, m_Geometry, m_Distinct.Count(), m_UserMask, m_ParallelFor);
   FindSets(scene, m_Settings, m_Distinct.Count(), m_ParallelFor);
   return scene;

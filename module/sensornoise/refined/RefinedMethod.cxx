@@ -3,7 +3,6 @@
 #include "sensornoise/refined/RefinedMethod.h"
 
 #include "sensornoise/base/BinaryStream.h"
-#include "sensornoise/base/FirstTouch.h"
 #include "sensornoise/moments/DarkMaps.h"
 #include "sensornoise/moments/StackMaps.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
@@ -176,16 +175,11 @@ template <typename TPixel>
 void
 RefinedMethod<TPixel>::EndMoments()
 {
-  const std::size_t         pixels = m_Geometry.Pixels();
-  auto                      mean = MakeMap<double>(pixels, m_ParallelFor);
-  auto                      variance = MakeMap<double>(pixels, m_ParallelFor);
-  std::vector<std::uint8_t> valid(pixels);
-  const StackSummary        summary = MakeStackMaps<TPixel>(
-    m_Moments.Take(), m_Settings.codes, m_ParallelFor, mean.data(), variance.data(), valid.data());
-  m_Scene = std::make_unique<StillScene>(MakeStillScene(summary,
-                                                        std::move(mean),
-                                                        std::move(variance),
-                                                        std::move(valid),
+  StackMaps maps = MakeStackMaps<TPixel>(m_Moments.Take(), m_Settings.codes, m_ParallelFor);
+  m_Scene = std::make_unique<StillScene>(MakeStillScene(maps.summary,
+                                                        std::move(maps.mean),
+                                                        std::move(maps.variance),
+                                                        std::move(maps.valid),
                                                         m_UserMask,
                                                         m_Geometry,
                                                         m_Distinct.Count(),

@@ -43,7 +43,7 @@ class SensorNoiseSums:
 
     Bytes of the sums: in pass 1, 20 a pixel (floating point: 32) and 2 kB a frame that is in; in pass 2, 16 kB a frame;
     in pass 3, 8 a pixel and series of flicker, light and motion (4 to 20), and at most 32 MiB. Memory: that of
-    estimate_sensor_noise(), 20 kB a frame of the whole, and twice the sums. At most 2^24 frames, for which sums of
+    estimate_sensor_noise(), 20 kB a frame of the whole, and twice the sums. At most 2^22 frames, for which sums of
     integers are exact.
 
     It can be pickled: settings, the sums of the passes that have ended, and those of the current one. dark and mask go

@@ -103,7 +103,7 @@ def estimate_sensor_noise(
     checked = Settings(**settings)
     checked.check(dark)
     if frames_per_task is not None:
-        frames_per_task = _options.integer("frames_per_task", frames_per_task, 1, 1 << 24)
+        frames_per_task = _options.integer("frames_per_task", frames_per_task, 1, 1 << 22)
     parts = parts_of(frames, raw, checked.span)
     is_open = checked.bayer == "auto" and "SensorNoise.BayerPattern" not in parts.metadata
     sums = SensorNoiseSums(

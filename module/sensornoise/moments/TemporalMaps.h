@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_moments_TemporalMaps_h
+#define sensornoise_moments_TemporalMaps_h
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** What the temporal moments of a stack become when all of its frames are in: a map of a frame's size each. */
+template <typename TPixel>
+struct TemporalMaps
+{
+  using Extreme = std::conditional_t<std::is_integral_v<TPixel>, std::int16_t, double>;
+  /** Extremes are held less this [DN]: only unsigned 16-bit values need to be shifted to fit a signed 16-bit number. */
+  static constexpr std::int32_t Centre = std::is_unsigned_v<TPixel> && sizeof(TPixel) == 2 ? 32768 : 0;
+
+  std::vector<double>  mean;     ///< [DN]; NaN where the pixel was not finite in a frame
+  std::vector<double>  variance; ///< unbiased [DN^2]; of a single frame 0; not finite where the mean is not
+  std::vector<Extreme> minimum;
+  std::vector<Extreme> maximum;
+
+  std::size_t
+  GetNumberOfPixels() const
+  {
+    return mean.size();
+  }
+  /** Whether pixel \a p was finite in every frame. */
+  bool
+  IsFinite(std::size_t p) const
+  {
+    return std::is_integral_v<TPixel> || std::isfinite(mean[p]);
+  }
+  /** Lowest and highest value of pixel \a p over time [DN]; frames that are NaN are passed over. */
+  double
+  GetMinimum(std::size_t p) const
+  {
+    return minimum[p] + Centre;
+  }
+  double
+  GetMaximum(std::size_t p) const
+  {
+    return maximum[p] + Centre;
+  }
+};
+
+} // namespace sensornoise
+
+#endif
