@@ -98,7 +98,7 @@ public:
   }
 
   /** Offset and read noise of the frames that were read, see sensornoise::MeasureDarkFrames(), of each plane in the
-   * order of BayerPlanes, or of the only one. */
+   * order of BayerPlanes, or of the only one. To be asked once: the sums are given away. */
   std::vector<sensornoise::KnownOffset>
   Measure(const sensornoise::CodeSettings & codes)
   {

@@ -23,9 +23,9 @@ namespace sensornoise
  *
  * Each value u [DN] is held as s = u - centre, which fits a signed 16-bit number, and the sums S = sum s and
  * Q = sum s^2 are exact: doubles hold integers up to 2^53, and the maps of mean and variance can take their memory. So
- * frames may be added, and parts merged, in any order and in any number of
- * threads: the result has the same bits. The variance is unbiased (section 2.3.1 of Sur & Gredi\'ac 2015,
- * https://doi.org/10.1137/140977035) and what is subtracted for it is exact, too.
+ * frames may be added, and parts merged, in any order and in any number of threads: the result has the same bits. The
+ * variance is unbiased (section 2.3.1 of Sur & Gredi\'ac 2015, https://doi.org/10.1137/140977035) and what is
+ * subtracted for it is exact, too.
  *
  * Usage: for each run of frames, call AddFrames() for ranges of pixels that cover the frame once (ranges may be added
  * at the same time by different threads), then AdvanceFrames() once.
