@@ -33,23 +33,7 @@ template <typename TPixel>
 void
 StackPasses<TPixel>::AddFrames(const TPixel * chunk, std::size_t frames)
 {
-  if (this->GetPass() == 0)
-  {
-    AddToMoments({ this }, chunk, frames, m_ParallelFor);
-    return;
-  }
-  const std::size_t first = m_InPass.Add(frames);
-  if (this->HasSums())
-  {
-    m_Distinct.ForDistinct(chunk,
-                           m_Layout.frame,
-                           first,
-                           frames,
-                           m_ParallelFor,
-                           [&](const TPixel * distinct, std::size_t place, std::size_t count) {
-                             this->AddDistinct({ { this, place } }, distinct, count, m_ParallelFor);
-                           });
-  }
+  AddFrames({ this }, chunk, frames, m_ParallelFor);
 }
 
 template <typename TPixel>
@@ -64,16 +48,26 @@ StackPasses<TPixel>::AddFrames(const std::vector<StackPasses *> & planes,
     AddToMoments(planes, mosaics, count, parallelFor);
     return;
   }
+  if (count == 0)
+  {
+    return; // there may be no next frame, whose place would be asked for
+  }
   std::vector<Plane> together;
   for (StackPasses * const plane : planes)
   {
-    if (!plane->HasSums() || !plane->m_Distinct.AreDistinct(plane->m_InPass.GetNext(), count))
+    const DistinctFrames & distinct = plane->m_Distinct;
+    const std::size_t      first = plane->m_InPass.Add(count);
+    if (plane->HasSums() && distinct.AreDistinct(first, count))
     {
-      plane->AddFrames(mosaics, count);
-      continue;
+      together.push_back({ plane, distinct.PlaceOf(first) });
     }
-    const std::size_t first = plane->m_InPass.Add(count);
-    together.push_back({ plane, plane->m_Distinct.PlaceOf(first) });
+    else if (plane->HasSums())
+    {
+      const auto add = [&](const TPixel * chosen, std::size_t place, std::size_t number) {
+        plane->AddDistinct({ { plane, place } }, chosen, number, plane->m_ParallelFor);
+      };
+      distinct.ForDistinct(mosaics, plane->m_Layout.frame, first, count, plane->m_ParallelFor, add);
+    }
   }
   if (!together.empty())
   {
