@@ -29,10 +29,8 @@ find_package(ZLIB REQUIRED) # the same as ITK's: the module ITKZLIB of an instal
 
 add_subdirectory(module)
 # Ways 1 and 2 compile the files one by one, which shows whether each includes what it uses.
-if(SensorNoise_UNITY_BUILD)
-  include(cmake/UnityByRoom.cmake)
-  sensornoise_unity_by_room(SensorNoise)
-endif()
+include(cmake/UnityByRoom.cmake)
+sensornoise_unity_by_room(SensorNoise)
 
 install(EXPORT SensorNoiseTargets NAMESPACE SensorNoise:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/SensorNoise)
 configure_package_config_file(cmake/SensorNoiseConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/SensorNoiseConfig.cmake

@@ -13,7 +13,6 @@
 set -euo pipefail
 here="$(cd "$(dirname "$0")/.." && pwd)"
 source "$here/examples/setup.sh"
-cache="${SENSORNOISE_CACHE:-$HOME/.cache/itk-sensornoise}"
 requirements=(clang-format==19.1.7 ruff==0.14.5)
 fix=
 [ "${1:-}" != --fix ] || { fix=1; set -- format python; }
@@ -26,16 +25,8 @@ rm -f "$missing"
 # Ends a part with sysexits.h's EX_UNAVAILABLE; the others are checked all the same.
 unavailable() { echo "$*" >>"$missing"; exit 69; }
 
-venv="$cache/style-$( ("${PYTHON:-python3}" -VV; echo "${requirements[@]}") | sha256sum | cut -c1-16)"
 install_programs() {
-  [ ! -e "$venv/ready" ] || return 0
-  mkdir -p "$cache"
-  (
-    flock 9
-    [ ! -e "$venv/ready" ] || exit 0
-    "${PYTHON:-python3}" -m venv --clear "$venv" &&
-      "$venv/bin/pip" -q --disable-pip-version-check install "${requirements[@]}" && touch "$venv/ready"
-  ) 9>"$cache/style.lock" || unavailable "${requirements[*]} cannot be installed"
+  venv="$(sensornoise_venv style "${requirements[@]}")" || unavailable "${requirements[*]} cannot be installed"
 }
 
 check_format() {
@@ -58,8 +49,7 @@ check_tidy() {
   # Only configured: for the headers that CMake writes, and for what each source is compiled with.
   cmake -G Ninja -S "$here" -B "$here/build/style" -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DSensorNoise_UNITY_BUILD=OFF \
     -DBUILD_TESTING=OFF >"$here/build/style/configure.log" 2>&1 || { cat "$here/build/style/configure.log" >&2; return 1; }
-  "${PYTHON:-python3}" "$here/test/tidy.py" "$here/build/style/compile_commands.json" --cache "$cache/tidy"
-  find "$cache/tidy" -type f -mtime +30 -delete
+  "${PYTHON:-python3}" "$here/test/tidy.py" "$here/build/style/compile_commands.json" --cache "$sensornoise_cache/tidy"
 }
 
 for part in "$@"; do

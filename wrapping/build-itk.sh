@@ -15,6 +15,7 @@
 # Exit codes: 0 done, 69 the source is not to be had (the last line says why), another one: anything else went wrong.
 set -euo pipefail
 here="$(cd "$(dirname "$0")/.." && pwd)"
+source "$here/examples/setup.sh"
 [ $# = 1 ] || { sed -n '2,/^set/s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 venv="$(cd "$1" && pwd)"
 version=5.4.7
@@ -22,7 +23,7 @@ release="InsightToolkit-$version.tar.gz"
 release_sha256=4907033e0e93fb04734df8556b88a670ba630b4f42b52e9f25ed4d084a7ab925 # as in Homebrew's formula of ITK 5.4.7
 shared="$here/../shared/itk/itk-$version-source.tar.xz"
 shared_sha256=a4840ec4cea4a0a231f76dda91e627d44c8bce10b6569af642b1a821e06713ba
-cache="${SENSORNOISE_CACHE:-$HOME/.cache/itk-sensornoise}"
+cache="$sensornoise_cache"
 python="$venv/bin/python3"
 swig="$venv/bin/swig"
 
@@ -158,6 +159,7 @@ if [ ! -e "$tree/ready" ] || [ ! -d "$(configured_source)" ]; then
   # Other programs' standard output goes to standard error: this one's is the build tree.
   # An error names the file of the source that it comes from: not where that stood on this machine.
   export CXXFLAGS="${CXXFLAGS:+$CXXFLAGS }-ffile-prefix-map=$source_folder=ITK"
+  sensornoise_use_ccache "$cache"
   {
     "$venv/bin/cmake" -G Ninja -S "$source_folder" -B "$tree" "${flags[@]}" -DSWIG_EXECUTABLE="$swig" \
       -DPython3_EXECUTABLE="$python" -DCMAKE_MAKE_PROGRAM="$venv/bin/ninja"
@@ -167,5 +169,6 @@ if [ ! -e "$tree/ready" ] || [ ! -d "$(configured_source)" ]; then
   } >&2
   touch "$tree/ready"
 fi
+touch "$tree" # it is in use: sensornoise_prune_cache
 echo "ITK $version, key $key" >&2
 echo "$tree"

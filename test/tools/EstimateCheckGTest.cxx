@@ -17,7 +17,7 @@ protected:
         const std::string & options = "",
         const std::string & stack = "--reference texture --size 128x96 --frames 40")
   {
-    EXPECT_EQ(RunCommand("\"" SENSORNOISE_BIN "/simulate-sensor-noise\" --output " + name + " --seed " +
+    EXPECT_EQ(RunCommand("\"" + ToolFolder() + "/simulate-sensor-noise\" --output " + name + " --seed " +
                          std::to_string(seed) + " " + stack + " " + options),
               0)
       << m_Message;

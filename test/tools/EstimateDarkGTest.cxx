@@ -17,7 +17,8 @@ protected:
   StackType::Pointer
   MakeDark(unsigned int frames, const std::string & size = "64x64")
   {
-    EXPECT_EQ(RunCommand("\"" SENSORNOISE_BIN "/simulate-sensor-noise\" --output ../dark.mha --seed 8 --electrons 1e-9"
+    EXPECT_EQ(RunCommand("\"" + ToolFolder() +
+                         "/simulate-sensor-noise\" --output ../dark.mha --seed 8 --electrons 1e-9"
                          " --frames " +
                          std::to_string(frames) + " --size " + size),
               0)
@@ -132,7 +133,7 @@ TEST_F(EstimateDarkTool, AnOffsetThatIsGivenStands)
 TEST_F(EstimateDarkTool, NoFlickerIsNeeded)
 {
   ASSERT_EQ(
-    RunCommand("\"" SENSORNOISE_BIN "/simulate-sensor-noise\" --output s.mha --flicker-sd 0 --size 96x96 --frames 30"),
+    RunCommand("\"" + ToolFolder() + "/simulate-sensor-noise\" --output s.mha --flicker-sd 0 --size 96x96 --frames 30"),
     0);
   EXPECT_EQ(ReportOf("s.mha")["read_noise"]["status"], "not-identifiable");
   EXPECT_NE(m_Message.find("[offset-not-identifiable]"), std::string::npos) << m_Message;

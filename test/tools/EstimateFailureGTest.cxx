@@ -144,7 +144,7 @@ TEST_F(EstimateFailureTool, AFullDiskLeavesNothing)
   const std::string stack = Write("s.mha", MakeBurst().GetPointer());
   // No file may grow beyond a few kilobytes, and the shell's signal for that is ignored: writing fails as on a full
   // disk.
-  const std::string tool = "trap '' XFSZ; ulimit -f 16; \"" SENSORNOISE_BIN "/estimate-sensor-noise\" s.mha --quiet ";
+  const std::string tool = "trap '' XFSZ; ulimit -f 16; \"" + ToolFolder() + "/estimate-sensor-noise\" s.mha --quiet ";
   EXPECT_EQ(RunCommand(tool + "--json r.json"), 2);
   SaysInOneSentence({ "cannot write r.json" });
   EXPECT_EQ(RunCommand(tool + "--maps maps"), 2);
@@ -159,7 +159,7 @@ TEST_F(EstimateFailureTool, StandardOutputThatIsFullIsAnError)
     GTEST_SKIP() << "there is no /dev/full here";
   }
   Write("s.mha", MakeBurst().GetPointer());
-  EXPECT_EQ(RunCommand("\"" SENSORNOISE_BIN "/estimate-sensor-noise\" s.mha --quiet --json - > /dev/full"), 2);
+  EXPECT_EQ(RunCommand("\"" + ToolFolder() + "/estimate-sensor-noise\" s.mha --quiet --json - > /dev/full"), 2);
   SaysInOneSentence({ "cannot write", "standard output" });
 }
 #endif

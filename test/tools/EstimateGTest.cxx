@@ -224,7 +224,7 @@ TEST_F(EstimateTool, FramesThatAreWrittenTwiceAreCountedOnce)
 {
   const auto simulate = [this](const std::string & flags) {
     ASSERT_EQ(
-      RunCommand("\"" SENSORNOISE_BIN "/simulate-sensor-noise\" --seed 3 --flicker-sd 0.1 --size 64x64 " + flags), 0)
+      RunCommand("\"" + ToolFolder() + "/simulate-sensor-noise\" --seed 3 --flicker-sd 0.1 --size 64x64 " + flags), 0)
       << m_Message;
   };
   simulate("--output once.mha --frames 24");
@@ -283,7 +283,7 @@ TEST_F(EstimateTool, HelpNamesEveryOptionAndTheExitCodes)
 
 TEST_P(EstimateToolWith, CompandedCodesAreNamed)
 {
-  ASSERT_EQ(RunCommand("\"" SENSORNOISE_BIN
+  ASSERT_EQ(RunCommand("\"" + ToolFolder() +
                        "/simulate-sensor-noise\" --output companded.mha --companding 8 --size 96x96 "
                        "--frames 24 --flicker-sd 0.1 --reference texture"),
             0);

@@ -70,7 +70,7 @@ TEST_F(ExtremeOptionsTool, MemoryLimitsHaveUnitsAndChangeNoNumber)
 TEST_F(ExtremeOptionsTool, EveryOptionOfTheEstimate)
 {
   Write("s.mha", MakeBurst(6, "48x48").GetPointer());
-  const std::string tool = "\"" SENSORNOISE_BIN "/estimate-sensor-noise\" s.mha --quiet --json - ";
+  const std::string tool = "\"" + ToolFolder() + "/estimate-sensor-noise\" s.mha --quiet --json - ";
   for (const char * option : { "bit-depth", "step", "rolling-shutter", "offset", "threads", "memory-limit" })
   {
     for (const char * value : { "0", "-1", "1e308", "-1e308", "1e-308", "nan", "inf", "9223372036854775808", "''" })
@@ -101,7 +101,7 @@ TEST_F(ExtremeOptionsTool, EveryOptionOfTheEstimate)
 
 TEST_F(ExtremeOptionsTool, EveryOptionOfTheSimulator)
 {
-  const std::string tool = "\"" SENSORNOISE_BIN "/simulate-sensor-noise\" --output o.mha --size 33x32 --frames 3 ";
+  const std::string tool = "\"" + ToolFolder() + "/simulate-sensor-noise\" --output o.mha --size 33x32 --frames 3 ";
   for (const char * option : { "gain",
                                "offset",
                                "read-noise",
@@ -143,7 +143,7 @@ TEST_F(ExtremeOptionsTool, WhatCannotBeHeldIsKnownBefore)
       EXPECT_NE(m_Message.find(part), std::string::npos) << m_Message;
     }
   };
-  const std::string simulator = "\"" SENSORNOISE_BIN "/simulate-sensor-noise\" ";
+  const std::string simulator = "\"" + ToolFolder() + "/simulate-sensor-noise\" ";
   isRefused(simulator + "--output o.mha --size 99999x99999",
             { "99999 x 99999 pixels needs 160 GB of memory", "are free" });
   isRefused(simulator + "--output o.mha --frames 4294967295", { "4294967295 frames", "needs", "of memory" });
@@ -153,7 +153,7 @@ TEST_F(ExtremeOptionsTool, WhatCannotBeHeldIsKnownBefore)
   isRefused("ulimit -v 1000000; " + simulator + "--output o.nrrd --size 2048x2048 --frames 200",
             { "not written in parts", "needs 1.68 GB of memory" });
   Write("s.nrrd", Make<itk::Image<unsigned char, 3>>({ { 2048, 2048, 6 } }, 7).GetPointer());
-  isRefused("ulimit -v 330000; \"" SENSORNOISE_BIN "/estimate-sensor-noise\" s.nrrd --threads 1",
+  isRefused("ulimit -v 330000; \"" + ToolFolder() + "/estimate-sensor-noise\" s.nrrd --threads 1",
             { "2048 x 2048 pixels needs 235 MB of memory" });
 #endif
 }

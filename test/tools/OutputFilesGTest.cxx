@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 class OutputFilesTool : public EstimateToolTest
 {
 protected:
-  const std::string m_Tool{ "\"" SENSORNOISE_BIN "/estimate-sensor-noise\" --quiet " };
-  const std::string m_Simulator{ "\"" SENSORNOISE_BIN "/simulate-sensor-noise\" " };
+  const std::string m_Tool{ "\"" + ToolFolder() + "/estimate-sensor-noise\" --quiet " };
+  const std::string m_Simulator{ "\"" + ToolFolder() + "/simulate-sensor-noise\" " };
 
   /** A refusal in one sentence that leaves every file as it was. */
   void

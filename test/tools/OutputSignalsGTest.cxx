@@ -27,7 +27,7 @@ protected:
   pid_t
   Start(const std::string & tool, const std::vector<std::string> & arguments) const
   {
-    const std::string   program = SENSORNOISE_BIN "/" + tool;
+    const std::string   program = ToolFolder() + "/" + tool;
     std::vector<char *> words{ const_cast<char *>(program.c_str()) };
     for (const std::string & word : arguments)
     {
@@ -104,7 +104,8 @@ TEST_F(OutputSignalsTool, SignalLeavesNoFileAndEndsTheToolAsItWould)
 TEST_F(OutputSignalsTool, SignalThatIsIgnoredStaysIgnored)
 {
   Write("s.mha", MakeBurst().GetPointer());
-  EXPECT_EQ(RunCommand("trap '' HUP; \"" SENSORNOISE_BIN "/estimate-sensor-noise\" s.mha --quiet --json r.json & "
+  EXPECT_EQ(RunCommand("trap '' HUP; \"" + ToolFolder() +
+                       "/estimate-sensor-noise\" s.mha --quiet --json r.json & "
                        "sleep 0.02; kill -HUP $!; wait $!"),
             0)
     << m_Message;
@@ -113,7 +114,7 @@ TEST_F(OutputSignalsTool, SignalThatIsIgnoredStaysIgnored)
 
 TEST_F(OutputSignalsTool, FileThatMayNotGrowLeavesNothing)
 {
-  EXPECT_NE(RunCommand("ulimit -c 0; ulimit -f 16; \"" SENSORNOISE_BIN
+  EXPECT_NE(RunCommand("ulimit -c 0; ulimit -f 16; \"" + ToolFolder() +
                        "/simulate-sensor-noise\" --output o.mha --truth t.json --frames 3"),
             0);
   EXPECT_EQ(FilesLeft(), (std::set<std::string>{}));
@@ -122,7 +123,7 @@ TEST_F(OutputSignalsTool, FileThatMayNotGrowLeavesNothing)
 TEST_F(OutputSignalsTool, TableThatNobodyReadsLeavesTheReport)
 {
   Write("s.mha", MakeBurst().GetPointer());
-  RunCommand("\"" SENSORNOISE_BIN "/estimate-sensor-noise\" s.mha --json r.json | true");
+  RunCommand("\"" + ToolFolder() + "/estimate-sensor-noise\" s.mha --json r.json | true");
   EXPECT_EQ(FilesLeft(), (std::set<std::string>{ "s.mha", "r.json" }));
   EXPECT_TRUE(nlohmann::json::accept(ReadText(Path("r.json"))));
 }

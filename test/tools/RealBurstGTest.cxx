@@ -24,7 +24,7 @@ protected:
   {
     const char * const given = std::getenv("SENSORNOISE_BURST");
     return given != nullptr ? std::filesystem::path(given)
-                            : std::filesystem::path(SENSORNOISE_SOURCE) / "../shared/data/ball_12bit.mraw";
+                            : std::filesystem::path(SourceFolder()) / "../shared/data/ball_12bit.mraw";
   }
   static std::string
   Burst()

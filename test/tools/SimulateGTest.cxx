@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
+#include "helpers/CheckoutTestHelper.h"
 #include "itkImageFileReader.h"
 #include "itkImageFileWriter.h"
 
@@ -45,7 +46,7 @@ protected:
   Run(const std::string & arguments)
   {
     const fs::path    said = m_Folder / "stderr.txt";
-    const std::string command = "cd \"" + (m_Folder / "out").string() + "\" && " + m_Prefix + "\"" SENSORNOISE_BIN +
+    const std::string command = "cd \"" + (m_Folder / "out").string() + "\" && " + m_Prefix + "\"" + ToolFolder() +
                                 "/simulate-sensor-noise\" " + arguments + " > ../stdout.txt 2> ../stderr.txt";
     const int status = std::system(command.c_str());
     m_Message = ReadText(said);

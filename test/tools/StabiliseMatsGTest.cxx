@@ -12,7 +12,7 @@ protected:
   int
   RunMats(const std::string & arguments)
   {
-    return RunCommand("\"" SENSORNOISE_BIN "/stabilise-mats\" " + arguments);
+    return RunCommand("\"" + ToolFolder() + "/stabilise-mats\" " + arguments);
   }
 };
 

@@ -12,6 +12,7 @@
 #include "sensornoise/report/ReportJson.h"
 #include "sensornoise/simulation/Scenes.h"
 #include "sensornoise/simulation/SimulationSettings.h"
+#include "helpers/CheckoutTestHelper.h"
 #include "helpers/StackTestHelper.h"
 #include "helpers/StoredReportTestHelper.h"
 
@@ -50,7 +51,7 @@ namespace
 constexpr std::size_t       Width = 96;
 constexpr std::size_t       Height = 80;
 constexpr std::size_t       Frames = 30;
-const std::filesystem::path Folder = SENSORNOISE_SOURCE "/test/reports";
+const std::filesystem::path Folder = SourceFolder() + "/test/reports";
 
 SimulationSettings
 SettingsOf(char camera, int condition)

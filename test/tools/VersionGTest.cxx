@@ -15,7 +15,7 @@ protected:
   void
   SaysItsVersion(const std::string & program)
   {
-    const std::string command = "\"" SENSORNOISE_BIN "/" + program + "\" ";
+    const std::string command = "\"" + ToolFolder() + "/" + program + "\" ";
     EXPECT_EQ(RunCommand(command + "--version"), 0);
     EXPECT_EQ(m_Output, program + " " + sensornoise::GetModuleVersion() + "\n");
     EXPECT_EQ(m_Message, "");
