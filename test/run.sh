@@ -3,13 +3,13 @@
 # SPDX-License-Identifier: Apache-2.0
 # Installs what is missing, builds into build/ and runs every test: C++ with damaged files among them, then Python (examples,
 # tests, damaged files) with the wheel in a fresh virtual environment, then C++ once more with AddressSanitizer and
-# UndefinedBehaviorSanitizer, in build/sanitized. Warnings are errors, and test/check-style.sh has no finding. Says at its
-# end what each part took. Options are handed on to ctest, for example -R Codes.
+# UndefinedBehaviorSanitizer, in build/sanitized. Warnings are errors, and test/check-style.sh has no finding. The last lines
+# say what each part took, and what it found in the caches. Options are handed on to ctest, for example -R Codes.
 #
 # Python needs ITK's source (wrapping/build-itk.sh says where that comes from). Where it is not to be had, the last line says
 # so, and what was tested counts. SENSORNOISE_PYTHON=1: that is a failure, too; SENSORNOISE_PYTHON=0: Python is left out.
 # SENSORNOISE_STYLE in the same way: 1, or CI=true: it is a failure that a program which checks the style is not to be had;
-# 0: the style is left out. SENSORNOISE_SANITIZE=0: the sanitizers are left out.
+# 0: the style is left out. SENSORNOISE_SANITIZE=0: the sanitizers are left out. examples/setup.sh has those of the caches.
 set -euo pipefail
 here="$(cd "$(dirname "$0")/.." && pwd)"
 source "$here/examples/setup.sh"
@@ -17,24 +17,44 @@ export SENSORNOISE_WARNINGS_AS_ERRORS="${SENSORNOISE_WARNINGS_AS_ERRORS:-ON}"
 
 failed=()
 times=()
-# took PART: notes the time since the last part ended.
+export CCACHE_STATSLOG="$here/build/ccache.log" # what ccache did since a part began
+# took PART: notes the time since the last part ended, and how many of its objects ccache had.
 took() {
-  times+=("$1 $SECONDS s")
+  local objects=0 found=0 note=
+  if [ -e "$CCACHE_STATSLOG" ]; then
+    found="$(grep -cE '^(direct|preprocessed)_cache_hit' "$CCACHE_STATSLOG")" || true
+    objects="$((found + $(grep -c '^cache_miss' "$CCACHE_STATSLOG" || true)))"
+    rm -f "$CCACHE_STATSLOG"
+  fi
+  [ "$objects" = 0 ] || note="$found of $objects objects from the cache"
+  times+=("$(printf '%6d s  %-26s %s' "$SECONDS" "$1" "$note")")
   SECONDS=0
+}
+
+# run_cpp_tests FOLDER [options for ctest]
+run_cpp_tests() {
+  local status=0
+  rm -rf "$1/test-results"
+  ctest --test-dir "$1" --output-on-failure -j "$(nproc)" "${@:2}" || status=$?
+  python3 "$here/test/summarise_tests.py" "$1/test-results" --longest 5 || true
+  return "$status"
 }
 
 # OpenCV that reads images and videos, for examples/opencv: 60 MB to download, 230 MB on the disk.
 sensornoise_packages+=(libopencv-imgcodecs-dev libopencv-videoio-dev)
 
-rm -f "$here/build/pytest.log" "$here/build/fuzz.log"
+mkdir -p "$here/build"
+rm -f "$here"/build/{pytest,fuzz,ccache}.log
 SECONDS=0
 sensornoise_install
 # A browser for the pages of --plot: 115 MB to download, 360 MB on the disk. Without it their tests are skipped.
 command -v chromium >/dev/null || sensornoise_install_if_possible chromium
+sensornoise_prune_cache
+took "packages"
 sensornoise_build "$here/build" -DBUILD_TESTING=ON -DSensorNoise_BUILD_STUDIES=ON \
-  -DSensorNoise_BUILD_INFLUENCE=ON
+  -DSensorNoise_BUILD_INFLUENCE=ON -DSensorNoise_INFLUENCE_FLAGS=-O1
 took "build"
-ctest --test-dir "$here/build" --output-on-failure -j "$(nproc)" "$@" || failed+=(C++)
+run_cpp_tests "$here/build" "$@" || failed+=(C++)
 took "C++ tests"
 
 unchecked=
@@ -57,15 +77,22 @@ test_wheel() (
   set -e
   venv="$here/build/python"
   "${PYTHON:-python3}" -m venv --clear "$venv"
-  "$venv/bin/pip" -q --disable-pip-version-check install "$1[test]"
+  # uv links to the packages in its cache, in a second; pip takes two minutes to copy and compile them.
+  uv="$(sensornoise_venv uv 'uv>=0.9,<1')/bin/uv"
+  export UV_CACHE_DIR="$sensornoise_cache/uv"
+  "$uv" pip install -q --python "$venv/bin/python" "$1[test]"
+  "$uv" cache prune -q
+  [ "$(du -sm "$UV_CACHE_DIR" | cut -f1)" -lt 5000 ] || "$uv" cache clean -q # MB
   cd "$here/build"
-  export PYTHONDONTWRITEBYTECODE=1 SENSORNOISE_BIN="$here/build/bin"
+  export PYTHONPYCACHEPREFIX="$here/build/pycache" SENSORNOISE_BIN="$here/build/bin"
   "$venv/bin/python" "$here/examples/python/estimate.py"
   "$venv/bin/python" "$here/examples/python/denoise.py" --picture denoised.png
   "$venv/bin/python" "$here/examples/python/lazy.py"
   "$venv/bin/python" "$here/examples/python/pipeline.py"
   "$venv/bin/python" "$here/examples/python/run_notebook.py" executed.ipynb
-  "$venv/bin/python" -m pytest -p no:cacheprovider "$here/wrapping/test" 2>&1 | tee pytest.log
+  # Whole files to one process each: they share the stacks that they simulate.
+  "$venv/bin/python" -m pytest -p no:cacheprovider -n "$(nproc)" --dist loadfile --durations 5 "$here/wrapping/test" 2>&1 |
+    tee pytest.log
   "$venv/bin/python" "$here/test/fuzz/fuzz_files.py" --bin "$SENSORNOISE_BIN" --python "$venv/bin/python" --count 1000 \
     --seconds 120 2>&1 | tee fuzz.log
 )
@@ -95,8 +122,8 @@ if [ "${SENSORNOISE_SANITIZE:-}" != 0 ]; then
   cmake --build "$here/build/sanitized"
   took "build with sanitizers"
   # ITK keeps what it allocates once, and hands over vectors that it filled itself.
-  ASAN_OPTIONS=detect_leaks=0:detect_container_overflow=0 ctest --test-dir "$here/build/sanitized" --output-on-failure \
-    -j "$(nproc)" "$@" || failed+=("C++ with sanitizers")
+  ASAN_OPTIONS=detect_leaks=0:detect_container_overflow=0 run_cpp_tests "$here/build/sanitized" "$@" ||
+    failed+=("C++ with sanitizers")
   took "C++ tests with sanitizers"
 fi
 
@@ -105,7 +132,9 @@ grep -hE '^(FAILED|ERROR) ' "$here/build/pytest.log" 2>/dev/null || true
 grep -hE '^(CRASH|HANG|[A-Z ]+): number ' "$here/build/fuzz.log" 2>/dev/null || true
 cat "$here"/build/Testing/Temporary/LastTestsFailed*.log "$here"/build/sanitized/Testing/Temporary/LastTestsFailed*.log \
   2>/dev/null || true
-printf 'took: %s\n' "${times[@]}"
+echo "what each part took:"
+printf '%s\n' "${times[@]}" | sort -rn
+[ ! -d "$sensornoise_cache" ] || echo "caches: $(du -sh "$sensornoise_cache" | cut -f1) in $sensornoise_cache"
 [ -z "$untested" ] || echo "Python: not tested, $untested" >&2
 [ -z "$unchecked" ] || echo "style: not checked, $unchecked" >&2
 [ ${#failed[@]} = 0 ] || { echo "failed: ${failed[*]}" >&2; exit 1; }

@@ -14,6 +14,7 @@ header that still agrees with the size of the file. Anything else is a finding, 
 import argparse
 import collections
 import concurrent.futures
+import itertools
 import os
 import subprocess
 import sys
@@ -117,13 +118,17 @@ class Fuzzer:
         self.seed = seed
         self.expected: dict[tuple[str, str], str] = {}
 
-    def prepare(self, folder: str) -> None:
+    def prepare(self, folder: str, pool: concurrent.futures.Executor) -> None:
         """Answers to the undamaged files. A format that is refused whole has none."""
         for case in self.cases:
             write(case, os.path.join(folder, case.name))
-            for role in set(ROLES):
-                answer = self.target.ask(os.path.join(folder, case.name), case, role, os.path.join(folder, "mha"))
-                self.expected[case.name, role] = answer.text if answer.code == 0 else ""
+
+        def expect(asked: tuple[Case, str]) -> None:
+            case, role = asked
+            answer = self.target.ask(os.path.join(folder, case.name), case, role, os.path.join(folder, "mha"))
+            self.expected[case.name, role] = answer.text if answer.code == 0 else ""
+
+        list(pool.map(expect, itertools.product(self.cases, sorted(set(ROLES)))))
 
     def run(self, number: int, folder: str, good: str) -> tuple[str, str, str, str]:
         """Class, format, description and error text of input `number`."""
@@ -138,7 +143,9 @@ class Fuzzer:
         return found, case.name, f"{case.name}, {how}, {touched} changed, as {role}", answer.error.strip()[-300:]
 
 
-def ask_known(target: ToolTarget | PythonTarget, frames: list[bytes], folder: str) -> list[str]:
+def ask_known(
+    target: ToolTarget | PythonTarget, frames: list[bytes], folder: str, pool: concurrent.futures.Executor
+) -> list[str]:
     """What of known.py is not refused, in any role."""
     good = os.path.join(folder, "mha")
     files = []
@@ -148,14 +155,14 @@ def ask_known(target: ToolTarget | PythonTarget, frames: list[bytes], folder: st
         files.append((what, case, place))
     for what, path in misplaced(os.path.join(folder, "misplaced")):
         files.append((what, Case(what, [], [os.path.basename(path)]), os.path.dirname(path)))
-    failed = []
-    for what, case, place in files:
-        for role in sorted(set(ROLES)):
-            answer = target.ask(place, case, role, good)
-            found = judge(answer, "", "checked")
-            if found != "refused":
-                failed.append(f"{found}: {what}, as {role}: {answer.error.strip()[-300:]}")
-    return failed
+
+    def ask(asked: tuple[tuple[str, Case, str], str]) -> str | None:
+        (what, case, place), role = asked
+        answer = target.ask(place, case, role, good)
+        found = judge(answer, "", "checked")
+        return None if found == "refused" else f"{found}: {what}, as {role}: {answer.error.strip()[-300:]}"
+
+    return [line for line in pool.map(ask, itertools.product(files, sorted(set(ROLES)))) if line]
 
 
 def main() -> int:
@@ -181,8 +188,8 @@ def main() -> int:
     fuzzer = Fuzzer(target, cases, options.seed)
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         good = os.path.join(folder, "good")
-        fuzzer.prepare(good)
-        failed = ask_known(target, frames, good)
+        fuzzer.prepare(good, pool)
+        failed = ask_known(target, frames, good, pool)
         for line in failed:
             print(line, flush=True)
         findings += len(failed)
