@@ -32,6 +32,7 @@
 #include <memory>
 #include <ostream>
 #include <string>
+#include <vector>
 
 /** Set and get of one of the sensor's flaws, which the simulator keeps together. */
 #define itkSensorFlawMacro(name, type, member) \
@@ -145,6 +146,27 @@ public:
   /** Standard deviation of the vertical shift beta_t [pixel], 0 or more. Default 0.02. */
   itkSetMacro(VibrationSdY, double);
   itkGetConstMacro(VibrationSdY, double);
+
+  /** Illumination factors of the frames by name, with which 1 + gamma_t is multiplied: "steady", "pulses", "ramp",
+   * "decay", "sine", "uniform" or "exponential", then the lowest factor and the period in frames, as in "pulses:0.3:4"
+   * (sensornoise::IlluminationShape). Default "steady".
+   * \throws ExceptionObject for other text. */
+  void
+  SetIllumination(const std::string & text);
+  std::string
+  GetIllumination() const
+  {
+    return sensornoise::TextOf(m_Illumination);
+  }
+
+  /** Illumination factors of the frames [1], one each, 0 or more, instead of a named shape. */
+  void
+  SetIlluminationFactors(const std::vector<double> & factors);
+  std::vector<double>
+  GetIlluminationFactors() const
+  {
+    return m_Illumination.factors;
+  }
 
   /** Number of frames T, at least 1. Default 100. */
   itkSetMacro(NumberOfFrames, unsigned int);
@@ -398,13 +420,16 @@ private:
   std::uint64_t m_Seed{ 1 };
   double        m_OpticalBlur{ 0.5 };
   double        m_RollingShutterPeriod{ 0.0 };
-  double        m_ClipLow{ NumericTraits<double>::NonpositiveMin() };
-  double        m_ClipHigh{ NumericTraits<double>::max() };
-  double        m_PrnuSd{ 0.0 };
-  double        m_DsnuSd{ 0.0 };
-  double        m_HotPixelFraction{ 0.0 };
-  double        m_HotPixelNoiseFactor{ 10.0 };
-  bool          m_Dark{ false };
+
+  sensornoise::IlluminationSettings m_Illumination;
+
+  double m_ClipLow{ NumericTraits<double>::NonpositiveMin() };
+  double m_ClipHigh{ NumericTraits<double>::max() };
+  double m_PrnuSd{ 0.0 };
+  double m_DsnuSd{ 0.0 };
+  double m_HotPixelFraction{ 0.0 };
+  double m_HotPixelNoiseFactor{ 10.0 };
+  bool   m_Dark{ false };
 
   sensornoise::SensorFlaws m_Flaws;
 

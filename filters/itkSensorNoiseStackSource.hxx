@@ -149,12 +149,32 @@ SensorNoiseStackSource<TOutputStack>::SetResamplingInterpolation(const std::stri
 }
 
 template <typename TOutputStack>
+void
+SensorNoiseStackSource<TOutputStack>::SetIllumination(const std::string & text)
+{
+  m_Illumination =
+    WithItkErrors<std::invalid_argument>(this, [&text] { return sensornoise::IlluminationOf(text); }, Impossible);
+  this->Modified();
+}
+
+template <typename TOutputStack>
+void
+SensorNoiseStackSource<TOutputStack>::SetIlluminationFactors(const std::vector<double> & factors)
+{
+  m_Illumination = {};
+  m_Illumination.shape = sensornoise::IlluminationShape::Factors;
+  m_Illumination.factors = factors;
+  this->Modified();
+}
+
+template <typename TOutputStack>
 sensornoise::SimulationSettings
 SensorNoiseStackSource<TOutputStack>::MakeSettings() const
 {
   sensornoise::SimulationSettings settings;
   settings.camera = { m_Electrons, m_Gain, m_Offset, m_ReadNoise };
   settings.conditions = { m_FlickerSd, m_VibrationSdX, m_VibrationSdY };
+  settings.illumination = m_Illumination;
   settings.frames = m_NumberOfFrames;
   settings.bitDepth = m_BitDepth;
   settings.seed = m_Seed;
@@ -345,6 +365,7 @@ SensorNoiseStackSource<TOutputStack>::PrintSelf(std::ostream & os, Indent indent
   os << indent << "FlickerSd: " << m_FlickerSd << std::endl;
   os << indent << "VibrationSdX: " << m_VibrationSdX << std::endl;
   os << indent << "VibrationSdY: " << m_VibrationSdY << std::endl;
+  os << indent << "Illumination: " << this->GetIllumination() << std::endl;
   os << indent << "NumberOfFrames: " << m_NumberOfFrames << std::endl;
   os << indent << "BitDepth: " << m_BitDepth << std::endl;
   os << indent << "Seed: " << m_Seed << std::endl;

@@ -27,6 +27,11 @@ SimulateOptions::Parse(int argc, char ** argv)
   app.add_option("--electrons", electrons, "Electrons of the brightest pixel instead of the camera's");
   app.add_option("--condition", condition, "Light and floor of the paper's Table 1: 1, 2 or 3");
   app.add_option("--flicker-sd", flickerSd, "Standard deviation of the flicker instead of the condition's");
+  app.add_option(
+    "--illumination",
+    illumination,
+    "Illumination factor of the frames: steady, pulses, ramp, decay, sine, uniform or exponential, then the "
+    "lowest factor and the period in frames (pulses:0.3:4); or a text file with one factor a frame");
   app
     .add_option(
       "--vibration-sd", vibrationSd, "Standard deviations X,Y of the shifts instead of the condition's [pixel]")

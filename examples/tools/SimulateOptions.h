@@ -27,6 +27,7 @@ struct SimulateOptions
   std::optional<double> readNoise;
   std::optional<double> electrons;
   std::optional<double> flickerSd;
+  std::string           illumination{ "steady" };
   std::vector<double>   vibrationSd;
   std::vector<double>   clip;
   double                opticalBlur{ 0.5 };

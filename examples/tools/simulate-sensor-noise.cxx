@@ -4,6 +4,7 @@
 //   simulate-sensor-noise --output stack.mha --truth truth.json --reference target --camera B --condition 3
 
 #include "sensornoise/base/FreeMemory.h"
+#include "sensornoise/simulation/Illumination.h"
 #include "sensornoise/simulation/SimulationSettings.h"
 #include "sensornoise/files/FileError.h"
 #include "tools/ErrorSentence.h"
@@ -21,12 +22,16 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <regex>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -94,6 +99,34 @@ MakeReference(const SimulateOptions & options)
   return scene->GetOutput();
 }
 
+/** Reads the numbers of a text file, which are separated by white space or commas. */
+std::vector<double>
+ReadFactors(const std::string & name)
+{
+  std::ifstream file(name);
+  if (!file)
+  {
+    throw std::runtime_error("the illumination \"" + name + "\" is no file that can be read, and no known shape; " +
+                             "expected steady, pulses, ramp, decay, sine, uniform or exponential, or a text file with "
+                             "one factor a frame");
+  }
+  std::string text{ std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>() };
+  std::replace(text.begin(), text.end(), ',', ' ');
+  std::istringstream  words(text);
+  std::vector<double> factors;
+  for (std::string word; words >> word;)
+  {
+    char * end = nullptr;
+    factors.push_back(std::strtod(word.c_str(), &end));
+    if (*end != '\0')
+    {
+      throw std::runtime_error("the illumination file " + name + " has \"" + word.substr(0, 40) + "\" as number " +
+                               std::to_string(factors.size()) + "; expected one illumination factor a frame");
+    }
+  }
+  return factors;
+}
+
 SourceType::Pointer
 MakeSource(const SimulateOptions & options)
 {
@@ -113,6 +146,14 @@ MakeSource(const SimulateOptions & options)
   source->SetVibrationSdY(options.vibrationSd.empty() ? conditions.vibrationSdYPixels : options.vibrationSd[1]);
   source->SetOpticalBlur(options.opticalBlur);
   source->SetRollingShutterPeriod(options.rollingShutterPeriod);
+  if (sensornoise::IsIlluminationName(options.illumination))
+  {
+    source->SetIllumination(options.illumination);
+  }
+  else
+  {
+    source->SetIlluminationFactors(ReadFactors(options.illumination));
+  }
   source->SetNumberOfFrames(options.frames);
   source->SetBitDepth(options.bitDepth);
   source->SetSeed(options.seed);
@@ -133,7 +174,7 @@ TruthAsJson(const SimulateOptions & options, const SourceType & source)
 {
   auto       json = nlohmann::ordered_json::parse(source.GetTruthAsJson());
   const bool isPaperCamera = !options.gain && !options.offset && !options.readNoise && !options.electrons;
-  const bool isPaperCondition = !options.flickerSd && options.vibrationSd.empty();
+  const bool isPaperCondition = !options.flickerSd && options.vibrationSd.empty() && options.illumination == "steady";
   json["reference"] = options.reference;
   json["camera"] = isPaperCamera ? nlohmann::ordered_json(options.camera) : nullptr;
   json["condition"] = isPaperCondition ? nlohmann::ordered_json(options.condition) : nullptr;
@@ -175,6 +216,10 @@ RequireOutputsApart(const SimulateOptions & options)
   if (!IsScene(options.reference))
   {
     files.Read(options.reference, "the reference");
+  }
+  if (!sensornoise::IsIlluminationName(options.illumination))
+  {
+    files.Read(options.illumination, "--illumination");
   }
   files.Write(options.output, "--output");
   if (!options.truth.empty())

@@ -106,6 +106,26 @@ protected:
 };
 } // namespace
 
+TEST_F(SimulateTool, IlluminationIsAShapeOrAFile)
+{
+  const std::string options = "--size 32x32 --flicker-sd 0 --output s.mha --truth t.json --illumination ";
+  const std::string common = "--frames 4 " + options;
+  std::ofstream(m_Folder / "factors.txt") << "1 0.25,0.5\n0.25\n";
+  std::ofstream(m_Folder / "words.txt") << "1 2 half 1";
+  for (const char * shape : { "../factors.txt", "steady", "ramp:0.4" })
+  {
+    ASSERT_EQ(Run(common + shape), 0) << m_Message;
+    const nlohmann::json truth = ReadJson("t.json");
+    const double         first = truth["gamma"][0];
+    EXPECT_EQ(truth["illumination"], shape[0] == '.' ? "factors" : shape);
+    EXPECT_NEAR(first, shape[0] == 'r' ? -0.6 : 0.0, 1e-15);
+  }
+  ExpectRefusal(common + "strobe", "the illumination \"strobe\" is no file that can be read, and no known shape");
+  ExpectRefusal(common + "ramp:2", "the lowest illumination factor is 2; expected 0 to 1");
+  ExpectRefusal(common + "../words.txt", "has \"half\" as number 3; expected one illumination factor a frame");
+  ExpectRefusal("--frames 5 " + options + "../factors.txt", "one for each of the 5 frames");
+}
+
 TEST_F(SimulateTool, WritesTheStackAndItsTruth)
 {
   ASSERT_EQ(Run("--output stack.mha --truth truth.json --size 64x48 --frames 7"), 0) << m_Message;

@@ -37,6 +37,7 @@ FLAWS = {
     "companding": (8, "8"),
     "repeat": (2, "2"),
     "optical_blur": (1.5, "1.5"),
+    "illumination": ("sine:0.1:3", "sine:0.1:3"),
 }
 # Parameters that change how another one works, with that one.
 MANNERS = {
@@ -46,6 +47,7 @@ MANNERS = {
     "repeat_period": (2, {"repeat": 2}),
 }
 SMALL = {"frames": 4, "size": (64, 48), "seed": 4}
+FLAGS = ["--frames", "4", "--size", "64x48", "--seed", "4"]
 
 
 @pytest.fixture(scope="module")
@@ -57,7 +59,7 @@ def plain():
 def test_flaw_is_the_tool_s(tool, plain, tmp_path, name):
     value, text = FLAWS[name]
     file, truth_file = tmp_path / "stack.mha", tmp_path / "truth.json"
-    flags = ["--frames", "4", "--size", "64x48", "--seed", "4", "--" + name.replace("_", "-")]
+    flags = [*FLAGS, "--" + name.replace("_", "-")]
     tool("simulate-sensor-noise", "--output", file, "--truth", truth_file, *flags, *([] if text is None else [text]))
     stack, truth = itk.simulate_sensor_noise(**SMALL, **{name: value})
     np.testing.assert_array_equal(stack, itk.array_from_image(itk.imread(str(file))))
@@ -70,7 +72,7 @@ def test_manner_of_a_flaw_is_the_tool_s(tool, tmp_path, name):
     value, flaw = MANNERS[name]
     file, truth_file = tmp_path / "stack.mha", tmp_path / "truth.json"
     text = ",".join(map(str, value)) if isinstance(value, tuple) else value
-    flags = ["--frames", "4", "--size", "64x48", "--seed", "4", "--" + name.replace("_", "-"), text]
+    flags = [*FLAGS, "--" + name.replace("_", "-"), text]
     for other, number in flaw.items():
         flags += ["--" + other, ",".join(map(str, number)) if isinstance(number, tuple) else number]
     tool("simulate-sensor-noise", "--output", file, "--truth", truth_file, *flags)
@@ -90,6 +92,20 @@ def test_dark_frames_are_of_the_same_sensor():
     assert abs(noise) < 5 * 8**2 * 1.3 * np.sqrt(dark.size)  # 1.3: E[sigma^4] / median^4, and some more
 
 
+def test_illumination_factors_are_those_of_a_file(tool, tmp_path):
+    factors = [0.0, 0.5, 1.0, 0.25]
+    file, text = tmp_path / "stack.mha", tmp_path / "factors.csv"
+    text.write_text("0\n0.5, 1\n.25\n")
+    tool("simulate-sensor-noise", "--output", file, "--illumination", text, *FLAGS)
+    stack, truth = itk.simulate_sensor_noise(**SMALL, illumination=factors, flicker_sd=None)
+    np.testing.assert_array_equal(stack, itk.array_from_image(itk.imread(str(file))))
+    assert truth["illumination"] == "factors" and truth["condition"] is None
+    np.testing.assert_allclose(1 + np.array(truth["gamma"]), factors, rtol=0.25)  # times a flicker of 5 %
+    named, _ = itk.simulate_sensor_noise(**SMALL, illumination="ramp:0")
+    as_numbers, _ = itk.simulate_sensor_noise(**SMALL, illumination=np.array([0, 1 / 3, 2 / 3, 1]))
+    np.testing.assert_array_equal(named, as_numbers)
+
+
 def test_repeated_frames_are_equal():
     stack, truth = itk.simulate_sensor_noise(**SMALL, repeat=2)
     np.testing.assert_array_equal(stack[0], stack[1])
@@ -106,6 +122,8 @@ WRONG = {
     "bits": ({"companding": 1}, "the number of bits of the companding is 1; expected 0 or 2 to 16"),
     "quality": ({"block_quality": 101}, "block_quality is 101; expected a whole number from 0 to 100"),
     "manner": ({"resampling_interpolation": "nearest"}, "expected 'linear' or 'cubic'"),
+    "illumination": ({"illumination": "strobe"}, 'the illumination is "strobe"; expected steady, pulses'),
+    "factors": ({"illumination": [1, 2]}, "expected a shape's name, or one factor for each of the 4 frames"),
     "repeat": ({"repeat": 0}, "repeat is 0; expected a whole number from 1"),
 }
 

@@ -18,7 +18,8 @@ enum class RandomStream : std::uint64_t
   FixedPattern = 3, ///< what stays from frame to frame; counter: FixedPatternKind
   RowNoise = 4,     ///< counter: frame
   ColumnNoise = 5,  ///< counter: frame
-  Banding = 6       ///< counter: frame
+  Banding = 6,      ///< counter: frame
+  Illumination = 7  ///< counter: frame
 };
 
 /** The maps of the stream FixedPattern. */

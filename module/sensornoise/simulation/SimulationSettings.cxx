@@ -60,6 +60,7 @@ CheckSettings(const SimulationSettings & settings)
   RequireNotNegative(settings.conditions.vibrationSdXPixels, "horizontal vibration standard deviation");
   RequireNotNegative(settings.conditions.vibrationSdYPixels, "vertical vibration standard deviation");
   RequireSetting(settings.frames >= 1, "number of frames", static_cast<double>(settings.frames), "at least 1");
+  CheckSettings(settings.illumination, settings.frames);
   RequireSetting(settings.bitDepth <= 32, "bit depth", settings.bitDepth, "0 (no clipping) to 32");
   RequireSetting(settings.opticalBlurPixels >= 0.0 && settings.opticalBlurPixels <= 1000.0,
                  "optical blur",

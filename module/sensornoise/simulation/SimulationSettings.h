@@ -4,6 +4,7 @@
 #define sensornoise_simulation_SimulationSettings_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/simulation/Illumination.h"
 #include "sensornoise/simulation/SensorFlaws.h"
 
 #include <cstddef>
@@ -50,6 +51,8 @@ struct SimulationSettings
 {
   CameraModel     camera{};
   SceneConditions conditions{};
+  /** Illumination factors of the frames, by which 1 + gamma_t is multiplied; steady by default. */
+  IlluminationSettings illumination{};
   /** T, at least 1. */
   std::size_t frames{ 100 };
   /** Bits of the analogue-to-digital converter, 0 to 32: integer pixels are clipped to [0, 2^bitDepth - 1]; 0 leaves

@@ -16,15 +16,23 @@ namespace
 {
 constexpr double TwoPi = 6.283185307179586476925;
 
+/** Returns gamma of a frame with this illumination factor and flicker. A factor of 1 leaves the flicker's bits. */
+double
+Brightened(double factor, double flicker)
+{
+  return factor == 1.0 ? flicker : factor * (1.0 + flicker) - 1.0;
+}
+
 SimulatedSeries
 DrawSeries(const SimulationSettings & settings)
 {
   SimulatedSeries series;
   for (std::size_t frame = 0; frame < settings.frames; ++frame)
   {
-    CounterSeededRandom random(
-      settings.seed, StreamNumber(RandomStream::Series), settings.flaws.repetition.ExposureOf(frame));
-    series.gamma.push_back(settings.conditions.flickerSd * random.Normal());
+    const std::size_t   exposure = settings.flaws.repetition.ExposureOf(frame);
+    CounterSeededRandom random(settings.seed, StreamNumber(RandomStream::Series), exposure);
+    series.factor.push_back(IlluminationFactor(settings.illumination, exposure, settings.frames, settings.seed));
+    series.gamma.push_back(Brightened(series.factor.back(), settings.conditions.flickerSd * random.Normal()));
     series.alpha.push_back(settings.conditions.vibrationSdXPixels * random.Normal());
     series.beta.push_back(settings.conditions.vibrationSdYPixels * random.Normal());
     series.phase.push_back(TwoPi * random.Uniform());
@@ -65,7 +73,7 @@ FlickerOfRow(const SimulationSettings & settings, const SimulatedSeries & series
     return series.gamma[frame];
   }
   const double angle = TwoPi * static_cast<double>(y) / settings.rollingShutterPeriodRows + series.phase[frame];
-  return std::sqrt(2.0) * settings.conditions.flickerSd * std::sin(angle);
+  return Brightened(series.factor[frame], std::sqrt(2.0) * settings.conditions.flickerSd * std::sin(angle));
 }
 
 SimulationTruth

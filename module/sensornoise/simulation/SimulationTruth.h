@@ -16,8 +16,11 @@ namespace sensornoise
 /** The random numbers that are common to a frame, one each per frame. */
 struct SimulatedSeries
 {
-  /** Flicker gamma_t [1]; with a rolling shutter its mean over the rows. */
+  /** Illumination of the frames relative to the settings' electrons, less 1 [1]: their illumination factor times their
+   * flicker; with a rolling shutter its mean over the rows. */
   std::vector<double> gamma;
+  /** Illumination factors of the frames without flicker [1]. */
+  std::vector<double> factor;
   /** Horizontal shift [pixel]: the frame shows p(x + alpha, y + beta). */
   std::vector<double> alpha;
   /** Vertical shift [pixel]. */
@@ -48,7 +51,7 @@ struct SimulationTruth
   double realisedReadNoiseMedianDn{ std::numeric_limits<double>::quiet_NaN() };
 };
 
-/** Flicker gamma_t(y) of row `y` of frame `frame` [1]. */
+/** Returns gamma_t(y) of row `y` of frame `frame`: illumination factor times flicker, less 1 [1]. */
 SensorNoise_EXPORT double
 FlickerOfRow(const SimulationSettings & settings, const SimulatedSeries & series, std::size_t frame, std::size_t y);
 

@@ -40,6 +40,7 @@ ToJson(const SimulationTruth & truth, std::size_t width, std::size_t height)
     json.Member("prnu_sd", settings.prnuSd).Member("dsnu_sd", settings.dsnuSdDn);
     json.Member("hot_pixel_fraction", settings.hotPixelFraction);
     json.Member("hot_pixel_noise_factor", settings.hotPixelNoiseFactor);
+    json.Member("illumination", TextOf(settings.illumination));
     json.Member("flicker_sd", conditions.flickerSd);
     json.Member("vibration_sd", std::array<double, 2>{ conditions.vibrationSdXPixels, conditions.vibrationSdYPixels });
     json.Member("realised_flicker_sd", truth.realisedFlickerSd);

@@ -3,6 +3,7 @@
 """A burst of raw frames of a camera whose noise is known."""
 
 import json
+from collections.abc import Sequence
 from typing import Any, Literal
 
 import numpy as np
@@ -69,6 +70,7 @@ def simulate_sensor_noise(
     offset: float | None = None,
     read_noise: float | None = None,
     electrons: float | None = None,
+    illumination: str | Sequence[float] = "steady",
     flicker_sd: float | None = None,
     vibration_sd: tuple[float, float] | None = None,
     optical_blur: float = 0.5,
@@ -124,6 +126,10 @@ def simulate_sensor_noise(
         uint8, uint16, int16, float32 or float64; floating point is neither rounded nor clipped to codes.
     gain, offset, read_noise, electrons
         Gain [DN/e-], offset [DN], read noise [DN], electrons of the brightest pixel [e-]. Default: the camera's.
+    illumination
+        Illumination factor of the frames [1]: one number a frame, or the name of a shape with its lowest factor L and
+        its period P [frames]: "pulses:L:P" (1 in every P-th frame, else L), "ramp:L" (L to 1), "decay:L"
+        (exponential, 1 to L), "sine:L:P", "uniform:L" (random, L to 1), "exponential:L" (random, mean 1).
     flicker_sd, vibration_sd
         Standard deviations of the flicker [1] and of the shifts (x, y) [pixel]. Default: the condition's.
     optical_blur
@@ -217,6 +223,12 @@ def simulate_sensor_noise(
     ):
         if value is not None:
             setter(_options.number(name, value))
+    if isinstance(illumination, str):
+        with itk_errors(kind=ValueError):
+            source.SetIllumination(illumination)
+    else:
+        expected = f"a shape's name, or one factor for each of the {frames} frames"
+        source.SetIlluminationFactors(_options.numbers("illumination", illumination, frames, expected))
     if vibration_sd is not None:
         sd_x, sd_y = _options.numbers("vibration_sd", vibration_sd, 2, "(x, y), two numbers [pixel]")
         source.SetVibrationSdX(sd_x)
@@ -243,6 +255,7 @@ def simulate_sensor_noise(
     truth = json.loads(source.GetTruthAsJson())
     is_paper_camera = all(value is None for value in (gain, offset, read_noise, electrons))
     is_paper_condition = flicker_sd is None and vibration_sd is None
+    is_paper_condition = is_paper_condition and isinstance(illumination, str) and illumination == "steady"
     truth["reference"] = reference if isinstance(reference, str) else "array"
     truth["camera"] = camera if is_paper_camera else None
     truth["condition"] = condition if is_paper_condition else None
