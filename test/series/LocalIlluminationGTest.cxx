@@ -122,6 +122,31 @@ TEST(SensorNoiseLocalIllumination, NothingIsFoundInNoise)
   }
 }
 
+// Bright frames are noisier than dark ones: that is no second lamp, and does not hide one.
+TEST(SensorNoiseLocalIllumination, StrongChangesOfIlluminationAreNoLocalLight)
+{
+  Lights lights;
+  for (Eigen::Index t = 0; t < lights.flicker.size(); ++t)
+  {
+    lights.flicker(t) = t % 4 == 3 ? 2.12 : -0.68;
+  }
+  lights.flicker.array() -= lights.flicker.mean();
+  for (const double lamps : { 0.0, 0.02 })
+  {
+    SyntheticFrames            frames = Lit(lights, lamps);
+    std::mt19937               random(5);
+    std::normal_distribution<> normal;
+    for (std::size_t i = 0; i < frames.pixels.size(); ++i)
+    {
+      // What noise of variance 30 + 0.5 (mean - darkest) lacks of the frame's own; with less light, less cannot be had.
+      const auto   t = static_cast<Eigen::Index>(i / frames.Pixels());
+      const double signal = frames.reference.mean[i % frames.Pixels()] - Offset;
+      frames.pixels[i] += std::sqrt(0.5 * (1.0 + lights.flicker(t)) * signal) * normal(random);
+    }
+    EXPECT_EQ(Find(frames, lights).series.cols(), lamps > 0.0 ? 2 : 0) << lamps;
+  }
+}
+
 TEST(SensorNoiseLocalIllumination, NoMoreSeriesThanAskedForTheStrongestFirst)
 {
   Lights lights;

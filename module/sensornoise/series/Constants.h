@@ -59,6 +59,18 @@ struct SeriesConstants
   /** Pixels of a cell that tells, and those relative to the average cell's [1]. Set by hand. */
   double fewestPixelsOfCell{ 20.0 };
   double leastCellShare{ 0.25 };
+  /** Relative difference between the noise of frames below which it counts as equal [1]: the edge below has 25 % for
+   * it. Chosen empirically, on simulated changes of illumination. */
+  double equalFrameNoise{ 0.1 };
+  /** Least variance of a frame relative to that at the mean illumination [1]; a guard against division by 0. */
+  double leastFrameVariance{ 1e-3 };
+  /** Cells by which the ratio of shot noise to read noise is estimated, at least where there are as many. Chosen
+   * empirically: 128 cells of 20 frames determine it to 10 %. */
+  std::ptrdiff_t cellsOfShotFraction{ 128 };
+  /** Powers of 2 that are tried as the ratio of shot variance to read variance in the brightest cell; the least one
+   * stands for 0. */
+  int leastShotPower{ -5 };
+  int largestShotPower{ 12 };
   /** What a squared singular value must have of the edge of the noise, by Marchenko and Pastur, to be light [1]. Set by
    * hand. Half: noise that neighbours share is taken for light, gains of smoothed frames are 2 % low; twice: the same.
    */

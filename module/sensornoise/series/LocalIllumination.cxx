@@ -3,6 +3,7 @@
 #include "sensornoise/series/LocalIllumination.h"
 
 #include "sensornoise/base/Quantiles.h"
+#include "sensornoise/series/CellNoise.h"
 #include "sensornoise/series/Constants.h"
 
 #include <algorithm>
@@ -19,6 +20,7 @@ struct UsedCells
 {
   std::vector<std::size_t> cells;
   std::vector<double>      precision;
+  std::vector<double>      signal; ///< mean signal of the cell [DN]
 
   Eigen::Index
   Count() const
@@ -46,6 +48,8 @@ FindUsedCells(const FrameSums & sums, double offset)
     {
       used.cells.push_back(c);
       used.precision.push_back(p);
+      const double weighted = cells[c].sum[1] - offset * cells[c].sum[0];
+      used.signal.push_back(weighted > 0.0 ? p / weighted : 0.0);
     }
   }
   return used;
@@ -222,6 +226,13 @@ FindLocalIllumination(const FrameSums &           sums,
   }
   Eigen::MatrixXd rest = whole.rowwise() - whole.colwise().mean();
   rest -= basis * (basis.transpose() * rest);
+  const Eigen::Map<const Eigen::VectorXd> illumination(gamma.data(), frames);
+  if (illumination.cwiseAbs().maxCoeff() > InSeries.equalFrameNoise)
+  {
+    const Eigen::Map<const Eigen::VectorXd> signal(used.signal.data(), used.Count());
+    const Eigen::VectorXd                   fractions = EstimateShotFractions(rest, basis, illumination, signal);
+    rest = WhitenedResiduals(whole, basis, illumination, fractions);
+  }
   ScaleCells(rest, whole);
   return FindFactors(rest, whole, freedom, most);
 }

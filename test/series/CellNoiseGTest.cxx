@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/series/CellNoise.h"
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/series/LocalIllumination.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <random>
+
+using namespace sensornoise;
+
+namespace
+{
+constexpr Eigen::Index Frames = 60;
+constexpr Eigen::Index Cells = 400;
+
+/** Cells with signals from 10 to 1000, read variance 9 and gain 0.5, seen in frames of any illumination. */
+struct SimulatedCells
+{
+  Eigen::VectorXd gamma;
+  Eigen::VectorXd signal;
+  Eigen::VectorXd fractions; ///< truth
+  Eigen::MatrixXd whole;     ///< in units of the noise at gamma = 0
+  Eigen::MatrixXd basis;
+  Eigen::MatrixXd rest; ///< after an unweighted projection
+
+  explicit SimulatedCells(const Eigen::VectorXd & illumination, double gain = 0.5, unsigned int seed = 3)
+    : gamma(illumination.array() / illumination.mean() - 1.0)
+    , signal(Eigen::VectorXd::LinSpaced(Cells, 10.0, 1000.0))
+    , fractions((gain * signal.array()) / (gain * signal.array() + 9.0))
+    , whole(Frames, Cells)
+    , basis(Orthonormalise(gamma, Frames))
+  {
+    std::mt19937               random(seed);
+    std::normal_distribution<> normal;
+    for (Eigen::Index i = 0; i < Cells; ++i)
+    {
+      for (Eigen::Index t = 0; t < Frames; ++t)
+      {
+        whole(t, i) = std::sqrt(1.0 + fractions(i) * gamma(t)) * normal(random);
+      }
+    }
+    rest = whole.rowwise() - whole.colwise().mean();
+    rest -= basis * (basis.transpose() * rest);
+  }
+};
+
+/** 1 in every fourth frame, else `low`. */
+Eigen::VectorXd
+Pulses(double low)
+{
+  Eigen::VectorXd illumination = Eigen::VectorXd::Constant(Frames, low);
+  for (Eigen::Index t = 3; t < Frames; t += 4)
+  {
+    illumination(t) = 1.0;
+  }
+  return illumination;
+}
+} // namespace
+
+// The ratio of shot to read noise is looked for in steps of a factor of 2, which fractions within 0.17 = max |b(2 k) -
+// b(k)| of the truth allow for.
+TEST(SensorNoiseCellNoise, ShotFractionsAreFound)
+{
+  for (const double low : { 0.0, 0.1, 0.3 })
+  {
+    const SimulatedCells  cells(Pulses(low));
+    const Eigen::VectorXd found = EstimateShotFractions(cells.rest, cells.basis, cells.gamma, cells.signal);
+    EXPECT_LT((found - cells.fractions).cwiseAbs().maxCoeff(), 0.17) << low;
+  }
+  const SimulatedCells read(Pulses(0.0), 0.0);
+  EXPECT_LT(EstimateShotFractions(read.rest, read.basis, read.gamma, read.signal).maxCoeff(), 0.03);
+  const SimulatedCells shot(Pulses(0.3), 1e6);
+  EXPECT_GT(EstimateShotFractions(shot.rest, shot.basis, shot.gamma, shot.signal).maxCoeff(), 0.99);
+}
+
+// Whitened, the residuals have the variance 1 on average over the freedom that is left, and no direction that stands
+// out of Marchenko and Pastur's edge; unweighted they have.
+TEST(SensorNoiseCellNoise, WhitenedResidualsAreWhite)
+{
+  const auto largestOverEdge = [](const Eigen::MatrixXd & rest) {
+    const double          freedom = static_cast<double>(Frames) - 2.0;
+    const double          variance = rest.squaredNorm() / (freedom * static_cast<double>(Cells));
+    const double          edge = variance * std::pow(std::sqrt(freedom) + std::sqrt(static_cast<double>(Cells)), 2);
+    const Eigen::MatrixXd gram = rest * rest.transpose();
+    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(gram, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff() / edge;
+  };
+  for (const double low : { 0.0, 0.3 })
+  {
+    const SimulatedCells  cells(Pulses(low));
+    const Eigen::MatrixXd white = WhitenedResiduals(cells.whole, cells.basis, cells.gamma, cells.fractions);
+    const double          numbers = (static_cast<double>(Frames) - 2.0) * static_cast<double>(Cells);
+    EXPECT_NEAR(white.squaredNorm() / numbers, 1.0, 5.0 * std::sqrt(2.0 / numbers));
+    EXPECT_LT(largestOverEdge(white), 1.1) << low;
+    EXPECT_GT(largestOverEdge(cells.rest), 1.3) << low;
+  }
+}
+
+TEST(SensorNoiseCellNoise, WithoutShotNoiseOrChangeTheProjectionIsUnweighted)
+{
+  const SimulatedCells  cells(Pulses(0.3));
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(Cells);
+  const Eigen::VectorXd steady = Eigen::VectorXd::Zero(Frames);
+  EXPECT_LT((WhitenedResiduals(cells.whole, cells.basis, cells.gamma, none) - cells.rest).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((WhitenedResiduals(cells.whole, cells.basis, steady, cells.fractions) - cells.rest).cwiseAbs().maxCoeff(),
+            1e-12);
+}
