@@ -84,6 +84,8 @@ test_wheel() (
   "$uv" cache prune -q
   [ "$(du -sm "$UV_CACHE_DIR" | cut -f1)" -lt 5000 ] || "$uv" cache clean -q # MB
   cd "$here/build"
+  # Hundreds of interpreters import the same packages: each is compiled to bytecode once.
+  unset PYTHONDONTWRITEBYTECODE
   export PYTHONPYCACHEPREFIX="$here/build/pycache" SENSORNOISE_BIN="$here/build/bin"
   "$venv/bin/python" "$here/examples/python/estimate.py"
   "$venv/bin/python" "$here/examples/python/denoise.py" --picture denoised.png
