@@ -27,7 +27,7 @@ SlopesOfVariance(const Eigen::MatrixXd & basis, const Eigen::VectorXd & gamma)
   projection.array() += 1.0 / static_cast<double>(frames);
   const Eigen::VectorXd leverage = projection.diagonal();
   const Eigen::VectorXd shared = projection.cwiseAbs2() * gamma;
-  // A frame that the basis fits alone has no residual, and tells nothing.
+  // A frame that the basis fits alone has no residual: a guard against division by 0.
   const Eigen::ArrayXd freedom = (1.0 - leverage.array()).max(1e-3);
   return ((1.0 - 2.0 * leverage.array()) * gamma.array() + shared.array()) / freedom;
 }

@@ -16,7 +16,7 @@ namespace sensornoise
 
 /** Estimates the shot-noise fraction b of every cell [1], 0 to 1.
  *
- * The one parameter k is that of the largest likelihood of normal residuals, each cell with a scale of its own.
+ * The one parameter k maximises the likelihood of normal residuals. Each cell has a scale of its own.
  * Residuals beyond three standard deviations count as three: they may be signal.
  * \param rest residuals, frames x cells, in any unit
  * \param basis orthonormal columns that were projected out of them, beside the constant, frames x columns

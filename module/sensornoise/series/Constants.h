@@ -65,7 +65,7 @@ struct SeriesConstants
   /** Least variance of a frame relative to that at the mean illumination [1]; a guard against division by 0. */
   double leastFrameVariance{ 1e-3 };
   /** Cells by which the ratio of shot noise to read noise is estimated, at least where there are as many. Chosen
-   * empirically: 128 cells of 20 frames determine it to 10 %. */
+   * to bound the time; its effect on the ratio was not measured. */
   std::ptrdiff_t cellsOfShotFraction{ 128 };
   /** Powers of 2 that are tried as the ratio of shot variance to read variance in the brightest cell; the least one
    * stands for 0. */
