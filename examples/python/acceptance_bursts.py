@@ -1,0 +1,144 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Makes the bursts of acceptance_lines.LINES, replaces frames in them, and judges what the estimator says of them."""
+
+import json
+import tempfile
+from pathlib import Path
+
+import numpy as np
+from acceptance_bound import gain_bound
+from acceptance_lines import CAMERA, expected_of, simulator_options, stream_of
+from acceptance_programs import ProgramError, run
+from acceptance_stacks import judge
+
+DATA = b"ElementDataFile = LOCAL\n"  # the last line of a MetaImage's header; the pixels follow
+DIP_DEPTH = 0.12  # of the illumination in the middle of a dip [1]
+# Standard deviation of the Gaussian dip, in units of the frame's width: so wide that it resembles flicker.
+DIP_RADIUS = 0.6
+ROUNDING_VARIANCE = 1 / 12  # of whole digital numbers [DN^2]
+# Electrons and gain of a frame whose shot noise is below the rounding, for the mean of a burst's pixels.
+NOISELESS_ELECTRONS = 1e9
+COMPARED_QUANTITIES = ("gain", "offset", "read_noise")
+
+
+def read_frames(name):
+    """The frames (t, y, x) of a stack that simulate-sensor-noise wrote, and the bytes in front of them."""
+    content = Path(name).read_bytes()
+    start = content.index(DATA) + len(DATA)
+    header = dict(line.split(" = ", 1) for line in content[:start].decode("ascii").splitlines())
+    if header["ElementType"] != "MET_USHORT" or header["CompressedData"] != "False":
+        raise ValueError(f"{name}: expected uncompressed MET_USHORT, found {header['ElementType']}")
+    shape = [int(size) for size in header["DimSize"].split()][::-1]
+    return np.frombuffer(content, "<u2", offset=start).reshape(shape).copy(), content[:start]
+
+
+def write_frames(name, frames, header):
+    Path(name).write_bytes(header + frames.astype("<u2").tobytes())
+
+
+class Camera:
+    """What a replaced frame is made of: the burst's own camera, scene and noise."""
+
+    def __init__(self, programs, line, scene, bits, truth, folder, seed):
+        self.programs, self.line, self.scene, self.bits = programs, line, scene, bits
+        self.offset, self.read_noise, self.gain = truth["offset"], truth["read_noise"], truth["gain"]
+        self.folder, self.seed = folder, seed
+        self.random = np.random.default_rng(seed)
+
+    def simulate(self, scene, **others):
+        """One frame of the camera, with other options of the simulator."""
+        name = self.folder / "other.mha"
+        options = simulator_options(self.line, scene, self.bits, frames=1, **others)
+        run([self.programs.simulator, "--output", name, *options, "--seed", self.seed])
+        return read_frames(name)[0][0]
+
+    def expose(self, electrons, shape):
+        """A frame with so many expected electrons."""
+        levels = self.offset + self.gain * self.random.poisson(electrons, shape)
+        levels = levels + self.random.normal(0.0, self.read_noise, shape)
+        return np.clip(np.rint(levels), 0, self.highest)
+
+    @property
+    def highest(self):
+        return 2**self.bits - 1
+
+
+def other_scene(camera, _shape):
+    return camera.simulate("texture" if camera.scene == "target" else "target")
+
+
+def dip(camera, shape):
+    """A frame whose illumination has a smooth dip, as by a thing out of focus in front of the lamp."""
+    still = {"flicker_sd": 0, "vibration_sd": "0,0", "read_noise": 0, "bit_depth": 0}
+    gain = CAMERA["gain"] * CAMERA["electrons"] / NOISELESS_ELECTRONS
+    mean = camera.simulate(camera.scene, gain=gain, electrons=NOISELESS_ELECTRONS, **still)
+    y, x = np.indices(shape)
+    squared = (x - shape[1] / 2) ** 2 + (y - shape[0] / 2) ** 2
+    illumination = 1 - DIP_DEPTH * np.exp(-squared / (2 * (DIP_RADIUS * shape[1]) ** 2))
+    electrons = np.maximum(0.0, mean.astype(float) - camera.offset) / camera.gain
+    return camera.expose(electrons * illumination, shape)
+
+
+REPLACEMENTS = {
+    "zeros": lambda _camera, shape: np.zeros(shape),
+    "saturated": lambda camera, shape: np.full(shape, camera.highest),
+    "dark": lambda camera, shape: camera.expose(0.0, shape),
+    "other scene": other_scene,
+    "dip": dip,
+}
+
+
+def simulate(programs, line, scene, bits, seed, folder):
+    """Makes a burst: its file, its truth, and the bound of its gain [DN/e-]."""
+    name, truth_name, factors_name = (folder / file for file in ("burst.mha", "truth.json", "factors.txt"))
+    illumination = line.illumination
+    if line.factors:
+        factors_name.write_text("\n".join(map(str, line.factors)) + "\n")
+        illumination = factors_name
+    options = [*simulator_options(line, scene, bits), "--illumination", illumination, "--seed", seed]
+    run([programs.simulator, "--output", name, "--truth", truth_name, *options])
+    truth = json.loads(truth_name.read_text())
+    frames, header = read_frames(name)
+    variance = truth["read_noise"] ** 2 + ROUNDING_VARIANCE
+    bound = gain_bound(
+        np.maximum(0.0, frames.mean(axis=0) - truth["offset"]),
+        truth["gain"],
+        variance,
+        1 + np.array(truth["flicker"]),
+        2**bits - 1 - truth["offset"],
+    )
+    if line.replaced:
+        camera = Camera(programs, line, scene, bits, truth, folder, seed)
+        for place, kind in line.replaced:
+            frames[place] = REPLACEMENTS[kind](camera, frames.shape[1:])
+        write_frames(name, frames, header)
+    return name, truth, bound
+
+
+def truth_of(record):
+    """The truth of the compared quantities."""
+    return {"gain": record["gain"], "offset": record["offset"], "read_noise": record["realised_read_noise"]}
+
+
+def measure(programs, line, scene, bits, number):
+    """Makes a burst, estimates it, and judges the report."""
+    seed = stream_of(f"{line.name} {scene} {bits}", number)
+    with tempfile.TemporaryDirectory(prefix="acceptance-") as folder:
+        name, record, bound = simulate(programs, line, scene, bits, seed, Path(folder))
+        command = [programs.estimator, name, "--json", "-", "--quiet", "--threads", 1]
+        done = run(command, allowed=None)
+    expected = expected_of(line, scene)
+    try:
+        report = json.loads(done.output)
+    except json.JSONDecodeError:
+        # Nothing could be estimated, without a report; or the program ended by a signal.
+        report = {"warnings": []}
+        if done.code not in (2, 3):
+            raise ProgramError(f"{line.name}: {programs.estimator} ended with exit code {done.code}") from None
+    truth = truth_of(record)
+    found = {quantity: report.get(quantity, {}) for quantity in COMPARED_QUANTITIES}
+    loud = [warning["code"] for warning in report["warnings"] if warning["severity"] != "note"]
+    stack = judge(found, truth, record["gain"] * record["electrons"], loud, expected)
+    relative = None if bound is None or bound > truth["gain"] else bound / truth["gain"]
+    return [stack | {"setting": "", "exit": done.code, "seconds": done.seconds, "bound": relative}]

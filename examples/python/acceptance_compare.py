@@ -1,0 +1,218 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Sums up the results of measure_acceptance.py line by line, and compares two: paired differences with their scatter.
+
+Stacks are paired by line, variant, setting, seed and recipe, and so have the same noise. A difference counts if it is
+beyond chance (CHANCE, student_factor) and above a smallest size (SMALLEST_FRACTION, SMALLEST_ERROR). Silently wrong
+stacks decide the verdict first: where their number changes, nothing else counts. Otherwise a line is worse if any
+measure is worse, and better if some measure is better and none is worse.
+"""
+
+import math
+import statistics
+from collections import defaultdict
+from typing import NamedTuple
+
+from acceptance_lines import LINES, MEASURED, MUST_REFUSE
+
+CHANCE = 3.0  # standard errors, as of a normal distribution: one difference in 370 by chance
+LARGEST_ERROR = 1.0  # a gain that is off by more counts as off by so much, lest one stack decides a line [1]
+SMALLEST_FRACTION = 0.05  # of the stacks: 1 in 20 has to change, the fraction that a 95 % interval misses [1]
+SMALLEST_ERROR = 0.05  # of the old mean error [1]: a tenth of the frames makes as much (1 / sqrt(1.1) = 0.953)
+NOMINAL_COVERAGE = 0.95  # of the report's intervals [1]
+ALL_LINES = ", all lines"
+IMPROBABLE = 0.001  # probability of so few intervals that hold the truth, below which a line's coverage is a fault
+
+
+def student_factor(dof):
+    """Standard errors that Student's t exceeds as often as a normal variable exceeds CHANCE.
+
+    The distribution for whole degrees of freedom is Abramowitz & Stegun's 26.7.3 and 26.7.4."""
+    wanted = math.erf(CHANCE / math.sqrt(2))
+    low, high = CHANCE, 1e6
+    while high - low > 1e-9 * high:
+        middle = (low + high) / 2
+        low, high = (middle, high) if student_within(middle, dof) < wanted else (low, middle)
+    return high
+
+
+def student_within(t, dof):
+    """Probability that |Student's t| is at most t."""
+    angle = math.atan(t / math.sqrt(dof))
+    sine, square = math.sin(angle), math.cos(angle) ** 2
+    term = total = math.cos(angle) if dof % 2 else 1.0
+    for k in range(2 + dof % 2, dof - 1, 2):
+        term *= square * (k - 1) / k
+        total += term
+    if dof % 2 == 0:
+        return sine * total
+    return 2 / math.pi * (angle + (sine * total if dof > 1 else 0.0))
+
+
+def lower_tail(met, count, probability):
+    """Probability of at most `met` of `count`, by the binomial distribution; of thousands, too."""
+    odds, rest = math.log(probability), math.log1p(-probability)
+    logarithms = (
+        math.lgamma(count + 1) - math.lgamma(k + 1) - math.lgamma(count - k + 1) + k * odds + (count - k) * rest
+        for k in range(met + 1)
+    )
+    return math.fsum(map(math.exp, logarithms))
+
+
+def by_line(stacks):
+    """The stacks of each line, by their keys; first the lines of LINES, then those of studies."""
+    lines = defaultdict(dict)
+    for key, stack in stacks.items():
+        lines[key[0]][key] = stack
+    places = {line.name: place for place, line in enumerate(LINES)}
+    return {name: lines[name] for name in sorted(lines, key=lambda name: (places.get(name, len(places)), name))}
+
+
+def by_kind(lines):
+    """The stacks of all lines of a kind: what stands before the slash."""
+    kinds = defaultdict(dict)
+    for name, line in lines.items():
+        kinds[name.split("/")[0] + ALL_LINES] |= line
+    return kinds
+
+
+def held(stacks, name):
+    found = [stack["covered"][name] for stack in stacks if name in stack["covered"]]
+    return sum(found), len(found)
+
+
+def size_of(stack):
+    return None if stack["error"] is None else min(abs(stack["error"]), LARGEST_ERROR)
+
+
+def summarise(stacks):
+    """A line of the table: counts and means over its stacks; None where nothing is known."""
+    errors = [size_of(stack) for stack in stacks if stack["error"] is not None]
+    ratios = [stack["error"] / stack["bound"] for stack in stacks if stack["error"] is not None and stack["bound"]]
+    row = {
+        "stacks": len(stacks),
+        "error": statistics.fmean(errors) if errors else None,
+        "over_bound": math.sqrt(statistics.fmean(ratio**2 for ratio in ratios)) if ratios else None,
+        "held": {name: held(stacks, name) for name in ("gain", "offset", "read_noise")},
+        "refused": sum(stack["refused"] for stack in stacks),
+        "wrong": sum(bool(stack["wrong"]) for stack in stacks),
+        "silent": sum(stack["silent"] for stack in stacks),
+        "seconds": statistics.fmean(stack["seconds"] for stack in stacks),
+    }
+    return row | {"faults": faults_of(row, stacks)}
+
+
+def faults_of(row, stacks):
+    """What a line should not show."""
+    unexpected = sum(stack["refused"] for stack in stacks if stack["expected"] == MEASURED)
+    faults = [name for name in ("silent", "wrong") if row[name]][:1]
+    if unexpected:
+        faults.append(f"refused {unexpected}")
+    for name, (met, count) in row["held"].items():
+        if count and lower_tail(met, count, NOMINAL_COVERAGE) < IMPROBABLE:
+            faults.append(f"coverage of {name}")
+    return faults
+
+
+def scatter_of(differences):
+    """Standard error of the mean difference: the larger of that from the single stacks and that from their groups.
+
+    differences: (group, difference). The settings of a study share the noise of a seed: they are a group."""
+    values = [value for _, value in differences]
+    error = statistics.stdev(values) / math.sqrt(len(values))
+    groups = defaultdict(list)
+    for group, value in differences:
+        groups[group].append(value)
+    if len(groups) > 1 and len(groups) < len(values):
+        mean = statistics.fmean(values)
+        squares = sum(sum(value - mean for value in group) ** 2 for group in groups.values())
+        error = max(error, math.sqrt(squares * len(groups) / (len(groups) - 1)) / len(values))
+    return error
+
+
+class Difference(NamedTuple):
+    """Mean of new less old, its standard error, the degrees of freedom of that, and how many pairs differ."""
+
+    mean: float
+    error: float
+    dof: int
+    changed: int
+
+
+def paired(pairs, measure, is_count):
+    """The difference of a measure over pairs, as (group, old, new); None without pairs.
+
+    is_count: differences are -1, 0 or 1. One of each sign is added to their scatter, so that a few stacks that all
+    change alike do not look certain."""
+    both = [(group, measure(old), measure(new)) for group, old, new in pairs]
+    differences = [(group, new - old) for group, old, new in both if old is not None and new is not None]
+    if not differences:
+        return None
+    mean = statistics.fmean(value for _, value in differences)
+    changed = sum(value != 0 for _, value in differences)
+    if is_count:
+        differences = [*differences, ("one", 1.0), ("other", -1.0)]
+    dof = len(differences) - 1
+    return Difference(mean, scatter_of(differences) if dof else math.inf, dof, changed)
+
+
+def coverage_of(stack):
+    """Fraction of the intervals that hold the truth."""
+    return statistics.fmean(stack["covered"].values()) if stack["covered"] else None
+
+
+MEASURES = {
+    "silent": (lambda stack: float(stack["silent"]), True),
+    "wrong": (lambda stack: float(bool(stack["wrong"])), True),
+    "refused": (lambda stack: float(stack["refused"]), True),
+    "error": (size_of, False),
+    "coverage": (coverage_of, True),
+}
+
+
+def direction(name, difference, old_error):
+    """-1: worse, 1: better, 0: the same, of one measure."""
+    if difference is None or not difference.changed or not difference.dof:
+        return 0
+    size = abs(difference.mean)
+    smallest = SMALLEST_ERROR * (old_error or 0.0) if name == "error" else SMALLEST_FRACTION
+    if size <= smallest or size <= difference.error * student_factor(difference.dof):
+        return 0
+    return (1 if difference.mean > 0 else -1) * (1 if name == "coverage" else -1)
+
+
+def compare_line(old, new):
+    """Paired differences of a line and its verdict; None if no stack is in both."""
+    keys = [key for key in old if key in new]
+    if not keys:
+        return None
+    # The noise is that of line, variant and seed: a group.
+    pairs = [((line, variant, seed), old[key], new[key]) for key in keys for line, variant, _, seed, _ in [key]]
+    differences = {name: paired(pairs, measure, is_count) for name, (measure, is_count) in MEASURES.items()}
+    old_errors = [size_of(stack) for _, stack, _ in pairs if stack["error"] is not None]
+    must_refuse = any(stack["expected"] == MUST_REFUSE for _, _, stack in pairs)
+    signs = {
+        name: direction(name, difference, statistics.fmean(old_errors) if old_errors else None)
+        for name, difference in differences.items()
+        if not (must_refuse and name in ("refused", "error", "coverage"))
+    }
+    seconds = statistics.median(after["seconds"] / max(before["seconds"], 1e-3) for _, before, after in pairs)
+    silent = tuple(sum(pair[place]["silent"] for pair in pairs) for place in (1, 2))
+    return {"stacks": len(keys), "differences": differences, "time": seconds, "silent": silent, **verdict_of(signs)}
+
+
+def verdict_of(signs):
+    """The verdict, and the measures behind it."""
+    if signs["silent"]:
+        return {"verdict": "better" if signs["silent"] > 0 else "worse", "by": ["silent"]}
+    for verdict, sign in (("worse", -1), ("better", 1)):
+        if by := [name for name, value in signs.items() if value == sign]:
+            return {"verdict": verdict, "by": by}
+    return {"verdict": "same", "by": []}
+
+
+def compare(old, new):
+    """The comparison of each line, and of all lines of a kind, that has stacks in both results."""
+    old_lines, new_lines = (lines | by_kind(lines) for lines in map(by_line, (old, new)))
+    compared = {name: compare_line(old_lines[name], new_lines[name]) for name in old_lines if name in new_lines}
+    return {name: line for name, line in compared.items() if line}

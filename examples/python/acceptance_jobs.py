@@ -1,0 +1,129 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""What measure_acceptance.py has to run, and the file of what was run.
+
+A job is one line, one variant and one seed. The file has one JSON object for each job that is done, so that a run that
+was ended goes on where it was: a job is not run again if the file has it of the same programs and the same recipe.
+"""
+
+import json
+import os
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import NamedTuple
+
+import acceptance_bursts
+import acceptance_studies
+from acceptance_lines import LINES, simulator_options, variants
+from acceptance_programs import hash_of
+
+
+class Plan(NamedTuple):
+    """How many stacks, and of what size, a run has. Seeds are those of each variant of a line."""
+
+    burst_seeds: int  # times 3 scenes and 2 converters
+    efficiency_seeds: int
+    efficiency_size: int  # width and height [pixels]
+    robustness_seeds: int  # times 2 scenes
+    robustness_size: int
+    sensors_seeds: int  # times 6 to 108 settings
+    sensors_size: int
+
+
+# So many that two cores stay below 5 minutes.
+QUICK = Plan(3, 6, 256, 4, 128, 2, 128)
+# At least 100 stacks a line.
+FULL = Plan(20, 100, 512, 50, 256, 20, 256)
+
+
+class Job(NamedTuple):
+    """Something to run: it gives the stacks of one line, variant and seed."""
+
+    line: str
+    variant: str
+    seed: int
+    recipe: str  # what determines the stacks beside line, variant and seed
+    program: str  # hash of the programs
+    measure: Callable[[], list[dict]]
+
+    @property
+    def key(self):
+        return self.line, self.variant, self.seed, self.recipe, self.program
+
+
+def burst_jobs(programs, plan):
+    program = f"{hash_of(programs.estimator)} {hash_of(programs.simulator)}"
+    for line in LINES:
+        for scene, bits in variants():
+            made_by = (*simulator_options(line, scene, bits), line.illumination, *line.factors, *line.replaced)
+            recipe = " ".join(map(str, made_by))
+            for seed in range(1, plan.burst_seeds + 1):
+                measure = partial(acceptance_bursts.measure, programs, line, scene, bits, seed)
+                yield Job(line.name, f"{scene}, {bits} bits", seed, recipe, program, measure)
+
+
+def study_jobs(programs, plan):
+    """The jobs of the studies that were built. Those of measure-real-sensors are the longest and come first, so that no
+    processor waits for them at the end."""
+    efficiency, robustness, sensors = (programs.study(name) for name in ("efficiency", "robustness", "real-sensors"))
+    for name in acceptance_studies.names_of(sensors) if sensors.exists() else ():
+        size = plan.sensors_size
+        for seed in range(1, plan.sensors_seeds + 1):
+            measure = partial(acceptance_studies.measure_sensors, sensors, name, size, seed)
+            yield Job(f"sensors/{name}", "", seed, f"size {size}", hash_of(sensors), measure)
+    for seed in range(1, plan.efficiency_seeds + 1) if efficiency.exists() else ():
+        for name in acceptance_studies.EXPERIMENTS:
+            size = plan.efficiency_size
+            measure = partial(acceptance_studies.measure_efficiency, efficiency, name, size, seed)
+            yield Job(f"efficiency/{name}", "target", seed, f"size {size}", hash_of(efficiency), measure)
+    for name in acceptance_studies.names_of(robustness) if robustness.exists() else ():
+        for scene in ("target", "texture"):
+            size = plan.robustness_size
+            for seed in range(1, plan.robustness_seeds + 1):
+                measure = partial(acceptance_studies.measure_robustness, robustness, name, scene, size, seed)
+                yield Job(f"robustness/{name}", scene, seed, f"size {size}", hash_of(robustness), measure)
+
+
+def read_results(name):
+    """The jobs in a file of results. A line that was cut off, as by a machine that stopped, is left out."""
+    path = Path(name)
+    records = []
+    for line in path.read_text(encoding="utf-8").splitlines() if path.exists() else ():
+        try:
+            records.append(json.loads(line))
+        except json.JSONDecodeError:
+            continue
+    return records
+
+
+def key_of(record):
+    return tuple(record[name] for name in ("line", "variant", "seed", "recipe", "program"))
+
+
+def missing_jobs(jobs, records):
+    """The jobs that a file of results does not have."""
+    done = {key_of(record) for record in records}
+    return [job for job in jobs if job.key not in done]
+
+
+def append_result(name, job, stacks):
+    """Adds a job to a file of results, in one piece, on a line of its own."""
+    record = {**dict(zip(("line", "variant", "seed", "recipe", "program"), job.key, strict=True)), "stacks": stacks}
+    with Path(name).open("ab+") as file:
+        length = file.seek(0, os.SEEK_END)
+        file.seek(max(0, length - 1))
+        is_cut = length > 0 and file.read(1) != b"\n"
+        file.write((("\n" if is_cut else "") + json.dumps(record) + "\n").encode())
+
+
+def stacks_of(records, jobs=None):
+    """The stacks by (line, variant, setting, seed, recipe): of the jobs, or of the last program of each line."""
+    last = {record["line"]: record["program"] for record in records}
+    wanted = None if jobs is None else {job.key for job in jobs}
+    return {
+        (record["line"], record["variant"], stack["setting"], record["seed"], record["recipe"]): stack
+        for record in records
+        if (record["program"] == last[record["line"]] if wanted is None else key_of(record) in wanted)
+        for stack in record["stacks"]
+    }

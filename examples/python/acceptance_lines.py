@@ -1,0 +1,96 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""The bursts of measure_acceptance.py that no study simulates: one entry of LINES for each line of its table.
+
+All have the camera of CAMERA, each scene of SCENES and each converter of OFFSETS_DN; a line adds its illumination, and
+frames that it replaces (acceptance_bursts.py).
+"""
+
+import zlib
+from typing import NamedTuple
+
+MEASURED = "measured"  # the gain is identified
+MAY_REFUSE = "may refuse"  # not identified is right, too
+MUST_REFUSE = "must refuse"  # the frames do not determine the gain: each identified one is wrong
+
+# The case of the issue that asked for any illumination. The vibration is that of the simulator's condition 3.
+CAMERA = {"gain": 0.5, "read-noise": 3, "electrons": 5000, "size": "240x200", "flicker-sd": 0.01}
+SCENES = ("target", "texture", "flat")
+OFFSETS_DN = {12: 100, 16: 4000}  # by the bits of the converter
+FRAMES = 60
+
+
+class Line(NamedTuple):
+    """A line of the table: how its bursts are made, and what the estimator should say of them."""
+
+    name: str
+    illumination: str = "steady"  # of simulate-sensor-noise --illumination
+    expected: str = MEASURED
+    expected_of_flat: str = MEASURED
+    factors: tuple[float, ...] = ()  # instead of illumination: one for each frame
+    replaced: tuple[tuple[int, str], ...] = ()  # frame and kind, of acceptance_bursts.REPLACEMENTS
+    frames: int = FRAMES
+    simulator: tuple[str, ...] = ()  # further options of simulate-sensor-noise
+
+
+def one_frame(frames, place, factor, others):
+    """The illumination factors of a burst in which one frame has another factor than the others."""
+    return tuple(factor if frame == place else others for frame in range(frames))
+
+
+def unlike(name, *replaced, **further):
+    """A line whose frames are replaced. The rest of a flat field is steady and need not determine the gain."""
+    return Line(f"unlike/{name}", expected_of_flat=MAY_REFUSE, replaced=replaced, **further)
+
+
+LINES = (
+    Line("illumination/steady", expected_of_flat=MAY_REFUSE),
+    Line("illumination/every-4th-lit", "pulses:0:4"),
+    Line("illumination/every-4th-brighter", "pulses:0.3:4"),
+    Line("illumination/every-20th-lit", "pulses:0:20", MAY_REFUSE, MAY_REFUSE),  # 3 lit frames
+    # One lit frame has leverage 1: its residual is 0, and no noise of the light is left.
+    Line("illumination/one-lit", "", MUST_REFUSE, MUST_REFUSE, factors=one_frame(20, 7, 1.0, others=0.0), frames=20),
+    Line("illumination/ramp", "ramp:0"),
+    Line("illumination/decay-to-10%", "decay:0.1"),
+    Line("illumination/sunset-by-2", "decay:0.5"),
+    Line("illumination/sine-from-0", "sine:0:7.3"),
+    Line("illumination/sine-from-0.1", "sine:0.1:9"),
+    Line("illumination/uniform", "uniform:0"),
+    Line("illumination/exponential", "exponential"),
+    Line("illumination/flicker-0.7", simulator=("--flicker-sd", "0.7")),
+    Line("illumination/first-dark", expected_of_flat=MAY_REFUSE, factors=one_frame(FRAMES, 0, 0.0, others=1.0)),
+    unlike("zeros-first", (0, "zeros")),
+    unlike("saturated-first", (0, "saturated")),
+    unlike("dark-first", (0, "dark")),
+    unlike("other-scene", (30, "other scene")),
+    unlike("dip", (20, "dip"), expected=MAY_REFUSE, frames=40),
+    # Without flicker the dip is all that changes, and looks like the flicker that determines the offset.
+    unlike("dip-without-flicker", (20, "dip"), expected=MAY_REFUSE, frames=40, simulator=("--flicker-sd", "0")),
+    unlike("four-kinds", (3, "zeros"), (17, "saturated"), (31, "other scene"), (44, "dip")),
+)
+
+
+def variants():
+    """The scenes and converters of each line, as (scene, bits)."""
+    return [(scene, bits) for scene in SCENES for bits in OFFSETS_DN]
+
+
+def expected_of(line, scene):
+    return line.expected_of_flat if scene == "flat" else line.expected
+
+
+def stream_of(name, number):
+    """The simulator's seed of stack `number` of something named: lines and variants have noise of their own, and two
+    programs that are compared have the same."""
+    return zlib.crc32(name.encode()) * 10_000 + number
+
+
+def simulator_options(line, scene, bits, **others):
+    """Options of simulate-sensor-noise by which the bursts of a line are made, but for files and the seed.
+
+    others: by name, instead of the line's."""
+    options = {**CAMERA, "reference": scene, "bit-depth": bits, "offset": OFFSETS_DN[bits], "frames": line.frames}
+    words = {f"--{name}": str(value) for name, value in options.items()}
+    words |= dict(zip(line.simulator[::2], line.simulator[1::2], strict=True))
+    words |= {f"--{name.replace('_', '-')}": str(value) for name, value in others.items()}
+    return [word for pair in words.items() for word in pair]

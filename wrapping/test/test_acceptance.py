@@ -1,0 +1,264 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""The acceptance suite: what it calls wrong, sums up, compares and runs again, and one line with the built programs."""
+
+import math
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "python"
+TRUTH = {"gain": 0.5, "offset": 100.0, "read_noise": 3.0}
+SIGNAL_RANGE = 2500.0  # [DN]
+
+
+@pytest.fixture(autouse=True)
+def examples(monkeypatch):
+    monkeypatch.syspath_prepend(str(EXAMPLES))
+
+
+def quantity(value, error, status="identified"):
+    return {
+        "value": value,
+        "standard_error": error,
+        "interval95": [value - 2 * error, value + 2 * error],
+        "status": status,
+    }
+
+
+def judged(gain=(0.5, 0.001), offset=(100, 1), loud=(), expected="measured", status="identified"):
+    from acceptance_stacks import judge
+
+    found = {"gain": quantity(*gain, status), "offset": quantity(*offset), "read_noise": quantity(3, 0.1)}
+    return judge(found, TRUTH, SIGNAL_RANGE, list(loud), expected)
+
+
+@pytest.mark.parametrize(
+    ("gain", "is_wrong"),
+    [
+        ((0.506, 0.001), True),  # 6 standard errors and 1.2 %
+        ((0.504, 0.0001), False),  # 40 standard errors, but 0.8 %
+        ((0.530, 0.010), False),  # 6 %, but 3 standard errors
+    ],
+)
+def test_a_gain_is_wrong_beyond_chance_and_a_smallest_size(gain, is_wrong):
+    stack = judged(gain)
+    assert (stack["wrong"] == ["gain"]) == stack["silent"] == is_wrong
+    assert stack["error"] == pytest.approx(gain[0] / 0.5 - 1)
+    assert stack["z"] == pytest.approx((gain[0] - 0.5) / gain[1])
+
+
+def test_a_warning_breaks_the_silence():
+    stack = judged((0.6, 0.001), loud=["not-static"])
+    assert stack["wrong"] == ["gain"] and not stack["silent"]
+
+
+def test_an_offset_is_judged_by_the_signal_range():
+    assert judged(offset=(126, 1))["wrong"] == ["offset"]  # 26 of 2500 DN
+    assert judged(offset=(124, 1))["wrong"] == []
+
+
+def test_a_gain_that_cannot_be_determined_is_wrong_if_identified():
+    assert judged(expected="must refuse")["wrong"] == ["gain"]
+    stack = judged((0.9, 0.001), expected="must refuse", status="not-identifiable")
+    assert stack["refused"] and not stack["wrong"] and stack["error"] is None and "gain" not in stack["covered"]
+
+
+def stacks_of(gains, line="a", **options):
+    """Results of a line, one stack a seed."""
+    return {
+        (line, "target", "", n, "r"): judged(gain, **options) | {"bound": 0.002, "seconds": 1.0} for n, gain in gains
+    }
+
+
+def test_a_line_is_summed_up():
+    from acceptance_compare import summarise
+
+    stacks = [*stacks_of([(0, (0.502, 0.002)), (1, (0.497, 0.002)), (2, (5.0, 0.001))]).values()]
+    stacks.append({**judged(status="failed"), "bound": 0.002, "seconds": 3.0})
+    row = summarise(stacks)
+    assert row["stacks"] == 4 and row["refused"] == row["wrong"] == row["silent"] == 1
+    assert row["error"] == pytest.approx((0.004 + 0.006 + 1.0) / 3)  # the last one is 900 % off
+    assert row["over_bound"] == pytest.approx(math.sqrt((2**2 + 3**2 + 4500**2) / 3))
+    assert row["held"]["gain"] == (2, 3) and row["held"]["offset"] == (4, 4)
+    assert row["seconds"] == 1.5
+    assert row["faults"] == ["silent", "refused 1"]
+
+
+@pytest.mark.parametrize("dof", [1, 2, 3, 4])
+def test_students_distribution_is_the_closed_form(dof):
+    from acceptance_compare import student_within
+
+    t = 1.7
+    closed = {
+        1: 2 / math.pi * math.atan(t),
+        2: t / math.sqrt(2 + t**2),
+        3: 2 / math.pi * (math.atan(t / math.sqrt(3)) + t / math.sqrt(3) / (1 + t**2 / 3)),
+        4: t / math.sqrt(4 + t**2) * (1 + 2 / (4 + t**2)),
+    }
+    assert student_within(t, dof) == pytest.approx(closed[dof], abs=1e-12)
+
+
+def test_chance_needs_more_standard_errors_of_few_stacks():
+    from acceptance_compare import student_factor
+
+    assert student_factor(2) == pytest.approx(19.2, abs=0.05)  # 0.27 % of 2 degrees of freedom
+    assert student_factor(10_000) == pytest.approx(3.0, abs=0.01)
+
+
+def test_few_intervals_that_hold_are_improbable():
+    from acceptance_compare import lower_tail
+
+    assert lower_tail(1, 2, 0.95) == pytest.approx(1 - 0.95**2)
+    assert lower_tail(2000, 2000, 0.95) == pytest.approx(1.0)
+    assert lower_tail(1900, 2000, 0.95) == pytest.approx(0.52, abs=0.03)  # half, and half of that of the mean itself
+
+
+def test_the_same_results_are_the_same():
+    from acceptance_compare import compare
+
+    stacks = stacks_of([(n, (0.5 + 0.001 * n, 0.002)) for n in range(5)])
+    line = compare(stacks, stacks)["a"]
+    assert line["verdict"] == "same" and line["differences"]["error"].changed == 0 and line["time"] == 1.0
+
+
+def test_paired_errors_that_all_grow_are_worse_and_scattered_ones_are_not():
+    from acceptance_compare import compare
+
+    old = stacks_of([(n, (0.502 + 0.0002 * n, 0.01)) for n in range(9)])
+    grown = stacks_of([(n, (0.503 + 0.0002 * n + 0.0001 * (n % 2), 0.01)) for n in range(9)])
+    mixed = stacks_of([(n, (0.502 + 0.0002 * n + 0.002 * (-1) ** n, 0.01)) for n in range(9)])
+    assert compare(old, grown)["a"]["verdict"] == "worse" and compare(old, grown)["a"]["by"] == ["error"]
+    assert compare(grown, old)["a"]["verdict"] == "better"
+    assert compare(old, mixed)["a"]["verdict"] == "same"
+
+
+@pytest.mark.parametrize(("count", "verdict"), [(2, "same"), (12, "better")])
+def test_silence_decides_before_refusals(count, verdict):
+    from acceptance_compare import compare
+
+    old = stacks_of([(n, (0.6, 0.001)) for n in range(count)])
+    new = stacks_of([(n, (0.6, 0.001)) for n in range(count)], status="not-identifiable")
+    assert compare(old, new)["a"]["verdict"] == verdict
+
+
+def test_all_lines_of_a_kind_are_compared_together():
+    from acceptance_compare import compare
+
+    old, new = {}, {}
+    for line in ("kind/a", "kind/b", "kind/c"):  # too few stacks, each by itself
+        old |= stacks_of([(n, (0.5, 0.001)) for n in range(4)], line, offset=(150, 1))
+        new |= stacks_of([(n, (0.5, 0.001)) for n in range(4)], line)
+    verdicts = {name: (line["verdict"], line["silent"]) for name, line in compare(old, new).items()}
+    assert verdicts == {
+        **dict.fromkeys(["kind/a", "kind/b", "kind/c"], ("same", (4, 0))),
+        "kind, all lines": ("better", (12, 0)),
+    }
+
+
+def test_settings_that_share_a_seed_count_as_a_group():
+    from acceptance_compare import scatter_of
+
+    alone = [(n, float(n // 8)) for n in range(16)]
+    shared = [(n // 8, float(n // 8)) for n in range(16)]
+    assert scatter_of(alone) == pytest.approx(math.sqrt(4 / 15) / 4)
+    assert scatter_of(shared) == pytest.approx(0.5)  # two means that differ by 1
+
+
+def test_what_the_file_has_is_not_run_again(tmp_path):
+    from acceptance_jobs import Job, append_result, missing_jobs, read_results, stacks_of
+
+    name = tmp_path / "results.jsonl"
+    jobs = [Job("a", "target", seed, "size 9", program, list) for program in ("old", "new") for seed in (1, 2)]
+    append_result(name, jobs[0], [{"setting": "x"}, {"setting": "y"}])
+    with name.open("a") as file:
+        file.write('{"line": "a", "vari')  # the machine stopped
+    assert missing_jobs(jobs, read_results(name)) == jobs[1:]
+    append_result(name, jobs[3], [{"setting": "x"}])
+    records = read_results(name)
+    assert missing_jobs(jobs, records) == jobs[1:3]
+    assert list(stacks_of(records)) == [("a", "target", "x", 2, "size 9")]  # of the last program
+    assert len(stacks_of(records, jobs[:2])) == 2
+
+
+ROBUSTNESS = """\
+case                 ref.     seed    g err %      z  c err DN^2      z  mu err DN      z  mu interval DN
+{row}
+over the seeds: mean error
+case                 ref.        g err %      z
+{summary}
+"""
+
+
+@pytest.mark.parametrize(
+    ("row", "summary", "expected"),
+    [
+        (
+            "plain  target  1  -0.332 -2.3 +0.352 +0.8 -0.783 -0.4  [94.7, 103.7]  identified  0.938 8 local-light",
+            "plain  target  -0.332 2.3 +0.352 0.8 -0.783 0.4  1/1   0.938  ok",
+            {"error": -0.00332, "z": -2.3, "covered": {"gain": False, "offset": True}, "expected": "measured"},
+        ),
+        (
+            "gamma  texture 7  - - - - - -  -  failed  0.907 - variance-not-affine",
+            "gamma  texture  - - - - - -  0/1   0.914  failed as expected",
+            {"refused": True, "covered": {}, "expected": "must refuse", "warnings": ["variance-not-affine"]},
+        ),
+        (
+            "gamma  texture 7  +2.0 +5.0 - - - -  -  not-identifiable  0.907 - -",
+            "gamma  texture  +2.0 5.0 - - - -  0/1   0.914  MISS (not refused)",
+            {"refused": False, "wrong": ["gain"], "silent": True, "expected": "must refuse"},
+        ),
+    ],
+)
+def test_a_row_of_measure_robustness_is_read(row, summary, expected):
+    from acceptance_studies import read_robustness
+
+    (stack,) = read_robustness(ROBUSTNESS.format(row=row, summary=summary), 1.0, {"variance-not-affine"})
+    assert {name: stack[name] for name in expected} == expected
+
+
+def test_rows_of_measure_real_sensors_are_read():
+    from acceptance_studies import read_sensors
+
+    text = "\n".join(
+        [
+            "bends: local gain off",
+            "setting                   scene      T    n ref. |  g held rms z mean z  s.e. %  bias %       p | mu held",
+            "quadratic -0.02           texture   50    1    0 |     0/1  4.53  +4.53   0.565      +2    0.05 |"
+            "     1/1  0.39 |     1/1  1.26     - |     1/1  0.15 |     1/1     1/1 | -; noise white 1",
+            "narrow 0.5 to 1           flat      50    1    1 |       -     -      -       -       -       - |"
+            "       -     - |       -     -     - |       -     - |     1/1       - | few-frames 1; noise white 1",
+            "bends, all settings together: 2 stacks, refused 1",
+        ]
+    )
+    wrong, refused = read_sensors(text, 3.0, {"few-frames"})
+    assert wrong["wrong"] == ["gain"] and wrong["silent"] and wrong["error"] == 0.02 and wrong["z"] == 4.53
+    assert wrong["covered"] == {"gain": False, "offset": True, "read_noise": True} and wrong["seconds"] == 1.5
+    assert wrong["setting"] == "texture, quadratic -0.02, 50 frames"
+    assert refused["refused"] and refused["status"] == "failed" and refused["warnings"] == ["few-frames"]
+
+
+def test_the_severities_are_those_of_the_table():
+    from acceptance_studies import loud_codes
+
+    assert {"few-frames", "variance-not-affine"} < loud_codes() and "not-static" not in loud_codes()
+
+
+@pytest.mark.skipif("SENSORNOISE_BIN" not in os.environ, reason="SENSORNOISE_BIN names no folder of the tools")
+def test_one_line_is_measured_once(tmp_path):
+    name = tmp_path / "results.jsonl"
+    script = [sys.executable, str(EXAMPLES / "measure_acceptance.py")]
+    lines = ["--lines", "illumination/steady", "unlike/dark-first", "--seeds", "1", "--jobs", "2"]
+    command = [*script, "--quick", "--bin", os.environ["SENSORNOISE_BIN"], *lines, "--results", str(name)]
+    first = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert first.returncode == 0 and "12 jobs" in first.stderr, first.stderr
+    again = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert again.stdout == first.stdout and "0 jobs" in again.stderr
+    steady, dark = (line.split() for line in first.stdout.splitlines()[1:3])
+    assert steady[:2] == ["illumination/steady", "6"] and dark[:2] == ["unlike/dark-first", "6"]
+    assert float(steady[2]) < 1 and steady[8] == "0"  # error in %, wrong
+    done = subprocess.run([*script, "--compare", str(name), str(name)], capture_output=True, text=True, check=False)
+    assert done.returncode == 0 and done.stdout.endswith("0 better, 4 same, 0 worse\n")
