@@ -14,6 +14,7 @@ from collections import defaultdict
 from typing import NamedTuple
 
 from acceptance_lines import LINES, MEASURED, MUST_REFUSE
+from scipy import stats
 
 CHANCE = 3.0  # standard errors, as of a normal distribution: one difference in 370 by chance
 LARGEST_ERROR = 1.0  # a gain that is off by more counts as off by so much, lest one stack decides a line [1]
@@ -25,38 +26,13 @@ IMPROBABLE = 0.001  # probability of so few intervals that hold the truth, below
 
 
 def student_factor(dof):
-    """Standard errors that Student's t exceeds as often as a normal variable exceeds CHANCE.
-
-    The distribution for whole degrees of freedom is Abramowitz & Stegun's 26.7.3 and 26.7.4."""
-    wanted = math.erf(CHANCE / math.sqrt(2))
-    low, high = CHANCE, 1e6
-    while high - low > 1e-9 * high:
-        middle = (low + high) / 2
-        low, high = (middle, high) if student_within(middle, dof) < wanted else (low, middle)
-    return high
-
-
-def student_within(t, dof):
-    """Probability that |Student's t| is at most t."""
-    angle = math.atan(t / math.sqrt(dof))
-    sine, square = math.sin(angle), math.cos(angle) ** 2
-    term = total = math.cos(angle) if dof % 2 else 1.0
-    for k in range(2 + dof % 2, dof - 1, 2):
-        term *= square * (k - 1) / k
-        total += term
-    if dof % 2 == 0:
-        return sine * total
-    return 2 / math.pi * (angle + (sine * total if dof > 1 else 0.0))
+    """Standard errors that Student's t exceeds as often as a normal variable exceeds CHANCE."""
+    return float(stats.t.isf(stats.norm.sf(CHANCE), dof))
 
 
 def lower_tail(met, count, probability):
-    """Probability of at most `met` of `count`, by the binomial distribution; of thousands, too."""
-    odds, rest = math.log(probability), math.log1p(-probability)
-    logarithms = (
-        math.lgamma(count + 1) - math.lgamma(k + 1) - math.lgamma(count - k + 1) + k * odds + (count - k) * rest
-        for k in range(met + 1)
-    )
-    return math.fsum(map(math.exp, logarithms))
+    """Probability of at most `met` of `count`, by the binomial distribution."""
+    return float(stats.binom.cdf(met, count, probability))
 
 
 def by_line(stacks):

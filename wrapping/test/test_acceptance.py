@@ -90,16 +90,16 @@ def test_a_line_is_summed_up():
 
 @pytest.mark.parametrize("dof", [1, 2, 3, 4])
 def test_students_distribution_is_the_closed_form(dof):
-    from acceptance_compare import student_within
+    from acceptance_compare import CHANCE, student_factor
 
-    t = 1.7
+    t = student_factor(dof)
     closed = {
         1: 2 / math.pi * math.atan(t),
         2: t / math.sqrt(2 + t**2),
         3: 2 / math.pi * (math.atan(t / math.sqrt(3)) + t / math.sqrt(3) / (1 + t**2 / 3)),
         4: t / math.sqrt(4 + t**2) * (1 + 2 / (4 + t**2)),
     }
-    assert student_within(t, dof) == pytest.approx(closed[dof], abs=1e-12)
+    assert closed[dof] == pytest.approx(math.erf(CHANCE / math.sqrt(2)), abs=1e-12)
 
 
 def test_chance_needs_more_standard_errors_of_few_stacks():
@@ -114,7 +114,9 @@ def test_few_intervals_that_hold_are_improbable():
 
     assert lower_tail(1, 2, 0.95) == pytest.approx(1 - 0.95**2)
     assert lower_tail(2000, 2000, 0.95) == pytest.approx(1.0)
-    assert lower_tail(1900, 2000, 0.95) == pytest.approx(0.52, abs=0.03)  # half, and half of that of the mean itself
+    assert lower_tail(1900, 2000, 0.95) == pytest.approx(
+        0.52, abs=0.03
+    )  # a half, and half of the probability of 1900 itself
 
 
 def test_the_same_results_are_the_same():
