@@ -49,8 +49,15 @@ def number(text):
 
 
 def wrong_gain(error, z):
-    """What is wrong by a relative error and its ratio to the standard error."""
+    """Names of the wrong quantities: the gain, by its relative error and the ratio of that to the standard error."""
     return ["gain"] if error is not None and abs(error) > WRONG_SIZE["gain"] and abs(z or 0) > WRONG_ERRORS else []
+
+
+def file_study(error, z, status, covered, warnings, expected):
+    """The record of one stack. error: of the gain, relative, None if the gain is not identified; z: over its standard
+    error; covered: by quantity, whether its interval holds the truth."""
+    stack = {"refused": error is None, "status": status, "covered": covered, "error": error, "z": z}
+    return file_wrong(stack, wrong_gain(error, z), warnings, expected)
 
 
 def read_efficiency(rows, seconds):
@@ -69,8 +76,8 @@ def read_efficiency(rows, seconds):
         if name == "gain":
             limit = float(row["limit"]) / truth["gain"]
     stack = judge(found, truth, float("inf"), [], MEASURED)
-    wrong = [name for name in stack["wrong"] if name == "gain"]
-    return [file_wrong(stack, wrong, [], MEASURED) | {"setting": "", "seconds": seconds, "bound": limit}]
+    stack = file_wrong(stack, wrong_gain(stack["error"], stack["z"]), [], MEASURED)
+    return [stack | {"setting": "", "seconds": seconds, "bound": limit}]
 
 
 def read_robustness(text, seconds, loud):
@@ -85,15 +92,9 @@ def read_robustness(text, seconds, loud):
     z, offset_z = number(row["z"]), number(row["offset_z"])
     error = number(row["error"])
     covered = {name: abs(ratio) <= HELD_Z for name, ratio in (("gain", z), ("offset", offset_z)) if ratio is not None}
-    stack = {
-        "refused": error is None,
-        "status": "failed" if error is None else "identified",
-        "covered": covered,
-        "error": None if error is None else error / 100,
-        "z": z,
-    }
     warnings = [code for code in row["warnings"].split(",") if code in loud]
-    stack = file_wrong(stack, wrong_gain(stack["error"], z), warnings, expected)
+    status = "failed" if error is None else "identified"
+    stack = file_study(None if error is None else error / 100, z, status, covered, warnings, expected)
     return [stack | {"setting": "", "seconds": seconds, "bound": None}]
 
 
@@ -102,17 +103,12 @@ def read_sensors(text, seconds, loud):
     stacks = []
     for row in filter(None, map(SENSORS_ROW.fullmatch, text.splitlines())):
         is_gain = row["gain"] != NONE
-        error = number(row["error"]) if is_gain else None
-        stack = {
-            "refused": not is_gain,
-            "status": "identified" if is_gain else "failed" if row["refused"] == "1" else "not-identifiable",
-            "covered": {name: row[name] == "1/1" for name in ("gain", "offset", "read_noise") if row[name] != NONE},
-            "error": None if error is None else error / 100,
-            "z": number(row["z"]) if is_gain else None,
-        }
+        error, z = (number(row["error"]) / 100, number(row["z"])) if is_gain else (None, None)
+        status = "identified" if is_gain else "failed" if row["refused"] == "1" else "not-identifiable"
+        covered = {name: row[name] == "1/1" for name in ("gain", "offset", "read_noise") if row[name] != NONE}
         codes = re.findall(r"([a-z-]+) \d+", row["warnings"].split("; noise")[0])
         warnings = [code for code in codes if code in loud]
-        stack = file_wrong(stack, wrong_gain(stack["error"], stack["z"]), warnings, MAY_REFUSE)
+        stack = file_study(error, z, status, covered, warnings, MAY_REFUSE)
         setting = f"{row['scene']}, {row['name']}, {row['frames']} frames"
         stacks.append(stack | {"setting": setting, "bound": None})
     if not stacks:
