@@ -38,7 +38,7 @@ def write_frames(name, frames, header):
 
 
 class Camera:
-    """What a replaced frame is made of: the burst's own camera, scene and noise."""
+    """The burst's own camera, scene and noise, which make the replaced frames."""
 
     def __init__(self, programs, line, scene, bits, truth, folder, seed):
         self.programs, self.line, self.scene, self.bits = programs, line, scene, bits

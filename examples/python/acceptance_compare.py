@@ -79,7 +79,7 @@ def summarise(stacks):
 
 
 def faults_of(row, stacks):
-    """What a line should not show."""
+    """The faults of a line: results that it should not show."""
     unexpected = sum(stack["refused"] for stack in stacks if stack["expected"] == MEASURED)
     faults = [name for name in ("silent", "wrong") if row[name]][:1]
     if unexpected:
@@ -162,7 +162,7 @@ def compare_line(old, new):
     keys = [key for key in old if key in new]
     if not keys:
         return None
-    # The noise is that of line, variant and seed: a group.
+    # Stacks of one line, variant and seed share their noise: they are a group.
     pairs = [((line, variant, seed), old[key], new[key]) for key in keys for line, variant, _, seed, _ in [key]]
     differences = {name: paired(pairs, measure, is_count) for name, (measure, is_count) in MEASURES.items()}
     old_errors = [size_of(stack) for _, stack, _ in pairs if stack["error"] is not None]

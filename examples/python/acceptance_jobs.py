@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What measure_acceptance.py has to run, and the file of what was run.
+"""The jobs of measure_acceptance.py, and the file of those that were done.
 
 A job is one line, one variant and one seed. The file has one JSON object for each job that is done, so that a run that
 was ended goes on where it was: a job is not run again if the file has it of the same programs and the same recipe.

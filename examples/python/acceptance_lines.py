@@ -13,7 +13,7 @@ MEASURED = "measured"  # the gain is identified
 MAY_REFUSE = "may refuse"  # not identified is right, too
 MUST_REFUSE = "must refuse"  # the frames do not determine the gain: each identified one is wrong
 
-# A camera whose shot noise is far above its read noise. The vibration is that of the simulator's condition 3.
+# A camera whose shot noise is far above its read noise. It vibrates as in condition 3 of the simulator.
 CAMERA = {"gain": 0.5, "read-noise": 3, "electrons": 5000, "size": "240x200", "flicker-sd": 0.01}
 SCENES = ("target", "texture", "flat")
 OFFSETS_DN = {12: 100, 16: 4000}  # by the bits of the converter

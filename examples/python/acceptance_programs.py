@@ -18,7 +18,7 @@ class ProgramError(RuntimeError):
 
 
 class Done(NamedTuple):
-    """What a program printed, its exit code and its processor time, of user and system together [s]."""
+    """The output of a program, its exit code and its processor time, of user and system together [s]."""
 
     output: str
     code: int

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What is kept of one stack: its errors, whether its intervals hold the truth, and whether it is silently wrong.
+"""The record of one stack: its errors, whether its intervals hold the truth, and whether it is silently wrong.
 
 A stack is refused if its gain is not identified. It is wrong if an identified quantity is off by more than WRONG_ERRORS
 of its own standard errors and by more than WRONG_SIZE; on a line whose gain cannot be determined, if the gain is

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""How well the estimator does, in one table that can be compared with that of another commit.
+"""Measures how well the estimator does, in one table that two commits can compare.
 
     measure_acceptance.py --bin build/bin --quick --results before.jsonl
     measure_acceptance.py --bin build/bin --quick --results after.jsonl

@@ -20,7 +20,7 @@ def test_the_bound_is_that_of_sample_variances():
     """With many electrons and little change of the illumination, a pixel's mean says nothing of its variance: sample
     variances of T frames have the relative variance 2 / T, and the line through them the error of weighted least
     squares.
-    The illumination changes by 2 %, of which the square, 4e-4, is left."""
+    A change of the illumination by 2 % adds its square, 4e-4."""
     from acceptance_bound import gain_bound
 
     gain, variance, frames = 0.5, 9.0, 100
