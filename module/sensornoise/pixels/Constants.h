@@ -22,6 +22,9 @@ struct PixelsConstants
   double largestMotion{ 4.0 };
   /** Part of a pixel's freedom that the motion's series may take, at most [1]. Set by hand. */
   double largestLeverage{ 0.5 };
+  /** Part of the degrees of freedom that a change of the illumination must take to be allowed for [1]. Set by hand:
+   * below, standard errors are at most half of it too small. A flicker of 10 % rms takes so much. */
+  double leastLossOfFreedom{ 0.01 };
   /** Share of the classes, the flat ones, that draw the first line [1]. Set by hand. */
   double flatShare{ 0.6 };
   ///@}

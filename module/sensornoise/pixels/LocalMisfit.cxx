@@ -96,7 +96,8 @@ FindMisfitCores(const ProjectedVariance & projected,
         bool         isCore = crowd > InPixels.largestFarShare * area;
         if (excess > InPixels.leastMisfit && count > InPixels.leastCountedShare * area)
         {
-          const double own = line.EffectiveFreedom(freedom, line.At(frame.neighbourMean[y * width + x]));
+          const double level = frame.neighbourMean[y * width + x];
+          const double own = line.EffectiveFreedom(freedom * projected.FreedomFractionAt(level), line.At(level));
           isCore = isCore || excess > InPixels.misfitZ * std::sqrt(2.0 * line.sharedSquares / (own * count));
         }
         core[y * width + x] = isCore ? 1 : 0;

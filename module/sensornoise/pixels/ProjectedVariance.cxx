@@ -37,10 +37,29 @@ ProjectedVariance::ProjectedVariance(const ReferenceFrame &            frame,
   , m_ParallelFor(parallelFor)
   , m_Variance(std::move(squares.rss))
   , m_Skew(std::move(squares.skew))
-  , m_Freedom(MakeMap<float>(frame.mean.size(), parallelFor))
+  , m_Divisor(MakeMap<float>(frame.mean.size(), parallelFor))
   , m_ClassOf(ClassifyRoughness(frame, model, mask, parallelFor))
 {
-  this->CountFreedom(motion, model);
+  m_NoiseLine.gain = model.slopeDn;
+  m_NoiseLine.intercept = model.interceptDn2 - model.slopeDn * model.darkestDn;
+  m_NoiseLine.lowestDn2 = model.interceptDn2;
+  this->DivideSquares(motion, model);
+}
+
+void
+ProjectedVariance::SetIllumination(const std::vector<double> & gamma, double offsetDn)
+{
+  m_FrameFreedom = FrameFreedom(m_Basis.GetBasis(), gamma);
+  m_OffsetDn = offsetDn;
+  this->CountFreedom();
+}
+
+void
+ProjectedVariance::Compute(const VarianceLine & line)
+{
+  this->Compute(line.gain);
+  m_NoiseLine = line;
+  this->CountFreedom();
 }
 
 void
@@ -49,10 +68,10 @@ ProjectedVariance::Compute(double gain)
   const double more = gain - std::exchange(m_Gain, gain);
   ForBlocks(m_Mask.size(), m_ParallelFor, [&](std::size_t begin, std::size_t end) {
     WithWideVectors(
-      [=, mask = m_Mask.data(), skew = m_Skew.data(), freedom = m_Freedom.data(), own = m_Variance.data()] {
+      [=, mask = m_Mask.data(), skew = m_Skew.data(), divisor = m_Divisor.data(), own = m_Variance.data()] {
         for (std::size_t p = begin; p < end; ++p)
         {
-          const double added = more * skew[p] / freedom[p]; // outside of the condition, or no vectors
+          const double added = more * skew[p] / divisor[p]; // outside of the condition, or no vectors
           own[p] += mask[p] != 0 ? added : 0.0;
         }
       });
@@ -77,12 +96,12 @@ ProjectedVariance::TakeOffRest(const CodeNoise & noise)
 VarianceData
 ProjectedVariance::GetData(const std::vector<std::uint8_t> & mask) const
 {
-  return { m_Frame.mean.data(), m_Frame.neighbourMean.data(), m_Variance.data(), m_Freedom.data(), mask.data(),
+  return { m_Frame.mean.data(), m_Frame.neighbourMean.data(), m_Variance.data(), this->GetFreedom().data(), mask.data(),
            mask.size() };
 }
 
 void
-ProjectedVariance::CountFreedom(const MotionSeries & motion, const ProvisionalModel & model)
+ProjectedVariance::DivideSquares(const MotionSeries & motion, const ProvisionalModel & model)
 {
   const MotionLeverage leverage(m_Frame, motion);
   const auto           frames = static_cast<double>(m_Frame.frames);
@@ -102,10 +121,28 @@ ProjectedVariance::CountFreedom(const MotionSeries & motion, const ProvisionalMo
         const double      noise = model.NoiseVariance(m_Frame.neighbourMean[p]);
         const double      taken = m_Mask[p] != 0 && !(bounds[x] < 1e-5 * noise) ? leverage.At(p) / noise : 0.0;
         const double      share = 1.0 - std::min(InPixels.largestLeverage, taken);
-        m_Freedom[p] = m_Mask[p] != 0 ? static_cast<float>(all * share) : 0.0F;
-        m_Variance[p] = m_Mask[p] != 0 ? m_Variance[p] / m_Freedom[p] : 0.0;
+        m_Divisor[p] = m_Mask[p] != 0 ? static_cast<float>(all * share) : 0.0F;
+        m_Variance[p] = m_Mask[p] != 0 ? m_Variance[p] / m_Divisor[p] : 0.0;
       }
     }
+  });
+}
+
+void
+ProjectedVariance::CountFreedom()
+{
+  if (m_FrameFreedom.IsEqual())
+  {
+    m_Freedom.clear();
+    return;
+  }
+  if (m_Freedom.empty())
+  {
+    m_Freedom = MakeMap<float>(m_Divisor.size(), m_ParallelFor);
+  }
+  ForPixels(m_Freedom.size(), m_ParallelFor, [this](std::size_t p) {
+    const double fraction = m_Mask[p] != 0 ? this->FreedomFractionAt(m_Frame.neighbourMean[p]) : 0.0;
+    m_Freedom[p] = static_cast<float>(fraction * m_Divisor[p]);
   });
 }
 

@@ -6,6 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/pixels/CodeNoise.h"
+#include "sensornoise/pixels/FrameFreedom.h"
 #include "sensornoise/pixels/ResidualSquares.h"
 #include "sensornoise/pixels/RoughnessClasses.h"
 #include "sensornoise/pixels/VarianceLine.h"
@@ -42,6 +43,8 @@ struct ReferenceFrame;
  *   h = w D' G^-1 D, which counts in the few pixels that dominate the regression.
  * - With both, every series can be projected out of every pixel, for 5 to 15 % of the degrees of freedom; no class of
  *   pixels need be told which series it pays for, and no bias below a threshold is left.
+ * - The squares are divided by (T - 1 - J) (1 - h); how precise the variance is, is another number where the
+ *   illumination changes strongly, see FrameFreedom.
  *
  * Pixels are sorted into RoughnessClasses for the test of fit (JudgeClasses). */
 class SensorNoise_EXPORT ProjectedVariance
@@ -62,10 +65,18 @@ public:
   void
   TakeOffRest(const CodeNoise & noise);
 
+  /** Allows for frames of different noise: \a gamma + 1 is the illumination factor of each frame, for which \a offsetDn
+   * is the dark offset. The shot noise of the pixels is that of the provisional model, until Compute(line). */
+  void
+  SetIllumination(const std::vector<double> & gamma, double offsetDn);
+
   /** Computes the variance with another gain [DN/e-], which serves the noise that changes with the light; at first it
    * is 0. */
   void
   Compute(double gain);
+  /** The same, and the degrees of freedom with the shot noise that \a line has. */
+  void
+  Compute(const VarianceLine & line);
 
   /** [DN^2]; 0 outside the mask. */
   const std::vector<double> &
@@ -79,11 +90,29 @@ public:
   {
     return std::move(m_Variance);
   }
-  /** Degrees of freedom of every pixel's variance, leverage taken off; 0 outside the mask. */
+  /** Effective degrees of freedom of every pixel's variance, by which it scatters; 0 outside the mask. */
   const std::vector<float> &
   GetFreedom() const
   {
-    return m_Freedom;
+    return m_Freedom.empty() ? m_Divisor : m_Freedom;
+  }
+  /** What every pixel's squares are divided by: (T - 1 - J) (1 - h); 0 outside the mask. */
+  const std::vector<float> &
+  GetDivisor() const
+  {
+    return m_Divisor;
+  }
+  /** The fraction of the degrees of freedom that the change of the illumination leaves to pixels of a level [1]. */
+  double
+  FreedomFractionAt(double levelDn) const
+  {
+    return m_FrameFreedom.IsEqual() ? 1.0 : m_FrameFreedom.FractionAt(this->ShotFractionAt(levelDn));
+  }
+  /** Whether frames differ in their noise by as much as counts. */
+  bool
+  HasUnequalFrames() const
+  {
+    return !m_FrameFreedom.IsEqual();
   }
   /** The class of roughness of pixel \a p, from 0, flat, to Classes - 1. */
   std::uint8_t
@@ -110,9 +139,18 @@ public:
   GetData(const std::vector<std::uint8_t> & mask) const;
 
 private:
-  /** The degrees of freedom of the mask's pixels, by which their squares are divided. */
+  /** Divides the squares of the mask's pixels. */
   void
-  CountFreedom(const MotionSeries & motion, const ProvisionalModel & model);
+  DivideSquares(const MotionSeries & motion, const ProvisionalModel & model);
+  /** The effective degrees of freedom of the mask's pixels. */
+  void
+  CountFreedom();
+  /** The fraction of the variance that is shot noise, by the neighbours' mean [1]. */
+  double
+  ShotFractionAt(double levelDn) const
+  {
+    return m_NoiseLine.gain * (levelDn - m_OffsetDn) / m_NoiseLine.At(levelDn);
+  }
 
   const ReferenceFrame &            m_Frame;
   const TemporalBasis &             m_Basis;
@@ -121,7 +159,11 @@ private:
   double                            m_Gain{ 0.0 };
   std::vector<double>               m_Variance;
   std::vector<float>                m_Skew; // sum_i S_i sum_j K_ij
-  std::vector<float>                m_Freedom;
+  std::vector<float>                m_Divisor;
+  std::vector<float>                m_Freedom; // empty: equal to the divisor
+  FrameFreedom                      m_FrameFreedom;
+  VarianceLine                      m_NoiseLine; // by which m_Freedom was counted
+  double                            m_OffsetDn{ 0.0 };
   std::vector<std::uint8_t>         m_ClassOf;
 };
 

@@ -49,14 +49,19 @@ SumClasses(const ProjectedVariance &         projected,
   const auto             sumRun = [&](std::size_t first, std::size_t pixels, JudgedRun & run, double * sums) {
     OfRun weight{};
     OfRun error{};
-    WithWideVectors([&, level = frame.neighbourMean.data() + first, spread = line.line.noiseSpreadDn4] {
+    WithWideVectors([&,
+                     level = frame.neighbourMean.data() + first,
+                     divisor = projected.GetDivisor().data() + first,
+                     freedom = projected.GetFreedom().data() + first,
+                     spread = line.line.noiseSpreadDn4] {
       run.Judge(projected, line, first, pixels);
       line.FillVariance(level, pixels, weight);
       for (std::size_t i = 0; i < pixels; ++i)
       {
         const double near = run.expected[i] / weight[i];
         weight[i] = near * near;
-        error[i] = sampling + spread / (run.expected[i] * run.expected[i]);
+        const double ofFrames = static_cast<double>(divisor[i]) / static_cast<double>(freedom[i]);
+        error[i] = sampling * ofFrames + spread / (run.expected[i] * run.expected[i]);
       }
     });
     for (std::size_t i = 0; i < pixels; ++i)

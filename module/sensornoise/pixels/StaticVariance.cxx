@@ -131,7 +131,7 @@ FitStaticVariance(ProjectedVariance &               projected,
   {
     JudgingLine judge = MakeJudgingLine(drawn, projected, found.mask, blackDn, parallelFor);
     judge.sharedSquares = sharedSquares;
-    projected.Compute(drawn.gain);
+    projected.Compute(drawn);
     const std::size_t misfits = SelectPixels(projected, judge, usable, found, parallelFor);
     isJudged = static_cast<double>(misfits) < InPixels.fewMisfits * static_cast<double>(usable.size());
     drawn = FollowLine(projected.GetData(found.mask), judge.line, parallelFor);
@@ -140,7 +140,7 @@ FitStaticVariance(ProjectedVariance &               projected,
   {
     return found;
   }
-  projected.Compute(drawn.gain);
+  projected.Compute(drawn);
   const VarianceData data = projected.GetData(found.mask);
   const VarianceFit  fit = FitAllPixels(data, drawn, blackDn, parallelFor);
   VarianceLine       line = fit.GetLine();

@@ -32,6 +32,19 @@ RangeOfFreedoms(const VarianceData & data, const ParallelFor & parallelFor)
     [&data](std::size_t p) { return data.mask[p] != 0; },
     [&data](std::size_t p) { return static_cast<double>(data.freedom[p]); });
 }
+
+/** The highest degrees of freedom of the pixels at and above a level, where a strong change of the illumination leaves
+ * fewest; or \a otherwise, where there are none. */
+double
+FreedomAbove(double levelDn, const VarianceData & data, double otherwise, const ParallelFor & parallelFor)
+{
+  const ValueRange range = RangeOverPixels(
+    data.pixels,
+    parallelFor,
+    [&data, levelDn](std::size_t p) { return data.mask[p] != 0 && data.neighbourMean[p] >= levelDn; },
+    [&data](std::size_t p) { return static_cast<double>(data.freedom[p]); });
+  return range.values > 0 ? range.highest : otherwise;
+}
 } // namespace
 
 VarianceFit::VarianceFit(const VarianceData &                data,
@@ -62,6 +75,7 @@ VarianceFit::VarianceFit(const VarianceData &                data,
         std::vector<double> levels = this->SampleLevels();
         m_DarkestDn = Quantile(levels, InCommon.darkestQuantile);
         m_BrightestDn = Quantile(levels, InCommon.brightestQuantile);
+        m_BrightFreedom = FreedomAbove(m_BrightestDn, m_Data, m_Freedoms.highest, m_ParallelFor);
         this->SetReach();
         this->SetNoiseSpread();
       }

@@ -246,6 +246,7 @@ private:
   double                       m_BlackDn;
   double                       m_DarkestDn{ 0.0 }; // quantiles of the levels
   double                       m_BrightestDn{ 0.0 };
+  double                       m_BrightFreedom{ 1.0 }; // highest degrees of freedom of the brightest pixels
   double                       m_ReachDn2{ 0.0 };
   double                       m_ReachBelowDn2{ 0.0 };
 };

@@ -179,7 +179,7 @@ VarianceFit::SetReach()
   const double darkest = m_Line.At(m_DarkestDn);
   const double brightest = m_Line.At(m_BrightestDn);
   const double largest = std::max(darkest, brightest);
-  const double freedom = std::max(1.0, m_Line.SamplingFreedom(m_Freedoms.highest, largest));
+  const double freedom = std::max(1.0, m_Line.SamplingFreedom(m_BrightFreedom, largest));
   const double chance = largest * (ChiSquareUpperQuantile(InPixels.reachTail, freedom) / freedom - 1.0);
   const double atBlack = std::max(0.0, m_Line.intercept + m_Line.gain * m_BlackDn);
   const double noisy =

@@ -28,7 +28,8 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   const double              offsetDn = series->offset + scene.model.centreDn;
   std::vector<std::uint8_t> pixelUse = scene.pixelUse;
   std::vector<std::uint8_t> chosen = PixelsOfVariance(scene, settings, pixelUse);
-  const auto                fit = [&](double sharedSquares) {
+  projected.SetIllumination(series->line.gamma, offsetDn);
+  const auto fit = [&](double sharedSquares) {
     return FitStaticVariance(
       projected, chosen, pixelUse, scene.model.slopeDn, offsetDn, blackDn, parallelFor, sharedSquares);
   };
