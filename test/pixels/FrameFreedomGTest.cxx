@@ -128,6 +128,7 @@ TEST(SensorNoiseFrameFreedom, OneLitFrameLeavesEqualOnesThatAreNotLikeTheMean)
   {
     EXPECT_NEAR(freedom.FractionAt(b), 1.0, 1e-9) << b;
   }
+  EXPECT_FALSE(freedom.IsEqual());
 }
 
 TEST(SensorNoiseFrameFreedom, FractionsOutsideOfTheirRangeAreTheNearest)

@@ -99,6 +99,16 @@ struct PixelsConstants
   /** Steps from there to the line of all pixels (estimator.md, 3.6). One: 0.2 errors of the gain with 1 % noisy pixels,
    * elsewhere 1e-4; four: 5e-5. */
   int stepsFromRoughLine{ 2 };
+  /** Derivative of the fitted gain to the gain by which the variances were corrected, up to which that gain need not
+   * be settled [1]: its error is then at most 1 % too small. Set by hand. */
+  double leastFeedback{ 0.01 };
+  /** The derivative above which the frames do not determine a gain [1]: nine tenths of it were put in, and what is
+   * wrong with the rest counts ten times. Set by hand. */
+  double largestFeedback{ 0.9 };
+  /** Times that a line is drawn and its gain settled, at most, and the relative change of the gain that ends it [1].
+   * Set by hand: the solution is exact but for weights and outliers, which change once or twice. */
+  int    settlingRounds{ 4 };
+  double settledChange{ 1e-4 };
   /** Determinant of a line's equations, relative to its diagonal, up to which the levels are one [1]: rounding. */
   double leastDeterminant{ 1e-12 };
   /** Probability that chance carries a pixel of the brightest level beyond the reach of TrimRule::Distance [1]. Set by

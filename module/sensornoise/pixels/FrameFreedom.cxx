@@ -5,6 +5,7 @@
 #include "sensornoise/pixels/Constants.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sensornoise
 {
@@ -19,7 +20,9 @@ FrameFreedom::FrameFreedom(const Eigen::MatrixXd & basis, const std::vector<doub
   m_Freedom = static_cast<double>(frames - 1 - basis.cols());
   m_Linear = projection.diagonal().dot(factor);
   m_Square = factor.dot(projection.cwiseAbs2() * factor);
-  m_IsEqual = !(m_Freedom > 0.0) || this->FractionAt(1.0) > 1.0 - InPixels.leastLossOfFreedom;
+  // One lit frame of many has no residual: the others are equal, but their mean is not that of all.
+  m_IsEqual = !(m_Freedom > 0.0) || (this->FractionAt(1.0) > 1.0 - InPixels.leastLossOfFreedom &&
+                                     std::abs(m_Linear) < InPixels.leastFeedback * m_Freedom);
 }
 
 double

@@ -37,7 +37,7 @@ public:
   FractionAt(double shotFraction) const;
 
   /** Whether all frames may count alike: pixels of shot noise alone lose less than InPixels.leastLossOfFreedom of their
-   * degrees of freedom. */
+   * degrees of freedom, and the mean variance of the residuals, 1 + b B / n, is within InPixels.leastFeedback of 1. */
   bool
   IsEqual() const
   {

@@ -78,6 +78,12 @@ public:
   void
   Compute(const VarianceLine & line);
 
+  /** The gain of the last Compute() [DN/e-]. */
+  double
+  GetGain() const
+  {
+    return m_Gain;
+  }
   /** [DN^2]; 0 outside the mask. */
   const std::vector<double> &
   GetVariance() const
@@ -113,6 +119,12 @@ public:
   HasUnequalFrames() const
   {
     return !m_FrameFreedom.IsEqual();
+  }
+  /** What the gain is multiplied by in the squares of each pixel: sum_i S_i sum_j K_ij [DN]. */
+  const std::vector<float> &
+  GetSkew() const
+  {
+    return m_Skew;
   }
   /** The class of roughness of pixel \a p, from 0, flat, to Classes - 1. */
   std::uint8_t

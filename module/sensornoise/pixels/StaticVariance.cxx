@@ -5,6 +5,7 @@
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/PixelUse.h"
 #include "sensornoise/pixels/Constants.h"
+#include "sensornoise/pixels/GainFeedback.h"
 #include "sensornoise/pixels/JudgingLine.h"
 #include "sensornoise/pixels/LevelPattern.h"
 #include "sensornoise/pixels/LightLine.h"
@@ -37,6 +38,40 @@ FollowLine(const VarianceData & data, const std::optional<VarianceLine> & start,
   VarianceFit           fit(sample.GetData(), parallelFor, start);
   fit.Iterate(3);
   return fit.GetLine();
+}
+
+/** What the line of the pixels of \a mask owes to the gain that was put in; nothing where frames are about equal. */
+GainFeedback
+FeedbackOf(const ProjectedVariance &         projected,
+           const VarianceLine &              line,
+           const std::vector<std::uint8_t> & mask,
+           const ParallelFor &               parallelFor)
+{
+  return projected.HasUnequalFrames() && line.isDetermined ? GainFeedback(projected, line, mask, parallelFor)
+                                                           : GainFeedback();
+}
+
+/** FollowLine() by the pixels of \a mask, again until the gain that corrects the variances is that of the line. */
+VarianceLine
+FollowSettledLine(ProjectedVariance &                 projected,
+                  const std::vector<std::uint8_t> &   mask,
+                  const std::optional<VarianceLine> & start,
+                  const ParallelFor &                 parallelFor)
+{
+  VarianceLine line = FollowLine(projected.GetData(mask), start, parallelFor);
+  for (int round = 0; round < InPixels.settlingRounds; ++round)
+  {
+    const GainFeedback feedback = FeedbackOf(projected, line, mask, parallelFor);
+    const VarianceLine settled = feedback.Settle(line, projected.GetGain());
+    if (!feedback.IsLarge() ||
+        std::abs(settled.gain - projected.GetGain()) < InPixels.settledChange * std::abs(settled.gain))
+    {
+      break;
+    }
+    projected.Compute(settled);
+    line = FollowLine(projected.GetData(mask), settled, parallelFor);
+  }
+  return line;
 }
 
 /** The line of all pixels of the data, with its errors. */
@@ -125,7 +160,7 @@ FitStaticVariance(ProjectedVariance &               projected,
   // The line of the flat classes tells which neighbourhoods fit, and among these, which classes do.
   projected.Compute(slopeDn);
   found.mask = MaskOfFlatClasses(projected, usable, parallelFor);
-  VarianceLine drawn = FollowLine(projected.GetData(found.mask), std::nullopt, parallelFor);
+  VarianceLine drawn = FollowSettledLine(projected, found.mask, std::nullopt, parallelFor);
   bool         isJudged = false;
   for (int round = 0; round < 2 && drawn.isDetermined && !isJudged; ++round)
   {
@@ -134,7 +169,7 @@ FitStaticVariance(ProjectedVariance &               projected,
     projected.Compute(drawn);
     const std::size_t misfits = SelectPixels(projected, judge, usable, found, parallelFor);
     isJudged = static_cast<double>(misfits) < InPixels.fewMisfits * static_cast<double>(usable.size());
-    drawn = FollowLine(projected.GetData(found.mask), judge.line, parallelFor);
+    drawn = FollowSettledLine(projected, found.mask, judge.line, parallelFor);
   }
   if (!drawn.isDetermined)
   {
@@ -142,8 +177,16 @@ FitStaticVariance(ProjectedVariance &               projected,
   }
   projected.Compute(drawn);
   const VarianceData data = projected.GetData(found.mask);
-  const VarianceFit  fit = FitAllPixels(data, drawn, blackDn, parallelFor);
-  VarianceLine       line = fit.GetLine();
+  VarianceFit        fit = FitAllPixels(data, drawn, blackDn, parallelFor);
+  const GainFeedback feedback = FeedbackOf(projected, fit.GetLine(), found.mask, parallelFor);
+  if (feedback.IsLarge())
+  {
+    const VarianceLine settled = feedback.Settle(fit.GetLine(), projected.GetGain());
+    projected.Compute(settled);
+    fit = FitAllPixels(data, settled, blackDn, parallelFor);
+  }
+  const auto   settle = [&](const VarianceLine & fitted) { return feedback.Settle(fitted, projected.GetGain()); };
+  VarianceLine line = settle(fit.GetLine());
   if (!line.isDetermined)
   {
     return found;
@@ -152,13 +195,13 @@ FitStaticVariance(ProjectedVariance &               projected,
   ForPixels(trimmed.size(), parallelFor, [&](std::size_t p) {
     found.pixelUse[p] = trimmed[p] != 0 ? static_cast<std::uint8_t>(PixelUse::Outlier) : found.pixelUse[p];
   });
-  found.fromFlat = FitFlatHalf(fit, projected, found.classes, found.mask, parallelFor);
+  found.fromFlat = settle(FitFlatHalf(fit, projected, found.classes, found.mask, parallelFor));
   const ReferenceFrame & frame = projected.GetFrame();
   found.pattern = MeasureLevelPattern(frame, data, line, blackDn, parallelFor);
   if (found.pattern.LargestShare() * std::abs(line.gain) >
       InPixels.negligiblePattern * std::sqrt(line.covariance(0, 0)))
   {
-    found.fromLight = FitLightLine(fit, data, frame);
+    found.fromLight = settle(FitLightLine(fit, data, frame));
   }
   CorrectForNoisyMeans(line, offsetDn, frame.frames);
   found.line = line;
