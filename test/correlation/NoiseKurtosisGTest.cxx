@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/correlation/NoiseKurtosis.h"
+#include "sensornoise/correlation/MixtureKurtosis.h"
 #include "sensornoise/simulation/Random.h"
 #include "helpers/CorrelationTestHelper.h"
 #include "helpers/StackTestHelper.h"
@@ -25,7 +26,7 @@ constexpr std::array<double, KurtosisSums::Kinds> Added{ 1.0, 2.0, 2.0, 4.0, 8.0
 std::vector<KurtosisSums>
 SumKurtosis(const NoiseResiduals & residuals, const ParallelFor & parallelFor)
 {
-  const double normal = NormalKurtosis(residuals);
+  const MixtureKurtosis normal(residuals);
   return OfTiles(residuals, parallelFor, [&](std::size_t i) { return KurtosisOfTile(residuals, i, normal); });
 }
 

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/correlation/CorrelationSums.h"
 
+#include "sensornoise/correlation/MixtureKurtosis.h"
+#include "sensornoise/correlation/UnequalFrames.h"
+
 #include <algorithm>
 #include <cstdlib>
 
@@ -73,6 +76,9 @@ CorrelationSums::CorrelationSums(const NoiseResiduals & residuals,
   , m_ParallelFor(parallelFor)
   , m_Tiles(residuals.GetTiles().origins.size())
   , m_Lags{ Lag{} }
+  , m_OfUnequalFrames(
+      residuals.GetUnequalFrames().GetGain() / residuals.GetFreedom() *
+      residuals.GetUnequalFrames().Autocovariance(residuals.GetBasis(), residuals.GetTiles().frames / 3))
 {
   for (int distance = 1; distance <= rings; ++distance)
   {
@@ -81,8 +87,8 @@ CorrelationSums::CorrelationSums(const NoiseResiduals & residuals,
   }
   const std::vector<Lag> time = this->NextTimeLags(timeLags);
   m_Lags.insert(m_Lags.end(), time.begin(), time.end());
-  const LagSummation lags(residuals, m_Lags);
-  const double       kurtosis = NormalKurtosis(residuals);
+  const LagSummation    lags(residuals, m_Lags);
+  const MixtureKurtosis kurtosis(residuals);
   parallelFor(m_Tiles.size(), [&](std::size_t i) {
     m_Tiles[i].shared = SharedLightOfTile(residuals, i);
     m_Tiles[i].kurtosis = KurtosisOfTile(residuals, i, kurtosis);
@@ -123,6 +129,14 @@ CorrelationSums::NextTimeLags(int last) const
     lags.push_back({ 0, 0, t });
   }
   return lags;
+}
+
+PairSums
+CorrelationSums::WithoutUnequalFrames(PairSums sums, int frames) const
+{
+  const double offsetDn = m_Residuals.GetUnequalFrames().GetOffsetDn();
+  sums.covariance -= m_OfUnequalFrames(frames) * (sums.light - offsetDn * sums.constant);
+  return sums;
 }
 
 CorrelationSums::Lags
@@ -171,10 +185,12 @@ CorrelationSums::SharedInBins(const TileSums & sums, const Lags & lags) const
   Eigen::VectorXd   shared = Eigen::VectorXd::Zero(NoiseResiduals::LightBins);
   for (const std::size_t k : lags)
   {
-    const LagSums lag = m_Lags[k].t == 0 ? common.TakeOff(sums.lags[k], m_Lags[k]) : sums.lags[k];
+    const int     frames = m_Lags[k].t;
+    const LagSums lag = frames == 0 ? common.TakeOff(sums.lags[k], m_Lags[k]) : sums.lags[k];
     for (std::size_t b = 0; b < lag.bins.size(); ++b)
     {
-      shared(static_cast<Eigen::Index>(b)) += 2.0 * Ratio(lag.bins[b].covariance, lag.bins[b].pairs);
+      const PairSums own = frames == 0 ? lag.bins[b] : this->WithoutUnequalFrames(lag.bins[b], frames);
+      shared(static_cast<Eigen::Index>(b)) += 2.0 * Ratio(own.covariance, own.pairs);
     }
   }
   return shared;
@@ -196,7 +212,15 @@ CorrelationSums::Autocovariance(const TileSums & sums, const Eigen::MatrixXd & m
   for (Eigen::Index j = 0; j < found.size(); ++j)
   {
     const PairSums total = sums.lags[j == 0 ? 0 : lags[static_cast<std::size_t>(j) - 1]].Total();
-    found(j) = Ratio(total.covariance, total.pairs);
+    const PairSums own = this->WithoutUnequalFrames(total, static_cast<int>(j));
+    found(j) = Ratio(own.covariance, own.pairs);
+  }
+  if (!m_Residuals.GetUnequalFrames().AreEqual())
+  {
+    // The typical variance is that of the residuals, which bright frames take another part of than dark ones.
+    const PairSums same = sums.lags[0].Total();
+    const PairSums own = this->WithoutUnequalFrames(same, 0);
+    found /= 1.0 - Ratio(same.covariance - own.covariance, same.pairs);
   }
   return mixing.fullPivLu().solve(Eigen::VectorXd(m_Residuals.GetFreedom() * found));
 }

@@ -112,6 +112,9 @@ public:
 private:
   void
   AddLags(const std::vector<Lag> & lags);
+  /** The sums of a lag in time, less the covariance that white noise has because frames differ in their noise. */
+  PairSums
+  WithoutUnequalFrames(PairSums sums, int frames) const;
   /** The lags in time from the first that is not there up to \a last. */
   std::vector<Lag>
   NextTimeLags(int last) const;
@@ -121,6 +124,7 @@ private:
   const ParallelFor &    m_ParallelFor;
   std::vector<TileSums>  m_Tiles;
   std::vector<Lag>       m_Lags;
+  Eigen::VectorXd        m_OfUnequalFrames; // of lags in time, the covariance over the light [DN]
 };
 
 } // namespace sensornoise

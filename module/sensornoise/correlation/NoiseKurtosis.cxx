@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/WideVectors.h"
 #include "sensornoise/correlation/Constants.h"
+#include "sensornoise/correlation/MixtureKurtosis.h"
 
 #include <algorithm>
 #include <array>
@@ -141,10 +142,11 @@ NormalKurtosis(const NoiseResiduals & residuals)
 }
 
 KurtosisSums
-KurtosisOfTile(const NoiseResiduals & residuals, std::size_t i, double normal)
+KurtosisOfTile(const NoiseResiduals & residuals, std::size_t i, const MixtureKurtosis & normal)
 {
   const std::size_t side = residuals.GetTiles().side;
   const float *     weight = residuals.WeightOf(i);
+  const float *     light = residuals.LightOf(i);
   const auto        least = InCorrelation.leastNoise * static_cast<float>(residuals.GetFreedom());
   const TakenRuns   taken(weight, side);
   PowerSums         powers{};
@@ -160,7 +162,7 @@ KurtosisOfTile(const NoiseResiduals & residuals, std::size_t i, double normal)
       {
         const double square = powers.squares[kind][p];
         sums.series[kind] += 1.0;
-        sums.ratio[kind] += powers.fourths[kind][p] / (square * square * normal);
+        sums.ratio[kind] += powers.fourths[kind][p] / (square * square * normal.At(light[p], weight[p]));
       }
     }
   }

@@ -40,12 +40,14 @@ struct KurtosisSums
   }
 };
 
-/** K of normal noise. */
+class MixtureKurtosis;
+
+/** K of normal noise, the same in all frames. */
 SensorNoise_EXPORT double
 NormalKurtosis(const NoiseResiduals & residuals);
-/** The sums of a tile; \a normal is NormalKurtosis(). */
+/** The sums of a tile; \a normal is what normal noise has. */
 SensorNoise_EXPORT KurtosisSums
-KurtosisOfTile(const NoiseResiduals & residuals, std::size_t i, double normal);
+KurtosisOfTile(const NoiseResiduals & residuals, std::size_t i, const MixtureKurtosis & normal);
 
 } // namespace sensornoise
 

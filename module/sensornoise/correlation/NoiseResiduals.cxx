@@ -168,9 +168,17 @@ NoiseResiduals::Take(const std::vector<std::uint8_t> & take, const ParallelFor &
 }
 
 void
+NoiseResiduals::SetUnequalFrames(UnequalFrames frames)
+{
+  m_Unequal = std::move(frames);
+  m_Unequal.KeepFirst(m_Basis.rows());
+}
+
+void
 NoiseResiduals::DropFirst(std::size_t frames, const ParallelFor & parallelFor)
 {
   m_Sample.DropFirst(frames);
+  m_Unequal.KeepLast(static_cast<Eigen::Index>(this->GetTiles().frames));
   m_Basis = BasisOf(m_Basis.bottomRows(m_Basis.rows() - static_cast<Eigen::Index>(frames)), this->GetTiles().frames);
   parallelFor(this->GetTiles().origins.size(), [this](std::size_t i) { this->ProjectTile(i); });
 }

@@ -9,6 +9,7 @@
 #include "sensornoise/correlation/Constants.h"
 #include "sensornoise/correlation/FrameSample.h"
 #include "sensornoise/correlation/NoiseSample.h"
+#include "sensornoise/correlation/UnequalFrames.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -60,6 +61,16 @@ public:
   /** Takes other pixels. */
   void
   Take(const std::vector<std::uint8_t> & take, const ParallelFor & parallelFor);
+
+  /** Allows for noise that differs from frame to frame; \a frames are all of the stack, of which the sample has the
+   * first. Without it all are alike. */
+  void
+  SetUnequalFrames(UnequalFrames frames);
+  const UnequalFrames &
+  GetUnequalFrames() const
+  {
+    return m_Unequal;
+  }
 
   /** Leaves out the first frames, which may be other than the rest: a recursive filter begins with a frame that it has
    * not filtered. The typical variance stays that of all frames. */
@@ -135,6 +146,7 @@ private:
   std::vector<float>        m_Weight;
   std::vector<std::uint8_t> m_Bin;
   std::size_t               m_Pixels{ 0 };
+  UnequalFrames             m_Unequal;
 };
 
 } // namespace sensornoise

@@ -43,6 +43,13 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   const double   zeroDn = isTold ? blackDn : ZeroOfLight(scene.model.darkestDn, scene.model.brightestDn, blackDn);
   NoiseResiduals residuals(
     std::move(sample), series->basis.GetBasis(), { scene.frame.mean, used, zeroDn }, parallelFor);
+  const auto allowForFrames = [&] {
+    if (projected.HasUnequalFrames())
+    {
+      residuals.SetUnequalFrames({ series->line.gamma, noise.variance.line.gain, offsetDn - zeroDn });
+    }
+  };
+  allowForFrames();
   noise.correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
   const double sharedSquares = SharedSquares(noise.correlation.space);
   if (noise.correlation.IsShared() && sharedSquares > InRefined.leastSharedSquares)
@@ -50,6 +57,7 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
     noise.variance = fit(sharedSquares);
     used = MaskOfUsed(noise.variance.pixelUse);
     residuals.Take(used, parallelFor);
+    allowForFrames();
     noise.correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
     // What neighbours share is a mean over both sides of an edge, the line is not.
     LeaveOutEdges(scene.frame, noise.variance.line, chosen, pixelUse);
