@@ -33,15 +33,16 @@ namespace itk
 /** \class SensorNoiseSums
  * \brief The sums of SensorNoiseEstimator by themselves: several processes, each with a part of the frames, share them.
  *
- * The estimator goes over the stack three times. In each pass every process adds its frames and hands the sums, a row
- * of bytes, to the others, or to one that merges all; when all frames are in, every process merges the sums of the
- * whole and ends the pass, and all of them start the next one alike. After the third pass the estimator has the report
- * and the maps. With 8- and 16-bit pixels they are those of one process that reads all frames, bit by bit, whatever
- * part is read by whom and merged when; with floating point they agree to rounding, and the same parts, merged in the
- * same order, give the same bits.
+ * The estimator goes over the stack three times or more, see IsDone(). In each pass every
+ * process adds its frames and hands the sums, a row of bytes, to the others, or to one that merges all; when all frames
+ * are in, every process merges the sums of the whole and ends the pass, and all of them start the next one alike. After
+ * the last pass the estimator has the report and the maps. With 8- and 16-bit pixels they are those of one process that
+ * reads all frames, bit by bit, whatever part is read by whom and merged when; with floating point they agree to
+ * rounding, and the same parts, merged in the same order, give the same bits.
  *
  * Bytes of the sums: in pass 1, 20 a pixel (floating point: 32) and 2 kB a frame that is in; in pass 2, 16 kB a frame;
- * in pass 3, 8 a pixel and series (4 to 20), and a sample of at most 32 MiB. Method Published: 32 a frame and 8 a frame
+ * in pass 3, 8 a pixel and series (4 to 20), and a sample of at most 32 MiB; in the pass that strong changes of the
+ * illumination add after pass 1, 8 a pixel. Method Published: 32 a frame and 8 a frame
  * and row in pass 2, 8 a pixel in pass 3. They are for the same version of the module on the same kind of machine. Up
  * to 2^22 frames, for which sums of integers are exact. Memory: that of the estimator, and twice the sums.
  *
@@ -82,12 +83,17 @@ public:
   static std::string
   RecogniseBayerPattern(const TStack * frames);
 
-  /** The current pass, from 0; 3: all have ended, and the estimator has the results. */
+  /** The current pass, from 0: how many have ended. */
   unsigned int
   GetPass() const
   {
     return m_Pass;
   }
+
+  /** Whether all passes have ended, and the estimator has the results: after three, and one more each where frames are
+   * left out, as they are unlike the others, and where the illumination changes strongly. */
+  bool
+  IsDone() const;
 
   /** Of a mosaic 4, which are measured each by itself, else 1. */
   unsigned int

@@ -123,6 +123,13 @@ SensorNoiseSums<TStack>::RequirePass() const
 }
 
 template <typename TStack>
+bool
+SensorNoiseSums<TStack>::IsDone() const
+{
+  return m_Estimator && !m_Estimator->m_Estimation;
+}
+
+template <typename TStack>
 unsigned int
 SensorNoiseSums<TStack>::GetNumberOfPlanes() const
 {

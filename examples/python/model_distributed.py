@@ -42,7 +42,7 @@ def measure_steps(size: int, frames: int) -> Steps:
     steps = Steps(size * size, [], [], [], [], [], [])
     merges = []
     half = frames // 2
-    while one.passes_ended < 3:
+    while not one.is_done:
         steps.add.append(_seconds(lambda: one.add(stack[:half])) / half)
         two.add(stack[half : half + 1], half)
         least = len(two.to_bytes())
@@ -70,7 +70,7 @@ def _ends(stack: np.ndarray) -> list[float]:
     sums = SensorNoiseSums(stack.shape, stack.dtype, bayer="none", threads=1)
     sums.drop_history()
     found = []
-    while sums.passes_ended < 3:
+    while not sums.is_done:
         sums.add(stack)
         found.append(_seconds(sums.end_pass))
     return found

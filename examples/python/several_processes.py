@@ -35,7 +35,7 @@ def measure(names: list[str]) -> object:
     sums = SensorNoiseSums((len(names), *first.shape[1:]), first.dtype, first_frame=first[0])
     # Not by fork(): it copies no threads, and ITK has some.
     with ProcessPoolExecutor(PROCESSES, multiprocessing.get_context("spawn")) as pool:
-        while sums.passes_ended < 3:
+        while not sums.is_done:
             for part in pool.map(sums_of, repeat(sums), repeat(names), range(PROCESSES)):
                 sums.merge(part)
             sums.end_pass()

@@ -29,7 +29,7 @@ template <typename TMethod>
 std::pair<Report, std::vector<std::uint8_t>>
 Measure(TMethod method, const std::vector<std::uint16_t> & stack, std::size_t frames)
 {
-  for (unsigned int pass = 0; pass < method.NumberOfPasses; ++pass)
+  while (!method.IsDone())
   {
     method.AddFrames(stack.data(), frames);
     method.EndPass();
@@ -125,7 +125,7 @@ CompareMosaic(const MosaicGeometry & mosaic, const Scene & scene, const StackSim
   const std::vector<std::uint16_t>     stack = RenderStack(simulator, scene.width, scene.height, frames);
   MosaicMethod<std::uint16_t, TMethod> method(
     mosaic, [&](BayerPlane, const ParallelFor &) { return TMethod({}, mosaic.Plane(), frames); });
-  for (unsigned int pass = 0; pass < TMethod::NumberOfPasses; ++pass)
+  while (!method.IsDone())
   {
     method.AddFrames(stack.data(), frames);
     method.EndPass();

@@ -38,7 +38,7 @@ RefinedMethod<std::uint16_t>
 Estimate(const RefinedSettings & settings, const Codes & codes, std::size_t size, std::size_t frames)
 {
   RefinedMethod<std::uint16_t> method(settings, FrameGeometry{ size, size, 1 }, frames);
-  for (unsigned int pass = 0; pass < method.NumberOfPasses; ++pass)
+  while (!method.IsDone())
   {
     method.AddFrames(codes.data(), frames);
     method.EndPass();

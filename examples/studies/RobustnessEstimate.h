@@ -28,7 +28,7 @@ template <typename TMethod, typename TPixel>
 Estimation
 EstimateBy(TMethod && method, const std::vector<TPixel> & codes, std::size_t frames)
 {
-  for (unsigned int pass = 0; pass < method.NumberOfPasses; ++pass)
+  while (!method.IsDone())
   {
     method.AddFrames(codes.data(), frames);
     method.EndPass();

@@ -37,7 +37,7 @@ Execute(TableRun & run, const TableOptions & options, const std::vector<double> 
   const std::vector<std::uint16_t> stack = RenderStack(simulator, options.size, options.size, run.frames);
 
   PublishedMethod<std::uint16_t> method({}, { options.size, options.size, 1 }, run.frames);
-  for (unsigned int pass = 0; pass < method.NumberOfPasses; ++pass)
+  while (!method.IsDone())
   {
     method.AddFrames(stack.data(), run.frames);
     method.EndPass();

@@ -50,7 +50,7 @@ GainByCore(const StackImage & stack)
 {
   const sensornoise::FrameGeometry           geometry{ Width, Height, 1 };
   sensornoise::RefinedMethod<unsigned short> method(sensornoise::RefinedSettings{}, geometry, Frames);
-  for (unsigned int pass = 0; pass < method.NumberOfPasses; ++pass)
+  while (!method.IsDone())
   {
     method.AddFrames(stack.GetBufferPointer(), Frames);
     method.EndPass();

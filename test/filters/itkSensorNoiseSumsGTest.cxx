@@ -69,7 +69,7 @@ void
 RunTwo(Process<TStack> & one, Process<TStack> & two, const TStack * stack)
 {
   const auto all = stack->GetLargestPossibleRegion().GetSize(2);
-  while (one.sums->GetPass() < 3)
+  while (!one.sums->IsDone())
   {
     std::vector<itk::SizeValueType> firsts;
     for (itk::SizeValueType first = 0; first < all; first += 3)
@@ -148,7 +148,7 @@ TEST(SensorNoiseSums, PatternByTheLevelsOfTheFirstFrame)
   const auto sums = Sums<StackType>::New();
   EXPECT_THROW(sums->Start(estimator), itk::ExceptionObject);
   sums->Start(estimator, "RGGB");
-  while (sums->GetPass() < 3)
+  while (!sums->IsDone())
   {
     sums->AddFrames(stack, 0);
     sums->EndPass();
@@ -185,7 +185,7 @@ TEST(SensorNoiseSums, EqualFramesOfTwoProcessesAreCountedOnce)
   two.sums->AddFrames(FramesOf<StackType>(stack, 10, Frames - 10), 10);
   EXPECT_TRUE(one.sums->MergeSums(two.sums->GetSums()));
   one.sums->EndPass();
-  while (one.sums->GetPass() < 3)
+  while (!one.sums->IsDone())
   {
     one.sums->AddFrames(stack, 0);
     one.sums->EndPass();

@@ -75,7 +75,7 @@ Measure(const Stack<TPixel> &             stack,
 {
   const FrameGeometry     geometry{ stack.width, stack.height, settings.shutterAxis };
   PublishedMethod<TPixel> method(settings, geometry, stack.frames, mask, parallelFor);
-  for (unsigned int pass = 0; pass < method.NumberOfPasses; ++pass)
+  while (!method.IsDone())
   {
     for (std::size_t t = 0; t < stack.frames; t += chunk)
     {

@@ -47,7 +47,7 @@ Measure(const Stack<TPixel> &   stack,
         const ParallelFor &     parallelFor = SerialFor)
 {
   RefinedMethod<TPixel> method(settings, GeometryOf(stack), stack.frames, {}, parallelFor);
-  for (unsigned int pass = 0; pass < method.NumberOfPasses; ++pass)
+  while (!method.IsDone())
   {
     for (std::size_t t = 0; t < stack.frames; t += chunk)
     {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/moments/FrameThumbnails.h"
+#include "helpers/ThumbnailTestHelper.h"
 #include "sensornoise/simulation/Random.h"
 
 #include <cmath>
@@ -41,7 +42,7 @@ ChangeOf(const std::vector<double> & stack, const std::vector<std::uint8_t> & ma
 {
   FrameThumbnails thumbnails(Geometry, Frames, mask);
   thumbnails.AddFrames(stack.data(), 0, Frames, SerialFor);
-  return thumbnails.FindChange();
+  return thumbnails.FindChange(test::AllFrames(thumbnails));
 }
 
 double
@@ -134,10 +135,10 @@ TEST(SensorNoiseFrameThumbnails, FewFramesOrCellsTellNothing)
   const auto      stack = Stack([](double t, double x, double y) { return Wave(x * t, y * t); });
   FrameThumbnails few(Geometry, 4, {});
   few.AddFrames(stack.data(), 0, 4, SerialFor);
-  EXPECT_EQ(few.FindChange().share, 0.0);
+  EXPECT_EQ(few.FindChange(test::AllFrames(few)).share, 0.0);
   FrameThumbnails small({ 2, 3 }, Frames, {});
   small.AddFrames(stack.data(), 0, Frames, SerialFor);
-  EXPECT_EQ(small.FindChange().share, 0.0);
+  EXPECT_EQ(small.FindChange(test::AllFrames(small)).share, 0.0);
 }
 
 TEST(SensorNoiseFrameThumbnails, PartsGiveTheBitsOfTheWhole)
@@ -150,6 +151,6 @@ TEST(SensorNoiseFrameThumbnails, PartsGiveTheBitsOfTheWhole)
   std::stringstream stream;
   second.Save(stream);
   first.Merge(first.ReadOther(stream));
-  EXPECT_EQ(first.FindChange().share, ChangeOf(stack).share);
+  EXPECT_EQ(first.FindChange(test::AllFrames(first)).share, ChangeOf(stack).share);
   EXPECT_THROW(first.ReadOther(stream), std::runtime_error);
 }

@@ -59,7 +59,7 @@ template <typename TMethod>
 void
 RunPasses(TMethod & method, const Stack<Pixel> & stack, std::size_t chunk)
 {
-  for (unsigned int pass = 0; pass < TMethod::NumberOfPasses; ++pass)
+  while (!method.IsDone())
   {
     for (std::size_t t = 0; t < stack.frames; t += chunk)
     {
@@ -350,6 +350,19 @@ struct MorePassesInEachPlane
       plane->AddFrames(mosaics, count);
     }
   }
+  bool
+  IsFirstPass() const
+  {
+    return ended == 0;
+  }
+  std::vector<LeftOutFrame>
+  FindUnlike() const
+  {
+    return {};
+  }
+  void
+  LeaveOut(const std::vector<LeftOutFrame> &)
+  {}
   void
   EndPass()
   {

@@ -36,7 +36,7 @@ TEST(MosaicMotion, OfAllPlanesIsThatOfTheSensor)
         return Method(RefinedSettings(), geometry.Plane(), stack.frames, {}, parallelFor);
       },
       Threads(2));
-    for (unsigned int pass = 0; pass < Method::NumberOfPasses; ++pass)
+    while (!method.IsDone())
     {
       method.AddFrames(stack.pixels.data(), stack.frames);
       method.EndPass();

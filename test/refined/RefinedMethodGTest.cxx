@@ -132,7 +132,7 @@ TEST(SensorNoiseRefinedMethod, MaskedPixelsTakeNoPart)
   }
   const auto measure = [&] {
     RefinedMethod<Codes> method(WithCodes(), GeometryOf(stack), stack.frames, mask);
-    for (unsigned int pass = 0; pass < method.NumberOfPasses; ++pass)
+    while (!method.IsDone())
     {
       method.AddFrames(stack.Frame(0), stack.frames);
       method.EndPass();
@@ -203,7 +203,7 @@ TEST(SensorNoiseRefinedMethod, MayBeMovedBetweenAndWithinPasses)
   const auto & stack = TexturedStack<Codes>();
   using Method = RefinedMethod<Codes>;
   auto method = std::make_unique<Method>(WithCodes(), GeometryOf(stack), stack.frames);
-  for (unsigned int pass = 0; pass < Method::NumberOfPasses; ++pass)
+  while (!method->IsDone())
   {
     method = std::make_unique<Method>(std::move(*method));
     method->AddFrames(stack.Frame(0), 7);

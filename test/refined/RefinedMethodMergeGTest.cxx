@@ -32,7 +32,7 @@ MeasureInParts(const Stack<TPixel> & stack, std::size_t count, Reader of)
   {
     processes.push_back(std::make_unique<RefinedMethod<TPixel>>(WithCodes(), GeometryOf(stack), stack.frames));
   }
-  for (unsigned int pass = 0; pass < RefinedMethod<TPixel>::NumberOfPasses; ++pass)
+  while (!processes[0]->IsDone())
   {
     std::vector<std::string> sums;
     for (std::size_t i = 0; i < count; ++i)
@@ -155,7 +155,7 @@ TEST(SensorNoiseRefinedMethodMerge, SumsThatAreForgottenLeaveNothingAndFramesMay
   const auto & stack = SmallStack<Codes>();
   const auto   whole = Measure(stack);
   auto         method = MethodOf(stack);
-  for (unsigned int pass = 0; pass < method.NumberOfPasses; ++pass)
+  while (!method.IsDone())
   {
     method.AddFrames(stack.Frame(3), 7);
     method.ForgetSums();
@@ -201,7 +201,7 @@ TEST(SensorNoiseRefinedMethodMerge, ProcessWithoutFramesMayTakePart)
   const auto   whole = Measure(stack);
   auto         reader = MethodOf(stack);
   auto         idle = MethodOf(stack);
-  for (unsigned int pass = 0; pass < reader.NumberOfPasses; ++pass)
+  while (!reader.IsDone())
   {
     reader.AddFrames(stack.Frame(0), Frames);
     for (auto * const from : { &idle, &reader }) // nothing into the reader, all into the idle one

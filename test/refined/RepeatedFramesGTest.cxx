@@ -174,7 +174,7 @@ TEST(SensorNoiseRepeatedFrames, OfSumsThatWereMergedBeforeAreNotCountedAgain)
   MergeText(one, SumsOf(two));
   one.AddFrames(stack.Frame(0), Frames);
   one.EndPass();
-  for (unsigned int pass = 1; pass < one.NumberOfPasses; ++pass)
+  while (!one.IsDone())
   {
     one.AddFrames(stack.Frame(0), stack.frames);
     one.EndPass();
@@ -196,7 +196,7 @@ TEST(SensorNoiseRepeatedFrames, ThatOneProcessLeavesToTheOtherAreCountedOnce)
     elsewhere[t] = 1;
   }
   two.SetCountedElsewhere(elsewhere);
-  for (unsigned int pass = 0; pass < one.NumberOfPasses; ++pass)
+  while (!one.IsDone())
   {
     RunPass(one, two, stack, [](std::size_t t) { return t % 2 == 0; });
   }

@@ -234,7 +234,8 @@ TEST(SensorNoiseReportJson, CheckerTellsJsonFromWhatIsNot)
 TEST(SensorNoiseReportJson, RecordIsValidAndHasAllNamesInOrder)
 {
   std::istringstream list(
-    "schema version method settings frames frames_distinct width height channel bit_depth bit_depth_source "
+    "schema version method settings frames frames_distinct frames_left_out width height channel bit_depth "
+    "bit_depth_source "
     "quantisation_step clip_low clip_high clip_source pixels gain offset read_noise read_noise_median "
     "read_noise_electrons intercept variance_slope total_intercept flicker_sd vibration covariance flicker "
     "flicker_rows motion noise_correlation fit affine_baseline "

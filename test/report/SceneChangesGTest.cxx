@@ -30,7 +30,7 @@ Report
 ReportBy(const Stack<Codes> & stack)
 {
   TMethod method(TSettings{}, FrameGeometry{ stack.width, stack.height, 1 }, stack.frames);
-  for (unsigned int pass = 0; pass < TMethod::NumberOfPasses; ++pass)
+  while (!method.IsDone())
   {
     method.AddFrames(stack.pixels.data(), stack.frames);
     method.EndPass();

@@ -78,3 +78,37 @@ TEST(SensorNoiseGuardBand, BrighterFramesAndMotionWidenTheBand)
     ASSERT_LE(flickering[p], moving[p]);
   }
 }
+
+TEST(SensorNoiseGuardBand, UnderStrongChangesTheLevelsThatAreReachedDecide)
+{
+  // The darkest frame has a tenth of the signal above an offset of 500, the brightest one twice: known offset.
+  Scene scene;
+  scene.codes.clipLowDn = 505.0;
+  scene.codes.clipHighDn = 2200.0;
+  scene.codes.quantisationStepDn = 4.0;
+  const ProvisionalModel & model = scene.frames.model;
+  const double             signal = model.centreDn - 500.0;
+  const auto               guardedAbout = [&](double lowest, double highest) {
+    const IlluminationRange range{ -0.9 * signal, signal, lowest, highest };
+    return FindGuardBand(scene.frames.reference, model, scene.codes, range, SerialFor, 3.0);
+  };
+  const auto guarded = guardedAbout(500.0, 500.0);
+  ASSERT_GT(Count(guarded), 0u);
+  ASSERT_LT(Count(guarded), Count(scene.frames.take) / 2);
+  for (std::size_t p = 0; p < guarded.size(); ++p)
+  {
+    const double own = scene.frames.reference.neighbourMean[p] - 500.0;
+    const double low = 500.0 + 0.1 * own;
+    const double high = 500.0 + 2.0 * own;
+    const bool   isNear = high + 3.0 * std::sqrt(model.NoiseVariance(high)) >= 2200.0 - 2.0 ||
+                        low - 3.0 * std::sqrt(model.NoiseVariance(low)) <= 505.0 + 2.0;
+    ASSERT_EQ(guarded[p] != 0, scene.frames.take[p] != 0 && isNear) << p;
+  }
+  // An offset that is not known widens the band.
+  const auto wider = guardedAbout(450.0, 500.0);
+  EXPECT_GT(Count(wider), Count(guarded));
+  for (std::size_t p = 0; p < guarded.size(); ++p)
+  {
+    ASSERT_LE(guarded[p], wider[p]);
+  }
+}

@@ -60,6 +60,7 @@ TEST_P(EstimateToolWith, TheReportHasTheDocumentedNamesAndUnits)
                                     "settings",
                                     "frames",
                                     "frames_distinct",
+                                    "frames_left_out",
                                     "width",
                                     "height",
                                     "channel",

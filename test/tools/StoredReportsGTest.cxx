@@ -98,7 +98,7 @@ std::string
 Measure(const Stack<TPixel> & stack, const TSettings & settings)
 {
   TMethod<TPixel> method(settings, FrameGeometry{ Width, Height, 1 }, Frames);
-  for (unsigned int pass = 0; pass < method.NumberOfPasses; ++pass)
+  while (!method.IsDone())
   {
     method.AddFrames(stack.Frame(0), Frames);
     method.EndPass();

@@ -94,6 +94,15 @@ def test_equal_frames_of_different_tasks(client, stack):
     assert report == itk.estimate_sensor_noise(stack) and report["frames_distinct"] == 37
 
 
+def test_frames_unlike_the_others(client, stack):
+    stack = stack.copy()
+    stack[3] = 0
+    frames = dask_array.from_array(stack, chunks=(5, -1, -1))
+    report = estimate_sensor_noise(frames, client, frames_per_task=7, bayer="none")
+    assert report == itk.estimate_sensor_noise(stack, bayer="none")
+    assert report["frames_left_out"] == [{"frame": 3, "reason": "no-noise"}]
+
+
 def test_floating_point_has_the_same_bits_in_any_order(client, stack, expected, tmp_path):
     reports = []
     for name, seconds in (("quick", 0.0), ("slow", 0.02)):

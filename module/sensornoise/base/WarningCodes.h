@@ -19,6 +19,7 @@ enum class WarningCode : std::uint8_t
   GreensDiffer,
   OffsetsDiffer,
   RepeatedFrames,
+  FramesLeftOut,
   IrregularCodes,
   Companded,
   ClipLevelFound,
@@ -81,7 +82,7 @@ struct WarningKind
 
 /** All that a report can warn of, in the order of WarningCode. README and Python show this table; a warning's own
  * message has the numbers. */
-inline constexpr std::array<WarningKind, 41> WarningTable{ {
+inline constexpr std::array<WarningKind, 42> WarningTable{ {
   { WarningCode::FewFrames, "few-frames", Severity::Warning, "Fewer than 20 different frames: indicative only." },
   { WarningCode::Mosaic,
     "mosaic",
@@ -109,6 +110,11 @@ inline constexpr std::array<WarningKind, 41> WarningTable{ {
     Severity::Note,
     "Frames are equal to earlier ones, as where a recorder runs faster than its camera: each is counted once, and all "
     "else is that of a stack without them." },
+  { WarningCode::FramesLeftOut,
+    "frames-left-out",
+    Severity::Warning,
+    "Frames are unlike the others and are left out, as `frames_left_out` says: their pixels are not finite, have no "
+    "noise (zeros, saturated), or show another scene, a shadow, or light of another shape." },
   { WarningCode::IrregularCodes,
     "irregular-codes",
     Severity::Warning,

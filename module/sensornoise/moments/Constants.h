@@ -113,6 +113,40 @@ struct MomentsConstants
    * under a lamp that flickers by 5 % makes 5 % of a flat field. */
   double sceneChangeOfTheLevel{ 0.1 };
   ///@}
+
+  /** \name Frames unlike the others
+   * Estimator.md, 3.1. */
+  ///@{
+  /** Frames that may be left out, relative to all [1]: of more it is not clear which are the burst. */
+  double largestLeftOutShare{ 0.2 };
+  /** Share of a frame's cells that are even, or hold nothing finite, from which on it is no picture with noise [1]. Set
+   * by hand: half. */
+  double largestEmptyShare{ 0.5 };
+  /** Share of the cells, those that differ most, by which a frame is not judged [1]: a hot pixel, a ray, a bird. Set by
+   * hand. */
+  double fewCells{ 0.05 };
+  /** Standard deviations of the frames' misfits by which that of an unlike frame exceeds their median [1]. Chosen
+   * empirically: a vibration along two axes makes squares that are distributed exponentially, of which one in 5 10^12
+   * is so far. */
+  double unlikeZ{ 40.0 };
+  /** Mean square of what a frame is not as the others from which on it matters: what such a frame adds to the variance
+   * of a pixel, relative to that variance [1]. Chosen for its effect: a gain that is wrong by a thousandth. */
+  double leastUnlikeEffect{ 1e-3 };
+  /** How often the mean is made again of the frames that are most like it. Set by hand: two are enough where the unlike
+   * ones are of one kind. */
+  int roundsOfUnlikeFrames{ 5 };
+  ///@}
+
+  /** \name Changes of the illumination */
+  ///@{
+  /** Relative standard deviation of the illumination factor from which on it changes strongly [1]: the variance of a
+   * pixel of 5,000 electrons is then 100 times its shot noise, and the noise is no longer told from it to the 10 % that
+   * weights and masks need. Chosen empirically: below, up to a flicker of 10 %, the raw variance serves as well. */
+  double strongIlluminationChange{ 0.15 };
+  /** Standard error of a frame's slope, in units of that change, below which the cells have contrast [1]. Chosen so
+   * that noise makes no strong change: it is three standard errors. */
+  double largestSlopeError{ 1.0 / 3.0 };
+  ///@}
 };
 
 SENSORNOISE_CONSTANT MomentsConstants InMoments;

@@ -5,6 +5,8 @@
 #include "sensornoise/base/BinaryStream.h"
 #include "sensornoise/base/Quantiles.h"
 #include "sensornoise/moments/Constants.h"
+#include "sensornoise/moments/FrameFit.h"
+#include "sensornoise/moments/IlluminationChange.h"
 #include "sensornoise/moments/StackRequirements.h"
 
 #include <algorithm>
@@ -30,27 +32,17 @@ struct FrameVariances
 FrameVariances
 VariancesOf(const std::vector<double> & mean, const std::vector<double> & frame)
 {
-  const auto   count = static_cast<double>(mean.size());
-  const double centre = std::accumulate(mean.begin(), mean.end(), 0.0) / count;
-  const double level = std::accumulate(frame.begin(), frame.end(), 0.0) / count;
-  double       ofMean = 0.0;
-  double       ofFrame = 0.0;
-  double       ofBoth = 0.0;
+  const FrameFit      fit = FitCells(mean, frame, AllBelow(mean.size()));
+  double              squares = 0.0;
+  std::vector<double> differences;
   for (std::size_t i = 0; i < mean.size(); ++i)
   {
-    ofMean += (mean[i] - centre) * (mean[i] - centre);
-    ofFrame += (frame[i] - level) * (frame[i] - level);
-    ofBoth += (mean[i] - centre) * (frame[i] - level);
-  }
-  const double        slope = ofMean > 0.0 ? ofBoth / ofMean : 0.0;
-  std::vector<double> residuals;
-  for (std::size_t i = 0; i < mean.size(); ++i)
-  {
-    residuals.push_back(std::abs(frame[i] - level - slope * (mean[i] - centre)));
+    squares += (frame[i] - fit.level) * (frame[i] - fit.level);
+    differences.push_back(std::abs(fit.DifferenceOf(mean[i], frame[i])));
   }
   constexpr double medianOfNormal = 0.6745; // of the absolute value, over the standard deviation
-  const double     sd = Quantile(residuals, 0.5) / medianOfNormal;
-  return { sd * sd, ofFrame / (count - 1.0) };
+  const double     sd = Quantile(differences, 0.5) / medianOfNormal;
+  return { sd * sd, squares / (static_cast<double>(mean.size()) - 1.0) };
 }
 
 /** Sums over parts of rows. */
@@ -165,6 +157,17 @@ FrameThumbnails::FrameThumbnails(const FrameGeometry &             geometry,
   }
   m_Means.resize(m_Cells * frames, 0.0);
   m_Noise.resize(frames, 0.0);
+  m_EvenShares.resize(frames, 0.0);
+}
+
+double
+FrameThumbnails::PixelsOfCell() const
+{
+  const auto pixels =
+    std::accumulate(m_Runs.begin(), m_Runs.end(), std::size_t{ 0 }, [](std::size_t sum, const Run & run) {
+      return sum + run.end - run.begin;
+    });
+  return static_cast<double>(pixels) / static_cast<double>(m_Cells);
 }
 
 template <typename TPixel>
@@ -187,6 +190,7 @@ FrameThumbnails::AddFrames(const TPixel *      frames,
     }
     double noise = 0.0;
     double seen = 0.0;
+    double even = 0.0;
     for (std::size_t i = 0; i < m_Cells; ++i)
     {
       const RunSums & cell = cells[i];
@@ -195,9 +199,11 @@ FrameThumbnails::AddFrames(const TPixel *      frames,
       {
         noise += cell.steps / (2.0 * cell.pairs * cell.pixels);
         seen += 1.0;
+        even += cell.steps == 0.0 ? 1.0 : 0.0;
       }
     }
     m_Noise[first + k] = seen > 0.0 ? noise / seen : 0.0;
+    m_EvenShares[first + k] = seen > 0.0 ? even / seen : 0.0;
   });
 }
 
@@ -206,6 +212,7 @@ FrameThumbnails::Save(std::ostream & out) const
 {
   WriteNumbers(out, m_Means);
   WriteNumbers(out, m_Noise);
+  WriteNumbers(out, m_EvenShares);
 }
 
 FrameThumbnails
@@ -214,6 +221,7 @@ FrameThumbnails::ReadOther(std::istream & in) const
   FrameThumbnails other = *this;
   ReadNumbers(in, other.m_Means);
   ReadNumbers(in, other.m_Noise);
+  ReadNumbers(in, other.m_EvenShares);
   return other;
 }
 
@@ -222,45 +230,74 @@ FrameThumbnails::Merge(const FrameThumbnails & other)
 {
   std::transform(m_Means.begin(), m_Means.end(), other.m_Means.begin(), m_Means.begin(), std::plus<double>());
   std::transform(m_Noise.begin(), m_Noise.end(), other.m_Noise.begin(), m_Noise.begin(), std::plus<double>());
+  std::transform(
+    m_EvenShares.begin(), m_EvenShares.end(), other.m_EvenShares.begin(), m_EvenShares.begin(), std::plus<double>());
 }
 
-SceneChange
-FrameThumbnails::FindChange() const
+FrameThumbnails::MeanFrame
+FrameThumbnails::FindMeanFrame(const std::vector<std::size_t> & frames) const
 {
-  std::vector<std::size_t> cells;
-  std::vector<double>      means;
-  double                   level = 0.0;
+  MeanFrame mean;
   for (std::size_t cell = 0; cell < m_Cells; ++cell)
   {
     double sum = 0.0;
-    for (std::size_t t = 0; t < m_Frames; ++t)
+    for (const std::size_t t : frames)
     {
-      sum += m_Means[t * m_Cells + cell];
+      sum += this->MeanOf(t, cell);
     }
     if (std::isfinite(sum))
     {
-      cells.push_back(cell);
-      means.push_back(sum / static_cast<double>(m_Frames));
-      level += means.back();
+      mean.cells.push_back(cell);
+      mean.means.push_back(sum / static_cast<double>(frames.size()));
     }
   }
-  if (m_Frames < MinimumFrames || cells.size() < InMoments.fewestThumbnailCells)
+  return frames.size() < MinimumFrames || mean.cells.size() < InMoments.fewestThumbnailCells ? MeanFrame() : mean;
+}
+
+std::vector<double>
+FrameThumbnails::MeansOf(std::size_t t, const std::vector<std::size_t> & cells) const
+{
+  std::vector<double> frame(cells.size());
+  std::transform(
+    cells.begin(), cells.end(), frame.begin(), [&](std::size_t cell) { return m_Means[t * m_Cells + cell]; });
+  return frame;
+}
+
+SceneChange
+FrameThumbnails::FindChange(const std::vector<std::size_t> & frames) const
+{
+  const auto [cells, means] = this->FindMeanFrame(frames);
+  if (cells.empty())
   {
     return {};
   }
-  level = std::abs(level / static_cast<double>(cells.size()));
+  const double level = std::abs(std::accumulate(means.begin(), means.end(), 0.0) / static_cast<double>(cells.size()));
   std::vector<double> changed;
   std::vector<double> shares;
-  std::vector<double> frame(cells.size());
-  for (std::size_t t = 0; t < m_Frames; ++t)
+  for (const std::size_t t : frames)
   {
-    std::transform(
-      cells.begin(), cells.end(), frame.begin(), [&](std::size_t cell) { return m_Means[t * m_Cells + cell]; });
-    const FrameVariances variances = VariancesOf(means, frame);
+    const FrameVariances variances = VariancesOf(means, this->MeansOf(t, cells));
     changed.push_back(std::max(0.0, variances.changed - m_Noise[t]));
     shares.push_back(variances.whole > 0.0 ? std::min(1.0, changed.back() / variances.whole) : 0.0);
   }
   return { Quantile(shares, 0.5), level > 0.0 ? std::sqrt(Quantile(changed, 0.5)) / level : 0.0 };
+}
+
+double
+FrameThumbnails::FindIlluminationChange(const std::vector<std::size_t> & frames) const
+{
+  const auto [cells, means] = this->FindMeanFrame(frames);
+  if (cells.empty())
+  {
+    return 0.0;
+  }
+  std::vector<std::vector<double>> ofFrames;
+  ofFrames.reserve(frames.size());
+  for (const std::size_t t : frames)
+  {
+    ofFrames.push_back(this->MeansOf(t, cells));
+  }
+  return ComputeIlluminationChange(means, ofFrames);
 }
 
 #define SensorNoise_INSTANTIATE(TPixel)                        \

@@ -66,11 +66,61 @@ public:
   void
   Merge(const FrameThumbnails & other);
 
-  /** When all frames have been added. Nothing changes where fewer than 5 frames or 9 cells tell. */
+  /** Over the \a frames, when all have been added. Nothing changes where fewer than 5 frames or 9 cells tell. */
   SceneChange
-  FindChange() const;
+  FindChange(const std::vector<std::size_t> & frames) const;
+
+  /** The relative standard deviation of the illumination factor over the \a frames [1], see
+   * ComputeIlluminationChange(); 0 where fewer than 5 frames or 9 cells tell. When all frames have been added. */
+  double
+  FindIlluminationChange(const std::vector<std::size_t> & frames) const;
+
+  std::size_t
+  NumberOfFrames() const
+  {
+    return m_Frames;
+  }
+  std::size_t
+  NumberOfCells() const
+  {
+    return m_Cells;
+  }
+  /** Pixels of a cell that are looked at, of the average cell. */
+  double
+  PixelsOfCell() const;
+  /** Mean of a cell in frame \a t [DN]; NaN: nothing finite is there. */
+  double
+  MeanOf(std::size_t t, std::size_t cell) const
+  {
+    return m_Means[t * m_Cells + cell];
+  }
+  /** The means of \a cells in frame \a t [DN]. */
+  std::vector<double>
+  MeansOf(std::size_t t, const std::vector<std::size_t> & cells) const;
+  /** Variance of the cells' means in frame \a t by what neighbouring pixels differ by: noise and texture [DN^2]. */
+  double
+  NoiseOf(std::size_t t) const
+  {
+    return m_Noise[t];
+  }
+  /** Share of the cells of frame \a t in which no two neighbours differ [1]. */
+  double
+  EvenShareOf(std::size_t t) const
+  {
+    return m_EvenShares[t];
+  }
 
 private:
+  /** The cells that tell, and their means over the frames [DN]; none where frames or cells are too few. */
+  struct MeanFrame
+  {
+    std::vector<std::size_t> cells;
+    std::vector<double>      means;
+  };
+
+  MeanFrame
+  FindMeanFrame(const std::vector<std::size_t> & frames) const;
+
   /** A part of a row of a cell. */
   struct Run
   {
@@ -86,6 +136,7 @@ private:
   std::vector<std::uint8_t> m_Mask;
   std::vector<double>       m_Means; // of the cells, frame by frame [DN]; NaN: nothing finite
   std::vector<double>       m_Noise; // of these means, the mean over the cells [DN^2]
+  std::vector<double>       m_EvenShares;
 };
 
 } // namespace sensornoise

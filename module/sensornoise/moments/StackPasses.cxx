@@ -43,7 +43,7 @@ StackPasses<TPixel>::AddFrames(const std::vector<StackPasses *> & planes,
                                std::size_t                        count,
                                const ParallelFor &                parallelFor)
 {
-  if (planes.front()->GetPass() == 0)
+  if (planes.front()->m_IsOfMoments)
   {
     AddToMoments(planes, mosaics, count, parallelFor);
     return;
@@ -87,11 +87,33 @@ StackPasses<TPixel>::AddToMoments(const std::vector<StackPasses *> & planes,
   std::size_t first = 0; // the same of all
   for (StackPasses * const plane : planes)
   {
+    const bool isFirst = plane->IsFirstPass();
     first = plane->m_InPass.Add(count);
-    moments.push_back({ &plane->m_Moments, plane->m_Layout });
-    plane->m_Thumbnails.AddFrames(frames, plane->m_Layout, first, count, parallelFor);
+    if (isFirst)
+    {
+      moments.push_back({ &plane->m_Moments, plane->m_Layout });
+      plane->m_Thumbnails.AddFrames(frames, plane->m_Layout, first, count, parallelFor);
+      continue;
+    }
+    plane->m_Distinct.ForRuns(first, count, [&, at = first](std::size_t begin, std::size_t number) {
+      StackMoments<TPixel>::AddFrames({ { &plane->m_Moments, plane->m_Layout } },
+                                      frames + (begin - at) * plane->m_Layout.frame,
+                                      begin,
+                                      number,
+                                      parallelFor);
+    });
   }
-  StackMoments<TPixel>::AddFrames(moments, frames, first, count, parallelFor);
+  if (!moments.empty())
+  {
+    StackMoments<TPixel>::AddFrames(moments, frames, first, count, parallelFor);
+  }
+}
+
+template <typename TPixel>
+void
+StackPasses<TPixel>::StartMomentsAgain()
+{
+  m_Moments = StackMoments<TPixel>(m_Geometry.Pixels(), m_Frames, m_ParallelFor);
 }
 
 template <typename TPixel>
@@ -99,10 +121,10 @@ void
 StackPasses<TPixel>::ForgetSums()
 {
   m_InPass.Forget();
-  if (this->GetPass() == 0)
+  if (m_IsOfMoments)
   {
-    m_Moments = StackMoments<TPixel>(m_Geometry.Pixels(), m_Frames, m_ParallelFor);
-    m_Thumbnails = FrameThumbnails(m_Geometry, m_Frames, m_UserMask);
+    this->StartMomentsAgain();
+    m_Thumbnails = this->IsFirstPass() ? FrameThumbnails(m_Geometry, m_Frames, m_UserMask) : m_Thumbnails;
   }
   else if (this->HasSums())
   {
@@ -117,7 +139,7 @@ StackPasses<TPixel>::SaveSums(std::ostream & out) const
   WriteSumsHeader(out, m_Name, m_Geometry.Pixels(), m_Frames);
   m_InPass.Save(out);
   WriteCount(out, this->FingerprintOfPass());
-  if (this->GetPass() == 0)
+  if (m_IsOfMoments)
   {
     m_Thumbnails.Save(out);
     m_Moments.Save(out);
@@ -136,11 +158,14 @@ StackPasses<TPixel>::MergeSums(std::istream & in)
   const PassFrames frames = m_InPass.ReadOther(in);
   m_InPass.RequireApart(frames);
   RequireSameStart(ReadCount(in), this->FingerprintOfPass());
-  if (this->GetPass() == 0)
+  if (m_IsOfMoments)
   {
     const FrameThumbnails thumbnails = m_Thumbnails.ReadOther(in);
     m_Moments.Merge(in);
-    m_Thumbnails.Merge(thumbnails);
+    if (this->IsFirstPass()) // in another one both have all of them
+    {
+      m_Thumbnails.Merge(thumbnails);
+    }
   }
   else if (this->HasSums())
   {
@@ -153,14 +178,30 @@ template <typename TPixel>
 void
 StackPasses<TPixel>::EndPass()
 {
-  const unsigned int pass = this->GetPass();
+  const bool isFirst = this->IsFirstPass();
   m_InPass.EndPass();
   m_Fingerprint.reset();
-  if (pass == 0)
+  if (!m_IsOfMoments)
+  {
+    this->FinishSums();
+    return;
+  }
+  if (isFirst)
   {
     m_Distinct = m_Moments.FindDistinct();
+    if (!m_LeftOut)
+    {
+      m_LeftOut = this->FindUnlike();
+    }
+    if (!m_LeftOut->empty())
+    {
+      m_Distinct = m_Distinct.Without(NumbersOf(*m_LeftOut));
+      this->StartMomentsAgain();
+      return;
+    }
   }
-  this->FinishPass(pass);
+  m_IsOfMoments = false;
+  this->FinishMoments();
 }
 
 template <typename TPixel>

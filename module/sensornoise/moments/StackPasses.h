@@ -12,6 +12,7 @@
 #include "sensornoise/moments/FrameThumbnails.h"
 #include "sensornoise/moments/PassFrames.h"
 #include "sensornoise/moments/StackMoments.h"
+#include "sensornoise/moments/UnlikeFrames.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -29,8 +30,11 @@ class Fingerprint;
 /** \class StackPasses
  * \brief The passes of a method over a stack, here or in several processes.
  *
- * The first pass is that of every method: the temporal moments, and which frames are equal, bit by bit. These are
- * counted once. What is made of it, and what later passes sum, is the method's. Usage, RefinedMethod for example:
+ * The first pass is that of every method: the temporal moments, which frames are equal, bit by bit, and which are
+ unlike
+ * the others. Equal frames are counted once. Unlike ones are left out: if there are any, the next pass is for the
+ * moments of the others. What is made of these, and what later passes sum, is the method's. Usage, RefinedMethod for
+ example:
    \code
    RefinedMethod<unsigned short> method(settings, geometry, frames);
    while (!method.IsDone())
@@ -67,7 +71,8 @@ class StackPasses
 public:
   using Passes = StackPasses;
 
-  /** How often a stack is read; more often where RefinedSettings::memoryLimitBytes asks for it. */
+  /** How often a stack is read; more often where frames are left out, the illumination changes strongly, or
+   * RefinedSettings::memoryLimitBytes asks for it. */
   static constexpr unsigned int NumberOfPasses = 3;
 
   /** The pixels of the frames to come stand as \a layout says; without it, one frame after the other. To be told once,
@@ -153,6 +158,25 @@ public:
   void
   EndPass();
 
+  /** Whether the current pass is the first one, in which unlike frames are found. */
+  bool
+  IsFirstPass() const
+  {
+    return m_InPass.GetPass() == 0;
+  }
+  /** All frames of the first pass are in: those that are unlike the others. */
+  std::vector<LeftOutFrame>
+  FindUnlike() const
+  {
+    return FindUnlikeFrames(m_Thumbnails);
+  }
+  /** The first pass ends by leaving out these frames, in order, instead of what FindUnlike() says. */
+  void
+  LeaveOut(std::vector<LeftOutFrame> frames)
+  {
+    m_LeftOut = std::move(frames);
+  }
+
 protected:
   /** \a method is its name in saved sums. Throws std::invalid_argument for what RequireStack() refuses. */
   StackPasses(const std::string &               method,
@@ -179,23 +203,31 @@ protected:
     std::size_t   place;  ///< of the first frame among the distinct ones
   };
 
+  /** The frames that are left out, when the first pass has ended. */
+  std::vector<LeftOutFrame>
+  GetLeftOut() const
+  {
+    return m_LeftOut.value_or(std::vector<LeftOutFrame>());
+  }
+
   FrameGeometry             m_Geometry;
   PixelLayout               m_Layout;
   std::vector<std::uint8_t> m_UserMask;
   ParallelFor               m_ParallelFor;
   StackMoments<TPixel>      m_Moments;
   FrameThumbnails           m_Thumbnails;
-  DistinctFrames            m_Distinct; // when the first pass has ended
+  DistinctFrames            m_Distinct; // when the first pass has ended; without those left out
 
 private:
-  /** Adds \a count frames of the first pass. */
+  /** Adds \a count frames to the moments. */
   static void
   AddToMoments(const std::vector<StackPasses *> & planes,
                const TPixel *                     frames,
                std::size_t                        count,
                const ParallelFor &                parallelFor);
 
-  /** Whether the method sums in the current pass: not in the first one, nor if the stack cannot be measured. */
+  /** Whether the method sums in the current pass: not while moments are gathered, nor if the stack cannot be measured.
+   */
   virtual bool
   HasSums() const = 0;
   /** What follows is only asked for where it has sums. Adds \a count distinct frames to \a planes, this one or all of
@@ -215,18 +247,27 @@ private:
   /** Adds what the method found in the passes before. */
   virtual void
   AddFindings(Fingerprint & fingerprint) const = 0;
-  /** All frames of a pass, from 0, are in. */
+  /** The moments are complete. */
   virtual void
-  FinishPass(unsigned int pass) = 0;
+  FinishMoments() = 0;
+  /** All frames of a later pass are in. */
+  virtual void
+  FinishSums() = 0;
+
+  /** The next pass is for the moments of the frames that are not left out. */
+  void
+  StartMomentsAgain();
 
   /** Of all that the sums of the current pass depend on beside the frames. */
   std::uint64_t
   FingerprintOfPass() const;
 
-  std::string                          m_Name;
-  std::size_t                          m_Frames;
-  PassFrames                           m_InPass;
-  mutable std::optional<std::uint64_t> m_Fingerprint; // of the pass: takes a while, and is asked for at every merge
+  std::string                              m_Name;
+  std::size_t                              m_Frames;
+  PassFrames                               m_InPass;
+  bool                                     m_IsOfMoments{ true }; // the current pass
+  std::optional<std::vector<LeftOutFrame>> m_LeftOut;             // none: not looked for
+  mutable std::optional<std::uint64_t>     m_Fingerprint; // of the pass: takes a while, and is asked for at every merge
 };
 
 extern template class SensorNoise_EXPORT StackPasses<unsigned char>;

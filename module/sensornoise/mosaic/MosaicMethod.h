@@ -6,6 +6,7 @@
 #include "sensornoise/base/FreeMemory.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/mosaic/MosaicGeometry.h"
+#include "sensornoise/moments/UnlikeFrames.h"
 #include "sensornoise/mosaic/PlaneWork.h"
 #include "sensornoise/report/Report.h"
 
@@ -145,10 +146,15 @@ public:
   void
   EndPass()
   {
-    ++m_Passes;
+    if (m_Methods.front().IsFirstPass())
+    {
+      this->LeaveOutUnlike();
+    }
     if constexpr (TMethod::HasManySums)
     {
-      if (m_ManySums && m_Passes + 1 == NumberOfPasses)
+      // Planes that need a reading more than others are not in step, and do not take turns.
+      const auto isReady = [](const TMethod & method) { return method.IsBeforeProjections(); };
+      if (m_ManySums && std::all_of(m_Methods.begin(), m_Methods.end(), isReady))
       {
         this->EndPassBeforeLast();
         return;
@@ -208,6 +214,22 @@ private:
       m_Methods.begin(), m_Methods.begin() + planes, [](const TMethod & method) { return method.IsDone(); });
   }
 
+  /** Ends the first pass of all planes by leaving out the frames that are unlike the others in one of them. */
+  void
+  LeaveOutUnlike()
+  {
+    std::vector<std::vector<LeftOutFrame>> ofPlanes;
+    for (const TMethod & method : m_Methods)
+    {
+      ofPlanes.push_back(method.FindUnlike());
+    }
+    const std::vector<LeftOutFrame> all = JoinUnlikeFrames(ofPlanes, this->GetHas().size());
+    for (TMethod & method : m_Methods)
+    {
+      method.LeaveOut(all);
+    }
+  }
+
   /** The third pass is that of the red rows. */
   bool
   DoBlueRowsWait() const
@@ -253,9 +275,8 @@ private:
   PlaneWork               m_Work;
   std::vector<TMethod>    m_Methods;
   MosaicGeometry          m_Geometry;
-  unsigned int            m_Passes{ 0 }; // that have ended
-  std::optional<ManySums> m_ManySums;    // none: rows do not take turns
-  std::size_t             m_First{ 0 };  // the planes whose turn it is
+  std::optional<ManySums> m_ManySums;   // none: rows do not take turns
+  std::size_t             m_First{ 0 }; // the planes whose turn it is
   std::size_t             m_Last{ BayerPlanes.size() };
 };
 

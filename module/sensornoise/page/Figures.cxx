@@ -182,8 +182,12 @@ ThinnedOut(const std::vector<double> & series)
     std::size_t       largest = begin;
     for (std::size_t i = begin; i < end; ++i)
     {
-      least = series[i] < series[least] ? i : least;
-      largest = series[i] > series[largest] ? i : largest;
+      if (!std::isfinite(series[i]))
+      {
+        continue; // of a frame that is left out
+      }
+      least = series[least] <= series[i] ? least : i; // in place of one that is not finite, too
+      largest = series[largest] >= series[i] ? largest : i;
     }
     add(std::min(least, largest));
     add(std::max(least, largest));

@@ -9,6 +9,7 @@
 #include "sensornoise/page/PageStyle.h"
 #include "sensornoise/report/QuantityList.h"
 #include "sensornoise/report/ReportJson.h"
+#include "sensornoise/report/ReportTable.h"
 #include "sensornoise/report/Version.h"
 
 #include <algorithm>
@@ -138,7 +139,7 @@ std::string
 StackSentence(const Report & report)
 {
   std::string text = std::to_string(report.frames) + " frames";
-  text += report.framesDistinct == report.frames ? "" : " (" + std::to_string(report.framesDistinct) + " different)";
+  text += TextOfCounted(report);
   text += " of " + std::to_string(report.width) + " \u00D7 " + std::to_string(report.height) + " pixels";
   text += report.bitDepth ? ", " + std::to_string(*report.bitDepth) + " bits (" + report.bitDepthSource + ")" : "";
   text += report.quantisationStepDn ? ", code step " + Text(*report.quantisationStepDn) + " DN" : "";

@@ -14,12 +14,14 @@ FrameFreedom::FrameFreedom(const Eigen::MatrixXd & basis, const std::vector<doub
 {
   const Eigen::Index    frames = basis.rows();
   const Eigen::VectorXd factor = Eigen::Map<const Eigen::VectorXd>(gamma.data(), frames).cwiseMax(-1.0);
-  Eigen::MatrixXd       projection = -basis * basis.transpose();
-  projection.array() -= 1.0 / static_cast<double>(frames);
-  projection.diagonal().array() += 1.0;
-  m_Freedom = static_cast<double>(frames - 1 - basis.cols());
-  m_Linear = projection.diagonal().dot(factor);
-  m_Square = factor.dot(projection.cwiseAbs2() * factor);
+  // P = 1 - Q Q', Q with the constant: sum_st P_st^2 gamma_s gamma_t = sum_t (1 - 2 h_t) gamma_t^2 + |Q' Gamma Q|^2.
+  Eigen::MatrixXd q(frames, basis.cols() + 1);
+  q << Eigen::VectorXd::Constant(frames, 1.0 / std::sqrt(static_cast<double>(frames))), basis;
+  const Eigen::VectorXd leverage = q.cwiseAbs2().rowwise().sum();
+  m_Freedom = static_cast<double>(frames - q.cols());
+  m_Linear = factor.dot(Eigen::VectorXd(1.0 - leverage.array()));
+  m_Square = factor.cwiseAbs2().dot(Eigen::VectorXd(1.0 - 2.0 * leverage.array())) +
+             (q.transpose() * factor.asDiagonal() * q).squaredNorm();
   // One lit frame of many has no residual: the others are equal, but their mean is not that of all.
   m_IsEqual = !(m_Freedom > 0.0) || (this->FractionAt(1.0) > 1.0 - InPixels.leastLossOfFreedom &&
                                      std::abs(m_Linear) < InPixels.leastFeedback * m_Freedom);

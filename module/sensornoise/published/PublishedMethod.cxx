@@ -6,7 +6,7 @@
 #include "sensornoise/base/FirstTouch.h"
 #include "sensornoise/base/PixelUse.h"
 #include "sensornoise/moments/StackMaps.h"
-#include "sensornoise/report/RepeatedFrames.h"
+#include "sensornoise/report/AllFrames.h"
 #include "sensornoise/report/SceneChangeReport.h"
 #include "sensornoise/report/StackReport.h"
 #include "sensornoise/report/StackSettings.h"
@@ -42,7 +42,7 @@ PublishedMethod<TPixel>::AddDistinct(const std::vector<Plane> & planes,
                                      std::size_t                count,
                                      const ParallelFor &        parallelFor) const
 {
-  const bool areSummed = this->GetPass() == 1;
+  const bool areSummed = m_Sums.has_value();
   parallelFor(areSummed ? count : m_Geometry.height, [&](std::size_t part) {
     for (const auto & [passes, place] : planes)
     {
@@ -93,24 +93,29 @@ PublishedMethod<TPixel>::AddFindings(Fingerprint & fingerprint) const
 
 template <typename TPixel>
 void
-PublishedMethod<TPixel>::FinishPass(unsigned int pass)
+PublishedMethod<TPixel>::FinishMoments()
 {
-  if (pass == 0)
+  m_Scene = this->EndMoments();
+  if (!m_Scene.obstacle)
   {
-    m_Scene = this->EndMoments();
-    if (!m_Scene.obstacle)
-    {
-      m_Sums.emplace(m_Scene.bright, m_Scene.dark, m_Scene.mean.data(), m_Geometry, m_Distinct.Count(), m_Scene.rowSet);
-      m_Sums->SetLayout(m_Layout);
-    }
+    m_Sums.emplace(m_Scene.bright, m_Scene.dark, m_Scene.mean.data(), m_Geometry, m_Distinct.Count(), m_Scene.rowSet);
+    m_Sums->SetLayout(m_Layout);
   }
-  else if (pass == 1 && m_Sums)
+}
+
+template <typename TPixel>
+void
+PublishedMethod<TPixel>::FinishSums()
+{
+  if (m_Sums)
   {
     m_Flicker = EstimateFlicker(*m_Sums, m_Scene.bright, m_Scene.dark, m_Settings.rollingShutter, m_Settings.sigmaRows);
     m_Sums.reset(); // their memory
     m_Correction.emplace(m_Flicker, m_Geometry, m_Distinct.Count(), m_ParallelFor);
+    return;
   }
-  else if (pass + 1 == Passes::NumberOfPasses)
+  m_IsDone = m_Correction || this->GetPass() >= Passes::NumberOfPasses;
+  if (m_IsDone)
   {
     m_Corrected = this->EndCorrection();
     m_Correction.reset(); // their memory
@@ -118,8 +123,8 @@ PublishedMethod<TPixel>::FinishPass(unsigned int pass)
                                    m_ParallelFor);
     WarnOfMosaic(m_Report, m_Scene.mean, m_Geometry, m_ParallelFor);
     NoteMask(m_Report, m_Geometry, m_UserMask);
-    ReportSceneChange(m_Report, m_Thumbnails.FindChange());
-    ReportAllFrames(m_Report, m_Distinct);
+    ReportSceneChange(m_Report, m_Thumbnails.FindChange(m_Distinct.Counted()));
+    ReportAllFrames(m_Report, m_Distinct, this->GetLeftOut());
   }
 }
 

@@ -63,7 +63,7 @@ public:
   bool
   IsDone() const
   {
-    return this->GetPass() >= Passes::NumberOfPasses;
+    return m_IsDone;
   }
   /** The report and maps of a frame's size are there when the last pass has ended. */
   const Report &
@@ -145,7 +145,9 @@ private:
   void
   AddFindings(Fingerprint & fingerprint) const override;
   void
-  FinishPass(unsigned int pass) override;
+  FinishMoments() override;
+  void
+  FinishSums() override;
 
   PublishedScene
   EndMoments();
@@ -163,6 +165,7 @@ private:
   FlickerEstimate m_Flicker;
   CorrectedMaps   m_Corrected;
   Report          m_Report;
+  bool            m_IsDone{ false };
 };
 
 extern template class SensorNoise_EXPORT PublishedMethod<unsigned char>;

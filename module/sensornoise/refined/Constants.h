@@ -78,6 +78,10 @@ struct RefinedConstants
   double largestDarkestShare{ 0.5 };
   ///@}
 
+  /** Part of the shot noise that the projection on the frames' levels leaves, at least, in the rough gain that corrects
+   * for what it takes [1]: a guard against division by 0, where one or two frames alone carry the light. */
+  double leastShotLeft{ 0.2 };
+
   /** \name Dark frames */
   ///@{
   /** Standard deviations by which chance may part the dark frames from the line [1]. Set by hand. */

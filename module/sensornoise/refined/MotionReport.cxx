@@ -4,12 +4,16 @@
 
 #include "sensornoise/base/Stencils.h"
 #include "sensornoise/base/Text.h"
+#include "sensornoise/moments/Constants.h"
 #include "sensornoise/refined/Constants.h"
 #include "sensornoise/report/Quantities.h"
+#include "sensornoise/series/Constants.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -27,40 +31,103 @@ struct AxisMotion
   Quantity            sd{ Quantity::Without(EstimateStatus::NotIdentifiable) };
 };
 
+/** The weights of the frames' shifts. Their variance is in proportion to 1 / (1 + gamma_t)^2: where the illumination
+ * changes strongly, that counts. Dark frames have no shift of their own. */
+struct FrameWeights
+{
+  std::vector<double> ofFrames;
+  double              sum{ 0.0 };
+  double              frames{ 0.0 };  ///< of weight above 0
+  double              squares{ 0.0 }; ///< of the weights
+
+  /** What a weighted sum of squares about the weighted mean has of the variance: the frames less one, if all weights
+   * are 1. */
+  double
+  Freedom() const
+  {
+    return sum - squares / sum;
+  }
+  /** The number of equally weighted frames that determine a variance as well, less one. */
+  double
+  EffectiveFreedom() const
+  {
+    return sum * sum / squares - 1.0;
+  }
+  /** The mean variance of the shifts' noise, over that at the mean illumination. */
+  double
+  MeanNoise() const
+  {
+    return (frames - 1.0) / this->Freedom();
+  }
+};
+
+FrameWeights
+WeighFrames(const std::vector<double> & gamma)
+{
+  const double squares = std::inner_product(gamma.begin(), gamma.end(), gamma.begin(), 0.0);
+  const double rms = std::sqrt(squares / std::max(1.0, static_cast<double>(gamma.size()) - 1.0));
+  const bool   isStrong = rms > InMoments.strongIlluminationChange;
+  FrameWeights weights;
+  for (const double change : gamma)
+  {
+    const double illumination = 1.0 + change;
+    const bool   hasShift = !(illumination < InSeries.leastIlluminationOfShift); // also where it is not known
+    const double weight = !hasShift ? 0.0 : isStrong ? illumination * illumination : 1.0;
+    weights.ofFrames.push_back(weight);
+    weights.sum += weight;
+    weights.squares += weight * weight;
+    weights.frames += hasShift ? 1.0 : 0.0;
+  }
+  return weights;
+}
+
 /** What coefficients of a derivative, (1 + gamma_t) times the shift, say of the shifts. */
 struct ShiftSpread
 {
-  std::vector<double> series;
+  std::vector<double> series;        ///< 0 where a frame has no shift of its own
   double              square{ 0.0 }; ///< their variance over time, without that of their noise [pixel^2]
 };
 
+/** \a noiseSquare is the variance of the shifts' noise, its mean over the frames. */
 template <typename TCoefficients>
 ShiftSpread
-SpreadOf(const TCoefficients & coefficients, const std::vector<double> & gamma, double noiseSquare)
+SpreadOf(const TCoefficients &       coefficients,
+         const std::vector<double> & gamma,
+         const FrameWeights &        weights,
+         double                      noiseSquare)
 {
-  const auto  frames = static_cast<double>(gamma.size());
   ShiftSpread spread;
   spread.series.assign(gamma.size(), 0.0);
   double mean = 0.0;
   for (std::size_t t = 0; t < gamma.size(); ++t)
   {
-    spread.series[t] = coefficients(static_cast<Eigen::Index>(t)) / (1.0 + gamma[t]);
-    mean += spread.series[t] / frames;
+    if (weights.ofFrames[t] > 0.0)
+    {
+      spread.series[t] = coefficients(static_cast<Eigen::Index>(t)) / (1.0 + gamma[t]);
+      mean += weights.ofFrames[t] * spread.series[t] / weights.sum;
+    }
   }
   double sum = 0.0;
-  for (double & value : spread.series)
+  for (std::size_t t = 0; t < gamma.size(); ++t)
   {
-    value -= mean;
-    sum += value * value;
+    if (weights.ofFrames[t] > 0.0)
+    {
+      spread.series[t] -= mean;
+      sum += weights.ofFrames[t] * spread.series[t] * spread.series[t];
+    }
   }
-  spread.square = sum / (frames - 1.0) - noiseSquare;
+  spread.square = sum / weights.Freedom() - noiseSquare;
   return spread;
 }
 
 /** The motion along \a axis, whose derivative is \a stencil: by least squares, or better by instruments where they see
  * it. Half of what both differ by is a systematic error. */
 AxisMotion
-MotionAlong(Eigen::Index axis, std::size_t stencil, const PolishedSeries & polished, const std::vector<double> & gamma)
+MotionAlong(Eigen::Index                axis,
+            std::size_t                 stencil,
+            const PolishedSeries &      polished,
+            const std::vector<double> & gamma,
+            const FrameWeights &        weights)
 {
   AxisMotion   result;
   const auto & stencils = polished.motion.stencils;
@@ -69,24 +136,24 @@ MotionAlong(Eigen::Index axis, std::size_t stencil, const PolishedSeries & polis
   {
     return result;
   }
-  const auto frames = static_cast<double>(gamma.size());
   const auto k = static_cast<Eigen::Index>(place - stencils.begin());
   result.place = k;
-  const double leastVariance = polished.motion.covariance(k, k) * polished.motionPhi;
-  ShiftSpread  spread = SpreadOf(polished.motion.coefficients.col(k), gamma, leastVariance);
+  const double noise = polished.motionPhi * weights.MeanNoise();
+  const double leastVariance = polished.motion.covariance(k, k) * noise;
+  ShiftSpread  spread = SpreadOf(polished.motion.coefficients.col(k), gamma, weights, leastVariance);
   double       errorSquare = leastVariance;
   double       systematic = 0.0;
   result.leastSquares = spread.series;
   if (polished.shifts)
   {
     const double leastSquares = std::sqrt(std::max(0.0, spread.square));
-    errorSquare = polished.shifts->covariance(axis, axis) * polished.motionPhi;
-    spread = SpreadOf(polished.shifts->coefficients.col(axis), gamma, errorSquare);
+    errorSquare = polished.shifts->covariance(axis, axis) * noise;
+    spread = SpreadOf(polished.shifts->coefficients.col(axis), gamma, weights, errorSquare);
     systematic = InRefined.errorOfMotion * std::abs(std::sqrt(std::max(0.0, spread.square)) - leastSquares);
   }
   const double sd = std::sqrt(std::max(0.0, spread.square));
-  const double error = std::hypot(2.0 * sd * std::sqrt(errorSquare / (frames - 1.0)),
-                                  errorSquare * std::sqrt(2.0 / (frames - 1.0)),
+  const double error = std::hypot(2.0 * sd * std::sqrt(errorSquare / weights.EffectiveFreedom()),
+                                  errorSquare * std::sqrt(2.0 / weights.EffectiveFreedom()),
                                   2.0 * sd * systematic);
   result.sd = RootOf(spread.square, error);
   result.series = std::move(spread.series);
@@ -95,40 +162,41 @@ MotionAlong(Eigen::Index axis, std::size_t stencil, const PolishedSeries & polis
 
 /** The mean product of two series of mean 0. */
 double
-ProductOf(const std::vector<double> & a, const std::vector<double> & b)
+ProductOf(const std::vector<double> & a, const std::vector<double> & b, const FrameWeights & weights)
 {
   double sum = 0.0;
   for (std::size_t t = 0; t < a.size(); ++t)
   {
-    sum += a[t] * b[t];
+    sum += weights.ofFrames[t] * a[t] * b[t];
   }
-  return sum / (static_cast<double>(a.size()) - 1.0);
+  return sum / weights.Freedom();
 }
 
 /** The covariance of the shifts along both axes, without that of their noise. Its error is that of a mean product of
  * shifts with Gaussian noise, whose covariance in one frame is known; half of what it differs by from least squares, if
  * it is by instruments, is a systematic one, as of the standard deviations. */
 Quantity
-CovarianceOf(const AxisMotion & x, const AxisMotion & y, const PolishedSeries & polished)
+CovarianceOf(const AxisMotion & x, const AxisMotion & y, const PolishedSeries & polished, const FrameWeights & weights)
 {
   const Eigen::MatrixXd & ofAll = polished.motion.covariance;
   Eigen::Matrix2d         noise;
   noise << ofAll(x.place, x.place), ofAll(x.place, y.place), ofAll(y.place, x.place), ofAll(y.place, y.place);
-  noise *= polished.motionPhi;
-  double value = ProductOf(x.leastSquares, y.leastSquares) - noise(0, 1);
+  const double phi = polished.motionPhi * weights.MeanNoise();
+  noise *= phi;
+  double value = ProductOf(x.leastSquares, y.leastSquares, weights) - noise(0, 1);
   double systematic = 0.0;
   if (polished.shifts)
   {
     const double leastSquares = value;
-    noise = polished.shifts->covariance * polished.motionPhi;
-    value = ProductOf(x.series, y.series) - noise(0, 1);
+    noise = polished.shifts->covariance * phi;
+    value = ProductOf(x.series, y.series, weights) - noise(0, 1);
     systematic = 0.5 * std::abs(value - leastSquares);
   }
-  const double squareX = std::max(0.0, ProductOf(x.series, x.series) - noise(0, 0));
-  const double squareY = std::max(0.0, ProductOf(y.series, y.series) - noise(1, 1));
+  const double squareX = std::max(0.0, ProductOf(x.series, x.series, weights) - noise(0, 0));
+  const double squareY = std::max(0.0, ProductOf(y.series, y.series, weights) - noise(1, 1));
   const double shiftsAndNoise = squareX * noise(1, 1) + squareY * noise(0, 0) + 2.0 * value * noise(0, 1);
   const double noiseAlone = noise(0, 0) * noise(1, 1) + noise(0, 1) * noise(0, 1);
-  const double variance = (std::max(0.0, shiftsAndNoise) + noiseAlone) / (static_cast<double>(x.series.size()) - 1.0);
+  const double variance = (std::max(0.0, shiftsAndNoise) + noiseAlone) / weights.EffectiveFreedom();
   return WithError(value, std::hypot(std::sqrt(variance), systematic));
 }
 } // namespace
@@ -151,9 +219,21 @@ FillFlicker(Report & report, const RefinedResults & found, double offset, double
   const double ownError =
     2.0 * std::sqrt(std::max(0.0, variance) * noise / (frames - 1.0)) + noise * std::sqrt(2.0 / (frames - 1.0));
   report.flickerSd = RootOf(variance, std::hypot(ownError, fromOffset));
+  if (found.HasLocalLight())
+  {
+    const LocalFlicker & local = found.polished.localFlicker;
+    const double         sd = local.Sd(offset);
+    const double         step = 1.0 + offsetErrorDn;
+    const double         slope = (local.Sd(offset + step) - local.Sd(offset - step)) / (2.0 * step);
+    const double         error = std::hypot(slope * offsetErrorDn, sd * std::sqrt(noise), sd * scaleError);
+    report.flickerSd = RootOf(sd * sd, 2.0 * sd * error);
+  }
   const double ofScale = std::abs(line.sensitivity) * offsetErrorDn;
   const auto & limit = report.flickerSd.interval95;
-  if (ofScale > InRefined.largestScaleError || !(limit && limit->high.value_or(2.0) < 1.0))
+  // Noise of a flicker that is not known may be large, but a lamp that is off in most frames makes more than 1, too.
+  const bool isLarge = report.flickerSd.value && report.flickerSd.standardError &&
+                       *report.flickerSd.standardError < InRefined.largestScaleError * *report.flickerSd.value;
+  if (ofScale > InRefined.largestScaleError || !(isLarge || (limit && limit->high.value_or(2.0) < 1.0)))
   {
     report.flickerSd = Quantity::Without(EstimateStatus::NotIdentifiable);
     report.Warn(WarningCode::FlickerNotIdentifiable,
@@ -163,28 +243,21 @@ FillFlicker(Report & report, const RefinedResults & found, double offset, double
                    : std::string("the light is not known, and neither is the flicker")) +
                   ": a known offset would tell, or a scene with dark and bright areas");
   }
-  if (found.HasLocalLight())
-  {
-    const LocalFlicker & local = found.polished.localFlicker;
-    const double         sd = local.Sd(offset);
-    const double         step = 1.0 + offsetErrorDn;
-    const double         slope = (local.Sd(offset + step) - local.Sd(offset - step)) / (2.0 * step);
-    report.flickerSd = WithError(sd, std::hypot(slope * offsetErrorDn, sd * std::sqrt(noise), sd * scaleError));
-  }
 }
 
 void
 FillMotion(Report & report, const RefinedResults & found)
 {
   const PolishedSeries & polished = found.polished;
-  if (polished.line.isLevelMotion)
+  const FrameWeights     weights = WeighFrames(report.flicker);
+  if (polished.line.isLevelMotion || weights.frames < 2.0)
   {
     report.vibrationSdX = report.vibrationSdY = Quantity::Without(EstimateStatus::NotIdentifiable);
     report.vibrationCovariance = Quantity::Without(EstimateStatus::NotIdentifiable);
     return;
   }
-  const AxisMotion x = MotionAlong(0, StencilX, polished, report.flicker);
-  const AxisMotion y = MotionAlong(1, StencilY, polished, report.flicker);
+  const AxisMotion x = MotionAlong(0, StencilX, polished, report.flicker, weights);
+  const AxisMotion y = MotionAlong(1, StencilY, polished, report.flicker, weights);
   report.vibrationSdX = x.sd;
   report.vibrationSdY = y.sd;
   report.vibrationCovariance = Quantity::Without(EstimateStatus::NotIdentifiable);
@@ -194,9 +267,11 @@ FillMotion(Report & report, const RefinedResults & found)
   }
   for (std::size_t t = 0; t < x.series.size(); ++t)
   {
-    report.motion.push_back({ x.series[t], y.series[t] });
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN(); // of a dark frame
+    const bool       isKnown = weights.ofFrames[t] > 0.0;
+    report.motion.push_back({ isKnown ? x.series[t] : unknown, isKnown ? y.series[t] : unknown });
   }
-  report.vibrationCovariance = CovarianceOf(x, y, polished);
+  report.vibrationCovariance = CovarianceOf(x, y, polished, weights);
 }
 
 } // namespace sensornoise

@@ -57,6 +57,11 @@ public:
   {
     return m_Basis.Size();
   }
+  const TemporalBasis &
+  GetBasis() const
+  {
+    return m_Basis;
+  }
 
   /** The pixels of the frames to come stand as \a layout says; without it, one frame after the other. */
   void

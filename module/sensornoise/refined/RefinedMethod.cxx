@@ -3,6 +3,7 @@
 #include "sensornoise/refined/RefinedMethod.h"
 
 #include "sensornoise/base/BinaryStream.h"
+#include "sensornoise/moments/Constants.h"
 #include "sensornoise/moments/DarkMaps.h"
 #include "sensornoise/moments/StackMaps.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
@@ -10,7 +11,7 @@
 #include "sensornoise/refined/PixelNoise.h"
 #include "sensornoise/refined/PixelsOfVariance.h"
 #include "sensornoise/refined/RefinedReport.h"
-#include "sensornoise/report/RepeatedFrames.h"
+#include "sensornoise/report/AllFrames.h"
 #include "sensornoise/report/SceneChangeReport.h"
 #include "sensornoise/report/StackReport.h"
 #include "sensornoise/report/StackSettings.h"
@@ -74,20 +75,24 @@ RefinedMethod<TPixel>::AddDistinct(const std::vector<Plane> & planes,
   for (const auto & [passes, place] : planes)
   {
     auto & method = static_cast<RefinedMethod &>(*passes);
-    if (this->GetPass() == 1)
+    if (method.m_Levels) // the planes of a mosaic need not be in step
     {
-      summed.push_back({ method.m_FrameSums.get(), place });
+      projected.push_back(method.m_Levels->PlaneAt(place));
     }
-    else
+    else if (method.m_Projections)
     {
       projected.push_back({ &*method.m_Projections, place, &method.m_Scene->frame });
     }
+    else
+    {
+      summed.push_back({ method.m_FrameSums.get(), place });
+    }
   }
-  if (this->GetPass() == 1)
+  if (!summed.empty())
   {
     FrameSums::AddFrames(summed, frames, count, parallelFor);
   }
-  else
+  if (!projected.empty())
   {
     PixelProjections::AddFrames(projected, frames, count, parallelFor);
   }
@@ -97,74 +102,69 @@ template <typename TPixel>
 void
 RefinedMethod<TPixel>::ForgetOwnSums()
 {
-  this->GetPass() == 1 ? m_FrameSums->Forget() : m_Projections->Forget();
+  PixelProjections * const projections = this->GetProjections();
+  projections != nullptr ? projections->Forget() : m_FrameSums->Forget();
 }
 
 template <typename TPixel>
 void
 RefinedMethod<TPixel>::SaveOwnSums(std::ostream & out) const
 {
-  this->GetPass() == 1 ? m_FrameSums->Save(out) : m_Projections->Save(out);
+  const PixelProjections * const projections = this->GetProjections();
+  projections != nullptr ? projections->Save(out) : m_FrameSums->Save(out);
 }
 
 template <typename TPixel>
 void
 RefinedMethod<TPixel>::MergeOwnSums(std::istream & in)
 {
-  if (this->GetPass() == 1)
+  if (PixelProjections * const projections = this->GetProjections())
   {
-    FrameProducts others = m_FrameSums->GetProducts();
-    others.Restore(in);
-    m_FrameSums->Merge(others);
+    projections->Merge(in);
+    return;
   }
-  else
-  {
-    m_Projections->Merge(in);
-  }
+  FrameProducts others = m_FrameSums->GetProducts();
+  others.Restore(in);
+  m_FrameSums->Merge(others);
 }
 
 template <typename TPixel>
 void
 RefinedMethod<TPixel>::AddFindings(Fingerprint & fingerprint) const
 {
-  fingerprint.Add(m_Scene->frame.mean.data(), m_Scene->frame.mean.size());
-  fingerprint.Add(m_Scene->frame.variance.data(), m_Scene->frame.variance.size());
+  const ReferenceFrame & frame = m_Levels ? m_Levels->GetFrame() : m_Scene->frame;
+  fingerprint.Add(frame.mean.data(), frame.mean.size());
+  fingerprint.Add(frame.variance.data(), frame.variance.size());
   fingerprint.Add(m_Scene->pixelUse.data(), m_Scene->pixelUse.size());
-  for (std::size_t j = 0; m_Series && j < m_Series->basis.Size(); ++j)
+  const TemporalBasis * const basis = m_Levels   ? &m_Levels->GetProjections().GetBasis()
+                                      : m_Series ? &m_Series->basis
+                                                 : nullptr;
+  for (std::size_t j = 0; basis != nullptr && j < basis->Size(); ++j)
   {
     for (std::size_t t = 0; t < m_Distinct.Count(); ++t)
     {
-      const double rounded = m_Series->basis.Rounded(t, j);
+      const double rounded = basis->Rounded(t, j);
       fingerprint.Add(&rounded, 1);
     }
   }
 }
 
 template <typename TPixel>
+template <typename TFunction>
 void
-RefinedMethod<TPixel>::FinishPass(unsigned int pass)
+RefinedMethod<TPixel>::Finish(TFunction function)
 {
   try
   {
-    if (pass == 0)
-    {
-      this->EndMoments();
-    }
-    else if (m_FrameSums && pass == 1)
-    {
-      this->EndFrameSums();
-    }
-    else if (m_FrameSums)
-    {
-      m_IsDone = this->EndProjections();
-    }
+    function();
   }
   catch (const NothingToMeasure & obstacle)
   {
     m_Obstacle.emplace(obstacle);
     m_FrameSums.reset();
+    m_Projections.reset();
   }
-  m_IsDone = m_IsDone || (!m_FrameSums && pass + 1 >= Passes::NumberOfPasses);
+  m_IsDone = m_IsDone || (!this->HasSums() && this->GetPass() >= Passes::NumberOfPasses);
   if (m_IsDone)
   {
     this->MakeReport();
@@ -173,9 +173,62 @@ RefinedMethod<TPixel>::FinishPass(unsigned int pass)
 
 template <typename TPixel>
 void
+RefinedMethod<TPixel>::FinishMoments()
+{
+  this->Finish([this] { this->EndMoments(); });
+}
+
+template <typename TPixel>
+void
+RefinedMethod<TPixel>::FinishSums()
+{
+  this->Finish([this] {
+    if (m_Levels)
+    {
+      this->EndLevels();
+    }
+    else if (m_Projections)
+    {
+      m_IsDone = this->EndProjections();
+    }
+    else if (m_FrameSums)
+    {
+      this->EndFrameSums();
+    }
+  });
+}
+
+template <typename TPixel>
+void
 RefinedMethod<TPixel>::EndMoments()
 {
-  StackMaps maps = MakeStackMaps<TPixel>(m_Moments.Take(), m_Settings.codes, m_ParallelFor);
+  StackMaps                 maps = MakeStackMaps<TPixel>(m_Moments.Take(), m_Settings.codes, m_ParallelFor);
+  const std::vector<double> levels = m_Distinct.OfDistinct(m_Moments.GetFrameMeans());
+  const bool isStrong = m_Thumbnails.FindIlluminationChange(m_Distinct.Counted()) > InMoments.strongIlluminationChange;
+  if (isStrong && AreLevelsSeries(levels))
+  {
+    m_Levels =
+      std::make_unique<LevelProjection>(std::move(maps), m_Geometry, m_Layout, levels, m_SumsStay, m_ParallelFor);
+    return;
+  }
+  this->MakeScene(std::move(maps));
+}
+
+template <typename TPixel>
+void
+RefinedMethod<TPixel>::EndLevels()
+{
+  LevelProjection::Maps maps = m_Levels->TakeMaps(m_ParallelFor);
+  m_Levels.reset();
+  this->MakeScene(std::move(maps.ofScene), std::move(maps.rawVariance));
+}
+
+template <typename TPixel>
+void
+RefinedMethod<TPixel>::MakeScene(StackMaps maps, std::vector<double> rawVariance)
+{
+  m_HasScene = true;
+  const bool isProjected = !rawVariance.empty();
   m_Scene = std::make_unique<StillScene>(MakeStillScene(maps.summary,
                                                         std::move(maps.mean),
                                                         std::move(maps.variance),
@@ -184,7 +237,18 @@ RefinedMethod<TPixel>::EndMoments()
                                                         m_Geometry,
                                                         m_Distinct.Count(),
                                                         m_Distinct.OfDistinct(m_Moments.GetFrameMeans()),
-                                                        m_ParallelFor));
+                                                        m_ParallelFor,
+                                                        isProjected));
+  std::unique_ptr<FrameSums> sums;
+  if (!m_Scene->obstacle)
+  {
+    sums = std::make_unique<FrameSums>(MakeSceneRegressors(*m_Scene, m_ParallelFor), m_ParallelFor);
+    sums->SetLayout(m_Layout);
+  }
+  if (isProjected)
+  {
+    m_Scene->frame.variance = std::move(rawVariance); // what users see, and the third pass takes the squares from
+  }
   if (m_Scene->obstacle)
   {
     throw NothingToMeasure(*m_Scene->obstacle);
@@ -194,8 +258,7 @@ RefinedMethod<TPixel>::EndMoments()
     m_Settings.RequireOffsetWithin(1000.0 * LargestMeanDn(m_Scene->frame.mean),
                                    "1000 times the largest level of the frames");
   }
-  m_FrameSums = std::make_unique<FrameSums>(MakeSceneRegressors(*m_Scene, m_ParallelFor), m_ParallelFor);
-  m_FrameSums->SetLayout(m_Layout);
+  m_FrameSums = std::move(sums);
 }
 
 template <typename TPixel>
@@ -309,8 +372,8 @@ RefinedMethod<TPixel>::MakeReport()
   UncoverUnknown(m_Scene->frame, m_ParallelFor);
   WarnOfMosaic(m_Report, m_Scene->frame.mean, m_Geometry, m_ParallelFor);
   NoteMask(m_Report, m_Geometry, m_UserMask);
-  ReportSceneChange(m_Report, m_Thumbnails.FindChange());
-  ReportAllFrames(m_Report, m_Distinct);
+  ReportSceneChange(m_Report, m_Thumbnails.FindChange(m_Distinct.Counted()));
+  ReportAllFrames(m_Report, m_Distinct, this->GetLeftOut());
 }
 
 template class RefinedMethod<unsigned char>;

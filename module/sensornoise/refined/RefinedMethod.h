@@ -8,8 +8,10 @@
 #include "sensornoise/base/NothingToMeasure.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/correlation/NoiseCorrelation.h"
+#include "sensornoise/moments/StackMaps.h"
 #include "sensornoise/moments/StackPasses.h"
 #include "sensornoise/pixels/StaticVariance.h"
+#include "sensornoise/refined/LevelProjection.h"
 #include "sensornoise/refined/PixelProjections.h"
 #include "sensornoise/refined/PolishedSeries.h"
 #include "sensornoise/refined/RefinedSettings.h"
@@ -36,8 +38,10 @@ namespace sensornoise
  * Pass 1 gathers the temporal moments: the mean image, a rough noise model, what is clipped. Pass 2 regresses every
  * frame on the mean image and its derivatives: the series over time of flicker, local light and motion, and the
  * offset. Pass 3 projects every pixel's time series on these few series; what is left is sensor noise, whose
- * regression on the mean gives gain and intercept. Usage, also by several processes, as StackPasses: their sums have
- * 16 kB a frame in pass 2 and 8 bytes a pixel and series in pass 3.
+ * regression on the mean gives gain and intercept. Where the illumination changes strongly, the stack is read once more
+ * between passes 1 and 2, see LevelProjection. Usage, also by several processes, as StackPasses: their sums have 16 kB
+ a
+ * frame in pass 2, 8 bytes a pixel and series in pass 3, and 8 bytes a pixel in that further one.
  *
  * Frames that are equal, bit by bit, are counted once: the result is that of the distinct frames, and the report's
  * series repeat the values of a frame's original.
@@ -72,12 +76,20 @@ public:
     m_SumsStay = true;
   }
 
-  /** Whether the report is there. That is after NumberOfPasses passes, or more if RefinedSettings::memoryLimitBytes
-   * asks for it: these read the stack once more, like the third. */
+  /** Whether the report is there. That is after NumberOfPasses passes or more, which read the stack once more: one for
+   * the moments if frames are left out, one after these where the illumination changes strongly (LevelProjection), and
+   * others, like the third, if RefinedSettings::memoryLimitBytes asks for them. */
   bool
   IsDone() const
   {
     return m_IsDone;
+  }
+  /** Whether the current pass is the last one before the third, or, if the stack cannot be measured, a pass without
+   * sums. */
+  bool
+  IsBeforeProjections() const
+  {
+    return m_HasScene && !m_IsDone && !m_Projections;
   }
   /** The sums of 8 bytes that the third pass has of every pixel; 0 before it. */
   std::size_t
@@ -155,10 +167,21 @@ private:
   using Passes::m_Thumbnails;
   using Passes::m_UserMask;
 
+  /** Those of the current pass; null: it has none. */
+  PixelProjections *
+  GetProjections()
+  {
+    return m_Levels ? &m_Levels->GetProjections() : m_Projections ? &*m_Projections : nullptr;
+  }
+  const PixelProjections *
+  GetProjections() const
+  {
+    return m_Levels ? &m_Levels->GetProjections() : m_Projections ? &*m_Projections : nullptr;
+  }
   bool
   HasSums() const override
   {
-    return m_FrameSums != nullptr;
+    return m_FrameSums || m_Levels;
   }
   void
   AddDistinct(const std::vector<Plane> & planes,
@@ -174,10 +197,23 @@ private:
   void
   AddFindings(Fingerprint & fingerprint) const override;
   void
-  FinishPass(unsigned int pass) override;
+  FinishMoments() override;
+  void
+  FinishSums() override;
+  /** Calls function(), which may find that the stack cannot be measured; makes the report if nothing is left to read.
+   */
+  template <typename TFunction>
+  void
+  Finish(TFunction function);
 
   void
   EndMoments();
+  void
+  EndLevels();
+  /** Makes the scene of \a maps, and starts the second pass; \a rawVariance, if not empty, takes the place of the
+   * variance that the scene is made of. */
+  void
+  MakeScene(StackMaps maps, std::vector<double> rawVariance = {});
   void
   EndFrameSums();
   bool
@@ -194,7 +230,8 @@ private:
 
   // The sums of the passes, and what each pass found. The scene stays where it is: FrameSums points to its frame.
   std::unique_ptr<StillScene>           m_Scene;
-  std::unique_ptr<FrameSums>            m_FrameSums; // null: the stack cannot be measured
+  std::unique_ptr<LevelProjection>      m_Levels;    // of the pass after the first one, where there is one
+  std::unique_ptr<FrameSums>            m_FrameSums; // null then, or if the stack cannot be measured
   std::optional<const SceneSeries>      m_Series;
   std::optional<PixelProjections>       m_Projections;
   std::optional<StaticVariance>         m_Variance;
@@ -202,6 +239,7 @@ private:
   NoiseCorrelation                      m_Correlation;
   std::vector<double>                   m_CorrectedVariance;
   std::optional<const NothingToMeasure> m_Obstacle;
+  bool                                  m_HasScene{ false };
   bool                                  m_SumsStay{ false };
   bool                                  m_IsDone{ false };
   Report                                m_Report;

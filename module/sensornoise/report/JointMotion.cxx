@@ -17,24 +17,33 @@ namespace
 {
 using Motion = std::vector<std::array<double, 2>>;
 
+/** Not where the frame is left out. */
+bool
+IsKnown(const std::array<double, 2> & shift)
+{
+  return std::isfinite(shift[0]);
+}
+
 /** The mean of two planes that together have every column and every row, less its mean over time. */
 Motion
 MeanOf(const Motion & first, const Motion & second)
 {
   Motion                mean(first.size());
   std::array<double, 2> sum{};
+  double                known = 0.0; // frames
   for (std::size_t t = 0; t < mean.size(); ++t)
   {
     for (std::size_t axis = 0; axis < 2; ++axis)
     {
       mean[t][axis] = 0.5 * (first[t][axis] + second[t][axis]);
-      sum[axis] += mean[t][axis];
+      sum[axis] += IsKnown(mean[t]) ? mean[t][axis] : 0.0;
     }
+    known += IsKnown(mean[t]) ? 1.0 : 0.0;
   }
   for (auto & shift : mean)
   {
-    shift[0] -= sum[0] / static_cast<double>(mean.size());
-    shift[1] -= sum[1] / static_cast<double>(mean.size());
+    shift[0] -= sum[0] / known;
+    shift[1] -= sum[1] / known;
   }
   return mean;
 }
@@ -65,9 +74,14 @@ ProductsOf(const Motion & a, const Motion & b, std::size_t framesDistinct)
 {
   JointProducts products;
   products.freedom = static_cast<double>(std::max<std::size_t>(framesDistinct, 2) - 1);
-  const double scale = 1.0 / static_cast<double>(std::max<std::size_t>(a.size(), 2) - 1);
+  const auto   known = static_cast<std::size_t>(std::count_if(a.begin(), a.end(), IsKnown));
+  const double scale = 1.0 / static_cast<double>(std::max<std::size_t>(known, 2) - 1);
   for (std::size_t t = 0; t < a.size(); ++t)
   {
+    if (!IsKnown(a[t]))
+    {
+      continue;
+    }
     for (std::size_t axis = 0; axis < 2; ++axis)
     {
       const double difference = a[t][axis] - b[t][axis];

@@ -4,6 +4,7 @@
 #define sensornoise_report_Report_h
 #include "sensornoise/base/WarningCodes.h"
 #include "sensornoise/files/CameraSettings.h"
+#include "sensornoise/moments/UnlikeFrames.h"
 
 #include <array>
 #include <cstddef>
@@ -124,18 +125,19 @@ struct Report
   std::vector<std::pair<std::string, SettingValue>> settings; ///< every parameter as used
   std::optional<InputRecord>                        input;    ///< null: not asked for
 
-  std::size_t           frames{ 0 };
-  std::size_t           framesDistinct{ 0 }; ///< equal frames are counted once: what all but the series is made of
-  std::size_t           width{ 0 };
-  std::size_t           height{ 0 };
-  std::string           channel{ "mono" };
-  CameraSettings        camera; ///< what the frames' file says of it
-  std::optional<int>    bitDepth;
-  std::string           bitDepthSource{ "none" };
-  std::optional<double> quantisationStepDn; ///< null: the data have no codes
-  std::optional<double> clipLowDn;
-  std::optional<double> clipHighDn;
-  std::string           clipSource{ "none" };
+  std::size_t               frames{ 0 };
+  std::size_t               framesDistinct{ 0 }; ///< equal frames are counted once: what all but the series is made of
+  std::vector<LeftOutFrame> framesLeftOut;       ///< unlike the others; all but the series is measured without them
+  std::size_t               width{ 0 };
+  std::size_t               height{ 0 };
+  std::string               channel{ "mono" };
+  CameraSettings            camera; ///< what the frames' file says of it
+  std::optional<int>        bitDepth;
+  std::string               bitDepthSource{ "none" };
+  std::optional<double>     quantisationStepDn; ///< null: the data have no codes
+  std::optional<double>     clipLowDn;
+  std::optional<double>     clipHighDn;
+  std::string               clipSource{ "none" };
 
   struct Pixels
   {
@@ -165,7 +167,7 @@ struct Report
   Quantity vibrationSdY;
   Quantity vibrationCovariance;
 
-  std::vector<double>                flicker;     ///< gamma_t of every frame [1]; of equal ones the same
+  std::vector<double>                flicker;     ///< gamma_t of every frame [1]; of equal ones the same, NaN: left out
   std::vector<std::vector<double>>   flickerRows; ///< gamma_t(y): frame by frame; empty: null in JSON
   std::vector<std::array<double, 2>> motion;      ///< (alpha_t, beta_t) [pixel]; empty: the method has none
 

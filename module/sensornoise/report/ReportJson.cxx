@@ -47,6 +47,12 @@ WriteJson(JsonWriter & json, const Warning & warning)
 }
 
 void
+WriteJson(JsonWriter & json, const LeftOutFrame & frame)
+{
+  json.Object([&] { json.Member("frame", frame.frame).Member("reason", NameOf(frame.fault)); });
+}
+
+void
 WriteQuantity(JsonWriter & json, const char * name, const Quantity & quantity, const char * unit)
 {
   json.ObjectMember(name, [&] {
@@ -174,6 +180,7 @@ void
 WriteStack(JsonWriter & json, const Report & report)
 {
   json.Member("frames", report.frames).Member("frames_distinct", report.framesDistinct);
+  json.Member("frames_left_out", report.framesLeftOut);
   json.Member("width", report.width).Member("height", report.height);
   json.Member("channel", report.channel);
   WriteCamera(json, report.camera);

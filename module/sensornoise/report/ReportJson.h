@@ -25,6 +25,8 @@ SensorNoise_EXPORT void
 WriteJson(JsonWriter & json, const Interval & interval);
 SensorNoise_EXPORT void
 WriteJson(JsonWriter & json, const Warning & warning);
+SensorNoise_EXPORT void
+WriteJson(JsonWriter & json, const LeftOutFrame & frame);
 /** A quantity as member \a name of an object. */
 SensorNoise_EXPORT void
 WriteQuantity(JsonWriter & json, const char * name, const Quantity & quantity, const char * unit);

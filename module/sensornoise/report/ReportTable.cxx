@@ -188,10 +188,22 @@ DescribeNoise(const Report & report)
 }
 
 std::string
+TextOfCounted(const Report & report)
+{
+  const std::size_t leftOut = report.framesLeftOut.size();
+  std::string       text = leftOut > 0 ? Format("%zu left out", leftOut) : "";
+  if (report.framesDistinct + leftOut < report.frames)
+  {
+    text += (text.empty() ? "" : ", ") + Format("%zu different", report.framesDistinct);
+  }
+  return text.empty() ? text : " (" + text + ")";
+}
+
+std::string
 MakeTable(const Report & report)
 {
   std::string table = Format("%zu frames", report.frames);
-  table += report.framesDistinct < report.frames ? Format(" (%zu different)", report.framesDistinct) : "";
+  table += TextOfCounted(report);
   table += Format(" of %zu x %zu pixels", report.width, report.height);
   table += DescribeCodes(report) + "\n";
   table += Format("%zu of %zu pixels used (%.1f %%), %zu clipped, %zu not finite\n",

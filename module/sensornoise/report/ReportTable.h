@@ -35,6 +35,10 @@ DescribeNoise(const Report & report);
 SensorNoise_EXPORT std::string
 TextOf(const Warning & warning);
 
+/** " (3 left out, 50 different)", of the frames given; "" where all are counted. */
+SensorNoise_EXPORT std::string
+TextOfCounted(const Report & report);
+
 /** The table and, a line each, what the user should know: for those who see nothing else. */
 SensorNoise_EXPORT std::string
 MakeText(const Report & report);

@@ -25,6 +25,17 @@ struct GuardedLevels
   double sds;
 };
 
+GuardedLevels
+LevelsOf(const CodeRange & codes, double brightest, double darkest, double sds)
+{
+  constexpr double never = std::numeric_limits<double>::infinity();
+  return { codes.clipLowDn ? *codes.clipLowDn + 0.5 * codes.StepAt(*codes.clipLowDn) : -never,
+           codes.clipHighDn ? *codes.clipHighDn - 0.5 * codes.StepAt(*codes.clipHighDn) : never,
+           brightest,
+           darkest,
+           sds };
+}
+
 /** Marks the usable pixels of [begin, end) that reach a level. What is read once by value: what is written could else
  * be that, and no vectors be made. */
 void
@@ -53,6 +64,36 @@ MarkGuarded(const ReferenceFrame & frame,
     guarded[p] = usable[p] != 0 && isReached ? 1 : 0;
   }
 }
+
+/** The same about an offset, each end with the noise of the level that is reached: in a dark frame little. */
+void
+MarkGuardedAbout(double                 offsetDn,
+                 const ReferenceFrame & frame,
+                 ProvisionalModel       model,
+                 GuardedLevels          guard,
+                 std::size_t            begin,
+                 std::size_t            end,
+                 std::uint8_t *         guarded)
+{
+  const double * const       mean = frame.mean.data();
+  const double * const       neighbourMean = frame.neighbourMean.data();
+  const std::uint8_t * const usable = frame.usable.data();
+  const std::size_t          width = frame.geometry.width;
+  for (std::size_t p = begin; p < end; ++p)
+  {
+    const auto [gx, gy] = ApplyGradient(mean, width, p);
+    const double signal = std::max(0.0, neighbourMean[p] - offsetDn);
+    const double highest = 1.0 + guard.brightest;
+    const double lowest = 1.0 + guard.darkest;
+    const double motion = model.MotionVariance(gx, gy);
+    const double highDn = offsetDn + highest * signal;
+    const double lowDn = offsetDn + lowest * signal;
+    const double high = highDn + guard.sds * std::sqrt(model.NoiseVariance(highDn) + highest * highest * motion);
+    const double low = lowDn - guard.sds * std::sqrt(model.NoiseVariance(lowDn) + lowest * lowest * motion);
+    const bool   isReached = (high >= guard.highDn) | (low <= guard.lowDn);
+    guarded[p] = usable[p] != 0 && isReached ? 1 : guarded[p];
+  }
+}
 } // namespace
 
 std::vector<std::uint8_t>
@@ -69,15 +110,34 @@ FindGuardBand(const ReferenceFrame &   frame,
   {
     return guarded;
   }
-  constexpr double    never = std::numeric_limits<double>::infinity();
-  const GuardedLevels guard{ codes.clipLowDn ? *codes.clipLowDn + 0.5 * codes.StepAt(*codes.clipLowDn) : -never,
-                             codes.clipHighDn ? *codes.clipHighDn - 0.5 * codes.StepAt(*codes.clipHighDn) : never,
-                             brightest,
-                             darkest,
-                             sds };
+  const GuardedLevels guard = LevelsOf(codes, brightest, darkest, sds);
   ForInnerBlocks(frame.geometry, parallelFor, [&](std::size_t begin, std::size_t end) {
     MarkGuarded(frame, model, guard, begin, end, guarded.data());
   });
+  return guarded;
+}
+
+std::vector<std::uint8_t>
+FindGuardBand(const ReferenceFrame &    frame,
+              const ProvisionalModel &  model,
+              const CodeRange &         codes,
+              const IlluminationRange & range,
+              const ParallelFor &       parallelFor,
+              double                    sds)
+{
+  std::vector<std::uint8_t> guarded(frame.mean.size(), 0);
+  if (!codes.clipLowDn && !codes.clipHighDn)
+  {
+    return guarded;
+  }
+  for (const double offsetDn : { range.lowestOffsetDn, range.highestOffsetDn })
+  {
+    const double        signal = std::max(1e-3, model.centreDn - offsetDn);
+    const GuardedLevels guard = LevelsOf(codes, range.highestDn / signal, std::max(-1.0, range.lowestDn / signal), sds);
+    ForInnerBlocks(frame.geometry, parallelFor, [&](std::size_t begin, std::size_t end) {
+      MarkGuardedAbout(offsetDn, frame, model, guard, begin, end, guarded.data());
+    });
+  }
   return guarded;
 }
 

@@ -31,6 +31,25 @@ FindGuardBand(const ReferenceFrame &   frame,
               const ParallelFor &      parallelFor,
               double                   sds = InScene.guardBandSds);
 
+/** How far the illumination and the offset go, as far as the frames' levels and a rough model tell. */
+struct IlluminationRange
+{
+  double lowestDn;        ///< mean of the darkest frame less that of all frames [DN]
+  double highestDn;       ///< of the brightest frame [DN]
+  double lowestOffsetDn;  ///< [DN]
+  double highestOffsetDn; ///< at most the mean of the darkest frame [DN]
+};
+
+/** The same where the illumination changes strongly: marks the pixels that reach a clip level about the lowest or the
+ * highest offset, with the noise that they have at the level that they reach. */
+SensorNoise_EXPORT std::vector<std::uint8_t>
+FindGuardBand(const ReferenceFrame &    frame,
+              const ProvisionalModel &  model,
+              const CodeRange &         codes,
+              const IlluminationRange & range,
+              const ParallelFor &       parallelFor,
+              double                    sds = InScene.guardBandSds);
+
 } // namespace sensornoise
 
 #endif

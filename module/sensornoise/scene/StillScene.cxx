@@ -41,7 +41,8 @@ MakeStillScene(const StackSummary &              summary,
                const FrameGeometry &             geometry,
                std::size_t                       frames,
                const std::vector<double> &       frameMeans,
-               const ParallelFor &               parallelFor)
+               const ParallelFor &               parallelFor,
+               bool                              changesStrongly)
 {
   StillScene scene;
   scene.summary = summary;
@@ -63,7 +64,7 @@ MakeStillScene(const StackSummary &              summary,
       scene.model = FitProvisionalModel(scene.frame);
     }
     UsablePixels found = LeaveOutCoarseAndGuarded(
-      scene.frame, scene.model, summary.codes, frameMeans, std::move(scene.pixelUse), parallelFor);
+      scene.frame, scene.model, summary.codes, frameMeans, std::move(scene.pixelUse), parallelFor, changesStrongly);
     scene.frame.usable = std::move(found.usable);
     scene.pixelUse = std::move(found.pixelUse);
     scene.usable = found.count;

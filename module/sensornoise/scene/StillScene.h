@@ -36,7 +36,8 @@ struct StillScene
 
 /** Makes the scene of the maps of a stack of \a frames distinct frames: \a mean, \a variance and \a valid as of
  * MakeStackMaps().
- * \a userMask, if not empty, has a nonzero value at the pixels to be used; \a frameMeans are the frames' means [DN]. */
+ * \a userMask, if not empty, has a nonzero value at the pixels to be used; \a frameMeans are the frames' means [DN].
+ * \a changesStrongly: the illumination does, and \a variance is without these changes (LevelProjection). */
 SensorNoise_EXPORT StillScene
 MakeStillScene(const StackSummary &              summary,
                std::vector<double>               mean,
@@ -46,7 +47,8 @@ MakeStillScene(const StackSummary &              summary,
                const FrameGeometry &             geometry,
                std::size_t                       frames,
                const std::vector<double> &       frameMeans,
-               const ParallelFor &               parallelFor = SerialFor);
+               const ParallelFor &               parallelFor = SerialFor,
+               bool                              changesStrongly = false);
 
 } // namespace sensornoise
 

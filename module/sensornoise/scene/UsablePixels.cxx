@@ -57,6 +57,20 @@ ExtremesOfLight(const ReferenceFrame & frame, const ProvisionalModel & model, co
   const double darkest = std::max(-1.0, std::min((*lowest - average) / flux, -typical));
   return { darkest, brightest };
 }
+
+/** The same in levels, and the offsets that the data allow: no frame's mean is below the offset, and the noise is no
+ * less than 0 there. */
+IlluminationRange
+RangeOfIllumination(const ReferenceFrame &      frame,
+                    const ProvisionalModel &    model,
+                    const std::vector<double> & frameMeans)
+{
+  const double average = std::accumulate(frameMeans.begin(), frameMeans.end(), 0.0) / static_cast<double>(frame.frames);
+  const auto [lowest, highest] = std::minmax_element(frameMeans.begin(), frameMeans.end());
+  const double highestOffsetDn = std::min(model.darkestDn, *lowest);
+  const double lowestOffsetDn = std::min(highestOffsetDn, model.darkestDn - model.interceptDn2 / model.slopeDn);
+  return { *lowest - average, *highest - average, lowestOffsetDn, highestOffsetDn };
+}
 } // namespace
 
 std::vector<std::uint8_t>
@@ -79,10 +93,13 @@ LeaveOutCoarseAndGuarded(const ReferenceFrame &      frame,
                          const CodeRange &           codes,
                          const std::vector<double> & frameMeans,
                          std::vector<std::uint8_t>   pixelUse,
-                         const ParallelFor &         parallelFor)
+                         const ParallelFor &         parallelFor,
+                         bool                        changesStrongly)
 {
   const auto [darkest, brightest] = ExtremesOfLight(frame, model, frameMeans);
-  const auto   guarded = FindGuardBand(frame, model, codes, brightest, darkest, parallelFor);
+  const auto guarded =
+    changesStrongly ? FindGuardBand(frame, model, codes, RangeOfIllumination(frame, model, frameMeans), parallelFor)
+                    : FindGuardBand(frame, model, codes, brightest, darkest, parallelFor);
   UsablePixels pixels;
   pixels.usable = frame.usable;
   pixels.pixelUse = std::move(pixelUse);

@@ -38,14 +38,15 @@ struct UsablePixels
 
 /** Leaves out what clipping could touch (FindGuardBand), and pixels whose noise is below half a code step, where the
  * codes hide it. \a frameMeans are the frames' means, for the brightest and the darkest one; \a pixelUse is that of
- * FindPixelUse. */
+ * FindPixelUse. \a changesStrongly: the illumination does, and the frame's variance is without these changes. */
 SensorNoise_EXPORT UsablePixels
 LeaveOutCoarseAndGuarded(const ReferenceFrame &      frame,
                          const ProvisionalModel &    model,
                          const CodeRange &           codes,
                          const std::vector<double> & frameMeans,
                          std::vector<std::uint8_t>   pixelUse,
-                         const ParallelFor &         parallelFor);
+                         const ParallelFor &         parallelFor,
+                         bool                        changesStrongly = false);
 
 /** Throws NothingToMeasure, CodesTooCoarse, if codes of spacing \a stepDn hide the noise of more than 2 % of the
  * pixels: the dark end goes with them. */

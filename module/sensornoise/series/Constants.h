@@ -51,6 +51,11 @@ struct SeriesConstants
   double leastDeterminant{ 0.01 };
   ///@}
 
+  /** Illumination of a frame, relative to that of the mean frame, below which it has no shift of its own [1]. Set by
+   * hand: the shift of such a frame is ten times as uncertain as at the mean illumination, and moves the frame by a
+   * tenth. */
+  double leastIlluminationOfShift{ 0.1 };
+
   /** \name Local light, and the basis */
   ///@{
   /** Part of the variance by motion that derivatives do not explain, which is noise to the light of cells [1]. Set by

@@ -36,8 +36,10 @@ MotionColumns(const MotionSeries & motion, const std::vector<double> & gamma)
       Eigen::VectorXd product(frames);
       for (Eigen::Index t = 0; t < frames; ++t)
       {
-        const auto i = static_cast<std::size_t>(t);
-        product(t) = motion.Get(i, a) * motion.Get(i, b) / (1.0 + gamma[i]);
+        const auto   i = static_cast<std::size_t>(t);
+        const double illumination = 1.0 + gamma[i];
+        const double both = motion.Get(i, a) * motion.Get(i, b); // of a dark frame nothing but noise
+        product(t) = illumination < InSeries.leastIlluminationOfShift ? 0.0 : both / illumination;
       }
       columns.push_back(product);
     }

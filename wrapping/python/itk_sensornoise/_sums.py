@@ -28,18 +28,19 @@ class SensorNoiseSums:
     other.
 
         sums = SensorNoiseSums((400, 2048, 2048), "uint16", bayer="none")   # alike in every process
-        while sums.passes_ended < 3:
+        while not sums.is_done:
             sums.add(frames[first:end], first)         # the part of this process
             for other in others:                       # what to_bytes() gave there
                 sums.merge(other)
             sums.end_pass()
         print(sums.report())
 
-    The frames are gone over three times. A pass is ended with the sums of all frames, in every process alike: either
-    all merge what all others have, or one merges all and hands on what it has. With integers the report has the bits of
-    estimate_sensor_noise(), whoever reads what and merges when. With floating point it is equal to rounding; the same
-    parts, merged in the same order, give the same bits. Frames that are equal bit by bit are counted once: where two
-    processes have counted one each, merge() raises RuntimeError and names them; see `fingerprints`.
+    The frames are gone over three times or more, see `is_done`. A pass is ended with the sums
+    of all frames, in every process alike: either all merge what all others have, or one merges all and hands on what it
+    has. With integers the report has the bits of estimate_sensor_noise(), whoever reads what and merges when. With
+    floating point it is equal to rounding; the same parts, merged in the same order, give the same bits. Frames that
+    are equal bit by bit are counted once: where two processes have counted one each, merge() raises RuntimeError and
+    names them; see `fingerprints`.
 
     Bytes of the sums: in pass 1, 20 a pixel (floating point: 32) and 2 kB a frame that is in; in pass 2, 16 kB a frame;
     in pass 3, 8 a pixel and series of flicker, light and motion (4 to 20), and at most 32 MiB. Memory: that of
@@ -113,8 +114,14 @@ class SensorNoiseSums:
 
     @property
     def passes_ended(self) -> int:
-        """0 to 3; after 3 there are no sums, but a report."""
+        """How many passes have ended."""
         return int(self._sums.GetPass())
+
+    @property
+    def is_done(self) -> bool:
+        """All passes have ended: there are no sums, but a report. There are three passes, and one more each where
+        frames are left out, as they are unlike the others, and where the illumination changes strongly."""
+        return bool(self._sums.IsDone())
 
     @property
     def frames(self) -> np.ndarray:
@@ -211,9 +218,9 @@ class SensorNoiseSums:
             self._sums.EndPass()
 
     def report(self, *, maps: bool = False) -> Report | ChannelReports:
-        """What was measured, when three passes have ended. `maps`: as estimate_sensor_noise(maps=True) has them."""
-        if self.passes_ended < 3:
-            raise ValueError(f"{self.passes_ended} passes have ended; expected 3")
+        """What was measured, when all passes have ended. `maps`: as estimate_sensor_noise(maps=True) has them."""
+        if not self.is_done:
+            raise ValueError(f"{self.passes_ended} passes have ended; expected all: end_pass() until is_done")
         estimator = self._prepared.estimator
         return report_of(estimator, arrays_of(estimator) if maps else None)
 
@@ -243,13 +250,13 @@ class SensorNoiseSums:
     def __reduce__(self) -> tuple[Any, ...]:
         if self._ended is None:
             raise ValueError("the sums of ended passes were dropped: without them it cannot be pickled")
-        current = self._array() if self.passes_ended < 3 else None
+        current = None if self.is_done else self._array()
         return _restored, (self._given, list(self._ended), current)
 
     def __repr__(self) -> str:
         frames, height, width = self.shape
         of = f"of {frames} frames of {width} x {height} pixels"
-        if self.passes_ended == 3:
+        if self.is_done:
             return f"<SensorNoiseSums: all passes ended, {of}>"
         return f"<SensorNoiseSums: pass {self.passes_ended + 1}, {len(self.frames)} {of}>"
 

@@ -53,7 +53,8 @@ def estimate_sensor_noise(
 
     With integer pixels the report has the bits of one process, whatever is read by whom. With floating point it is
     equal to rounding, and has the same bits for the same `frames_per_task`, in whatever order tasks end. The sums of a
-    worker that ends are made again. Where equal frames lie in different tasks, the first round is gone through again.
+    worker that ends are made again. Where equal frames lie in different tasks, or frames are unlike the others, the
+    first round is gone through again.
 
     Parameters
     ----------
@@ -120,7 +121,7 @@ def estimate_sensor_noise(
     try:
         if progress:
             run.bar = make_bar()
-        while sums.passes_ended < 3:
+        while not sums.is_done:
             run.go_round()
     except distributed.KilledWorker as error:
         raise RuntimeError(
@@ -207,7 +208,8 @@ class _Run:
         """How far it is, when so many tasks of the pass have read their frames. Merging takes the rest of its time."""
         if self.bar is not None:
             passes = self.sums.passes_ended + 0.9 * done / len(self.spans)
-            self.bar.update(max(int(100 * passes / 3) - int(self.bar.n), 0))
+            percent = 100 if self.sums.is_done else min(99, int(100 * passes / 3))  # there may be more
+            self.bar.update(max(percent - int(self.bar.n), 0))
 
     def _submit(self, key: str, flags: np.ndarray | None) -> tuple[list[Any], Any]:
         """Futures of what the driver is told of each part, and of the merged sums."""

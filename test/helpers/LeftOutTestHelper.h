@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_test_LeftOutTestHelper_h
+#define sensornoise_test_LeftOutTestHelper_h
+
+#include "sensornoise/moments/UnlikeFrames.h"
+#include "sensornoise/report/Report.h"
+#include "sensornoise/report/ReportJson.h"
+#include "helpers/ReportTestHelper.h"
+#include "helpers/StackTestHelper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <gtest/gtest.h>
+#include <map>
+#include <vector>
+
+/** \file
+ * Stacks with frames that are unlike the others, and what is measured without these. */
+
+namespace sensornoise::test
+{
+
+/** The stack with frames that are to be left out, by their places in it. */
+template <typename TPixel>
+Stack<TPixel>
+Insert(const Stack<TPixel> & stack, const std::map<std::size_t, std::vector<TPixel>> & unlike)
+{
+  Stack<TPixel> other{ stack.width, stack.height, stack.frames + unlike.size(), {} };
+  std::size_t   next = 0;
+  for (std::size_t t = 0; t < other.frames; ++t)
+  {
+    const auto place = unlike.find(t);
+    if (place != unlike.end())
+    {
+      other.pixels.insert(other.pixels.end(), place->second.begin(), place->second.end());
+      continue;
+    }
+    other.pixels.insert(other.pixels.end(), stack.Frame(next), stack.Frame(next) + stack.width * stack.height);
+    ++next;
+  }
+  return other;
+}
+
+/** A frame of the stack, left and right exchanged: the scene in the mirror. */
+template <typename TPixel>
+std::vector<TPixel>
+Mirrored(const Stack<TPixel> & stack, std::size_t t)
+{
+  std::vector<TPixel> frame(stack.Frame(t), stack.Frame(t) + stack.width * stack.height);
+  for (auto row = frame.begin(); row != frame.end(); row += static_cast<std::ptrdiff_t>(stack.width))
+  {
+    std::reverse(row, row + static_cast<std::ptrdiff_t>(stack.width));
+  }
+  return frame;
+}
+
+/** A stack with zeros, one level and its own mirror image among its frames: places 0, 5 and the last one. */
+template <typename TPixel>
+Stack<TPixel>
+WithUnlikeFrames(const Stack<TPixel> & stack)
+{
+  const std::size_t pixels = stack.width * stack.height;
+  return Insert(stack,
+                { { std::size_t{ 0 }, std::vector<TPixel>(pixels, TPixel{ 0 }) },
+                  { std::size_t{ 5 }, std::vector<TPixel>(pixels, TPixel{ 4095 }) },
+                  { stack.frames + 2, Mirrored(stack, 3) } });
+}
+
+/** Takes the values of the frames left out away, which are not known. */
+template <typename TValue, typename TIsKnown>
+void
+RemoveLeftOut(std::vector<TValue> & series, const std::vector<LeftOutFrame> & leftOut, TIsKnown isKnown)
+{
+  std::vector<TValue> kept;
+  for (std::size_t t = 0; t < series.size(); ++t)
+  {
+    const bool isOut =
+      std::any_of(leftOut.begin(), leftOut.end(), [t](const LeftOutFrame & each) { return each.frame == t; });
+    EXPECT_EQ(isKnown(series[t]), !isOut) << t;
+    if (!isOut)
+    {
+      kept.push_back(series[t]);
+    }
+  }
+  series = kept;
+}
+
+/** Expects that \a report, of a stack with unlike frames, is \a expected, of the stack without them, but for what it
+ * says of them. */
+inline void
+ExpectReportOfOthers(Report report, const Report & expected)
+{
+  ASSERT_FALSE(report.framesLeftOut.empty()) << ToJson(report);
+  EXPECT_EQ(report.frames, expected.frames + report.framesLeftOut.size());
+  EXPECT_EQ(report.framesDistinct, expected.framesDistinct);
+  ASSERT_FALSE(report.warnings.empty());
+  EXPECT_EQ(report.warnings.front().code, WarningCode::FramesLeftOut);
+  report.warnings.erase(report.warnings.begin());
+  report.frames = expected.frames;
+  RemoveLeftOut(report.flicker, report.framesLeftOut, [](double gamma) { return std::isfinite(gamma); });
+  RemoveLeftOut(
+    report.motion, report.framesLeftOut, [](const auto & shift) { return std::isfinite(shift[0] + shift[1]); });
+  report.framesLeftOut.clear();
+  EXPECT_EQ(ToJson(report), ToJson(expected));
+}
+
+/** The same of all results of a method, RefinedMethod or PublishedMethod. */
+template <typename TMethod>
+void
+ExpectResultOfOthers(const TMethod & method, const TMethod & expected)
+{
+  ExpectReportOfOthers(method.GetReport(), expected.GetReport());
+  EXPECT_TRUE(HaveSameBits(method.GetMean(), expected.GetMean()));
+  EXPECT_TRUE(HaveSameBits(method.GetVariance(), expected.GetVariance()));
+  EXPECT_TRUE(HaveSameBits(method.GetCorrectedVariance(), expected.GetCorrectedVariance()));
+  EXPECT_EQ(method.GetPixelUse(), expected.GetPixelUse());
+}
+
+} // namespace sensornoise::test
+
+#endif

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/moments/IlluminationChange.h"
+#include "sensornoise/moments/Constants.h"
+#include "sensornoise/moments/FrameThumbnails.h"
+#include "helpers/ThumbnailTestHelper.h"
+#include "sensornoise/simulation/Random.h"
+
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <gtest/gtest.h>
+#include <vector>
+
+using namespace sensornoise;
+
+namespace
+{
+constexpr std::size_t     Cells = 64;
+const std::vector<double> Factors{ 0.2, 0.4, 1.0, 0.7, 1.5, 0.1, 1.2, 0.9 };
+
+double
+MeanOf(const std::vector<double> & values)
+{
+  double sum = 0.0;
+  for (const double value : values)
+  {
+    sum += value;
+  }
+  return sum / static_cast<double>(values.size());
+}
+
+/** Their relative standard deviation. */
+double
+ChangeOfFactors()
+{
+  const double mean = MeanOf(Factors);
+  double       sum = 0.0;
+  for (const double factor : Factors)
+  {
+    sum += (factor - mean) * (factor - mean);
+  }
+  return std::sqrt(sum / static_cast<double>(Factors.size() - 1)) / mean;
+}
+
+/** The change that is found of cells \a value(t, i) over as many frames as there are factors. */
+double
+Find(const std::function<double(std::size_t t, std::size_t i)> & value)
+{
+  std::vector<std::vector<double>> frames(Factors.size());
+  std::vector<double>              mean(Cells, 0.0);
+  for (std::size_t t = 0; t < frames.size(); ++t)
+  {
+    for (std::size_t i = 0; i < Cells; ++i)
+    {
+      frames[t].push_back(value(t, i));
+      mean[i] += frames[t][i] / static_cast<double>(frames.size());
+    }
+  }
+  return ComputeIlluminationChange(mean, frames);
+}
+
+double
+Signal(std::size_t i)
+{
+  return 100.0 + 40.0 * std::sin(static_cast<double>(i));
+}
+} // namespace
+
+TEST(SensorNoiseIlluminationChange, OfAScenesContrastForAnyOffset)
+{
+  for (const double offset : { 0.0, 100.0, -1000.0, 4000.0 })
+  {
+    EXPECT_NEAR(
+      Find([&](std::size_t t, std::size_t i) { return offset + Factors[t] * Signal(i); }), ChangeOfFactors(), 1e-9)
+      << offset;
+  }
+}
+
+TEST(SensorNoiseIlluminationChange, OfAFlatFieldsLevel)
+{
+  CounterSeededRandom random(5, 1, 0);
+  // Noise of 0.1 in a cell: 0.1 / sqrt(64 cells) of each level, below 2e-4 of it.
+  const auto   flat = [&](std::size_t t, std::size_t) { return 300.0 + 100.0 * Factors[t] + 0.1 * random.Normal(); };
+  const double signal = 100.0 * MeanOf(Factors);
+  EXPECT_NEAR(Find(flat), ChangeOfFactors() * signal / (300.0 + signal), 1e-3);
+}
+
+TEST(SensorNoiseIlluminationChange, NoiseIsNone)
+{
+  CounterSeededRandom random(6, 1, 0);
+  // A dim flat field: the slopes of frames over noise are large, and explain little.
+  EXPECT_LT(Find([&](auto, auto) { return 10.0 + 10.0 * random.Normal(); }), InMoments.strongIlluminationChange);
+  EXPECT_EQ(Find([](auto, auto i) { return Signal(i); }), 0.0);
+}
+
+TEST(SensorNoiseIlluminationChange, AnotherSceneIsNone)
+{
+  // What it differs by is the other scene less the own one, which the mean frame explains to a third.
+  CounterSeededRandom random(7, 1, 0);
+  const auto          scene = [&](std::size_t t, std::size_t i) {
+    return t == 3 ? 100.0 + 40.0 * std::sin(1000.0 * random.Uniform()) : Signal(i);
+  };
+  EXPECT_LT(Find(scene), InMoments.strongIlluminationChange);
+}
+
+TEST(SensorNoiseIlluminationChange, ThumbnailsFindThatOfFrames)
+{
+  constexpr FrameGeometry geometry{ 48, 64 };
+  std::vector<double>     stack;
+  for (const double factor : Factors)
+  {
+    for (std::size_t p = 0; p < geometry.Pixels(); ++p)
+    {
+      stack.push_back(50.0 + factor * (100.0 + 30.0 * std::sin(0.2 * static_cast<double>(p % geometry.width))));
+    }
+  }
+  FrameThumbnails thumbnails(geometry, Factors.size(), {});
+  thumbnails.AddFrames(stack.data(), 0, Factors.size(), SerialFor);
+  EXPECT_NEAR(thumbnails.FindIlluminationChange(test::AllFrames(thumbnails)), ChangeOfFactors(), 1e-9);
+  FrameThumbnails few(geometry, 4, {});
+  few.AddFrames(stack.data(), 0, 4, SerialFor);
+  EXPECT_EQ(few.FindIlluminationChange(test::AllFrames(few)), 0.0);
+}

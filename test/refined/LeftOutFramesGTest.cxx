@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/mosaic/MosaicMethod.h"
+#include "sensornoise/published/PublishedMethod.h"
+#include "sensornoise/refined/RefinedMethod.h"
+#include "helpers/LeftOutTestHelper.h"
+#include "helpers/MergeTestHelper.h"
+#include "helpers/RepeatedTestHelper.h"
+
+#include <array>
+#include <cstddef>
+#include <gtest/gtest.h>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+// What is unlike the other frames is left out: the result is, bit by bit, that of the others alone.
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+using namespace sensornoise::test::merge;
+
+namespace
+{
+using Codes = unsigned short;
+
+std::string
+NamesOf(const std::vector<LeftOutFrame> & frames)
+{
+  std::string names;
+  for (const auto & [frame, fault] : frames)
+  {
+    names += std::to_string(frame) + " " + NameOf(fault) + "; ";
+  }
+  return names;
+}
+
+/** Lets processes that read every other frame each run one pass. */
+void
+RunSharedPass(RefinedMethod<Codes> & one, RefinedMethod<Codes> & two, const Stack<Codes> & stack)
+{
+  AddPart(one, stack, 0, 2, InTurn);
+  AddPart(two, stack, 1, 2, InTurn);
+  std::stringstream ofOne;
+  std::stringstream ofTwo;
+  one.SaveSums(ofOne);
+  two.SaveSums(ofTwo);
+  one.MergeSums(ofTwo);
+  two.MergeSums(ofOne);
+  one.EndPass();
+  two.EndPass();
+}
+} // namespace
+
+template <typename TPixel>
+class SensorNoiseLeftOutFramesOf : public ::testing::Test
+{};
+using PixelTypes = ::testing::Types<unsigned short, float>;
+TYPED_TEST_SUITE(SensorNoiseLeftOutFramesOf, PixelTypes);
+
+TYPED_TEST(SensorNoiseLeftOutFramesOf, AreNamedAndTheRestIsMeasuredAsWithoutThem)
+{
+  const auto & stack = SmallStack<TypeParam>();
+  const auto   expected = Measure(stack);
+  ASSERT_EQ(expected.GetReport().gain.status, EstimateStatus::Identified);
+  ASSERT_EQ(NamesOf(expected.GetReport().framesLeftOut), "");
+  const auto unlike = WithUnlikeFrames(stack);
+  for (const std::size_t chunk : { 1, 4, 1000 })
+  {
+    const auto method = Measure(unlike, WithCodes(), chunk, Threads(chunk % 3 + 1));
+    EXPECT_EQ(NamesOf(method.GetReport().framesLeftOut), "0 no-noise; 5 no-noise; 26 other-shape; ");
+    ExpectResultOfOthers(method, expected);
+  }
+}
+
+TEST(SensorNoiseLeftOutFrames, AreNamedInOneWarning)
+{
+  const auto method = Measure(WithUnlikeFrames(SmallStack<Codes>()));
+  EXPECT_EQ(method.GetReport().warnings.front().message,
+            "3 of 27 frames are unlike the others (frame 0: no-noise, frame 5: no-noise, frame 26: other-shape; the "
+            "first is 0): all else is measured without them");
+}
+
+TEST(SensorNoiseLeftOutFrames, OfFramesThatAreNotFiniteAreNamed)
+{
+  const auto &             stack = SmallStack<float>();
+  const std::vector<float> unknown(stack.width * stack.height, std::numeric_limits<float>::quiet_NaN());
+  const auto               method = Measure(Insert(stack, { { std::size_t{ 7 }, unknown } }));
+  EXPECT_EQ(NamesOf(method.GetReport().framesLeftOut), "7 not-finite; ");
+  ExpectResultOfOthers(method, Measure(stack));
+}
+
+TEST(SensorNoiseLeftOutFrames, ThatAreEqualAreLeftOutTogetherAndRepeatedOnesAreCountedOnce)
+{
+  const auto & stack = SmallStack<Codes>();
+  Shown        shown = { 0, 0 };
+  for (std::size_t t = 0; t < stack.frames; ++t)
+  {
+    shown.push_back(t + 1);
+  }
+  shown.push_back(9);
+  const Stack<Codes> first = Insert(stack, { { std::size_t{ 0 }, Mirrored(stack, 3) } });
+  Report             report = Measure(Show(first, shown)).GetReport();
+  EXPECT_EQ(NamesOf(report.framesLeftOut), "0 other-shape; 1 other-shape; ");
+  EXPECT_EQ(report.framesDistinct, stack.frames);
+  EXPECT_TRUE(HasWarning(report, WarningCode::RepeatedFrames));
+  EXPECT_EQ(report.gain.value, Measure(stack).GetReport().gain.value);
+}
+
+TEST(SensorNoiseLeftOutFrames, OfSeveralProcessesAreThoseOfOne)
+{
+  const auto &         stack = SmallStack<Codes>();
+  const auto           unlike = WithUnlikeFrames(stack);
+  RefinedMethod<Codes> one = MethodOf(unlike);
+  RefinedMethod<Codes> two = MethodOf(unlike);
+  unsigned int         passes = 0;
+  for (; !one.IsDone(); ++passes)
+  {
+    RunSharedPass(one, two, unlike);
+  }
+  EXPECT_EQ(passes, 4U); // the moments twice
+  EXPECT_TRUE(two.IsDone());
+  const auto expected = Measure(stack);
+  ExpectResultOfOthers(one, expected);
+  ExpectResultOfOthers(two, expected);
+}
+
+TEST(SensorNoiseLeftOutFrames, OfAPassThatIsForgottenAreReadAgain)
+{
+  const auto &         stack = SmallStack<Codes>();
+  const auto           unlike = WithUnlikeFrames(stack);
+  RefinedMethod<Codes> method = MethodOf(unlike);
+  while (!method.IsDone())
+  {
+    method.AddFrames(unlike.Frame(0), 10);
+    method.ForgetSums();
+    method.AddFrames(unlike.Frame(0), unlike.frames);
+    method.EndPass();
+  }
+  ExpectResultOfOthers(method, Measure(stack));
+}
+
+TEST(SensorNoiseLeftOutFrames, OfThePublishedMethodAreLeftOutAlike)
+{
+  const auto & stack = SmallStack<Codes>();
+  const auto   measure = [](const Stack<Codes> & frames) {
+    PublishedSettings settings;
+    settings.codes = WithCodes().codes;
+    PublishedMethod<Codes> method(settings, GeometryOf(frames), frames.frames);
+    while (!method.IsDone())
+    {
+      method.AddFrames(frames.Frame(0), frames.frames);
+      method.EndPass();
+    }
+    return method;
+  };
+  ExpectResultOfOthers(measure(WithUnlikeFrames(stack)), measure(stack));
+}
+
+TEST(SensorNoiseLeftOutFrames, OfOnePlaneOfAMosaicAreLeftOutOfAll)
+{
+  const auto & plane = SmallStack<Codes>();
+  // All planes show the scene; one frame is zeros in the plane of the blue pixels alone.
+  const MosaicGeometry  geometry{ { 2 * plane.width, 2 * plane.height, 1 }, BayerPattern::RGGB };
+  constexpr std::size_t at = 4;
+  Stack<Codes>          mosaic{ geometry.frame.width, geometry.frame.height, plane.frames, {} };
+  for (std::size_t t = 0; t < plane.frames; ++t)
+  {
+    std::array<std::vector<Codes>, 4> planes;
+    planes.fill(std::vector<Codes>(plane.Frame(t), plane.Frame(t) + plane.width * plane.height));
+    if (t == at)
+    {
+      planes.at(static_cast<std::size_t>(BayerPlane::B)).assign(plane.width * plane.height, 0);
+    }
+    const std::vector<Codes> frame = geometry.Join(planes, Codes{ 0 }, SerialFor);
+    mosaic.pixels.insert(mosaic.pixels.end(), frame.begin(), frame.end());
+  }
+  MosaicMethod<Codes, RefinedMethod<Codes>> method(geometry, [&](BayerPlane, const ParallelFor & parallelFor) {
+    return RefinedMethod<Codes>(WithCodes(), geometry.Plane(), plane.frames, {}, parallelFor);
+  });
+  while (!method.IsDone())
+  {
+    method.AddFrames(mosaic.Frame(0), mosaic.frames);
+    method.EndPass();
+  }
+  Stack<Codes> others = plane;
+  others.pixels.erase(others.pixels.begin() + static_cast<std::ptrdiff_t>(at * plane.width * plane.height),
+                      others.pixels.begin() + static_cast<std::ptrdiff_t>((at + 1) * plane.width * plane.height));
+  --others.frames;
+  const Report expected = Measure(others).GetReport();
+  for (const Report & report : method.GetReports())
+  {
+    EXPECT_EQ(NamesOf(report.framesLeftOut), "4 no-noise; ");
+    ExpectReportOfOthers(report, expected);
+  }
+}

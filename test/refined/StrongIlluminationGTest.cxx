@@ -1,0 +1,276 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/mosaic/MosaicMethod.h"
+#include "sensornoise/refined/RefinedMethod.h"
+#include "sensornoise/report/ReportJson.h"
+#include "helpers/RefinedTestHelper.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <gtest/gtest.h>
+#include <sstream>
+#include <string>
+#include <vector>
+
+/** \file
+ * The refined method under strong changes of the illumination, for which it reads the stack once more. */
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+
+namespace
+{
+using Codes = unsigned short;
+
+SimulationSettings
+StrongSettings(const std::string & illumination)
+{
+  SimulationSettings settings;
+  settings.camera = { 4000.0, 0.5, 100.0, 3.0 };
+  settings.conditions = { 0.01, 0.01, 0.02 };
+  settings.illumination = IlluminationOf(illumination);
+  settings.frames = 40;
+  settings.seed = 5;
+  return settings;
+}
+
+const Stack<Codes> &
+StrongStack()
+{
+  static const auto stack = Simulate<Codes>(StrongSettings("pulses:0.3:4"), 96, 80);
+  return stack;
+}
+
+template <typename TMethod>
+std::size_t
+RunPasses(TMethod & method, const Stack<Codes> & stack, std::size_t chunk)
+{
+  std::size_t passes = 0;
+  for (; !method.IsDone(); ++passes)
+  {
+    for (std::size_t t = 0; t < stack.frames; t += chunk)
+    {
+      method.AddFrames(stack.Frame(t), std::min(chunk, stack.frames - t));
+    }
+    method.EndPass();
+  }
+  return passes;
+}
+
+RefinedMethod<Codes>
+MethodOf(const Stack<Codes> & stack, const ParallelFor & parallelFor = SerialFor)
+{
+  return RefinedMethod<Codes>(RefinedSettings(), GeometryOf(stack), stack.frames, {}, parallelFor);
+}
+
+void
+ExpectSameBits(const RefinedMethod<Codes> & a, const RefinedMethod<Codes> & b)
+{
+  EXPECT_EQ(ToJson(a.GetReport()), ToJson(b.GetReport()));
+  EXPECT_TRUE(HaveSameBits(a.GetMean(), b.GetMean()));
+  EXPECT_TRUE(HaveSameBits(a.GetVariance(), b.GetVariance()));
+  EXPECT_TRUE(HaveSameBits(a.GetCorrectedVariance(), b.GetCorrectedVariance()));
+  EXPECT_TRUE(HaveSameBits(a.GetPixelUse(), b.GetPixelUse()));
+}
+} // namespace
+
+TEST(SensorNoiseStrongIllumination, IsReadOnceMoreAndSmallFlickerIsNot)
+{
+  auto strong = MethodOf(StrongStack());
+  EXPECT_EQ(RunPasses(strong, StrongStack(), 40), 4U);
+  const auto steady = Simulate<Codes>(StrongSettings("steady"), 96, 80);
+  auto       ordinary = MethodOf(steady);
+  EXPECT_EQ(RunPasses(ordinary, steady, 40), 3U);
+}
+
+TEST(SensorNoiseStrongIllumination, GainOffsetAndReadNoiseAreTheCameras)
+{
+  for (const char * const shape : { "pulses:0.3:4", "sine:0:7.3", "uniform:0", "decay:0.3" })
+  {
+    const auto     stack = Simulate<Codes>(StrongSettings(shape), 160, 128);
+    const auto     method = Measure(stack);
+    const Report & report = method.GetReport();
+    ASSERT_EQ(report.gain.status, EstimateStatus::Identified) << shape;
+    // 4 standard errors: once in 16,000 by chance; of the offset and the read noise, too.
+    EXPECT_NEAR(*report.gain.value, 0.5, 4.0 * *report.gain.standardError) << shape;
+    EXPECT_LT(*report.gain.standardError, 0.01 * 0.5) << shape;
+    ASSERT_EQ(report.offset.status, EstimateStatus::Identified) << shape;
+    EXPECT_NEAR(*report.offset.value, 100.0, 4.0 * *report.offset.standardError) << shape;
+    ASSERT_EQ(report.readNoise.status, EstimateStatus::Identified) << shape;
+    EXPECT_NEAR(*report.readNoise.value, 3.0, 4.0 * *report.readNoise.standardError) << shape;
+  }
+}
+
+TEST(SensorNoiseStrongIllumination, DarkFramesHaveNoShift)
+{
+  const auto     stack = Simulate<Codes>(StrongSettings("pulses:0:4"), 160, 128);
+  const auto     method = Measure(stack);
+  const Report & report = method.GetReport();
+  ASSERT_EQ(report.motion.size(), 40U);
+  for (std::size_t t = 0; t < report.motion.size(); ++t)
+  {
+    EXPECT_EQ(std::isfinite(report.motion[t][1]), t % 4 == 3) << t;
+  }
+  // A standard deviation of the shifts of 10 lit frames scatters by 1 / sqrt(2 * 9): 4 of these.
+  ASSERT_TRUE(report.vibrationSdX.value && report.vibrationSdY.value);
+  EXPECT_NEAR(*report.vibrationSdX.value, 0.01, 0.01 * 4.0 / std::sqrt(18.0));
+  EXPECT_NEAR(*report.vibrationSdY.value, 0.02, 0.02 * 4.0 / std::sqrt(18.0));
+}
+
+TEST(SensorNoiseStrongIllumination, WithoutTheLightOfTheFramesTheirShiftsWeighAlike)
+{
+  SimulationSettings settings;
+  settings.frames = 60;
+  settings.prnuSd = 0.3; // the contrast of a flat field, whose offset is not known
+  const Report report = Measure(Simulate<Codes>(settings, 160, 128, std::vector<double>(160 * 128, 1.0))).GetReport();
+  ASSERT_FALSE(report.flickerSd.value);
+  ASSERT_TRUE(report.vibrationSdX.interval95 || report.vibrationSdX.bracket);
+  const Interval limits = report.vibrationSdX.interval95.value_or(report.vibrationSdX.bracket.value_or(Interval{}));
+  EXPECT_TRUE(std::isfinite(limits.high.value_or(0.0)));
+}
+
+TEST(SensorNoiseStrongIllumination, VarianceThatIsShownIsThatOverTime)
+{
+  const auto &      stack = StrongStack();
+  auto              method = MethodOf(stack);
+  const std::size_t pixels = stack.width * stack.height;
+  RunPasses(method, stack, 11);
+  for (std::size_t p = 0; p < pixels; p += 7)
+  {
+    double sum = 0.0;
+    double squares = 0.0;
+    for (std::size_t t = 0; t < stack.frames; ++t)
+    {
+      sum += stack.Frame(t)[p];
+      squares += static_cast<double>(stack.Frame(t)[p]) * stack.Frame(t)[p];
+    }
+    const auto   frames = static_cast<double>(stack.frames);
+    const double variance = (squares - sum * sum / frames) / (frames - 1.0);
+    ASSERT_NEAR(method.GetVariance()[p], variance, 1e-9 * variance);
+    ASSERT_NEAR(method.GetMean()[p], sum / frames, 1e-9 * sum);
+  }
+}
+
+TEST(SensorNoiseStrongIllumination, SameBitsForAnyChunksThreadsAndOrder)
+{
+  const auto & stack = StrongStack();
+  auto         whole = MethodOf(stack);
+  RunPasses(whole, stack, stack.frames);
+  ASSERT_EQ(whole.GetReport().gain.status, EstimateStatus::Identified);
+  const auto threads = Threads(3);
+  auto       chunks = MethodOf(stack, threads);
+  RunPasses(chunks, stack, 7);
+  ExpectSameBits(chunks, whole);
+  auto sumsStay = MethodOf(stack);
+  sumsStay.LetSumsStay();
+  RunPasses(sumsStay, stack, stack.frames);
+  ExpectSameBits(sumsStay, whole);
+  auto turned = MethodOf(stack);
+  while (!turned.IsDone())
+  {
+    turned.AddFrames(stack.Frame(3), 7);
+    turned.ForgetSums();
+    for (std::size_t t = stack.frames; t-- > 0;)
+    {
+      turned.GoTo(t);
+      turned.AddFrames(stack.Frame(t), 1);
+    }
+    turned.EndPass();
+  }
+  ExpectSameBits(turned, whole);
+}
+
+TEST(SensorNoiseStrongIllumination, ProcessesThatShareTheirSumsHaveTheBitsOfTheWhole)
+{
+  const auto & stack = StrongStack();
+  auto         whole = MethodOf(stack);
+  RunPasses(whole, stack, stack.frames);
+  std::vector<RefinedMethod<Codes>> parts;
+  parts.push_back(MethodOf(stack));
+  parts.push_back(MethodOf(stack));
+  std::size_t passes = 0;
+  for (; !parts[0].IsDone(); ++passes)
+  {
+    std::array<std::stringstream, 2> sums;
+    for (std::size_t i = 0; i < 2; ++i)
+    {
+      for (std::size_t t = 0; t < stack.frames; ++t)
+      {
+        t % 3 % 2 == i ? parts[i].AddFrames(stack.Frame(t), 1) : parts[i].SkipFrames(1);
+      }
+      parts[i].SaveSums(sums.at(i));
+    }
+    parts[0].MergeSums(sums[1]);
+    parts[1].MergeSums(sums[0]);
+    parts[0].EndPass();
+    parts[1].EndPass();
+  }
+  EXPECT_EQ(passes, 4U);
+  ExpectSameBits(parts[0], whole);
+  ExpectSameBits(parts[1], whole);
+}
+
+TEST(SensorNoiseStrongIllumination, SumsOfAnotherReadingAreRefused)
+{
+  // Another stack has other means: the series that pixels are projected on differs.
+  const auto & stack = StrongStack();
+  const auto   other = stack.Map([](Codes u) { return u + 1; });
+  auto         method = MethodOf(stack);
+  auto         another = MethodOf(other);
+  method.AddFrames(stack.Frame(0), stack.frames);
+  another.AddFrames(other.Frame(0), stack.frames);
+  method.EndPass();
+  another.EndPass();
+  std::stringstream sums;
+  another.AddFrames(other.Frame(0), 1);
+  another.SaveSums(sums);
+  method.SkipFrames(1);
+  EXPECT_THROW(method.MergeSums(sums), std::runtime_error);
+}
+
+TEST(SensorNoiseStrongIllumination, PlanesOfAMosaicFindWhatTheyFindAlone)
+{
+  SimulationSettings settings = StrongSettings("sine:0.1:9");
+  settings.flaws.filters.pattern = BayerPattern::RGGB;
+  Stack<Codes>         stack = Simulate<Codes>(settings, 128, 128);
+  const MosaicGeometry geometry{ { stack.width, stack.height, 1 }, BayerPattern::RGGB };
+  const std::size_t    pixels = stack.width * stack.height;
+  // The last plane is steady, and needs no further reading: the planes are not in step.
+  for (std::size_t t = 0; t < stack.frames; ++t)
+  {
+    for (std::size_t y = 1; y < stack.height; y += 2)
+    {
+      for (std::size_t x = 1; x < stack.width; x += 2)
+      {
+        const std::size_t p = y * stack.width + x;
+        stack.pixels[t * pixels + p] = static_cast<Codes>(400 + 3 * (x + y) + (7 * t + 5 * p + t * p) % 23);
+      }
+    }
+  }
+  const auto make = [&](BayerPlane, const ParallelFor & parallelFor) {
+    return RefinedMethod<Codes>(RefinedSettings(), geometry.Plane(), stack.frames, {}, parallelFor);
+  };
+  for (const std::size_t chunk : { std::size_t{ 9 }, stack.frames })
+  {
+    MosaicMethod<Codes, RefinedMethod<Codes>> mosaic(geometry, make, Threads(3), 3);
+    mosaic.LetSumsStay(MosaicMethod<Codes, RefinedMethod<Codes>>::ManySums{ 0, 0 });
+    RunPasses(mosaic, stack, chunk);
+    for (std::size_t k = 0; k < BayerPlanes.size(); ++k)
+    {
+      Stack<Codes> alone{ geometry.Plane().width, geometry.Plane().height, stack.frames, {} };
+      for (std::size_t t = 0; t < stack.frames; ++t)
+      {
+        const auto frame =
+          geometry.Take(std::vector<Codes>(stack.Frame(t), stack.Frame(t) + pixels), BayerPlanes.at(k));
+        alone.pixels.insert(alone.pixels.end(), frame.begin(), frame.end());
+      }
+      auto method = MethodOf(alone);
+      EXPECT_EQ(RunPasses(method, alone, stack.frames), k < 3 ? 4U : 3U) << k;
+      EXPECT_EQ(ToJson(mosaic.GetReports().at(k)), ToJson(method.GetReport())) << k;
+    }
+    ASSERT_EQ(mosaic.GetReports()[0].gain.status, EstimateStatus::Identified);
+    EXPECT_NEAR(*mosaic.GetReports()[0].gain.value, 0.5, 4.0 * *mosaic.GetReports()[0].gain.standardError);
+  }
+}
