@@ -54,7 +54,8 @@ enum class WarningCode : std::uint8_t
   CodesTooCoarse,
   IntensityRangeTooSmall,
   NoiseNotLinear,
-  VarianceNotAffine
+  VarianceNotAffine,
+  Contradicted
 };
 
 /** What a warning does to the measurement. */
@@ -82,7 +83,7 @@ struct WarningKind
 
 /** All that a report can warn of, in the order of WarningCode. README and Python show this table; a warning's own
  * message has the numbers. */
-inline constexpr std::array<WarningKind, 42> WarningTable{ {
+inline constexpr std::array<WarningKind, 43> WarningTable{ {
   { WarningCode::FewFrames, "few-frames", Severity::Warning, "Fewer than 20 different frames: indicative only." },
   { WarningCode::Mosaic,
     "mosaic",
@@ -275,6 +276,11 @@ inline constexpr std::array<WarningKind, 42> WarningTable{ {
     Severity::Error,
     "The variance departs from its line by more than 12 %, falls with the mean, or bends so that gain and read noise "
     "cannot be told apart: not raw (gamma, compression), not linear, or saturated at a level that was not found." },
+  { WarningCode::Contradicted,
+    "contradicted",
+    Severity::Error,
+    "What else was found contradicts the gain: a variance that scatters less than chance allows, or an interval that "
+    "holds 0. The frames are no burst of one scene, or the light of one or two frames is all there is." },
 } };
 
 /** The line of \a code. */
@@ -296,7 +302,7 @@ IsInOrder()
       return false;
     }
   }
-  return static_cast<std::size_t>(WarningCode::VarianceNotAffine) + 1 == WarningTable.size();
+  return static_cast<std::size_t>(WarningCode::Contradicted) + 1 == WarningTable.size();
 }
 static_assert(IsInOrder(), "the table has a line for every code, in their order");
 } // namespace detail

@@ -7,6 +7,7 @@
 #include "sensornoise/base/PixelUse.h"
 #include "sensornoise/moments/StackMaps.h"
 #include "sensornoise/report/AllFrames.h"
+#include "sensornoise/report/Contradictions.h"
 #include "sensornoise/report/SceneChangeReport.h"
 #include "sensornoise/report/StackReport.h"
 #include "sensornoise/report/StackSettings.h"
@@ -121,6 +122,7 @@ PublishedMethod<TPixel>::FinishSums()
     m_Correction.reset(); // their memory
     m_Report = MakePublishedReport({ m_Settings, m_Geometry, m_Distinct.Count(), m_Scene, m_Flicker, m_Corrected },
                                    m_ParallelFor);
+    WithdrawContradicted(m_Report);
     WarnOfMosaic(m_Report, m_Scene.mean, m_Geometry, m_ParallelFor);
     NoteMask(m_Report, m_Geometry, m_UserMask);
     ReportSceneChange(m_Report, m_Thumbnails.FindChange(m_Distinct.Counted()));

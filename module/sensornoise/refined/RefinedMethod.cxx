@@ -12,6 +12,7 @@
 #include "sensornoise/refined/PixelsOfVariance.h"
 #include "sensornoise/refined/RefinedReport.h"
 #include "sensornoise/report/AllFrames.h"
+#include "sensornoise/report/Contradictions.h"
 #include "sensornoise/report/SceneChangeReport.h"
 #include "sensornoise/report/StackReport.h"
 #include "sensornoise/report/StackSettings.h"
@@ -369,6 +370,7 @@ RefinedMethod<TPixel>::MakeReport()
                                               BlackLevel(m_Settings, *m_Scene, m_Series),
                                               m_Correlation },
                                             m_ParallelFor);
+  WithdrawContradicted(m_Report);
   UncoverUnknown(m_Scene->frame, m_ParallelFor);
   WarnOfMosaic(m_Report, m_Scene->frame.mean, m_Geometry, m_ParallelFor);
   NoteMask(m_Report, m_Geometry, m_UserMask);
