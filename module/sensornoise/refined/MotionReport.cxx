@@ -271,7 +271,11 @@ FillMotion(Report & report, const RefinedResults & found)
     const bool       isKnown = weights.ofFrames[t] > 0.0;
     report.motion.push_back({ isKnown ? x.series[t] : unknown, isKnown ? y.series[t] : unknown });
   }
-  report.vibrationCovariance = CovarianceOf(x, y, polished, weights);
+  const Quantity covariance = CovarianceOf(x, y, polished, weights);
+  if (std::isfinite(covariance.value.value_or(0.0))) // else the light of the frames is not known, nor are their shifts
+  {
+    report.vibrationCovariance = covariance;
+  }
 }
 
 } // namespace sensornoise
