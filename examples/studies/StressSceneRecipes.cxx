@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/simulation/Illumination.h"
 #include "sensornoise/simulation/Random.h"
 #include "sensornoise/simulation/Scenes.h"
 #include "sensornoise/simulation/SimulationTruth.h"
@@ -189,6 +190,24 @@ PrepareVeil(StressRecipe & recipe)
     }
   };
 }
+
+/** Strong changes of the illumination: the shapes of the simulator, of IlluminationOf(). */
+void
+AppendIlluminationRecipes(std::vector<StressRecipeEntry> & entries)
+{
+  const auto append = [&entries](const char * name, const char * what, const char * illumination, double electrons) {
+    entries.push_back({ { name, what }, [=](StressRecipe & recipe) {
+                         recipe.settings.illumination = IlluminationOf(illumination);
+                         recipe.settings.camera.electrons *= electrons;
+                       } });
+  };
+  append("pulses0.3", "every fourth frame is bright, the others have 30 % of its illumination", "pulses:0.3:4", 1.0);
+  append("ramp0", "the illumination rises linearly from 0", "ramp:0", 1.0);
+  append("decay0.1", "the illumination decays exponentially to 10 %", "decay:0.1", 1.0);
+  append("sine0.1", "the illumination is a sine from 10 % to 100 %, with a period of 9 frames", "sine:0.1:9", 1.0);
+  // The brightest of 100 frames has about 5 times the mean illumination: with all electrons most pixels clip.
+  append("exponential", "the illumination is an exponential random number, 1 / 5 of the electrons", "exponential", 0.2);
+}
 } // namespace
 
 void
@@ -234,6 +253,7 @@ AppendSceneRecipes(std::vector<StressRecipeEntry> & entries)
     entries.push_back({ { "T" + std::to_string(frames), "a burst of so many frames" },
                         [=](StressRecipe & recipe) { recipe.settings.frames = static_cast<std::size_t>(frames); } });
   }
+  AppendIlluminationRecipes(entries);
 }
 
 } // namespace sensornoise::tools
