@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 from acceptance_bound import gain_bound
+from acceptance_emva import system_gain
 from acceptance_lines import CAMERA, expected_of, simulator_options, stream_of
 from acceptance_programs import ProgramError, run
 from acceptance_stacks import judge
@@ -90,7 +91,8 @@ REPLACEMENTS = {
 
 
 def simulate(programs, line, scene, bits, seed, folder):
-    """Makes a burst: its file, its truth, and the bound of its gain [DN/e-]."""
+    """Makes a burst: its file, its truth, the bound of its gain, and the gain by EMVA 1288 of an exposure series
+    [DN/e-]."""
     name, truth_name, factors_name = (folder / file for file in ("burst.mha", "truth.json", "factors.txt"))
     illumination = line.illumination
     if line.factors:
@@ -108,12 +110,15 @@ def simulate(programs, line, scene, bits, seed, folder):
         1 + np.array(truth["flicker"]),
         2**bits - 1 - truth["offset"],
     )
+    emva = None
+    if line.frames_per_level:
+        emva = system_gain(frames, line.frames_per_level, line.factors[0] == 0, 2**bits - 1)
     if line.replaced:
         camera = Camera(programs, line, scene, bits, truth, folder, seed)
         for place, kind in line.replaced:
             frames[place] = REPLACEMENTS[kind](camera, frames.shape[1:])
         write_frames(name, frames, header)
-    return name, truth, bound
+    return name, truth, bound, emva
 
 
 def truth_of(record):
@@ -125,7 +130,7 @@ def measure(programs, line, scene, bits, number):
     """Makes a burst, estimates it, and judges the report."""
     seed = stream_of(f"{line.name} {scene} {bits}", number)
     with tempfile.TemporaryDirectory(prefix="acceptance-") as folder:
-        name, record, bound = simulate(programs, line, scene, bits, seed, Path(folder))
+        name, record, bound, emva = simulate(programs, line, scene, bits, seed, Path(folder))
         command = [programs.estimator, name, "--json", "-", "--quiet", "--threads", 1]
         done = run(command, allowed=None)
     expected = expected_of(line, scene)
@@ -141,4 +146,6 @@ def measure(programs, line, scene, bits, number):
     loud = [warning["code"] for warning in report["warnings"] if warning["severity"] != "note"]
     stack = judge(found, truth, record["gain"] * record["electrons"], loud, expected)
     relative = None if bound is None or bound > truth["gain"] else bound / truth["gain"]
-    return [stack | {"setting": "", "exit": done.code, "seconds": done.seconds, "bound": relative}]
+    emva_error = None if emva is None else emva / truth["gain"] - 1
+    further = {"exit": done.code, "seconds": done.seconds, "bound": relative, "emva_error": emva_error}
+    return [stack | {"setting": "", **further}]

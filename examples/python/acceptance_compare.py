@@ -22,7 +22,8 @@ SMALLEST_FRACTION = 0.05  # of the stacks: 1 in 20 has to change, the fraction t
 SMALLEST_ERROR = 0.05  # of the old mean error [1]: a tenth of the frames makes as much (1 / sqrt(1.1) = 0.953)
 NOMINAL_COVERAGE = 0.95  # of the report's intervals [1]
 ALL_LINES = ", all lines"
-IMPROBABLE = 0.001  # probability of so few intervals that hold the truth, below which a line's coverage is a fault
+# Probability below which it is a fault that so few intervals hold the truth, or that errors are so much above EMVA's.
+IMPROBABLE = 0.001
 
 
 def student_factor(dof):
@@ -61,6 +62,18 @@ def size_of(stack):
     return None if stack["error"] is None else min(abs(stack["error"]), LARGEST_ERROR)
 
 
+def errors_beside_emva(stacks):
+    """The errors of the gain, ours and those of EMVA's photon transfer, of the stacks that have both."""
+    both = [(stack["error"], stack.get("emva_error")) for stack in stacks]
+    return [(ours, theirs) for ours, theirs in both if ours is not None and theirs is not None]
+
+
+def rms_over_emva(pairs):
+    """Rms error of the gain over that of EMVA's photon transfer; None without pairs."""
+    theirs = sum(error**2 for _, error in pairs)
+    return math.sqrt(sum(error**2 for error, _ in pairs) / theirs) if theirs else None
+
+
 def summarise(stacks):
     """A line of the table: counts and means over its stacks; None where nothing is known."""
     errors = [size_of(stack) for stack in stacks if stack["error"] is not None]
@@ -69,6 +82,7 @@ def summarise(stacks):
         "stacks": len(stacks),
         "error": statistics.fmean(errors) if errors else None,
         "over_bound": math.sqrt(statistics.fmean(ratio**2 for ratio in ratios)) if ratios else None,
+        "over_emva": rms_over_emva(errors_beside_emva(stacks)),
         "held": {name: held(stacks, name) for name in ("gain", "offset", "read_noise")},
         "refused": sum(stack["refused"] for stack in stacks),
         "wrong": sum(bool(stack["wrong"]) for stack in stacks),
@@ -84,6 +98,9 @@ def faults_of(row, stacks):
     faults = [name for name in ("silent", "wrong") if row[name]][:1]
     if unexpected:
         faults.append(f"refused {unexpected}")
+    count = len(errors_beside_emva(stacks))
+    if row["over_emva"] and row["over_emva"] ** 2 > stats.f.isf(IMPROBABLE, count, count):
+        faults.append("above EMVA")
     for name, (met, count) in row["held"].items():
         if count and lower_tail(met, count, NOMINAL_COVERAGE) < IMPROBABLE:
             faults.append(f"coverage of {name}")

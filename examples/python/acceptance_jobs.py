@@ -22,7 +22,8 @@ from acceptance_programs import hash_of
 class Plan(NamedTuple):
     """How many stacks, and of what size, a run has. Seeds are those of each variant of a line."""
 
-    burst_seeds: int  # times 3 scenes and 2 converters
+    burst_seeds: int  # times 3 scenes and 2 converters, as the next
+    exposure_seeds: int  # of exposures/*
     efficiency_seeds: int
     efficiency_size: int  # width and height [pixels]
     robustness_seeds: int  # times 2 scenes
@@ -32,9 +33,9 @@ class Plan(NamedTuple):
 
 
 # So many that two cores stay below 5 minutes: sensors of 128 pixels took 302 s.
-QUICK = Plan(3, 6, 256, 4, 128, 2, 96)
+QUICK = Plan(3, 1, 6, 256, 4, 128, 2, 96)
 # At least 100 stacks a line.
-FULL = Plan(20, 100, 512, 50, 256, 20, 256)
+FULL = Plan(20, 20, 100, 512, 50, 256, 20, 256)
 
 
 class Job(NamedTuple):
@@ -58,7 +59,7 @@ def burst_jobs(programs, plan):
         for scene, bits in variants():
             made_by = (*simulator_options(line, scene, bits), line.illumination, *line.factors, *line.replaced)
             recipe = " ".join(map(str, made_by))
-            for seed in range(1, plan.burst_seeds + 1):
+            for seed in range(1, (plan.exposure_seeds if line.frames_per_level else plan.burst_seeds) + 1):
                 measure = partial(acceptance_bursts.measure, programs, line, scene, bits, seed)
                 yield Job(line.name, f"{scene}, {bits} bits", seed, recipe, program, measure)
 

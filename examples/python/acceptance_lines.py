@@ -18,6 +18,10 @@ CAMERA = {"gain": 0.5, "read-noise": 3, "electrons": 5000, "size": "240x200", "f
 SCENES = ("target", "texture", "flat")
 OFFSETS_DN = {12: 100, 16: 4000}  # by the bits of the converter
 FRAMES = 60
+# Of the exposure series, exposures/*: a steady lamp, and no vibration, which EMVA's photon transfer takes for noise.
+BENCH = ("--flicker-sd", "0.002", "--vibration-sd", "0,0")
+LOWEST_LIT = 0.05  # illumination factor of the darkest level of a series without dark frames [1]
+FIXED_PATTERN = ("--prnu", "0.007", "--dsnu", "2")  # of half of the lines
 
 
 class Line(NamedTuple):
@@ -30,6 +34,7 @@ class Line(NamedTuple):
     factors: tuple[float, ...] = ()  # instead of illumination: one for each frame
     replaced: tuple[tuple[int, str], ...] = ()  # frame and kind, of acceptance_bursts.REPLACEMENTS
     frames: int = FRAMES
+    frames_per_level: int = 0  # of an exposure series; 0: the burst is none
     simulator: tuple[str, ...] = ()  # further options of simulate-sensor-noise
 
 
@@ -41,6 +46,21 @@ def one_frame(frames, place, factor, others):
 def unlike(name, *replaced, **further):
     """A line whose frames are replaced. The rest of a flat field is steady and need not determine the gain."""
     return Line(f"unlike/{name}", expected_of_flat=MAY_REFUSE, replaced=replaced, **further)
+
+
+def exposures(levels, frames_per_level, lowest, *options, suffix=""):
+    """A line whose bursts are exposure series, of equally distant levels from the lowest factor to 1.
+
+    lowest: 0: the first level is dark frames; options: of the simulator."""
+    steps = [round(lowest + (1 - lowest) * level / (levels - 1), 6) for level in range(levels)]
+    return Line(
+        f"exposures/{levels}x{frames_per_level}{'' if lowest == 0 else '-no-dark'}{suffix}",
+        expected_of_flat=MAY_REFUSE,
+        factors=tuple(step for step in steps for _ in range(frames_per_level)),
+        frames=levels * frames_per_level,
+        frames_per_level=frames_per_level,
+        simulator=(*BENCH, *options),
+    )
 
 
 LINES = (
@@ -59,6 +79,17 @@ LINES = (
     Line("illumination/exponential", "exponential"),
     Line("illumination/flicker-0.7", simulator=("--flicker-sd", "0.7")),
     Line("illumination/first-dark", expected_of_flat=MAY_REFUSE, factors=one_frame(FRAMES, 0, 0.0, others=1.0)),
+    exposures(5, 2, 0.0),
+    exposures(5, 2, LOWEST_LIT),
+    exposures(5, 10, 0.0, *FIXED_PATTERN),
+    exposures(5, 10, LOWEST_LIT, *FIXED_PATTERN),
+    exposures(8, 5, 0.0, *FIXED_PATTERN),
+    exposures(8, 5, LOWEST_LIT),
+    exposures(8, 5, 0.0, "--size", "640x512", suffix="-640x512"),
+    exposures(12, 2, 0.0, *FIXED_PATTERN),
+    exposures(12, 2, LOWEST_LIT, *FIXED_PATTERN),
+    exposures(12, 10, 0.0),
+    exposures(12, 10, LOWEST_LIT),
     unlike("zeros-first", (0, "zeros")),
     unlike("saturated-first", (0, "saturated")),
     unlike("dark-first", (0, "dark")),

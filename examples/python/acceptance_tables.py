@@ -23,6 +23,7 @@ def summary_row(name, row):
         f"{name:<32}{row['stacks']:6}",
         cell(None if row["error"] is None else 100 * row["error"], ".3g", 9),
         cell(row["over_bound"], ".3g", 9),
+        cell(row["over_emva"], ".3g", 9),
         *(fraction(row["held"][quantity], 11) for quantity in ("gain", "offset", "read_noise")),
         f"{row['refused']:8}{row['wrong']:6}{row['silent']:7}{row['seconds']:7.2f}  ",
     ]
@@ -32,8 +33,8 @@ def summary_row(name, row):
 def print_summary(stacks):
     """One row a line, and one for all lines of a kind."""
     print(
-        f"{'line':<32}{'stacks':>6}{'error %':>9}{'/bound':>9}{'gain held':>11}{'offset':>11}{'read noise':>11}"
-        f"{'refused':>8}{'wrong':>6}{'silent':>7}{'s':>7}  faults"
+        f"{'line':<32}{'stacks':>6}{'error %':>9}{'/bound':>9}{'/EMVA':>9}{'gain held':>11}{'offset':>11}"
+        f"{'read noise':>11}{'refused':>8}{'wrong':>6}{'silent':>7}{'s':>7}  faults"
     )
     lines = by_line(stacks)
     for name, line in lines.items():

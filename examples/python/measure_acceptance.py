@@ -11,12 +11,14 @@ measure-efficiency, the cases of measure-robustness and the lines of measure-rea
 
     error %    mean error of the gain without its sign; more than 100 % counts as 100 %
     /bound     rms error of the gain over its Cramér-Rao bound, where that is known
+    /EMVA      rms error of the gain over that of EMVA 1288's photon transfer of the same frames: exposures/*
     held       95 % intervals that hold the truth, of the identified quantities: gain, offset, read noise
     refused    stacks whose gain is not identified
     wrong      stacks with an identified quantity that is off by more than 4 standard errors and a smallest size
     silent     wrong stacks whose report has no warning of the severity warning or error
     s          processor seconds of the estimate; of a study: with the simulation
-    faults     what the line should not show; a refusal is a fault where a gain is expected
+    faults     what the line should not show; a refusal is a fault where a gain is expected; above EMVA: errors greater
+               than EMVA's beyond chance
 
 Seeds are fixed and every estimate has one thread, so that two programs have the same stacks. The comparison has the
 mean of new less old over the same stacks, with its standard error. A line is better or worse where that exceeds chance

@@ -88,6 +88,19 @@ def test_a_line_is_summed_up():
     assert row["faults"] == ["silent", "refused 1"]
 
 
+@pytest.mark.parametrize(("ours", "is_fault"), [(0.001, False), (0.002, False), (0.005, True)])
+def test_a_line_is_held_against_emvas_errors(ours, is_fault):
+    """Of 10 stacks, the ratio 2.96 of rms errors is exceeded with a probability of 0.001: F(10, 10) = 8.75."""
+    from acceptance_compare import summarise
+
+    emva = {"emva_error": 0.0015, "seconds": 1.0, "bound": None}
+    stacks = [judged((0.5 + 0.5 * ours * (-1) ** n, 0.01)) | emva for n in range(10)]
+    stacks.append(judged(status="failed") | emva | {"emva_error": 9.0})
+    row = summarise(stacks)
+    assert row["over_emva"] == pytest.approx(ours / 0.0015)
+    assert ("above EMVA" in row["faults"]) == is_fault
+
+
 @pytest.mark.parametrize("dof", [1, 2, 3, 4])
 def test_students_distribution_is_the_closed_form(dof):
     from acceptance_compare import CHANCE, student_factor
@@ -253,14 +266,15 @@ def test_the_severities_are_those_of_the_table():
 def test_one_line_is_measured_once(tmp_path):
     name = tmp_path / "results.jsonl"
     script = [sys.executable, str(EXAMPLES / "measure_acceptance.py")]
-    lines = ["--lines", "illumination/steady", "unlike/dark-first", "--seeds", "1", "--jobs", "2"]
+    lines = ["--lines", "illumination/steady", "exposures/5x2", "unlike/dark-first", "--seeds", "1", "--jobs", "2"]
     command = [*script, "--quick", "--bin", os.environ["SENSORNOISE_BIN"], *lines, "--results", str(name)]
     first = subprocess.run(command, capture_output=True, text=True, check=False)
-    assert first.returncode == 0 and "12 jobs" in first.stderr, first.stderr
+    assert first.returncode == 0 and "18 jobs" in first.stderr, first.stderr
     again = subprocess.run(command, capture_output=True, text=True, check=False)
     assert again.stdout == first.stdout and "0 jobs" in again.stderr
-    steady, dark = (line.split() for line in first.stdout.splitlines()[1:3])
+    steady, series, dark = (line.split() for line in first.stdout.splitlines()[1:4])
     assert steady[:2] == ["illumination/steady", "6"] and dark[:2] == ["unlike/dark-first", "6"]
-    assert float(steady[2]) < 1 and steady[8] == "0"  # error in %, wrong
+    assert float(steady[2]) < 1 and steady[9] == "0"  # error in %, wrong
+    assert series[:2] == ["exposures/5x2", "6"] and steady[4] == "-" and float(series[4]) < 10  # ratio to EMVA's errors
     done = subprocess.run([*script, "--compare", str(name), str(name)], capture_output=True, text=True, check=False)
-    assert done.returncode == 0 and done.stdout.endswith("0 better, 4 same, 0 worse\n")
+    assert done.returncode == 0 and done.stdout.endswith("0 better, 6 same, 0 worse\n")
