@@ -55,7 +55,6 @@ def exposures(levels, frames_per_level, lowest, *options, suffix=""):
     steps = [round(lowest + (1 - lowest) * level / (levels - 1), 6) for level in range(levels)]
     return Line(
         f"exposures/{levels}x{frames_per_level}{'' if lowest == 0 else '-no-dark'}{suffix}",
-        expected_of_flat=MAY_REFUSE,
         factors=tuple(step for step in steps for _ in range(frames_per_level)),
         frames=levels * frames_per_level,
         frames_per_level=frames_per_level,
