@@ -31,10 +31,9 @@ double
 FrameFreedom::FractionAt(double shotFraction) const
 {
   const double b = std::min(1.0, std::max(0.0, shotFraction)); // 0 of what is no number, too
-  const double mean = m_Freedom + m_Linear * b;
-  const double square = m_Freedom + (2.0 * m_Linear + m_Square * b) * b;
   // Without residuals of lit frames and without read noise nothing is left, in equal frames.
-  return mean > 1e-6 * m_Freedom ? std::min(1.0, mean * mean / (square * m_Freedom)) : 1.0;
+  const double square = m_Freedom + (2.0 * m_Linear + m_Square * b) * b;
+  return square > m_Freedom ? m_Freedom / square : 1.0;
 }
 
 } // namespace sensornoise

@@ -16,13 +16,16 @@ namespace sensornoise
  *
  * With the illumination factor 1 + gamma_t the variance of a frame is in proportion to V_t = 1 + b gamma_t, b the
  * fraction of the pixel's variance that is shot noise. After the projection P onto the complement of the constant and
- * the basis, with h_t the leverage of a frame,
+ * the basis,
  *
- *     E[RSS] = sum_t (1 - h_t) V_t,   Var[RSS] = 2 sum_st P_st^2 V_s V_t,
- *     f(b) = 2 E[RSS]^2 / Var[RSS] = (n + B b)^2 / (n + 2 B b + E b^2),
+ *     E[RSS] = V (n + B b),   Var[RSS] = 2 V^2 sum_st P_st^2 V_s V_t = 2 V^2 (n + 2 B b + E b^2),
  *
- * n = tr P, B = sum_t P_tt gamma_t, E = sum_st P_st^2 gamma_s gamma_t, as sum_s P_st^2 = P_tt. The divisor of RSS is
- * not f: it stays n, for the mean of RSS. Estimator.md, 3.5. */
+ * n = tr P, B = sum_t P_tt gamma_t, E = sum_st P_st^2 gamma_s gamma_t, as sum_s P_st^2 = P_tt. The estimate of V is
+ * (RSS - V B b) / n: the correction by the gain does not scatter, and
+ *
+ *     f(b) = 2 V^2 / Var[estimate] = n^2 / (n + 2 B b + E b^2).
+ *
+ * That the gain itself is estimated is for GainFeedback. Estimator.md, 3.5. */
 class SensorNoise_EXPORT FrameFreedom
 {
 public:
