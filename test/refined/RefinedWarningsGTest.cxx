@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <functional>
 #include <gtest/gtest.h>
+#include <string>
 #include <vector>
 
 // What makes the refined method warn, and that the same stack without it does not.
@@ -135,4 +136,16 @@ TEST(SensorNoiseRefinedWarnings, TooLittleToMeasure)
                 return y < 10 ? u : 100.0 + (u - 100.0) * (0.6 + 0.8 * random.Uniform()) + 400.0 * random.Uniform();
               }),
               WarningCode::TooLittleToMeasure);
+}
+
+// Of 20 frames the last one alone has light: flicker takes up all of its shot noise.
+TEST(SensorNoiseRefinedWarnings, OneIlluminatedFrameIsNamed)
+{
+  SimulationSettings settings = StillCamera(20);
+  settings.illumination = IlluminationOf("pulses:0:20");
+  const Report report = Measure(Simulate<Codes>(settings, Size, Size), {}).GetReport();
+  EXPECT_NE(report.gain.status, EstimateStatus::Identified);
+  ASSERT_TRUE(HasWarning(report, WarningCode::TooLittleToMeasure)) << MakeText(report);
+  EXPECT_NE(MakeText(report).find("frame 19 alone carries 100 % of the illumination"), std::string::npos)
+    << MakeText(report);
 }

@@ -256,7 +256,8 @@ inline constexpr std::array<WarningKind, 43> WarningTable{ {
   { WarningCode::TooLittleToMeasure,
     "too-little-to-measure",
     Severity::Error,
-    "Too few pixels fit a static scene: choose a static part of it." },
+    "Too few pixels fit a static scene, or too few frames have light: choose a static part of it, or record more "
+    "frames with light." },
   { WarningCode::CodesTooCoarse,
     "codes-too-coarse",
     Severity::Error,

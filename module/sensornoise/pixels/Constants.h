@@ -105,6 +105,8 @@ struct PixelsConstants
   /** The derivative above which the frames do not determine a gain [1]: nine tenths of it were put in, and what is
    * wrong with the rest counts ten times. Set by hand. */
   double largestFeedback{ 0.9 };
+  /** Part of the illumination that frames carry together which are named as the cause [1]. Set by hand. */
+  double shareOfFewFrames{ 0.9 };
   /** Times that a line is drawn and its gain settled, at most, and the relative change of the gain that ends it [1].
    * Set by hand: the solution is exact but for weights and outliers, which change once or twice. */
   int    settlingRounds{ 4 };

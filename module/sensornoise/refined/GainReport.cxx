@@ -15,7 +15,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <numeric>
 #include <string>
+#include <vector>
 
 namespace sensornoise
 {
@@ -75,6 +78,46 @@ BoundGain(Report & report, const RefinedResults & found, const GainEstimate & ga
   }
 }
 
+/** The frames that carry the illumination, where flicker and motion take up nearly all noise of these few; else empty.
+ * Estimator.md, 3.5. */
+std::string
+FindFewIlluminatedFrames(const RefinedResults & found)
+{
+  const Eigen::MatrixXd & basis = found.series.basis.GetBasis();
+  const Eigen::Index      frames = basis.rows();
+  const Eigen::VectorXd   illumination =
+    (1.0 + Eigen::Map<const Eigen::VectorXd>(found.series.line.gamma.data(), frames).array()).max(0.0);
+  const double          all = illumination.sum();
+  const Eigen::VectorXd kept = (1.0 - 1.0 / static_cast<double>(frames)) - basis.cwiseAbs2().rowwise().sum().array();
+  const double          left = illumination.dot(kept) / all * static_cast<double>(frames) / std::max(1e-9, kept.sum());
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(frames));
+  std::iota(order.begin(), order.end(), Eigen::Index{ 0 });
+  std::stable_sort(
+    order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) { return illumination(a) > illumination(b); });
+  std::size_t count = 0;
+  double      carried = 0.0;
+  while (count < order.size() && carried < InPixels.shareOfFewFrames * all)
+  {
+    carried += illumination(order[count++]);
+  }
+  if (left > 1.0 - InPixels.largestFeedback || 4 * count > order.size())
+  {
+    return {};
+  }
+  std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count));
+  std::string names;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    names += (i == 0 ? "" : i + 1 == count ? " and " : ", ") + std::to_string(order[i]);
+  }
+  return (count == 1 ? "frame " + names + " alone carries " : "frames " + names + " carry ") + Percent(carried / all) +
+         " of the illumination of " + std::to_string(frames) +
+         " distinct frames (the first is 0): the estimates of flicker and motion take up the shot noise of so few, "
+         "and " +
+         Percent(std::max(0.0, left)) + " of it is left (at least " + Percent(1.0 - InPixels.largestFeedback) +
+         " expected). The gain is not identifiable: record more frames with light";
+}
+
 /** The gain that cannot be told: every parameter of the sensor goes with it. */
 void
 FillTooLittle(Report & report, const RefinedResults & found, const GainEstimate & gain)
@@ -91,6 +134,12 @@ FillTooLittle(Report & report, const RefinedResults & found, const GainEstimate 
     return;
   }
   BoundGain(report, found, gain);
+  const std::string few = FindFewIlluminatedFrames(found);
+  if (!few.empty())
+  {
+    report.Warn(WarningCode::TooLittleToMeasure, few);
+    return;
+  }
   const LevelPattern & pattern = found.variance.pattern;
   const double         levels = std::sqrt(std::max(0.0, pattern.lightDn2));
   report.Warn(WarningCode::IntensityRangeTooSmall,
