@@ -3,7 +3,9 @@
 #include "sensornoise/mosaic/MosaicMethod.h"
 #include "sensornoise/refined/RefinedMethod.h"
 #include "sensornoise/report/ReportJson.h"
+#include "sensornoise/report/ReportTable.h"
 #include "helpers/RefinedTestHelper.h"
+#include "helpers/ReportTestHelper.h"
 
 #include <algorithm>
 #include <array>
@@ -100,6 +102,59 @@ TEST(SensorNoiseStrongIllumination, GainOffsetAndReadNoiseAreTheCameras)
     EXPECT_NEAR(*report.offset.value, 100.0, 4.0 * *report.offset.standardError) << shape;
     ASSERT_EQ(report.readNoise.status, EstimateStatus::Identified) << shape;
     EXPECT_NEAR(*report.readNoise.value, 3.0, 4.0 * *report.readNoise.standardError) << shape;
+  }
+}
+
+TEST(SensorNoiseStrongIllumination, OfAFlatFieldTellsGainAndInterceptAndNoOffset)
+{
+  for (const double offset : { 100.0, 4000.0 })
+  {
+    for (const char * const shape : { "pulses:0.3:4", "sine:0:7.3", "uniform:0", "decay:0.3" })
+    {
+      SimulationSettings settings = StrongSettings(shape);
+      settings.camera.offsetDn = offset;
+      settings.bitDepth = 16;
+      const auto   stack = Simulate<Codes>(settings, 160, 128, std::vector<double>(160 * 128, 1.0));
+      const Report report = Measure(stack, RefinedSettings()).GetReport();
+      ASSERT_EQ(report.gain.status, EstimateStatus::Identified) << shape << " " << offset << ToJson(report);
+      EXPECT_NEAR(*report.gain.value, 0.5, 4.0 * *report.gain.standardError) << shape;
+      EXPECT_LT(*report.gain.standardError, 0.01 * 0.5) << shape;
+      ASSERT_EQ(report.intercept.status, EstimateStatus::Identified) << shape;
+      EXPECT_NEAR(*report.intercept.value, 9.0 - 0.5 * offset, 4.0 * *report.intercept.standardError) << shape;
+      // mu + d and sigma^2 + g d have the same variance at every level.
+      EXPECT_EQ(report.offset.status, EstimateStatus::NotIdentifiable) << shape;
+      EXPECT_EQ(report.readNoise.status, EstimateStatus::NotIdentifiable) << shape;
+      ASSERT_TRUE(report.offset.bracket && report.offset.bracket->high) << shape;
+      EXPECT_GT(*report.offset.bracket->high, offset) << shape;
+      EXPECT_TRUE(report.framesLeftOut.empty()) << shape;
+    }
+  }
+}
+
+// Fifteen of 60 frames have light. The noise of dark ones is ten times less, and that is no local light; that of a lamp
+// that pulses under a rolling shutter has two series, a sine and a cosine of the rows.
+TEST(SensorNoiseStrongIllumination, FewIlluminatedFramesAreNoLocalLight)
+{
+  for (const double periodRows : { 0.0, 40.0 })
+  {
+    for (const std::size_t seed : { 2u, 3u, 4u })
+    {
+      SimulationSettings settings = StrongSettings("pulses:0:4");
+      settings.rollingShutterPeriodRows = periodRows;
+      settings.conditions.flickerSd = 0.02;
+      settings.frames = 60;
+      settings.seed = seed;
+      const auto     stack = Simulate<Codes>(settings, 160, 128);
+      const auto     method = Measure(stack);
+      const Report & report = method.GetReport();
+      const bool     isRolling = periodRows > 0.0;
+      EXPECT_EQ(HasWarning(report, WarningCode::LocalLight), isRolling) << seed;
+      EXPECT_EQ(MakeText(report).find("(2 further series)") != std::string::npos, isRolling) << MakeText(report);
+      ASSERT_EQ(report.gain.status, EstimateStatus::Identified) << periodRows << ' ' << seed;
+      EXPECT_NEAR(*report.gain.value, 0.5, 4.0 * *report.gain.standardError) << periodRows << ' ' << seed;
+      // Of 62 degrees of freedom 1 +- 0.18.
+      EXPECT_NEAR(*report.fit.reducedChi2, 1.0, 4.0 * 0.18) << periodRows << ' ' << seed;
+    }
   }
 }
 

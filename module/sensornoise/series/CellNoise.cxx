@@ -2,61 +2,60 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/series/CellNoise.h"
 
-#include "sensornoise/base/Quantiles.h"
 #include "sensornoise/series/Constants.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace sensornoise
 {
 namespace
 {
-/** Median of the square of a standard normal number. */
-constexpr double MedianOfSquare = 0.4549;
-
-/** Variance of the residual of frame t after an unweighted projection, over that at gamma = 0, is 1 + b slope(t): of
- * the covariance (1 - P) D (1 - P), D = diag(1 + b gamma), the diagonal. */
-Eigen::VectorXd
-SlopesOfVariance(const Eigen::MatrixXd & basis, const Eigen::VectorXd & gamma)
+/** Variance of a frame of relative illumination 1 + \a gamma over that at the mean illumination. The illumination is
+ * not below 0: what an estimated gamma_t of a dark frame has below -1 is noise. */
+double
+VarianceAt(double fraction, double gamma)
 {
-  const Eigen::Index frames = gamma.size();
-  Eigen::MatrixXd    projection = basis * basis.transpose();
-  projection.array() += 1.0 / static_cast<double>(frames);
-  const Eigen::VectorXd leverage = projection.diagonal();
-  const Eigen::VectorXd shared = projection.cwiseAbs2() * gamma;
-  // A frame that the basis fits alone has no residual: a guard against division by 0.
-  const Eigen::ArrayXd freedom = (1.0 - leverage.array()).max(1e-3);
-  return ((1.0 - 2.0 * leverage.array()) * gamma.array() + shared.array()) / freedom;
+  return std::max(InSeries.leastFrameVariance, 1.0 - fraction + fraction * std::max(0.0, 1.0 + gamma));
 }
 
-double
-VarianceAt(double fraction, double slope)
+/** A cell's series divided by its noise, in coordinates whose first ones are those of the columns. */
+struct WhitenedCell
 {
-  return std::max(InSeries.leastFrameVariance, 1.0 + fraction * slope);
+  Eigen::VectorXd                       weight; ///< 1 / standard deviation of every frame
+  Eigen::HouseholderQR<Eigen::MatrixXd> decomposition;
+  Eigen::VectorXd                       rotated;
+
+  WhitenedCell(const Eigen::MatrixXd & columns,
+               const Eigen::VectorXd & gamma,
+               double                  fraction,
+               const Eigen::VectorXd & series)
+    : weight(gamma.unaryExpr([&](double each) { return 1.0 / std::sqrt(VarianceAt(fraction, each)); }))
+    , decomposition(weight.asDiagonal() * columns)
+    , rotated(decomposition.householderQ().adjoint() * weight.cwiseProduct(series))
+  {}
+};
+
+Eigen::MatrixXd
+WithConstant(const Eigen::MatrixXd & basis)
+{
+  Eigen::MatrixXd columns(basis.rows(), basis.cols() + 1);
+  columns << Eigen::VectorXd::Ones(basis.rows()), basis;
+  return columns;
 }
 
-/** Twice the negative log-likelihood of a cell's residuals, up to a constant. */
+/** Twice the negative restricted log-likelihood of a cell's series, up to a constant: of normal noise whose scale is
+ * the one of the greatest likelihood, and of any coefficients of the columns. */
 double
-DevianceOf(const Eigen::MatrixXd::ConstColXpr & rest, double fraction, const Eigen::VectorXd & slopes)
+DevianceOf(const WhitenedCell & cell, Eigen::Index columns)
 {
-  std::vector<double> squares(static_cast<std::size_t>(rest.size()));
-  double              deviance = 0.0;
-  for (Eigen::Index t = 0; t < rest.size(); ++t)
-  {
-    const double variance = VarianceAt(fraction, slopes(t));
-    squares[static_cast<std::size_t>(t)] = rest(t) * rest(t) / variance;
-    deviance += std::log(variance);
-  }
-  std::vector<double> sorted = squares;
-  const double        scale = std::max(1e-300, Quantile(sorted, 0.5) / MedianOfSquare);
-  for (const double square : squares)
-  {
-    deviance += std::min(square / scale, 9.0);
-  }
-  return deviance + static_cast<double>(rest.size()) * std::log(scale);
+  const Eigen::Index freedom = cell.rotated.size() - columns;
+  const double       squares = std::max(1e-300, cell.rotated.tail(freedom).squaredNorm());
+  const double ofColumns = cell.decomposition.matrixQR().diagonal().head(columns).array().abs().max(1e-300).log().sum();
+  return static_cast<double>(freedom) * std::log(squares) - 2.0 * cell.weight.array().log().sum() + 2.0 * ofColumns;
 }
 
 Eigen::VectorXd
@@ -65,39 +64,98 @@ FractionsAt(double shotOverRead, const Eigen::VectorXd & signal)
   const Eigen::ArrayXd shot = shotOverRead * signal.array().max(0.0);
   return shot / (1.0 + shot);
 }
+
+/** Deviance of the cells as a function of the ratio of shot variance to read variance in the brightest of them, whose
+ * powers of 2 are asked for; the least one stands for 0. */
+class DevianceByPower
+{
+public:
+  DevianceByPower(const Eigen::MatrixXd & whole,
+                  const Eigen::MatrixXd & columns,
+                  const Eigen::VectorXd & gamma,
+                  const Eigen::VectorXd & signal)
+    : m_Whole(whole)
+    , m_Columns(columns)
+    , m_Gamma(gamma)
+    , m_Signal(signal)
+    , m_Step(std::max<Eigen::Index>(
+        1,
+        whole.cols() / std::max(InSeries.cellsOfShotFraction, InSeries.valuesOfShotFraction / whole.rows())))
+    , m_Known(InSeries.largestShotPower - InSeries.leastShotPower + 1)
+  {}
+
+  double
+  At(int power)
+  {
+    std::optional<double> & known = m_Known[static_cast<std::size_t>(power - InSeries.leastShotPower)];
+    if (!known)
+    {
+      const Eigen::VectorXd fractions = FractionsAt(this->ShotOverRead(power), m_Signal);
+      double                deviance = 0.0;
+      for (Eigen::Index i = 0; i < m_Whole.cols(); i += m_Step)
+      {
+        deviance += DevianceOf(WhitenedCell(m_Columns, m_Gamma, fractions(i), m_Whole.col(i)), m_Columns.cols());
+      }
+      known = deviance;
+    }
+    return *known;
+  }
+
+  /** The power of the least deviance: every second one is tried, then the neighbours of the best. */
+  int
+  Best()
+  {
+    int best = InSeries.leastShotPower;
+    for (const int step : { 2, 1 })
+    {
+      const int first = step == 2 ? InSeries.leastShotPower : std::max(best - 1, InSeries.leastShotPower);
+      const int last = step == 2 ? InSeries.largestShotPower : std::min(best + 1, InSeries.largestShotPower);
+      for (int power = first; power <= last; power += step)
+      {
+        best = this->At(power) < this->At(best) ? power : best;
+      }
+    }
+    return best;
+  }
+
+  /** Signal that has as much shot variance as read variance, inverse. */
+  double
+  ShotOverRead(double power) const
+  {
+    return power <= InSeries.leastShotPower ? 0.0 : std::exp2(power) / m_Signal.maxCoeff();
+  }
+
+private:
+  const Eigen::MatrixXd &            m_Whole;
+  const Eigen::MatrixXd &            m_Columns;
+  const Eigen::VectorXd &            m_Gamma;
+  const Eigen::VectorXd &            m_Signal;
+  Eigen::Index                       m_Step;
+  std::vector<std::optional<double>> m_Known;
+};
 } // namespace
 
 Eigen::VectorXd
-EstimateShotFractions(const Eigen::MatrixXd & rest,
+EstimateShotFractions(const Eigen::MatrixXd & whole,
                       const Eigen::MatrixXd & basis,
                       const Eigen::VectorXd & gamma,
                       const Eigen::VectorXd & signal)
 {
-  const double largest = signal.maxCoeff();
-  if (!(largest > 0.0))
+  if (!(signal.maxCoeff() > 0.0))
   {
     return Eigen::VectorXd::Zero(signal.size());
   }
-  const Eigen::VectorXd slopes = SlopesOfVariance(basis, gamma);
-  const Eigen::Index    step = std::max<Eigen::Index>(1, rest.cols() / InSeries.cellsOfShotFraction);
-  double                best = 0.0;
-  double                least = 0.0;
-  for (int power = InSeries.leastShotPower; power <= InSeries.largestShotPower; ++power)
+  const Eigen::MatrixXd columns = WithConstant(basis);
+  DevianceByPower       deviance(whole, columns, gamma, signal);
+  const int             best = deviance.Best();
+  double                power = best;
+  if (best > InSeries.leastShotPower + 1 && best < InSeries.largestShotPower)
   {
-    const double          shotOverRead = power == InSeries.leastShotPower ? 0.0 : std::ldexp(1.0, power) / largest;
-    const Eigen::VectorXd fractions = FractionsAt(shotOverRead, signal);
-    double                deviance = 0.0;
-    for (Eigen::Index i = 0; i < rest.cols(); i += step)
-    {
-      deviance += DevianceOf(rest.col(i), fractions(i), slopes);
-    }
-    if (power == InSeries.leastShotPower || deviance < least)
-    {
-      least = deviance;
-      best = shotOverRead;
-    }
+    const double below = deviance.At(best - 1) - deviance.At(best);
+    const double above = deviance.At(best + 1) - deviance.At(best);
+    power += below + above > 0.0 ? 0.5 * (below - above) / (below + above) : 0.0; // vertex of a parabola
   }
-  return FractionsAt(best, signal);
+  return FractionsAt(deviance.ShotOverRead(power), signal);
 }
 
 Eigen::MatrixXd
@@ -106,17 +164,13 @@ WhitenedResiduals(const Eigen::MatrixXd & whole,
                   const Eigen::VectorXd & gamma,
                   const Eigen::VectorXd & fractions)
 {
-  Eigen::MatrixXd known(basis.rows(), basis.cols() + 1);
-  known << Eigen::VectorXd::Ones(basis.rows()), basis;
-  Eigen::MatrixXd rest(whole.rows(), whole.cols());
+  const Eigen::MatrixXd columns = WithConstant(basis);
+  Eigen::MatrixXd       rest(whole.rows(), whole.cols());
   for (Eigen::Index i = 0; i < whole.cols(); ++i)
   {
-    const Eigen::VectorXd weight =
-      gamma.unaryExpr([&](double each) { return 1.0 / std::sqrt(VarianceAt(fractions(i), each)); });
-    const Eigen::HouseholderQR<Eigen::MatrixXd> decomposition(weight.asDiagonal() * known);
-    Eigen::VectorXd rotated = decomposition.householderQ().adjoint() * weight.cwiseProduct(whole.col(i));
-    rotated.head(known.cols()).setZero();
-    rest.col(i) = decomposition.householderQ() * rotated;
+    WhitenedCell cell(columns, gamma, fractions(i), whole.col(i));
+    cell.rotated.head(columns.cols()).setZero();
+    rest.col(i) = cell.decomposition.householderQ() * cell.rotated;
   }
   return rest;
 }

@@ -16,14 +16,14 @@ namespace sensornoise
 
 /** Estimates the shot-noise fraction b of every cell [1], 0 to 1.
  *
- * The one parameter k maximises the likelihood of normal residuals. Each cell has a scale of its own.
- * Residuals beyond three standard deviations count as three: they may be signal.
- * \param rest residuals, frames x cells, in any unit
- * \param basis orthonormal columns that were projected out of them, beside the constant, frames x columns
+ * The one parameter k maximises the restricted likelihood of normal noise: that of what is left of the series without
+ * the constant and the basis. Each cell has a scale of its own.
+ * \param whole series of the cells, frames x cells, in any unit
+ * \param basis orthonormal columns that the series may contain, beside the constant, frames x columns
  * \param gamma relative illumination of the frames, less 1 [1], one each
  * \param signal mean signal of the cells, in one unit, one each */
 SensorNoise_EXPORT Eigen::VectorXd
-EstimateShotFractions(const Eigen::MatrixXd & rest,
+EstimateShotFractions(const Eigen::MatrixXd & whole,
                       const Eigen::MatrixXd & basis,
                       const Eigen::VectorXd & gamma,
                       const Eigen::VectorXd & signal);

@@ -68,14 +68,17 @@ struct SeriesConstants
    * it. Chosen empirically, on simulated changes of illumination. */
   double equalFrameNoise{ 0.1 };
   /** Least variance of a frame relative to that at the mean illumination [1]; a guard against division by 0. */
-  double leastFrameVariance{ 1e-3 };
-  /** Cells by which the ratio of shot noise to read noise is estimated, at least where there are as many. Chosen
-   * to bound the time; its effect on the ratio was not measured. */
-  std::ptrdiff_t cellsOfShotFraction{ 128 };
+  double leastFrameVariance{ 1e-6 };
+  /** Cells by which the ratio of shot noise to read noise is estimated, where there are as many, and values of theirs
+   * in all frames, by which there are more. They bound the time. 60 frames of 175 cells determine the ratio to 5 %. */
+  std::ptrdiff_t cellsOfShotFraction{ 32 };
+  std::ptrdiff_t valuesOfShotFraction{ 16384 };
   /** Powers of 2 that are tried as the ratio of shot variance to read variance in the brightest cell; the least one
-   * stands for 0. */
-  int leastShotPower{ -5 };
-  int largestShotPower{ 12 };
+   * stands for 0. The largest one is a million electrons and a read noise of one. */
+  int leastShotPower{ -6 };
+  int largestShotPower{ 20 };
+  /** Frames that the known series must leave free for a search of local light. Set by hand. */
+  std::ptrdiff_t leastFreedomOfCells{ 4 };
   /** What a squared singular value must have of the edge of the noise, by Marchenko and Pastur, to be light [1]. Set by
    * hand. Half: noise that neighbours share is taken for light, gains of smoothed frames are 2 % low; twice: the same.
    */

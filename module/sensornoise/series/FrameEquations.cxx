@@ -113,6 +113,46 @@ SmallestEigenvalue(const Eigen::MatrixXd & a)
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(unit.asDiagonal() * a * unit.asDiagonal()).eigenvalues()(0);
 }
 
+/** How much of the series of a column is expected of noise, and its standard deviation: of the sum of squares over the
+ * frames, in units of the variance at the mean illumination. */
+class SeriesEnergy
+{
+public:
+  /** \a gamma: relative illumination of the frames, less 1, by the regression. If it hardly changes, the noise of all
+   * frames is equal. Else it is as that of shot noise, in proportion to 1 + gamma; and what follows gamma is no
+   * motion: it is in the basis, and bright frames share more noise with the mean than dark ones. */
+  explicit SeriesEnergy(const Eigen::VectorXd & gamma)
+    : m_Expected(static_cast<double>(gamma.size() - 1))
+    , m_Spread(std::sqrt(2.0 * m_Expected))
+  {
+    if (gamma.cwiseAbs().maxCoeff() > InSeries.equalFrameNoise)
+    {
+      const auto frames = static_cast<double>(gamma.size());
+      m_Known.resize(gamma.size(), 2);
+      m_Known.col(0).setConstant(1.0 / std::sqrt(frames));
+      m_Known.col(1) = (gamma.array() - gamma.mean()).matrix().normalized();
+      const Eigen::VectorXd variance = (1.0 + gamma.array()).max(0.0);
+      const Eigen::VectorXd leverage = m_Known.cwiseAbs2().rowwise().sum();
+      m_Expected = variance.dot(Eigen::VectorXd(1.0 - leverage.array()));
+      m_Spread = std::sqrt(2.0 * (variance.cwiseAbs2().dot(Eigen::VectorXd(1.0 - 2.0 * leverage.array())) +
+                                  (m_Known.transpose() * variance.asDiagonal() * m_Known).squaredNorm()));
+    }
+  }
+
+  /** Standard deviations by which a \a series exceeds noise of \a variance. */
+  double
+  Significance(const Eigen::VectorXd & series, double variance) const
+  {
+    const double ofGamma = m_Known.cols() > 0 ? std::pow(m_Known.col(1).dot(series), 2) : 0.0;
+    return ((series.squaredNorm() - ofGamma) / variance - m_Expected) / m_Spread;
+  }
+
+private:
+  Eigen::MatrixXd m_Known; ///< the constant and gamma, orthonormal; empty if the noise of the frames is equal
+  double          m_Expected;
+  double          m_Spread;
+};
+
 /** Place among the active ones of the column of higher order whose series over the frames is the least significant, the
  * third order first; 0 if all are significant. */
 std::size_t
@@ -122,27 +162,26 @@ FindInsignificant(const Eigen::MatrixXd &          rawGram,
                   const std::vector<std::size_t> & active)
 {
   const auto &          stencils = MotionStencils();
-  const auto            freedom = static_cast<double>(right.rows() - 1);
   const Eigen::MatrixXd inverse = a.inverse();
   const Eigen::VectorXd variance = (inverse * Select(rawGram, active, active) * inverse).diagonal();
-  std::size_t           worst = 0;
-  double                worstScore = 0.0;
+  const auto            coefficients = [&](std::size_t k) {
+    Eigen::VectorXd series = Eigen::VectorXd::Zero(right.rows());
+    for (std::size_t j = 0; j < active.size(); ++j)
+    {
+      series += inverse(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j)) *
+                right.col(static_cast<Eigen::Index>(active[j]));
+    }
+    return series;
+  };
+  const SeriesEnergy energy(coefficients(1));
+  std::size_t        worst = 0;
+  double             worstScore = 0.0;
   for (std::size_t k = 2; k < active.size(); ++k)
   {
     const int order = stencils[active[k] - 2].order;
     if (order > 1)
     {
-      double energy = 0.0;
-      for (Eigen::Index t = 0; t < right.rows(); ++t)
-      {
-        double coefficient = 0.0;
-        for (std::size_t j = 0; j < active.size(); ++j)
-        {
-          coefficient += inverse(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j)) * right(t, active[j]);
-        }
-        energy += coefficient * coefficient;
-      }
-      const double z = (energy / variance(static_cast<Eigen::Index>(k)) - freedom) / std::sqrt(2.0 * freedom);
+      const double z = energy.Significance(coefficients(k), variance(static_cast<Eigen::Index>(k)));
       const double score = z - (order == 3 ? 100.0 : 0.0);
       if (z < InSeries.leastColumnZ && (worst == 0 || score < worstScore))
       {

@@ -151,6 +151,42 @@ FindFactors(const Eigen::MatrixXd & rest, const Eigen::MatrixXd & whole, Eigen::
   }
   return found;
 }
+
+/** As FindFactors(), of cells whose noise differs from frame to frame. The factors are found one by one, the strongest
+ * first: each is free in the next estimate of the noise, and is projected out of each cell before the next search.
+ * Weights differ from cell to cell, and what they leave of one factor is more than one. */
+LocalIllumination
+FindFactorsOfUnequalFrames(const Eigen::MatrixXd & whole,
+                           const Eigen::MatrixXd & basis,
+                           const Eigen::VectorXd & gamma,
+                           const Eigen::VectorXd & signal,
+                           std::size_t             most)
+{
+  const Eigen::Index frames = whole.rows();
+  const Eigen::Index largest = frames - 1 - InSeries.leastFreedomOfCells;
+  Eigen::MatrixXd    columns = basis;
+  LocalIllumination  found;
+  found.series.resize(frames, 0);
+  while (found.series.cols() < static_cast<Eigen::Index>(most) && columns.cols() <= largest)
+  {
+    Eigen::MatrixXd scaled = whole;
+    Eigen::MatrixXd rest =
+      WhitenedResiduals(whole, columns, gamma, EstimateShotFractions(whole, columns, gamma, signal));
+    ScaleCells(rest, scaled);
+    const LocalIllumination next = FindFactors(rest, scaled, frames - 1 - columns.cols(), 1);
+    found.excess = std::max(found.excess, next.excess);
+    if (next.series.cols() == 0)
+    {
+      break;
+    }
+    found.series.conservativeResize(Eigen::NoChange, found.series.cols() + 1);
+    found.series.rightCols(1) = next.series;
+    Eigen::MatrixXd all(frames, basis.cols() + found.series.cols());
+    all << basis, found.series;
+    columns = Orthonormalise(all, frames);
+  }
+  return found;
+}
 } // namespace
 
 Eigen::MatrixXd
@@ -220,19 +256,18 @@ FindLocalIllumination(const FrameSums &           sums,
   known.rightCols(motionColumns.cols()) = motionColumns;
   const Eigen::MatrixXd basis = Orthonormalise(known, frames);
   const Eigen::Index    freedom = frames - 1 - basis.cols();
-  if (freedom < 4)
+  if (freedom < InSeries.leastFreedomOfCells)
   {
     return none;
   }
-  Eigen::MatrixXd rest = whole.rowwise() - whole.colwise().mean();
-  rest -= basis * (basis.transpose() * rest);
   const Eigen::Map<const Eigen::VectorXd> illumination(gamma.data(), frames);
   if (illumination.cwiseAbs().maxCoeff() > InSeries.equalFrameNoise)
   {
     const Eigen::Map<const Eigen::VectorXd> signal(used.signal.data(), used.Count());
-    const Eigen::VectorXd                   fractions = EstimateShotFractions(rest, basis, illumination, signal);
-    rest = WhitenedResiduals(whole, basis, illumination, fractions);
+    return FindFactorsOfUnequalFrames(whole, basis, illumination, signal, most);
   }
+  Eigen::MatrixXd rest = whole.rowwise() - whole.colwise().mean();
+  rest -= basis * (basis.transpose() * rest);
   ScaleCells(rest, whole);
   return FindFactors(rest, whole, freedom, most);
 }
