@@ -147,6 +147,30 @@ struct MomentsConstants
    * that noise makes no strong change: it is three standard errors. */
   double largestSlopeError{ 1.0 / 3.0 };
   ///@}
+
+  /** \name Linearity from exposures
+   * Estimator.md, 3.8. */
+  ///@{
+  /** Signals between which the linearity error is measured, relative to the signal at saturation [1]: EMVA Standard
+   * 1288, Release 4.0 Linear, 6.7. */
+  double linearityRangeLow{ 0.05 };
+  double linearityRangeHigh{ 0.95 };
+  /** Levels in that range that the linearity error needs: one more than the two parameters of a line. */
+  std::size_t fewestExposureLevels{ 3 };
+  /** Quantile over the cells of the signal that the brightest cells have [1], and the signal relative to it from which
+   * on a cell is one of them [1]. Chosen empirically: these are nearly all cells of a flat field. In a scene their
+   * signals differ by 3 % rms, which changes the curvature of the mean level by 0.1 %. */
+  double brightCellsQuantile{ 0.95 };
+  double brightCellsShare{ 0.9 };
+  /** Signal of the brightest cells without a clipped pixel, relative to the signal of the brightest of all cells, from
+   * which on the other cells are left out [1]. Chosen empirically: with less, too little of the range is covered. */
+  double leastReachOfCells{ 0.5 };
+  /** Rounds in which the scatter of the illumination and the weights of its estimate are made to agree. Chosen
+   * empirically: the third changes less than a per cent. */
+  int roundsOfExposureScatter{ 10 };
+  /** Relative standard deviation of a level below which no scatter is believed [1]: 2^-30 leaves room for rounding. */
+  double leastExposureScatter{ 1e-9 };
+  ///@}
 };
 
 SENSORNOISE_CONSTANT MomentsConstants InMoments;

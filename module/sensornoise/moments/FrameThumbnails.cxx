@@ -170,6 +170,21 @@ FrameThumbnails::PixelsOfCell() const
   return static_cast<double>(pixels) / static_cast<double>(m_Cells);
 }
 
+std::vector<bool>
+FrameThumbnails::FindCellsWithin(const std::vector<std::uint8_t> & mask) const
+{
+  std::vector<bool> areWithin(m_Cells, true);
+  for (const Run & run : m_Runs)
+  {
+    for (std::size_t p = run.begin; p < run.end; ++p)
+    {
+      const bool isLookedAt = m_Mask.empty() || m_Mask[p] != 0;
+      areWithin[run.cell] = areWithin[run.cell] && (!isLookedAt || mask[p] != 0);
+    }
+  }
+  return areWithin;
+}
+
 template <typename TPixel>
 void
 FrameThumbnails::AddFrames(const TPixel *      frames,

@@ -97,6 +97,9 @@ public:
   /** The means of \a cells in frame \a t [DN]. */
   std::vector<double>
   MeansOf(std::size_t t, const std::vector<std::size_t> & cells) const;
+  /** Returns, for each cell, whether all of its pixels that are looked at are nonzero in \a mask, of a frame's size. */
+  std::vector<bool>
+  FindCellsWithin(const std::vector<std::uint8_t> & mask) const;
   /** Variance of the cells' means in frame \a t by what neighbouring pixels differ by: noise and texture [DN^2]. */
   double
   NoiseOf(std::size_t t) const
