@@ -78,6 +78,20 @@ struct Computations
     return saturationElectrons ? Number(std::sqrt(*saturationElectrons)) : std::nullopt;
   }
 };
+
+/** Measured where exposures were given. */
+Emva1288Row
+LinearityRow(const Report & report)
+{
+  const LinearityRecord & linearity = report.linearity;
+  const char * const      symbol = "LE";
+  const char * const      name = "linearity error";
+  return linearity.levels.empty()
+           ? Emva1288Row{ symbol, name, NotGiven, "no exposures; the residuals above show the variance's deviation" }
+           : Emva1288Row{
+               symbol, name, Found(linearity.errorPercent, "%"), "levels of 5 to 95 % of saturation against exposures"
+             };
+}
 } // namespace
 
 std::vector<Emva1288Row>
@@ -101,7 +115,7 @@ Emva1288Rows(const Report & report)
     { "SNR_max", "largest signal to noise", Computed(computed.BestSnr(), ""), "\u221A\u03BC_e.sat, by the model" },
     { "SNR(\u03BC_p)", "measured SNR curve", NotGiven, "photons are not counted" },
     { "\u03B7", "quantum efficiency", NotGiven, "photons are not counted" },
-    { "LE", "linearity error", NotGiven, "the residuals above show the variance's departure" },
+    LinearityRow(report),
     { "DSNU, PRNU", "non-uniformity", NotGiven, "no dark and no flat field" },
     { "\u03BC_I", "dark current", NotGiven, "one exposure" },
   };

@@ -35,6 +35,15 @@ TextOfSetting(const Report::SettingValue & value)
   {
     return *truth ? "yes" : "no";
   }
+  if (const auto * const numbers = std::get_if<std::vector<double>>(&value))
+  {
+    std::string text;
+    for (const double number : *numbers)
+    {
+      text += (text.empty() ? "" : ", ") + Text(number);
+    }
+    return text;
+  }
   return std::get<std::string>(value);
 }
 
@@ -44,7 +53,8 @@ HasRow(const QuantityEntry & entry, const Report & report)
 {
   const Quantity * const quantity = entry.of(report);
   return quantity != nullptr &&
-         (entry.shown == ShownIn::EveryTable || (quantity->value && std::isfinite(*quantity->value)));
+         (entry.shown == ShownIn::EveryTable || (quantity->value && std::isfinite(*quantity->value)) ||
+          (entry.shown == ShownIn::TableIfLimited && quantity->status == EstimateStatus::UpperLimit));
 }
 
 /** Escaped, and `names` as code. */
@@ -216,6 +226,24 @@ EmvaTable(const Report & report)
          "highest level by the standard's linear model, not measured by its procedure.</p>\n<table><thead><tr><th "
          "scope=\"col\">Symbol</th><th scope=\"col\">Name</th><th scope=\"col\">Value</th></tr></thead><tbody>\n" +
          rows + "</tbody></table>\n";
+}
+
+std::string
+LinearityTable(const Report & report)
+{
+  std::string rows;
+  for (const LinearityRecord::Level & level : report.linearity.levels)
+  {
+    rows += "<tr><td>" + Text(level.exposure) + "</td><td>" + std::to_string(level.frames) + "</td><td>" +
+            Text(level.meanDn) + "</td><td>" +
+            (level.deviationPercent ? Rounded(*level.deviationPercent) : std::string("outside of the range")) +
+            "</td></tr>\n";
+  }
+  return rows.empty() ? ""
+                      : "<table><thead><tr><th scope=\"col\">Exposure</th><th scope=\"col\">Frames</th><th "
+                        "scope=\"col\">Level [DN]</th><th scope=\"col\">Deviation from the line "
+                        "[%]</th></tr></thead><tbody>\n" +
+                          rows + "</tbody></table>\n";
 }
 
 std::string

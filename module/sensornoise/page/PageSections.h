@@ -37,6 +37,10 @@ WarningList(const std::vector<Warning> & warnings);
 std::string
 EmvaTable(const Report & report);
 
+/** The levels by exposure and their deviations from the line; "" where no exposures were given. */
+std::string
+LinearityTable(const Report & report);
+
 /** The frames that were measured: their files' number, size and hash, and how it is computed by hand. "" where there is
  * no \a input. */
 std::string

@@ -152,13 +152,22 @@ InputSection(const std::optional<InputRecord> & input)
   return input ? Heading("h2", "Input") + InputTable(input) : "";
 }
 
+/** The levels by exposure, where exposures were given. */
+std::string
+LinearitySection(const Report & report, const char * heading)
+{
+  return report.linearity.levels.empty()
+           ? ""
+           : Heading(heading, "Linearity") + Paragraph(DescribeLinearity(report)) + LinearityTable(report);
+}
+
 std::string
 ChannelSection(const Report & report)
 {
   return Heading("h2", "Channel " + report.channel) + VerdictBox(VerdictOf(report)) +
          "<details><summary>Everything of channel " + Escaped(report.channel) + "</summary>\n" + StackSentence(report) +
-         QuantityTable(report) + FitSentences(report) + SeriesAndNoise(report, "h3") + Heading("h3", "EMVA 1288") +
-         EmvaTable(report) + "</details>\n";
+         QuantityTable(report) + FitSentences(report) + SeriesAndNoise(report, "h3") + LinearitySection(report, "h3") +
+         Heading("h3", "EMVA 1288") + EmvaTable(report) + "</details>\n";
 }
 
 /** Four columns, one a channel. */
@@ -198,8 +207,9 @@ ToHtml(const Report & report, const PageMaps & maps)
   return Page("Noise of an image sensor",
               VerdictBox(VerdictOf(report)) + StackSentence(report) +
                 (report.gain.value ? table + warnings : warnings + Heading("h2", "Quantities") + table) +
-                CurveSection(report) + SeriesAndNoise(report, "h2") + MapsSection(maps) + Heading("h2", "EMVA 1288") +
-                EmvaTable(report) + InputSection(report.input) + Heading("h2", "Settings") + SettingsTable(report));
+                CurveSection(report) + SeriesAndNoise(report, "h2") + LinearitySection(report, "h2") +
+                MapsSection(maps) + Heading("h2", "EMVA 1288") + EmvaTable(report) + InputSection(report.input) +
+                Heading("h2", "Settings") + SettingsTable(report));
 }
 
 std::string

@@ -13,6 +13,7 @@
 #include "sensornoise/refined/RefinedReport.h"
 #include "sensornoise/report/AllFrames.h"
 #include "sensornoise/report/Contradictions.h"
+#include "sensornoise/report/LinearityReport.h"
 #include "sensornoise/report/SceneChangeReport.h"
 #include "sensornoise/report/StackReport.h"
 #include "sensornoise/report/StackSettings.h"
@@ -56,6 +57,7 @@ RefinedMethod<TPixel>::RefinedMethod(const RefinedSettings &           settings,
   , m_Scene(std::make_unique<StillScene>())
 {
   settings.Validate();
+  RequireExposuresOfFrames(settings.exposures, frames);
   RequireMemoryLimit(settings.memoryLimitBytes, geometry, frames, 1);
   if constexpr (std::is_integral_v<TPixel>)
   {
@@ -205,6 +207,7 @@ RefinedMethod<TPixel>::EndMoments()
 {
   StackMaps                 maps = MakeStackMaps<TPixel>(m_Moments.Take(), m_Settings.codes, m_ParallelFor);
   const std::vector<double> levels = m_Distinct.OfDistinct(m_Moments.GetFrameMeans());
+  m_ExposureFit = FitExposures(m_Settings.exposures, m_Thumbnails, m_Distinct.Counted(), maps);
   const bool isStrong = m_Thumbnails.FindIlluminationChange(m_Distinct.Counted()) > InMoments.strongIlluminationChange;
   if (isStrong && AreLevelsSeries(levels))
   {
@@ -370,6 +373,7 @@ RefinedMethod<TPixel>::MakeReport()
                                               BlackLevel(m_Settings, *m_Scene, m_Series),
                                               m_Correlation },
                                             m_ParallelFor);
+  ReportLinearity(m_Report, m_ExposureFit);
   WithdrawContradicted(m_Report);
   UncoverUnknown(m_Scene->frame, m_ParallelFor);
   WarnOfMosaic(m_Report, m_Scene->frame.mean, m_Geometry, m_ParallelFor);

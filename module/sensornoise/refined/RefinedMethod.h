@@ -8,6 +8,7 @@
 #include "sensornoise/base/NothingToMeasure.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/correlation/NoiseCorrelation.h"
+#include "sensornoise/moments/ExposureFit.h"
 #include "sensornoise/moments/StackMaps.h"
 #include "sensornoise/moments/StackPasses.h"
 #include "sensornoise/pixels/StaticVariance.h"
@@ -226,7 +227,8 @@ private:
   void
   MakeReport();
 
-  RefinedSettings m_Settings;
+  RefinedSettings            m_Settings;
+  std::optional<ExposureFit> m_ExposureFit; // of the first pass; none: no exposures were given
 
   // The sums of the passes, and what each pass found. The scene stays where it is: FrameSums points to its frame.
   std::unique_ptr<StillScene>           m_Scene;

@@ -101,6 +101,10 @@ DescribeInput(const RefinedSettings & settings, const StillScene & scene, const 
     report.settings.emplace_back("level_range_low", settings.levelRangeDn->lowDn);
     report.settings.emplace_back("level_range_high", settings.levelRangeDn->highDn);
   }
+  if (!settings.exposures.empty())
+  {
+    report.settings.emplace_back("exposures", settings.exposures);
+  }
   if (settings.offset)
   {
     report.settings.emplace_back("offset", settings.offset->valueDn);

@@ -3,6 +3,7 @@
 #include "sensornoise/refined/RefinedSettings.h"
 
 #include "sensornoise/base/Text.h"
+#include "sensornoise/moments/Exposures.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -15,6 +16,7 @@ void
 RefinedSettings::Validate() const
 {
   ValidateCodeSettings(codes);
+  ValidateExposures(exposures);
   if (levelRangeDn && !(levelRangeDn->lowDn < levelRangeDn->highDn && std::isfinite(levelRangeDn->lowDn) &&
                         std::isfinite(levelRangeDn->highDn)))
   {

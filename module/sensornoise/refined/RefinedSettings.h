@@ -11,6 +11,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace sensornoise
 {
@@ -33,6 +34,10 @@ struct SensorNoise_EXPORT RefinedSettings
   /** Levels between which the variance is fitted, of a pixel's neighbours [DN]; null: all. For sensors whose response
    * is straight in a part of its range (EMVA 1288 takes 5 to 95 % of saturation). */
   std::optional<LevelRange> levelRangeDn;
+  /** Exposure of each frame, in the order of the frames, in any unit: exposure times, or irradiations; 0: a dark frame.
+   * Finite, 0 or more, at least 3 different values. With them the linearity of the response is measured, see
+   * FitExposures(). Empty (default): not given. */
+  std::vector<double> exposures;
   /** What is known of the codes; the rest is found. */
   CodeSettings codes;
   /** Most that the method may hold, beside the frames that it is handed [bytes]; infinite: what it needs. The stack is

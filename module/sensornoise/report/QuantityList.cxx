@@ -24,6 +24,13 @@ OfNoise(const Report & report)
 }
 using Noise = NoiseCorrelationRecord;
 
+template <Quantity LinearityRecord::* VMember>
+const Quantity *
+OfLinearity(const Report & report)
+{
+  return &(report.linearity.*VMember);
+}
+
 constexpr std::array Entries{
   QuantityEntry{ "gain",
                  "gain g",
@@ -118,6 +125,25 @@ constexpr std::array Entries{
                  "Of the noise of a pixel; 0: normal.",
                  ShownIn::Record,
                  OfNoise<&Noise::excessKurtosis> },
+  QuantityEntry{
+    "linearity.linearity_error_percent",
+    "linearity error",
+    "%",
+    "Mean absolute deviation of the levels from a line through the exposures, from 5 to 95 % of saturation.",
+    ShownIn::TableIfLimited,
+    OfLinearity<&LinearityRecord::errorPercent> },
+  QuantityEntry{ "linearity.offset_dn",
+                 "offset by exposures",
+                 "DN",
+                 "Level at exposure 0: of frames of that exposure, else of the line through the exposures.",
+                 ShownIn::TableIfLimited,
+                 OfLinearity<&LinearityRecord::offsetDn> },
+  QuantityEntry{ "linearity.responsivity_dn_per_exposure",
+                 "responsivity",
+                 "DN/unit",
+                 "Slope of the line through the exposures, at the brightest parts of the frames.",
+                 ShownIn::TableIfLimited,
+                 OfLinearity<&LinearityRecord::responsivity> },
 };
 } // namespace
 

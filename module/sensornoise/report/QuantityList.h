@@ -17,6 +17,7 @@ enum class ShownIn : std::uint8_t
   EveryTable,
   TableIfKnown,      ///< where it has a value
   TableIfNotTheGain, ///< where it has a value that is not the gain's
+  TableIfLimited,    ///< where it has a value or an upper limit
   Record             ///< never
 };
 
@@ -25,7 +26,7 @@ struct QuantityEntry
 {
   const char * path;    ///< in the JSON record; a dot leads into an object: "vibration.sd_x"
   const char * label;   ///< in the table
-  const char * unit;    ///< "DN", "DN^2", "DN/e-", "e-", "pixel", "pixel^2", "1"
+  const char * unit;    ///< "DN", "DN^2", "DN/e-", "e-", "pixel", "pixel^2", "%", "DN/unit", "1"
   const char * meaning; ///< one sentence
   ShownIn      shown;
   /** The quantity; null in a report that has no such object. */

@@ -80,6 +80,28 @@ struct NoiseCorrelationRecord
   Quantity         excessKurtosis;
 };
 
+/** Linearity of the response against given exposures. */
+struct LinearityRecord
+{
+  /** The level of the brightest never clipped parts of the frames at one exposure. */
+  struct Level
+  {
+    double      exposure{ 0.0 }; ///< in the unit in which the exposures were given
+    std::size_t frames{ 0 };
+    double      meanDn{ 0.0 };
+    std::optional<double>
+      deviationPercent; ///< from the line, relative to the line's signal; null: outside of the range
+  };
+  Quantity              errorPercent{ Quantity::Without(EstimateStatus::NotIdentifiable) }; ///< of EMVA 1288
+  Quantity              offsetDn{ Quantity::Without(EstimateStatus::NotIdentifiable) };
+  Quantity              responsivity{ Quantity::Without(EstimateStatus::NotIdentifiable) }; ///< [DN per exposure]
+  std::string           reason{ "no exposures were given" }; ///< of a missing linearity error; "": there is one
+  std::string           offsetSource{ "none" };              ///< "dark frames" (exposure 0), "line" or "none"
+  std::optional<double> saturationDn;
+  std::string           saturationSource{ "none" }; ///< "given", "pile-up", "code range", "largest level" or "none"
+  std::vector<Level>    levels;                     ///< in the order of the exposures; empty: no exposures were given
+};
+
 /** Something that the user should know. */
 struct Warning
 {
@@ -119,7 +141,7 @@ struct InputRecord
  */
 struct Report
 {
-  using SettingValue = std::variant<double, bool, std::string>;
+  using SettingValue = std::variant<double, bool, std::string, std::vector<double>>;
 
   std::string                                       method;
   std::vector<std::pair<std::string, SettingValue>> settings; ///< every parameter as used
@@ -187,6 +209,7 @@ struct Report
     std::optional<Baseline> line; ///< through the corrected variance: indicative where the gain is not identified
   } fit;
   std::optional<NoiseCorrelationRecord> noiseCorrelation; ///< null: not measured
+  LinearityRecord                       linearity;
   std::optional<Baseline>               affineBaseline; ///< the line through the uncorrected variance: ignores flicker
   std::optional<Baseline>               quadraticBaseline; ///< the parabola through the uncorrected variance, (2.21)
 

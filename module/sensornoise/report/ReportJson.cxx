@@ -113,8 +113,31 @@ WriteJson(JsonWriter & json, const NoiseCorrelationRecord & correlation)
   });
 }
 
+void
+WriteJson(JsonWriter & json, const LinearityRecord::Level & level)
+{
+  json.Object([&] {
+    json.Member("exposure", level.exposure).Member("frames", level.frames).Member("mean_dn", level.meanDn);
+    json.Member("deviation_percent", level.deviationPercent);
+  });
+}
+
 namespace
 {
+/** The linearity; without exposures, too, so that programs find the status. */
+void
+WriteLinearity(JsonWriter & json, const Report & report)
+{
+  const LinearityRecord & linearity = report.linearity;
+  json.ObjectMember("linearity", [&] {
+    json.Member("status", NameOf(linearity.errorPercent.status));
+    json.Member("reason", linearity.reason.empty() ? std::nullopt : std::optional<std::string>(linearity.reason));
+    WriteQuantities(json, report, "linearity.");
+    json.Member("offset_source", linearity.offsetSource).Member("saturation_dn", linearity.saturationDn);
+    json.Member("saturation_source", linearity.saturationSource).Member("levels", linearity.levels);
+  });
+}
+
 void
 WriteFiles(JsonWriter & json, const InputFiles & input)
 {
@@ -250,6 +273,7 @@ WriteJson(JsonWriter & json, const Report & report)
     WriteAllQuantities(json, report);
     WriteSeries(json, report);
     json.Member("noise_correlation", report.noiseCorrelation);
+    WriteLinearity(json, report);
     WriteFit(json, report);
     json.Member("warnings", report.warnings);
     json.ObjectMember("scatter", [&] {

@@ -103,6 +103,8 @@ IsShown(const QuantityEntry & entry, const Report & report)
       return quantity != nullptr && quantity->value;
     case ShownIn::TableIfNotTheGain:
       return quantity != nullptr && quantity->value && Number(quantity->value) != Number(report.gain.value);
+    case ShownIn::TableIfLimited:
+      return quantity != nullptr && (quantity->value || quantity->status == EstimateStatus::UpperLimit);
     case ShownIn::Record:
       break;
   }
@@ -188,6 +190,29 @@ DescribeNoise(const Report & report)
 }
 
 std::string
+DescribeLinearity(const Report & report)
+{
+  const LinearityRecord & linearity = report.linearity;
+  if (linearity.levels.empty())
+  {
+    return "";
+  }
+  if (!linearity.reason.empty())
+  {
+    return "linearity: not identifiable: " + linearity.reason;
+  }
+  const auto used = std::count_if(linearity.levels.begin(), linearity.levels.end(), [](const auto & level) {
+    return level.deviationPercent.has_value();
+  });
+  return Format("linearity: %d of %zu exposures in the range, saturation %.5g DN (",
+                static_cast<int>(used),
+                linearity.levels.size(),
+                linearity.saturationDn.value_or(0.0)) +
+         linearity.saturationSource + "), offset of " +
+         (linearity.offsetSource == "line" ? "the line" : linearity.offsetSource);
+}
+
+std::string
 TextOfCounted(const Report & report)
 {
   const std::size_t leftOut = report.framesLeftOut.size();
@@ -233,7 +258,8 @@ MakeTable(const Report & report)
                     report.fit.line->intercept);
   }
   bool isFirst = true;
-  for (const std::string & line : { DescribeFit(report), DescribeResponse(report), DescribeNoise(report) })
+  for (const std::string & line :
+       { DescribeFit(report), DescribeResponse(report), DescribeNoise(report), DescribeLinearity(report) })
   {
     table += line.empty() ? "" : (isFirst ? "\n" : "") + line + "\n";
     isFirst = isFirst && line.empty();

@@ -22,14 +22,16 @@ MakeTable(const Report & report);
 std::string
 DescribeInput(const std::optional<InputRecord> & input);
 
-/** How well the line fits, how straight the response is, and what the noise is taken for, each as a line without its
- * end; "" where the report has nothing of it. */
+/** How well the line fits, how straight the response is, what the noise is taken for, and what the linearity error
+ * rests on, each as a line without its end; "" where the report has nothing of it. */
 std::string
 DescribeFit(const Report & report);
 std::string
 DescribeResponse(const Report & report);
 std::string
 DescribeNoise(const Report & report);
+std::string
+DescribeLinearity(const Report & report);
 
 /** A warning as a line: "warning: message [code]", with "note" or "error" where its severity is that. */
 SensorNoise_EXPORT std::string
