@@ -236,6 +236,18 @@ public:
   itkSetMacro(LevelRangeHigh, double);
   itkGetConstMacro(LevelRangeHigh, double);
 
+  /** Exposure of each frame of the stack, in the order of the frames, in any unit (Refined only): exposure times, or
+   * irradiations; 0: a dark frame. Finite, 0 or more, at least 3 different values. With them the report has the
+   * linearity error of EMVA 1288, and offset and responsivity of a line through the levels. Empty (default): not given.
+   * An ExceptionObject at Update() if there is not one exposure for each frame. */
+  void
+  SetExposures(const std::vector<double> & exposures);
+  std::vector<double>
+  GetExposures() const
+  {
+    return m_Exposures;
+  }
+
   /** Spacing of the codes [DN]; 0 (default): found. */
   itkSetMacro(QuantisationStep, double);
   itkGetConstMacro(QuantisationStep, double);
@@ -541,23 +553,24 @@ private:
   void
   FillOutputs();
 
-  MethodEnum         m_Method{ MethodEnum::Refined };
-  double             m_Offset{ std::numeric_limits<double>::quiet_NaN() };
-  double             m_OffsetStandardError{ 0.0 };
-  double             m_Level{ 0.01 };
-  double             m_BrightQuantile{ 0.99 };
-  double             m_DarkQuantile{ 0.01 };
-  RollingShutterEnum m_RollingShutter{ RollingShutterEnum::Auto };
-  double             m_SigmaRows{ 50.0 };
-  unsigned int       m_ShutterAxis{ 1 };
-  unsigned int       m_BitDepth{ 0 };
-  double             m_ClipLow{ std::numeric_limits<double>::quiet_NaN() };
-  double             m_ClipHigh{ std::numeric_limits<double>::quiet_NaN() };
-  double             m_LevelRangeLow{ NumericTraits<double>::NonpositiveMin() };
-  double             m_LevelRangeHigh{ NumericTraits<double>::max() };
-  double             m_QuantisationStep{ 0.0 };
-  SizeValueType      m_MemoryLimit{ 0 };
-  std::string        m_BayerPattern{ "none" };
+  MethodEnum          m_Method{ MethodEnum::Refined };
+  double              m_Offset{ std::numeric_limits<double>::quiet_NaN() };
+  double              m_OffsetStandardError{ 0.0 };
+  double              m_Level{ 0.01 };
+  double              m_BrightQuantile{ 0.99 };
+  double              m_DarkQuantile{ 0.01 };
+  RollingShutterEnum  m_RollingShutter{ RollingShutterEnum::Auto };
+  double              m_SigmaRows{ 50.0 };
+  unsigned int        m_ShutterAxis{ 1 };
+  unsigned int        m_BitDepth{ 0 };
+  double              m_ClipLow{ std::numeric_limits<double>::quiet_NaN() };
+  double              m_ClipHigh{ std::numeric_limits<double>::quiet_NaN() };
+  double              m_LevelRangeLow{ NumericTraits<double>::NonpositiveMin() };
+  double              m_LevelRangeHigh{ NumericTraits<double>::max() };
+  double              m_QuantisationStep{ 0.0 };
+  std::vector<double> m_Exposures;
+  SizeValueType       m_MemoryLimit{ 0 };
+  std::string         m_BayerPattern{ "none" };
 
   sensornoise::BayerSource m_BayerSource{ sensornoise::BayerSource::Given }; // of a pattern that is not auto
 

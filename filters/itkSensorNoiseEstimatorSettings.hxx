@@ -23,6 +23,7 @@
 #include "itkSensorNoiseMetaData.h"
 #include "sensornoise/base/FreeMemory.h"
 #include "sensornoise/base/RollingShutter.h"
+#include "sensornoise/moments/Exposures.h"
 #include "sensornoise/published/PublishedSettings.h"
 #include "sensornoise/refined/RefinedSettings.h"
 #include "sensornoise/report/StackSettings.h"
@@ -115,6 +116,18 @@ SensorNoiseEstimator<TStack>::SetSourceFrames(SizeValueType first, SizeValueType
 
 template <typename TStack>
 void
+SensorNoiseEstimator<TStack>::SetExposures(const std::vector<double> & exposures)
+{
+  WithItkErrors(this, [&] { sensornoise::ValidateExposures(exposures); });
+  if (m_Exposures != exposures)
+  {
+    m_Exposures = exposures;
+    this->Modified();
+  }
+}
+
+template <typename TStack>
+void
 SensorNoiseEstimator<TStack>::SetFramesHash(const std::string & sha256, SizeValueType files, SizeValueType bytes)
 {
   m_FramesHash = WithItkErrors(this, [&] { return sensornoise::InputFilesOf(sha256, files, bytes); });
@@ -180,6 +193,12 @@ SensorNoiseEstimator<TStack>::VerifyInputInformation() const
                                              << " DN cannot be used by the method published, which fits all levels: "
                                              << "leave it out, or set the method to refined");
   }
+  if (m_Method == MethodEnum::Published && !m_Exposures.empty())
+  {
+    itkExceptionMacro("exposures cannot be used by the method published, which does not measure the linearity: "
+                      << "leave them out, or set the method to refined");
+  }
+  WithItkErrors(this, [&] { sensornoise::RequireExposuresOfFrames(m_Exposures, region.GetSize(2)); });
   if (m_Method == MethodEnum::Published && m_MemoryLimit > 0 &&
       static_cast<double>(m_MemoryLimit) < bytesPerPixel * pixels)
   {
@@ -255,6 +274,7 @@ SensorNoiseEstimator<TStack>::MakeRefinedSettings() const
   {
     settings.levelRangeDn = sensornoise::LevelRange{ m_LevelRangeLow, m_LevelRangeHigh };
   }
+  settings.exposures = m_Exposures;
   if (m_MemoryLimit > 0)
   {
     settings.memoryLimitBytes = static_cast<double>(m_MemoryLimit);
@@ -281,6 +301,7 @@ SensorNoiseEstimator<TStack>::PrintSelf(std::ostream & os, Indent indent) const
   os << indent << "ClipHigh: " << m_ClipHigh << std::endl;
   os << indent << "LevelRangeLow: " << m_LevelRangeLow << std::endl;
   os << indent << "LevelRangeHigh: " << m_LevelRangeHigh << std::endl;
+  os << indent << "Exposures: " << m_Exposures.size() << std::endl;
   os << indent << "QuantisationStep: " << m_QuantisationStep << std::endl;
   os << indent << "MemoryLimit: " << m_MemoryLimit << std::endl;
   os << indent << "BayerPattern: " << m_BayerPattern << std::endl;

@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/RollingShutter.h"
 #include "sensornoise/report/Version.h"
+#include "tools/ExposureList.h"
 #include "tools/LowerCase.h"
 
 #include <CLI/CLI.hpp>
@@ -104,6 +105,12 @@ AddOptions(CLI::App & app, EstimateOptions & options, Texts & texts)
                  texts.levelRange,
                  "LOW,HIGH: levels between which the variance is fitted [DN], where the response is straight in a part "
                  "of its range; else all");
+  app.add_option(
+    "--exposures",
+    options.exposuresText,
+    "exposures of the frames, in their order and in any unit, 0 for dark frames: numbers with commas, or a "
+    "file with one frame a line, whose exposure is the last column. With them the linearity error of EMVA "
+    "1288 is measured. Of all FRAME..., also of those that --frames leaves out");
   app
     .add_option("--rolling-shutter",
                 texts.rollingShutter,
@@ -199,6 +206,22 @@ ReadLevelRange(EstimateOptions & options, const std::string & text)
                                       "--method refined");
   }
   options.levelRange = { levels[0], levels[1] };
+}
+
+void
+ReadExposuresOf(EstimateOptions & options)
+{
+  if (options.exposuresText.empty())
+  {
+    return;
+  }
+  if (options.method == "published")
+  {
+    throw CLI::ValidationError("--exposures",
+                               "the method published does not measure the linearity; leave the exposures out, or set "
+                               "--method refined");
+  }
+  options.exposures = ReadExposures(options.exposuresText);
 }
 
 void
@@ -321,6 +344,7 @@ EstimateOptions::Parse(int argc, char ** argv)
   check.erase(std::remove(check.begin(), check.end(), ""), check.end()); // what CLI11 makes of no name
   ReadCodes(*this, texts);
   ReadLevelRange(*this, texts.levelRange);
+  ReadExposuresOf(*this);
   ReadOffset(*this, texts);
   ReadRollingShutter(*this, texts.rollingShutter);
   ReadRegion(*this, texts);
@@ -343,6 +367,26 @@ EstimateOptions::SelectFiles()
   }
   files = { files.begin() + static_cast<std::ptrdiff_t>(frames->first),
             files.begin() + static_cast<std::ptrdiff_t>(frames->second) };
+}
+
+void
+EstimateOptions::SelectExposures(std::size_t all)
+{
+  if (exposures.empty())
+  {
+    return;
+  }
+  if (exposures.size() != all)
+  {
+    throw std::invalid_argument("--exposures holds " + std::to_string(exposures.size()) + " numbers, but there are " +
+                                std::to_string(all) + " frames; expected one exposure for each frame" +
+                                (frames ? ", also for those that --frames leaves out" : ""));
+  }
+  if (frames && frames->second <= all)
+  {
+    exposures = { exposures.begin() + static_cast<std::ptrdiff_t>(frames->first),
+                  exposures.begin() + static_cast<std::ptrdiff_t>(frames->second) };
+  }
 }
 
 PlotKind

@@ -29,23 +29,25 @@ enum class PlotKind
 /** The command line of estimate-sensor-noise. */
 struct EstimateOptions
 {
-  std::vector<std::string>                           files;
-  std::string                                        raw; ///< how frames lie in files without a header; empty: none
-  std::string                                        bayer{ "auto" };
-  std::string                                        method{ "refined" };
-  unsigned int                                       bitDepth{ 0 }; ///< 0: found
-  double                                             clipLow{ std::numeric_limits<double>::quiet_NaN() };
-  double                                             clipHigh{ std::numeric_limits<double>::quiet_NaN() };
-  double                                             step{ 0.0 }; ///< 0: found
-  std::optional<std::pair<double, double>>           levelRange;  ///< low, high [DN]; none: all levels
-  double                                             offset{ std::numeric_limits<double>::quiet_NaN() };
-  double                                             offsetStandardError{ 0.0 };
-  std::vector<std::string>                           dark;
-  bool                                               hasCheck{ false };
-  std::vector<std::string>                           check; ///< empty: the frames themselves
-  RollingShutter                                     rollingShutter{ RollingShutter::Auto };
-  double                                             sigmaRows{ 50.0 };
-  std::optional<std::array<long, 4>>                 roi;    ///< x, y, width, height
+  std::vector<std::string>                 files;
+  std::string                              raw; ///< how frames lie in files without a header; empty: none
+  std::string                              bayer{ "auto" };
+  std::string                              method{ "refined" };
+  unsigned int                             bitDepth{ 0 }; ///< 0: found
+  double                                   clipLow{ std::numeric_limits<double>::quiet_NaN() };
+  double                                   clipHigh{ std::numeric_limits<double>::quiet_NaN() };
+  double                                   step{ 0.0 };   ///< 0: found
+  std::optional<std::pair<double, double>> levelRange;    ///< low, high [DN]; none: all levels
+  std::string                              exposuresText; ///< list of numbers, or name of a file; empty: none
+  std::vector<double>                exposures; ///< of the frames that are measured, see SelectExposures(); empty: none
+  double                             offset{ std::numeric_limits<double>::quiet_NaN() };
+  double                             offsetStandardError{ 0.0 };
+  std::vector<std::string>           dark;
+  bool                               hasCheck{ false };
+  std::vector<std::string>           check; ///< empty: the frames themselves
+  RollingShutter                     rollingShutter{ RollingShutter::Auto };
+  double                             sigmaRows{ 50.0 };
+  std::optional<std::array<long, 4>> roi;                    ///< x, y, width, height
   std::optional<std::pair<std::size_t, std::size_t>> frames; ///< first, one past the last
   std::optional<std::pair<std::size_t, std::size_t>> cut;    ///< of these what is left to do, see SelectFiles()
   std::string                                        mask;
@@ -67,6 +69,11 @@ struct EstimateOptions
   /** Applies --frames to a list of files; one file, a stack, is cut later. */
   void
   SelectFiles();
+
+  /** Applies --frames to the exposures. The files hold \a all frames. Throws std::invalid_argument unless there is one
+   * exposure for each frame. */
+  void
+  SelectExposures(std::size_t all);
 
   /** Whether the report goes to a file, not to standard output or nowhere. */
   bool
@@ -100,6 +107,7 @@ struct EstimateOptions
       estimator.SetLevelRangeLow(levelRange->first);
       estimator.SetLevelRangeHigh(levelRange->second);
     }
+    estimator.SetExposures(exposures);
     estimator.SetMemoryLimit(memoryLimit);
     estimator.SetRollingShutter(rollingShutter);
     estimator.SetSigmaRows(sigmaRows);

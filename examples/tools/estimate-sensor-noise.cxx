@@ -11,6 +11,7 @@
 #include "tools/ComparedFiles.h"
 #include "tools/EstimateOptions.h"
 #include "tools/FilesHash.h"
+#include "tools/ExposureList.h"
 #include "tools/FilesInUse.h"
 #include "tools/MapFiles.h"
 #include "tools/ModelCheck.h"
@@ -21,6 +22,7 @@
 #include "itkSensorNoiseFrameFiles.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <iostream>
@@ -102,6 +104,10 @@ RequireOutputsApart(const EstimateOptions & options)
   if (!options.mask.empty())
   {
     files.Read(options.mask, "the mask");
+  }
+  if (!options.exposuresText.empty() && !IsExposureList(options.exposuresText))
+  {
+    files.Read(options.exposuresText, "--exposures");
   }
   if (options.HasReportFile())
   {
@@ -214,8 +220,10 @@ Run(EstimateOptions & options)
     maps.emplace(options.maps, !options.dark.empty());
   }
   RequireOutputsApart(options);
+  const std::size_t listed = options.files.size();
   options.SelectFiles();
   const sensornoise::FrameList frames = sensornoise::OpenFrames(options.files, {}, options.raw);
+  options.SelectExposures(listed == 1 ? frames.frames : listed);
   TellWarningOf(frames);
   TellWhetherHeldInMemory(frames);
 

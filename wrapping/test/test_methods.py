@@ -86,7 +86,30 @@ def test_a_level_range_leaves_out_the_other_levels(burst):
     assert is_near(report["gain"], 1)
 
 
+def test_exposures_give_the_linearity():
+    exposures = np.repeat([0.1, 0.3, 0.5, 0.7, 0.9], 5)
+    stack, _ = itk.simulate_sensor_noise(
+        frames=25, size=(128, 96), illumination=exposures, flicker_sd=0.001, vibration_sd=(0, 0), seed=5
+    )
+    report = itk.estimate_sensor_noise(stack, exposures=exposures)
+    assert report["settings"]["exposures"] == exposures.tolist()
+    linearity = report["linearity"]
+    assert linearity["status"] == "upper-limit" and linearity["linearity_error_percent"]["interval95"][1] < 0.2
+    assert is_near(linearity["offset_dn"], 100)
+    assert [level["frames"] for level in linearity["levels"]] == [5] * 5
+    cut = itk.estimate_sensor_noise(stack, exposures=exposures, frame_range=(1, 25))
+    assert [level["frames"] for level in cut["linearity"]["levels"]] == [4, 5, 5, 5, 5]
+    assert itk.estimate_sensor_noise(stack)["linearity"]["reason"] == "no exposures were given"
+
+
 WRONG = {
+    "published exposures": (
+        {"exposures": [1, 2, 3], "method": "published"},
+        "exposures were given and the method is 'published'",
+    ),
+    "few exposures": ({"exposures": [1, 2, 3]}, "there are 3 exposures, but 60 frames"),
+    "two exposures": ({"exposures": [1, 2] * 30}, "exposures is [1, 2, 1, 2"),
+    "an exposure": ({"exposures": 5}, "exposures is 5; expected one finite number for each frame"),
     "both": ({"offset": 3, "dark": True}, "offset and dark were given; expected one of them"),
     "published offset": ({"offset": 3, "method": "published"}, "offset was given and the method is 'published'"),
     "published dark": ({"dark": True, "method": "published"}, "dark was given and the method is 'published'"),

@@ -65,6 +65,10 @@ OPTIONS = {
         ["--bit-depth", "14", "--clip", "90,3000", "--step", "1"],
     ),
     "level range": ({"level_range": (500, 2500.5)}, ["--level-range", "500,2500.5"]),
+    "exposures": (
+        {"exposures": [1, 2, 3.5] * 20, "frame_range": (3, 60)},
+        ["--exposures", ",".join(["1,2,3.5"] * 20), "--frames", "3:60"],
+    ),
     "one thread": ({"threads": 1}, ["--threads", "1"]),
     "all of them": (
         {
@@ -94,6 +98,12 @@ SETTINGS = {
         "quantisation_step": 1,
     },
     "level range": {"rolling_shutter": "auto", "level_range_low": 500, "level_range_high": 2500.5},
+    "exposures": {
+        "rolling_shutter": "auto",
+        "exposures": [1, 2, 3.5] * 19,
+        "frame_range_first": 3,
+        "frame_range_end": 60,
+    },
     "one thread": {"rolling_shutter": "auto"},
     "all of them": {
         "rolling_shutter": "off",

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The one-call way from frames to a report."""
 
+from collections.abc import Sequence
 from typing import Literal
 
 from . import _options
@@ -28,6 +29,7 @@ def estimate_sensor_noise(
     clip: tuple[float, float] | None = None,
     step: float | None = None,
     level_range: tuple[float, float] | None = None,
+    exposures: Sequence[float] | None = None,
     rolling_shutter: Literal["auto", "off"] | float = "auto",
     shutter_axis: Literal["y", "x"] = "y",
     level: float = 0.01,
@@ -80,6 +82,11 @@ def estimate_sensor_noise(
     level_range
         (low, high): levels between which the variance is fitted [DN], for sensors whose response is straight in a part
         of its range. The level of a pixel is the mean of its neighbours. Default: all. "refined" only.
+    exposures
+        Exposure of each frame, in the order of the frames and in any unit: exposure times, or irradiations; 0: a dark
+        frame. Finite, 0 or more, with at least 3 different values. The record's `linearity` then has the linearity
+        error of EMVA 1288, and offset and responsivity of a line through the levels. One for each of `frames`, also for
+        those that `frame_range` leaves out. Default: not given. "refined" only.
     rolling_shutter
         Whether the flicker may differ from line to line: "auto" (found out), "off", or the width sigma_y of a line's
         neighbourhood [lines]. "refined" looks for any light that changes in some places in another way than in others,
@@ -151,6 +158,7 @@ def estimate_sensor_noise(
         clip=clip,
         step=step,
         level_range=level_range,
+        exposures=exposures,
         rolling_shutter=rolling_shutter,
         shutter_axis=shutter_axis,
         level=level,

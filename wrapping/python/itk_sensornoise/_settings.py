@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The settings of estimate_sensor_noise(), put into an ITK estimator: of a stack that it reads, or of sums."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -27,6 +28,7 @@ class Settings:
     clip: tuple[float, float] | None = None
     step: float | None = None
     level_range: tuple[float, float] | None = None
+    exposures: Sequence[float] | None = None
     rolling_shutter: str | float = "auto"
     shutter_axis: str = "y"
     level: float = 0.01
@@ -42,6 +44,8 @@ class Settings:
         _check_what_is_known(self.method, self.offset, dark)
         if self.level_range is not None:
             _level_range(self.level_range, self.method)
+        if self.exposures is not None:
+            _exposures(self.exposures, self.method)
         _ = self.span
 
     @property
@@ -74,6 +78,7 @@ def prepare(stack: Stack, dark: Stack | None, settings: Settings) -> Prepared:
     import itk
 
     whole, span = stack.image, settings.span
+    total = None if stack.is_cut else stack.size[2]
     corner, size = _region(stack, settings.roi, None if stack.is_cut else span)
     mask = None if settings.mask is None else _mask_of(settings.mask, stack.size[:2])
     if dark is not None:
@@ -95,6 +100,8 @@ def prepare(stack: Stack, dark: Stack | None, settings: Settings) -> Prepared:
         low, high = _level_range(settings.level_range, settings.method)
         estimator.SetLevelRangeLow(low)
         estimator.SetLevelRangeHigh(high)
+    if settings.exposures is not None:
+        estimator.SetExposures(_exposures_of(settings, size[2], total))
     _set_parameters(
         estimator,
         settings.bit_depth,
@@ -148,6 +155,35 @@ def _level_range(level_range: tuple[float, float], method: str) -> tuple[float, 
             "expected no level_range, or 'refined'"
         )
     return low, high
+
+
+def _exposures(exposures: Sequence[float], method: str) -> list[float]:
+    """The exposures of all frames. Raises ValueError for what no stack can have."""
+    expected = "one finite number for each frame, 0 (a dark frame) or more, with at least 3 different values"
+    try:
+        count = len(exposures)
+    except TypeError:
+        raise _options.refuse("exposures", exposures, expected) from None
+    numbers = _options.numbers("exposures", exposures, count, expected)
+    if min(numbers, default=-1.0) < 0 or len(set(numbers)) < 3:
+        raise _options.refuse("exposures", exposures, expected)
+    if method == "published":
+        raise ValueError(
+            "exposures were given and the method is 'published', which does not measure the linearity; "
+            "expected no exposures, or 'refined'"
+        )
+    return numbers
+
+
+def _exposures_of(settings: Settings, frames: int, total: int | None) -> list[float]:
+    """The exposures of the `frames` that are measured, cut by `frame_range`; `total`: all frames; None: not known."""
+    numbers = _exposures(settings.exposures, settings.method)
+    least = total or (settings.span[1] if settings.span is not None else frames)
+    if len(numbers) < least or len(numbers) > (total or len(numbers)):
+        also = "" if settings.span is None else ", also for those that frame_range leaves out"
+        found = f"there are {len(numbers)} exposures, but {total or f'{least} or more'} frames"
+        raise ValueError(f"{found}; expected one exposure for each frame{also}")
+    return numbers if settings.span is None else numbers[slice(*settings.span)]
 
 
 def _cut_dark(opened: Stack, stack: Stack, corner: tuple[int, ...], size: tuple[int, ...]) -> Stack:

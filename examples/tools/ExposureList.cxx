@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/ExposureList.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <fstream>
+#include <optional>
+#include <stdexcept>
+
+namespace sensornoise::tools
+{
+namespace
+{
+std::string
+Trim(const std::string & text)
+{
+  const char * const space = " \r\n";
+  const std::size_t  first = text.find_first_not_of(space);
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(space) + 1 - first);
+}
+
+std::vector<std::string>
+Split(const std::string & text, const char * separators)
+{
+  std::vector<std::string> parts;
+  std::size_t              begin = 0;
+  for (std::size_t end = 0; end != std::string::npos; begin = end + 1)
+  {
+    end = text.find_first_of(separators, begin);
+    parts.push_back(Trim(text.substr(begin, end == std::string::npos ? end : end - begin)));
+  }
+  return parts;
+}
+
+std::optional<double>
+NumberOf(const std::string & word)
+{
+  char *       end = nullptr;
+  const double number = std::strtod(word.c_str(), &end);
+  return word.empty() || *end != '\0' ? std::nullopt : std::optional<double>(number);
+}
+
+/** The columns of a file, line by line. */
+class ExposureFile
+{
+public:
+  explicit ExposureFile(const std::string & name)
+    : m_Name(name)
+  {}
+
+  void
+  AddLine(std::size_t number, const std::string & line)
+  {
+    const std::vector<std::string> columns = Split(line, ",;\t");
+    const std::optional<double>    exposure = NumberOf(columns.back());
+    if (m_Columns == 0)
+    {
+      m_Columns = columns.size();
+      if (!exposure)
+      {
+        return; // a header
+      }
+    }
+    const std::string where = "--exposures: line " + std::to_string(number) + " of " + m_Name;
+    if (columns.size() != m_Columns)
+    {
+      throw std::runtime_error(where + " has " + std::to_string(columns.size()) + " columns; expected " +
+                               std::to_string(m_Columns) + ", as the lines before");
+    }
+    if (!exposure)
+    {
+      throw std::runtime_error(where + " ends with \"" + columns.back().substr(0, 40) +
+                               "\"; expected a number, the exposure of a frame");
+    }
+    m_Exposures.push_back(*exposure);
+  }
+
+  const std::vector<double> &
+  GetExposures() const
+  {
+    return m_Exposures;
+  }
+
+private:
+  std::string         m_Name;
+  std::size_t         m_Columns{ 0 }; // 0: no line yet
+  std::vector<double> m_Exposures;
+};
+} // namespace
+
+bool
+IsExposureList(const std::string & text)
+{
+  const std::vector<std::string> words = Split(text, ",");
+  return std::all_of(words.begin(), words.end(), [](const std::string & word) { return NumberOf(word).has_value(); });
+}
+
+std::vector<double>
+ReadExposures(const std::string & text)
+{
+  std::vector<double> exposures;
+  if (IsExposureList(text))
+  {
+    for (const std::string & word : Split(text, ","))
+    {
+      exposures.push_back(*NumberOf(word));
+    }
+    return exposures;
+  }
+  std::ifstream file(text);
+  if (!file)
+  {
+    throw std::runtime_error("--exposures: \"" + text +
+                             "\" is neither a list of numbers with commas nor a file that can be read; expected one "
+                             "exposure for each frame, for instance 0,0,10,10,20,20, or a file with one frame a line");
+  }
+  ExposureFile lines(text);
+  std::size_t  number = 0;
+  for (std::string line; std::getline(file, line);)
+  {
+    const bool hasMark = ++number == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0; // of UTF-8
+    line = Trim(hasMark ? line.substr(3) : line);
+    if (!line.empty() && line.front() != '#')
+    {
+      lines.AddLine(number, line);
+    }
+  }
+  if (lines.GetExposures().empty())
+  {
+    throw std::runtime_error("--exposures: " + text + " holds no exposures; expected one line for each frame");
+  }
+  return lines.GetExposures();
+}
+
+} // namespace sensornoise::tools
