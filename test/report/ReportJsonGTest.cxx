@@ -238,7 +238,7 @@ TEST(SensorNoiseReportJson, RecordIsValidAndHasAllNamesInOrder)
     "bit_depth_source "
     "quantisation_step clip_low clip_high clip_source pixels gain offset read_noise read_noise_median "
     "read_noise_electrons intercept variance_slope total_intercept flicker_sd vibration covariance flicker "
-    "flicker_rows motion noise_correlation fit affine_baseline "
+    "flicker_rows motion noise_correlation linearity fit affine_baseline "
     "quadratic_baseline warnings "
     "scatter");
   const std::vector<std::string> names{ std::istream_iterator<std::string>(list), {} };

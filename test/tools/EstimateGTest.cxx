@@ -81,6 +81,7 @@ TEST_P(EstimateToolWith, TheReportHasTheDocumentedNamesAndUnits)
                                     "total_intercept",
                                     "covariance",
                                     "noise_correlation",
+                                    "linearity",
                                     "flicker_sd",
                                     "vibration",
                                     "flicker",
