@@ -25,7 +25,7 @@ CodesOf12Bits()
   return codes;
 }
 
-/** Signal of a response that is bent by \a bend, as ResponseShape::Quadratic [DN]. */
+/** Signal of a quadratic response, as ResponseShape::Quadratic [DN]. */
 double
 Signal(double exposure, double bend)
 {

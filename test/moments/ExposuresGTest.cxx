@@ -19,7 +19,7 @@ using namespace sensornoise;
 
 namespace
 {
-constexpr std::size_t   ExposuresSize = 96; // cells of 6 x 6 pixels, of which 12 are looked at
+constexpr std::size_t   ExposuresSize = 96; // cells of 6 x 6 pixels; two rows, 12 pixels, are used
 constexpr FrameGeometry ExposuresGeometry{ ExposuresSize, ExposuresSize };
 constexpr std::size_t   ExposuresPixels = ExposuresSize * ExposuresSize;
 

@@ -48,7 +48,8 @@ Burst(double bend)
   return Simulate<Codes>(settings, 96, 96);
 }
 
-/** The signal u at exposure 1 [1] of a mean level there [DN]: u + bend (u - u^2) = (level - 100) / 3500. */
+/** Returns the signal u at exposure 1 [1] for its mean level [DN], the root of u + b (u - u^2) = (level - 100) / 3500.
+ */
 double
 BrightestOf(double bend, double levelDn)
 {

@@ -51,8 +51,8 @@ TEST_F(EstimateExposuresTool, ListAndFileSayTheSame)
   EXPECT_EQ(linearity["status"], "identified");
   EXPECT_EQ(linearity["levels"].size(), 6u);
   EXPECT_EQ(linearity["levels"][0]["frames"], 4);
-  // A bend of 8 %, whose parabola departs from its line by 1.0 to 1.3 % on average, by how bright the brightest cells
-  // are.
+  // A quadratic response with a size of 8 % deviates from its line by 1.0 to 1.3 % on average; the brightest cells
+  // decide.
   EXPECT_NEAR(linearity["linearity_error_percent"]["value"], 1.15, 0.3);
   EXPECT_EQ(report["settings"]["exposures"].size(), Frames);
 

@@ -159,9 +159,16 @@ struct MomentsConstants
   std::size_t fewestExposureLevels{ 3 };
   /** Quantile over the cells of the signal that the brightest cells have [1], and the signal relative to it from which
    * on a cell is one of them [1]. Chosen empirically: these are nearly all cells of a flat field. In a scene their
-   * signals differ by 3 % rms, which changes the curvature of the mean level by 0.1 %. */
+   * signals differ by 6 % rms, which changes the curvature of the mean level by 0.4 %. */
   double brightCellsQuantile{ 0.95 };
-  double brightCellsShare{ 0.9 };
+  double brightCellsShare{ 0.8 };
+  /** Ratio up to which the signals of the pixels of even cells differ from their centre [1], and cells that a level
+   * needs. Chosen empirically: the signals then differ by 10 % rms at most, which changes the curvature of the mean
+   * level by 1 %. Textured scenes have 4 such cells near their brightest places. */
+  double      evenCellsRatio{ 1.25 };
+  std::size_t fewestEvenCells{ 4 };
+  /** Ratio of the centres that are tried one after the other [1]. */
+  double evenCellsStep{ 0.95 };
   /** Signal of the brightest cells without a clipped pixel, relative to the signal of the brightest of all cells, from
    * which on the other cells are left out [1]. Chosen empirically: with less, too little of the range is covered. */
   double leastReachOfCells{ 0.5 };

@@ -6,6 +6,7 @@
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Text.h"
 #include "sensornoise/moments/Constants.h"
+#include "sensornoise/moments/EvenPixels.h"
 #include "sensornoise/moments/StackMaps.h"
 
 #include <algorithm>
@@ -64,8 +65,8 @@ MeansOf(const Levels & levels)
   return means;
 }
 
-/** What the deviations of levels are relative to in the fit [DN]: y, or, where no dark offset was measured, the
- * exposure, in proportion to which the line less its own intercept is. */
+/** Returns the scales of the deviations in the fit [DN]: y, or the exposure where no dark offset was measured. The line
+ * less its own intercept is in proportion to the exposure. */
 VectorXd
 ScalesOf(const Levels & levels, const std::optional<double> & darkDn)
 {
@@ -166,7 +167,8 @@ ScatterOfRepeats(const Levels & levels, const VectorXd & signals)
   return scatter;
 }
 
-/** The same where no exposure has two frames: from the deviations from a parabola, which hold the noise of pixels. */
+/** Estimates the scatter from the deviations from a parabola, where no exposure has two frames. It holds the noise of
+ * pixels. */
 Scatter
 ScatterAboutParabola(const Levels & levels, const VectorXd & scales, const VectorXd & signals)
 {
@@ -202,7 +204,7 @@ VariancesOf(const Levels & levels, const VectorXd & signals, const Scatter & sca
  * (4 d'Cd + 2 tr C^2) / n^2, to which the error of the scatter adds 2 (tr C)^2 / dof / n^2. With measured deviations
  * d'Cd is too large by tr C^2. The square of the mean of absolute values is the mean square times their ratio by the
  * deviations; large deviations move it by the signs' sum instead, whose error is the larger one. Where the interval
- * holds 0, the ratio is mostly that of noise, and its upper bound, 1, takes its place. */
+ * holds 0, the noise determines the ratio, and the upper bound of the ratio, 1, is used. */
 FittedNumber
 SquaredError(const VectorXd & deviations, const MatrixXd & covariance, double dof)
 {
@@ -235,7 +237,7 @@ OffsetOfLine(const Levels & levels, const VectorXd & scales, const WeightedFit &
   return { ofLine.dot(means), std::hypot(sd(ofLine), ofModel) };
 }
 
-/** Fits the line to \a levels, of which there are enough. */
+/** Fits the line to \a levels, 3 or more. */
 void
 FitLine(ExposureFit & fit, const Levels & levels, const std::optional<double> & darkDn)
 {
@@ -361,7 +363,9 @@ FitExposures(const std::vector<double> &      exposures,
   {
     return std::nullopt;
   }
-  return FitExposures(FindExposureLevels(thumbnails, counted, exposures, maps.valid), maps.summary.codes);
+  return FitExposures(
+    FindExposureLevels(thumbnails, counted, exposures, FindEvenPixels(thumbnails, counted, exposures, maps)),
+    maps.summary.codes);
 }
 
 } // namespace sensornoise

@@ -63,16 +63,16 @@ struct ExposureFit
  * linearity error is the mean of their absolute values. Without frames of exposure 0 the dark offset is the line's
  * intercept. Where no clip level is known, the largest level is taken for the saturation, and belongs to the range.
  *
- * The noise of a level is that of its pixels and the scatter of the illumination, which moves levels in proportion to
- * y. The latter is estimated from frames of equal exposure; where no exposure has two frames, from the deviations from
- * a parabola. It makes a mean of absolute values larger, so that the value is corrected by the mean square that the
- * noise adds. Estimator.md, 3.8, has the derivation.
+ * A level has the noise of its pixels and the scatter of the illumination, which moves levels in proportion to y. The
+ * scatter is estimated from frames of equal exposure; where no exposure has two frames, from the deviations from a
+ * parabola. Noise makes a mean of absolute values larger. The value is corrected by the mean square that the noise
+ * adds. Estimator.md, 3.8, has the derivation.
  *
  * \a levels are in rising order of different exposures; \a codes holds the clip levels. */
 SensorNoise_EXPORT ExposureFit
 FitExposures(const std::vector<ExposureLevel> & levels, const CodeRange & codes);
 
-/** The same of a stack with these \a maps, see FindExposureLevels(). Null: no exposures were given. */
+/** Fits the levels of a stack with these \a maps, see FindExposureLevels(). Null: no exposures were given. */
 SensorNoise_EXPORT std::optional<ExposureFit>
 FitExposures(const std::vector<double> &      exposures,
              const FrameThumbnails &          thumbnails,

@@ -75,8 +75,8 @@ FindBrightCells(const FrameThumbnails &           thumbnails,
       }
     }
   }
-  const bool canUseWhole = whole.size() >= InMoments.fewestThumbnailCells &&
-                           BrightSignal(whole) >= InMoments.leastReachOfCells * BrightSignal(all);
+  const bool canUseWhole =
+    whole.size() >= InMoments.fewestEvenCells && BrightSignal(whole) >= InMoments.leastReachOfCells * BrightSignal(all);
   const std::vector<CellSignal> & candidates = canUseWhole ? whole : all;
   const double                    least = InMoments.brightCellsShare * BrightSignal(candidates);
   std::vector<std::size_t>        cells;

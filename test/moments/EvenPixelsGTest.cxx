@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/moments/EvenPixels.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/moments/FrameThumbnails.h"
+#include "sensornoise/moments/StackMaps.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <gtest/gtest.h>
+#include <vector>
+
+using namespace sensornoise;
+
+namespace
+{
+constexpr std::size_t EvenSize = 96; // 16 x 16 cells of 6 x 6 pixels
+constexpr double      EvenOffsetDn = 100.0;
+
+/** The mask for frames of exposures 1, 2 and 3 with the signals 500 x signal(x, y) x exposure [DN]. */
+std::vector<std::uint8_t>
+EvenPixelsOf(const std::function<double(std::size_t x, std::size_t y)> & signal,
+             const std::vector<std::uint8_t> & valid = std::vector<std::uint8_t>(EvenSize * EvenSize, 1))
+{
+  std::vector<float> stack;
+  StackMaps          maps;
+  maps.valid = valid;
+  for (std::size_t t = 0; t < 3; ++t)
+  {
+    for (std::size_t p = 0; p < EvenSize * EvenSize; ++p)
+    {
+      const double dn = 500.0 * signal(p % EvenSize, p / EvenSize);
+      stack.push_back(static_cast<float>(EvenOffsetDn + dn * static_cast<double>(t + 1)));
+      if (t == 1)
+      {
+        maps.mean.push_back(static_cast<double>(stack.back()));
+      }
+    }
+  }
+  FrameThumbnails thumbnails({ EvenSize, EvenSize }, 3, {});
+  thumbnails.AddFrames(stack.data(), 0, 3, SerialFor);
+  return FindEvenPixels(thumbnails, { 0, 1, 2 }, { 1.0, 2.0, 3.0 }, maps);
+}
+} // namespace
+
+TEST(SensorNoiseEvenPixels, OfAFlatFieldAreAllValidOnes)
+{
+  std::vector<std::uint8_t> valid(EvenSize * EvenSize, 1);
+  valid[7] = 0;
+  EXPECT_EQ(EvenPixelsOf([](std::size_t, std::size_t) { return 1.0; }, valid), valid);
+}
+
+// Columns of 6 pixels: stripes of 0.5 and 1.5 in the left half, even 0.7 at the right, whatever the offset.
+TEST(SensorNoiseEvenPixels, TexturedCellsAreLeftOut)
+{
+  const auto scene = [](std::size_t x, std::size_t) { return x >= 48 ? 0.7 : x % 2 == 0 ? 0.5 : 1.5; };
+  const auto even = EvenPixelsOf(scene);
+  for (std::size_t p = 0; p < even.size(); ++p)
+  {
+    const double own = scene(p % EvenSize, 0);
+    EXPECT_EQ(even[p], own > 0.56 && own < 1.0 ? 1 : 0) << p;
+  }
+}
+
+TEST(SensorNoiseEvenPixels, WhereAllCellsAreTexturedAllValidPixelsStay)
+{
+  const std::vector<std::uint8_t> all(EvenSize * EvenSize, 1);
+  EXPECT_EQ(EvenPixelsOf([](std::size_t x, std::size_t) { return x % 2 == 0 ? 0.5 : 1.5; }), all);
+}
