@@ -51,15 +51,18 @@ TEST(SensorNoiseEvenPixels, OfAFlatFieldAreAllValidOnes)
   EXPECT_EQ(EvenPixelsOf([](std::size_t, std::size_t) { return 1.0; }, valid), valid);
 }
 
-// Columns of 6 pixels: stripes of 0.5 and 1.5 in the left half, even 0.7 at the right, whatever the offset.
+// Stripes of 0.5 and 1.5 in the left half, of 0.88 and 1.12 in the right: a ratio of 1.27 above the offset, within
+// 1.25^2, and of 1.63 above the level of the lowest exposure.
 TEST(SensorNoiseEvenPixels, TexturedCellsAreLeftOut)
 {
-  const auto scene = [](std::size_t x, std::size_t) { return x >= 48 ? 0.7 : x % 2 == 0 ? 0.5 : 1.5; };
+  const auto scene = [](std::size_t x, std::size_t) {
+    const double amplitude = x >= 48 ? 0.12 : 0.5;
+    return x % 2 == 0 ? 1.0 - amplitude : 1.0 + amplitude;
+  };
   const auto even = EvenPixelsOf(scene);
   for (std::size_t p = 0; p < even.size(); ++p)
   {
-    const double own = scene(p % EvenSize, 0);
-    EXPECT_EQ(even[p], own > 0.56 && own < 1.0 ? 1 : 0) << p;
+    EXPECT_EQ(even[p], p % EvenSize >= 48 ? 1 : 0) << p;
   }
 }
 
