@@ -56,6 +56,19 @@ Mirrored(const Stack<TPixel> & stack, std::size_t t)
   return frame;
 }
 
+/** A frame of the stack as a camera of \a factor times its gain, and of the same offset, would record it. */
+template <typename TPixel>
+std::vector<TPixel>
+OfAnotherGain(const Stack<TPixel> & stack, std::size_t t, double factor, double offsetDn)
+{
+  std::vector<TPixel> frame(stack.Frame(t), stack.Frame(t) + stack.width * stack.height);
+  for (TPixel & value : frame)
+  {
+    value = static_cast<TPixel>(std::lround(offsetDn + factor * (static_cast<double>(value) - offsetDn)));
+  }
+  return frame;
+}
+
 /** A stack with zeros, one level and its own mirror image among its frames: places 0, 5 and the last one. */
 template <typename TPixel>
 Stack<TPixel>

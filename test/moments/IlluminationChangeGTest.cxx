@@ -45,7 +45,7 @@ ChangeOfFactors()
 
 /** The change that is found of cells \a value(t, i) over as many frames as there are factors. */
 double
-Find(const std::function<double(std::size_t t, std::size_t i)> & value)
+Find(const std::function<double(std::size_t t, std::size_t i)> & value, double noiseDn2 = 1.0)
 {
   std::vector<std::vector<double>> frames(Factors.size());
   std::vector<double>              mean(Cells, 0.0);
@@ -57,7 +57,7 @@ Find(const std::function<double(std::size_t t, std::size_t i)> & value)
       mean[i] += frames[t][i] / static_cast<double>(frames.size());
     }
   }
-  return ComputeIlluminationChange(mean, frames);
+  return ComputeIlluminationChange(mean, frames, noiseDn2);
 }
 
 double
@@ -77,13 +77,16 @@ TEST(SensorNoiseIlluminationChange, OfAScenesContrastForAnyOffset)
   }
 }
 
-TEST(SensorNoiseIlluminationChange, OfAFlatFieldsLevel)
+TEST(SensorNoiseIlluminationChange, OfAFlatFieldsLevelInUnitsOfTheNoise)
 {
   CounterSeededRandom random(5, 1, 0);
   // Noise of 0.1 in a cell: 0.1 / sqrt(64 cells) of each level, below 2e-4 of it.
   const auto   flat = [&](std::size_t t, std::size_t) { return 300.0 + 100.0 * Factors[t] + 0.1 * random.Normal(); };
-  const double signal = 100.0 * MeanOf(Factors);
-  EXPECT_NEAR(Find(flat), ChangeOfFactors() * signal / (300.0 + signal), 1e-3);
+  const double level = 100.0 * MeanOf(Factors) * ChangeOfFactors();
+  const double strong = level * level / InMoments.strongChangeOfFlat; // the noise of which it is a strong change
+  EXPECT_NEAR(Find(flat, strong) / InMoments.strongIlluminationChange, 1.0, 1e-3);
+  EXPECT_NEAR(Find(flat, 4.0 * strong) / InMoments.strongIlluminationChange, 0.5, 1e-3);
+  EXPECT_EQ(Find(flat, 0.0), 0.0);
 }
 
 TEST(SensorNoiseIlluminationChange, NoiseIsNone)

@@ -36,6 +36,29 @@ NamesOf(const std::vector<LeftOutFrame> & frames)
   return names;
 }
 
+constexpr double OffsetDn = 100.0;
+
+/** Large enough for the noise of a frame to be known to 2 %. */
+Stack<Codes>
+NoisyStack(std::size_t frames)
+{
+  SimulationSettings settings = FlickeringSettings(frames);
+  settings.camera = { 2000.0, 0.5, OffsetDn, 3.0 };
+  settings.conditions = { 0.03, 0.0, 0.0 };
+  return Simulate<Codes>(settings, 128, 96);
+}
+
+/** Its first frames, and three more of another gain. */
+Stack<Codes>
+WithFramesOfAnotherGain(const Stack<Codes> & stack)
+{
+  const auto more = NoisyStack(stack.frames + 3);
+  return Insert(stack,
+                { { std::size_t{ 4 }, OfAnotherGain(more, stack.frames, 1.5, OffsetDn) },
+                  { std::size_t{ 9 }, OfAnotherGain(more, stack.frames + 1, 1.5, OffsetDn) },
+                  { std::size_t{ 20 }, OfAnotherGain(more, stack.frames + 2, 1.5, OffsetDn) } });
+}
+
 /** Lets processes that read every other frame each run one pass. */
 void
 RunSharedPass(RefinedMethod<Codes> & one, RefinedMethod<Codes> & two, const Stack<Codes> & stack)
@@ -194,4 +217,47 @@ TEST(SensorNoiseLeftOutFrames, OfOnePlaneOfAMosaicAreLeftOutOfAll)
     EXPECT_EQ(NamesOf(report.framesLeftOut), "4 no-noise; ");
     ExpectReportOfOthers(report, expected);
   }
+}
+
+TEST(SensorNoiseLeftOutFrames, OfAnotherGainAreFoundByTheirNoise)
+{
+  const auto & stack = NoisyStack(40);
+  const auto   expected = Measure(stack, RefinedSettings());
+  ASSERT_EQ(expected.GetReport().gain.status, EstimateStatus::Identified);
+  const auto unlike = WithFramesOfAnotherGain(stack);
+  for (const std::size_t chunk : { 1, 7, 1000 })
+  {
+    const auto method = Measure(unlike, RefinedSettings(), chunk, Threads(chunk % 3 + 1));
+    EXPECT_EQ(NamesOf(method.GetReport().framesLeftOut), "4 other-noise; 9 other-noise; 20 other-noise; ");
+    ExpectResultOfOthers(method, expected);
+  }
+}
+
+TEST(SensorNoiseLeftOutFrames, OfAnotherGainInSeveralProcessesAreThoseOfOne)
+{
+  const auto           unlike = WithFramesOfAnotherGain(NoisyStack(40));
+  const FrameGeometry  geometry{ unlike.width, unlike.height };
+  RefinedMethod<Codes> one(RefinedSettings(), geometry, unlike.frames);
+  RefinedMethod<Codes> two(RefinedSettings(), geometry, unlike.frames);
+  while (!one.IsDone())
+  {
+    RunSharedPass(one, two, unlike);
+  }
+  ASSERT_TRUE(two.IsDone());
+  const auto whole = Measure(unlike, RefinedSettings());
+  EXPECT_EQ(ToJson(one.GetReport()), ToJson(whole.GetReport()));
+  EXPECT_EQ(ToJson(two.GetReport()), ToJson(whole.GetReport()));
+}
+
+TEST(SensorNoiseLeftOutFrames, OfSeveralGainsInHalfOfTheStackGiveNoGain)
+{
+  auto stack = NoisyStack(40);
+  for (std::size_t t = 0; t < stack.frames; t += 2)
+  {
+    const auto frame = OfAnotherGain(stack, t, 2.0, OffsetDn);
+    std::copy(frame.begin(), frame.end(), stack.pixels.begin() + static_cast<std::ptrdiff_t>(t * frame.size()));
+  }
+  const Report report = Measure(stack, RefinedSettings()).GetReport();
+  EXPECT_FALSE(report.gain.value) << *report.gain.value;
+  EXPECT_TRUE(report.framesLeftOut.empty());
 }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <cstddef>
 #include <cstdint>
 #include <gtest/gtest.h>
@@ -89,7 +90,8 @@ TEST(SensorNoiseGuardBand, UnderStrongChangesTheLevelsThatAreReachedDecide)
   const ProvisionalModel & model = scene.frames.model;
   const double             signal = model.centreDn - 500.0;
   const auto               guardedAbout = [&](double lowest, double highest) {
-    const IlluminationRange range{ -0.9 * signal, signal, lowest, highest };
+    constexpr double        none = std::numeric_limits<double>::infinity();
+    const IlluminationRange range{ -0.9 * signal, signal, lowest, highest, none };
     return FindGuardBand(scene.frames.reference, model, scene.codes, range, SerialFor, 3.0);
   };
   const auto guarded = guardedAbout(500.0, 500.0);

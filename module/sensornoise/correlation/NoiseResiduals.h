@@ -88,6 +88,12 @@ public:
   {
     return m_Sample.OfTile(i);
   }
+  /** The pixel of the frame that is pixel \a p of tile \a i. */
+  std::size_t
+  PixelOf(std::size_t i, std::size_t p) const
+  {
+    return m_Sample.PixelOf(i, p);
+  }
   /** The light of the pixels of tile \a i [DN above black]. */
   const float *
   LightOf(std::size_t i) const

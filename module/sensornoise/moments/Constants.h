@@ -143,6 +143,10 @@ struct MomentsConstants
    * pixel of 5,000 electrons is then 100 times its shot noise, and the noise is no longer told from it to the 10 % that
    * weights and masks need. Chosen empirically: below, up to a flicker of 10 %, the raw variance serves as well. */
   double strongIlluminationChange{ 0.15 };
+  /** Variance of the level from frame to frame over the variance of the pixels' noise from which on the illumination of
+   * a scene of one level changes strongly [1]; its factor is not known without an offset. Chosen so that a lamp that is
+   * steady to 1 % makes no strong change at 100,000 electrons. */
+  double strongChangeOfFlat{ 10.0 };
   /** Standard error of a frame's slope, in units of that change, below which the cells have contrast [1]. Chosen so
    * that noise makes no strong change: it is three standard errors. */
   double largestSlopeError{ 1.0 / 3.0 };

@@ -312,7 +312,13 @@ FrameThumbnails::FindIlluminationChange(const std::vector<std::size_t> & frames)
   {
     ofFrames.push_back(this->MeansOf(t, cells));
   }
-  return ComputeIlluminationChange(means, ofFrames);
+  std::vector<double> noise;
+  noise.reserve(frames.size());
+  for (const std::size_t t : frames)
+  {
+    noise.push_back(this->NoiseOf(t));
+  }
+  return ComputeIlluminationChange(means, ofFrames, this->PixelsOfCell() * QuantileOf(std::move(noise), 0.5));
 }
 
 #define SensorNoise_INSTANTIATE(TPixel)                        \

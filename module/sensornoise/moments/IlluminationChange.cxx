@@ -48,7 +48,9 @@ CompareWithMean(const std::vector<double> & mean, double centre, double squares,
 } // namespace
 
 double
-ComputeIlluminationChange(const std::vector<double> & mean, const std::vector<std::vector<double>> & frames)
+ComputeIlluminationChange(const std::vector<double> &              mean,
+                          const std::vector<std::vector<double>> & frames,
+                          double                                   noiseDn2)
 {
   const double centre = std::accumulate(mean.begin(), mean.end(), 0.0) / static_cast<double>(mean.size());
   const double squares = std::accumulate(
@@ -71,10 +73,14 @@ ComputeIlluminationChange(const std::vector<double> & mean, const std::vector<st
     return 0.0;
   }
   // The differences from the mean frame have the mean 0 over all frames.
-  const auto   freedom = static_cast<double>(frames.size() - 1);
-  const bool   hasContrast = Quantile(errors, 0.5) < InMoments.largestSlopeError * InMoments.strongIlluminationChange;
-  const double level = std::abs(centre);
-  return hasContrast ? std::sqrt(slopes / freedom) : level > 0.0 ? std::sqrt(levels / freedom) / level : 0.0;
+  const auto freedom = static_cast<double>(frames.size() - 1);
+  const bool hasContrast = Quantile(errors, 0.5) < InMoments.largestSlopeError * InMoments.strongIlluminationChange;
+  if (hasContrast)
+  {
+    return std::sqrt(slopes / freedom);
+  }
+  const double strong = InMoments.strongChangeOfFlat * noiseDn2;
+  return strong > 0.0 ? InMoments.strongIlluminationChange * std::sqrt(levels / freedom / strong) : 0.0;
 }
 
 } // namespace sensornoise

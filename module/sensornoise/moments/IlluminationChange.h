@@ -15,11 +15,14 @@ namespace sensornoise
  *
  * \a frames holds the cells of each frame [DN], \a mean those of the mean frame, over the same cells. Under another
  * illumination a frame is the mean frame times a factor plus a level. Where the cells differ enough, the factor is the
- * illumination's for any offset. Where they do not, as in a flat field, the level of the frame relative to the mean
- * level takes its place, which an offset makes smaller. A frame whose difference from the mean frame is mostly another
- * one, noise or another scene, counts as unchanged. */
+ * illumination's for any offset. Where they do not, as in a flat field, the factor is not known, but how the level
+ * changes is: its change counts as InMoments.strongIlluminationChange where its variance is
+ * InMoments.strongChangeOfFlat times \a noiseDn2, that of the pixels' noise, at most [DN^2]. A frame whose difference
+ * from the mean frame is mostly another one, noise or another scene, counts as unchanged. */
 SensorNoise_EXPORT double
-ComputeIlluminationChange(const std::vector<double> & mean, const std::vector<std::vector<double>> & frames);
+ComputeIlluminationChange(const std::vector<double> &              mean,
+                          const std::vector<std::vector<double>> & frames,
+                          double                                   noiseDn2);
 
 } // namespace sensornoise
 

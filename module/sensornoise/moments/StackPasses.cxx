@@ -5,6 +5,8 @@
 #include "sensornoise/base/BinaryStream.h"
 #include "sensornoise/moments/StackRequirements.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace sensornoise
@@ -202,6 +204,27 @@ StackPasses<TPixel>::EndPass()
   }
   m_IsOfMoments = false;
   this->FinishMoments();
+}
+
+template <typename TPixel>
+bool
+StackPasses<TPixel>::StartAgainWithout(const std::vector<std::size_t> & places, FrameFault fault)
+{
+  const std::vector<std::size_t> counted = m_Distinct.Counted();
+  std::vector<LeftOutFrame>      found;
+  std::transform(places.begin(), places.end(), std::back_inserter(found), [&](std::size_t place) {
+    return LeftOutFrame{ counted[place], fault };
+  });
+  const std::vector<LeftOutFrame> all = JoinUnlikeFrames({ this->GetLeftOut(), found }, m_Frames);
+  if (found.empty() || all.empty())
+  {
+    return false;
+  }
+  m_LeftOut = all;
+  m_Distinct = m_Distinct.Without(NumbersOf(found));
+  m_IsOfMoments = true;
+  this->StartMomentsAgain();
+  return true;
 }
 
 template <typename TPixel>

@@ -210,6 +210,19 @@ protected:
     return m_LeftOut.value_or(std::vector<LeftOutFrame>());
   }
 
+  /** A later pass found that the frames at these places among the distinct ones are unlike the others: the next pass
+   * is for the moments of the rest, and all that the method found is to be found anew. Returns whether it is so: not if
+   * they are too many (JoinUnlikeFrames). */
+  bool
+  StartAgainWithout(const std::vector<std::size_t> & places, FrameFault fault);
+
+  /** Whether the current pass gathers moments. */
+  bool
+  IsOfMoments() const
+  {
+    return m_IsOfMoments;
+  }
+
   FrameGeometry             m_Geometry;
   PixelLayout               m_Layout;
   std::vector<std::uint8_t> m_UserMask;

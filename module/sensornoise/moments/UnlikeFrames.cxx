@@ -234,6 +234,23 @@ FramesWithout(const Faults & faults, std::size_t frames)
 }
 } // namespace
 
+const char *
+NameOf(FrameFault fault)
+{
+  switch (fault)
+  {
+    case FrameFault::NotFinite:
+      return "not-finite";
+    case FrameFault::NoNoise:
+      return "no-noise";
+    case FrameFault::OtherShape:
+      return "other-shape";
+    case FrameFault::OtherNoise:
+      break;
+  }
+  return "other-noise";
+}
+
 std::vector<LeftOutFrame>
 FindUnlikeFrames(const FrameThumbnails & thumbnails)
 {

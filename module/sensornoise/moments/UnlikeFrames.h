@@ -17,17 +17,15 @@ class FrameThumbnails;
 /** The reason for which a frame is not one of the burst. */
 enum class FrameFault : std::uint8_t
 {
-  NotFinite, ///< most of it is NaN or infinite
-  NoNoise,   ///< neighbouring pixels are equal in most of it: zeros, or saturated
-  OtherShape ///< it is not the scene of the others in other light: another scene, a shadow
+  NotFinite,  ///< most of it is NaN or infinite
+  NoNoise,    ///< neighbouring pixels are equal in most of it: zeros, or saturated
+  OtherShape, ///< it is not the scene of the others in other light: another scene, a shadow
+  OtherNoise  ///< its noise is not that of the others at its level: another gain, another processing
 };
 
 /** Its name in the JSON record; stable, for programs. */
-inline const char *
-NameOf(FrameFault fault)
-{
-  return fault == FrameFault::NotFinite ? "not-finite" : fault == FrameFault::NoNoise ? "no-noise" : "other-shape";
-}
+SensorNoise_EXPORT const char *
+NameOf(FrameFault fault);
 
 /** A frame of the stack as given that is not counted. */
 struct LeftOutFrame

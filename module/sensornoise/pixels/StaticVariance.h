@@ -31,6 +31,9 @@ struct StaticVariance
   VarianceLine fromLight;
   /** Of the smoother half of the pixels, not corrected. */
   VarianceLine fromFlat;
+  /** The line by frames of unequal illumination, see FitFramePhotonTransfer(); not determined where they are about
+   * equal. */
+  VarianceLine fromFrames;
   ClassFit     classes;
   /** About the line, or that of light alone. */
   VarianceCurve curve;

@@ -82,6 +82,38 @@ struct RefinedConstants
    * for what it takes [1]: a guard against division by 0, where one or two frames alone carry the light. */
   double leastShotLeft{ 0.2 };
 
+  /** \name The photon transfer of the frames */
+  ///@{
+  /** Least part of a frame's noise that the projection leaves, for its residuals to count [1]: where less is left,
+   * rounding and the errors of the model exceed the noise. Chosen on simulated flat fields. */
+  double leastLeftShare{ 0.05 };
+  /** Part of a tile's mean square below which no frame's expected square is weighed [1]: a guard where a line is
+   * negative. Chosen empirically: the dark frames of series of 5,000 electrons have 0.02. */
+  double leastWeighedVariance{ 0.01 };
+  /** Tiles of the noise sample that are needed: their scatter is the error. */
+  std::size_t leastTilesOfTransfer{ 4 };
+  /** How often the squares are weighed anew: the third time changes a gain by less than 1e-4 of its error. */
+  int roundsOfTransfer{ 4 };
+  /** Relative difference of a frame's noise variance from the variance that the line has at its level, from which on
+   * the frame is left out [1]. Chosen by the size of the effect: two of 60 frames that differ by it make the gain 0.3 %
+   * wrong. */
+  double leastUnlikeNoise{ 0.1 };
+  /** That difference where the illumination changes in some places in another way than in others, as its change there
+   * is not known in every frame [1]. Chosen larger than the local changes of lamps that pulse under a rolling shutter.
+   */
+  double leastUnlikeUnderLocalLight{ 0.3 };
+  /** Standard deviations of the other frames by which it must differ, too [1]: of 1000 normal frames none does. */
+  double unlikeNoiseZ{ 6.0 };
+  /** Standard errors of the slope within which a frame's level may make its noise what it is [1]. */
+  double slackOfSlopeZ{ 2.0 };
+  /** Part of the information on the slope that must be left without the fifth of the frames that have most of it [1].
+   * Chosen between two cases: it is 0.25 of pulses in every fourth frame, 0.05 of two frames of 1.5 times the level
+   * among 60 that flicker by 2 %. */
+  double leastShareOfOthers{ 0.1 };
+  /** Part of the squares that the levels make, rms, by which frames must differ to have several levels [1]. */
+  double leastFrameContrast{ 1e-4 };
+  ///@}
+
   /** \name Dark frames */
   ///@{
   /** Standard deviations by which chance may part the dark frames from the line [1]. Set by hand. */

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace sensornoise
@@ -175,6 +176,34 @@ FindModelError(GainEstimate & estimate, const VarianceCurve & curve, double blac
     estimate.covariance *= BeyondChance(estimate.reducedChi2, VarianceCurve::Bins - 2.0);
   }
 }
+/** Joins the slopes by pixels and by frames, which are independent. The value at the pivot is that of the better one.
+ */
+void
+UseFrames(GainEstimate & estimate, const VarianceLine & frames)
+{
+  if (!frames.isDetermined || estimate.IsBent())
+  {
+    return;
+  }
+  VarianceLine    other = frames;
+  Eigen::Matrix2d otherCovariance = frames.covariance;
+  if (frames.covariance(0, 0) < estimate.covariance(0, 0))
+  {
+    std::swap(other, estimate.line);
+    std::swap(otherCovariance, estimate.covariance);
+    estimate.isFromFrames = true;
+  }
+  const double          difference = other.gain - estimate.line.gain;
+  const double          expected = estimate.covariance(0, 0) + otherCovariance(0, 0);
+  const Eigen::Vector2d step = estimate.covariance.col(0) / expected;
+  estimate.line.gain += step(0) * difference;
+  estimate.line.intercept += step(1) * difference;
+  estimate.covariance -= step * estimate.covariance.row(0);
+  if (difference * difference > InRefined.hausmanZ * InRefined.hausmanZ * expected)
+  {
+    estimate.covariance += SlopeCovariance(0.5 * difference, estimate.line.pivotDn);
+  }
+}
 } // namespace
 
 double
@@ -201,6 +230,7 @@ EstimateGain(const RefinedResults & found, const SensorLines & lines)
   const double dispersion =
     std::min(DispersionOfClasses(variance), InRefined.largestDispersion * variance.sharedSquares);
   FindModelError(estimate, lines.curve, found.blackDn, dispersion);
+  UseFrames(estimate, lines.fromFrames);
   if (found.settings.offset && found.settings.offset->variance)
   {
     UseDarkPoint(estimate, found);

@@ -31,6 +31,9 @@ struct GainEstimate
   double above{ 0.0 };
   /** D, the size of the variance's departure from a line, see VarianceCurve [1]. */
   double nonlinearity{ 0.0 };
+  /** Whether the line is by what frames of unequal illumination have of variance and level, see
+   * FitFramePhotonTransfer(), and not by what pixels have. */
+  bool isFromFrames{ false };
   /** Whether the darkest levels have so much less light than the brightest that a bend could be told from noise. */
   bool isWide{ true };
   /** Reduced chi-square of the variance about its line, along the intensity. */

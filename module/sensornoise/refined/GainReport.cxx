@@ -29,7 +29,7 @@ namespace
 void
 FillFit(Report & report, const RefinedResults & found, const GainEstimate & gain)
 {
-  const VarianceLine & v = found.variance.line;
+  const VarianceLine & v = gain.isFromFrames ? gain.line : found.variance.line;
   report.fit.reducedChi2 = gain.reducedChi2;
   report.fit.curvature = v.curvature;
   report.fit.curvatureZ = v.curvatureSd > 0.0 ? v.curvature / v.curvatureSd : 0.0;
@@ -43,6 +43,12 @@ FindContradiction(const RefinedResults & found, const GainEstimate & gain)
 {
   const std::string advice = ": the data are not raw (gamma, compression), or not linear";
   const bool        hasCodes = found.scene.summary.codes.clipHighDn.has_value();
+  if (found.noiseScatter > 0.0)
+  {
+    return "the noise of the frames differs from what their levels make of it, half of them by more than " +
+           Percent(found.noiseScatter) + " (expected at most " + Percent(InRefined.leastUnlikeNoise) +
+           "): they are of several gains, or processed in several ways; measure the frames of each by themselves";
+  }
   if (gain.nonlinearity > InRefined.largestNonlinearity)
   {
     return "the variance departs from its line by " + Percent(gain.nonlinearity) + " of itself (expected less than " +
@@ -213,12 +219,14 @@ FillGain(Report &               report,
 }
 
 void
-WarnOfNarrowRange(Report & report, const RefinedResults & found, const OffsetLimits & limits)
+WarnOfNarrowRange(Report & report, const RefinedResults & found, const GainEstimate & gain, const OffsetLimits & limits)
 {
   const VarianceCurve & curve = found.variance.curve;
   const double          blackDn = report.offset.value.value_or(limits.rootDn);
   const bool            isDarkGiven = found.settings.offset && found.settings.offset->variance;
-  const double          share = curve.DarkestShare(blackDn);
+  const double          inFrames = (found.InDarkestFrame(found.scene.model.centreDn) - blackDn) /
+                          (found.InBrightestFrame(found.scene.model.centreDn) - blackDn);
+  const double share = curve.DarkestShare(blackDn) * (gain.isFromFrames ? std::max(0.0, inFrames) : 1.0);
   if (!isDarkGiven && share > InPixels.darkEnough)
   {
     report.Warn(WarningCode::ResponseUnchecked,

@@ -25,7 +25,10 @@ FillGain(Report &               report,
 
 /** Warns if the levels do not reach down far enough to tell a bent response from a straight one. */
 SensorNoise_EXPORT void
-WarnOfNarrowRange(Report & report, const RefinedResults & found, const OffsetLimits & limits);
+WarnOfNarrowRange(Report &               report,
+                  const RefinedResults & found,
+                  const GainEstimate &   gain,
+                  const OffsetLimits &   limits);
 
 } // namespace sensornoise
 

@@ -43,7 +43,7 @@ LimitsOf(const RefinedResults & found, const GainEstimate & gain, double quantis
   const double         slope = v.gain - gain.below - student * slopeError;
   OffsetLimits         limits;
   // The darkest pixels are dark by chance and by their own offsets, too: less so the means of eight.
-  const double darkestDn = DarkestNeighbourhood(found.scene.frame);
+  const double darkestDn = found.InDarkestFrame(DarkestNeighbourhood(found.scene.frame));
   const double spreadDn2 = (v.At(darkestDn) / frames + found.variance.pattern.OffsetVarianceDn2()) / 8.0;
   limits.rootDn = v.gain > 0.0 ? std::min(-v.intercept / v.gain, darkestDn) : darkestDn;
   if (slope > 0.0)

@@ -206,8 +206,34 @@ FillFromDarkFrames(Report & report, const RefinedSettings & settings, double qua
   }
 }
 
+namespace
+{
+/** The offset of the line through the levels of frames of known exposures, if it is precise enough. */
+std::optional<OffsetEstimate>
+OffsetByExposures(const RefinedResults & found)
+{
+  if (found.exposures == nullptr || !found.exposures->offsetDn || found.exposures->levels.empty())
+  {
+    return std::nullopt;
+  }
+  const ExposureFit & fit = *found.exposures;
+  const bool          isOfLine = !fit.isOffsetOfDarkFrames && fit.dof > 0.0;
+  const double        halfWidthDn = StudentQuantile(0.975, isOfLine ? fit.dof : 1e6) * fit.offsetDn->standardError;
+  const double        rangeDn = fit.levels.back().meanDn - fit.levels.front().meanDn;
+  if (!(2.0 * halfWidthDn < InRefined.largestOffsetInterval * rangeDn))
+  {
+    return std::nullopt;
+  }
+  OffsetEstimate estimate;
+  estimate.valueDn = fit.offsetDn->value;
+  estimate.standardErrorDn = fit.offsetDn->standardError;
+  estimate.interval = Interval{ estimate.valueDn - halfWidthDn, estimate.valueDn + halfWidthDn };
+  return estimate;
+}
+
+/** The offset as the illumination tells it. */
 OffsetEstimate
-EstimateOffset(const RefinedResults & found, const GainEstimate & gain, const OffsetLimits & limits)
+OffsetByIllumination(const RefinedResults & found, const GainEstimate & gain, const OffsetLimits & limits)
 {
   const ProvisionalModel &           model = found.scene.model;
   const OffsetLine &                 line = found.polished.line;
@@ -282,6 +308,14 @@ EstimateOffset(const RefinedResults & found, const GainEstimate & gain, const Of
       "the responses to the lamps do not meet in one zero (dispersion " + Rounded(local->phi) + ", expected 1)";
   }
   return estimate;
+}
+} // namespace
+
+OffsetEstimate
+EstimateOffset(const RefinedResults & found, const GainEstimate & gain, const OffsetLimits & limits)
+{
+  const OffsetEstimate estimate = OffsetByIllumination(found, gain, limits);
+  return estimate.obstacle.empty() ? estimate : OffsetByExposures(found).value_or(estimate);
 }
 
 void

@@ -27,7 +27,8 @@ struct OffsetEstimate
 };
 
 /** The offset by the flicker of all frames, or, where the light is local, by the pixels' responses to it. It is told
- * only if its interval is narrow, it lies within its limits, and the flicker agrees with itself. */
+ * only if its interval is narrow, it lies within its limits, and the flicker agrees with itself. Where it is not, the
+ * offset of frames whose exposures are given takes its place, if its interval is narrow. */
 SensorNoise_EXPORT OffsetEstimate
 EstimateOffset(const RefinedResults & found, const GainEstimate & gain, const OffsetLimits & limits);
 

@@ -10,6 +10,7 @@
 #include "sensornoise/pixels/ProjectedVariance.h"
 #include "sensornoise/pixels/StaticVariance.h"
 #include "sensornoise/refined/RefinedSettings.h"
+#include "sensornoise/refined/UnlikeNoise.h"
 #include "sensornoise/scene/StillScene.h"
 #include "sensornoise/series/SceneSeries.h"
 
@@ -23,6 +24,7 @@ struct PixelNoise
 {
   StaticVariance   variance;
   NoiseCorrelation correlation;
+  FrameNoise       frames; ///< of the frames' places
 };
 
 /** Fits the variance and measures what is shared. Where neighbours share much, the mean variance of an area scatters

@@ -167,7 +167,7 @@ RefinedMethod<TPixel>::Finish(TFunction function)
     m_FrameSums.reset();
     m_Projections.reset();
   }
-  m_IsDone = m_IsDone || (!this->HasSums() && this->GetPass() >= Passes::NumberOfPasses);
+  m_IsDone = m_IsDone || (!this->HasSums() && !this->IsOfMoments() && this->GetPass() >= Passes::NumberOfPasses);
   if (m_IsDone)
   {
     this->MakeReport();
@@ -228,11 +228,26 @@ RefinedMethod<TPixel>::EndLevels()
 }
 
 template <typename TPixel>
+double
+RefinedMethod<TPixel>::NoiseOfDarkestFrame() const
+{
+  const std::vector<std::size_t> counted = m_Distinct.Counted();
+  const std::vector<double>      levels = m_Distinct.OfDistinct(m_Moments.GetFrameMeans());
+  const auto                     darkest = std::min_element(levels.begin(), levels.end()) - levels.begin();
+  return m_Thumbnails.NoiseOf(counted[static_cast<std::size_t>(darkest)]) * m_Thumbnails.PixelsOfCell();
+}
+
+template <typename TPixel>
 void
 RefinedMethod<TPixel>::MakeScene(StackMaps maps, std::vector<double> rawVariance)
 {
   m_HasScene = true;
-  const bool isProjected = !rawVariance.empty();
+  const bool            isProjected = !rawVariance.empty();
+  std::optional<double> darkestNoiseDn2;
+  if (isProjected)
+  {
+    darkestNoiseDn2 = this->NoiseOfDarkestFrame();
+  }
   m_Scene = std::make_unique<StillScene>(MakeStillScene(maps.summary,
                                                         std::move(maps.mean),
                                                         std::move(maps.variance),
@@ -242,7 +257,7 @@ RefinedMethod<TPixel>::MakeScene(StackMaps maps, std::vector<double> rawVariance
                                                         m_Distinct.Count(),
                                                         m_Distinct.OfDistinct(m_Moments.GetFrameMeans()),
                                                         m_ParallelFor,
-                                                        isProjected));
+                                                        darkestNoiseDn2));
   std::unique_ptr<FrameSums> sums;
   if (!m_Scene->obstacle)
   {
@@ -275,8 +290,11 @@ RefinedMethod<TPixel>::EndFrameSums()
   {
     knownOffsetDn = m_Settings.offset->valueDn;
   }
-  m_Series.emplace(FindSceneSeries(
-    *m_FrameSums, m_Settings.rollingShutter, knownOffsetDn, BlackLevel(m_Settings, *m_Scene, std::nullopt)));
+  m_Series.emplace(FindSceneSeries(*m_FrameSums,
+                                   m_Settings.rollingShutter,
+                                   knownOffsetDn,
+                                   BlackLevel(m_Settings, *m_Scene, std::nullopt),
+                                   m_Scene->changesStrongly));
   const MemoryNeed  need{ m_Geometry.Pixels(), m_Distinct.Count() };
   const double      left = m_Settings.memoryLimitBytes - need.BesideProjections();
   const std::size_t slabs = PixelProjections::SlabsWithin(left, m_Series->basis.Size());
@@ -305,6 +323,11 @@ RefinedMethod<TPixel>::EndProjections()
   else
   {
     this->MeasureVariance();
+    if (this->StartAgainWithout(m_FrameNoise.unlike, FrameFault::OtherNoise))
+    {
+      this->ForgetFindings();
+      return false;
+    }
     if (isLightLocal && !m_Projections->HasCoordinates())
     {
       m_Projections->StartLight();
@@ -316,6 +339,21 @@ RefinedMethod<TPixel>::EndProjections()
   m_Projections.reset();
   TakeOffLine(*m_Variance, CodeNoise(m_Variance->codeNoise)); // the series were weighed by all of the noise
   return true;
+}
+
+template <typename TPixel>
+void
+RefinedMethod<TPixel>::ForgetFindings()
+{
+  m_Scene = std::make_unique<StillScene>();
+  m_FrameSums.reset();
+  m_Series.reset();
+  m_Projections.reset();
+  m_Variance.reset();
+  m_Correlation = {};
+  m_FrameNoise = {};
+  m_CorrectedVariance.clear();
+  m_HasScene = false;
 }
 
 template <typename TPixel>
@@ -343,6 +381,14 @@ RefinedMethod<TPixel>::MeasureVariance()
                            WarningCode::IntensityRangeTooSmall);
   }
   m_Correlation = std::move(noise.correlation);
+  if (m_Thumbnails.FindChange(m_Distinct.Counted()).IsLarge()) // frames of several scenes tell nothing of each other
+  {
+    m_Variance->fromFrames = {};
+  }
+  else
+  {
+    m_FrameNoise = std::move(noise.frames);
+  }
   m_CorrectedVariance = projected.TakeVariance();
   ForPixels(m_CorrectedVariance.size(), m_ParallelFor, [&](std::size_t p) {
     m_CorrectedVariance[p] = frame.usable[p] != 0 ? m_CorrectedVariance[p] + codeNoise.RestAt(frame.mean[p])
@@ -371,7 +417,9 @@ RefinedMethod<TPixel>::MakeReport()
                                               *m_Polished,
                                               m_CorrectedVariance,
                                               BlackLevel(m_Settings, *m_Scene, m_Series),
-                                              m_Correlation },
+                                              m_Correlation,
+                                              m_FrameNoise.scatter,
+                                              m_ExposureFit ? &*m_ExposureFit : nullptr },
                                             m_ParallelFor);
   ReportLinearity(m_Report, m_ExposureFit);
   WithdrawContradicted(m_Report);

@@ -16,6 +16,7 @@
 #include "sensornoise/refined/PixelProjections.h"
 #include "sensornoise/refined/PolishedSeries.h"
 #include "sensornoise/refined/RefinedSettings.h"
+#include "sensornoise/refined/UnlikeNoise.h"
 #include "sensornoise/report/Report.h"
 #include "sensornoise/scene/StillScene.h"
 #include "sensornoise/series/FrameSums.h"
@@ -211,6 +212,10 @@ private:
   EndMoments();
   void
   EndLevels();
+  /** The variance that the noise of the frame of the lowest level has at most, by what neighbouring pixels differ by
+   * [DN^2]. */
+  double
+  NoiseOfDarkestFrame() const;
   /** Makes the scene of \a maps, and starts the second pass; \a rawVariance, if not empty, takes the place of the
    * variance that the scene is made of. */
   void
@@ -221,6 +226,9 @@ private:
   EndProjections();
   void
   MeasureVariance();
+  /** All that the passes after the moments found. */
+  void
+  ForgetFindings();
   /** Of companded codes. */
   CodeNoise
   FindCodeNoise() const;
@@ -239,6 +247,7 @@ private:
   std::optional<StaticVariance>         m_Variance;
   std::optional<const PolishedSeries>   m_Polished;
   NoiseCorrelation                      m_Correlation;
+  FrameNoise                            m_FrameNoise;
   std::vector<double>                   m_CorrectedVariance;
   std::optional<const NothingToMeasure> m_Obstacle;
   bool                                  m_HasScene{ false };

@@ -179,7 +179,7 @@ FillSensor(Report & report, const RefinedResults & found, const GainEstimate & g
   if (isLinear && FillGain(report, found, gain, codesDn2, StudentOf(found)))
   {
     FillOffsetAndReadNoise(report, found, gain, limits, flicker, codesDn2, StudentOf(found));
-    WarnOfNarrowRange(report, found, limits);
+    WarnOfNarrowRange(report, found, gain, limits);
     return;
   }
   if (!isLinear)
@@ -235,9 +235,10 @@ MakeRefinedReport(const RefinedResults & found, const ParallelFor & parallelFor)
   {
     const RefinedSettings settings = SettingsOfSensor(found, codesDn2);
     const SensorLines     lines = WithSharedNoise(LinesOf(found.variance), found.correlation, found.blackDn, codesDn2);
-    const RefinedResults  sensor = { settings,       found.scene,      found.series,
-                                     found.variance, found.polished,   found.correctedVariance,
-                                     found.blackDn,  found.correlation };
+    const RefinedResults  sensor = { settings,       found.scene,       found.series,
+                                     found.variance, found.polished,    found.correctedVariance,
+                                     found.blackDn,  found.correlation, found.noiseScatter,
+                                     found.exposures };
     FillSensor(report, sensor, EstimateGain(sensor, lines), codesDn2);
   }
   else

@@ -4,10 +4,12 @@
 #define sensornoise_refined_RefinedResults_h
 
 #include "sensornoise/correlation/NoiseCorrelation.h"
+#include "sensornoise/moments/ExposureFit.h"
 #include "sensornoise/refined/PolishedSeries.h"
 #include "sensornoise/refined/RefinedSettings.h"
 #include "sensornoise/scene/StillScene.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace sensornoise
@@ -24,12 +26,41 @@ struct RefinedResults
   const std::vector<double> & correctedVariance; ///< NaN where it was not computed [DN^2]
   double                      blackDn{ 0.0 };    ///< see BlackLevel()
   NoiseCorrelation            correlation{};     ///< of the third pass's sample
+  /** How much the frames' noise differs from what their levels make of it, see FrameNoise [1]. */
+  double noiseScatter{ 0.0 };
+  /** What the frames' exposures tell; null: none were given. */
+  const ExposureFit * exposures{ nullptr };
+
+  /** A level of the mean frame in the frame of the lowest or the highest illumination factor, where these differ so
+   * much that the frames have a photon transfer of their own; else the level itself [DN]. */
+  double
+  InDarkestFrame(double levelDn) const
+  {
+    return variance.fromFrames.isDetermined
+             ? this->InFrame(levelDn, *std::min_element(series.line.gamma.begin(), series.line.gamma.end()))
+             : levelDn;
+  }
+  double
+  InBrightestFrame(double levelDn) const
+  {
+    return variance.fromFrames.isDetermined
+             ? this->InFrame(levelDn, *std::max_element(series.line.gamma.begin(), series.line.gamma.end()))
+             : levelDn;
+  }
 
   /** Whether the light changes in some places in another way than in others. */
   bool
   HasLocalLight() const
   {
     return series.local.series.cols() > 0 && !polished.isOffsetDrift;
+  }
+
+private:
+  double
+  InFrame(double levelDn, double gamma) const
+  {
+    const double offsetDn = series.offset + scene.model.centreDn; // gamma is about it
+    return offsetDn + std::max(0.0, 1.0 + gamma) * (levelDn - offsetDn);
   }
 };
 

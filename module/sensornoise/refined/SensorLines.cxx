@@ -169,7 +169,8 @@ ErrorOf(const NoiseCorrelation & correlation,
 SensorLines
 LinesOf(const StaticVariance & variance)
 {
-  return { variance.line, variance.fromLight, variance.fromFlat, variance.curve, Eigen::Matrix2d::Zero() };
+  return { variance.line,       variance.fromLight, variance.fromFlat,
+           variance.fromFrames, variance.curve,     Eigen::Matrix2d::Zero() };
 }
 
 double
@@ -188,6 +189,7 @@ WithSharedNoise(const SensorLines & lines, const NoiseCorrelation & correlation,
   sensor.all = shared.SensorOf(lines.all, square);
   sensor.fromLight = shared.SensorOf(lines.fromLight, square);
   sensor.fromFlat = shared.SensorOf(lines.fromFlat, square);
+  sensor.fromFrames = shared.SensorOf(lines.fromFrames, square);
   sensor.curve = CurveOfSensor(lines.curve, shared, shared.SensorOf(lines.curve.line, square));
   sensor.errorOfShared = ErrorOf(correlation, lines.all, sensor.all, square, blackDn, codesDn2);
   return sensor;

@@ -68,6 +68,7 @@ MarkGuarded(const ReferenceFrame & frame,
 /** The same about an offset, each end with the noise of the level that is reached: in a dark frame little. */
 void
 MarkGuardedAbout(double                 offsetDn,
+                 double                 lowestNoiseDn2,
                  const ReferenceFrame & frame,
                  ProvisionalModel       model,
                  GuardedLevels          guard,
@@ -89,7 +90,8 @@ MarkGuardedAbout(double                 offsetDn,
     const double highDn = offsetDn + highest * signal;
     const double lowDn = offsetDn + lowest * signal;
     const double high = highDn + guard.sds * std::sqrt(model.NoiseVariance(highDn) + highest * highest * motion);
-    const double low = lowDn - guard.sds * std::sqrt(model.NoiseVariance(lowDn) + lowest * lowest * motion);
+    const double lowNoise = std::min(lowestNoiseDn2, model.NoiseVariance(lowDn));
+    const double low = lowDn - guard.sds * std::sqrt(lowNoise + lowest * lowest * motion);
     const bool   isReached = (high >= guard.highDn) | (low <= guard.lowDn);
     guarded[p] = usable[p] != 0 && isReached ? 1 : guarded[p];
   }
@@ -135,7 +137,7 @@ FindGuardBand(const ReferenceFrame &    frame,
     const double        signal = std::max(1e-3, model.centreDn - offsetDn);
     const GuardedLevels guard = LevelsOf(codes, range.highestDn / signal, std::max(-1.0, range.lowestDn / signal), sds);
     ForInnerBlocks(frame.geometry, parallelFor, [&](std::size_t begin, std::size_t end) {
-      MarkGuardedAbout(offsetDn, frame, model, guard, begin, end, guarded.data());
+      MarkGuardedAbout(offsetDn, range.lowestNoiseDn2, frame, model, guard, begin, end, guarded.data());
     });
   }
   return guarded;

@@ -38,6 +38,7 @@ struct IlluminationRange
   double highestDn;       ///< of the brightest frame [DN]
   double lowestOffsetDn;  ///< [DN]
   double highestOffsetDn; ///< at most the mean of the darkest frame [DN]
+  double lowestNoiseDn2;  ///< variance that the noise of the darkest frame has at most, whatever the model says [DN^2]
 };
 
 /** The same where the illumination changes strongly: marks the pixels that reach a clip level about the lowest or the

@@ -42,10 +42,11 @@ MakeStillScene(const StackSummary &              summary,
                std::size_t                       frames,
                const std::vector<double> &       frameMeans,
                const ParallelFor &               parallelFor,
-               bool                              changesStrongly)
+               const std::optional<double> &     darkestNoiseDn2)
 {
   StillScene scene;
   scene.summary = summary;
+  scene.changesStrongly = darkestNoiseDn2.has_value();
   scene.frame = MakeReferenceFrame(std::move(mean), std::move(variance), valid, geometry, frames, parallelFor);
   scene.pixelUse = FindPixelUse(scene.frame, valid, userMask, parallelFor);
   // After the reference frame: a masked pixel is a good neighbour.
@@ -64,7 +65,7 @@ MakeStillScene(const StackSummary &              summary,
       scene.model = FitProvisionalModel(scene.frame);
     }
     UsablePixels found = LeaveOutCoarseAndGuarded(
-      scene.frame, scene.model, summary.codes, frameMeans, std::move(scene.pixelUse), parallelFor, changesStrongly);
+      scene.frame, scene.model, summary.codes, frameMeans, std::move(scene.pixelUse), parallelFor, darkestNoiseDn2);
     scene.frame.usable = std::move(found.usable);
     scene.pixelUse = std::move(found.pixelUse);
     scene.usable = found.count;

@@ -63,13 +63,14 @@ ExtremesOfLight(const ReferenceFrame & frame, const ProvisionalModel & model, co
 IlluminationRange
 RangeOfIllumination(const ReferenceFrame &      frame,
                     const ProvisionalModel &    model,
-                    const std::vector<double> & frameMeans)
+                    const std::vector<double> & frameMeans,
+                    double                      darkestNoiseDn2)
 {
   const double average = std::accumulate(frameMeans.begin(), frameMeans.end(), 0.0) / static_cast<double>(frame.frames);
   const auto [lowest, highest] = std::minmax_element(frameMeans.begin(), frameMeans.end());
   const double highestOffsetDn = std::min(model.darkestDn, *lowest);
   const double lowestOffsetDn = std::min(highestOffsetDn, model.darkestDn - model.interceptDn2 / model.slopeDn);
-  return { *lowest - average, *highest - average, lowestOffsetDn, highestOffsetDn };
+  return { *lowest - average, *highest - average, lowestOffsetDn, highestOffsetDn, darkestNoiseDn2 };
 }
 } // namespace
 
@@ -88,18 +89,19 @@ FindPixelUse(const ReferenceFrame &            frame,
 }
 
 UsablePixels
-LeaveOutCoarseAndGuarded(const ReferenceFrame &      frame,
-                         const ProvisionalModel &    model,
-                         const CodeRange &           codes,
-                         const std::vector<double> & frameMeans,
-                         std::vector<std::uint8_t>   pixelUse,
-                         const ParallelFor &         parallelFor,
-                         bool                        changesStrongly)
+LeaveOutCoarseAndGuarded(const ReferenceFrame &        frame,
+                         const ProvisionalModel &      model,
+                         const CodeRange &             codes,
+                         const std::vector<double> &   frameMeans,
+                         std::vector<std::uint8_t>     pixelUse,
+                         const ParallelFor &           parallelFor,
+                         const std::optional<double> & darkestNoiseDn2)
 {
   const auto [darkest, brightest] = ExtremesOfLight(frame, model, frameMeans);
   const auto guarded =
-    changesStrongly ? FindGuardBand(frame, model, codes, RangeOfIllumination(frame, model, frameMeans), parallelFor)
-                    : FindGuardBand(frame, model, codes, brightest, darkest, parallelFor);
+    darkestNoiseDn2
+      ? FindGuardBand(frame, model, codes, RangeOfIllumination(frame, model, frameMeans, *darkestNoiseDn2), parallelFor)
+      : FindGuardBand(frame, model, codes, brightest, darkest, parallelFor);
   UsablePixels pixels;
   pixels.usable = frame.usable;
   pixels.pixelUse = std::move(pixelUse);

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace sensornoise
@@ -38,15 +39,16 @@ struct UsablePixels
 
 /** Leaves out what clipping could touch (FindGuardBand), and pixels whose noise is below half a code step, where the
  * codes hide it. \a frameMeans are the frames' means, for the brightest and the darkest one; \a pixelUse is that of
- * FindPixelUse. \a changesStrongly: the illumination does, and the frame's variance is without these changes. */
+ * FindPixelUse. \a darkestNoiseDn2, if given: the illumination changes strongly, the frame's variance is without
+ * these changes, and that is the variance that the noise of the darkest frame has at most [DN^2]. */
 SensorNoise_EXPORT UsablePixels
-LeaveOutCoarseAndGuarded(const ReferenceFrame &      frame,
-                         const ProvisionalModel &    model,
-                         const CodeRange &           codes,
-                         const std::vector<double> & frameMeans,
-                         std::vector<std::uint8_t>   pixelUse,
-                         const ParallelFor &         parallelFor,
-                         bool                        changesStrongly = false);
+LeaveOutCoarseAndGuarded(const ReferenceFrame &        frame,
+                         const ProvisionalModel &      model,
+                         const CodeRange &             codes,
+                         const std::vector<double> &   frameMeans,
+                         std::vector<std::uint8_t>     pixelUse,
+                         const ParallelFor &           parallelFor,
+                         const std::optional<double> & darkestNoiseDn2 = std::nullopt);
 
 /** Throws NothingToMeasure, CodesTooCoarse, if codes of spacing \a stepDn hide the noise of more than 2 % of the
  * pixels: the dark end goes with them. */

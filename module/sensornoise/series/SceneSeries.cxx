@@ -31,7 +31,8 @@ SceneSeries
 FindSceneSeries(const FrameSums &             sums,
                 RollingShutter                rollingShutter,
                 const std::optional<double> & knownOffsetDn,
-                double                        blackDn)
+                double                        blackDn,
+                bool                          changesStrongly)
 {
   const RegressorNoise            noise = NoiseOfModel(sums.GetRegressors());
   const std::optional<OffsetLine> line = FitOffsetLine(sums, noise);
@@ -54,7 +55,7 @@ FindSceneSeries(const FrameSums &             sums,
   found.motion = SolveMotion(equations, found.line.gamma, found.offset);
   const Eigen::MatrixXd motionColumns = MotionColumns(found.motion, found.line.gamma);
   const std::size_t     most =
-    rollingShutter == RollingShutter::Off
+    rollingShutter == RollingShutter::Off || (changesStrongly && !hasLevels)
           ? 0
           : std::min<std::size_t>(InSeries.mostLocalSeries, (sums.GetFrame().frames - 1) / InSeries.framesPerLocalSeries);
   found.local = FindLocalIllumination(sums, found.motion, motionColumns, found.line.gamma, found.offset, most);

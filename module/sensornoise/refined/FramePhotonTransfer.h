@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_refined_FramePhotonTransfer_h
+#define sensornoise_refined_FramePhotonTransfer_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/base/Eigen.h"
+#include "sensornoise/correlation/FrameEnergies.h"
+#include "sensornoise/pixels/VarianceLine.h"
+
+#include <vector>
+
+namespace sensornoise
+{
+
+/** The level of every tile in every frame. */
+class SensorNoise_EXPORT TileLevels
+{
+public:
+  /** Takes all frames; the sample has the first of them. \a gamma + 1 is the illumination factor of each frame; below 0
+   * it counts as 0. \a offsetDn is the dark offset to which gamma belongs, and \a zeroDn the level from which
+   * FrameEnergies measures light [DN]. */
+  TileLevels(const std::vector<double> & gamma, double offsetDn, double zeroDn);
+
+  /** In every frame, of a tile of the light \a lightDn in the mean frame [DN]. */
+  Eigen::VectorXd
+  Of(double lightDn) const;
+
+private:
+  Eigen::VectorXd m_Illumination;
+  double          m_OffsetDn;
+  double          m_ZeroDn;
+};
+
+/** The photon transfer of the frames: the line of the noise variance over the level, by what a place has of both in
+ * bright and in dark frames. A flat field determines it as well as a scene with contrast, and differences between
+ * pixels do not count. Estimator.md, 3.14.
+ *
+ * Slopes are of every tile by itself, and their scatter from tile to tile, or that of frames about the line, is the
+ * error. Slope and value at the pivot are uncorrelated. \a start weighs the squares at first. Not determined: too few
+ * tiles or frames, frames of one level, or of two of which the one is that of a fifth of the frames or fewer. */
+SensorNoise_EXPORT VarianceLine
+FitFramePhotonTransfer(const FrameEnergies & energies,
+                       const TileLevels &    levels,
+                       const VarianceLine &  start,
+                       double                sharedSquares);
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/refined/FramePhotonTransfer.h"
+#include "sensornoise/refined/Constants.h"
+#include "sensornoise/refined/UnlikeNoise.h"
+#include "sensornoise/simulation/Random.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <gtest/gtest.h>
+#include <vector>
+
+using namespace sensornoise;
+
+namespace
+{
+constexpr Eigen::Index Tiles = 24;
+constexpr Eigen::Index Frames = 20;
+constexpr double       Gain = 0.5;
+constexpr double       OffsetDn = 100.0;
+constexpr double       InterceptDn2 = 9.0 - Gain * OffsetDn;
+constexpr double       ZeroDn = 40.0; // from which the light of tiles is measured
+constexpr double       PixelsOfTile = 500.0;
+
+/** Changes of the illumination from -1 to 1. */
+std::vector<double>
+Gamma()
+{
+  std::vector<double> gamma;
+  for (Eigen::Index t = 0; t < Frames; ++t)
+  {
+    gamma.push_back(-1.0 + 2.0 * static_cast<double>(t) / static_cast<double>(Frames - 1));
+  }
+  return gamma;
+}
+
+Eigen::MatrixXd
+BasisOf(const std::vector<double> & gamma)
+{
+  Eigen::MatrixXd basis(Frames, 2);
+  basis.col(0).setConstant(1.0);
+  basis.col(1) = Eigen::Map<const Eigen::VectorXd>(gamma.data(), Frames);
+  basis.col(1).array() -= basis.col(1).mean();
+  basis.col(0).normalize();
+  if (basis.col(1).norm() > 0.0)
+  {
+    basis.col(1).normalize();
+  }
+  return basis;
+}
+
+/** Tiles of slightly different light, whose squares are what the line makes of their levels, times \a factorOf(i, t).
+ */
+template <typename TFunction>
+FrameEnergies
+Energies(const std::vector<double> & gamma, TFunction factorOf)
+{
+  const TileLevels    levels(gamma, OffsetDn, ZeroDn);
+  Eigen::VectorXd     light(Tiles);
+  Eigen::MatrixXd     squares = Eigen::MatrixXd::Zero(Tiles, Frames);
+  const FrameEnergies model(squares, Eigen::VectorXd::Zero(Tiles), Eigen::VectorXd::Ones(Tiles), BasisOf(gamma));
+  for (Eigen::Index i = 0; i < Tiles; ++i)
+  {
+    light(i) = 1000.0 + static_cast<double>(i);
+    Eigen::VectorXd variances = InterceptDn2 + Gain * levels.Of(light(i)).array();
+    squares.row(i) = model.ExpectedSquares(variances).transpose();
+    for (Eigen::Index t = 0; t < Frames; ++t)
+    {
+      squares(i, t) *= factorOf(i, t);
+    }
+  }
+  return { squares, light, Eigen::VectorXd::Constant(Tiles, PixelsOfTile), BasisOf(gamma) };
+}
+
+VarianceLine
+LineOf(double gain, double intercept)
+{
+  VarianceLine line;
+  line.gain = gain;
+  line.intercept = intercept;
+  line.pivotDn = 1000.0;
+  line.isDetermined = true;
+  return line;
+}
+
+const auto Exactly = [](Eigen::Index, Eigen::Index) { return 1.0; };
+} // namespace
+
+TEST(SensorNoiseFramePhotonTransfer, OfExactSquaresIsTheirLineWhateverItStartsFrom)
+{
+  const FrameEnergies energies = Energies(Gamma(), Exactly);
+  for (const VarianceLine & start : { LineOf(0.5, -41.0), LineOf(-3.0, 500.0), LineOf(40.0, -1e4), LineOf(0.0, 1.0) })
+  {
+    const VarianceLine line = FitFramePhotonTransfer(energies, { Gamma(), OffsetDn, ZeroDn }, start, 1.0);
+    ASSERT_TRUE(line.isDetermined) << start.gain;
+    EXPECT_NEAR(line.gain, Gain, 1e-9) << start.gain;
+    EXPECT_NEAR(line.intercept, InterceptDn2, 1e-6) << start.gain;
+  }
+}
+
+TEST(SensorNoiseFramePhotonTransfer, DoesNotDependOnTheOffsetThatIsTakenForThatOfGamma)
+{
+  // (1 + gamma)(level - offset) + offset are the same levels of one tile; those of the others differ by 2 %.
+  const FrameEnergies energies = Energies(Gamma(), Exactly);
+  const double        level = 1000.0 + 0.5 * static_cast<double>(Tiles) + ZeroDn;
+  std::vector<double> gamma = Gamma();
+  for (double & own : gamma)
+  {
+    own *= (level - OffsetDn) / level; // about an offset of 0
+  }
+  const VarianceLine line = FitFramePhotonTransfer(energies, { gamma, 0.0, ZeroDn }, LineOf(1.0, 0.0), 1.0);
+  EXPECT_NEAR(line.gain, Gain, 1e-3 * Gain);
+}
+
+TEST(SensorNoiseFramePhotonTransfer, IsNotMovedByWhatTilesDifferBy)
+{
+  // Noise that a tile has more in all frames, as by the read noise of its pixels.
+  const FrameEnergies plain = Energies(Gamma(), Exactly);
+  Eigen::MatrixXd     squares = plain.SquaresDn2();
+  for (Eigen::Index i = 0; i < Tiles; ++i)
+  {
+    squares.row(i) += 20.0 * static_cast<double>(i) * plain.LeftShare().transpose();
+  }
+  const FrameEnergies uneven(squares, plain.LightDn(), plain.Pixels(), BasisOf(Gamma()));
+  const VarianceLine  line = FitFramePhotonTransfer(uneven, { Gamma(), OffsetDn, ZeroDn }, LineOf(1.0, 0.0), 1.0);
+  EXPECT_NEAR(line.gain, Gain, 1e-9);
+}
+
+TEST(SensorNoiseFramePhotonTransfer, IsNotDeterminedByFramesOfOneLevelOrTooFewTiles)
+{
+  const std::vector<double> steady(static_cast<std::size_t>(Frames), 0.0);
+  const FrameEnergies       alike = Energies(steady, Exactly);
+  EXPECT_FALSE(FitFramePhotonTransfer(alike, { steady, OffsetDn, ZeroDn }, LineOf(0.5, -41.0), 1.0).isDetermined);
+  EXPECT_FALSE(
+    FitFramePhotonTransfer(FrameEnergies(), { Gamma(), OffsetDn, ZeroDn }, LineOf(0.5, -41.0), 1.0).isDetermined);
+}
+
+TEST(SensorNoiseFramePhotonTransfer, IsNotDeterminedByAFifthOfTheFrames)
+{
+  // Frames of a second level: 4 of 20 may be frames of another gain, 8 of 20 are too many.
+  for (const int lit : { 2, 4, 8 })
+  {
+    std::vector<double> gamma(static_cast<std::size_t>(Frames), 0.0);
+    std::fill_n(gamma.begin(), lit, 1.0);
+    const VarianceLine line =
+      FitFramePhotonTransfer(Energies(gamma, Exactly), { gamma, OffsetDn, ZeroDn }, LineOf(1.0, 0.0), 1.0);
+    EXPECT_EQ(line.isDetermined, lit == 8) << lit;
+  }
+}
+
+TEST(SensorNoiseFramePhotonTransfer, ErrorsAreThoseOfItsScatter)
+{
+  constexpr int       draws = 300;
+  CounterSeededRandom random(7, 1, 0);
+  double              squares = 0.0;
+  double              expected = 0.0;
+  for (int draw = 0; draw < draws; ++draw)
+  {
+    // Means of PixelsOfTile squares scatter by sqrt(2 / PixelsOfTile).
+    const auto energies = Energies(
+      Gamma(), [&](Eigen::Index, Eigen::Index) { return 1.0 + std::sqrt(2.0 / PixelsOfTile) * random.Normal(); });
+    const auto line = FitFramePhotonTransfer(energies, { Gamma(), OffsetDn, ZeroDn }, LineOf(1.0, 0.0), 1.0);
+    ASSERT_TRUE(line.isDetermined);
+    squares += (line.gain - Gain) * (line.gain - Gain);
+    expected += line.covariance(0, 0);
+  }
+  // The ratio of 300 squares to their variance scatters by 8 %; few tiles widen it by 7 %, chi-square by some.
+  EXPECT_NEAR(squares / expected, 0.9, 0.3);
+}
+
+TEST(SensorNoiseFrameNoise, IsOneForAllFramesAndNamesTheOthers)
+{
+  const TileLevels levels(Gamma(), OffsetDn, ZeroDn);
+  const auto       judge = [&](const FrameEnergies & energies) {
+    return JudgeFrameNoise(
+      NoiseOfFrames(energies, levels, LineOf(Gain, InterceptDn2), 0.0), 0.01, InRefined.leastUnlikeNoise);
+  };
+  const Eigen::VectorXd plain = NoiseOfFrames(Energies(Gamma(), Exactly), levels, LineOf(Gain, InterceptDn2), 0.0);
+  for (Eigen::Index t = 0; t < Frames; ++t)
+  {
+    EXPECT_NEAR(plain(t), 1.0, 1e-9) << t;
+  }
+  const auto isOther = [](Eigen::Index t) { return t == 3 || t == 11; };
+  const auto found = judge(Energies(Gamma(), [&](Eigen::Index, Eigen::Index t) { return isOther(t) ? 1.5 : 1.0; }));
+  EXPECT_EQ(found.unlike, (std::vector<std::size_t>{ 3, 11 }));
+  EXPECT_EQ(found.scatter, 0.0);
+  // What happens in a few tiles is of the scene.
+  const auto local =
+    judge(Energies(Gamma(), [&](Eigen::Index i, Eigen::Index t) { return isOther(t) && i < 8 ? 5.0 : 1.0; }));
+  EXPECT_TRUE(local.unlike.empty());
+  // A difference below the size that counts.
+  const auto small = judge(Energies(Gamma(), [&](Eigen::Index, Eigen::Index t) { return isOther(t) ? 1.09 : 1.0; }));
+  EXPECT_TRUE(small.unlike.empty());
+}
+
+TEST(SensorNoiseFrameNoise, OfTwoKindsIsScatter)
+{
+  const TileLevels levels(Gamma(), OffsetDn, ZeroDn);
+  const auto       energies = Energies(Gamma(), [](Eigen::Index, Eigen::Index t) { return t % 2 == 0 ? 1.0 : 2.0; });
+  const FrameNoise found =
+    JudgeFrameNoise(NoiseOfFrames(energies, levels, LineOf(Gain, InterceptDn2), 0.0), 0.01, InRefined.leastUnlikeNoise);
+  EXPECT_TRUE(found.unlike.empty());
+  EXPECT_GT(found.scatter, InRefined.leastUnlikeNoise);
+}
+
+TEST(SensorNoiseFrameNoise, IsWithinTheErrorOfTheSlope)
+{
+  // A slope that is wrong by its own error puts no frame aside.
+  const TileLevels    levels(Gamma(), OffsetDn, ZeroDn);
+  const FrameEnergies energies = Energies(Gamma(), Exactly);
+  VarianceLine        line = LineOf(2.0 * Gain, 0.0);
+  line.intercept = InterceptDn2 + Gain * line.pivotDn - line.gain * line.pivotDn;
+  const Eigen::VectorXd sure = NoiseOfFrames(energies, levels, line, 0.0);
+  EXPECT_GT((sure.array() - 1.0).abs().maxCoeff(), 0.3);
+  const Eigen::VectorXd unsure = NoiseOfFrames(energies, levels, line, Gain);
+  EXPECT_LT((unsure.array() - 1.0).abs().maxCoeff(), 1e-9);
+}
