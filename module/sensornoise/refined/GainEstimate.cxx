@@ -179,15 +179,15 @@ FindModelError(GainEstimate & estimate, const VarianceCurve & curve, double blac
 /** Joins the slopes by pixels and by frames, which are independent. The value at the pivot is that of the better one.
  */
 void
-UseFrames(GainEstimate & estimate, const VarianceLine & frames)
+UseFrames(GainEstimate & estimate, const VarianceLine & frames, const Eigen::Matrix2d & errorOfShared)
 {
   if (!frames.isDetermined || estimate.IsBent())
   {
     return;
   }
   VarianceLine    other = frames;
-  Eigen::Matrix2d otherCovariance = frames.covariance;
-  if (frames.covariance(0, 0) < estimate.covariance(0, 0))
+  Eigen::Matrix2d otherCovariance = frames.covariance + errorOfShared;
+  if (otherCovariance(0, 0) < estimate.covariance(0, 0))
   {
     std::swap(other, estimate.line);
     std::swap(otherCovariance, estimate.covariance);
@@ -230,7 +230,7 @@ EstimateGain(const RefinedResults & found, const SensorLines & lines)
   const double dispersion =
     std::min(DispersionOfClasses(variance), InRefined.largestDispersion * variance.sharedSquares);
   FindModelError(estimate, lines.curve, found.blackDn, dispersion);
-  UseFrames(estimate, lines.fromFrames);
+  UseFrames(estimate, lines.fromFrames, lines.errorOfShared);
   if (found.settings.offset && found.settings.offset->variance)
   {
     UseDarkPoint(estimate, found);

@@ -34,12 +34,6 @@ FlatPixels(const ProjectedVariance & projected, const std::vector<std::uint8_t> 
   return flat;
 }
 
-double
-ErrorOfSlope(const VarianceLine & line)
-{
-  return std::sqrt(std::max(0.0, line.covariance(0, 0)));
-}
-
 /** What the frames of the sample are compared by. */
 struct FrameComparison
 {
@@ -48,38 +42,68 @@ struct FrameComparison
   const StillScene &        scene;
   TileLevels                levels;
   bool                      isLightLocal; ///< tiles differ in how their light changes
+
+  /** Whether frames differ in their noise by as much as counts. */
+  bool
+  AreUnequal() const
+  {
+    return scene.changesStrongly || projected.HasUnequalFrames();
+  }
 };
 
-/** The photon transfer of the frames, if they are unequal, and the frames whose noise is not that of the others. */
-void
-CompareFrames(PixelNoise & noise, const FrameComparison & by, const ParallelFor & parallelFor)
+/** The photon transfer of the frames, if they are unequal and tiles have the same changes of illumination. */
+VarianceLine
+LineOfFrames(const StaticVariance &  variance,
+             const FrameComparison & by,
+             double                  sharedSquares,
+             const ParallelFor &     parallelFor)
 {
-  const std::vector<std::uint8_t> used = MaskOfUsed(noise.variance.pixelUse);
+  const std::vector<std::uint8_t> used = MaskOfUsed(variance.pixelUse);
   const auto                      count = static_cast<double>(std::count(used.begin(), used.end(), std::uint8_t{ 1 }));
-  const double                    shared = std::max(1.0, SharedSquares(noise.correlation.space));
-  StaticVariance &                variance = noise.variance;
-  const bool                      areUnequal = by.scene.changesStrongly || by.projected.HasUnequalFrames();
-  if (areUnequal && !by.isLightLocal && count > InRefined.leastUsedShare * static_cast<double>(by.scene.valid))
+  const bool                      isEnough = count > InRefined.leastUsedShare * static_cast<double>(by.scene.valid);
+  if (!by.AreUnequal() || by.isLightLocal || !isEnough)
   {
-    const FrameEnergies ofAll(by.residuals, used, parallelFor);
-    variance.fromFrames = FitFramePhotonTransfer(ofAll, by.levels, variance.line, shared);
+    return {};
   }
+  return FitFramePhotonTransfer({ by.residuals, used, parallelFor }, by.levels, variance.line, sharedSquares);
+}
+
+/** A line and the standard error of its slope. */
+struct SlopeOfLine
+{
+  const VarianceLine & line;
+  double               error;
+};
+
+/** The line of which the slope is better known: that of the frames, or that of the pixels. */
+SlopeOfLine
+BetterLine(const StaticVariance & variance)
+{
+  const auto   errorOf = [](const VarianceLine & line) { return std::sqrt(std::max(0.0, line.covariance(0, 0))); };
+  const double ofPattern = variance.pattern.LargestShare() * variance.line.gain;
+  const double ofPixels = std::hypot(errorOf(variance.line), ofPattern);
+  const bool   isBetter = variance.fromFrames.isDetermined && errorOf(variance.fromFrames) < ofPixels;
+  return isBetter ? SlopeOfLine{ variance.fromFrames, errorOf(variance.fromFrames) }
+                  : SlopeOfLine{ variance.line, ofPixels };
+}
+
+/** The frames whose noise is not that of the others. */
+FrameNoise
+CompareFrames(const StaticVariance &  variance,
+              const FrameComparison & by,
+              double                  sharedSquares,
+              const ParallelFor &     parallelFor)
+{
   const double vibration = std::max(by.scene.model.vibrationXPixels2, by.scene.model.vibrationYPixels2);
   if (vibration > InRefined.smallVibration)
   {
-    return; // what is left of the motion of a frame is not its noise
+    return {}; // what is left of the motion of a frame is not its noise
   }
-  const double        ofPattern = variance.pattern.LargestShare() * variance.line.gain;
-  const double        ofPixels = std::hypot(ErrorOfSlope(variance.line), ofPattern);
-  const bool          isBetter = variance.fromFrames.isDetermined && ErrorOfSlope(variance.fromFrames) < ofPixels;
-  const FrameEnergies flat(by.residuals, FlatPixels(by.projected, used), parallelFor);
-  const auto          ratios = NoiseOfFrames(flat,
-                                    by.levels,
-                                    isBetter ? variance.fromFrames : variance.line,
-                                    isBetter ? ErrorOfSlope(variance.fromFrames) : ofPixels);
-  noise.frames = JudgeFrameNoise(ratios,
-                                 std::sqrt(2.0 * shared / std::max(1.0, flat.Pixels().sum())),
-                                 by.isLightLocal ? InRefined.leastUnlikeUnderLocalLight : InRefined.leastUnlikeNoise);
+  const FrameEnergies flat(by.residuals, FlatPixels(by.projected, MaskOfUsed(variance.pixelUse)), parallelFor);
+  const auto [line, error] = BetterLine(variance);
+  return JudgeFrameNoise(NoiseOfFrames(flat, by.levels, line, error),
+                         std::sqrt(2.0 * sharedSquares / std::max(1.0, flat.Pixels().sum())),
+                         by.isLightLocal ? InRefined.leastUnlikeUnderLocalLight : InRefined.leastUnlikeNoise);
 }
 } // namespace
 
@@ -111,10 +135,17 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   const double   zeroDn = isTold ? blackDn : ZeroOfLight(scene.model.darkestDn, scene.model.brightestDn, blackDn);
   NoiseResiduals residuals(
     std::move(sample), series->basis.GetBasis(), { scene.frame.mean, used, zeroDn }, parallelFor);
+  const FrameComparison comparison{
+    residuals, projected, scene, { series->line.gamma, offsetDn, zeroDn }, series->local.series.cols() > 0
+  };
+  const auto compare = [&](double shared) {
+    noise.variance.fromFrames = LineOfFrames(noise.variance, comparison, shared, parallelFor);
+  };
   const auto allowForFrames = [&] {
-    if (projected.HasUnequalFrames())
+    compare(1.0);
+    if (comparison.AreUnequal())
     {
-      residuals.SetUnequalFrames({ series->line.gamma, noise.variance.line.gain, offsetDn - zeroDn });
+      residuals.SetUnequalFrames({ series->line.gamma, BetterLine(noise.variance).line.gain, offsetDn - zeroDn });
     }
   };
   allowForFrames();
@@ -131,10 +162,9 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
     LeaveOutEdges(scene.frame, noise.variance.line, chosen, pixelUse);
     noise.variance = fit(sharedSquares);
   }
-  CompareFrames(
-    noise,
-    { residuals, projected, scene, { series->line.gamma, offsetDn, zeroDn }, series->local.series.cols() > 0 },
-    parallelFor);
+  const double shared = std::max(1.0, SharedSquares(noise.correlation.space));
+  compare(shared);
+  noise.frames = CompareFrames(noise.variance, comparison, shared, parallelFor);
   MeasureSettledFrames(noise.correlation, residuals, codesDn2, parallelFor);
   return noise;
 }
