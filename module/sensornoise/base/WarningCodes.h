@@ -115,7 +115,8 @@ inline constexpr std::array<WarningKind, 43> WarningTable{ {
     "frames-left-out",
     Severity::Warning,
     "Frames are unlike the others and are left out, as `frames_left_out` says: their pixels are not finite, have no "
-    "noise (zeros, saturated), or show another scene, a shadow, or light of another shape." },
+    "noise (zeros, saturated), or show another scene, a shadow, or light of another shape; or their "
+    "noise is not that of the others at their level, as of another gain." },
   { WarningCode::IrregularCodes,
     "irregular-codes",
     Severity::Warning,
