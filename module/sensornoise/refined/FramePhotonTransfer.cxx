@@ -207,8 +207,8 @@ Chi2OfFrames(const Regression & data, const Eigen::MatrixXd & weights, double ga
 } // namespace
 
 TileLevels::TileLevels(const std::vector<double> & gamma, double offsetDn, double zeroDn)
-  : m_Illumination(
-      (Eigen::Map<const Eigen::VectorXd>(gamma.data(), static_cast<Eigen::Index>(gamma.size())).array() + 1.0).max(0.0))
+  : m_Illumination(Eigen::Map<const Eigen::VectorXd>(gamma.data(), static_cast<Eigen::Index>(gamma.size())).array() +
+                   1.0)
   , m_OffsetDn(offsetDn)
   , m_ZeroDn(zeroDn)
 {}

@@ -17,9 +17,8 @@ namespace sensornoise
 class SensorNoise_EXPORT TileLevels
 {
 public:
-  /** Takes all frames; the sample has the first of them. \a gamma + 1 is the illumination factor of each frame; below 0
-   * it counts as 0. \a offsetDn is the dark offset to which gamma belongs, and \a zeroDn the level from which
-   * FrameEnergies measures light [DN]. */
+  /** Takes all frames; the sample has the first of them. \a gamma + 1 is the illumination factor of each frame about
+   * the dark offset \a offsetDn, and \a zeroDn the level from which FrameEnergies measures light [DN]. */
   TileLevels(const std::vector<double> & gamma, double offsetDn, double zeroDn);
 
   /** In every frame, of a tile of the light \a lightDn in the mean frame [DN]. */

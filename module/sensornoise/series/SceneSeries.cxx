@@ -16,6 +16,20 @@
 namespace sensornoise
 {
 
+namespace
+{
+/** The lower one of an offset and the level of the darkest frame, both minus the centre [DN]: no offset is above a
+ * frame.
+ */
+double
+NotAboveDarkestFrame(OffsetLine line, double offset)
+{
+  line.UseOffset(offset);
+  const double darkest = *std::min_element(line.gamma.begin(), line.gamma.end());
+  return offset + (1.0 + std::min(-1.0, darkest)) * -offset;
+}
+} // namespace
+
 RegressorNoise
 NoiseOfModel(const FrameRegressors & regressors)
 {
@@ -48,6 +62,10 @@ FindSceneSeries(const FrameSums &             sums,
   const bool   hasLevels = line->contrast > InSeries.leastContrast;
   const double fallbackDn = hasLevels ? model.darkestDn : std::min(blackDn, model.darkestDn);
   found.offset = found.isOffsetTold ? line->offset : knownOffsetDn.value_or(fallbackDn) - model.centreDn;
+  if (!found.isOffsetTold && !knownOffsetDn && changesStrongly)
+  {
+    found.offset = NotAboveDarkestFrame(found.line, found.offset);
+  }
   if (!found.isOffsetTold)
   {
     found.line.UseOffset(found.offset);
