@@ -131,7 +131,7 @@ def measure(programs, line, scene, bits, number):
     seed = stream_of(f"{line.name} {scene} {bits}", number)
     with tempfile.TemporaryDirectory(prefix="acceptance-") as folder:
         name, record, bound, emva = simulate(programs, line, scene, bits, seed, Path(folder))
-        command = [programs.estimator, name, "--json", "-", "--quiet", "--threads", 1]
+        command = [programs.estimator, name, "--json", "-", "--quiet", "--threads", 1, *line.estimator]
         done = run(command, allowed=None)
     expected = expected_of(line, scene)
     try:

@@ -57,7 +57,13 @@ def burst_jobs(programs, plan):
     program = f"{hash_of(programs.estimator)} {hash_of(programs.simulator)}"
     for line in LINES:
         for scene, bits in variants():
-            made_by = (*simulator_options(line, scene, bits), line.illumination, *line.factors, *line.replaced)
+            made_by = (
+                *simulator_options(line, scene, bits),
+                line.illumination,
+                *line.factors,
+                *line.replaced,
+                *line.estimator,
+            )
             recipe = " ".join(map(str, made_by))
             for seed in range(1, (plan.exposure_seeds if line.frames_per_level else plan.burst_seeds) + 1):
                 measure = partial(acceptance_bursts.measure, programs, line, scene, bits, seed)

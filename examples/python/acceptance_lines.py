@@ -36,6 +36,7 @@ class Line(NamedTuple):
     frames: int = FRAMES
     frames_per_level: int = 0  # of an exposure series; 0: the burst is none
     simulator: tuple[str, ...] = ()  # further options of simulate-sensor-noise
+    estimator: tuple[str, ...] = ()  # further options of estimate-sensor-noise
 
 
 def one_frame(frames, place, factor, others):
@@ -48,17 +49,20 @@ def unlike(name, *replaced, **further):
     return Line(f"unlike/{name}", expected_of_flat=MAY_REFUSE, replaced=replaced, **further)
 
 
-def exposures(levels, frames_per_level, lowest, *options, suffix=""):
+def exposures(levels, frames_per_level, lowest, *options, suffix="", is_given=False):
     """A line whose bursts are exposure series, of equally distant levels from the lowest factor to 1.
 
-    lowest: 0: the first level is dark frames; options: of the simulator."""
+    lowest: 0: the first level is dark frames; options: of the simulator; is_given: the estimator gets the factors by
+    --exposures."""
     steps = [round(lowest + (1 - lowest) * level / (levels - 1), 6) for level in range(levels)]
+    factors = tuple(step for step in steps for _ in range(frames_per_level))
     return Line(
         f"exposures/{levels}x{frames_per_level}{'' if lowest == 0 else '-no-dark'}{suffix}",
-        factors=tuple(step for step in steps for _ in range(frames_per_level)),
+        factors=factors,
         frames=levels * frames_per_level,
         frames_per_level=frames_per_level,
         simulator=(*BENCH, *options),
+        estimator=("--exposures", ",".join(map(str, factors))) if is_given else (),
     )
 
 
@@ -79,6 +83,7 @@ LINES = (
     Line("illumination/flicker-0.7", simulator=("--flicker-sd", "0.7")),
     Line("illumination/first-dark", expected_of_flat=MAY_REFUSE, factors=one_frame(FRAMES, 0, 0.0, others=1.0)),
     exposures(5, 2, 0.0),
+    exposures(5, 2, 0.0, suffix="-given", is_given=True),
     exposures(5, 2, LOWEST_LIT),
     exposures(5, 10, 0.0, *FIXED_PATTERN),
     exposures(5, 10, LOWEST_LIT, *FIXED_PATTERN),
@@ -87,6 +92,7 @@ LINES = (
     exposures(8, 5, 0.0, "--size", "640x512", suffix="-640x512"),
     exposures(12, 2, 0.0, *FIXED_PATTERN),
     exposures(12, 2, LOWEST_LIT, *FIXED_PATTERN),
+    exposures(12, 2, LOWEST_LIT, *FIXED_PATTERN, suffix="-given", is_given=True),
     exposures(12, 10, 0.0),
     exposures(12, 10, LOWEST_LIT),
     unlike("zeros-first", (0, "zeros")),
