@@ -18,6 +18,7 @@ DIP_DEPTH = 0.12  # of the illumination in the middle of a dip [1]
 # Standard deviation of the Gaussian dip, in units of the frame's width: so wide that it resembles flicker.
 DIP_RADIUS = 0.6
 ROUNDING_VARIANCE = 1 / 12  # of whole digital numbers [DN^2]
+OTHER_GAIN = 1.5  # of a frame of another gain, over that of the burst [1]
 # Electrons and gain of a frame whose shot noise is below the rounding, for the mean of a burst's pixels.
 NOISELESS_ELECTRONS = 1e9
 COMPARED_QUANTITIES = ("gain", "offset", "read_noise")
@@ -54,9 +55,9 @@ class Camera:
         run([self.programs.simulator, "--output", name, *options, "--seed", self.seed])
         return read_frames(name)[0][0]
 
-    def expose(self, electrons, shape):
-        """A frame with so many expected electrons."""
-        levels = self.offset + self.gain * self.random.poisson(electrons, shape)
+    def expose(self, electrons, shape, gain=None):
+        """A frame with so many expected electrons; of the camera's gain unless another is given [DN/e-]."""
+        levels = self.offset + (gain or self.gain) * self.random.poisson(electrons, shape)
         levels = levels + self.random.normal(0.0, self.read_noise, shape)
         return np.clip(np.rint(levels), 0, self.highest)
 
@@ -69,16 +70,25 @@ def other_scene(camera, _shape):
     return camera.simulate("texture" if camera.scene == "target" else "target")
 
 
-def dip(camera, shape):
-    """A frame whose illumination has a smooth dip, as by a thing out of focus in front of the lamp."""
+def mean_electrons(camera):
+    """The expected electrons of the pixels, without flicker and vibration."""
     still = {"flicker_sd": 0, "vibration_sd": "0,0", "read_noise": 0, "bit_depth": 0}
     gain = CAMERA["gain"] * CAMERA["electrons"] / NOISELESS_ELECTRONS
     mean = camera.simulate(camera.scene, gain=gain, electrons=NOISELESS_ELECTRONS, **still)
+    return np.maximum(0.0, mean.astype(float) - camera.offset) / camera.gain
+
+
+def dip(camera, shape):
+    """A frame whose illumination has a smooth dip, as by a thing out of focus in front of the lamp."""
     y, x = np.indices(shape)
     squared = (x - shape[1] / 2) ** 2 + (y - shape[0] / 2) ** 2
     illumination = 1 - DIP_DEPTH * np.exp(-squared / (2 * (DIP_RADIUS * shape[1]) ** 2))
-    electrons = np.maximum(0.0, mean.astype(float) - camera.offset) / camera.gain
-    return camera.expose(electrons * illumination, shape)
+    return camera.expose(mean_electrons(camera) * illumination, shape)
+
+
+def another_gain(camera, shape):
+    """A frame that was read with another gain, as by a camera that adjusts it."""
+    return camera.expose(mean_electrons(camera), shape, gain=OTHER_GAIN * camera.gain)
 
 
 REPLACEMENTS = {
@@ -87,6 +97,7 @@ REPLACEMENTS = {
     "dark": lambda camera, shape: camera.expose(0.0, shape),
     "other scene": other_scene,
     "dip": dip,
+    "another gain": another_gain,
 }
 
 

@@ -102,6 +102,7 @@ LINES = (
     unlike("dip", (20, "dip"), expected=MAY_REFUSE, frames=40),
     # Without flicker the dip is all that changes, and looks like the flicker that determines the offset.
     unlike("dip-without-flicker", (20, "dip"), expected=MAY_REFUSE, frames=40, simulator=("--flicker-sd", "0")),
+    unlike("another-gain", (7, "another gain"), (30, "another gain"), (44, "another gain")),
     unlike("four-kinds", (3, "zeros"), (17, "saturated"), (31, "other scene"), (44, "dip")),
 )
 
