@@ -47,10 +47,11 @@ ProjectedVariance::ProjectedVariance(const ReferenceFrame &            frame,
 }
 
 void
-ProjectedVariance::SetIllumination(const std::vector<double> & gamma, double offsetDn)
+ProjectedVariance::SetIllumination(const std::vector<double> & gamma, double offsetDn, bool isShotNoiseKnown)
 {
   m_FrameFreedom = FrameFreedom(m_Basis.GetBasis(), gamma);
   m_OffsetDn = offsetDn;
+  m_IsShotNoiseKnown = isShotNoiseKnown;
   this->CountFreedom();
 }
 

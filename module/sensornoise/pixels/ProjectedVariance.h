@@ -66,9 +66,10 @@ public:
   TakeOffRest(const CodeNoise & noise);
 
   /** Allows for frames of different noise: \a gamma + 1 is the illumination factor of each frame, for which \a offsetDn
-   * is the dark offset. The shot noise of the pixels is that of the provisional model, until Compute(line). */
+   * is the dark offset. The shot noise of the pixels is that of the provisional model, until Compute(line); if it is
+   * not \a isShotNoiseKnown, all of their noise, with the least degrees of freedom that these frames allow. */
   void
-  SetIllumination(const std::vector<double> & gamma, double offsetDn);
+  SetIllumination(const std::vector<double> & gamma, double offsetDn, bool isShotNoiseKnown = true);
 
   /** Computes the variance with another gain [DN/e-], which serves the noise that changes with the light; at first it
    * is 0. */
@@ -161,7 +162,7 @@ private:
   double
   ShotFractionAt(double levelDn) const
   {
-    return m_NoiseLine.gain * (levelDn - m_OffsetDn) / m_NoiseLine.At(levelDn);
+    return m_IsShotNoiseKnown ? m_NoiseLine.gain * (levelDn - m_OffsetDn) / m_NoiseLine.At(levelDn) : 1.0;
   }
 
   const ReferenceFrame &            m_Frame;
@@ -176,6 +177,7 @@ private:
   FrameFreedom                      m_FrameFreedom;
   VarianceLine                      m_NoiseLine; // by which m_Freedom was counted
   double                            m_OffsetDn{ 0.0 };
+  bool                              m_IsShotNoiseKnown{ true };
   std::vector<std::uint8_t>         m_ClassOf;
 };
 

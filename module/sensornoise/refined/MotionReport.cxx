@@ -250,7 +250,7 @@ FillMotion(Report & report, const RefinedResults & found)
 {
   const PolishedSeries & polished = found.polished;
   const FrameWeights     weights = WeighFrames(report.flicker);
-  if (polished.line.isLevelMotion || weights.frames < 2.0)
+  if (polished.line.isLevelMotion || found.IsFlatUnderChange() || weights.frames < 2.0)
   {
     report.vibrationSdX = report.vibrationSdY = Quantity::Without(EstimateStatus::NotIdentifiable);
     report.vibrationCovariance = Quantity::Without(EstimateStatus::NotIdentifiable);

@@ -120,7 +120,8 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   const double              offsetDn = series->offset + scene.model.centreDn;
   std::vector<std::uint8_t> pixelUse = scene.pixelUse;
   std::vector<std::uint8_t> chosen = PixelsOfVariance(scene, settings, pixelUse);
-  projected.SetIllumination(series->line.gamma, offsetDn);
+  // Without levels that identify the offset no line of the pixels says how much of the noise is shot noise.
+  projected.SetIllumination(series->line.gamma, offsetDn, !scene.changesStrongly || series->isOffsetTold);
   const auto fit = [&](double sharedSquares) {
     return FitStaticVariance(
       projected, chosen, pixelUse, scene.model.slopeDn, offsetDn, blackDn, parallelFor, sharedSquares);

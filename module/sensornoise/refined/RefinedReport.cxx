@@ -81,7 +81,7 @@ WarnOfMotion(Report & report, const RefinedResults & found)
   };
   const double vibration = std::max(alongAxis(report.vibrationSdX, found.scene.model.vibrationXPixels2),
                                     alongAxis(report.vibrationSdY, found.scene.model.vibrationYPixels2));
-  if (vibration > InRefined.strongVibration)
+  if (vibration > InRefined.strongVibration && !found.IsFlatUnderChange())
   {
     report.Warn(WarningCode::StrongVibration,
                 "the scene moves by " + Rounded(vibration) +

@@ -8,6 +8,7 @@
 #include "sensornoise/refined/PolishedSeries.h"
 #include "sensornoise/refined/RefinedSettings.h"
 #include "sensornoise/scene/StillScene.h"
+#include "sensornoise/series/Constants.h"
 
 #include <algorithm>
 #include <vector>
@@ -48,6 +49,12 @@ struct RefinedResults
              : levelDn;
   }
 
+  /** Whether the scene has one level, under strong changes of the illumination: its motion is not identifiable. */
+  bool
+  IsFlatUnderChange() const
+  {
+    return scene.changesStrongly && !(series.line.contrast > InSeries.leastContrast);
+  }
   /** Whether the light changes in some places in another way than in others. */
   bool
   HasLocalLight() const

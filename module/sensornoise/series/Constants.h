@@ -33,6 +33,9 @@ struct SeriesConstants
   std::size_t framesForThirdOrder{ 20 };
   ///@}
 
+  /** Standard error of the offset, over the light at the centre of the levels, from which on strong changes of the
+   * illumination do not identify it [1]. As InRefined.largestScaleError. */
+  double largestOffsetError{ 0.25 };
   /** Contrast below which noise is taken for levels, and looks like flicker [1]. Set by hand: natural scenes have 0.99;
    * at 0.5 flats with an offset pattern pass, 0.95 asks 100 frames of a flat field with a shading of 3 %. */
   double leastContrast{ 0.9 };

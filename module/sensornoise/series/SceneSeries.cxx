@@ -18,15 +18,13 @@ namespace sensornoise
 
 namespace
 {
-/** The lower one of an offset and the level of the darkest frame, both minus the centre [DN]: no offset is above a
- * frame.
- */
+/** The level of the darkest frame, minus the centre [DN]: the highest offset that the frames allow. */
 double
-NotAboveDarkestFrame(OffsetLine line, double offset)
+LevelOfDarkestFrame(OffsetLine line, double offset)
 {
   line.UseOffset(offset);
   const double darkest = *std::min_element(line.gamma.begin(), line.gamma.end());
-  return offset + (1.0 + std::min(-1.0, darkest)) * -offset;
+  return -offset * darkest;
 }
 } // namespace
 
@@ -57,23 +55,31 @@ FindSceneSeries(const FrameSums &             sums,
   SceneSeries found;
   found.line = *line;
   const ProvisionalModel & model = sums.GetRegressors().GetModel();
-  const FrameEquations     equations = MakeFrameEquations(sums, noise, GradientClasses - 1);
-  found.isOffsetTold = line->TellsOffset();
+  FrameEquations           equations = MakeFrameEquations(sums, noise, GradientClasses - 1);
+  // Patterns of a flat field's pixels have contrast, too.
+  const bool isPrecise =
+    line->standardError < InSeries.largestOffsetError * std::max(0.0, -line->offset) || !changesStrongly;
+  found.isOffsetTold = line->TellsOffset() && isPrecise;
   const bool   hasLevels = line->contrast > InSeries.leastContrast;
   const double fallbackDn = hasLevels ? model.darkestDn : std::min(blackDn, model.darkestDn);
   found.offset = found.isOffsetTold ? line->offset : knownOffsetDn.value_or(fallbackDn) - model.centreDn;
   if (!found.isOffsetTold && !knownOffsetDn && changesStrongly)
   {
-    found.offset = NotAboveDarkestFrame(found.line, found.offset);
+    found.offset = LevelOfDarkestFrame(found.line, found.offset);
   }
   if (!found.isOffsetTold)
   {
     found.line.UseOffset(found.offset);
   }
+  const bool isFlat = changesStrongly && !hasLevels;
+  if (isFlat)
+  {
+    equations.active.resize(2); // derivatives of one level are noise, and so would be their series
+  }
   found.motion = SolveMotion(equations, found.line.gamma, found.offset);
   const Eigen::MatrixXd motionColumns = MotionColumns(found.motion, found.line.gamma);
   const std::size_t     most =
-    rollingShutter == RollingShutter::Off || (changesStrongly && !hasLevels)
+    rollingShutter == RollingShutter::Off || isFlat
           ? 0
           : std::min<std::size_t>(InSeries.mostLocalSeries, (sums.GetFrame().frames - 1) / InSeries.framesPerLocalSeries);
   found.local = FindLocalIllumination(sums, found.motion, motionColumns, found.line.gamma, found.offset, most);

@@ -36,8 +36,8 @@ NoiseOfModel(const FrameRegressors & regressors);
 /** Finds flicker, local light and motion in the sums of the second pass. The noise is the provisional model's. Throws
  * NothingToMeasure if the pixels have one intensity. \a knownOffsetDn serves where the flicker does not tell the
  * offset; without it the darkest level, or, if the scene has one level only, \a blackDn, which the offset is hardly
- * below. \a changesStrongly: the illumination does; of a scene of one level no model tells the noise of each frame
- * then, without which local light cannot be told from it, and is not looked for. */
+ * below. \a changesStrongly: the illumination does; a scene of one level
+ * then has no model for the noise of each frame, and neither local light nor motion is looked for. */
 SensorNoise_EXPORT SceneSeries
 FindSceneSeries(const FrameSums &             sums,
                 RollingShutter                rollingShutter,
