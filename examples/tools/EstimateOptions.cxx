@@ -75,6 +75,34 @@ AddMachineOptions(CLI::App & app, EstimateOptions & options)
   app.add_option("--threads", options.threads, "number of threads; else all")->check(CLI::Range(1, 1024));
 }
 
+/** What is written, and where. */
+void
+AddOutputOptions(CLI::App & app, EstimateOptions & options)
+{
+  app.add_option("--json", options.json, "file for the report, or - for standard output");
+  app.add_option("--plot",
+                 options.plot,
+                 "file.html: the report as a page to look at, with figures and maps, that needs no other file; "
+                 "file.svg or, where the program was built with librsvg, file.png: variance against mean alone");
+  app.add_flag("--hash",
+               options.hash,
+               "also the SHA-256 of the frames' files in the report, as a page always has it: that of cat FRAME... | "
+               "sha256sum, behind a header the files of its pixels. Reads the files once more");
+  app.add_option(
+    "--maps",
+    options.maps,
+    "folder for mean, variance, corrected variance and pixel use (.mha); from two --dark frames on also the "
+    "pixels' offset and read noise, with the ends of their 95 % intervals");
+  app
+    .add_option(
+      "--compare",
+      options.compare,
+      "two or more stored reports (--json), of exposures, settings, cameras or days: what differs by more than "
+      "its errors, and by how much, in place of a measurement; with --plot as a page or a figure")
+    ->expected(1, std::numeric_limits<int>::max());
+  app.add_flag("--quiet", options.quiet, "no table and no progress");
+}
+
 void
 AddOptions(CLI::App & app, EstimateOptions & options, Texts & texts)
 {
@@ -135,28 +163,7 @@ AddOptions(CLI::App & app, EstimateOptions & options, Texts & texts)
   app.add_option("--mask", options.mask, "image file: only pixels that are not 0");
   app.add_option("--frames", texts.frames, "A:B: only the frames A, A+1, ... B-1, counted from 0");
   AddMachineOptions(app, options);
-  app.add_option("--json", options.json, "file for the report, or - for standard output");
-  app.add_option("--plot",
-                 options.plot,
-                 "file.html: the report as a page to look at, with figures and maps, that needs no other file; "
-                 "file.svg or, where the program was built with librsvg, file.png: variance against mean alone");
-  app.add_flag("--hash",
-               options.hash,
-               "also the SHA-256 of the frames' files in the report, as a page always has it: that of cat FRAME... | "
-               "sha256sum, behind a header the files of its pixels. Reads the files once more");
-  app.add_option(
-    "--maps",
-    options.maps,
-    "folder for mean, variance, corrected variance and pixel use (.mha); from two --dark frames on also the "
-    "pixels' offset and read noise, with the ends of their 95 % intervals");
-  app
-    .add_option(
-      "--compare",
-      options.compare,
-      "two or more stored reports (--json), of exposures, settings, cameras or days: what differs by more than "
-      "its errors, and by how much, in place of a measurement; with --plot as a page or a figure")
-    ->expected(1, std::numeric_limits<int>::max());
-  app.add_flag("--quiet", options.quiet, "no table and no progress");
+  AddOutputOptions(app, options);
   app.set_version_flag("--version", std::string("estimate-sensor-noise ") + GetModuleVersion());
 }
 

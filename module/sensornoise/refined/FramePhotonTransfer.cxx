@@ -158,7 +158,7 @@ ShareOfOthers(const Regression & data, Eigen::MatrixXd weights, const FrameSlope
 struct ValueOfTiles
 {
   TileMean value;
-  double   pivotDn;
+  double   pivotDn{ 0.0 };
 };
 
 ValueOfTiles

@@ -41,7 +41,7 @@ struct FrameComparison
   const ProjectedVariance & projected;
   const StillScene &        scene;
   TileLevels                levels;
-  bool                      isLightLocal; ///< tiles differ in how their light changes
+  bool                      isLightLocal{ false }; ///< tiles differ in how their light changes
 
   /** Whether frames differ in their noise by as much as counts. */
   bool

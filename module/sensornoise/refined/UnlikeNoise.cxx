@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace sensornoise
 {
@@ -23,7 +24,7 @@ constexpr double MedianOfNormal = 0.6745;
 double
 MedianOf(std::vector<double> values)
 {
-  return values.empty() ? Unknown : QuantileOf(values, 0.5);
+  return values.empty() ? Unknown : QuantileOf(std::move(values), 0.5);
 }
 
 /** The squares of every frame over those that \a line makes of the levels, median over the tiles. */
