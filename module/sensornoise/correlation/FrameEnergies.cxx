@@ -3,6 +3,7 @@
 #include "sensornoise/correlation/FrameEnergies.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -21,28 +22,26 @@ FrameEnergies::FrameEnergies(const NoiseResiduals &            residuals,
   Eigen::VectorXd     light = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(count));
   Eigen::VectorXd     pixels = light;
   parallelFor(count, [&](std::size_t i) {
-    const auto               tile = static_cast<Eigen::Index>(i);
-    std::vector<std::size_t> taken;
-    for (std::size_t p = 0; p < tiles.Pixels(); ++p)
+    const auto     tile = static_cast<Eigen::Index>(i);
+    const auto     size = static_cast<Eigen::Index>(tiles.Pixels());
+    Eigen::ArrayXf taken(size); // 1: the pixel is taken
+    for (Eigen::Index p = 0; p < size; ++p)
     {
-      if (residuals.WeightOf(i)[p] > 0.0F && take[residuals.PixelOf(i, p)] != 0)
-      {
-        taken.push_back(p);
-        light(tile) += static_cast<double>(residuals.LightOf(i)[p]);
-      }
+      const auto pixel = static_cast<std::size_t>(p);
+      taken(p) = residuals.WeightOf(i)[pixel] > 0.0F && take[residuals.PixelOf(i, pixel)] != 0 ? 1.0F : 0.0F;
     }
-    pixels(tile) = static_cast<double>(taken.size());
-    for (Eigen::Index t = 0; t < frames && !taken.empty(); ++t)
+    pixels(tile) = static_cast<double>(taken.sum());
+    if (!(pixels(tile) > 0.0))
     {
-      const float * const values = residuals.OfTile(i) + static_cast<std::size_t>(t) * tiles.Pixels();
-      double              sum = 0.0;
-      for (const std::size_t p : taken)
-      {
-        sum += static_cast<double>(values[p]) * static_cast<double>(values[p]);
-      }
-      squares(t, tile) = sum / pixels(tile);
+      return;
     }
-    light(tile) /= taken.empty() ? 1.0 : pixels(tile);
+    using Values = Eigen::Map<const Eigen::ArrayXf>;
+    light(tile) = (Values(residuals.LightOf(i), size) * taken).cast<double>().sum() / pixels(tile);
+    for (Eigen::Index t = 0; t < frames; ++t)
+    {
+      const Values values(residuals.OfTile(i) + t * size, size);
+      squares(t, tile) = (values.square() * taken).cast<double>().sum() / pixels(tile);
+    }
   });
   std::vector<Eigen::Index> filled;
   for (Eigen::Index tile = 0; tile < pixels.size(); ++tile)

@@ -58,10 +58,13 @@ LineOfFrames(const StaticVariance &  variance,
              double                  sharedSquares,
              const ParallelFor &     parallelFor)
 {
+  if (!by.AreUnequal() || by.isLightLocal)
+  {
+    return {};
+  }
   const std::vector<std::uint8_t> used = MaskOfUsed(variance.pixelUse);
   const auto                      count = static_cast<double>(std::count(used.begin(), used.end(), std::uint8_t{ 1 }));
-  const bool                      isEnough = count > InRefined.leastUsedShare * static_cast<double>(by.scene.valid);
-  if (!by.AreUnequal() || by.isLightLocal || !isEnough)
+  if (!(count > InRefined.leastUsedShare * static_cast<double>(by.scene.valid)))
   {
     return {};
   }
