@@ -28,12 +28,25 @@ class Entry(TypedDict):
 # Columns of a report that are no quantities.
 _COUNTS = ("frames", "frames_distinct", "width", "height")
 _TEXTS = ("name", "channel", "status", "reason", "method", "warnings")
-_UNITS = {"DN/e-": "DN_per_e", "DN": "DN", "e-": "e", "DN^2": "DN2", "pixel": "pixel", "pixel^2": "pixel2", "1": ""}
+_UNITS = {
+    "DN/e-": "DN_per_e",
+    "DN": "DN",
+    "e-": "e",
+    "DN^2": "DN2",
+    "pixel": "pixel",
+    "pixel^2": "pixel2",
+    "%": "percent",
+    "DN/unit": "DN_per_exposure",
+    "1": "",
+}
 
 
 def column(path: str, unit: str, part: str = "") -> str:
-    """The name of a column, "vibration_sd_x_error_pixel" for example: a quantity's path, "error", and the unit."""
-    return "_".join(filter(None, (path.replace(".", "_"), part, _UNITS[unit])))
+    """The name of a column, "vibration_sd_x_error_pixel" for example: a quantity's path, without the unit in which it
+    may end, "error", and the unit."""
+    name = _UNITS[unit]
+    stem = path.replace(".", "_").removesuffix(f"_{name.lower()}")
+    return "_".join(filter(None, (stem, part, name)))
 
 
 def columns() -> dict[str, type]:
