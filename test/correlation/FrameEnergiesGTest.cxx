@@ -98,11 +98,11 @@ TEST(SensorNoiseFrameEnergies, AreTheMeanSquaresOfTheTakenPixelsOfEachTile)
         }
       }
     }
-    if (pixels > 0.0) // the squares are of single precision
+    if (pixels > 0.0)
     {
       EXPECT_EQ(energies.Pixels()(row), pixels);
       EXPECT_NEAR(energies.LightDn()(row), 10.0, 1e-9);
-      EXPECT_TRUE(energies.SquaresDn2().row(row).transpose().isApprox(sums / pixels, 1e-6)) << i;
+      EXPECT_TRUE(energies.SquaresDn2().row(row).transpose().isApprox(sums / pixels, 1e-12)) << i;
       ++row;
     }
   }

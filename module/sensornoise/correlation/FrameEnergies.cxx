@@ -40,7 +40,7 @@ FrameEnergies::FrameEnergies(const NoiseResiduals &            residuals,
     for (Eigen::Index t = 0; t < frames; ++t)
     {
       const Values values(residuals.OfTile(i) + t * size, size);
-      squares(t, tile) = (values.square() * taken).cast<double>().sum() / pixels(tile);
+      squares(t, tile) = (values.cast<double>().square() * taken.cast<double>()).sum() / pixels(tile);
     }
   });
   std::vector<Eigen::Index> filled;
