@@ -87,21 +87,6 @@ FitAllPixels(const VarianceData & data, const VarianceLine & start, double black
   return fit;
 }
 
-std::vector<std::uint8_t>
-MaskOfFlatClasses(const ProjectedVariance &         projected,
-                  const std::vector<std::uint8_t> & usable,
-                  const ParallelFor &               parallelFor)
-{
-  const auto                last = static_cast<std::uint8_t>(InPixels.flatShare * ProjectedVariance::Classes);
-  std::vector<std::uint8_t> mask(usable.size());
-  ForPixels(mask.size(),
-            parallelFor,
-            [=, usable = usable.data(), classOf = projected.GetClasses().data(), own = mask.data()](std::size_t p) {
-              own[p] = usable[p] != 0 && classOf[p] <= last ? 1 : 0;
-            });
-  return mask;
-}
-
 /** Files classes, mask and use of the pixels as \a line tells; returns the number of pixels that do not fit. */
 std::size_t
 SelectPixels(const ProjectedVariance &         projected,
@@ -143,6 +128,21 @@ CorrectForNoisyMeans(VarianceLine & line, double offsetDn, std::size_t frames)
   line.intercept += bias * line.pivotDn;
 }
 } // namespace
+
+std::vector<std::uint8_t>
+MaskOfFlatClasses(const ProjectedVariance &         projected,
+                  const std::vector<std::uint8_t> & usable,
+                  const ParallelFor &               parallelFor)
+{
+  const auto                last = static_cast<std::uint8_t>(InPixels.flatShare * ProjectedVariance::Classes);
+  std::vector<std::uint8_t> mask(usable.size());
+  ForPixels(mask.size(),
+            parallelFor,
+            [=, usable = usable.data(), classOf = projected.GetClasses().data(), own = mask.data()](std::size_t p) {
+              own[p] = usable[p] != 0 && classOf[p] <= last ? 1 : 0;
+            });
+  return mask;
+}
 
 StaticVariance
 FitStaticVariance(ProjectedVariance &               projected,

@@ -4,7 +4,6 @@
 
 #include "sensornoise/correlation/FrameEnergies.h"
 #include "sensornoise/correlation/NoiseResiduals.h"
-#include "sensornoise/pixels/Constants.h"
 #include "sensornoise/refined/Constants.h"
 #include "sensornoise/refined/FramePhotonTransfer.h"
 #include "sensornoise/refined/PixelsOfVariance.h"
@@ -21,19 +20,6 @@ namespace sensornoise
 
 namespace
 {
-/** The used pixels of the flatter classes, in which motion that the series leave makes next to no residuals. */
-std::vector<std::uint8_t>
-FlatPixels(const ProjectedVariance & projected, const std::vector<std::uint8_t> & used)
-{
-  const auto                last = static_cast<std::uint8_t>(InPixels.flatShare * ProjectedVariance::Classes);
-  std::vector<std::uint8_t> flat(used.size());
-  for (std::size_t p = 0; p < flat.size(); ++p)
-  {
-    flat[p] = used[p] != 0 && projected.ClassOf(p) <= last ? 1 : 0;
-  }
-  return flat;
-}
-
 /** What the frames of the sample are compared by. */
 struct FrameComparison
 {
@@ -102,7 +88,8 @@ CompareFrames(const StaticVariance &  variance,
   {
     return {}; // what is left of the motion of a frame is not its noise
   }
-  const FrameEnergies flat(by.residuals, FlatPixels(by.projected, MaskOfUsed(variance.pixelUse)), parallelFor);
+  const std::vector<std::uint8_t> used = MaskOfUsed(variance.pixelUse);
+  const FrameEnergies             flat(by.residuals, MaskOfFlatClasses(by.projected, used, parallelFor), parallelFor);
   const auto [line, error] = BetterLine(variance);
   return JudgeFrameNoise(NoiseOfFrames(flat, by.levels, line, error),
                          std::sqrt(2.0 * sharedSquares / std::max(1.0, flat.Pixels().sum())),
