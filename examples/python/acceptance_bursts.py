@@ -137,21 +137,27 @@ def truth_of(record):
     return {"gain": record["gain"], "offset": record["offset"], "read_noise": record["realised_read_noise"]}
 
 
+def estimate(programs, name, stack, options):
+    """Runs the estimator on a stack: its report, and how the program ended.
+
+    name: of the line, for errors."""
+    done = run([programs.estimator, stack, "--json", "-", "--quiet", "--threads", 1, *options], allowed=None)
+    try:
+        return json.loads(done.output), done
+    except json.JSONDecodeError:
+        # Nothing could be estimated, without a report; or the program ended by a signal.
+        if done.code not in (2, 3):
+            raise ProgramError(f"{name}: {programs.estimator} ended with exit code {done.code}") from None
+        return {"warnings": []}, done
+
+
 def measure(programs, line, scene, bits, number):
     """Makes a burst, estimates it, and judges the report."""
     seed = stream_of(f"{line.name} {scene} {bits}", number)
     with tempfile.TemporaryDirectory(prefix="acceptance-") as folder:
         name, record, bound, emva = simulate(programs, line, scene, bits, seed, Path(folder))
-        command = [programs.estimator, name, "--json", "-", "--quiet", "--threads", 1, *line.estimator]
-        done = run(command, allowed=None)
+        report, done = estimate(programs, line.name, name, line.estimator)
     expected = expected_of(line, scene)
-    try:
-        report = json.loads(done.output)
-    except json.JSONDecodeError:
-        # Nothing could be estimated, without a report; or the program ended by a signal.
-        report = {"warnings": []}
-        if done.code not in (2, 3):
-            raise ProgramError(f"{line.name}: {programs.estimator} ended with exit code {done.code}") from None
     truth = truth_of(record)
     found = {quantity: report.get(quantity, {}) for quantity in COMPARED_QUANTITIES}
     loud = [warning["code"] for warning in report["warnings"] if warning["severity"] != "note"]

@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 import acceptance_bursts
 import acceptance_studies
+import situations_all
 from acceptance_lines import LINES, simulator_options, variants
 from acceptance_programs import hash_of
 
@@ -24,6 +25,7 @@ class Plan(NamedTuple):
 
     burst_seeds: int  # times 3 scenes and 2 converters, as the next
     exposure_seeds: int  # of exposures/*
+    situation_seeds: int  # of each scene of a situation
     efficiency_seeds: int
     efficiency_size: int  # width and height [pixels]
     robustness_seeds: int  # times 2 scenes
@@ -33,9 +35,9 @@ class Plan(NamedTuple):
 
 
 # So many that two cores stay below 5 minutes: sensors of 128 pixels took 302 s.
-QUICK = Plan(3, 1, 6, 256, 4, 128, 2, 96)
+QUICK = Plan(3, 1, 1, 6, 256, 4, 128, 2, 96)
 # At least 100 stacks a line.
-FULL = Plan(20, 20, 100, 512, 50, 256, 20, 256)
+FULL = Plan(20, 20, 40, 100, 512, 50, 256, 20, 256)
 
 
 class Job(NamedTuple):
@@ -68,6 +70,14 @@ def burst_jobs(programs, plan):
             for seed in range(1, (plan.exposure_seeds if line.frames_per_level else plan.burst_seeds) + 1):
                 measure = partial(acceptance_bursts.measure, programs, line, scene, bits, seed)
                 yield Job(line.name, f"{scene}, {bits} bits", seed, recipe, program, measure)
+
+
+def situation_jobs(programs, plan):
+    """The jobs of the bursts that NumPy makes. What makes them is part of the recipe."""
+    program, recipe = hash_of(programs.estimator), situations_all.recipe()
+    for situation, scene, seed in situations_all.bursts(plan.situation_seeds):
+        measure = partial(situations_all.measure, programs, situation, scene, seed)
+        yield Job(situation.name, scene, seed, recipe, program, measure)
 
 
 def study_jobs(programs, plan):

@@ -7,7 +7,8 @@
     measure_acceptance.py --compare before.jsonl after.jsonl
 
 A line is a kind of burst: those of acceptance_lines.py, which simulate-sensor-noise makes, the experiments of
-measure-efficiency, the cases of measure-robustness and the lines of measure-real-sensors. Of each line:
+measure-efficiency, the cases of measure-robustness, the lines of measure-real-sensors, and the bursts that NumPy makes
+(situations.py). Of each line:
 
     error %    mean error of the gain without its sign; more than 100 % counts as 100 %
     /bound     rms error of the gain over its Cramér-Rao bound, where that is known
@@ -37,7 +38,17 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from fnmatch import fnmatchcase
 from pathlib import Path
 
-from acceptance_jobs import FULL, QUICK, append_result, burst_jobs, missing_jobs, read_results, stacks_of, study_jobs
+from acceptance_jobs import (
+    FULL,
+    QUICK,
+    append_result,
+    burst_jobs,
+    missing_jobs,
+    read_results,
+    situation_jobs,
+    stacks_of,
+    study_jobs,
+)
 from acceptance_programs import ProgramError, Programs
 from acceptance_tables import print_comparison, print_summary
 
@@ -106,7 +117,7 @@ def measure(options):
             print(f"error: {program} does not exist: build it, or give its folder by --bin", file=sys.stderr)
             return 2
     plan = plan_of(options)
-    jobs = [*study_jobs(programs, plan), *burst_jobs(programs, plan)]
+    jobs = [*study_jobs(programs, plan), *burst_jobs(programs, plan), *situation_jobs(programs, plan)]
     jobs = [job for job in jobs if is_chosen(job.line, options.lines)]
     errors = run_jobs(missing_jobs(jobs, read_results(options.results)), options.results, options.jobs)
     print_summary(stacks_of(read_results(options.results), jobs))

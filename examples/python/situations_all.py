@@ -1,0 +1,76 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Measures the situations of all situations_*.py: one stack each, as the other lines of measure_acceptance.py."""
+
+import hashlib
+import tempfile
+from pathlib import Path
+
+import numpy as np
+import situations
+from acceptance_bursts import COMPARED_QUANTITIES, estimate
+from acceptance_lines import stream_of
+from acceptance_stacks import judge
+
+MODULES = (situations,)
+TYPES = {
+    "uint8": "MET_UCHAR",
+    "uint16": "MET_USHORT",
+    "int16": "MET_SHORT",
+    "float32": "MET_FLOAT",
+    "float64": "MET_DOUBLE",
+}  # of MetaImage, by NumPy's name
+
+
+def all_situations():
+    return [situation for module in MODULES for situation in module.SITUATIONS]
+
+
+def write_stack(name, frames):
+    """Writes frames (t, y, x) of a type of TYPES as an uncompressed MetaImage."""
+    size = " ".join(map(str, frames.shape[::-1]))
+    words = f"ObjectType = Image\nNDims = 3\nDimSize = {size}\nElementType = {TYPES[frames.dtype.name]}\n"
+    words += "BinaryData = True\nBinaryDataByteOrderMSB = False\nElementDataFile = LOCAL\n"
+    Path(name).write_bytes(
+        words.encode() + np.ascontiguousarray(frames.astype(frames.dtype.newbyteorder("<"))).tobytes()
+    )
+
+
+def make(situation, scene, number):
+    """Makes the burst of a situation: stack `number` of this scene."""
+    random = np.random.default_rng(stream_of(f"{situation.name} {scene}", number))
+    return situation.make(random, situations.electrons_of(scene, random) if scene else None)
+
+
+def measure(programs, situation, scene, number):
+    """Makes a burst, estimates it, and judges the report."""
+    burst = make(situation, scene, number)
+    with tempfile.TemporaryDirectory(prefix="situation-") as folder:
+        stack, dark = Path(folder, "burst.mha"), Path(folder, "dark.mha")
+        write_stack(stack, burst.frames)
+        options = list(burst.options)
+        if burst.dark is not None:
+            write_stack(dark, burst.dark)
+            options += ["--dark", dark]
+        report, done = estimate(programs, situation.name, stack, options)
+    truth = {name: getattr(burst, name) for name in COMPARED_QUANTITIES if getattr(burst, name) is not None}
+    found = {name: report.get(name, {}) for name in COMPARED_QUANTITIES}
+    loud = [warning["code"] for warning in report["warnings"] if warning["severity"] != "note"]
+    stack = judge(found, truth, burst.signal_range, loud, situation.expected)
+    return [stack | {"setting": "", "exit": done.code, "seconds": done.seconds, "bound": None, "emva_error": None}]
+
+
+def bursts(seeds):
+    """All situations with their scenes and seeds, from 1."""
+    return [
+        (situation, scene, seed)
+        for situation in all_situations()
+        for scene in situation.scenes or ("",)
+        for seed in range(1, seeds + 1)
+    ]
+
+
+def recipe():
+    """What determines the bursts beside situation, scene and seed: the source of the modules that make them."""
+    sources = b"".join(Path(module.__file__).read_bytes() for module in MODULES)
+    return f"situations {hashlib.sha256(sources).hexdigest()[:12]}"
