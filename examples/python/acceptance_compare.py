@@ -22,6 +22,8 @@ SMALLEST_FRACTION = 0.05  # of the stacks: 1 in 20 has to change, the fraction t
 SMALLEST_ERROR = 0.05  # of the old mean error [1]: a tenth of the frames makes as much (1 / sqrt(1.1) = 0.953)
 NOMINAL_COVERAGE = 0.95  # of the report's intervals [1]
 ALL_LINES = ", all lines"
+HELD = ("gain", "offset", "read_noise", "linearity_error")  # quantities whose intervals are counted
+LEAST_NAMED = 0.95  # demanded fraction of the frames unlike the others that are named [1]
 # Probability below which it is a fault that so few intervals hold the truth, or that errors are so much above EMVA's.
 IMPROBABLE = 0.001
 
@@ -58,6 +60,11 @@ def held(stacks, name):
     return sum(found), len(found)
 
 
+def named(stacks):
+    """How many of the frames unlike the others are named, and how many there are."""
+    return tuple(sum(stack.get(name, 0) for stack in stacks) for name in ("named", "unlike"))
+
+
 def size_of(stack):
     return None if stack["error"] is None else min(abs(stack["error"]), LARGEST_ERROR)
 
@@ -83,7 +90,9 @@ def summarise(stacks):
         "error": statistics.fmean(errors) if errors else None,
         "over_bound": math.sqrt(statistics.fmean(ratio**2 for ratio in ratios)) if ratios else None,
         "over_emva": rms_over_emva(errors_beside_emva(stacks)),
-        "held": {name: held(stacks, name) for name in ("gain", "offset", "read_noise")},
+        "held": {name: held(stacks, name) for name in HELD},
+        "named": named(stacks),
+        "named_falsely": sum(stack.get("named_falsely", 0) > 0 for stack in stacks),
         "refused": sum(stack["refused"] for stack in stacks),
         "wrong": sum(bool(stack["wrong"]) for stack in stacks),
         "silent": sum(stack["silent"] for stack in stacks),
@@ -104,6 +113,11 @@ def faults_of(row, stacks):
     for name, (met, count) in row["held"].items():
         if count and lower_tail(met, count, NOMINAL_COVERAGE) < IMPROBABLE:
             faults.append(f"coverage of {name}")
+    met, count = row["named"]
+    if met < LEAST_NAMED * count:
+        faults.append("frames not named")
+    if row["named_falsely"]:
+        faults.append(f"named falsely {row['named_falsely']}")
     return faults
 
 

@@ -13,7 +13,9 @@ from acceptance_lines import MUST_REFUSE
 WRONG_ERRORS = 4.0  # [standard errors]
 # The gain is demanded within 1 % or 3 standard errors. The offset is held against the signal range, as strictly as the
 # gain. The size for the read noise was chosen empirically: a variance off by 20 %.
-WRONG_SIZE = {"gain": 0.01, "offset": 0.01, "read_noise": 0.1}  # of gain, of signal range, of read noise [1]
+WRONG_SIZE = {"gain": 0.01, "offset": 0.01, "read_noise": 0.1, "linearity_error": 0.001}
+# What these sizes are relative to, where it is not the true value itself. A linearity error is in per cent.
+SIZE_OF_LINEARITY = 100.0
 
 
 def is_identified(quantity):
@@ -37,7 +39,7 @@ def judge(found, truth, signal_range, loud, expected):
     found: the quantities of the report by name; truth: their true values; signal_range: brightest signal less the
     offset [DN]; loud: the codes of the warnings of severity warning and error."""
     covered, wrong = {}, []
-    sizes = {"offset": signal_range}
+    sizes = {"offset": signal_range, "linearity_error": SIZE_OF_LINEARITY}
     for name, value in truth.items():
         quantity = found[name]
         if not is_identified(quantity):
@@ -58,6 +60,13 @@ def judge(found, truth, signal_range, loud, expected):
     else:
         stack |= {"error": None, "z": None}
     return file_wrong(stack, wrong, loud, expected)
+
+
+def judge_frames(reported, truth):
+    """Compares the frames that a report leaves out with those that are unlike the others: how many of them are named,
+    how many there are, and how many others are named."""
+    reported, truth = set(reported), set(truth)
+    return {"named": len(reported & truth), "unlike": len(truth), "named_falsely": len(reported - truth)}
 
 
 def file_wrong(stack, wrong, loud, expected):

@@ -25,6 +25,8 @@ def summary_row(name, row):
         cell(row["over_bound"], ".3g", 9),
         cell(row["over_emva"], ".3g", 9),
         *(fraction(row["held"][quantity], 11) for quantity in ("gain", "offset", "read_noise")),
+        fraction(row["held"]["linearity_error"], 10),
+        fraction(row["named"], 8),
         f"{row['refused']:8}{row['wrong']:6}{row['silent']:7}{row['seconds']:7.2f}  ",
     ]
     return "".join(columns) + ", ".join(row["faults"])
@@ -34,7 +36,7 @@ def print_summary(stacks):
     """One row a line, and one for all lines of a kind."""
     print(
         f"{'line':<32}{'stacks':>6}{'error %':>9}{'/bound':>9}{'/EMVA':>9}{'gain held':>11}{'offset':>11}"
-        f"{'read noise':>11}{'refused':>8}{'wrong':>6}{'silent':>7}{'s':>7}  faults"
+        f"{'read noise':>11}{'linearity':>10}{'named':>8}{'refused':>8}{'wrong':>6}{'silent':>7}{'s':>7}  faults"
     )
     lines = by_line(stacks)
     for name, line in lines.items():

@@ -13,7 +13,9 @@ measure-efficiency, the cases of measure-robustness, the lines of measure-real-s
     error %    mean error of the gain without its sign; more than 100 % counts as 100 %
     /bound     rms error of the gain over its Cramér-Rao bound, where that is known
     /EMVA      rms error of the gain over that of EMVA 1288's photon transfer of the same frames: exposures/*
-    held       95 % intervals that hold the truth, of the identified quantities: gain, offset, read noise
+    held       95 % intervals that hold the truth, of the identified quantities: gain, offset, read noise, and the
+               linearity error
+    named      frames unlike the others that the report leaves out, of those that there are
     refused    stacks whose gain is not identified
     wrong      stacks with an identified quantity that is off by more than 4 standard errors and a smallest size
     silent     wrong stacks whose report has no warning of the severity warning or error

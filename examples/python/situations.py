@@ -28,6 +28,8 @@ class Burst(NamedTuple):
     gain: float | None = GAIN  # [DN/e-]
     offset: float | None = None  # [DN]
     read_noise: float | None = None  # without quantization noise [DN]
+    linearity_error: float | None = None  # by the exposures that options give [%]
+    unlike_frames: tuple[int, ...] | None = None  # frames to be left out; None: not compared
     signal_range: float = GAIN * ELECTRONS  # brightest signal less the offset [DN]
     dark: np.ndarray | None = None  # dark frames (t, y, x)
     options: tuple[str, ...] = ()  # further options of estimate-sensor-noise
@@ -104,7 +106,7 @@ def digitise(frames, bits=12, dtype=np.uint16):
 def plain(random, electrons, bits=12):
     """A burst of a good camera, the one that all situations vary."""
     frames = expose(random, electrons, illumination(random, FRAMES), offset=OFFSET[bits])
-    return Burst(digitise(frames, bits), offset=OFFSET[bits], read_noise=READ_NOISE)
+    return Burst(digitise(frames, bits), offset=OFFSET[bits], read_noise=READ_NOISE, unlike_frames=())
 
 
 SITUATIONS = tuple(

@@ -8,11 +8,19 @@ from pathlib import Path
 
 import numpy as np
 import situations
-from acceptance_bursts import COMPARED_QUANTITIES, estimate
+import situations_frames
+from acceptance_bursts import estimate
 from acceptance_lines import stream_of
-from acceptance_stacks import judge
+from acceptance_stacks import judge, judge_frames
 
-MODULES = (situations,)
+MODULES = (situations, situations_frames)
+# The compared quantities: member of Burst, and path in the report.
+COMPARED = {
+    "gain": ("gain",),
+    "offset": ("offset",),
+    "read_noise": ("read_noise",),
+    "linearity_error": ("linearity", "linearity_error_percent"),
+}
 TYPES = {
     "uint8": "MET_UCHAR",
     "uint16": "MET_USHORT",
@@ -24,6 +32,13 @@ TYPES = {
 
 def all_situations():
     return [situation for module in MODULES for situation in module.SITUATIONS]
+
+
+def quantity_at(report, path):
+    """The quantity at a path of a report; empty where the report does not have it."""
+    for name in path:
+        report = report.get(name) or {}
+    return report
 
 
 def write_stack(name, frames):
@@ -53,10 +68,12 @@ def measure(programs, situation, scene, number):
             write_stack(dark, burst.dark)
             options += ["--dark", dark]
         report, done = estimate(programs, situation.name, stack, options)
-    truth = {name: getattr(burst, name) for name in COMPARED_QUANTITIES if getattr(burst, name) is not None}
-    found = {name: report.get(name, {}) for name in COMPARED_QUANTITIES}
+    truth = {name: getattr(burst, name) for name in COMPARED if getattr(burst, name) is not None}
+    found = {name: quantity_at(report, path) for name, path in COMPARED.items()}
     loud = [warning["code"] for warning in report["warnings"] if warning["severity"] != "note"]
     stack = judge(found, truth, burst.signal_range, loud, situation.expected)
+    if burst.unlike_frames is not None:
+        stack |= judge_frames((left["frame"] for left in report.get("frames_left_out", ())), burst.unlike_frames)
     return [stack | {"setting": "", "exit": done.code, "seconds": done.seconds, "bound": None, "emva_error": None}]
 
 
