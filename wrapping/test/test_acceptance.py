@@ -274,7 +274,7 @@ def test_one_line_is_measured_once(tmp_path):
     assert again.stdout == first.stdout and "0 jobs" in again.stderr
     steady, series, dark = (line.split() for line in first.stdout.splitlines()[1:4])
     assert steady[:2] == ["illumination/steady", "6"] and dark[:2] == ["unlike/dark-first", "6"]
-    assert float(steady[2]) < 1 and steady[9] == "0"  # error in %, wrong
+    assert float(steady[2]) < 1 and steady[11] == "0"  # error in %, wrong
     assert series[:2] == ["exposures/5x2", "6"] and steady[4] == "-" and float(series[4]) < 10  # ratio to EMVA's errors
     done = subprocess.run([*script, "--compare", str(name), str(name)], capture_output=True, text=True, check=False)
     assert done.returncode == 0 and done.stdout.endswith("0 better, 6 same, 0 worse\n")
