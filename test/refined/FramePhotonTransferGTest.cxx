@@ -92,7 +92,7 @@ TEST(SensorNoiseFramePhotonTransfer, OfExactSquaresIsTheirLineWhateverItStartsFr
   const FrameEnergies energies = Energies(Gamma(), Exactly);
   for (const VarianceLine & start : { LineOf(0.5, -41.0), LineOf(-3.0, 500.0), LineOf(40.0, -1e4), LineOf(0.0, 1.0) })
   {
-    const VarianceLine line = FitFramePhotonTransfer(energies, { Gamma(), OffsetDn, ZeroDn }, start, 1.0);
+    const VarianceLine line = FitFramePhotonTransfer(energies, { Gamma(), OffsetDn, ZeroDn }, start).line;
     ASSERT_TRUE(line.isDetermined) << start.gain;
     EXPECT_NEAR(line.gain, Gain, 1e-9) << start.gain;
     EXPECT_NEAR(line.intercept, InterceptDn2, 1e-6) << start.gain;
@@ -109,7 +109,7 @@ TEST(SensorNoiseFramePhotonTransfer, DoesNotDependOnTheOffsetThatIsTakenForThatO
   {
     own *= (level - OffsetDn) / level; // about an offset of 0
   }
-  const VarianceLine line = FitFramePhotonTransfer(energies, { gamma, 0.0, ZeroDn }, LineOf(1.0, 0.0), 1.0);
+  const VarianceLine line = FitFramePhotonTransfer(energies, { gamma, 0.0, ZeroDn }, LineOf(1.0, 0.0)).line;
   EXPECT_NEAR(line.gain, Gain, 1e-3 * Gain);
 }
 
@@ -123,7 +123,7 @@ TEST(SensorNoiseFramePhotonTransfer, IsNotMovedByWhatTilesDifferBy)
     squares.row(i) += 20.0 * static_cast<double>(i) * plain.LeftShare().transpose();
   }
   const FrameEnergies uneven(squares, plain.LightDn(), plain.Pixels(), BasisOf(Gamma()));
-  const VarianceLine  line = FitFramePhotonTransfer(uneven, { Gamma(), OffsetDn, ZeroDn }, LineOf(1.0, 0.0), 1.0);
+  const VarianceLine  line = FitFramePhotonTransfer(uneven, { Gamma(), OffsetDn, ZeroDn }, LineOf(1.0, 0.0)).line;
   EXPECT_NEAR(line.gain, Gain, 1e-9);
 }
 
@@ -131,9 +131,9 @@ TEST(SensorNoiseFramePhotonTransfer, IsNotDeterminedByFramesOfOneLevelOrTooFewTi
 {
   const std::vector<double> steady(static_cast<std::size_t>(Frames), 0.0);
   const FrameEnergies       alike = Energies(steady, Exactly);
-  EXPECT_FALSE(FitFramePhotonTransfer(alike, { steady, OffsetDn, ZeroDn }, LineOf(0.5, -41.0), 1.0).isDetermined);
+  EXPECT_FALSE(FitFramePhotonTransfer(alike, { steady, OffsetDn, ZeroDn }, LineOf(0.5, -41.0)).line.isDetermined);
   EXPECT_FALSE(
-    FitFramePhotonTransfer(FrameEnergies(), { Gamma(), OffsetDn, ZeroDn }, LineOf(0.5, -41.0), 1.0).isDetermined);
+    FitFramePhotonTransfer(FrameEnergies(), { Gamma(), OffsetDn, ZeroDn }, LineOf(0.5, -41.0)).line.isDetermined);
 }
 
 TEST(SensorNoiseFramePhotonTransfer, IsNotDeterminedByAFifthOfTheFrames)
@@ -144,7 +144,7 @@ TEST(SensorNoiseFramePhotonTransfer, IsNotDeterminedByAFifthOfTheFrames)
     std::vector<double> gamma(static_cast<std::size_t>(Frames), 0.0);
     std::fill_n(gamma.begin(), lit, 1.0);
     const VarianceLine line =
-      FitFramePhotonTransfer(Energies(gamma, Exactly), { gamma, OffsetDn, ZeroDn }, LineOf(1.0, 0.0), 1.0);
+      FitFramePhotonTransfer(Energies(gamma, Exactly), { gamma, OffsetDn, ZeroDn }, LineOf(1.0, 0.0)).line;
     EXPECT_EQ(line.isDetermined, lit == 8) << lit;
   }
 }
@@ -160,13 +160,42 @@ TEST(SensorNoiseFramePhotonTransfer, ErrorsAreThoseOfItsScatter)
     // Means of PixelsOfTile squares scatter by sqrt(2 / PixelsOfTile).
     const auto energies = Energies(
       Gamma(), [&](Eigen::Index, Eigen::Index) { return 1.0 + std::sqrt(2.0 / PixelsOfTile) * random.Normal(); });
-    const auto line = FitFramePhotonTransfer(energies, { Gamma(), OffsetDn, ZeroDn }, LineOf(1.0, 0.0), 1.0);
+    const auto line = FitFramePhotonTransfer(energies, { Gamma(), OffsetDn, ZeroDn }, LineOf(1.0, 0.0)).line;
     ASSERT_TRUE(line.isDetermined);
     squares += (line.gain - Gain) * (line.gain - Gain);
     expected += line.covariance(0, 0);
   }
   // The ratio of 300 squares to their variance scatters by 8 %; few tiles widen it by 7 %, chi-square by some.
   EXPECT_NEAR(squares / expected, 0.9, 0.3);
+}
+
+TEST(SensorNoiseFramePhotonTransfer, HasTheDeviationsOfTheFramesInTheOrderOfTheirLevels)
+{
+  // Exact squares deviate by nothing; a frame of 20 % more noise by 20 % of it, less what it moves its own line by.
+  const std::vector<double> gamma = Gamma();
+  constexpr Eigen::Index    noisy = 7;
+  const auto                fit = [&](double factor) {
+    const auto energies = Energies(gamma, [&](Eigen::Index, Eigen::Index t) { return t == noisy ? factor : 1.0; });
+    return FitFramePhotonTransfer(energies, { gamma, OffsetDn, ZeroDn }, LineOf(1.0, 0.0));
+  };
+  const VarianceCurve exact = fit(1.0);
+  ASSERT_EQ(exact.bins.size(), gamma.size());
+  std::vector<double> levels;
+  for (const CurveBin & bin : exact.bins)
+  {
+    levels.push_back(exact.LevelOf(bin));
+    EXPECT_NEAR(bin.excess / bin.weight, 0.0, 1e-6 * exact.line.At(levels.back()));
+  }
+  EXPECT_TRUE(std::is_sorted(levels.begin(), levels.end()));
+  EXPECT_GT(levels.back(), 1.5 * levels.front());
+  const VarianceCurve curve = fit(1.2);
+  const auto          place = static_cast<std::size_t>(
+    std::count_if(gamma.begin(), gamma.end(), [&](double other) { return other < gamma[noisy]; }));
+  for (std::size_t b = 0; b < curve.bins.size(); ++b)
+  {
+    const double relative = curve.bins[b].excess / curve.bins[b].weight / curve.line.At(curve.LevelOf(curve.bins[b]));
+    EXPECT_NEAR(relative, b == place ? 0.18 : 0.0, 0.04) << b;
+  }
 }
 
 TEST(SensorNoiseFrameNoise, IsOneForAllFramesAndNamesTheOthers)

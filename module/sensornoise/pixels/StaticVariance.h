@@ -31,10 +31,10 @@ struct StaticVariance
   VarianceLine fromLight;
   /** Of the smoother half of the pixels, not corrected. */
   VarianceLine fromFlat;
-  /** The line by frames of unequal illumination, see FitFramePhotonTransfer(); not determined where they are about
-   * equal. */
-  VarianceLine fromFrames;
-  ClassFit     classes;
+  /** The line by frames of unequal illumination, and how they deviate from it, see FitFramePhotonTransfer(); not
+   * determined where they are about equal. */
+  VarianceCurve fromFrames;
+  ClassFit      classes;
   /** About the line, or that of light alone. */
   VarianceCurve curve;
   /** What rounding to companded codes adds; where it is not zero, it has been taken off all of the above. */

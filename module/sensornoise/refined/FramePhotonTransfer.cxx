@@ -173,36 +173,39 @@ ValueAtZero(const Regression & data, const Eigen::MatrixXd & weights, double gai
   return found;
 }
 
-/** Reduced chi-square of the frames, over all tiles, about the line. */
-double
-Chi2OfFrames(const Regression & data, const Eigen::MatrixXd & weights, double gain)
+/** The deviations of the frames from the line, one bin a frame, in the order of their mean levels. Each tile has a
+ * constant of its own, as in the slope. */
+VarianceCurve
+CurveOfFrames(const Regression &      data,
+              const Eigen::MatrixXd & weights,
+              const FrameEnergies &   energies,
+              const TileLevels &      levels,
+              const VarianceLine &    line)
 {
-  Eigen::VectorXd sums = Eigen::VectorXd::Zero(weights.cols());
-  Eigen::VectorXd squares = Eigen::VectorXd::Zero(weights.cols());
+  VarianceCurve curve{ line, std::vector<CurveBin>(static_cast<std::size_t>(weights.cols())) };
   for (Eigen::Index i = 0; i < weights.rows(); ++i)
   {
-    const Eigen::VectorXd w = weights.row(i).transpose();
-    const Eigen::VectorXd weighed = w.cwiseProduct(data.ofConstant);
+    const Eigen::VectorXd weighed = weights.row(i).transpose().cwiseProduct(data.ofConstant);
     const double          constant = weighed.dot(data.ofConstant);
-    const Eigen::VectorXd beyond = (data.squares.row(i) - gain * data.ofLevel.row(i)).transpose();
+    const Eigen::VectorXd beyond = (data.squares.row(i) - line.gain * data.ofLevel.row(i)).transpose();
     const double          own = constant > 0.0 ? weighed.dot(beyond) / constant : 0.0;
-    // In units of each frame's expected square.
-    const Eigen::VectorXd root = w.cwiseSqrt();
-    const double          pixels = std::sqrt(data.pixels(i));
-    sums += pixels * root.cwiseProduct(beyond - own * data.ofConstant);
-    squares += data.pixels(i) * (w.array() > 0.0).cast<double>().matrix();
-  }
-  double       chi2 = 0.0;
-  Eigen::Index frames = 0;
-  for (Eigen::Index t = 0; t < sums.size(); ++t)
-  {
-    if (squares(t) > 0.0)
+    const Eigen::VectorXd levelsDn = levels.Of(energies.LightDn()(i));
+    for (Eigen::Index t = 0; t < weights.cols(); ++t)
     {
-      chi2 += sums(t) * sums(t) / squares(t);
-      ++frames;
+      const double weight = weighed(t) * data.ofConstant(t); // of a variance, not of a residual's square
+      curve.bins[static_cast<std::size_t>(t)] += { weight > 0.0 ? data.pixels(i) : 0.0,
+                                                   weight,
+                                                   weight * (levelsDn(t) - line.pivotDn),
+                                                   weighed(t) * (beyond(t) - own * data.ofConstant(t)) };
     }
   }
-  return frames > 2 ? chi2 / static_cast<double>(frames - 2) : 1.0;
+  curve.bins.erase(
+    std::remove_if(curve.bins.begin(), curve.bins.end(), [](const CurveBin & bin) { return !(bin.weight > 0.0); }),
+    curve.bins.end());
+  std::stable_sort(curve.bins.begin(), curve.bins.end(), [](const CurveBin & a, const CurveBin & b) {
+    return a.x / a.weight < b.x / b.weight;
+  });
+  return curve;
 }
 } // namespace
 
@@ -219,11 +222,8 @@ TileLevels::Of(double lightDn) const
   return m_OffsetDn + m_Illumination.array() * (lightDn + m_ZeroDn - m_OffsetDn);
 }
 
-VarianceLine
-FitFramePhotonTransfer(const FrameEnergies & energies,
-                       const TileLevels &    levels,
-                       const VarianceLine &  start,
-                       double                sharedSquares)
+VarianceCurve
+FitFramePhotonTransfer(const FrameEnergies & energies, const TileLevels & levels, const VarianceLine & start)
 {
   if (energies.Tiles() < static_cast<Eigen::Index>(InRefined.leastTilesOfTransfer) || energies.Frames() < 3)
   {
@@ -253,14 +253,11 @@ FitFramePhotonTransfer(const FrameEnergies & energies,
   const ValueOfTiles value = ValueAtZero(data, weights, line.gain);
   line.intercept = value.value.Value();
   line.pivotDn = value.pivotDn;
-  const double chi2 = Chi2OfFrames(data, weights, line.gain) / sharedSquares;
-  const auto   frames = static_cast<double>((weights.colwise().sum().array() > 0.0).count());
-  const double widening = chi2 > 1.0 + InRefined.hausmanZ * std::sqrt(2.0 / std::max(1.0, frames - 2.0)) ? chi2 : 1.0;
-  const double ofSlope = widening * slope.Variance();
+  const double ofSlope = slope.Variance();
   line.covariance << ofSlope, -line.pivotDn * ofSlope, -line.pivotDn * ofSlope,
-    line.pivotDn * line.pivotDn * ofSlope + widening * value.value.Variance();
+    line.pivotDn * line.pivotDn * ofSlope + value.value.Variance();
   line.isDetermined = std::isfinite(line.gain) && std::isfinite(line.intercept) && line.covariance.allFinite();
-  return line;
+  return CurveOfFrames(data, weights, energies, levels, line);
 }
 
 } // namespace sensornoise

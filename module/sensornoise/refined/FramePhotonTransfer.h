@@ -6,6 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/correlation/FrameEnergies.h"
+#include "sensornoise/pixels/VarianceCurve.h"
 #include "sensornoise/pixels/VarianceLine.h"
 
 #include <vector>
@@ -35,14 +36,12 @@ private:
  * bright and in dark frames. A flat field determines it as well as a scene with contrast, and differences between
  * pixels do not count. Estimator.md, 3.14.
  *
- * Slopes are of every tile by itself, and their scatter from tile to tile, or that of frames about the line, is the
- * error. Slope and value at the pivot are uncorrelated. \a start weighs the squares at first. Not determined: too few
- * tiles or frames, frames of one level, or of two of which the one is that of a fifth of the frames or fewer. */
-SensorNoise_EXPORT VarianceLine
-FitFramePhotonTransfer(const FrameEnergies & energies,
-                       const TileLevels &    levels,
-                       const VarianceLine &  start,
-                       double                sharedSquares);
+ * Slopes are of every tile by itself, and their scatter from tile to tile is the error. Slope and value at the pivot
+ * are uncorrelated. \a start weighs the squares at first. Returns the line, and the deviations of the frames from it in
+ * one bin for each frame. The line is not determined if there are too few tiles or frames, frames of one level, or two
+ * levels of which one is that of a fifth of the frames or fewer. */
+SensorNoise_EXPORT VarianceCurve
+FitFramePhotonTransfer(const FrameEnergies & energies, const TileLevels & levels, const VarianceLine & start);
 
 } // namespace sensornoise
 

@@ -6,6 +6,7 @@
 #include "sensornoise/pixels/MeanGain.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
 #include "sensornoise/pixels/VarianceCurve.h"
+#include "sensornoise/refined/BeyondChance.h"
 #include "sensornoise/refined/Constants.h"
 #include "sensornoise/refined/DarkPoint.h"
 
@@ -60,13 +61,6 @@ Disagreement(const VarianceLine & all, const VarianceLine & flat)
     added(0, 1) = added(1, 0) = std::copysign(std::sqrt(added(0, 0) * added(1, 1)), difference(0) * difference(1));
   }
   return added;
-}
-
-/** A chi-square counts where it is above what chance makes of it, by 2 of its standard deviations. */
-double
-BeyondChance(double chi2, double freedom)
-{
-  return chi2 > 1.0 + InRefined.hausmanZ * std::sqrt(2.0 / freedom) ? chi2 : 1.0;
 }
 
 double
@@ -173,32 +167,58 @@ FindModelError(GainEstimate & estimate, const VarianceCurve & curve, double blac
   if (!estimate.IsBent())
   {
     // What is left is scatter about a line that is straight enough.
-    estimate.covariance *= BeyondChance(estimate.reducedChi2, VarianceCurve::Bins - 2.0);
+    estimate.covariance *= BeyondChance(estimate.reducedChi2, static_cast<double>(curve.bins.size()) - 2.0);
   }
 }
-/** Joins the slopes by pixels and by frames, which are independent. The value at the pivot is that of the better one.
- */
-void
-UseFrames(GainEstimate & estimate, const VarianceLine & frames, const Eigen::Matrix2d & errorOfShared)
+/** The slope of a line, whatever it is: the variance over the light, both at the pivot [DN/e-]. */
+double
+ScaleOf(const VarianceLine & line, double blackDn)
 {
-  if (!frames.isDetermined || estimate.IsBent())
+  return line.At(line.pivotDn) / std::max(1e-9, line.pivotDn - blackDn);
+}
+
+/** The estimate by frames of unequal illumination alone. */
+GainEstimate
+EstimateOfFrames(const VarianceCurve &   frames,
+                 const Eigen::Matrix2d & errorOfShared,
+                 double                  blackDn,
+                 double                  sharedSquares)
+{
+  GainEstimate estimate;
+  estimate.line = frames.line;
+  estimate.curve = frames;
+  estimate.covariance = frames.line.covariance + errorOfShared;
+  estimate.reducedChi2 = frames.ReducedChi2() / sharedSquares;
+  estimate.isFromFrames = true;
+  estimate.scale = ScaleOf(frames.line, blackDn);
+  FindModelError(estimate, frames, blackDn, sharedSquares);
+  return estimate;
+}
+
+/** Joins the slopes by pixels and by frames, which are independent. The value at the pivot is that of the better one,
+ * and where either shows a response that is not linear the better one stands alone. */
+void
+UseFrames(GainEstimate & estimate, const SensorLines & lines, double blackDn, double sharedSquares)
+{
+  if (!lines.fromFrames.line.isDetermined)
   {
     return;
   }
-  VarianceLine    other = frames;
-  Eigen::Matrix2d otherCovariance = frames.covariance + errorOfShared;
-  if (otherCovariance(0, 0) < estimate.covariance(0, 0))
+  GainEstimate other = EstimateOfFrames(lines.fromFrames, lines.errorOfShared, blackDn, sharedSquares);
+  if (other.StandardError() < estimate.StandardError())
   {
-    std::swap(other, estimate.line);
-    std::swap(otherCovariance, estimate.covariance);
-    estimate.isFromFrames = true;
+    std::swap(other, estimate);
   }
-  const double          difference = other.gain - estimate.line.gain;
-  const double          expected = estimate.covariance(0, 0) + otherCovariance(0, 0);
-  const Eigen::Vector2d step = estimate.covariance.col(0) / expected;
-  estimate.line.gain += step(0) * difference;
-  estimate.line.intercept += step(1) * difference;
-  estimate.covariance -= step * estimate.covariance.row(0);
+  const bool   isBent = estimate.IsBent() || other.IsBent();
+  const double difference = other.line.gain - estimate.line.gain;
+  const double expected = std::pow(estimate.StandardError(), 2) + std::pow(other.StandardError(), 2);
+  if (!isBent)
+  {
+    const Eigen::Vector2d step = estimate.covariance.col(0) / expected;
+    estimate.line.gain += step(0) * difference;
+    estimate.line.intercept += step(1) * difference;
+    estimate.covariance -= step * estimate.covariance.row(0);
+  }
   if (difference * difference > InRefined.hausmanZ * InRefined.hausmanZ * expected)
   {
     estimate.covariance += SlopeCovariance(0.5 * difference, estimate.line.pivotDn);
@@ -226,11 +246,11 @@ EstimateGain(const RefinedResults & found, const SensorLines & lines)
   estimate.curve = lines.curve;
   estimate.reducedChi2 = lines.curve.ReducedChi2() / variance.sharedSquares;
   ChooseLine(estimate, lines, variance, found.scene.model);
-  estimate.scale = estimate.line.At(estimate.line.pivotDn) / std::max(1e-9, estimate.line.pivotDn - found.blackDn);
+  estimate.scale = ScaleOf(estimate.line, found.blackDn);
   const double dispersion =
     std::min(DispersionOfClasses(variance), InRefined.largestDispersion * variance.sharedSquares);
   FindModelError(estimate, lines.curve, found.blackDn, dispersion);
-  UseFrames(estimate, lines.fromFrames, lines.errorOfShared);
+  UseFrames(estimate, lines, found.blackDn, variance.sharedSquares);
   if (found.settings.offset && found.settings.offset->variance)
   {
     UseDarkPoint(estimate, found);

@@ -4,6 +4,7 @@
 
 #include "sensornoise/correlation/FrameEnergies.h"
 #include "sensornoise/correlation/NoiseResiduals.h"
+#include "sensornoise/refined/BeyondChance.h"
 #include "sensornoise/refined/Constants.h"
 #include "sensornoise/refined/FramePhotonTransfer.h"
 #include "sensornoise/refined/PixelsOfVariance.h"
@@ -38,11 +39,8 @@ struct FrameComparison
 };
 
 /** The photon transfer of the frames, if they are unequal and tiles have the same changes of illumination. */
-VarianceLine
-LineOfFrames(const StaticVariance &  variance,
-             const FrameComparison & by,
-             double                  sharedSquares,
-             const ParallelFor &     parallelFor)
+VarianceCurve
+LineOfFrames(const StaticVariance & variance, const FrameComparison & by, const ParallelFor & parallelFor)
 {
   if (!by.AreUnequal() || by.isLightLocal)
   {
@@ -54,7 +52,7 @@ LineOfFrames(const StaticVariance &  variance,
   {
     return {};
   }
-  return FitFramePhotonTransfer({ by.residuals, used, parallelFor }, by.levels, variance.line, sharedSquares);
+  return FitFramePhotonTransfer({ by.residuals, used, parallelFor }, by.levels, variance.line);
 }
 
 /** A line and the standard error of its slope. */
@@ -68,12 +66,16 @@ struct SlopeOfLine
 SlopeOfLine
 BetterLine(const StaticVariance & variance)
 {
+  const VarianceCurve & frames = variance.fromFrames;
   const auto   errorOf = [](const VarianceLine & line) { return std::sqrt(std::max(0.0, line.covariance(0, 0))); };
   const double ofPattern = variance.pattern.LargestShare() * variance.line.gain;
   const double ofPixels = std::hypot(errorOf(variance.line), ofPattern);
-  const bool   isBetter = variance.fromFrames.isDetermined && errorOf(variance.fromFrames) < ofPixels;
-  return isBetter ? SlopeOfLine{ variance.fromFrames, errorOf(variance.fromFrames) }
-                  : SlopeOfLine{ variance.line, ofPixels };
+  const double chi2 = frames.ReducedChi2() / variance.sharedSquares;
+  const double ofFrames =
+    errorOf(frames.line) * std::sqrt(BeyondChance(chi2, static_cast<double>(frames.bins.size()) - 2.0));
+  return frames.line.isDetermined && ofFrames < ofPixels
+           ? SlopeOfLine{ frames.line, ofFrames }
+           : SlopeOfLine{ variance.line, ofPixels };
 }
 
 /** The frames whose noise is not that of the others. */
@@ -129,11 +131,9 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   const FrameComparison comparison{
     residuals, projected, scene, { series->line.gamma, offsetDn, zeroDn }, series->local.series.cols() > 0
   };
-  const auto compare = [&](double shared) {
-    noise.variance.fromFrames = LineOfFrames(noise.variance, comparison, shared, parallelFor);
-  };
+  const auto compare = [&] { noise.variance.fromFrames = LineOfFrames(noise.variance, comparison, parallelFor); };
   const auto allowForFrames = [&] {
-    compare(1.0);
+    compare();
     if (comparison.AreUnequal())
     {
       residuals.SetUnequalFrames({ series->line.gamma, BetterLine(noise.variance).line.gain, offsetDn - zeroDn });
@@ -154,7 +154,7 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
     noise.variance = fit(sharedSquares);
   }
   const double shared = std::max(1.0, SharedSquares(noise.correlation.space));
-  compare(shared);
+  compare();
   noise.frames = CompareFrames(noise.variance, comparison, shared, parallelFor);
   MeasureSettledFrames(noise.correlation, residuals, codesDn2, parallelFor);
   return noise;

@@ -37,14 +37,14 @@ struct RefinedResults
   double
   InDarkestFrame(double levelDn) const
   {
-    return variance.fromFrames.isDetermined
+    return variance.fromFrames.line.isDetermined
              ? this->InFrame(levelDn, *std::min_element(series.line.gamma.begin(), series.line.gamma.end()))
              : levelDn;
   }
   double
   InBrightestFrame(double levelDn) const
   {
-    return variance.fromFrames.isDetermined
+    return variance.fromFrames.line.isDetermined
              ? this->InFrame(levelDn, *std::max_element(series.line.gamma.begin(), series.line.gamma.end()))
              : levelDn;
   }

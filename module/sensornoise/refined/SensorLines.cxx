@@ -189,7 +189,7 @@ WithSharedNoise(const SensorLines & lines, const NoiseCorrelation & correlation,
   sensor.all = shared.SensorOf(lines.all, square);
   sensor.fromLight = shared.SensorOf(lines.fromLight, square);
   sensor.fromFlat = shared.SensorOf(lines.fromFlat, square);
-  sensor.fromFrames = shared.SensorOf(lines.fromFrames, square);
+  sensor.fromFrames = CurveOfSensor(lines.fromFrames, shared, shared.SensorOf(lines.fromFrames.line, square));
   sensor.curve = CurveOfSensor(lines.curve, shared, shared.SensorOf(lines.curve.line, square));
   sensor.errorOfShared = ErrorOf(correlation, lines.all, sensor.all, square, blackDn, codesDn2);
   return sensor;
