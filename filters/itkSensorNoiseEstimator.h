@@ -248,6 +248,12 @@ public:
     return m_Exposures;
   }
 
+  /** Excess noise factor F of the sensor, 1 or more [1]: the gain is the slope of the variance divided by F, see
+   * sensornoise::DivideExcessNoise(). About 2 in an EMCCD; 1 (default): none. An ExceptionObject at Update() if it is
+   * less. */
+  itkSetMacro(ExcessNoiseFactor, double);
+  itkGetConstMacro(ExcessNoiseFactor, double);
+
   /** Spacing of the codes [DN]; 0 (default): found. */
   itkSetMacro(QuantisationStep, double);
   itkGetConstMacro(QuantisationStep, double);
@@ -569,6 +575,7 @@ private:
   double              m_LevelRangeHigh{ NumericTraits<double>::max() };
   double              m_QuantisationStep{ 0.0 };
   std::vector<double> m_Exposures;
+  double              m_ExcessNoiseFactor{ 1.0 };
   SizeValueType       m_MemoryLimit{ 0 };
   std::string         m_BayerPattern{ "none" };
 

@@ -241,6 +241,7 @@ SensorNoiseEstimator<TStack>::MakePublishedSettings() const
   settings.rollingShutter = m_RollingShutter;
   settings.sigmaRows = m_SigmaRows;
   settings.shutterAxis = m_ShutterAxis;
+  settings.excessNoiseFactor = m_ExcessNoiseFactor;
   settings.codes = this->MakeCodeSettings();
   return settings;
 }
@@ -275,6 +276,7 @@ SensorNoiseEstimator<TStack>::MakeRefinedSettings() const
     settings.levelRangeDn = sensornoise::LevelRange{ m_LevelRangeLow, m_LevelRangeHigh };
   }
   settings.exposures = m_Exposures;
+  settings.excessNoiseFactor = m_ExcessNoiseFactor;
   if (m_MemoryLimit > 0)
   {
     settings.memoryLimitBytes = static_cast<double>(m_MemoryLimit);
@@ -302,6 +304,7 @@ SensorNoiseEstimator<TStack>::PrintSelf(std::ostream & os, Indent indent) const
   os << indent << "LevelRangeLow: " << m_LevelRangeLow << std::endl;
   os << indent << "LevelRangeHigh: " << m_LevelRangeHigh << std::endl;
   os << indent << "Exposures: " << m_Exposures.size() << std::endl;
+  os << indent << "ExcessNoiseFactor: " << m_ExcessNoiseFactor << std::endl;
   os << indent << "QuantisationStep: " << m_QuantisationStep << std::endl;
   os << indent << "MemoryLimit: " << m_MemoryLimit << std::endl;
   os << indent << "BayerPattern: " << m_BayerPattern << std::endl;

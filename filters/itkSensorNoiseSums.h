@@ -122,12 +122,13 @@ public:
   void
   SetCountedElsewhere(const BytesType * flags);
 
-  /** The sums of the frames that are in, as one row of bytes. */
+  /** The sums of the frames that are in, as one row of bytes, behind their version, length and checksum. */
   BytesPointer
   GetSums() const;
 
   /** Adds the sums of other frames. Returns false, and changes nothing, if all of these are in: then they were handed
-   * over twice. An ExceptionObject if some are in, and if the sums are of another stack, pass or start. */
+   * over twice. An ExceptionObject if some are in, if the sums are of another stack, pass, start or version of the
+   * module, and if the bytes are damaged or not all that GetSums() returned. */
   bool
   MergeSums(const BytesType * sums);
 

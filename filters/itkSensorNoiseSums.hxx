@@ -23,6 +23,7 @@
 #include "sensornoise/base/BinaryStream.h"
 #include "sensornoise/base/ZeroRuns.h"
 #include "sensornoise/moments/MosaicLevels.h"
+#include "sensornoise/report/Version.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -56,6 +57,12 @@ struct SensorNoiseBytes
   SizeOf(const Bytes * bytes)
   {
     return bytes->GetBufferedRegion().GetNumberOfPixels();
+  }
+  /** The sums of what GetSums() returned; throws std::runtime_error where they are not whole. */
+  static sensornoise::UnsealedSums
+  Unseal(const Bytes * bytes)
+  {
+    return sensornoise::UnsealSums(bytes->GetBufferPointer(), SizeOf(bytes), sensornoise::GetModuleVersion());
   }
 };
 
@@ -197,8 +204,9 @@ SensorNoiseSums<TStack>::GetFramesOf(const BytesType * sums) const -> BytesPoint
   this->RequirePass();
   const auto frames = SensorNoiseBytes::Make(m_Estimator->GetNumberOfFrames(), 1);
   WithItkErrors(this, [&] {
-    sensornoise::ZeroRunReader packed(sums->GetBufferPointer(), SensorNoiseBytes::SizeOf(sums));
-    std::istream               in(&packed);
+    const sensornoise::UnsealedSums unsealed = SensorNoiseBytes::Unseal(sums);
+    sensornoise::ZeroRunReader      packed(unsealed.bytes, unsealed.size);
+    std::istream                    in(&packed);
     sensornoise::RequireCount("as the pass", sensornoise::ReadCount(in), m_Pass + 1);
     sensornoise::RequireCount("frames", sensornoise::ReadCount(in), SensorNoiseBytes::SizeOf(frames));
     sensornoise::ReadNumbers(in, frames->GetBufferPointer(), SensorNoiseBytes::SizeOf(frames));
@@ -257,8 +265,10 @@ SensorNoiseSums<TStack>::GetSums() const -> BytesPointer
     sensornoise::WriteNumbers(out, has);
     std::visit([&out](const auto & method) { method.SaveSums(out); }, m_Estimator->m_Estimation->method);
     const std::vector<unsigned char> all = packed.Take();
-    const auto                       bytes = SensorNoiseBytes::Make(all.size(), 1);
-    std::copy(all.begin(), all.end(), bytes->GetBufferPointer());
+    const std::vector<unsigned char> seal =
+      sensornoise::SealSums(all.data(), all.size(), sensornoise::GetModuleVersion());
+    const auto bytes = SensorNoiseBytes::Make(seal.size() + all.size(), 1);
+    std::copy(all.begin(), all.end(), std::copy(seal.begin(), seal.end(), bytes->GetBufferPointer()));
     return bytes;
   });
 }
@@ -282,9 +292,10 @@ SensorNoiseSums<TStack>::MergeSums(const BytesType * sums)
     return false;
   }
   WithItkErrors(this, [&] {
-    sensornoise::ZeroRunReader packed(sums->GetBufferPointer(), SensorNoiseBytes::SizeOf(sums));
-    std::istream               in(&packed);
-    std::vector<std::uint8_t>  head(2 * sizeof(std::uint64_t) + has.size());
+    const sensornoise::UnsealedSums unsealed = SensorNoiseBytes::Unseal(sums);
+    sensornoise::ZeroRunReader      packed(unsealed.bytes, unsealed.size);
+    std::istream                    in(&packed);
+    std::vector<std::uint8_t>       head(2 * sizeof(std::uint64_t) + has.size());
     sensornoise::ReadNumbers(in, head);
     m_Estimator->m_Estimation->MergeSums(in);
   });

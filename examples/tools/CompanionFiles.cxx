@@ -6,6 +6,7 @@
 #include "tools/ImageOnFile.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <stdexcept>
 #include <string>
@@ -35,6 +36,12 @@ try
   mask->SetRegions(image->GetLargestPossibleRegion());
   mask->Allocate();
   const double * values = image->GetBufferPointer();
+  const auto     unknown =
+    std::count_if(values, values + list.width * list.height, [](double value) { return std::isnan(value); });
+  if (unknown > 0)
+  {
+    throw FileError(file, "has " + std::to_string(unknown) + " pixels that are NaN; expected 0 or another number");
+  }
   std::transform(values, values + list.width * list.height, mask->GetBufferPointer(), [](double value) {
     return value != 0.0 ? 1 : 0;
   });

@@ -140,6 +140,13 @@ AddOptions(CLI::App & app, EstimateOptions & options, Texts & texts)
     "file with one frame a line, whose exposure is the last column. With them the linearity error of EMVA "
     "1288 is measured. Of all FRAME..., also of those that --frames leaves out");
   app
+    .add_option("--excess-noise-factor",
+                options.excessNoiseFactor,
+                "F, 1 or more, if the sensor multiplies electrons at random: 2 for an EMCCD. The gain is the slope of "
+                "the variance divided by F, which the frames cannot tell")
+    ->check(CLI::Range(1.0, std::numeric_limits<double>::max(), "NUMBER >= 1"))
+    ->capture_default_str();
+  app
     .add_option("--rolling-shutter",
                 texts.rollingShutter,
                 "auto, off, or (for published) the width sigma_y of a row's neighbourhood [rows]")

@@ -40,6 +40,7 @@ struct EstimateOptions
   std::optional<std::pair<double, double>> levelRange;    ///< low, high [DN]; none: all levels
   std::string                              exposuresText; ///< list of numbers, or name of a file; empty: none
   std::vector<double>                exposures; ///< of the frames that are measured, see SelectExposures(); empty: none
+  double                             excessNoiseFactor{ 1.0 }; ///< F: the gain is the variance's slope over F [1]
   double                             offset{ std::numeric_limits<double>::quiet_NaN() };
   double                             offsetStandardError{ 0.0 };
   std::vector<std::string>           dark;
@@ -108,6 +109,7 @@ struct EstimateOptions
       estimator.SetLevelRangeHigh(levelRange->second);
     }
     estimator.SetExposures(exposures);
+    estimator.SetExcessNoiseFactor(excessNoiseFactor);
     estimator.SetMemoryLimit(memoryLimit);
     estimator.SetRollingShutter(rollingShutter);
     estimator.SetSigmaRows(sigmaRows);

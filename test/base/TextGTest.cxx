@@ -26,6 +26,16 @@ TEST(SensorNoiseText, FoundNumbersHaveThreeDigitsOrAllThatAreWhole)
   EXPECT_EQ(Percent(1.0), "100 %");
 }
 
+TEST(SensorNoiseText, NumbersBesideABoundReadDifferently)
+{
+  EXPECT_EQ(PercentApart(0.12003, 0.12), "12.003 %");
+  EXPECT_EQ(PercentApart(0.119996, 0.12), "11.9996 %");
+  EXPECT_EQ(PercentApart(0.131, 0.12), "13.1 %");
+  EXPECT_EQ(RoundedApart(1000.4, 1000.0), "1000.4");
+  EXPECT_EQ(RoundedApart(0.12, 0.12), "0.12");
+  EXPECT_EQ(RoundedApart(std::nan(""), 0.12), "nan");
+}
+
 TEST(SensorNoiseText, MeasuredNumbersEndWhereTheirErrorDoes)
 {
   EXPECT_EQ(Measured(0.165967, 0.00377362), "0.1660 +- 0.0038");

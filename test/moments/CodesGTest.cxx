@@ -250,7 +250,8 @@ TEST(SensorNoiseCodes, SignedDataReachBelowZero)
 {
   Extremes  extremes = PixelsAtEveryCode(-300, 900, 1, 40);
   CodeRange range = extremes.Find();
-  EXPECT_EQ(range.clipLowDn, -32768.0);
+  EXPECT_FALSE(range.clipLowDn); // the end of the type is no level of a sensor
+  EXPECT_EQ(range.clipSource, "low: none, high: code range");
   EXPECT_EQ(range.bitDepth, 10);
   extremes.AddPixels(200, -300, -250);
   EXPECT_EQ(extremes.Find().clipLowDn, -300.0);
@@ -258,7 +259,27 @@ TEST(SensorNoiseCodes, SignedDataReachBelowZero)
   extremes.AddPixels(1, 0, 65535);
   range = extremes.Find();
   EXPECT_EQ(range.clipHighDn, 65535.0);
-  EXPECT_TRUE(range.IsClipped(-32768.0, 0.0));
+  EXPECT_TRUE(range.IsClipped(0.0, 65535.0));
+}
+
+TEST(SensorNoiseCodes, StuckPixelsDoNotHideASaturationLevel)
+{
+  Extremes extremes = PixelsAtEveryCode(100, 3700, 1, 40);
+  extremes.AddPixels(200, 3600, 3700);
+  ASSERT_EQ(extremes.Find().clipHighDn, 3700.0);
+  extremes.AddPixels(20, 4095, 4095); // a tenth of those at the level
+  EXPECT_EQ(extremes.Find().clipHighDn, 3700.0);
+  EXPECT_TRUE(extremes.Find().IsClipped(4095.0, 4095.0));
+  extremes.AddPixels(30, 4095, 4095); // a quarter: the sensor attains more
+  EXPECT_EQ(extremes.Find().clipHighDn, 4095.0);
+}
+
+TEST(SensorNoiseCodes, DeadPixelsDoNotHideAFloor)
+{
+  Extremes extremes = PixelsAtEveryCode(64, 3000, 1, 40);
+  extremes.AddPixels(200, 64, 100);
+  extremes.AddPixels(3, 0, 0);
+  EXPECT_EQ(extremes.Find().clipLowDn, 64.0);
 }
 
 TEST(SensorNoiseCodes, FloatingPointDataHaveOnlyWhatIsGiven)

@@ -38,6 +38,23 @@ RoundedNormal(std::size_t count, double sd, double scale = 1.0)
 }
 } // namespace
 
+TEST(SensorNoiseOutermostLevels, StuckPixelsBeyondAPileUpAreLeftOut)
+{
+  std::vector<double> values = RoundedNormal(20000, 20.0, 0.25);
+  const double        top = 0.25 * 960.0;
+  for (double & value : values)
+  {
+    value = std::min(value, top - 0.25);
+  }
+  values.insert(values.end(), 200, top);
+  values.insert(values.end(), { 0.25 * 4095.0, 0.25 * 3000.0 });
+  OutermostLevels levels = LevelsOf(values, End::High);
+  EXPECT_EQ(levels.Level(), 0.25 * 4095.0);
+  levels.LeaveOutStray(0.25);
+  EXPECT_EQ(levels.Level(), top);
+  EXPECT_EQ(levels.Pixels(), 200U);
+}
+
 TEST(SensorNoiseOutermostLevels, AreThoseOfAWholeHistogramInAnyOrder)
 {
   std::vector<double>           values = RoundedNormal(20000, 150.0); // some 1,000 levels, of which the table holds 64

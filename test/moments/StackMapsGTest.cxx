@@ -46,6 +46,14 @@ CodesBetween(std::optional<double> low, std::optional<double> high, std::size_t 
   return Simulate<std::uint16_t>(settings, width, Height);
 }
 
+/** The values of a stack in another type. */
+template <typename TPixel>
+StackMaps
+MapsInType(const Stack<std::uint16_t> & stack)
+{
+  return MapsOf(Stack<TPixel>{ stack.width, stack.height, stack.frames, { stack.pixels.begin(), stack.pixels.end() } });
+}
+
 void
 ExpectTheSame(const StackMaps & maps, const StackMaps & expected)
 {
@@ -74,9 +82,11 @@ TYPED_TEST(SensorNoiseStackMapsOfFloating, CopiesOfCodesThatSaturateLeaveOutTheS
       const StackMaps expected = MapsOf(codes);
       const StackMaps maps = MapsOf(codes.Map<TypeParam>([&](std::uint16_t u) { return scale * u; }));
       ASSERT_EQ(expected.summary.codes.clipSource, "low: code range, high: pile-up");
-      EXPECT_EQ(maps.summary.codes.clipSource, "low: none, high: pile-up");
+      const bool areWhole = scale == 1.0; // then they are codes as those of integers
+      EXPECT_EQ(maps.summary.codes.clipSource,
+                areWhole ? expected.summary.codes.clipSource : "low: none, high: pile-up");
       EXPECT_EQ(maps.summary.codes.clipHighDn, static_cast<double>(static_cast<TypeParam>(scale * 2500.0)));
-      EXPECT_FALSE(maps.summary.codes.clipLowDn);
+      EXPECT_EQ(maps.summary.codes.clipLowDn.has_value(), areWhole);
       EXPECT_GT(maps.summary.clipped, 0u);
       EXPECT_EQ(maps.summary.clipped, expected.summary.clipped);
       EXPECT_EQ(maps.valid, expected.valid);
@@ -101,7 +111,7 @@ TYPED_TEST(SensorNoiseStackMapsOfFloating, FloorIsFoundBelowAboveAndAtZero)
   const auto      codes = CodesBetween(500.0, {});
   const StackMaps expected = MapsOf(codes);
   ASSERT_EQ(expected.summary.codes.clipSource, "low: pile-up, high: code range");
-  for (const double floorDn : { 500.0, 0.0, -300.0 })
+  for (const double floorDn : { 500.25, 0.25, -300.25 }) // no codes
   {
     const StackMaps maps = MapsOf(codes.Map<TypeParam>([&](std::uint16_t u) { return u - 500.0 + floorDn; }));
     EXPECT_EQ(maps.summary.codes.clipLowDn, floorDn);
@@ -139,8 +149,8 @@ TYPED_TEST(SensorNoiseStackMapsOfFloating, WithoutSaturationNothingIsLeftOut)
     const auto codes = CodesBetween({}, {}, width);
     for (const double stepDn : { 1.0, 16.0, 60.0, 250.0 }) // the noise is from 3 to 40 DN
     {
-      const StackMaps maps =
-        MapsOf(codes.Map<TypeParam>([&](std::uint16_t u) { return stepDn * static_cast<int>(u / stepDn + 0.5); }));
+      const StackMaps maps = MapsOf(
+        codes.Map<TypeParam>([&](std::uint16_t u) { return 0.25 + stepDn * static_cast<int>(u / stepDn + 0.5); }));
       EXPECT_EQ(maps.summary.codes.clipSource, "none") << width << ", " << stepDn;
       EXPECT_EQ(maps.summary.clipped, 0u);
       EXPECT_EQ(std::count(maps.valid.begin(), maps.valid.end(), 1), static_cast<std::ptrdiff_t>(maps.valid.size()));
@@ -196,4 +206,31 @@ TYPED_TEST(SensorNoiseStackMapsOfFloating, AreTheSameForAnyChunksThreadsAndProce
     whole.Merge(stream);
   }
   ExpectTheSame(MakeStackMaps<TypeParam>(whole.Take(), {}, SerialFor), expected);
+}
+
+TEST(SensorNoiseStackMaps, TheTypeOfWholeNumbersChangesNothing)
+{
+  const Stack<std::uint16_t> stack = CodesBetween(std::nullopt, 2000.0);
+  const StackMaps            expected = MapsOf(stack);
+  EXPECT_EQ(expected.summary.codes.clipHighDn, 2000.0);
+  for (const StackMaps & maps : { MapsInType<short>(stack), MapsInType<float>(stack), MapsInType<double>(stack) })
+  {
+    ExpectTheSame(maps, expected);
+    EXPECT_EQ(maps.summary.codes.bitDepth, expected.summary.codes.bitDepth);
+    EXPECT_EQ(maps.summary.codes.quantisationStepDn, 1.0);
+  }
+}
+
+TEST(SensorNoiseStackMaps, ScaledCodesHaveTheirStep)
+{
+  const Stack<std::uint16_t> codes = CodesBetween(std::nullopt, std::nullopt);
+  Stack<float>               scaled{ codes.width, codes.height, codes.frames, {} };
+  Stack<float>               noisy = scaled;
+  for (std::size_t i = 0; i < codes.pixels.size(); ++i)
+  {
+    scaled.pixels.push_back(static_cast<float>(codes.pixels[i]) / 65535.0F);
+    noisy.pixels.push_back(static_cast<float>(codes.pixels[i]) + 0.001F * static_cast<float>(i % 997));
+  }
+  EXPECT_NEAR(MapsOf(scaled).summary.codes.quantisationStepDn, 1.0 / 65535.0, 1e-9);
+  EXPECT_EQ(MapsOf(noisy).summary.codes.quantisationStepDn, 0.0);
 }

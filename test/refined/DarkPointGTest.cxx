@@ -118,10 +118,16 @@ TEST(SensorNoiseDarkPoint, DarkFramesOfAnotherCameraAreNoticed)
     settings.offset = KnownOffset{ 100.0, 0.02, 20, DarkVariance{ varianceDn2, 0.3 } };
     return Measure(stack, settings).GetReport();
   };
-  EXPECT_FALSE(HasWarning(reportOf(64.0 + 1.0 / 12.0), WarningCode::DarkFramesDiffer));
+  const Report own = reportOf(64.0 + 1.0 / 12.0);
+  EXPECT_FALSE(HasWarning(own, WarningCode::DarkFramesDiffer));
   for (const double varianceDn2 : { 40.0, 90.0 })
   {
-    EXPECT_TRUE(HasWarning(reportOf(varianceDn2), WarningCode::DarkFramesDiffer)) << varianceDn2;
+    const Report report = reportOf(varianceDn2);
+    EXPECT_TRUE(HasWarning(report, WarningCode::DarkFramesDiffer)) << varianceDn2;
+    EXPECT_NEAR(ValueOf(report.gain), ValueOf(own.gain), 2.0 * *report.gain.standardError); // they are not in it
+    EXPECT_EQ(report.offset.status, EstimateStatus::Failed);
+    EXPECT_EQ(report.readNoise.status, EstimateStatus::Failed);
+    EXPECT_EQ(report.readNoiseElectrons.status, EstimateStatus::Failed);
   }
 }
 

@@ -123,7 +123,9 @@ TEST(SensorNoiseOffsetEstimate, WhereLightIsLocalTheResponsesToItTell)
 TEST(SensorNoiseOffsetEstimate, OffsetInUseIsKnownOrToldOrInTheMiddleOfTheLimits)
 {
   Results    results;
-  const auto inUse = [&results] { return OffsetInUse(results.Get(), results.Estimate(), results.limits); };
+  const auto inUse = [&results] {
+    return OffsetInUse(results.Get(), results.gain, results.Estimate(), results.limits);
+  };
   EXPECT_DOUBLE_EQ(inUse().valueDn, 100.0);
   EXPECT_DOUBLE_EQ(inUse().errorDn, 0.5);
   results.polished.line.flickerZ = 0.0;

@@ -45,6 +45,36 @@ Warns(const ChannelReports & reports, WarningCode code)
 }
 } // namespace
 
+namespace
+{
+/** The levels of the planes R, G1, G2 and B [DN]. */
+ChannelReports
+JoinLevels(const std::array<double, 4> & levelsDn)
+{
+  std::array<Report, 4> reports;
+  for (std::size_t k = 0; k < reports.size(); ++k)
+  {
+    reports[k].scatter.mean = { 0.5 * levelsDn[k], 1.5 * levelsDn[k] };
+    reports[k].scatter.count = { 100, 100 };
+  }
+  return Join(std::move(reports));
+}
+} // namespace
+
+TEST(ChannelReports, LevelsContradictAPatternWhoseGreensAreTheOtherColours)
+{
+  EXPECT_TRUE(Warns(JoinLevels({ 901.0, 706.0, 515.0, 899.0 }), WarningCode::BayerPatternDiffers));
+  EXPECT_TRUE(Warns(JoinLevels({ 901.0, 515.0, 706.0, 899.0 }), WarningCode::BayerPatternDiffers));
+  for (const std::array<double, 4> & sound : { std::array<double, 4>{ 706.0, 901.0, 899.0, 515.0 }, // the sensor's
+                                               std::array<double, 4>{ 515.0, 901.0, 899.0, 706.0 }, // R is B
+                                               std::array<double, 4>{ 600.0, 902.0, 898.0, 600.0 }, // grey light
+                                               std::array<double, 4>{ 900.0, 901.0, 899.0, 900.5 }, // no colours
+                                               std::array<double, 4>{ 700.0, 900.0, 860.0, 500.0 } })
+  {
+    EXPECT_FALSE(Warns(JoinLevels(sound), WarningCode::BayerPatternDiffers)) << sound[0];
+  }
+}
+
 TEST(ChannelReports, FourEqualOffsetsAreTwiceAsPrecise)
 {
   const ChannelReports reports = Join(WithOffsets({ 101.0, 99.0, 100.5, 99.5 }));

@@ -77,6 +77,19 @@ def test_dark_frames_of_another_camera_are_noticed(burst):
     assert [warning["code"] for warning in report["warnings"]] == ["dark-frames-differ"]
 
 
+def test_an_excess_noise_factor_is_divided_out_of_the_gain(burst):
+    plain = itk.estimate_sensor_noise(burst)
+    report = itk.estimate_sensor_noise(burst, excess_noise_factor=2)
+    assert report["settings"]["excess_noise_factor"] == 2
+    assert report["gain"]["value"] == plain["gain"]["value"] / 2
+    assert report["read_noise_electrons"]["value"] == 2 * plain["read_noise_electrons"]["value"]
+    for name in ("variance_slope", "intercept", "total_intercept", "offset", "read_noise"):
+        assert report[name] == plain[name]
+    for factor in (0.5, -1, "2", float("nan")):
+        with pytest.raises(ValueError, match="excess_noise_factor is .*; expected a number of 1 or more"):
+            itk.estimate_sensor_noise(burst, excess_noise_factor=factor)
+
+
 def test_a_level_range_leaves_out_the_other_levels(burst):
     report = itk.estimate_sensor_noise(burst, level_range=(500, 2500))
     assert (report["settings"]["level_range_low"], report["settings"]["level_range_high"]) == (500, 2500)

@@ -223,10 +223,16 @@ def test_wrong_use_is_refused(codes):
             sums.add(frames, first)
     with pytest.raises(ValueError, match="0 passes have ended; expected all"):
         sums.report()
-    with pytest.raises(RuntimeError, match="a stream of sums ends early"):
+    with pytest.raises(RuntimeError, match="do not begin as sums do"):
         sums.merge(b"no sums")
-    with pytest.raises(RuntimeError, match="found 2 as the pass, expected 1"):
-        sums.merge(b"\0" * 8 + b"\1" + b"\0" * 7 + b"\2" + b"\0" * 63)
+    whole = sums.to_bytes()
+    for part in (whole[:-1], whole[: len(whole) // 2]):
+        with pytest.raises(RuntimeError, match="incomplete"):
+            sums.merge(part)
+    with pytest.raises(RuntimeError, match="damaged"):
+        sums.merge(whole[:-1] + bytes([whole[-1] ^ 1]))
+    with pytest.raises(RuntimeError, match=r"of module 0.0.0, expected version .* of module"):
+        sums.merge(whole[:16] + b"0.0.0".ljust(32, b"\0") + whole[48:])
     other = SensorNoiseSums((40, 64, 95), codes.dtype, bayer="none")
     with pytest.raises(RuntimeError, match="expected 6144"):
         sums.merge(other)

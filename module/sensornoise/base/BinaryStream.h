@@ -27,7 +27,7 @@ namespace sensornoise
 {
 
 /** Version of what follows the header; a machine that is not little-endian reads another one. */
-inline constexpr std::uint32_t SumsVersion = 4;
+inline constexpr std::uint32_t SumsVersion = 5;
 
 /** Writes \a count numbers. Throws std::runtime_error if the stream does not take them. */
 template <typename TNumber>
@@ -96,6 +96,26 @@ WriteSumsHeader(std::ostream & out, const std::string & name, std::uint64_t pixe
  * version or other frames' size. */
 SensorNoise_EXPORT std::uint64_t
 ReadSumsHeader(std::istream & in, const std::string & name, std::uint64_t pixels);
+
+/** Bytes of what SealSums() returns. */
+inline constexpr std::size_t SumsSealBytes = 80;
+
+/** Returns what has to stand before \a bytes of sums for UnsealSums() to accept them: a mark, SumsVersion, \a version,
+ * that of the module, the length and a fingerprint of the bytes. */
+SensorNoise_EXPORT std::vector<unsigned char>
+SealSums(const unsigned char * bytes, std::size_t size, const std::string & version);
+
+/** The sums behind a seal: a part of the bytes that UnsealSums() was given. */
+struct UnsealedSums
+{
+  const unsigned char * bytes{ nullptr };
+  std::size_t           size{ 0 };
+};
+
+/** Checks a seal and all bytes behind it, and returns these. Throws std::runtime_error if the bytes are no sums, sums
+ * of another version, which it names, incomplete, too many, or damaged. */
+SensorNoise_EXPORT UnsealedSums
+UnsealSums(const unsigned char * bytes, std::size_t size, const std::string & version);
 
 /** "uint16", "float" ...: part of the name of sums that depend on it. */
 template <typename TPixel>

@@ -30,9 +30,31 @@ Rounded(double number)
 }
 
 std::string
+RoundedApart(double number, double bound)
+{
+  const std::string other = Rounded(bound);
+  std::string       text = Rounded(number);
+  constexpr int     most = 15; // digits that a double has
+  for (int digits = 4; text == other && number != bound && digits <= most; ++digits)
+  {
+    std::ostringstream longer;
+    longer.precision(digits);
+    longer << number;
+    text = longer.str();
+  }
+  return text;
+}
+
+std::string
 Percent(double share)
 {
   return Rounded(100.0 * share) + " %";
+}
+
+std::string
+PercentApart(double share, double bound)
+{
+  return RoundedApart(100.0 * share, 100.0 * bound) + " %";
 }
 
 std::string

@@ -16,6 +16,7 @@ enum class WarningCode : std::uint8_t
   FewFrames,
   Mosaic,
   RedOrBlue,
+  BayerPatternDiffers,
   GreensDiffer,
   OffsetsDiffer,
   RepeatedFrames,
@@ -83,7 +84,7 @@ struct WarningKind
 
 /** All that a report can warn of, in the order of WarningCode. README and Python show this table; a warning's own
  * message has the numbers. */
-inline constexpr std::array<WarningKind, 43> WarningTable{ {
+inline constexpr std::array<WarningKind, 44> WarningTable{ {
   { WarningCode::FewFrames, "few-frames", Severity::Warning, "Fewer than 20 different frames: indicative only." },
   { WarningCode::Mosaic,
     "mosaic",
@@ -95,6 +96,11 @@ inline constexpr std::array<WarningKind, 43> WarningTable{ {
     "red-or-blue",
     Severity::Note,
     "The pattern of the mosaic was found from the levels, which tell green; R and B may be exchanged." },
+  { WarningCode::BayerPatternDiffers,
+    "bayer-pattern-differs",
+    Severity::Warning,
+    "The levels contradict the Bayer pattern that was given: the planes called green differ, and the two others are "
+    "alike. Give the pattern of the sensor, or `bayer=\"auto\"`." },
   { WarningCode::GreensDiffer,
     "greens-differ",
     Severity::Warning,

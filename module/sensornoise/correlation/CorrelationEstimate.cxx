@@ -132,7 +132,9 @@ SumOverLags(const NoiseCorrelation & correlation, const MeasuredNumber & space)
   }
   const MeasuredNumber & time = correlation.timeFactor;
   const double           error = std::hypot(space.standardError, correlation.beyondReach);
-  return WithError(space.value * time.value, std::hypot(error * time.value, space.value * time.standardError));
+  const Quantity         sum =
+    WithError(space.value * time.value, std::hypot(error * time.value, space.value * time.standardError));
+  return Filed(sum, QuantityDomain::Positive);
 }
 
 std::vector<LightNoise>

@@ -13,8 +13,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+#include <iterator>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -97,15 +100,23 @@ CodePilesUp(const CodeHistogram & extremes, std::int32_t end, std::int32_t inwar
 
 /** The same of companded codes, which are not evenly spaced: compared with the next \a occupied codes inside. */
 bool
-CompandedPileUp(const CodeHistogram & extremes, const std::vector<std::int32_t> & occupied, bool isHigh)
+CompandedPileUp(const CodeHistogram &             extremes,
+                const std::vector<std::int32_t> & occupied,
+                std::int32_t                      end,
+                bool                              isHigh)
 {
-  std::uint32_t     inside = 0;
-  const std::size_t last = occupied.size() - 1;
-  for (std::size_t k = 1; k <= std::min<std::size_t>(InMoments.levelsInsidePileUp, last); ++k)
+  std::uint32_t inside = 0;
+  auto          code = std::lower_bound(occupied.begin(), occupied.end(), end);
+  for (int k = 1; k <= InMoments.levelsInsidePileUp; ++k)
   {
-    inside = std::max(inside, extremes.Count(occupied[isHigh ? last - k : k]));
+    if (isHigh ? code == occupied.begin() : std::next(code) == occupied.end())
+    {
+      break;
+    }
+    code += isHigh ? -1 : 1;
+    inside = std::max(inside, extremes.Count(*code));
   }
-  return IsPileUp(extremes.Count(isHigh ? occupied.back() : occupied.front()), inside);
+  return IsPileUp(extremes.Count(end), inside);
 }
 
 /** The codes that are an extreme of a pixel, ascending. */
@@ -165,12 +176,43 @@ SetBitDepth(std::int32_t highest, double step, const CodeSettings & settings, Co
   return top;
 }
 
+} // namespace
+
+std::int32_t
+FindEndOfCodes(const CodeHistogram & extremes, bool isHigh, double step)
+{
+  std::vector<std::int32_t> codes = extremes.Occupied();
+  const auto                stride = std::max<std::int32_t>(1, static_cast<std::int32_t>(step));
+  if (isHigh)
+  {
+    std::reverse(codes.begin(), codes.end());
+  }
+  const std::int32_t inwards = isHigh ? -stride : stride;
+  std::int32_t       end = codes.front();
+  double             beyond = extremes.Count(end);
+  for (std::size_t i = 1; i < codes.size(); ++i)
+  {
+    const auto pixels = static_cast<double>(extremes.Count(codes[i]));
+    const bool isApart = std::abs(codes[i] - codes[i - 1]) > InMoments.levelsOutsidePileUp * stride;
+    if (isApart && beyond <= InMoments.largestStrayShare * pixels && CodePilesUp(extremes, codes[i], inwards))
+    {
+      end = codes[i];
+    }
+    beyond += pixels;
+  }
+  return end;
+}
+
+namespace
+{
 /** The extremes of the pixels, and what tells whether they may be trusted, see FindCodes(). */
 struct Extremes
 {
   const CodeHistogram &     minima;
   const CodeHistogram &     maxima;
   std::vector<std::int32_t> codes; ///< that occur, ascending
+  std::int32_t              low;   ///< their ends, see FindEndOfCodes()
+  std::int32_t              high;
   double                    typicalVarianceDn2;
   const ExtremeDepths &     depths;
 };
@@ -180,12 +222,12 @@ bool
 EndPilesUp(const Extremes & extremes, bool isHigh, double step, const CodeSteps & steps)
 {
   const CodeHistogram & histogram = isHigh ? extremes.maxima : extremes.minima;
-  const std::int32_t    end = isHigh ? extremes.codes.back() : extremes.codes.front();
+  const std::int32_t    end = isHigh ? extremes.high : extremes.low;
   const double          depth = isHigh ? extremes.depths.high : extremes.depths.low;
   if (steps.IsCompanded())
   {
     return CanTellPileUp(extremes.typicalVarianceDn2, steps.StepAt(end), depth) &&
-           CompandedPileUp(histogram, extremes.codes, isHigh);
+           CompandedPileUp(histogram, extremes.codes, end, isHigh);
   }
   const auto stride = static_cast<std::int32_t>(step);
   return CanTellPileUp(extremes.typicalVarianceDn2, step, depth) &&
@@ -196,8 +238,8 @@ EndPilesUp(const Extremes & extremes, bool isHigh, double step, const CodeSteps 
 void
 SetClipLevels(const Extremes & extremes, double step, double top, const CodeSettings & settings, CodeRange & range)
 {
-  const std::int32_t lowest = extremes.codes.front();
-  const std::int32_t highest = extremes.codes.back();
+  const std::int32_t lowest = extremes.low;
+  const std::int32_t highest = extremes.high;
   std::string        lowSource = "given";
   std::string        highSource = "given";
   range.clipLowDn = settings.clipLowDn;
@@ -205,8 +247,10 @@ SetClipLevels(const Extremes & extremes, double step, double top, const CodeSett
   if (!range.clipLowDn)
   {
     const bool found = lowest < highest && lowest != 0 && EndPilesUp(extremes, false, step, range.steps);
-    range.clipLowDn = found ? lowest : (lowest < 0 ? -32768.0 : 0.0);
-    lowSource = found ? "pile-up" : "code range";
+    // Codes below 0 end where their type does, which is no level of the sensor.
+    const bool isSigned = extremes.codes.front() < 0;
+    range.clipLowDn = found ? std::optional<double>(lowest) : isSigned ? std::nullopt : std::optional<double>(0.0);
+    lowSource = found ? "pile-up" : isSigned ? "none" : "code range";
   }
   if (!range.clipHighDn)
   {
@@ -248,8 +292,12 @@ FindCodes(const CodeHistogram & minima,
     range.isRegular = true;
     range.quantisationStepDn = range.steps.GetTable().front().stepDn;
   }
-  const double top = SetBitDepth(codes.back(), step, settings, range);
-  SetClipLevels({ minima, maxima, codes, typicalVarianceDn2, depths }, step, top, settings, range);
+  const double   top = SetBitDepth(codes.back(), step, settings, range);
+  const Extremes extremes{
+    minima, maxima, codes, FindEndOfCodes(minima, false, step), FindEndOfCodes(maxima, true, step), typicalVarianceDn2,
+    depths
+  };
+  SetClipLevels(extremes, step, top, settings, range);
   return range;
 }
 

@@ -8,6 +8,7 @@
 #include "sensornoise/moments/PileUp.h"
 #include "SensorNoiseExport.h"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -36,6 +37,12 @@ public:
   /** The codes that occur, ascending. */
   std::vector<std::int32_t>
   Occupied() const;
+  /** Whether Add() takes a value. */
+  static bool
+  IsCode(double value)
+  {
+    return value >= -LowestCode && value <= 65535.0 && value == std::floor(value);
+  }
 
 private:
   static constexpr std::int32_t LowestCode = 32768; // room for signed and unsigned 16-bit codes
@@ -49,6 +56,12 @@ private:
  * is false. A few stray codes do not matter. */
 SensorNoise_EXPORT double
 FindQuantisationStep(const std::vector<std::int32_t> & codes, bool & regular);
+
+/** The outermost code of extremes that is the extreme of more than stray pixels. It is the highest or the lowest code,
+ * unless that lies beyond a pile-up, see IsPileUp(), apart from it, and so do all other codes beyond: a stuck pixel
+ * does not hide the level at which all others saturate. \a step is the spacing of the codes. Some pixel was added. */
+SensorNoise_EXPORT std::int32_t
+FindEndOfCodes(const CodeHistogram & extremes, bool isHigh, double step);
 
 /** Finds bit depth, code step and clip levels of integer data from every pixel's extremes over time.
  *

@@ -32,6 +32,12 @@ struct MomentsConstants
   /** Depth of the extremes, see ExtremeDepths, from which they are rare noise and no clip level [standard deviations].
    * Set by hand. */
   double largestPileUpDepth{ 2.5 };
+  /** Stray pixels beyond a pile-up, as stuck or hot ones, relative to its own pixels, at most [1]. Chosen: a sensor
+   * whose pixels pass a level more often than that does not clip there. */
+  double largestStrayShare{ 0.1 };
+  /** Levels next to a pile-up on its outer side that no pixel attains, where pixels farther out are stray. Chosen: the
+   * tail of a noise has no such gap. */
+  int levelsOutsidePileUp{ 4 };
   ///@}
 
   /** \name Steps of the codes */
@@ -40,6 +46,13 @@ struct MomentsConstants
    * hand. */
   double largestOffGridShare{ 0.02 };
   double offGridCodes{ 2.0 };
+  /** Levels of floating-point data that a grid must hold: by chance one in 10^21 does. */
+  std::size_t fewestLevelsOfGrid{ 32 };
+  /** Distance of a level from the grid, in steps, at most [1], which allows for the rounding of scaled codes. */
+  double largestOffGrid{ 0.1 };
+  /** Step of the grid, in units of the last digit of the largest level, at least [1]: below, levels hardly lie off it.
+   */
+  double leastStepInDigits{ 16.0 };
   /** Quantile of the spacings of the outermost levels that is their step [1]. Set by hand: some levels are missing. */
   double stepQuantile{ 0.1 };
   /** Pixels that each of two neighbouring codes needs to tell their distance: where codes have 8 pixels, one between

@@ -42,17 +42,39 @@ OutermostLevels::Step() const
 std::size_t
 OutermostLevels::MostInside(double stepDn) const
 {
+  return m_Counts.empty() ? 0 : this->MostInside(m_Counts.begin(), stepDn);
+}
+
+std::size_t
+OutermostLevels::MostInside(Counts::const_iterator end, double stepDn) const
+{
   std::size_t most = 0;
-  if (!m_Counts.empty())
+  // Half a step more: spacings of rescaled codes differ in the last digits.
+  const double reach = end->first - (InMoments.levelsInsidePileUp + 0.5) * stepDn;
+  for (auto level = std::next(end); level != m_Counts.end() && level->first >= reach; ++level)
   {
-    // Half a step more: spacings of rescaled codes differ in the last digits.
-    const double reach = m_Counts.begin()->first - (InMoments.levelsInsidePileUp + 0.5) * stepDn;
-    for (auto level = std::next(m_Counts.begin()); level != m_Counts.end() && level->first >= reach; ++level)
-    {
-      most = std::max(most, level->second);
-    }
+    most = std::max(most, level->second);
   }
   return most;
+}
+
+void
+OutermostLevels::LeaveOutStray(double stepDn)
+{
+  double beyond = 0.0;
+  for (auto level = m_Counts.begin(); level != m_Counts.end(); ++level)
+  {
+    const auto pixels = static_cast<double>(level->second);
+    const bool isApart = level != m_Counts.begin() &&
+                         std::prev(level)->first - level->first > (InMoments.levelsOutsidePileUp + 0.5) * stepDn;
+    if (isApart && beyond <= InMoments.largestStrayShare * pixels &&
+        IsPileUp(level->second, this->MostInside(level, stepDn)))
+    {
+      m_Counts.erase(m_Counts.begin(), level);
+      return;
+    }
+    beyond += pixels;
+  }
 }
 
 } // namespace sensornoise

@@ -58,6 +58,11 @@ public:
     return m_Counts.empty() ? 0 : m_Counts.begin()->second;
   }
 
+  /** Forgets the outermost levels that lie beyond a pile-up and apart from it, as FindEndOfCodes() does: those of stuck
+   * pixels. \a stepDn is the spacing of the levels. */
+  void
+  LeaveOutStray(double stepDn);
+
   /** The spacing of the levels [DN]: that which 1 in 10 of the distances between neighbours does not pass. Codes that
    * no pixel has make most distances longer, and stray values make a few shorter. 0: fewer than two levels. */
   double
@@ -70,12 +75,18 @@ public:
 private:
   static constexpr std::size_t MostLevels = 64;
 
+  using Counts = std::map<double, std::size_t, std::greater<double>>; // outermost first
+
   void
   Insert(double outwards);
 
-  double                                              m_Sign;
-  double                                              m_Innermost{ 0.0 }; // of the table
-  std::map<double, std::size_t, std::greater<double>> m_Counts;           // outermost first
+  /** The most pixels of one level among those at most 16 steps inside of \a end. */
+  std::size_t
+  MostInside(Counts::const_iterator end, double stepDn) const;
+
+  double m_Sign;
+  double m_Innermost{ 0.0 }; // of the table
+  Counts m_Counts;
 };
 
 } // namespace sensornoise

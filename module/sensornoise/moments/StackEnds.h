@@ -4,6 +4,7 @@
 #define sensornoise_moments_StackEnds_h
 
 #include "sensornoise/base/Quantiles.h"
+#include "sensornoise/moments/Codes.h"
 #include "sensornoise/moments/OutermostLevels.h"
 #include "sensornoise/moments/TemporalMaps.h"
 
@@ -38,6 +39,7 @@ struct StackEnds
 {
   StackEnd low;
   StackEnd high;
+  bool     areWhole{ true }; ///< all extremes are whole numbers that CodeHistogram has room for
 
   /** Adds the pixels [begin, end). */
   template <typename TPixel>
@@ -50,6 +52,7 @@ struct StackEnds
       {
         low.Add(-maps.GetMinimum(p), 1);
         high.Add(maps.GetMaximum(p), 1);
+        areWhole = areWhole && CodeHistogram::IsCode(maps.GetMinimum(p)) && CodeHistogram::IsCode(maps.GetMaximum(p));
       }
     }
   }
@@ -59,6 +62,7 @@ struct StackEnds
   {
     low.Add(other.low.outwards, other.low.pixels);
     high.Add(other.high.outwards, other.high.pixels);
+    areWhole = areWhole && other.areWhole;
   }
 };
 

@@ -17,6 +17,7 @@
 #include "sensornoise/moments/TemporalMoments.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -48,13 +49,10 @@ TypicalVariance(const TemporalMaps<TPixel> & maps)
   return variances.empty() ? 0.0 : Quantile(variances, 0.5);
 }
 
-/** The codes of an integer stack, from every pixel's extremes. */
+/** The codes of a stack of whole numbers, from every finite pixel's extremes. */
 template <typename TPixel>
 CodeRange
-FindCodesOfIntegers(const TemporalMaps<TPixel> & maps,
-                    const StackEnds &            ends,
-                    const CodeSettings &         settings,
-                    const ParallelFor &          parallelFor)
+FindCodesOfWhole(const TemporalMaps<TPixel> & maps, const CodeSettings & settings, const ParallelFor & parallelFor)
 {
   CodeHistogram minima;
   CodeHistogram maxima;
@@ -63,10 +61,16 @@ FindCodesOfIntegers(const TemporalMaps<TPixel> & maps,
     CodeHistogram & extremes = isHigh == 1 ? maxima : minima;
     for (std::size_t p = 0; p < maps.GetNumberOfPixels(); ++p)
     {
-      extremes.Add(isHigh == 1 ? maps.GetMaximum(p) : maps.GetMinimum(p));
+      if (maps.IsFinite(p))
+      {
+        extremes.Add(isHigh == 1 ? maps.GetMaximum(p) : maps.GetMinimum(p));
+      }
     }
-    const auto end = isHigh == 1 ? OutermostLevels::End::High : OutermostLevels::End::Low;
-    (isHigh == 1 ? depths.high : depths.low) = MedianDepth(maps, end, isHigh == 1 ? ends.high : ends.low);
+    const auto   end = isHigh == 1 ? OutermostLevels::End::High : OutermostLevels::End::Low;
+    bool         isRegular = true;
+    const double step = settings.quantisationStepDn.value_or(FindQuantisationStep(extremes.Occupied(), isRegular));
+    const double level = FindEndOfCodes(extremes, isHigh == 1, step);
+    (isHigh == 1 ? depths.high : depths.low) = MedianDepth(maps, end, { isHigh == 1 ? level : -level, 0 });
   });
   CodeRange codes = FindCodes(minima, maxima, TypicalVariance(maps), settings, depths);
   // A signed 16-bit number ends at 32767, whatever 16 bits would hold.
@@ -75,28 +79,72 @@ FindCodesOfIntegers(const TemporalMaps<TPixel> & maps,
   return codes;
 }
 
+/** The spacing of the levels of a floating-point stack, of codes that were multiplied by one number; 0: they have none.
+ * All of some thousand pixels' minima lie on one grid then. A grid that is not much wider than the type's own digits is
+ * no other than theirs. */
+template <typename TPixel>
+double
+FindStepOfFloating(const TemporalMaps<TPixel> & maps)
+{
+  const std::size_t   pixels = maps.GetNumberOfPixels();
+  std::vector<double> levels;
+  for (std::size_t p = 0; p < pixels; p += std::max<std::size_t>(1, pixels / 8192))
+  {
+    if (maps.IsFinite(p))
+    {
+      levels.push_back(maps.GetMinimum(p));
+    }
+  }
+  std::sort(levels.begin(), levels.end());
+  levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
+  if (levels.size() < InMoments.fewestLevelsOfGrid)
+  {
+    return 0.0;
+  }
+  const double digits = std::numeric_limits<TPixel>::epsilon() * std::max(std::abs(levels.front()), levels.back());
+  const double range = levels.back() - levels.front();
+  double       least = range;
+  for (std::size_t i = 1; i < levels.size(); ++i)
+  {
+    const double spacing = levels[i] - levels[i - 1];
+    least = spacing > InMoments.leastStepInDigits * digits ? std::min(least, spacing) : least;
+  }
+  double steps = 0.0; // counted from level to level: the digits round the least spacing
+  for (std::size_t i = 1; i < levels.size(); ++i)
+  {
+    steps += std::round((levels[i] - levels[i - 1]) / least);
+  }
+  const double step = range / steps;
+  const bool   isGrid = std::all_of(levels.begin(), levels.end(), [&](double level) {
+    const double places = (level - levels.front()) / step;
+    return std::abs(places - std::round(places)) < InMoments.largestOffGrid;
+  });
+  return isGrid ? step : 0.0;
+}
+
 /** The clip levels of a floating-point stack, from every finite pixel's extremes. */
 template <typename TPixel>
 CodeRange
-FindLevelsOfFloating(const TemporalMaps<TPixel> & maps,
-                     const StackEnds &            ends,
-                     const CodeSettings &         settings,
-                     const ParallelFor &          parallelFor)
+FindLevelsOfFloating(const TemporalMaps<TPixel> & maps, const CodeSettings & settings, const ParallelFor & parallelFor)
 {
-  // An end with fewer pixels, as nearly always without a clip level, needs no second look.
+  const double    stepDn = settings.quantisationStepDn.value_or(FindStepOfFloating(maps));
   OutermostLevels minima(OutermostLevels::End::Low);
   OutermostLevels maxima(OutermostLevels::End::High);
   ExtremeDepths   depths;
   parallelFor(2, [&](std::size_t isHigh) {
-    const auto       end = isHigh == 1 ? OutermostLevels::End::High : OutermostLevels::End::Low;
-    const StackEnd & level = isHigh == 1 ? ends.high : ends.low;
-    if (level.pixels >= InMoments.fewestPixelsOfPileUp)
+    const auto        end = isHigh == 1 ? OutermostLevels::End::High : OutermostLevels::End::Low;
+    OutermostLevels & levels = isHigh == 1 ? maxima : minima;
+    levels = LevelsAt(end, maps);
+    levels.LeaveOutStray(stepDn > 0.0 ? stepDn : levels.Step());
+    if (levels.Pixels() >= InMoments.fewestPixelsOfPileUp)
     {
-      (isHigh == 1 ? maxima : minima) = LevelsAt(end, maps);
-      (isHigh == 1 ? depths.high : depths.low) = MedianDepth(maps, end, level);
+      const double outwards = isHigh == 1 ? levels.Level() : -levels.Level();
+      (isHigh == 1 ? depths.high : depths.low) = MedianDepth(maps, end, { outwards, levels.Pixels() });
     }
   });
-  return FindLevels(minima, maxima, TypicalVariance(maps), settings, depths);
+  CodeRange range = FindLevels(minima, maxima, TypicalVariance(maps), settings, depths);
+  range.quantisationStepDn = stepDn;
+  return range;
 }
 
 template <typename TPixel>
@@ -130,14 +178,10 @@ SummariseStack(const TemporalMaps<TPixel> & maps,
   const std::size_t pixels = maps.GetNumberOfPixels();
   const StackEnds   ends = FindEnds(maps, parallelFor);
   StackSummary      summary;
-  if constexpr (std::is_integral_v<TPixel>)
-  {
-    summary.codes = FindCodesOfIntegers(maps, ends, settings, parallelFor);
-  }
-  else
-  {
-    summary.codes = FindLevelsOfFloating(maps, ends, settings, parallelFor);
-  }
+  // Whole numbers are codes, whatever the type that they are stored in.
+  const bool areCodes = std::is_integral_v<TPixel> || (ends.high.pixels > 0 && ends.areWhole);
+  summary.codes =
+    areCodes ? FindCodesOfWhole(maps, settings, parallelFor) : FindLevelsOfFloating(maps, settings, parallelFor);
 
   std::vector<StackSummary> counts((pixels + PixelsPerBlock - 1) / PixelsPerBlock);
   ForBlocks(pixels, parallelFor, [&](std::size_t begin, std::size_t end) {

@@ -92,7 +92,7 @@ FillFit(Report & report, const FitQuality & quality)
     SetSensorParameters(report, EstimateStatus::Failed);
     report.Warn(
       WarningCode::VarianceNotAffine,
-      "the corrected variance scatters about its line " + Rounded(quality.reducedChi2) +
+      "the corrected variance scatters about its line " + RoundedApart(quality.reducedChi2, LargestReducedChi2) +
         " times as much as sampling noise does (expected 1, at most 10): the scene moves, the flicker differs "
         "within the frame, or the data are not raw");
   }

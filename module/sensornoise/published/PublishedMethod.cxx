@@ -7,7 +7,8 @@
 #include "sensornoise/base/PixelUse.h"
 #include "sensornoise/moments/StackMaps.h"
 #include "sensornoise/report/AllFrames.h"
-#include "sensornoise/report/Contradictions.h"
+#include "sensornoise/report/ExcessNoise.h"
+#include "sensornoise/report/Statuses.h"
 #include "sensornoise/report/SceneChangeReport.h"
 #include "sensornoise/report/StackReport.h"
 #include "sensornoise/report/StackSettings.h"
@@ -122,7 +123,8 @@ PublishedMethod<TPixel>::FinishSums()
     m_Correction.reset(); // their memory
     m_Report = MakePublishedReport({ m_Settings, m_Geometry, m_Distinct.Count(), m_Scene, m_Flicker, m_Corrected },
                                    m_ParallelFor);
-    WithdrawContradicted(m_Report);
+    FileStatuses(m_Report);
+    DivideExcessNoise(m_Report, m_Settings.excessNoiseFactor);
     WarnOfMosaic(m_Report, m_Scene.mean, m_Geometry, m_ParallelFor);
     NoteMask(m_Report, m_Geometry, m_UserMask);
     ReportSceneChange(m_Report, m_Thumbnails.FindChange(m_Distinct.Counted()));

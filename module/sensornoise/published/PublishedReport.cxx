@@ -142,7 +142,7 @@ HasRange(Report & report, const PublishedScene & scene)
   }
   SetSensorParameters(report, EstimateStatus::NotIdentifiable);
   report.Warn(WarningCode::IntensityRangeTooSmall,
-              "the even areas span " + Rounded(ContrastDn(scene)) + " DN, expected more than " +
+              "the even areas span " + RoundedApart(ContrastDn(scene), 6.0 * spreadDn) + " DN, expected more than " +
                 Rounded(6.0 * spreadDn) + " DN (6 standard deviations of their means): use a scene with dark " +
                 "and bright areas");
   return false;
@@ -188,7 +188,7 @@ FillQuality(Report &                  report,
   if (std::abs(quality.curvatureZ) > 5.0 && std::abs(bendDn2) > 0.03 * middleDn2)
   {
     report.Warn(WarningCode::CorrectedVarianceCurved,
-                "the corrected variance bends by " + Percent(bendDn2 / middleDn2) +
+                "the corrected variance bends by " + PercentApart(bendDn2 / middleDn2, 0.03) +
                   " of itself (expected under 3 %): vibrations, several lamps, or data that are not linear");
   }
 }

@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/Text.h"
 #include "sensornoise/published/VibrationMask.h"
+#include "sensornoise/report/ExcessNoise.h"
 
 #include <stdexcept>
 #include <string>
@@ -30,6 +31,7 @@ PublishedSettings::Validate() const
     throw std::invalid_argument("the shutter axis is " + std::to_string(shutterAxis) + "; expected 0 (x) or 1 (y)");
   }
   ValidateCodeSettings(codes);
+  ValidateExcessNoiseFactor(excessNoiseFactor);
 }
 
 } // namespace sensornoise

@@ -25,6 +25,9 @@ struct SensorNoise_EXPORT PublishedSettings
   double sigmaRows{ 50.0 };
   /** Axis along which the shutter travels: 1 = y; 0 = x, the rows are then columns of the frame. */
   unsigned int shutterAxis{ 1 };
+  /** Excess noise factor F of the sensor, 1 or more [1]: the gain is the slope of the variance divided by F. See
+   * DivideExcessNoise(). */
+  double excessNoiseFactor{ 1.0 };
   /** What is known of the codes; the rest is found. */
   CodeSettings codes;
 

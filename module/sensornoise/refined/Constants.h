@@ -121,6 +121,10 @@ struct RefinedConstants
   /** The same from which on dark frames are of another sensor, exposure or temperature, where the response is straight
    * [1]. Set by hand. */
   double anotherSensorZ{ 4.0 };
+  /** Difference between the variance of dark frames and that of the line at their level, relative to the larger one,
+   * from which on the dark frames contradict the bright ones, beside anotherSensorZ [1]. Chosen by the size of the
+   * effect: 5 % of the read noise. */
+  double leastDarkDifference{ 0.1 };
   /** Part of the levels above the offset below which they say nothing of the gain [1]. Set by hand. */
   double leastLight{ 0.1 };
   ///@}
@@ -137,8 +141,6 @@ struct RefinedConstants
   /** Standard errors by which the level that does not flicker and the known offset differ by steady light [1]. Set by
    * hand. */
   double steadyLightZ{ 3.0 };
-  /** Width of the offset's interval, relative to the levels' range, that is worth a number [1]. Set by hand. */
-  double largestOffsetInterval{ 0.25 };
   /** Dispersion of the lines of local light about one zero that is worth a number [1]. Set by hand. */
   double largestLocalDispersion{ 4.0 };
   /** Standard errors by which a square of the read noise below 0 is no chance [1]. Set by hand. */

@@ -80,6 +80,17 @@ MoveToPoint(GainEstimate & estimate, const DarkPoint & dark)
   return std::abs(difference) / std::sqrt(expected);
 }
 
+/** Lets the bounds of the gain hold the gain of the line from its pivot to the point. */
+void
+WidenToPoint(GainEstimate & estimate, const DarkPoint & dark)
+{
+  const VarianceLine & line = estimate.line;
+  const double         signalDn = line.pivotDn - dark.offsetDn;
+  const double difference = signalDn > 0.0 ? (line.At(line.pivotDn) - dark.varianceDn2) / signalDn - line.gain : 0.0;
+  double &     side = difference < 0.0 ? estimate.below : estimate.above;
+  side = std::max(side, std::abs(difference));
+}
+
 /** The gains of the levels, (V - sigma^2) / (mean - mu). */
 struct LevelGains
 {
@@ -130,18 +141,26 @@ UseDarkPoint(GainEstimate & estimate, const RefinedResults & found)
   const bool         isBent = estimate.IsBent();
   const GainEstimate before = estimate;
   const double       contradiction = MoveToPoint(estimate, dark);
+  const auto         atOffset = estimate.atOffset;
+  const bool         isFar = estimate.curve.DarkestShare(dark.offsetDn) > InPixels.darkEnough;
+  estimate.isLinearityTested =
+    std::sqrt(before.covariance(0, 0)) < 0.5 * InRefined.largestNonlinearity * std::abs(before.line.gain);
+  const double difference = std::abs(dark.varianceDn2 - atOffset->valueDn2);
   if (!isBent && contradiction > InRefined.anotherSensorZ &&
-      estimate.curve.DarkestShare(dark.offsetDn) < InPixels.darkEnough)
+      difference > InRefined.leastDarkDifference * std::max(dark.varianceDn2, std::abs(atOffset->valueDn2)))
   {
-    // A straight line that comes close to the dark knows the variance there: these are not its dark frames.
-    const auto atOffset = estimate.atOffset;
     estimate = before;
     estimate.atOffset = atOffset;
+    estimate.isDarkRejected = true;
+    if (isFar)
+    {
+      WidenToPoint(estimate, dark);
+    }
     return;
   }
   const LevelGains   gains = GainsOfLevels(estimate.curve, dark);
   const VarianceLine line = estimate.line;
-  if (isBent || estimate.curve.DarkestShare(dark.offsetDn) > InPixels.darkEnough)
+  if (isBent || isFar)
   {
     estimate.atOffset.reset(); // a bend of the response may explain the difference
   }

@@ -14,9 +14,12 @@ struct GainEstimate;
 /** Adds what dark frames tell: the line goes through their offset and variance, (mu, sigma^2). With levels of one
  * height only this is the photon transfer of EMVA 1288, gain = (V - sigma^2) / (mean - mu).
  *
- * Dark frames that contradict a straight line which comes close to the dark are of another sensor, and not used.
- * Elsewhere, where dark frames and frames contradict each other, or the levels' gains (V - sigma^2) / (mean - mu)
- * differ, beyond chance, the response bends: then the gain is their mean, and their scatter its error. */
+ * The dark point is one more point of the variance line. It contradicts the line of the bright frames where both differ
+ * by more than InRefined.anotherSensorZ of their errors, and by more than InRefined.leastDarkDifference of the
+ * variance: then it is not used. Where the bright frames do not come close to the dark, a bend of the response could
+ * make that difference, too, and the error of the gain holds the gain that the dark frames would give. Where the
+ * response bends visibly, or the difference is smaller but beyond chance, the gain is the mean of the levels' gains (V
+ * - sigma^2) / (mean - mu), and their scatter its error. */
 SensorNoise_EXPORT void
 UseDarkPoint(GainEstimate & estimate, const RefinedResults & found);
 

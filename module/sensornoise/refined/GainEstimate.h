@@ -45,6 +45,12 @@ struct GainEstimate
    * bend of the response may part them from the line. */
   std::optional<DarkVariance> atOffset;
 
+  /** Whether the dark frames contradict the line of the bright frames, and are not in the gain. */
+  bool isDarkRejected{ false };
+  /** Whether the line of the bright frames alone is precise enough for dark frames to test the linearity of the
+   * response: not for levels of one height. */
+  bool isLinearityTested{ false };
+
   /** Whether parts of the levels differ visibly. */
   bool
   IsBent() const

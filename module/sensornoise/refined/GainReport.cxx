@@ -46,13 +46,14 @@ FindContradiction(const RefinedResults & found, const GainEstimate & gain)
   if (found.noiseScatter > 0.0)
   {
     return "the noise of the frames differs from what their levels make of it, half of them by more than " +
-           Percent(found.noiseScatter) + " (expected at most " + Percent(InRefined.leastUnlikeNoise) +
+           PercentApart(found.noiseScatter, InRefined.leastUnlikeNoise) + " (expected at most " +
+           Percent(InRefined.leastUnlikeNoise) +
            "): they are of several gains, or processed in several ways; measure the frames of each by themselves";
   }
   if (gain.nonlinearity > InRefined.largestNonlinearity)
   {
-    return "the variance departs from its line by " + Percent(gain.nonlinearity) + " of itself (expected less than " +
-           Percent(InRefined.largestNonlinearity) + ")" + advice +
+    return "the variance departs from its line by " + PercentApart(gain.nonlinearity, InRefined.largestNonlinearity) +
+           " of itself (expected less than " + Percent(InRefined.largestNonlinearity) + ")" + advice +
            (hasCodes ? "" : ", or they saturate: then give the levels that the sensor attains (clip)");
   }
   if (gain.isWide && gain.IsBent() && gain.above + gain.below > 2.0 * InRefined.largestGainError * gain.line.gain)
@@ -120,7 +121,8 @@ FindFewIlluminatedFrames(const RefinedResults & found)
          " of the illumination of " + std::to_string(frames) +
          " distinct frames (the first is 0): the estimates of flicker and motion take up the shot noise of so few, "
          "and " +
-         Percent(std::max(0.0, left)) + " of it is left (at least " + Percent(1.0 - InPixels.largestFeedback) +
+         PercentApart(std::max(0.0, left), 1.0 - InPixels.largestFeedback) + " of it is left (at least " +
+         Percent(1.0 - InPixels.largestFeedback) +
          " expected). The gain is not identifiable: record more frames with light";
 }
 
@@ -133,7 +135,8 @@ FillTooLittle(Report & report, const RefinedResults & found, const GainEstimate 
   if (static_cast<double>(report.pixels.used) < InRefined.leastUsedShare * found.scene.usable)
   {
     report.Warn(WarningCode::TooLittleToMeasure,
-                Percent(static_cast<double>(report.pixels.used) / std::max(1.0, found.scene.usable)) +
+                PercentApart(static_cast<double>(report.pixels.used) / std::max(1.0, found.scene.usable),
+                             InRefined.leastUsedShare) +
                   " of the pixels that are not clipped fit a static scene (expected at least " +
                   Percent(InRefined.leastUsedShare) + ") and give a gain of " + Measured(gain.line.gain, error) +
                   " DN/e-: the scene is not static, or too dark; choose a static part of it");
@@ -223,15 +226,19 @@ WarnOfNarrowRange(Report & report, const RefinedResults & found, const GainEstim
 {
   const VarianceCurve & curve = found.variance.curve;
   const double          blackDn = report.offset.value.value_or(limits.rootDn);
-  const bool            isDarkGiven = found.settings.offset && found.settings.offset->variance;
+  const bool            hasDark = found.settings.offset && found.settings.offset->variance;
+  const bool            isTested = hasDark && gain.isLinearityTested && !gain.isDarkRejected;
   const double          inFrames = (found.InDarkestFrame(found.scene.model.centreDn) - blackDn) /
                           (found.InBrightestFrame(found.scene.model.centreDn) - blackDn);
   const double share = curve.DarkestShare(blackDn) * (gain.isFromFrames ? std::max(0.0, inFrames) : 1.0);
-  if (!isDarkGiven && share > InPixels.darkEnough)
+  if (!isTested && share > InPixels.darkEnough)
   {
     report.Warn(WarningCode::ResponseUnchecked,
-                "the darkest levels have " + Percent(share) + " of the brightest's light (expected at most " +
-                  Percent(InPixels.darkEnough) + "): a bent response could not be seen there; dark frames would tell");
+                "the darkest levels have " + PercentApart(share, InPixels.darkEnough) +
+                  " of the brightest's light (expected at most " + Percent(InPixels.darkEnough) +
+                  "): a bent response could not be seen there; " +
+                  (hasDark ? "beside the dark frames record dark and bright areas, or other exposures"
+                           : "dark frames would tell"));
   }
 }
 

@@ -238,8 +238,8 @@ FillFlicker(Report & report, const RefinedResults & found, double offset, double
     report.flickerSd = Quantity::Without(EstimateStatus::NotIdentifiable);
     report.Warn(WarningCode::FlickerNotIdentifiable,
                 (std::isfinite(ofScale)
-                   ? "the light is known to " + Percent(ofScale) + " only, and so is the flicker (expected " +
-                       Percent(InRefined.largestScaleError) + " at most)"
+                   ? "the light is known to " + PercentApart(ofScale, InRefined.largestScaleError) +
+                       " only, and so is the flicker (expected " + Percent(InRefined.largestScaleError) + " at most)"
                    : std::string("the light is not known, and neither is the flicker")) +
                   ": a known offset would tell, or a scene with dark and bright areas");
   }

@@ -25,8 +25,7 @@ namespace sensornoise
 
 namespace
 {
-/** Warns if the dark frames are noisier or quieter than the line is at the offset, unless a bent response explains it.
- */
+/** Warns if the dark frames are noisier or quieter than the line is at the offset, see UseDarkPoint(). */
 void
 CompareDarkVariance(Report &             report,
                     const GainEstimate & gain,
@@ -34,14 +33,15 @@ CompareDarkVariance(Report &             report,
                     double               errorDn2,
                     double               quantisationDn2)
 {
-  if (gain.atOffset && std::abs(varianceDn2 - gain.atOffset->valueDn2) >
-                         InRefined.anotherSensorZ * std::hypot(errorDn2, gain.atOffset->standardErrorDn2))
+  if (gain.isDarkRejected)
   {
-    report.Warn(WarningCode::DarkFramesDiffer,
-                "at the offset the noise is " +
-                  Measured(gain.atOffset->valueDn2 - quantisationDn2, gain.atOffset->standardErrorDn2) +
-                  " DN^2, but the dark frames have " + Measured(varianceDn2 - quantisationDn2, errorDn2) +
-                  " DN^2: another exposure, gain or temperature");
+    report.Warn(
+      WarningCode::DarkFramesDiffer,
+      "at the offset the noise is " +
+        Measured(gain.atOffset->valueDn2 - quantisationDn2, gain.atOffset->standardErrorDn2) +
+        " DN^2, but the dark frames have " + Measured(varianceDn2 - quantisationDn2, errorDn2) +
+        " DN^2: their black level, exposure, gain or temperature is another one, or they are not dark. The gain is "
+        "measured without them");
   }
 }
 
@@ -57,6 +57,18 @@ FillElectrons(Report & report, double squareDn2, double errorDn2, double gain, d
   const double fromGain = 2.0 * squareDn2 / gain * gainError;
   report.readNoiseElectrons =
     RootOf(squareDn2 / (gain * gain), std::hypot(errorDn2, fromGain) / (gain * gain), student);
+}
+
+/** Whether the known offset lies beyond its limits. */
+bool
+IsKnownOffsetOutOfRange(const RefinedResults & found, const GainEstimate & gain, const OffsetLimits & limits)
+{
+  const KnownOffset & known = *found.settings.offset;
+  const double        slackDn = InRefined.slackOfOffsetZ * known.standardErrorDn +
+                         InRefined.slackOfInterceptZ * std::sqrt(gain.covariance(1, 1)) / gain.line.gain;
+  const double rangeDn = found.scene.model.brightestDn - found.scene.model.darkestDn;
+  return (limits.lowestDn && known.valueDn < *limits.lowestDn - slackDn) ||
+         known.valueDn > limits.highestDn + slackDn + InRefined.slackOfRange * rangeDn;
 }
 
 /** Warns if the known offset disagrees with the flicker's, or with the data. */
@@ -79,11 +91,7 @@ CompareKnownOffset(Report &               report,
                   (difference > 0.0 ? "light that does not flicker, or dark current, makes the difference"
                                     : "that is too high for these frames"));
   }
-  const double slackDn = InRefined.slackOfOffsetZ * offsetErrorDn +
-                         InRefined.slackOfInterceptZ * std::sqrt(gain.covariance(1, 1)) / gain.line.gain;
-  const double rangeDn = found.scene.model.brightestDn - found.scene.model.darkestDn;
-  const bool   isTooLow = limits.lowestDn && offsetDn < *limits.lowestDn - slackDn;
-  if (isTooLow || offsetDn > limits.highestDn + slackDn + InRefined.slackOfRange * rangeDn)
+  if (IsKnownOffsetOutOfRange(found, gain, limits))
   {
     report.Warn(WarningCode::OffsetOutOfRange,
                 "the given offset, " + Text(offsetDn) + " DN, is not between " +
@@ -167,9 +175,13 @@ FillReadNoise(Report &               report,
 } // namespace
 
 UsedOffset
-OffsetInUse(const RefinedResults & found, const OffsetEstimate & flicker, const OffsetLimits & limits)
+OffsetInUse(const RefinedResults & found,
+            const GainEstimate &   gain,
+            const OffsetEstimate & flicker,
+            const OffsetLimits &   limits)
 {
-  if (const auto & known = found.settings.offset)
+  const auto & known = found.settings.offset;
+  if (known && !gain.isDarkRejected && !IsKnownOffsetOutOfRange(found, gain, limits))
   {
     return { known->valueDn, known->standardErrorDn };
   }
@@ -220,7 +232,7 @@ OffsetByExposures(const RefinedResults & found)
   const bool          isOfLine = !fit.isOffsetOfDarkFrames && fit.dof > 0.0;
   const double        halfWidthDn = StudentQuantile(0.975, isOfLine ? fit.dof : 1e6) * fit.offsetDn->standardError;
   const double        rangeDn = fit.levels.back().meanDn - fit.levels.front().meanDn;
-  if (!(2.0 * halfWidthDn < InRefined.largestOffsetInterval * rangeDn))
+  if (!(2.0 * halfWidthDn < LargestOffsetInterval * rangeDn))
   {
     return std::nullopt;
   }
@@ -290,7 +302,7 @@ OffsetByIllumination(const RefinedResults & found, const GainEstimate & gain, co
   {
     estimate.obstacle = "the offset's interval has no end";
   }
-  else if (high - low > InRefined.largestOffsetInterval * rangeDn)
+  else if (high - low > LargestOffsetInterval * rangeDn)
   {
     estimate.obstacle = "the offset's interval, " + Rounded(low + model.centreDn) + " to " +
                         Rounded(high + model.centreDn) + " DN, is wider than a quarter of the range of the scene, " +

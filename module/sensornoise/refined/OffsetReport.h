@@ -39,9 +39,13 @@ struct UsedOffset
   double errorDn;
 };
 
-/** What is known, what the flicker tells, or the middle of the limits. */
+/** Returns the known offset unless the frames contradict it, else that of the flicker, else the middle of the limits.
+ */
 SensorNoise_EXPORT UsedOffset
-OffsetInUse(const RefinedResults & found, const OffsetEstimate & flicker, const OffsetLimits & limits);
+OffsetInUse(const RefinedResults & found,
+            const GainEstimate &   gain,
+            const OffsetEstimate & flicker,
+            const OffsetLimits &   limits);
 
 /** Files offset and read noise as dark frames, or the user, tell them, whatever the frames tell. \a quantisationDn2 is
  * the codes' noise. */

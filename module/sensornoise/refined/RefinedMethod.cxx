@@ -12,7 +12,8 @@
 #include "sensornoise/refined/PixelsOfVariance.h"
 #include "sensornoise/refined/RefinedReport.h"
 #include "sensornoise/report/AllFrames.h"
-#include "sensornoise/report/Contradictions.h"
+#include "sensornoise/report/Statuses.h"
+#include "sensornoise/report/ExcessNoise.h"
 #include "sensornoise/report/LinearityReport.h"
 #include "sensornoise/report/SceneChangeReport.h"
 #include "sensornoise/report/StackReport.h"
@@ -422,7 +423,8 @@ RefinedMethod<TPixel>::MakeReport()
                                               m_ExposureFit ? &*m_ExposureFit : nullptr },
                                             m_ParallelFor);
   ReportLinearity(m_Report, m_ExposureFit);
-  WithdrawContradicted(m_Report);
+  FileStatuses(m_Report);
+  DivideExcessNoise(m_Report, m_Settings.excessNoiseFactor);
   UncoverUnknown(m_Scene->frame, m_ParallelFor);
   WarnOfMosaic(m_Report, m_Scene->frame.mean, m_Geometry, m_ParallelFor);
   NoteMask(m_Report, m_Geometry, m_UserMask);

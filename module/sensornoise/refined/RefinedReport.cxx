@@ -171,7 +171,7 @@ FillSensor(Report & report, const RefinedResults & found, const GainEstimate & g
 {
   const OffsetLimits   limits = LimitsOf(found, gain, codesDn2);
   const OffsetEstimate flicker = EstimateOffset(found, gain, limits);
-  const UsedOffset     offset = OffsetInUse(found, flicker, limits);
+  const UsedOffset     offset = OffsetInUse(found, gain, flicker, limits);
   FillFlicker(report, found, offset.valueDn - found.scene.model.centreDn, offset.errorDn, gain.RelativeModelError());
   FillMotion(report, found);
   WarnOfMotion(report, found);

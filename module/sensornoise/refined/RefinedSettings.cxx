@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/Text.h"
 #include "sensornoise/moments/Exposures.h"
+#include "sensornoise/report/ExcessNoise.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -17,6 +18,7 @@ RefinedSettings::Validate() const
 {
   ValidateCodeSettings(codes);
   ValidateExposures(exposures);
+  ValidateExcessNoiseFactor(excessNoiseFactor);
   if (levelRangeDn && !(levelRangeDn->lowDn < levelRangeDn->highDn && std::isfinite(levelRangeDn->lowDn) &&
                         std::isfinite(levelRangeDn->highDn)))
   {

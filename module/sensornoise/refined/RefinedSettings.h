@@ -38,6 +38,10 @@ struct SensorNoise_EXPORT RefinedSettings
    * Finite, 0 or more, at least 3 different values. With them the linearity of the response is measured, see
    * FitExposures(). Empty (default): not given. */
   std::vector<double> exposures;
+  /** Excess noise factor F of the sensor [1]: what an amplification of single electrons or photons makes of the
+   * variance of their shot noise, 2 in an EMCCD. The gain is the slope of the variance, divided by F. 1 or more; 1
+   * (default): none. See DivideExcessNoise(). */
+  double excessNoiseFactor{ 1.0 };
   /** What is known of the codes; the rest is found. */
   CodeSettings codes;
   /** Most that the method may hold, beside the frames that it is handed [bytes]; infinite: what it needs. The stack is

@@ -6,6 +6,7 @@
 #include "sensornoise/base/Text.h"
 #include "sensornoise/report/Constants.h"
 #include "sensornoise/report/Quantities.h"
+#include "sensornoise/report/Statuses.h"
 
 #include <algorithm>
 #include <cmath>
@@ -115,6 +116,49 @@ CompareGreens(ChannelReports & reports)
   }
 }
 
+/** The mean level of the pixels used of a plane; null: none are [DN]. */
+std::optional<double>
+MeanLevelOf(const Report & report)
+{
+  double sum = 0.0;
+  double pixels = 0.0;
+  for (std::size_t i = 0; i < report.scatter.mean.size(); ++i)
+  {
+    sum += static_cast<double>(report.scatter.count[i]) * report.scatter.mean[i];
+    pixels += static_cast<double>(report.scatter.count[i]);
+  }
+  return pixels > 0.0 ? std::optional<double>(sum / pixels) : std::nullopt;
+}
+
+/** All planes see one scene, each through its colour: the two planes of one colour have the same mean level, as far as
+ * noise and edges let them. If the two that are not called green are alike, and those that are differ, they are the
+ * greens. */
+void
+CompareLevels(ChannelReports & reports)
+{
+  const auto red = MeanLevelOf(reports.Of(BayerPlane::R));
+  const auto first = MeanLevelOf(reports.Of(BayerPlane::G1));
+  const auto second = MeanLevelOf(reports.Of(BayerPlane::G2));
+  const auto blue = MeanLevelOf(reports.Of(BayerPlane::B));
+  if (!red || !first || !second || !blue)
+  {
+    return;
+  }
+  const double contrast = 0.5 * std::abs(*red + *blue - *first - *second);
+  const double ofGreens = std::abs(*first - *second);
+  const double ofOthers = std::abs(*red - *blue);
+  if (ofGreens > InReport.leastLevelDifference * std::max(contrast, ofOthers) && contrast > 0.0 &&
+      ofOthers < InReport.largestLevelDifference * ofGreens)
+  {
+    reports.warnings.push_back(
+      { WarningCode::BayerPatternDiffers,
+        std::string("the pattern is ") + NameOf(reports.pattern) + ", but the levels of its greens, " +
+          Rounded(*first) + " and " + RoundedApart(*second, *first) + " DN, differ, and those of red and blue, " +
+          Rounded(*red) + " and " + Rounded(*blue) + " DN, are alike: expected the pattern of the sensor, " +
+          NameOf(CutPattern(reports.pattern, 1, 0)) + " or " + NameOf(CutPattern(reports.pattern, 0, 1)) });
+  }
+}
+
 /** Found from the codes of each plane, of which some are darker than others: the converter has one. */
 void
 ShareBitDepth(std::array<Report, 4> & channels)
@@ -174,8 +218,10 @@ MakeChannelReports(BayerPattern pattern, BayerSource source, std::array<Report, 
   if (reports.motion)
   {
     WidenVibration(reports.channels, *reports.motion);
+    std::for_each(reports.channels.begin(), reports.channels.end(), FileStatuses);
   }
   CompareGreens(reports);
+  CompareLevels(reports);
   return reports;
 }
 

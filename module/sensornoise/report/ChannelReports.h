@@ -65,7 +65,8 @@ struct ChannelReports
 };
 
 /** Puts together the reports of the planes, in the order of BayerPlanes: names the channels, joins their offsets and
- * their motion, and warns where the two greens, which are alike, have different gains. */
+ * their motion, and warns where the two greens, which are alike, have different gains, or levels that contradict the
+ * pattern. */
 SensorNoise_EXPORT ChannelReports
 MakeChannelReports(BayerPattern pattern, BayerSource source, std::array<Report, 4> channels);
 

@@ -116,9 +116,7 @@ Widen(Quantity & quantity, const Quantity & joint, double lowest)
   {
     return;
   }
-  const EstimateStatus status = quantity.status;
   quantity = WithError(*quantity.value, std::hypot(*quantity.standardError, *quantity.value - *joint.value));
-  quantity.status = status;
   quantity.interval95->low = std::max(lowest, *quantity.interval95->low);
 }
 } // namespace

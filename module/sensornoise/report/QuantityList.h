@@ -24,11 +24,12 @@ enum class ShownIn : std::uint8_t
 /** One quantity of a report: where it is and what it is called. */
 struct QuantityEntry
 {
-  const char * path;    ///< in the JSON record; a dot leads into an object: "vibration.sd_x"
-  const char * label;   ///< in the table
-  const char * unit;    ///< "DN", "DN^2", "DN/e-", "e-", "pixel", "pixel^2", "%", "DN/unit", "1"
-  const char * meaning; ///< one sentence
-  ShownIn      shown;
+  const char *   path;    ///< in the JSON record; a dot leads into an object: "vibration.sd_x"
+  const char *   label;   ///< in the table
+  const char *   unit;    ///< "DN", "DN^2", "DN/e-", "e-", "pixel", "pixel^2", "%", "DN/unit", "1"
+  const char *   meaning; ///< one sentence
+  ShownIn        shown;
+  QuantityDomain domain; ///< its possible values, by which FileStatuses() files it
   /** The quantity; null in a report that has no such object. */
   const Quantity * (*of)(const Report & report);
 };

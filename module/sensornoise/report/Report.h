@@ -27,6 +27,15 @@ enum class EstimateStatus : std::uint8_t
   Failed           ///< the data contradict the model: value is null
 };
 
+/** The values that a quantity may have, see Filed(). */
+enum class QuantityDomain : std::uint8_t
+{
+  Positive,    ///< 0 is no value of it: a gain, a responsivity
+  NonNegative, ///< 0 is one: a noise, a flicker, a motion
+  Offset,      ///< a level [DN], of which 0 is a value like others
+  AnySign      ///< an intercept, a covariance
+};
+
 /** Two ends; an end that is not bounded is null. */
 struct Interval
 {

@@ -39,8 +39,8 @@ ReportSceneChange(Report & report, const SceneChange & change)
     warnings.end());
   const Warning warning{ WarningCode::SceneChanges,
                          "the frames do not show one still scene: of what the areas of a frame differ by, " +
-                           Percent(change.share) + " is not as in the others (expected under " +
-                           Percent(InMoments.sceneChangeShare) +
+                           PercentApart(change.share, InMoments.sceneChangeShare) +
+                           " is not as in the others (expected under " + Percent(InMoments.sceneChangeShare) +
                            "): another axis than time was taken for time, or the scene changes, or the camera moves by "
                            "many pixels" };
   warnings.insert(warnings.begin(), warning);

@@ -67,11 +67,14 @@ def as_frame(values: object, name: str, dtype: type[np.generic]) -> np.ndarray:
 
 
 def as_mask(values: object, name: str) -> np.ndarray:
-    """A mask (y, x) of uint8: 1 where `values` is not 0."""
+    """A mask (y, x) of uint8: 1 where `values` is not 0. NaN, which is no answer, is a ValueError."""
     array = as_array(values, name)
     require_shape(array, name, "y, x")
     if array.dtype.kind not in "iufb":
         raise ValueError(f"{name} has dtype {array.dtype.name}; expected real numbers or bool")
+    unknown = int(np.count_nonzero(array != array))
+    if unknown:
+        raise ValueError(f"{name} has {unknown} pixels that are NaN; expected 0 or another number")
     return np.ascontiguousarray(array != 0, dtype=np.uint8)
 
 

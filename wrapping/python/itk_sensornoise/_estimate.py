@@ -30,6 +30,7 @@ def estimate_sensor_noise(
     step: float | None = None,
     level_range: tuple[float, float] | None = None,
     exposures: Sequence[float] | None = None,
+    excess_noise_factor: float = 1.0,
     rolling_shutter: Literal["auto", "off"] | float = "auto",
     shutter_axis: Literal["y", "x"] = "y",
     level: float = 0.01,
@@ -87,6 +88,9 @@ def estimate_sensor_noise(
         frame. Finite, 0 or more, with at least 3 different values. The record's `linearity` then has the linearity
         error of EMVA 1288, and offset and responsivity of a line through the levels. One for each of `frames`, also for
         those that `frame_range` leaves out. Default: not given. "refined" only.
+    excess_noise_factor
+        F, 1 or more, of a sensor that multiplies electrons at random, 2 for an EMCCD: the frames cannot tell it. `gain`
+        is the slope of the variance divided by F; `variance_slope` and everything in DN stay as they are. Default: 1.
     rolling_shutter
         Whether the flicker may differ from line to line: "auto" (found out), "off", or the width sigma_y of a line's
         neighbourhood [lines]. "refined" looks for any light that changes in some places in another way than in others,
@@ -159,6 +163,7 @@ def estimate_sensor_noise(
         step=step,
         level_range=level_range,
         exposures=exposures,
+        excess_noise_factor=excess_noise_factor,
         rolling_shutter=rolling_shutter,
         shutter_axis=shutter_axis,
         level=level,

@@ -29,6 +29,7 @@ class Settings:
     step: float | None = None
     level_range: tuple[float, float] | None = None
     exposures: Sequence[float] | None = None
+    excess_noise_factor: float = 1.0
     rolling_shutter: str | float = "auto"
     shutter_axis: str = "y"
     level: float = 0.01
@@ -46,6 +47,7 @@ class Settings:
             _level_range(self.level_range, self.method)
         if self.exposures is not None:
             _exposures(self.exposures, self.method)
+        _excess_noise_factor(self.excess_noise_factor)
         _ = self.span
 
     @property
@@ -102,6 +104,7 @@ def prepare(stack: Stack, dark: Stack | None, settings: Settings) -> Prepared:
         estimator.SetLevelRangeHigh(high)
     if settings.exposures is not None:
         estimator.SetExposures(_exposures_of(settings, size[2], total))
+    estimator.SetExcessNoiseFactor(_excess_noise_factor(settings.excess_noise_factor))
     _set_parameters(
         estimator,
         settings.bit_depth,
@@ -155,6 +158,14 @@ def _level_range(level_range: tuple[float, float], method: str) -> tuple[float, 
             "expected no level_range, or 'refined'"
         )
     return low, high
+
+
+def _excess_noise_factor(factor: float) -> float:
+    expected = "a number of 1 or more: 2 for an EMCCD"
+    number = _options.number("excess_noise_factor", factor, expected)
+    if number < 1.0:
+        raise _options.refuse("excess_noise_factor", factor, expected)
+    return number
 
 
 def _exposures(exposures: Sequence[float], method: str) -> list[float]:

@@ -185,7 +185,8 @@ class SensorNoiseSums:
     def merge(self, other: "SensorNoiseSums | bytes | np.ndarray") -> bool:
         """Adds the sums of other frames in the same pass: an object, or its to_bytes(). False, and nothing is changed,
         if all of these frames are in: then they were handed over twice. Raises RuntimeError if only some are in, if a
-        frame here and one there are equal, or if the sums were made with other settings or of another stack."""
+        frame here and one there are equal, if the sums were made with other settings or of another stack, or by another
+        version of the package, which it names, and if the bytes are damaged or not all that to_bytes() returned."""
         sums = _row(other._array() if isinstance(other, SensorNoiseSums) else other)
         with itk_errors():
             return bool(self._sums.MergeSums(view(sums)))

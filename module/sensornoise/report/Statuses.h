@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#ifndef sensornoise_report_Contradictions_h
-#define sensornoise_report_Contradictions_h
+#ifndef sensornoise_report_Statuses_h
+#define sensornoise_report_Statuses_h
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/report/Report.h"
@@ -18,11 +18,14 @@ inline constexpr double LeastReducedChi2 = 0.2;
  * ramp looks like it. Chosen empirically: where a simulated scene moved by so much, none was measured. */
 inline constexpr double LargestVibrationPixels = 5.0;
 
-/** Withdraws what the rest of the report contradicts: the gain and all that rests on it, with the warning
- * `contradicted`, and a vibration that is too large to be one. The one place where estimates are held against each
- * other. */
+/** Gives each quantity of the report its final status. First every quantity that a warning of the report contradicts
+ * becomes `failed`: offset and read noise after `dark-frames-differ`, and `offset-out-of-range`, and a vibration that
+ * is too large to be one. Then all quantities of QuantityList() pass Filed(). Without its gain a report keeps no
+ * parameter of the sensor, and has the warning `contradicted`; without its offset it keeps no read noise that depends
+ * on the offset. The function may be called again: it changes nothing then.
+ */
 SensorNoise_EXPORT void
-WithdrawContradicted(Report & report);
+FileStatuses(Report & report);
 
 } // namespace sensornoise
 
