@@ -9,11 +9,12 @@ from pathlib import Path
 import numpy as np
 import situations
 import situations_frames
+import situations_parts
 from acceptance_bursts import estimate
 from acceptance_lines import stream_of
 from acceptance_stacks import judge, judge_frames
 
-MODULES = (situations, situations_frames)
+MODULES = (situations, situations_frames, situations_parts)
 # The compared quantities: member of Burst, and path in the report.
 COMPARED = {
     "gain": ("gain",),

@@ -149,3 +149,29 @@ TEST(SensorNoiseRefinedWarnings, OneIlluminatedFrameIsNamed)
   EXPECT_NE(MakeText(report).find("frame 19 alone carries 100 % of the illumination"), std::string::npos)
     << MakeText(report);
 }
+
+TEST(SensorNoiseRefinedWarnings, GainNotUniform)
+{
+  // Two cameras of one scene, side by side, whose gains differ by a quarter.
+  SimulationSettings settings = StillCamera(Frames);
+  Stack<Codes>       stack = Simulate<Codes>(settings, Size, Size);
+  settings.camera.gainDnPerElectron *= 1.25;
+  const Stack<Codes> other = Simulate<Codes>(settings, Size, Size);
+  for (std::size_t i = 0; i < stack.pixels.size(); ++i)
+  {
+    stack.pixels[i] = i % Size < Size / 2 ? stack.pixels[i] : other.pixels[i];
+  }
+  const Report report = Measure(stack, {}).GetReport();
+  EXPECT_TRUE(HasWarning(report, WarningCode::GainNotUniform)) << MakeText(report);
+  ASSERT_EQ(report.gainByParts.size(), 1U);
+  EXPECT_EQ(report.gainByParts[0].pattern, "left-right");
+  const double expected[] = { 1.0, 1.25 };
+  for (std::size_t k = 0; k < 2; ++k)
+  {
+    const GainByPartsRecord::Part & part = report.gainByParts[0].parts[k];
+    EXPECT_NEAR(part.gain, expected[k], 4.0 * part.standardError) << part.name;
+    EXPECT_LT(part.standardError, 0.03) << part.name;
+    EXPECT_LT(*report.gain.interval95->low, expected[k]);
+    EXPECT_GT(*report.gain.interval95->high, expected[k]);
+  }
+}

@@ -56,7 +56,8 @@ enum class WarningCode : std::uint8_t
   IntensityRangeTooSmall,
   NoiseNotLinear,
   VarianceNotAffine,
-  Contradicted
+  Contradicted,
+  GainNotUniform
 };
 
 /** What a warning does to the measurement. */
@@ -289,6 +290,14 @@ inline constexpr std::array<WarningKind, 44> WarningTable{ {
     Severity::Error,
     "What else was found contradicts the gain: a variance that scatters less than chance allows, or an interval that "
     "holds 0. The frames are no burst of one scene, or the light of one or two frames is all there is." },
+  { WarningCode::GainNotUniform,
+    "gain-not-uniform",
+    Severity::Warning,
+    "Parts of the frame have different gains, as behind several amplifiers, in stitched blocks, or of a mosaic given "
+    "as "
+    "mono. `gain` is the mean over the pixels, its interval holds the gains of the parts, and `gain_by_parts` has "
+    "each. "
+    "Measure the parts by themselves (--roi, --mask, --bayer)." },
 } };
 
 /** The line of \a code. */
@@ -310,7 +319,7 @@ IsInOrder()
       return false;
     }
   }
-  return static_cast<std::size_t>(WarningCode::Contradicted) + 1 == WarningTable.size();
+  return static_cast<std::size_t>(WarningCode::GainNotUniform) + 1 == WarningTable.size();
 }
 static_assert(IsInOrder(), "the table has a line for every code, in their order");
 } // namespace detail

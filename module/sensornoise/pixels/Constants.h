@@ -189,6 +189,43 @@ struct PatternConstants
 
 SENSORNOISE_CONSTANT PatternConstants InPattern;
 
+/** The numbers of the room `pixels` by which the gains of the parts of a frame are compared. Estimator.md, 3.15. */
+struct PartsConstants
+{
+  /** Tiles along an axis, at most: the regression then costs next to nothing beside a pass over the pixels. */
+  std::size_t mostTiles{ 64 };
+  /** Fraction of its pixels that a tile needs [1], and tiles that a comparison needs. Chosen empirically. */
+  double      leastTileShare{ 0.25 };
+  std::size_t fewestTiles{ 24 };
+  /** Variance of a pixel over the line from which on it is left out of the sums [1]: defective, or something moves.
+   * Chosen above what twice the gain and chance together make of 10 frames. */
+  double largestRatio{ 6.0 };
+  /** Smallest ratio of a part's variance to the line [1]: a variance is above 0. */
+  double leastRatio{ 0.1 };
+  /** Difference of the gains, rms over the pixels, from which on it counts [1]. Chosen by the size of the effect:
+   * below, the gain of no half is off by more than its error in bursts of 100 frames. */
+  double leastDifference{ 0.0075 };
+  /** The same from which on the rejection of pixels allows for it [1]: neighbourhoods are rejected from 4 % on. */
+  double largeDifference{ 0.0125 };
+  /** Standard deviations of chi-square by which parts must differ, too [1]: of 10^6 uniform sensors none does. */
+  double differenceZ{ 5.0 };
+  /** Scatter of the tiles within parts over that of sampling, up to which parts are uniform in themselves [1]: where
+   * something moves it is 10 and more. Chosen empirically. */
+  double largestScatter{ 3.0 };
+  /** What is known of the coefficients beforehand, as standard deviations [1]: gains are alike within a factor of 2,
+   * the variances without signal (read noise, offset) within 30 %, a curve departs from its line by a few per cent. */
+  double priorOfGain{ 1.0 };
+  double priorOfDark{ 0.3 };
+  double priorOfCurve{ 0.05 };
+  /** Knots of the curve, and rounds of the regression, half of them by absolute deviations. */
+  std::size_t knots{ 6 };
+  int         rounds{ 12 };
+  /** Tukey's constant, which has 95 % of the efficiency of least squares (Beaton & Tukey 1974) [1]. */
+  double tukey{ 4.685 };
+};
+
+SENSORNOISE_CONSTANT PartsConstants InParts;
+
 } // namespace sensornoise
 
 #endif

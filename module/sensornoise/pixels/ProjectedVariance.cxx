@@ -66,7 +66,9 @@ ProjectedVariance::Compute(const VarianceLine & line)
 void
 ProjectedVariance::Compute(double gain)
 {
-  const double more = gain - std::exchange(m_Gain, gain);
+  const double       more = gain - std::exchange(m_Gain, gain);
+  std::vector<float> ratios = m_Ratios;
+  this->SetRatios({});
   ForBlocks(m_Mask.size(), m_ParallelFor, [&](std::size_t begin, std::size_t end) {
     WithWideVectors(
       [=, mask = m_Mask.data(), skew = m_Skew.data(), divisor = m_Divisor.data(), own = m_Variance.data()] {
@@ -77,6 +79,32 @@ ProjectedVariance::Compute(double gain)
         }
       });
   });
+  this->SetRatios(std::move(ratios));
+}
+
+void
+ProjectedVariance::SetRatios(std::vector<float> ratios)
+{
+  if (!m_Ratios.empty())
+  {
+    m_Variance = this->MeasuredVariance();
+  }
+  m_Ratios = std::move(ratios);
+  if (!m_Ratios.empty())
+  {
+    ForPixels(m_Variance.size(), m_ParallelFor, [this](std::size_t p) { m_Variance[p] /= m_Ratios[p]; });
+  }
+}
+
+std::vector<double>
+ProjectedVariance::MeasuredVariance() const
+{
+  std::vector<double> measured = m_Variance;
+  if (!m_Ratios.empty())
+  {
+    ForPixels(measured.size(), m_ParallelFor, [&](std::size_t p) { measured[p] *= m_Ratios[p]; });
+  }
+  return measured;
 }
 
 void

@@ -79,6 +79,14 @@ public:
   void
   Compute(const VarianceLine & line);
 
+  /** Divides the variance of every pixel by its ratio to that of a common sensor, see MapOfRatios() [1]; empty: leaves
+   * the variance as it is. What was set before is undone. */
+  void
+  SetRatios(std::vector<float> ratios);
+  /** The variance as it was measured, without the ratios [DN^2]. */
+  std::vector<double>
+  MeasuredVariance() const;
+
   /** The gain of the last Compute() [DN/e-]. */
   double
   GetGain() const
@@ -91,10 +99,11 @@ public:
   {
     return m_Variance;
   }
-  /** Gives the variance away. */
+  /** Gives the measured variance away. */
   std::vector<double>
   TakeVariance()
   {
+    this->SetRatios({});
     return std::move(m_Variance);
   }
   /** Effective degrees of freedom of every pixel's variance, by which it scatters; 0 outside the mask. */
@@ -173,6 +182,7 @@ private:
   std::vector<double>               m_Variance;
   std::vector<float>                m_Skew; // sum_i S_i sum_j K_ij
   std::vector<float>                m_Divisor;
+  std::vector<float>                m_Ratios;  // empty: 1
   std::vector<float>                m_Freedom; // empty: equal to the divisor
   FrameFreedom                      m_FrameFreedom;
   VarianceLine                      m_NoiseLine; // by which m_Freedom was counted

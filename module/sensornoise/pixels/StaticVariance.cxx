@@ -5,6 +5,7 @@
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/PixelUse.h"
 #include "sensornoise/pixels/Constants.h"
+#include "sensornoise/pixels/GainByParts.h"
 #include "sensornoise/pixels/GainFeedback.h"
 #include "sensornoise/pixels/JudgingLine.h"
 #include "sensornoise/pixels/LevelPattern.h"
@@ -117,6 +118,43 @@ SelectPixels(const ProjectedVariance &         projected,
   return static_cast<std::size_t>(std::count(misfit.begin(), misfit.end(), std::uint8_t{ 1 }));
 }
 
+/** The parts whose gains differ, by the measured variance of the pixels of \a mask. */
+GainByParts
+ComparePartsOf(const ProjectedVariance &         projected,
+               const PartReference &             reference,
+               const std::vector<std::uint8_t> & mask,
+               const ParallelFor &               parallelFor)
+{
+  const std::vector<double> measured = projected.MeasuredVariance();
+  VarianceData              data = projected.GetData(mask);
+  data.variance = measured.data();
+  return CompareParts(MakePartTiles(data, projected.GetFrame().geometry, reference, parallelFor));
+}
+
+/** Allows for parts whose gains differ much, before pixels are rejected for their variance. */
+bool
+AllowForParts(ProjectedVariance &               projected,
+              const PartReference &             reference,
+              const std::vector<std::uint8_t> & mask,
+              const ParallelFor &               parallelFor)
+{
+  GainByParts parts = ComparePartsOf(projected, reference, mask, parallelFor);
+  for (auto * const own : { &parts.places, &parts.phases })
+  {
+    if (*own && !(*own)->DifferMuch())
+    {
+      own->reset();
+    }
+  }
+  if (parts.Larger() == nullptr)
+  {
+    return false;
+  }
+  const ReferenceFrame & frame = projected.GetFrame();
+  projected.SetRatios(MapOfRatios(parts, frame.mean, frame.geometry, reference, parallelFor));
+  return true;
+}
+
 /** The mean has noise of its own, and it is correlated with the variance as the noise is skewed. Both together bias
  * the slope's equation by -g sigma^2 / T a unit of weight. Estimator.md, 3.6. */
 void
@@ -158,10 +196,15 @@ FitStaticVariance(ProjectedVariance &               projected,
   found.sharedSquares = sharedSquares;
   found.pixelUse = std::move(pixelUse);
   // The line of the flat classes tells which neighbourhoods fit, and among these, which classes do.
+  projected.SetRatios({});
   projected.Compute(slopeDn);
   found.mask = MaskOfFlatClasses(projected, usable, parallelFor);
   VarianceLine drawn = FollowSettledLine(projected, found.mask, std::nullopt, parallelFor);
-  bool         isJudged = false;
+  if (drawn.isDetermined && AllowForParts(projected, { drawn, blackDn, sharedSquares }, found.mask, parallelFor))
+  {
+    drawn = FollowSettledLine(projected, found.mask, drawn, parallelFor);
+  }
+  bool isJudged = false;
   for (int round = 0; round < 2 && drawn.isDetermined && !isJudged; ++round)
   {
     JudgingLine judge = MakeJudgingLine(drawn, projected, found.mask, blackDn, parallelFor);
@@ -205,6 +248,9 @@ FitStaticVariance(ProjectedVariance &               projected,
   }
   CorrectForNoisyMeans(line, offsetDn, frame.frames);
   found.line = line;
+  std::vector<std::uint8_t> kept = found.mask;
+  ForPixels(kept.size(), parallelFor, [&](std::size_t p) { kept[p] = trimmed[p] != 0 ? 0 : kept[p]; });
+  found.parts = ComparePartsOf(projected, { line, blackDn, sharedSquares }, kept, parallelFor);
   found.curve = fit.CurveAbout(found.fromLight.isDetermined ? found.fromLight : line);
   found.notStatic = static_cast<std::size_t>(
     std::count(found.pixelUse.begin(), found.pixelUse.end(), static_cast<std::uint8_t>(PixelUse::NotStatic)));

@@ -6,6 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/pixels/CodeNoise.h"
+#include "sensornoise/pixels/GainByParts.h"
 #include "sensornoise/pixels/LevelPattern.h"
 #include "sensornoise/pixels/StaticPixels.h"
 #include "sensornoise/pixels/VarianceCurve.h"
@@ -37,6 +38,8 @@ struct StaticVariance
   ClassFit      classes;
   /** About the line, or that of light alone. */
   VarianceCurve curve;
+  /** The parts of the frame whose gains differ; the lines are then of the variance over the ratios of these parts. */
+  GainByParts parts;
   /** What rounding to companded codes adds; where it is not zero, it has been taken off all of the above. */
   CodeNoise codeNoise;
   /** 1: a pixel that fits a static scene; outliers among them, too, which a fit trims by itself. */

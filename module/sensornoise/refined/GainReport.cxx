@@ -6,6 +6,7 @@
 #include "sensornoise/base/Text.h"
 #include "sensornoise/pixels/CodeNoise.h"
 #include "sensornoise/pixels/Constants.h"
+#include "sensornoise/pixels/GainByParts.h"
 #include "sensornoise/pixels/LevelPattern.h"
 #include "sensornoise/pixels/VarianceCurve.h"
 #include "sensornoise/pixels/VarianceLine.h"
@@ -18,6 +19,7 @@
 #include <cstddef>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sensornoise
@@ -160,18 +162,73 @@ FillTooLittle(Report & report, const RefinedResults & found, const GainEstimate 
                 " expected): a scene with dark and bright areas would help, or dark frames");
 }
 
+/** How far the gains of the parts lie below and above their mean, relative to it [1]. */
+struct PartsRange
+{
+  double below{ 0.0 };
+  double above{ 0.0 };
+  double rms{ 0.0 };
+};
+
+/** Files the gains of the parts and warns of them. Noise that neighbours share depends on the phase by itself, as where
+ * frames were resampled: then phases tell nothing of the gain. */
+PartsRange
+FillParts(Report & report, const RefinedResults & found, const GainEstimate & gain)
+{
+  PartsRange          range;
+  const GainByParts & parts = found.variance.parts;
+  for (const auto * const own : { &parts.places, &parts.phases })
+  {
+    if (!*own || (KindOf((*own)->partition).isPhase && found.correlation.IsShared()))
+    {
+      continue;
+    }
+    const PartGains & gains = **own;
+    const auto &      kind = KindOf(gains.partition);
+    const double      pixels = std::accumulate(gains.pixels.begin(), gains.pixels.end(), 0.0);
+    GainByPartsRecord record{ kind.name, {} };
+    for (std::size_t k = 0; k < gains.excess.size(); ++k)
+    {
+      record.parts.push_back(
+        { NameOfPart(gains.partition, k),
+          gain.line.gain * (1.0 + gains.excess[k]),
+          std::hypot(std::sqrt(gain.covariance(0, 0)) * (1.0 + gains.excess[k]), gain.line.gain * gains.error[k]),
+          gains.pixels[k] / pixels });
+    }
+    const auto byGain = [](const auto & a, const auto & b) { return a.gain < b.gain; };
+    const auto [lowest, highest] = std::minmax_element(record.parts.begin(), record.parts.end(), byGain);
+    range.below += 1.0 - lowest->gain / gain.line.gain;
+    range.above += highest->gain / gain.line.gain - 1.0;
+    range.rms = std::hypot(range.rms, gains.size);
+    report.Warn(WarningCode::GainNotUniform,
+                std::string("the gain differs between ") + kind.words + ": from " +
+                  Measured(lowest->gain, lowest->standardError) + " DN/e- (" + lowest->name + ") to " +
+                  Measured(highest->gain, highest->standardError) + " DN/e- (" + highest->name + "), " +
+                  Percent(gains.size) + " rms (expected at most " + Percent(InParts.leastDifference) +
+                  "). The gain is the mean over the pixels. " +
+                  (kind.isPhase ? "A mosaic given as mono, or rows or columns of several amplifiers: measure the "
+                                  "planes of a colour mosaic by --bayer, other pixels by --mask"
+                                : "Measure the parts by themselves: --roi"));
+    report.gainByParts.push_back(std::move(record));
+  }
+  return range;
+}
+
 /** Gain and intercept with their intervals, which hold the gains of all parts of the levels. */
 void
-FillGainAndIntercept(Report &             report,
-                     const GainEstimate & gain,
-                     const CodeNoise &    codes,
-                     double               quantisationDn2,
-                     double               student)
+FillGainAndIntercept(Report &               report,
+                     const RefinedResults & found,
+                     const GainEstimate &   gain,
+                     double                 quantisationDn2,
+                     double                 student)
 {
-  const double error = std::sqrt(gain.covariance(0, 0));
-  report.gain = WithError(gain.line.gain, gain.StandardError(), student);
+  const CodeNoise & codes = found.variance.codeNoise;
+  const PartsRange  parts = FillParts(report, found, gain);
+  const double      error = std::sqrt(gain.covariance(0, 0));
+  report.gain = WithError(gain.line.gain, std::hypot(gain.StandardError(), parts.rms * gain.line.gain), student);
   report.gain.interval95 =
-    Interval{ gain.line.gain - gain.below - student * error, gain.line.gain + gain.above + student * error };
+    Interval{ gain.line.gain * (1.0 - parts.below) - gain.below - student * error * (1.0 - parts.below),
+              gain.line.gain * (1.0 + parts.above) + gain.above + student * error * (1.0 + parts.above) };
   report.varianceSlope = report.gain;
   report.varianceSlope.value = gain.line.gain + codes.slopeDn;
   report.varianceSlope.interval95 =
@@ -216,7 +273,7 @@ FillGain(Report &               report,
     report.Warn(WarningCode::VarianceNotAffine, contradiction);
     return false;
   }
-  FillGainAndIntercept(report, gain, found.variance.codeNoise, quantisationDn2, student);
+  FillGainAndIntercept(report, found, gain, quantisationDn2, student);
   BoundGain(report, found, gain);
   return true;
 }

@@ -89,6 +89,20 @@ struct NoiseCorrelationRecord
   Quantity         excessKurtosis;
 };
 
+/** Gains of the parts of the frame, where they differ. */
+struct GainByPartsRecord
+{
+  struct Part
+  {
+    std::string name;
+    double      gain{ 0.0 };          ///< [DN/e-]
+    double      standardError{ 0.0 }; ///< [DN/e-]
+    double      pixelFraction{ 0.0 }; ///< of the pixels used [1]
+  };
+  std::string       pattern; ///< name of the partition, as in PartitionTable
+  std::vector<Part> parts;
+};
+
 /** Linearity of the response against given exposures. */
 struct LinearityRecord
 {
@@ -218,6 +232,7 @@ struct Report
     std::optional<Baseline> line; ///< through the corrected variance: indicative where the gain is not identified
   } fit;
   std::optional<NoiseCorrelationRecord> noiseCorrelation; ///< null: not measured
+  std::vector<GainByPartsRecord>        gainByParts;      ///< empty: the gain is uniform, or is not identified
   LinearityRecord                       linearity;
   std::optional<Baseline>               affineBaseline; ///< the line through the uncorrected variance: ignores flicker
   std::optional<Baseline>               quadraticBaseline; ///< the parabola through the uncorrected variance, (2.21)

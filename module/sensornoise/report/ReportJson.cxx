@@ -114,6 +114,21 @@ WriteJson(JsonWriter & json, const NoiseCorrelationRecord & correlation)
 }
 
 void
+WriteJson(JsonWriter & json, const GainByPartsRecord::Part & part)
+{
+  json.Object([&] {
+    json.Member("part", part.name).Member("gain", part.gain).Member("standard_error", part.standardError);
+    json.Member("pixel_fraction", part.pixelFraction);
+  });
+}
+
+void
+WriteJson(JsonWriter & json, const GainByPartsRecord & record)
+{
+  json.Object([&] { json.Member("pattern", record.pattern).Member("parts", record.parts); });
+}
+
+void
 WriteJson(JsonWriter & json, const LinearityRecord::Level & level)
 {
   json.Object([&] {
@@ -271,6 +286,10 @@ WriteJson(JsonWriter & json, const Report & report)
     }
     WriteStack(json, report);
     WriteAllQuantities(json, report);
+    if (!report.gainByParts.empty())
+    {
+      json.Member("gain_by_parts", report.gainByParts);
+    }
     WriteSeries(json, report);
     json.Member("noise_correlation", report.noiseCorrelation);
     WriteLinearity(json, report);

@@ -1,0 +1,108 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Sensors of unlike parts: amplifiers, stitched blocks, two cameras, mosaics given as mono, divided vignetting.
+
+The true gain is the mean over the pixels.
+"""
+
+import numpy as np
+from situations import (
+    FRAMES,
+    GAIN,
+    OFFSET,
+    READ_NOISE,
+    SCENES,
+    SHAPE,
+    Burst,
+    Situation,
+    digitise,
+    expose,
+    illumination,
+)
+
+BITS = 16  # gains of twice the usual one do not saturate
+
+
+def burst(random, electrons, relative, offset=0.0):
+    """A burst of a sensor whose gain is GAIN times the image relative; offset: by how much that differs [DN]."""
+    relative = relative / relative.mean()
+    frames = expose(
+        random,
+        electrons,
+        illumination(random, FRAMES),
+        gain=GAIN * relative,
+        offset=OFFSET[BITS] + offset,
+        read_noise=READ_NOISE * relative,
+    )
+    return Burst(digitise(frames, BITS), gain=GAIN)
+
+
+def blocks(values, shape=SHAPE):
+    """The values (rows, columns), each over a block of the frame."""
+    y, x = np.indices(shape)
+    values = np.asarray(values, float)
+    return values[y * values.shape[0] // shape[0], x * values.shape[1] // shape[1]]
+
+
+def phases(values, shape=SHAPE):
+    """The values (rows, columns), repeated over the frame."""
+    values = np.asarray(values, float)
+    y, x = np.indices(shape)
+    return values[y % values.shape[0], x % values.shape[1]]
+
+
+def quadrants(random, electrons, strength):
+    """Four amplifiers of other gains and offsets."""
+    relative = 1 + strength * np.array([[-5, 4], [1, -2]]) / 100
+    return burst(random, electrons, blocks(relative), blocks([[0, 3], [-2, 1]]))
+
+
+def stitched(random, electrons, rms):
+    """Stitched 4 x 4 blocks, whose gains differ by this standard deviation."""
+    return burst(random, electrons, blocks(1 + rms * random.normal(size=(4, 4))))
+
+
+def stereo(random, electrons, difference):
+    """Two cameras side by side."""
+    return burst(random, electrons, blocks([[1, 1 + difference]]))
+
+
+def balanced(random, electrons, strength):
+    """A white-balanced mosaic of a grey scene: equal levels, amplified by unlike factors."""
+    factors = 1 + strength * np.array([[0.5, 0.0], [0.0, 0.9]])
+    return burst(random, electrons / phases(factors), phases(factors))
+
+
+def autofocus(random, electrons, factor):
+    """One pixel of 4 x 4 has another gain."""
+    factors = np.ones((4, 4))
+    factors[1, 2] = factor
+    return burst(random, electrons, phases(factors))
+
+
+def vignetting(random, electrons, fall):
+    """Vignetting that was divided out: the corners lose this fraction of the light, and the frames get it back."""
+    y, x = np.indices(SHAPE)
+    square = ((x / SHAPE[1] - 0.5) ** 2 + (y / SHAPE[0] - 0.5) ** 2) / 0.5
+    light = 1 - fall * square
+    return burst(random, electrons * light, 1 / light)
+
+
+KINDS = {
+    "quadrants": (quadrants, (1.0, 2.0)),
+    "stitched": (stitched, (0.02, 0.04)),
+    "stereo": (stereo, (0.1, 0.25)),
+    "balanced": (balanced, (0.5, 1.0)),
+    "autofocus": (autofocus, (1.3, 2.0)),
+    "vignetting": (vignetting, (0.3, 0.5)),
+}
+
+SITUATIONS = tuple(
+    Situation(
+        f"parts/{kind}-{strength:g}",
+        lambda random, electrons, make=make, strength=strength: make(random, electrons, strength),
+        scenes=tuple(SCENES),
+    )
+    for kind, (make, strengths) in KINDS.items()
+    for strength in strengths
+)

@@ -1,0 +1,195 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/pixels/GainByParts.h"
+
+#include "sensornoise/pixels/Constants.h"
+#include "sensornoise/pixels/PartRegression.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** Standard deviations of chi-square, by its cube root (Wilson & Hilferty 1931). */
+double
+StandardDeviationsOf(double chi2, double dof)
+{
+  const double s = 2.0 / (9.0 * dof);
+  return (std::cbrt(chi2 / dof) - 1.0 + s) / std::sqrt(s);
+}
+
+/** Relates the gains of the parts to their pixel-weighted mean. */
+void
+FillGains(PartGains & gains, const PartRegression & fit, const std::vector<TileExcess> & tiles)
+{
+  const auto            parts = static_cast<Eigen::Index>(KindOf(gains.partition).parts);
+  const Eigen::MatrixXd ofParts = fit.ToParts(tiles); // parts from coefficients
+  Eigen::VectorXd       share = Eigen::VectorXd::Zero(parts);
+  for (const TileExcess & tile : tiles)
+  {
+    share(static_cast<Eigen::Index>(PartOf(gains.partition, tile.x, tile.y, tile.phase))) += tile.pixels;
+  }
+  gains.pixels.assign(share.data(), share.data() + parts);
+  share /= share.sum();
+  const Eigen::VectorXd relative = Eigen::VectorXd::Ones(parts) + ofParts * fit.theta;
+  const double          mean = share.dot(relative);
+  const Eigen::MatrixXd centred =
+    (ofParts - Eigen::VectorXd::Ones(parts) * (share.transpose() * ofParts)) / mean; // to first order
+  const Eigen::MatrixXd covariance = centred * fit.covariance * centred.transpose();
+  double                square = 0.0;
+  for (Eigen::Index k = 0; k < parts; ++k)
+  {
+    gains.excess.push_back(relative(k) / mean - 1.0);
+    gains.error.push_back(std::sqrt(std::max(0.0, covariance(k, k))));
+    square += share(k) * (gains.excess.back() * gains.excess.back() - covariance(k, k));
+  }
+  gains.size = std::sqrt(std::max(0.0, square));
+  // The differences from the last part are independent numbers.
+  const Eigen::Index rank = fit.IsSmooth() ? fit.gains - 1 : parts - 1;
+  Eigen::MatrixXd    contrast = Eigen::MatrixXd::Zero(rank, fit.theta.size());
+  for (Eigen::Index k = 0; k < rank; ++k)
+  {
+    contrast(k, fit.IsSmooth() ? k + 1 : k) = 1.0;
+    contrast(k, fit.IsSmooth() ? k + 1 : parts - 1) += fit.IsSmooth() ? 0.0 : -1.0;
+  }
+  const Eigen::VectorXd difference = contrast * fit.theta;
+  const Eigen::MatrixXd chance = contrast * fit.covariance * contrast.transpose();
+  gains.z = StandardDeviationsOf(difference.dot(chance.ldlt().solve(difference)), static_cast<double>(rank));
+}
+
+PartGains
+GainsOf(const PartRegression & fit, const std::vector<TileExcess> & tiles)
+{
+  PartGains gains;
+  gains.partition = fit.partition;
+  gains.scale = fit.scale;
+  FillGains(gains, fit, tiles);
+  gains.dark.assign(fit.theta.data() + fit.gains, fit.theta.data() + fit.gains + fit.darks);
+  if (fit.IsSmooth())
+  {
+    gains.field = fit.theta.head(fit.gains);
+  }
+  return gains;
+}
+
+/** The partition of those by place, or by phase, that describes the tiles best; null: none is better than one gain. */
+std::optional<PartGains>
+FindBest(const std::vector<TileExcess> & tiles, bool isPhase)
+{
+  if (tiles.size() < InParts.fewestTiles)
+  {
+    return std::nullopt;
+  }
+  std::vector<PartRegression> fits;
+  double                      scale = std::numeric_limits<double>::infinity();
+  for (const PartitionKind & kind : PartitionTable)
+  {
+    if (kind.isPhase == isPhase)
+    {
+      fits.push_back(FitParts(kind.partition, tiles));
+      scale = std::min(scale, fits.back().scale);
+    }
+  }
+  const PartRegression   uniform = FitUniform(tiles);
+  double                 best = uniform.Criterion(tiles, scale);
+  const PartRegression * chosen = nullptr;
+  for (const PartRegression & fit : fits)
+  {
+    const double criterion = fit.Criterion(tiles, scale);
+    if (fit.isDetermined && criterion < best)
+    {
+      best = criterion;
+      chosen = &fit;
+    }
+  }
+  return chosen != nullptr ? std::optional<PartGains>(GainsOf(*chosen, tiles)) : std::nullopt;
+}
+
+std::size_t
+PhaseOf(std::size_t x, std::size_t y)
+{
+  return LargestPeriod * (y % LargestPeriod) + x % LargestPeriod;
+}
+} // namespace
+
+double
+PartGains::RatioAt(double x, double y, std::size_t phase, double shotFraction) const
+{
+  const std::size_t part = PartOf(partition, x, y, phase);
+  const double      gain = field.size() > 0 ? PartRegression::FieldAt(x, y).dot(field) : excess[part];
+  return std::max(InParts.leastRatio, 1.0 + shotFraction * gain + (1.0 - shotFraction) * dark[part % dark.size()]);
+}
+
+bool
+PartGains::Differ() const
+{
+  return size > InParts.leastDifference && z > InParts.differenceZ;
+}
+
+bool
+PartGains::DifferMuch() const
+{
+  return this->Differ() && size > InParts.largeDifference && scale < InParts.largestScatter;
+}
+
+GainByParts
+CompareParts(const PartTiles & tiles)
+{
+  GainByParts found;
+  found.places = FindBest(tiles.places, false);
+  std::vector<TileExcess> phases = tiles.phases;
+  if (found.places && found.places->Differ())
+  {
+    for (TileExcess & tile : phases)
+    {
+      const double ratio = found.places->RatioAt(tile.x, tile.y, tile.phase, tile.shotFraction);
+      tile.excess = (1.0 + tile.excess) / ratio - 1.0;
+    }
+  }
+  else
+  {
+    found.places.reset();
+  }
+  found.phases = FindBest(phases, true);
+  if (found.phases && !found.phases->Differ())
+  {
+    found.phases.reset();
+  }
+  return found;
+}
+
+std::vector<float>
+MapOfRatios(const GainByParts &         parts,
+            const std::vector<double> & mean,
+            const FrameGeometry &       geometry,
+            const PartReference &       reference,
+            const ParallelFor &         parallelFor)
+{
+  std::vector<float> ratios(mean.size(), 1.0F);
+  const auto         width = static_cast<double>(geometry.width);
+  const auto         height = static_cast<double>(geometry.height);
+  parallelFor(geometry.height, [&](std::size_t row) {
+    const double y = (static_cast<double>(row) + 0.5) / height;
+    for (std::size_t column = 0; column < geometry.width; ++column)
+    {
+      const std::size_t p = row * geometry.width + column;
+      const double      x = (static_cast<double>(column) + 0.5) / width;
+      const double      expected = reference.line.At(mean[p]);
+      const double      shot =
+        expected > 0.0 ? std::clamp(reference.line.gain * (mean[p] - reference.blackDn) / expected, 0.0, 1.0) : 0.0;
+      double ratio = 1.0;
+      for (const auto * const own : { &parts.places, &parts.phases })
+      {
+        ratio *= *own ? (*own)->RatioAt(x, y, PhaseOf(column, row), shot) : 1.0;
+      }
+      ratios[p] = static_cast<float>(ratio);
+    }
+  });
+  return ratios;
+}
+
+} // namespace sensornoise

@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/pixels/PartTiles.h"
+
+#include "sensornoise/pixels/Constants.h"
+#include "sensornoise/pixels/Partition.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace sensornoise
+{
+
+namespace
+{
+constexpr std::size_t Phases = LargestPeriod * LargestPeriod;
+
+struct TileSums
+{
+  double pixels{ 0.0 };
+  double level{ 0.0 };
+  double variance{ 0.0 };
+  double expected{ 0.0 };
+  double shot{ 0.0 };
+  double chance{ 0.0 };
+
+  TileSums &
+  operator+=(const TileSums & other)
+  {
+    pixels += other.pixels;
+    level += other.level;
+    variance += other.variance;
+    expected += other.expected;
+    shot += other.shot;
+    chance += other.chance;
+    return *this;
+  }
+};
+
+/** The side of a tile, a multiple of the largest period [pixels]. */
+std::size_t
+SideOfTile(const FrameGeometry & geometry)
+{
+  const std::size_t side =
+    geometry.Pixels() < InPattern.largeFramePixels ? InPattern.smallSquareSide : InPattern.squareSide;
+  const std::size_t longest = std::max(geometry.width, geometry.height);
+  return side * std::max<std::size_t>(1, (longest + InParts.mostTiles * side - 1) / (InParts.mostTiles * side));
+}
+
+void
+SumTile(const VarianceData &           data,
+        const FrameGeometry &          geometry,
+        const PartReference &          reference,
+        std::size_t                    left,
+        std::size_t                    top,
+        std::size_t                    side,
+        std::array<TileSums, Phases> & sums)
+{
+  const VarianceLine & line = reference.line;
+  for (std::size_t y = top; y < std::min(top + side, geometry.height); ++y)
+  {
+    for (std::size_t x = left; x < std::min(left + side, geometry.width); ++x)
+    {
+      const std::size_t p = y * geometry.width + x;
+      const double      expected = line.At(data.mean[p]);
+      if (data.mask[p] != 0 && data.variance[p] < InParts.largestRatio * expected)
+      {
+        TileSums & own = sums[LargestPeriod * (y % LargestPeriod) + x % LargestPeriod];
+        own.pixels += 1.0;
+        own.level += data.mean[p];
+        own.variance += data.variance[p];
+        own.expected += expected;
+        own.shot += std::clamp(line.gain * (data.mean[p] - reference.blackDn), 0.0, expected);
+        own.chance += line.SamplingVariance(data.freedom[p], expected) + line.noiseSpreadDn4;
+      }
+    }
+  }
+}
+
+TileExcess
+ExcessOf(const TileSums & sums, double sharedSquares)
+{
+  TileExcess tile;
+  tile.pixels = sums.pixels;
+  tile.levelDn = sums.level / sums.pixels;
+  tile.shotFraction = sums.shot / sums.expected;
+  tile.excess = sums.variance / sums.expected - 1.0;
+  tile.error = std::sqrt(sharedSquares * sums.chance) / sums.expected;
+  return tile;
+}
+} // namespace
+
+PartTiles
+MakePartTiles(const VarianceData &  data,
+              const FrameGeometry & geometry,
+              const PartReference & reference,
+              const ParallelFor &   parallelFor)
+{
+  const std::size_t                         side = SideOfTile(geometry);
+  const std::size_t                         across = (geometry.width + side - 1) / side;
+  const std::size_t                         down = (geometry.height + side - 1) / side;
+  std::vector<std::array<TileSums, Phases>> sums(across * down);
+  parallelFor(down, [&](std::size_t row) {
+    for (std::size_t column = 0; column < across; ++column)
+    {
+      SumTile(data, geometry, reference, column * side, row * side, side, sums[row * across + column]);
+    }
+  });
+  PartTiles tiles;
+  for (std::size_t i = 0; i < sums.size(); ++i)
+  {
+    const double x = (static_cast<double>((i % across) * side) + 0.5 * static_cast<double>(side)) /
+                     static_cast<double>(geometry.width);
+    const double y = (static_cast<double>((i / across) * side) + 0.5 * static_cast<double>(side)) /
+                     static_cast<double>(geometry.height);
+    TileSums all;
+    for (std::size_t phase = 0; phase < Phases; ++phase)
+    {
+      all += sums[i][phase];
+      if (sums[i][phase].pixels >= 1.0)
+      {
+        tiles.phases.push_back(ExcessOf(sums[i][phase], reference.sharedSquares));
+        tiles.phases.back().x = std::min(1.0, x);
+        tiles.phases.back().y = std::min(1.0, y);
+        tiles.phases.back().phase = phase;
+      }
+    }
+    if (all.pixels >= InParts.leastTileShare * static_cast<double>(side * side))
+    {
+      tiles.places.push_back(ExcessOf(all, reference.sharedSquares));
+      tiles.places.back().x = std::min(1.0, x);
+      tiles.places.back().y = std::min(1.0, y);
+    }
+  }
+  return tiles;
+}
+
+} // namespace sensornoise

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_pixels_Partition_h
+#define sensornoise_pixels_Partition_h
+
+#include "SensorNoiseExport.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace sensornoise
+{
+
+/** Ways to divide the pixels of a frame into parts that may have gains of their own: by place, or by the position of a
+ * pixel in a pattern that repeats (its phase). */
+enum class Partition : std::uint8_t
+{
+  LeftRight,
+  UpperLower,
+  Quadrants,
+  Blocks,
+  SmoothField, ///< a polynomial of the place, reported by the parts of Blocks
+  Columns2,
+  Rows2,
+  Phases2,
+  Columns4,
+  Rows4,
+  Phases4
+};
+
+/** An entry of the table of partitions. */
+struct PartitionKind
+{
+  Partition    partition;
+  const char * name; ///< in the record; stable, for programs
+  const char * words;
+  std::size_t  parts;
+  bool         isPhase;
+};
+
+/** Blocks along either axis, and the largest period of a phase [pixels]. */
+inline constexpr std::size_t BlocksAcross = 4;
+inline constexpr std::size_t LargestPeriod = 4;
+
+inline constexpr std::array<PartitionKind, 11> PartitionTable{ {
+  { Partition::LeftRight, "left-right", "the left and the right half", 2, false },
+  { Partition::UpperLower, "upper-lower", "the upper and the lower half", 2, false },
+  { Partition::Quadrants, "quadrants", "the quadrants", 4, false },
+  { Partition::Blocks, "blocks", "4 x 4 blocks", 16, false },
+  { Partition::SmoothField, "smooth-field", "a smooth field, as where vignetting was divided out", 16, false },
+  { Partition::Columns2, "columns-2", "even and odd columns", 2, true },
+  { Partition::Rows2, "rows-2", "even and odd rows", 2, true },
+  { Partition::Phases2, "phases-2x2", "the pixels of a 2 x 2 mosaic", 4, true },
+  { Partition::Columns4, "columns-4", "every fourth column", 4, true },
+  { Partition::Rows4, "rows-4", "every fourth row", 4, true },
+  { Partition::Phases4, "phases-4x4", "the pixels of a 4 x 4 mosaic", 16, true },
+} };
+
+constexpr const PartitionKind &
+KindOf(Partition partition)
+{
+  return PartitionTable[static_cast<std::size_t>(partition)];
+}
+
+/** The part of a pixel: \a x and \a y in units of the frame's width and height, from 0 to 1 [1]; \a phase is
+ * 4 (row mod 4) + (column mod 4). */
+SensorNoise_EXPORT std::size_t
+PartOf(Partition partition, double x, double y, std::size_t phase);
+
+/** The part in words, such as "left half", or "column 1, row 0 of 2 x 2". */
+SensorNoise_EXPORT std::string
+NameOfPart(Partition partition, std::size_t part);
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/pixels/GainByParts.h"
+#include "sensornoise/pixels/Partition.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <gtest/gtest.h>
+#include <string>
+#include <vector>
+
+// Parts of a frame whose gains differ, in tiles of known excess.
+
+using namespace sensornoise;
+
+namespace
+{
+constexpr std::size_t Side = 16;
+
+/** Tiles of 16 x 16 in the frame, each with its phases, whose excess is \a excess of the tile. The levels are those of
+ * a scene that all parts share. */
+PartTiles
+TilesOf(const std::function<double(const TileExcess &)> & excess)
+{
+  PartTiles tiles;
+  for (std::size_t i = 0; i < Side * Side; ++i)
+  {
+    TileExcess tile;
+    tile.x = (static_cast<double>(i % Side) + 0.5) / Side;
+    tile.y = (static_cast<double>(i / Side) + 0.5) / Side;
+    tile.pixels = 256.0;
+    tile.levelDn = 100.0 + static_cast<double>(37 * i % 101);
+    tile.shotFraction = 1.0 - 10.0 / tile.levelDn;
+    tile.error = 0.01;
+    tile.excess = excess(tile) + 0.01 * std::sin(static_cast<double>(i * i)); // scatter that no part has
+    tiles.places.push_back(tile);
+    for (std::size_t phase = 0; phase < LargestPeriod * LargestPeriod; ++phase)
+    {
+      tile.phase = phase;
+      tile.pixels = 16.0;
+      tile.error = 0.04;
+      tile.excess = excess(tile) + 0.04 * std::sin(static_cast<double>(i * i + 7 * phase));
+      tiles.phases.push_back(tile);
+    }
+  }
+  return tiles;
+}
+} // namespace
+
+TEST(SensorNoiseGainByParts, UniformSensorHasNone)
+{
+  EXPECT_EQ(CompareParts(TilesOf([](const TileExcess &) { return 0.0; })).Larger(), nullptr);
+}
+
+TEST(SensorNoiseGainByParts, ResponseThatBendsIsNoPart)
+{
+  // The dark half is below the line, the bright half above it: by level, not by place.
+  const auto bend = [](const TileExcess & tile) { return 0.001 * std::abs(tile.levelDn - 150.0); };
+  EXPECT_EQ(CompareParts(TilesOf(bend)).Larger(), nullptr);
+}
+
+TEST(SensorNoiseGainByParts, FindsEachPartition)
+{
+  for (const PartitionKind & kind : PartitionTable)
+  {
+    if (kind.partition == Partition::SmoothField)
+    {
+      continue;
+    }
+    // Unlike factors, so that no coarser partition has the same parts.
+    const auto gainOf = [&](std::size_t part) { return 0.1 * std::cos(static_cast<double>(3 * part + part * part)); };
+    const auto excess = [&](const TileExcess & tile) {
+      return tile.shotFraction * gainOf(PartOf(kind.partition, tile.x, tile.y, tile.phase));
+    };
+    const GainByParts       found = CompareParts(TilesOf(excess));
+    const PartGains * const gains = found.Larger();
+    ASSERT_NE(gains, nullptr) << kind.name;
+    EXPECT_EQ(gains->partition, kind.partition) << kind.name << ", " << KindOf(gains->partition).name;
+    ASSERT_EQ(gains->excess.size(), kind.parts);
+    double mean = 0.0;
+    for (std::size_t k = 0; k < kind.parts; ++k)
+    {
+      mean += (1.0 + gainOf(k)) / static_cast<double>(kind.parts);
+    }
+    for (std::size_t k = 0; k < kind.parts; ++k)
+    {
+      EXPECT_NEAR(gains->excess[k], (1.0 + gainOf(k)) / mean - 1.0, 5.0 * gains->error[k]) << kind.name << ' ' << k;
+    }
+  }
+}
+
+TEST(SensorNoiseGainByParts, NamesOfPartsDiffer)
+{
+  for (const PartitionKind & kind : PartitionTable)
+  {
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < kind.parts; ++k)
+    {
+      names.push_back(NameOfPart(kind.partition, k));
+    }
+    std::sort(names.begin(), names.end());
+    EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end()) << kind.name;
+  }
+}
