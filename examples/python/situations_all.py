@@ -8,13 +8,15 @@ from pathlib import Path
 
 import numpy as np
 import situations
+import situations_dark
 import situations_frames
 import situations_parts
+import situations_values
 from acceptance_bursts import estimate
 from acceptance_lines import stream_of
 from acceptance_stacks import judge, judge_frames
 
-MODULES = (situations, situations_frames, situations_parts)
+MODULES = (situations, situations_dark, situations_frames, situations_parts, situations_values)
 # The compared quantities: member of Burst, and path in the report.
 COMPARED = {
     "gain": ("gain",),
@@ -69,7 +71,7 @@ def measure(programs, situation, scene, number):
             write_stack(dark, burst.dark)
             options += ["--dark", dark]
         report, done = estimate(programs, situation.name, stack, options)
-    truth = {name: getattr(burst, name) for name in COMPARED if getattr(burst, name) is not None}
+    truth = {name: float(getattr(burst, name)) for name in COMPARED if getattr(burst, name) is not None}
     found = {name: quantity_at(report, path) for name, path in COMPARED.items()}
     loud = [warning["code"] for warning in report["warnings"] if warning["severity"] != "note"]
     stack = judge(found, truth, burst.signal_range, loud, situation.expected)

@@ -85,7 +85,7 @@ struct WarningKind
 
 /** All that a report can warn of, in the order of WarningCode. README and Python show this table; a warning's own
  * message has the numbers. */
-inline constexpr std::array<WarningKind, 44> WarningTable{ {
+inline constexpr std::array<WarningKind, 45> WarningTable{ {
   { WarningCode::FewFrames, "few-frames", Severity::Warning, "Fewer than 20 different frames: indicative only." },
   { WarningCode::Mosaic,
     "mosaic",

@@ -73,9 +73,8 @@ BetterLine(const StaticVariance & variance)
   const double chi2 = frames.ReducedChi2() / variance.sharedSquares;
   const double ofFrames =
     errorOf(frames.line) * std::sqrt(BeyondChance(chi2, static_cast<double>(frames.bins.size()) - 2.0));
-  return frames.line.isDetermined && ofFrames < ofPixels
-           ? SlopeOfLine{ frames.line, ofFrames }
-           : SlopeOfLine{ variance.line, ofPixels };
+  return frames.line.isDetermined && ofFrames < ofPixels ? SlopeOfLine{ frames.line, ofFrames }
+                                                         : SlopeOfLine{ variance.line, ofPixels };
 }
 
 /** The frames whose noise is not that of the others. */
