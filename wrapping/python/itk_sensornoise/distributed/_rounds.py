@@ -75,8 +75,8 @@ def estimate_sensor_noise(
     settings
         method, offset, bayer, bit_depth, clip, step, level_range, exposures, excess_noise_factor, rolling_shutter,
         shutter_axis, level, quantiles, roi, mask, frame_range and threads (of a worker; default: those that Dask gave
-        it): as itk.estimate_sensor_noise(). For bayer="auto" the driver looks at the first frame. There is no `hash`: of all
-        frames, one after the other, it is no work for several.
+        it): as itk.estimate_sensor_noise(). For bayer="auto" the driver looks at the first frame. There is no `hash`:
+        of all frames, one after the other, it is no work for several.
 
     Raises
     ------
