@@ -58,6 +58,19 @@ struct PixelsConstants
   std::size_t firstJudgedClass{ 4 };
   ///@}
 
+  /** \name The first line */
+  ///@{
+  /** Bins of the square root of the signal, and the pixels that one must have to count. Chosen empirically: an
+   * extrapolation by a factor of 2 or more is seen, and a median of 50 variances is known to 4 %. */
+  std::size_t levelBins{ 16 };
+  std::size_t leastPixelsOfLevel{ 50 };
+  /** Fraction of the bright pixels that must be near a line through dark and bright ones [1], and how near, in standard
+   * errors of a pixel's variance. Of pixels without motion 99.7 % are. Chosen empirically: edges move in most scenes.
+   */
+  double leastNearLine{ 0.75 };
+  double nearLineZ{ 3.0 };
+  ///@}
+
   /** \name The judging line */
   ///@{
   /** Side of a square [pixels]: enough for a mean to 2 %, few enough to be of one level; and its pixels that must

@@ -5,6 +5,7 @@
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/PixelUse.h"
 #include "sensornoise/pixels/Constants.h"
+#include "sensornoise/pixels/FlatPixels.h"
 #include "sensornoise/pixels/GainByParts.h"
 #include "sensornoise/pixels/GainFeedback.h"
 #include "sensornoise/pixels/JudgingLine.h"
@@ -33,7 +34,7 @@ namespace
 {
 /** A line without errors, good enough to judge pixels by. */
 VarianceLine
-FollowLine(const VarianceData & data, const std::optional<VarianceLine> & start, const ParallelFor & parallelFor)
+DrawLine(const VarianceData & data, const std::optional<VarianceLine> & start, const ParallelFor & parallelFor)
 {
   const SampledVariance sample(data, InPixels.pixelsOfRoughLine, parallelFor);
   VarianceFit           fit(sample.GetData(), parallelFor, start);
@@ -52,14 +53,14 @@ FeedbackOf(const ProjectedVariance &         projected,
                                                            : GainFeedback();
 }
 
-/** FollowLine() by the pixels of \a mask, again until the gain that corrects the variances is that of the line. */
+/** DrawLine() by the pixels of \a mask, again until the gain that corrects the variances is that of the line. */
 VarianceLine
-FollowSettledLine(ProjectedVariance &                 projected,
-                  const std::vector<std::uint8_t> &   mask,
-                  const std::optional<VarianceLine> & start,
-                  const ParallelFor &                 parallelFor)
+DrawSettledLine(ProjectedVariance &                 projected,
+                const std::vector<std::uint8_t> &   mask,
+                const std::optional<VarianceLine> & start,
+                const ParallelFor &                 parallelFor)
 {
-  VarianceLine line = FollowLine(projected.GetData(mask), start, parallelFor);
+  VarianceLine line = DrawLine(projected.GetData(mask), start, parallelFor);
   for (int round = 0; round < InPixels.settlingRounds; ++round)
   {
     const GainFeedback feedback = FeedbackOf(projected, line, mask, parallelFor);
@@ -70,9 +71,29 @@ FollowSettledLine(ProjectedVariance &                 projected,
       break;
     }
     projected.Compute(settled);
-    line = FollowLine(projected.GetData(mask), settled, parallelFor);
+    line = DrawLine(projected.GetData(mask), settled, parallelFor);
   }
   return line;
+}
+
+/** The line of the \a mask of flat pixels. If a scene is flat in its dark parts alone, brighter pixels join the mask,
+ * provided that their variance is on one line with that of the dark pixels. */
+VarianceLine
+DrawFirstLine(ProjectedVariance &               projected,
+              const std::vector<std::uint8_t> & usable,
+              std::vector<std::uint8_t> &       mask,
+              const ParallelFor &               parallelFor)
+{
+  if (const std::optional<BrighterPixels> brighter = FindBrighterPixels(projected, usable, mask, parallelFor))
+  {
+    const VarianceLine line = DrawSettledLine(projected, brighter->mask, brighter->through, parallelFor);
+    if (line.isDetermined && FollowLine(projected, brighter->beyond, line))
+    {
+      mask = brighter->mask;
+      return line;
+    }
+  }
+  return DrawSettledLine(projected, mask, std::nullopt, parallelFor);
 }
 
 /** The line of all pixels of the data, with its errors. */
@@ -118,16 +139,18 @@ SelectPixels(const ProjectedVariance &         projected,
   return static_cast<std::size_t>(std::count(misfit.begin(), misfit.end(), std::uint8_t{ 1 }));
 }
 
-/** The parts whose gains differ, by the measured variance of the pixels of \a mask. */
+/** The parts whose gains differ, by the measured variance of the pixels of \a mask; \a hasRatios: that of the
+ * projection was divided by the ratios of parts. */
 GainByParts
 ComparePartsOf(const ProjectedVariance &         projected,
                const PartReference &             reference,
                const std::vector<std::uint8_t> & mask,
+               bool                              hasRatios,
                const ParallelFor &               parallelFor)
 {
-  const std::vector<double> measured = projected.MeasuredVariance();
+  const std::vector<double> measured = hasRatios ? projected.MeasuredVariance() : std::vector<double>();
   VarianceData              data = projected.GetData(mask);
-  data.variance = measured.data();
+  data.variance = hasRatios ? measured.data() : data.variance;
   return CompareParts(MakePartTiles(data, projected.GetFrame().geometry, reference, parallelFor));
 }
 
@@ -138,7 +161,7 @@ AllowForParts(ProjectedVariance &               projected,
               const std::vector<std::uint8_t> & mask,
               const ParallelFor &               parallelFor)
 {
-  GainByParts parts = ComparePartsOf(projected, reference, mask, parallelFor);
+  GainByParts parts = ComparePartsOf(projected, reference, mask, false, parallelFor);
   for (auto * const own : { &parts.places, &parts.phases })
   {
     if (*own && !(*own)->DifferMuch())
@@ -167,21 +190,6 @@ CorrectForNoisyMeans(VarianceLine & line, double offsetDn, std::size_t frames)
 }
 } // namespace
 
-std::vector<std::uint8_t>
-MaskOfFlatClasses(const ProjectedVariance &         projected,
-                  const std::vector<std::uint8_t> & usable,
-                  const ParallelFor &               parallelFor)
-{
-  const auto                last = static_cast<std::uint8_t>(InPixels.flatShare * ProjectedVariance::Classes);
-  std::vector<std::uint8_t> mask(usable.size());
-  ForPixels(mask.size(),
-            parallelFor,
-            [=, usable = usable.data(), classOf = projected.GetClasses().data(), own = mask.data()](std::size_t p) {
-              own[p] = usable[p] != 0 && classOf[p] <= last ? 1 : 0;
-            });
-  return mask;
-}
-
 StaticVariance
 FitStaticVariance(ProjectedVariance &               projected,
                   const std::vector<std::uint8_t> & usable,
@@ -199,10 +207,12 @@ FitStaticVariance(ProjectedVariance &               projected,
   projected.SetRatios({});
   projected.Compute(slopeDn);
   found.mask = MaskOfFlatClasses(projected, usable, parallelFor);
-  VarianceLine drawn = FollowSettledLine(projected, found.mask, std::nullopt, parallelFor);
-  if (drawn.isDetermined && AllowForParts(projected, { drawn, blackDn, sharedSquares }, found.mask, parallelFor))
+  VarianceLine drawn = DrawFirstLine(projected, usable, found.mask, parallelFor);
+  const bool   hasRatios =
+    drawn.isDetermined && AllowForParts(projected, { drawn, blackDn, sharedSquares }, found.mask, parallelFor);
+  if (hasRatios)
   {
-    drawn = FollowSettledLine(projected, found.mask, drawn, parallelFor);
+    drawn = DrawSettledLine(projected, found.mask, drawn, parallelFor);
   }
   bool isJudged = false;
   for (int round = 0; round < 2 && drawn.isDetermined && !isJudged; ++round)
@@ -212,7 +222,7 @@ FitStaticVariance(ProjectedVariance &               projected,
     projected.Compute(drawn);
     const std::size_t misfits = SelectPixels(projected, judge, usable, found, parallelFor);
     isJudged = static_cast<double>(misfits) < InPixels.fewMisfits * static_cast<double>(usable.size());
-    drawn = FollowSettledLine(projected, found.mask, judge.line, parallelFor);
+    drawn = DrawSettledLine(projected, found.mask, judge.line, parallelFor);
   }
   if (!drawn.isDetermined)
   {
@@ -250,7 +260,7 @@ FitStaticVariance(ProjectedVariance &               projected,
   found.line = line;
   std::vector<std::uint8_t> kept = found.mask;
   ForPixels(kept.size(), parallelFor, [&](std::size_t p) { kept[p] = trimmed[p] != 0 ? 0 : kept[p]; });
-  found.parts = ComparePartsOf(projected, { line, blackDn, sharedSquares }, kept, parallelFor);
+  found.parts = ComparePartsOf(projected, { line, blackDn, sharedSquares }, kept, hasRatios, parallelFor);
   found.curve = fit.CurveAbout(found.fromLight.isDetermined ? found.fromLight : line);
   found.notStatic = static_cast<std::size_t>(
     std::count(found.pixelUse.begin(), found.pixelUse.end(), static_cast<std::uint8_t>(PixelUse::NotStatic)));

@@ -52,13 +52,6 @@ struct StaticVariance
   double sharedSquares{ 1.0 };
 };
 
-/** The \a usable pixels of the flatter classes of roughness, in which motion that the series leave makes next to no
- * residuals. */
-SensorNoise_EXPORT std::vector<std::uint8_t>
-MaskOfFlatClasses(const ProjectedVariance &         projected,
-                  const std::vector<std::uint8_t> & usable,
-                  const ParallelFor &               parallelFor);
-
 /** Finds the pixels that fit a static scene and the line of their variance, from the flat classes outwards.
  * Neighbourhoods are judged before classes: a thing that moves across the frame lies in all of them.
  *

@@ -92,7 +92,7 @@ VarianceCurve::SlopeOf(std::size_t first, std::size_t last) const
     information += bins[b].weight * x * x;
     product += bins[b].excess * x;
   }
-  return { information, information > 0.0 ? product / information : 0.0 };
+  return { information, all.weight, information > 0.0 ? product / information : 0.0 };
 }
 
 std::vector<SlopeExcess>
@@ -119,7 +119,9 @@ VarianceCurve::SlopesOfHalves() const
     {
       if (half.information > 1e-9 * whole.information)
       {
-        slopes.push_back({ half.excess, std::max(0.0, 1.0 / half.information - 1.0 / whole.information) });
+        slopes.push_back({ half.excess,
+                           std::max(0.0, 1.0 / half.information - 1.0 / whole.information),
+                           half.information / half.weight });
       }
     }
   }

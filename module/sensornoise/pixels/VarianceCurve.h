@@ -29,8 +29,9 @@ struct CurveBin
 /** By how much the slope of a part of the levels exceeds the line's gain. */
 struct SlopeExcess
 {
-  double value{ 0.0 };    ///< [DN/e-]
-  double variance{ 0.0 }; ///< of the difference between a part and the whole, from sampling [DN^2/e-^2]
+  double value{ 0.0 };     ///< [DN/e-]
+  double variance{ 0.0 };  ///< of the difference between a part and the whole, from sampling [DN^2/e-^2]
+  double levelsDn2{ 0.0 }; ///< weighted variance of the levels of the part [DN^2]
 };
 
 /** \class VarianceCurve
@@ -77,6 +78,7 @@ private:
   struct Slope
   {
     double information; ///< weighted sum of the squared deviations
+    double weight;      ///< sum of the weights
     double excess;      ///< slope of the excess [DN/e-]
   };
   Slope

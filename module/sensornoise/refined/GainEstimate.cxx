@@ -3,6 +3,7 @@
 #include "sensornoise/refined/GainEstimate.h"
 
 #include "sensornoise/moments/KnownOffset.h"
+#include "sensornoise/pixels/LevelPattern.h"
 #include "sensornoise/pixels/MeanGain.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
 #include "sensornoise/pixels/VarianceCurve.h"
@@ -40,17 +41,28 @@ ErrorOfVibration(const VarianceLine & line, const ProvisionalModel & model)
            : 0.0;
 }
 
+/** By how much the slope of a part of the pixels can be off because its levels differ by fixed-pattern noise, not by
+ * signal [DN/e-]. The pattern is \a pattern's fraction of the levels of all pixels, \a levelsDn2 the variance of the
+ * levels of the part: in the dark parts of a scene nothing else may be left. */
+double
+SlopeOfPattern(double gain, const LevelPattern & pattern, double levelsDn2)
+{
+  const double patternDn2 = pattern.LargestShare() * pattern.lightDn2;
+  return levelsDn2 > patternDn2 ? std::abs(gain) * patternDn2 / levelsDn2 : std::abs(gain);
+}
+
 /** What the smoother half of the pixels says against all of them, as a covariance: 0 unless gain or value at the centre
  * differ by more than 2 standard deviations of the difference, which is that of a part against the whole (Hausman
  * 1978). Motion that is left in the rough half shows here. */
 Eigen::Matrix2d
-Disagreement(const VarianceLine & all, const VarianceLine & flat)
+Disagreement(const VarianceLine & all, const VarianceLine & flat, const LevelPattern & pattern)
 {
   Eigen::Matrix2d added = Eigen::Matrix2d::Zero();
   if (flat.isDetermined)
   {
     const Eigen::Vector2d difference(flat.gain - all.gain, flat.intercept - all.intercept);
-    const Eigen::Matrix2d expected = flat.covariance - all.covariance;
+    const double          ofPattern = SlopeOfPattern(all.gain, pattern, flat.spreadDn2 / flat.weightSum);
+    const Eigen::Matrix2d expected = flat.covariance - all.covariance + SlopeCovariance(ofPattern, flat.pivotDn);
     for (int k = 0; k < 2; ++k)
     {
       const double square = difference(k) * difference(k);
@@ -79,7 +91,7 @@ ChooseLine(GainEstimate &           estimate,
 {
   const VarianceLine &  all = lines.all;
   const double          dispersion = DispersionOfClasses(variance);
-  const Eigen::Matrix2d flat = Disagreement(all, lines.fromFlat);
+  const Eigen::Matrix2d flat = Disagreement(all, lines.fromFlat, variance.pattern);
   const double          fromPattern = variance.pattern.LargestShare() * std::abs(all.gain);
   const double          error = std::sqrt(dispersion * all.covariance(0, 0) + flat(0, 0));
   estimate.line = all;
@@ -106,12 +118,18 @@ SizeBeyondChance(double difference, double variance, double z)
 
 /** The gains of the halves of the levels that differ from the whole's by more than chance. */
 void
-FindSpreadOfSlopes(GainEstimate & estimate, const VarianceCurve & curve, double dispersion)
+FindSpreadOfSlopes(GainEstimate &        estimate,
+                   const VarianceCurve & curve,
+                   const LevelPattern &  pattern,
+                   double                dispersion)
 {
   for (const SlopeExcess & half : curve.SlopesOfHalves())
   {
     double & side = half.value < 0.0 ? estimate.below : estimate.above;
-    side = std::max(side, SizeBeyondChance(half.value, dispersion * half.variance, InRefined.halvesZ));
+    // The bins are by the mean of 8 neighbours, which has an eighth of the variance of their patterns.
+    const double ofPattern = SlopeOfPattern(curve.line.gain, pattern, 8.0 * half.levelsDn2);
+    const double variance = dispersion * half.variance + ofPattern * ofPattern;
+    side = std::max(side, SizeBeyondChance(half.value, variance, InRefined.halvesZ));
   }
 }
 
@@ -151,7 +169,11 @@ UseMeanGain(GainEstimate & estimate, const VarianceCurve & curve, double blackDn
 }
 
 void
-FindModelError(GainEstimate & estimate, const VarianceCurve & curve, double blackDn, double dispersion)
+FindModelError(GainEstimate &        estimate,
+               const VarianceCurve & curve,
+               const LevelPattern &  pattern,
+               double                blackDn,
+               double                dispersion)
 {
   estimate.isWide = curve.DarkestShare(blackDn) < InRefined.largestDarkestShare;
   if (!estimate.isWide && std::sqrt(estimate.covariance(0, 0)) > InRefined.largestGainError * estimate.scale)
@@ -159,7 +181,7 @@ FindModelError(GainEstimate & estimate, const VarianceCurve & curve, double blac
     return; // a line that is not known has no departures
   }
   estimate.nonlinearity = curve.Nonlinearity(dispersion);
-  FindSpreadOfSlopes(estimate, curve, dispersion);
+  FindSpreadOfSlopes(estimate, curve, pattern, dispersion);
   if (estimate.isWide)
   {
     UseMeanGain(estimate, curve, blackDn, dispersion);
@@ -191,7 +213,7 @@ EstimateOfFrames(const VarianceCurve &   frames,
   estimate.reducedChi2 = frames.ReducedChi2() / sharedSquares;
   estimate.isFromFrames = true;
   estimate.scale = ScaleOf(frames.line, blackDn);
-  FindModelError(estimate, frames, blackDn, sharedSquares);
+  FindModelError(estimate, frames, {}, blackDn, sharedSquares); // frames have no pattern
   return estimate;
 }
 
@@ -249,7 +271,7 @@ EstimateGain(const RefinedResults & found, const SensorLines & lines)
   estimate.scale = ScaleOf(estimate.line, found.blackDn);
   const double dispersion =
     std::min(DispersionOfClasses(variance), InRefined.largestDispersion * variance.sharedSquares);
-  FindModelError(estimate, lines.curve, found.blackDn, dispersion);
+  FindModelError(estimate, lines.curve, variance.pattern, found.blackDn, dispersion);
   UseFrames(estimate, lines, found.blackDn, variance.sharedSquares);
   if (found.settings.offset && found.settings.offset->variance)
   {

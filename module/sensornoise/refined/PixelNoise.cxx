@@ -4,6 +4,7 @@
 
 #include "sensornoise/correlation/FrameEnergies.h"
 #include "sensornoise/correlation/NoiseResiduals.h"
+#include "sensornoise/pixels/FlatPixels.h"
 #include "sensornoise/refined/BeyondChance.h"
 #include "sensornoise/refined/Constants.h"
 #include "sensornoise/refined/FramePhotonTransfer.h"
