@@ -117,7 +117,7 @@ TEST_F(EstimateDarkTool, MapsTellThePixelsOwnOffsetAndReadNoise)
   }
 }
 
-TEST_F(EstimateDarkTool, AnOffsetThatIsGivenStands)
+TEST_F(EstimateDarkTool, AnOffsetThatIsGivenStandsInsideItsLimits)
 {
   const std::string    stack = Write("s.mha", MakeBurst().GetPointer());
   const nlohmann::json report = ReportOf(stack + " --offset 100,0.25");
@@ -126,7 +126,9 @@ TEST_F(EstimateDarkTool, AnOffsetThatIsGivenStands)
   EXPECT_EQ(report["settings"]["offset"], 100.0);
   EXPECT_EQ(report["settings"]["offset_standard_error"], 0.25);
   IsNear(report["read_noise"], 8.0);
-  EXPECT_EQ(ReportOf(stack + " --offset -3.5")["offset"]["value"], -3.5);
+  const nlohmann::json outside = ReportOf(stack + " --offset -3.5");
+  EXPECT_EQ(outside["settings"]["offset"], -3.5);
+  EXPECT_EQ(outside["offset"]["status"], "failed");
   EXPECT_EQ(ReportOf(stack + " --offset=100")["offset"]["standard_error"], 0.0);
 }
 

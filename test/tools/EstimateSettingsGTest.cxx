@@ -190,9 +190,11 @@ TEST_F(EstimateSettingsTool, SomePixelsOfAFloatStackMayBeNaN)
   const auto stack = Make<FloatStack>(burst->GetLargestPossibleRegion().GetSize(), 0.0F);
   std::copy(burst->GetBufferPointer(), burst->GetBufferPointer() + 64 * 64 * 24, stack->GetBufferPointer());
   const nlohmann::json whole = ReportOf(Write("whole.mha", stack.GetPointer()));
-  EXPECT_TRUE(whole["bit_depth"].is_null());
-  EXPECT_TRUE(whole["quantisation_step"].is_null());
-  EXPECT_TRUE(whole["clip_high"].is_null());
+  const nlohmann::json integers = ReportOf(Write("integers.mha", burst.GetPointer()));
+  for (const char * const name : { "bit_depth", "quantisation_step", "clip_high", "gain", "read_noise" })
+  {
+    EXPECT_EQ(whole[name], integers[name]) << name;
+  }
 
   stack->SetPixel({ { 3, 4, 5 } }, std::numeric_limits<float>::quiet_NaN());
   stack->SetPixel({ { 3, 4, 9 } }, std::numeric_limits<float>::quiet_NaN());

@@ -192,13 +192,6 @@ FindModelError(GainEstimate &        estimate,
     estimate.covariance *= BeyondChance(estimate.reducedChi2, static_cast<double>(curve.bins.size()) - 2.0);
   }
 }
-/** The slope of a line, whatever it is: the variance over the light, both at the pivot [DN/e-]. */
-double
-ScaleOf(const VarianceLine & line, double blackDn)
-{
-  return line.At(line.pivotDn) / std::max(1e-9, line.pivotDn - blackDn);
-}
-
 /** The estimate by frames of unequal illumination alone. */
 GainEstimate
 EstimateOfFrames(const VarianceCurve &   frames,
@@ -212,7 +205,6 @@ EstimateOfFrames(const VarianceCurve &   frames,
   estimate.covariance = frames.line.covariance + errorOfShared;
   estimate.reducedChi2 = frames.ReducedChi2() / sharedSquares;
   estimate.isFromFrames = true;
-  estimate.scale = ScaleOf(frames.line, blackDn);
   FindModelError(estimate, frames, {}, blackDn, sharedSquares); // frames have no pattern
   return estimate;
 }
@@ -227,6 +219,7 @@ UseFrames(GainEstimate & estimate, const SensorLines & lines, double blackDn, do
     return;
   }
   GainEstimate other = EstimateOfFrames(lines.fromFrames, lines.errorOfShared, blackDn, sharedSquares);
+  other.scale = estimate.scale;
   if (other.StandardError() < estimate.StandardError())
   {
     std::swap(other, estimate);
@@ -268,7 +261,7 @@ EstimateGain(const RefinedResults & found, const SensorLines & lines)
   estimate.curve = lines.curve;
   estimate.reducedChi2 = lines.curve.ReducedChi2() / variance.sharedSquares;
   ChooseLine(estimate, lines, variance, found.scene.model);
-  estimate.scale = ScaleOf(estimate.line, found.blackDn);
+  estimate.scale = estimate.line.At(estimate.line.pivotDn) / std::max(1e-9, estimate.line.pivotDn - found.blackDn);
   const double dispersion =
     std::min(DispersionOfClasses(variance), InRefined.largestDispersion * variance.sharedSquares);
   FindModelError(estimate, lines.curve, variance.pattern, found.blackDn, dispersion);

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "helpers/RefinedTestHelper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <gtest/gtest.h>
+#include <vector>
+
+/** \file
+ * Scenes of which most is dark: the flat pixels, by which the first line is drawn, have no signal. */
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+
+namespace
+{
+using Codes = unsigned short;
+
+constexpr std::size_t Width = 160;
+constexpr std::size_t Height = 128;
+
+/** A disc, darker towards its limb, at a place of the frame [pixels], over a floor of a fraction of the maximum. */
+std::vector<double>
+Disc(double radius, double left, double floor)
+{
+  std::vector<double> scene(Width * Height);
+  for (std::size_t p = 0; p < scene.size(); ++p)
+  {
+    const double x = static_cast<double>(p % Width) - left;
+    const double y = static_cast<double>(p / Width) - 0.5 * Height;
+    const double inside = 1.0 - (x * x + y * y) / (radius * radius);
+    scene[p] = floor + (1.0 - floor) * std::sqrt(std::max(0.0, inside));
+  }
+  return scene;
+}
+
+SimulationSettings
+DarkSettings(double flicker)
+{
+  SimulationSettings settings;
+  settings.camera = { 4000.0, 0.5, 100.0, 3.0 };
+  settings.conditions = { flicker, 0.0, 0.0 };
+  settings.prnuSd = 0.007;
+  settings.dsnuSdDn = 1.0;
+  settings.frames = 40;
+  settings.seed = 3;
+  return settings;
+}
+} // namespace
+
+TEST(SensorNoiseDarkScene, ItsBrightPixelsDetermineTheGain)
+{
+  for (const double radius : { 18.0, 30.0 }) // 5 and 14 % of the frame
+  {
+    for (const double floor : { 0.0, 0.05 })
+    {
+      for (const double flicker : { 0.01, 0.0 })
+      {
+        const auto stack = Simulate<Codes>(DarkSettings(flicker), Width, Height, Disc(radius, 80.0, floor));
+        const auto method = Measure(stack);
+        const auto gain = method.GetReport().gain;
+        ASSERT_EQ(gain.status, EstimateStatus::Identified) << radius << ' ' << floor << ' ' << flicker;
+        // 4 standard errors: once in 16,000 by chance.
+        EXPECT_NEAR(*gain.value, 0.5, 4.0 * *gain.standardError) << radius << ' ' << floor << ' ' << flicker;
+        EXPECT_LT(*gain.standardError, 0.05 * 0.5) << radius << ' ' << floor << ' ' << flicker;
+      }
+    }
+  }
+}
+
+TEST(SensorNoiseDarkScene, AMovingThingInFrontOfADarkGroundIsNoSignal)
+{
+  // The disc moves by half of its radius over the burst: no line of variance and level goes through what it leaves.
+  const SimulationSettings settings = DarkSettings(0.01);
+  Stack<Codes>             stack{ Width, Height, settings.frames, {} };
+  for (std::size_t t = 0; t < settings.frames; ++t)
+  {
+    SimulationSettings one = settings;
+    one.seed = 100 + t;
+    one.frames = 1;
+    one.prnuSd = one.dsnuSdDn = 0.0; // they depend on the seed
+    const auto place = 72.0 + 16.0 * static_cast<double>(t) / static_cast<double>(settings.frames);
+    const auto frame = Simulate<Codes>(one, Width, Height, Disc(30.0, place, 0.02));
+    stack.pixels.insert(stack.pixels.end(), frame.pixels.begin(), frame.pixels.end());
+  }
+  const auto method = Measure(stack);
+  const auto gain = method.GetReport().gain;
+  if (gain.status == EstimateStatus::Identified)
+  {
+    EXPECT_NEAR(*gain.value, 0.5, 4.0 * *gain.standardError);
+  }
+}
