@@ -191,9 +191,14 @@ TEST_F(EstimateSettingsTool, SomePixelsOfAFloatStackMayBeNaN)
   std::copy(burst->GetBufferPointer(), burst->GetBufferPointer() + 64 * 64 * 24, stack->GetBufferPointer());
   const nlohmann::json whole = ReportOf(Write("whole.mha", stack.GetPointer()));
   const nlohmann::json integers = ReportOf(Write("integers.mha", burst.GetPointer()));
-  for (const char * const name : { "bit_depth", "quantisation_step", "clip_high", "gain", "read_noise" })
+  for (const char * const name : { "bit_depth", "quantisation_step", "clip_high" })
   {
     EXPECT_EQ(whole[name], integers[name]) << name;
+  }
+  for (const char * const name : { "gain", "read_noise" })
+  {
+    const double value = integers[name]["value"];
+    EXPECT_NEAR(whole[name]["value"].get<double>(), value, 1e-9 * value) << name; // sums are rounded in another order
   }
 
   stack->SetPixel({ { 3, 4, 5 } }, std::numeric_limits<float>::quiet_NaN());
