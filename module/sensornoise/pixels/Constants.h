@@ -205,8 +205,10 @@ SENSORNOISE_CONSTANT PatternConstants InPattern;
 /** The numbers of the room `pixels` by which the gains of the parts of a frame are compared. Estimator.md, 3.15. */
 struct PartsConstants
 {
-  /** Tiles along an axis, at most: the regression then costs next to nothing beside a pass over the pixels. */
-  std::size_t mostTiles{ 64 };
+  /** Tiles along an axis, at most, and larger tiles whose 16 phases are compared. Chosen empirically: the regressions
+   * then take a few per cent of the time of a burst. */
+  std::size_t mostTiles{ 32 };
+  std::size_t mostPhaseTiles{ 8 };
   /** Fraction of its pixels that a tile needs [1], and tiles that a comparison needs. Chosen empirically. */
   double      leastTileShare{ 0.25 };
   std::size_t fewestTiles{ 24 };

@@ -89,6 +89,47 @@ ExcessOf(const TileSums & sums, double sharedSquares)
   tile.error = std::sqrt(sharedSquares * sums.chance) / sums.expected;
   return tile;
 }
+/** The phases of larger tiles: several tiles of \a side pixels together, \a across of which lie side by side. Phases do
+ * not differ from place to place, and each tile has 16 of them. */
+std::vector<TileExcess>
+PhasesOf(const std::vector<std::array<TileSums, Phases>> & sums,
+         std::size_t                                       across,
+         std::size_t                                       side,
+         const FrameGeometry &                             geometry,
+         double                                            sharedSquares)
+{
+  const std::size_t down = sums.size() / across;
+  const std::size_t together = (std::max(across, down) + InParts.mostPhaseTiles - 1) / InParts.mostPhaseTiles;
+  const std::size_t largeAcross = (across + together - 1) / together;
+  const std::size_t largeDown = (down + together - 1) / together;
+  std::vector<std::array<TileSums, Phases>> large(largeAcross * largeDown);
+  for (std::size_t i = 0; i < sums.size(); ++i)
+  {
+    auto & own = large[i / across / together * largeAcross + i % across / together];
+    for (std::size_t phase = 0; phase < Phases; ++phase)
+    {
+      own[phase] += sums[i][phase];
+    }
+  }
+  const auto              largeSide = static_cast<double>(side * together);
+  std::vector<TileExcess> phases;
+  for (std::size_t i = 0; i < large.size(); ++i)
+  {
+    for (std::size_t phase = 0; phase < Phases; ++phase)
+    {
+      if (large[i][phase].pixels >= 1.0)
+      {
+        phases.push_back(ExcessOf(large[i][phase], sharedSquares));
+        const double left = static_cast<double>(i % largeAcross) + 0.5;
+        const double top = static_cast<double>(i / largeAcross) + 0.5;
+        phases.back().x = std::min(1.0, left * largeSide / static_cast<double>(geometry.width));
+        phases.back().y = std::min(1.0, top * largeSide / static_cast<double>(geometry.height));
+        phases.back().phase = phase;
+      }
+    }
+  }
+  return phases;
+}
 } // namespace
 
 PartTiles
@@ -108,6 +149,7 @@ MakePartTiles(const VarianceData &  data,
     }
   });
   PartTiles tiles;
+  tiles.phases = PhasesOf(sums, across, side, geometry, reference.sharedSquares);
   for (std::size_t i = 0; i < sums.size(); ++i)
   {
     const double x = (static_cast<double>((i % across) * side) + 0.5 * static_cast<double>(side)) /
@@ -115,16 +157,9 @@ MakePartTiles(const VarianceData &  data,
     const double y = (static_cast<double>((i / across) * side) + 0.5 * static_cast<double>(side)) /
                      static_cast<double>(geometry.height);
     TileSums all;
-    for (std::size_t phase = 0; phase < Phases; ++phase)
+    for (const TileSums & phase : sums[i])
     {
-      all += sums[i][phase];
-      if (sums[i][phase].pixels >= 1.0)
-      {
-        tiles.phases.push_back(ExcessOf(sums[i][phase], reference.sharedSquares));
-        tiles.phases.back().x = std::min(1.0, x);
-        tiles.phases.back().y = std::min(1.0, y);
-        tiles.phases.back().phase = phase;
-      }
+      all += phase;
     }
     if (all.pixels >= InParts.leastTileShare * static_cast<double>(side * side))
     {

@@ -35,7 +35,7 @@ struct PartReference
   double       sharedSquares{ 1.0 }; ///< see JudgingLine
 };
 
-/** Sums over tiles of the frame, at most 64 along each axis, of the pixels of a mask. */
+/** Sums over tiles of the frame, at most 32 along each axis, of the pixels of a mask. */
 struct SensorNoise_EXPORT PartTiles
 {
   std::vector<TileExcess> places; ///< a tile each

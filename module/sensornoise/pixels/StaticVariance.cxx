@@ -87,7 +87,7 @@ DrawFirstLine(ProjectedVariance &               projected,
   if (const std::optional<BrighterPixels> brighter = FindBrighterPixels(projected, usable, mask, parallelFor))
   {
     const VarianceLine line = DrawSettledLine(projected, brighter->mask, brighter->through, parallelFor);
-    if (line.isDetermined && FollowLine(projected, brighter->beyond, line))
+    if (line.isDetermined && FollowLine(projected, brighter->beyond, line) && FollowLine(projected, mask, line))
     {
       mask = brighter->mask;
       return line;
@@ -139,29 +139,32 @@ SelectPixels(const ProjectedVariance &         projected,
   return static_cast<std::size_t>(std::count(misfit.begin(), misfit.end(), std::uint8_t{ 1 }));
 }
 
-/** The parts whose gains differ, by the measured variance of the pixels of \a mask; \a hasRatios: that of the
- * projection was divided by the ratios of parts. */
-GainByParts
-ComparePartsOf(const ProjectedVariance &         projected,
-               const PartReference &             reference,
-               const std::vector<std::uint8_t> & mask,
-               bool                              hasRatios,
-               const ParallelFor &               parallelFor)
+/** The tiles by which parts are compared: of the measured variance of the pixels of \a mask. \a hasRatios: the variance
+ * of the projection was divided by the ratios of parts. */
+PartTiles
+TilesOf(const ProjectedVariance &         projected,
+        const PartReference &             reference,
+        const std::vector<std::uint8_t> & mask,
+        bool                              hasRatios,
+        const ParallelFor &               parallelFor)
 {
   const std::vector<double> measured = hasRatios ? projected.MeasuredVariance() : std::vector<double>();
   VarianceData              data = projected.GetData(mask);
   data.variance = hasRatios ? measured.data() : data.variance;
-  return CompareParts(MakePartTiles(data, projected.GetFrame().geometry, reference, parallelFor));
+  return MakePartTiles(data, projected.GetFrame().geometry, reference, parallelFor);
 }
 
-/** Allows for parts whose gains differ much, before pixels are rejected for their variance. */
+/** Divides the variance by the ratios of parts whose gains differ much, before pixels are rejected for it, and draws
+ * the line \a drawn anew. Returns false, and leaves all as it is, unless most pixels then follow the line: what else
+ * makes parts differ, such as a response that is not linear, is left to the fit. */
 bool
 AllowForParts(ProjectedVariance &               projected,
               const PartReference &             reference,
               const std::vector<std::uint8_t> & mask,
+              VarianceLine &                    drawn,
               const ParallelFor &               parallelFor)
 {
-  GainByParts parts = ComparePartsOf(projected, reference, mask, false, parallelFor);
+  GainByParts parts = CompareParts(TilesOf(projected, reference, mask, false, parallelFor));
   for (auto * const own : { &parts.places, &parts.phases })
   {
     if (*own && !(*own)->DifferMuch())
@@ -175,6 +178,13 @@ AllowForParts(ProjectedVariance &               projected,
   }
   const ReferenceFrame & frame = projected.GetFrame();
   projected.SetRatios(MapOfRatios(parts, frame.mean, frame.geometry, reference, parallelFor));
+  const VarianceLine line = DrawSettledLine(projected, mask, drawn, parallelFor);
+  if (!line.isDetermined || !FollowLine(projected, mask, line))
+  {
+    projected.SetRatios({});
+    return false;
+  }
+  drawn = line;
   return true;
 }
 
@@ -188,17 +198,18 @@ CorrectForNoisyMeans(VarianceLine & line, double offsetDn, std::size_t frames)
   line.gain -= bias;
   line.intercept += bias * line.pivotDn;
 }
-} // namespace
-
+/** FitStaticVariance(), once. \a hasRatios says whether the variance may be divided by the ratios of parts, and then
+ * whether it was. */
 StaticVariance
-FitStaticVariance(ProjectedVariance &               projected,
-                  const std::vector<std::uint8_t> & usable,
-                  std::vector<std::uint8_t>         pixelUse,
-                  double                            slopeDn,
-                  double                            offsetDn,
-                  double                            blackDn,
-                  const ParallelFor &               parallelFor,
-                  double                            sharedSquares)
+FitOnce(ProjectedVariance &               projected,
+        const std::vector<std::uint8_t> & usable,
+        std::vector<std::uint8_t>         pixelUse,
+        double                            slopeDn,
+        double                            offsetDn,
+        double                            blackDn,
+        const ParallelFor &               parallelFor,
+        double                            sharedSquares,
+        bool &                            hasRatios)
 {
   StaticVariance found;
   found.sharedSquares = sharedSquares;
@@ -207,13 +218,9 @@ FitStaticVariance(ProjectedVariance &               projected,
   projected.SetRatios({});
   projected.Compute(slopeDn);
   found.mask = MaskOfFlatClasses(projected, usable, parallelFor);
-  VarianceLine drawn = DrawFirstLine(projected, usable, found.mask, parallelFor);
-  const bool   hasRatios =
-    drawn.isDetermined && AllowForParts(projected, { drawn, blackDn, sharedSquares }, found.mask, parallelFor);
-  if (hasRatios)
-  {
-    drawn = DrawSettledLine(projected, found.mask, drawn, parallelFor);
-  }
+  VarianceLine        drawn = DrawFirstLine(projected, usable, found.mask, parallelFor);
+  const PartReference reference{ drawn, blackDn, sharedSquares };
+  hasRatios = hasRatios && drawn.isDetermined && AllowForParts(projected, reference, found.mask, drawn, parallelFor);
   bool isJudged = false;
   for (int round = 0; round < 2 && drawn.isDetermined && !isJudged; ++round)
   {
@@ -260,10 +267,34 @@ FitStaticVariance(ProjectedVariance &               projected,
   found.line = line;
   std::vector<std::uint8_t> kept = found.mask;
   ForPixels(kept.size(), parallelFor, [&](std::size_t p) { kept[p] = trimmed[p] != 0 ? 0 : kept[p]; });
-  found.parts = ComparePartsOf(projected, { line, blackDn, sharedSquares }, kept, hasRatios, parallelFor);
+  found.parts = CompareParts(TilesOf(projected, { line, blackDn, sharedSquares }, kept, hasRatios, parallelFor));
   found.curve = fit.CurveAbout(found.fromLight.isDetermined ? found.fromLight : line);
   found.notStatic = static_cast<std::size_t>(
     std::count(found.pixelUse.begin(), found.pixelUse.end(), static_cast<std::uint8_t>(PixelUse::NotStatic)));
+  return found;
+}
+} // namespace
+
+StaticVariance
+FitStaticVariance(ProjectedVariance &               projected,
+                  const std::vector<std::uint8_t> & usable,
+                  std::vector<std::uint8_t>         pixelUse,
+                  double                            slopeDn,
+                  double                            offsetDn,
+                  double                            blackDn,
+                  const ParallelFor &               parallelFor,
+                  double                            sharedSquares)
+{
+  bool           hasRatios = true;
+  StaticVariance found =
+    FitOnce(projected, usable, pixelUse, slopeDn, offsetDn, blackDn, parallelFor, sharedSquares, hasRatios);
+  if (hasRatios && found.parts.Larger() == nullptr)
+  {
+    // The pixels that fit do not confirm the parts: a response that is not linear, on a chart, looks like them.
+    hasRatios = false;
+    found = FitOnce(
+      projected, usable, std::move(pixelUse), slopeDn, offsetDn, blackDn, parallelFor, sharedSquares, hasRatios);
+  }
   return found;
 }
 
