@@ -48,7 +48,7 @@ struct SensorNoise_EXPORT PartRegression
   /** Schwarz' criterion: the robust loss with a common \a scale, and the logarithm of the number of tiles for every
    * coefficient of the parts. The model of the lowest criterion is the best. */
   double
-  Criterion(const std::vector<TileExcess> & tiles, double scale) const;
+  Criterion(const std::vector<TileExcess> & tiles, double common) const;
 
   using Terms = std::vector<std::pair<Eigen::Index, double>>;
   /** The columns of a tile that are not 0. */

@@ -16,7 +16,7 @@ namespace
 {
 constexpr std::size_t Phases = LargestPeriod * LargestPeriod;
 
-struct TileSums
+struct PartSums
 {
   double pixels{ 0.0 };
   double level{ 0.0 };
@@ -25,8 +25,8 @@ struct TileSums
   double shot{ 0.0 };
   double chance{ 0.0 };
 
-  TileSums &
-  operator+=(const TileSums & other)
+  PartSums &
+  operator+=(const PartSums & other)
   {
     pixels += other.pixels;
     level += other.level;
@@ -55,7 +55,7 @@ SumTile(const VarianceData &           data,
         std::size_t                    left,
         std::size_t                    top,
         std::size_t                    side,
-        std::array<TileSums, Phases> & sums)
+        std::array<PartSums, Phases> & sums)
 {
   const VarianceLine & line = reference.line;
   for (std::size_t y = top; y < std::min(top + side, geometry.height); ++y)
@@ -66,7 +66,7 @@ SumTile(const VarianceData &           data,
       const double      expected = line.At(data.mean[p]);
       if (data.mask[p] != 0 && data.variance[p] < InParts.largestRatio * expected)
       {
-        TileSums & own = sums[LargestPeriod * (y % LargestPeriod) + x % LargestPeriod];
+        PartSums & own = sums[LargestPeriod * (y % LargestPeriod) + x % LargestPeriod];
         own.pixels += 1.0;
         own.level += data.mean[p];
         own.variance += data.variance[p];
@@ -79,7 +79,7 @@ SumTile(const VarianceData &           data,
 }
 
 TileExcess
-ExcessOf(const TileSums & sums, double sharedSquares)
+ExcessOf(const PartSums & sums, double sharedSquares)
 {
   TileExcess tile;
   tile.pixels = sums.pixels;
@@ -92,7 +92,7 @@ ExcessOf(const TileSums & sums, double sharedSquares)
 /** The phases of larger tiles: several tiles of \a side pixels together, \a across of which lie side by side. Phases do
  * not differ from place to place, and each tile has 16 of them. */
 std::vector<TileExcess>
-PhasesOf(const std::vector<std::array<TileSums, Phases>> & sums,
+PhasesOf(const std::vector<std::array<PartSums, Phases>> & sums,
          std::size_t                                       across,
          std::size_t                                       side,
          const FrameGeometry &                             geometry,
@@ -102,7 +102,7 @@ PhasesOf(const std::vector<std::array<TileSums, Phases>> & sums,
   const std::size_t together = (std::max(across, down) + InParts.mostPhaseTiles - 1) / InParts.mostPhaseTiles;
   const std::size_t largeAcross = (across + together - 1) / together;
   const std::size_t largeDown = (down + together - 1) / together;
-  std::vector<std::array<TileSums, Phases>> large(largeAcross * largeDown);
+  std::vector<std::array<PartSums, Phases>> large(largeAcross * largeDown);
   for (std::size_t i = 0; i < sums.size(); ++i)
   {
     auto & own = large[i / across / together * largeAcross + i % across / together];
@@ -141,7 +141,7 @@ MakePartTiles(const VarianceData &  data,
   const std::size_t                         side = SideOfTile(geometry);
   const std::size_t                         across = (geometry.width + side - 1) / side;
   const std::size_t                         down = (geometry.height + side - 1) / side;
-  std::vector<std::array<TileSums, Phases>> sums(across * down);
+  std::vector<std::array<PartSums, Phases>> sums(across * down);
   parallelFor(down, [&](std::size_t row) {
     for (std::size_t column = 0; column < across; ++column)
     {
@@ -156,8 +156,8 @@ MakePartTiles(const VarianceData &  data,
                      static_cast<double>(geometry.width);
     const double y = (static_cast<double>((i / across) * side) + 0.5 * static_cast<double>(side)) /
                      static_cast<double>(geometry.height);
-    TileSums all;
-    for (const TileSums & phase : sums[i])
+    PartSums all;
+    for (const PartSums & phase : sums[i])
     {
       all += phase;
     }

@@ -86,7 +86,7 @@ DrawFirstLine(ProjectedVariance &               projected,
 {
   if (const std::optional<BrighterPixels> brighter = FindBrighterPixels(projected, usable, mask, parallelFor))
   {
-    const VarianceLine line = DrawSettledLine(projected, brighter->mask, brighter->through, parallelFor);
+    VarianceLine line = DrawSettledLine(projected, brighter->mask, brighter->through, parallelFor);
     if (line.isDetermined && FollowLine(projected, brighter->beyond, line) && FollowLine(projected, mask, line))
     {
       mask = brighter->mask;
