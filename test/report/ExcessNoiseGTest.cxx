@@ -44,6 +44,18 @@ TEST(SensorNoiseExcessNoise, IsDividedOutOfTheGainAlone)
   EXPECT_EQ(report.settings[0].second, Report::SettingValue{ 2.0 });
 }
 
+TEST(SensorNoiseExcessNoise, IsDividedOutOfTheGainsOfParts)
+{
+  Report report = OfMultipliedElectrons();
+  report.gainByParts = { { "left-right", { { "left half", 18.0, 0.3, 0.5 }, { "right half", 22.0, 0.4, 0.5 } } } };
+  DivideExcessNoise(report, 2.0);
+  const auto & parts = report.gainByParts[0].parts;
+  EXPECT_DOUBLE_EQ(parts[0].gain, 9.0);
+  EXPECT_DOUBLE_EQ(parts[1].gain, 11.0);
+  EXPECT_DOUBLE_EQ(parts[1].standardError, 0.2);
+  EXPECT_DOUBLE_EQ(parts[1].pixelFraction, 0.5);
+}
+
 TEST(SensorNoiseExcessNoise, OfOneChangesNothing)
 {
   Report report = OfMultipliedElectrons();

@@ -62,6 +62,14 @@ DivideExcessNoise(Report & report, double factor)
   report.settings.emplace_back("excess_noise_factor", factor);
   Multiply(report.gain, 1.0 / factor);
   Multiply(report.readNoiseElectrons, factor);
+  for (GainByPartsRecord & record : report.gainByParts)
+  {
+    for (GainByPartsRecord::Part & part : record.parts)
+    {
+      part.gain /= factor;
+      part.standardError /= factor;
+    }
+  }
   if (report.covariance)
   {
     auto & covariance = *report.covariance;
