@@ -22,14 +22,6 @@ Overlap(const Interval & a, const Interval & b)
 }
 
 Quantity
-WithBracket(EstimateStatus status, const std::optional<Interval> & bracket)
-{
-  Quantity quantity = Quantity::Without(status);
-  quantity.bracket = bracket;
-  return quantity;
-}
-
-Quantity
 FiledPositive(const Quantity & quantity, bool mayBeZero)
 {
   const Interval & interval = *quantity.interval95;
@@ -43,7 +35,7 @@ FiledPositive(const Quantity & quantity, bool mayBeZero)
     return UpperLimit(*interval.high);
   }
   const Interval known{ std::max(0.0, low), interval.high };
-  return WithBracket(EstimateStatus::NotIdentifiable, quantity.bracket ? quantity.bracket : known);
+  return Quantity::Without(EstimateStatus::NotIdentifiable, quantity.bracket ? quantity.bracket : known);
 }
 
 Quantity
@@ -56,13 +48,13 @@ FiledOffset(const Quantity & quantity, double signalDn)
   const Interval & interval = *quantity.interval95;
   if (quantity.bracket && !Overlap(interval, *quantity.bracket))
   {
-    return WithBracket(EstimateStatus::Failed, quantity.bracket);
+    return Quantity::Without(EstimateStatus::Failed, quantity.bracket);
   }
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const double     width = interval.high.value_or(infinity) - interval.low.value_or(-infinity);
   return width <= LargestOffsetInterval * signalDn
            ? quantity
-           : WithBracket(EstimateStatus::NotIdentifiable, quantity.bracket ? quantity.bracket : interval);
+           : Quantity::Without(EstimateStatus::NotIdentifiable, quantity.bracket ? quantity.bracket : interval);
 }
 } // namespace
 
@@ -86,7 +78,7 @@ Filed(const Quantity & quantity, QuantityDomain domain, double signalDn)
     return FiledPositive(quantity, domain == QuantityDomain::NonNegative);
   }
   const bool isBounded = quantity.interval95->low && quantity.interval95->high;
-  return isBounded ? quantity : WithBracket(EstimateStatus::NotIdentifiable, quantity.interval95);
+  return isBounded ? quantity : Quantity::Without(EstimateStatus::NotIdentifiable, quantity.interval95);
 }
 
 Quantity

@@ -61,10 +61,11 @@ struct Quantity
     return quantity;
   }
   static Quantity
-  Without(EstimateStatus status)
+  Without(EstimateStatus status, const std::optional<Interval> & bracket = std::nullopt)
   {
     Quantity quantity;
     quantity.status = status;
+    quantity.bracket = bracket;
     return quantity;
   }
 };

@@ -20,19 +20,11 @@ namespace
 constexpr std::array AgainstDarkLevel{ WarningCode::DarkFramesDiffer, WarningCode::OffsetOutOfRange };
 
 void
-Withdraw(Quantity & quantity, EstimateStatus status)
-{
-  const auto bracket = quantity.bracket;
-  quantity = Quantity::Without(status);
-  quantity.bracket = bracket;
-}
-
-void
 WithdrawIfIdentified(Quantity & quantity, EstimateStatus status)
 {
   if (quantity.status == EstimateStatus::Identified || quantity.status == EstimateStatus::UpperLimit)
   {
-    Withdraw(quantity, status);
+    quantity = Quantity::Without(status, quantity.bracket);
   }
 }
 
