@@ -31,27 +31,34 @@ Legendre(double place)
   return values;
 }
 
-double
-ResidualOf(const TileExcess & tile, const PartRegression & fit, PartRegression::Terms & terms)
+/** The terms of every tile, which the rounds of a regression share. */
+std::vector<PartRegression::Terms>
+TermsOf(const std::vector<TileExcess> & tiles, const PartRegression & fit)
 {
-  fit.FillTerms(tile, terms);
-  double residual = tile.excess;
-  for (const auto & [column, value] : terms)
+  std::vector<PartRegression::Terms> terms(tiles.size());
+  for (std::size_t i = 0; i < tiles.size(); ++i)
   {
-    residual -= value * fit.theta(column);
+    fit.FillTerms(tiles[i], terms[i]);
   }
-  return residual / tile.error;
+  return terms;
 }
 
 /** The residuals, in standard deviations of sampling. */
 std::vector<double>
-ResidualsOf(const std::vector<TileExcess> & tiles, const PartRegression & fit)
+ResidualsOf(const std::vector<TileExcess> &            tiles,
+            const std::vector<PartRegression::Terms> & terms,
+            const Eigen::VectorXd &                    theta)
 {
-  std::vector<double>   residuals;
-  PartRegression::Terms terms;
-  std::transform(tiles.begin(), tiles.end(), std::back_inserter(residuals), [&](const TileExcess & tile) {
-    return ResidualOf(tile, fit, terms);
-  });
+  std::vector<double> residuals;
+  for (std::size_t i = 0; i < tiles.size(); ++i)
+  {
+    double residual = tiles[i].excess;
+    for (const auto & [column, value] : terms[i])
+    {
+      residual -= value * theta(column);
+    }
+    residuals.push_back(residual / tiles[i].error);
+  }
   return residuals;
 }
 
@@ -70,21 +77,22 @@ PriorPrecision(const PartRegression & fit)
 
 /** A step of re-weighted least squares; the inverse of the normal equations becomes the covariance. */
 void
-Solve(const std::vector<TileExcess> & tiles, const std::vector<double> & weights, PartRegression & fit)
+Solve(const std::vector<TileExcess> &            tiles,
+      const std::vector<PartRegression::Terms> & terms,
+      const std::vector<double> &                weights,
+      PartRegression &                           fit)
 {
-  Eigen::MatrixXd       normal = PriorPrecision(fit).asDiagonal();
-  Eigen::VectorXd       right = Eigen::VectorXd::Zero(normal.rows());
-  PartRegression::Terms terms;
+  Eigen::MatrixXd normal = PriorPrecision(fit).asDiagonal();
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(normal.rows());
   for (std::size_t i = 0; i < tiles.size(); ++i)
   {
     const double w = weights[i] / (tiles[i].error * tiles[i].error);
     if (w > 0.0)
     {
-      fit.FillTerms(tiles[i], terms);
-      for (const auto & [a, value] : terms)
+      for (const auto & [a, value] : terms[i])
       {
         right(a) += w * value * tiles[i].excess;
-        for (const auto & [b, other] : terms)
+        for (const auto & [b, other] : terms[i])
         {
           normal(a, b) += w * value * other;
         }
@@ -120,11 +128,12 @@ FitRobustly(const std::vector<TileExcess> & tiles, PartRegression & fit)
       fit.knotsDn.push_back(knot);
     }
   }
+  const auto          terms = TermsOf(tiles, fit);
   std::vector<double> weights(tiles.size(), 1.0);
   for (int round = 0; round < InParts.rounds; ++round)
   {
-    Solve(tiles, weights, fit);
-    const std::vector<double> residuals = ResidualsOf(tiles, fit);
+    Solve(tiles, terms, weights, fit);
+    const std::vector<double> residuals = ResidualsOf(tiles, terms, fit.theta);
     fit.scale = ScaleOf(residuals);
     const bool isLast = 2 * round >= InParts.rounds;
     std::transform(residuals.begin(), residuals.end(), weights.begin(), [&](double residual) {
@@ -133,7 +142,7 @@ FitRobustly(const std::vector<TileExcess> & tiles, PartRegression & fit)
       return isLast ? near * near : 1.0 / std::max(1.0, own);
     });
   }
-  Solve(tiles, weights, fit);
+  Solve(tiles, terms, weights, fit);
   fit.covariance *= fit.scale * fit.scale;
   fit.isDetermined = fit.theta.allFinite() && fit.covariance.allFinite();
 }
@@ -181,7 +190,7 @@ PartRegression::Criterion(const std::vector<TileExcess> & tiles, double common) 
 {
   const double limit = InParts.tukey * InParts.tukey;
   double       loss = 0.0;
-  for (const double residual : ResidualsOf(tiles, *this))
+  for (const double residual : ResidualsOf(tiles, TermsOf(tiles, *this), theta))
   {
     const double left = std::max(0.0, 1.0 - residual * residual / (common * common * limit));
     loss += limit / 3.0 * (1.0 - left * left * left);
