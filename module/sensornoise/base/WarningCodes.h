@@ -294,10 +294,8 @@ inline constexpr std::array<WarningKind, 45> WarningTable{ {
     "gain-not-uniform",
     Severity::Warning,
     "Parts of the frame have different gains, as behind several amplifiers, in stitched blocks, or of a mosaic given "
-    "as "
-    "mono. `gain` is the mean over the pixels, its interval holds the gains of the parts, and `gain_by_parts` has "
-    "each. "
-    "Measure the parts by themselves (--roi, --mask, --bayer)." },
+    "as mono. `gain` is the mean over the pixels, its interval holds the gains of the parts, and `gain_by_parts` has "
+    "each. Measure the parts by themselves (--roi, --mask, --bayer)." },
 } };
 
 /** The line of \a code. */

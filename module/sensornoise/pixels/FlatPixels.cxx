@@ -194,7 +194,7 @@ FindBrighterPixels(const ProjectedVariance &         projected,
 }
 
 bool
-FollowLine(const ProjectedVariance & projected, const std::vector<std::uint8_t> & mask, const VarianceLine & line)
+FollowsLine(const ProjectedVariance & projected, const std::vector<std::uint8_t> & mask, const VarianceLine & line)
 {
   const VarianceData data = projected.GetData(mask);
   double             pixels = 0.0;

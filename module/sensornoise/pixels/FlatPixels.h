@@ -48,7 +48,7 @@ FindBrighterPixels(const ProjectedVariance &         projected,
 /** Whether the variance of most pixels of \a mask is that of \a line, but for chance: signal lies on one line with the
  * dark pixels, the variance of motion does not. */
 SensorNoise_EXPORT bool
-FollowLine(const ProjectedVariance & projected, const std::vector<std::uint8_t> & mask, const VarianceLine & line);
+FollowsLine(const ProjectedVariance & projected, const std::vector<std::uint8_t> & mask, const VarianceLine & line);
 
 } // namespace sensornoise
 

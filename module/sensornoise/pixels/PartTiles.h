@@ -42,8 +42,7 @@ struct SensorNoise_EXPORT PartTiles
   std::vector<TileExcess> phases; ///< a tile and a phase each
 };
 
-/** Sums the variance of the data over tiles of 16 x 16 pixels, of 8 x 8 in small frames, of more in large ones.
- **/
+/** Sums the variance of the data over tiles of 16 x 16 pixels, of 8 x 8 in small frames, of more in large ones. */
 SensorNoise_EXPORT PartTiles
 MakePartTiles(const VarianceData &  data,
               const FrameGeometry & geometry,

@@ -83,6 +83,12 @@ public:
    * the variance as it is. What was set before is undone. */
   void
   SetRatios(std::vector<float> ratios);
+  /** Whether the variance is divided by ratios. */
+  bool
+  HasRatios() const
+  {
+    return !m_Ratios.empty();
+  }
   /** The variance as it was measured, without the ratios [DN^2]. */
   std::vector<double>
   MeasuredVariance() const;

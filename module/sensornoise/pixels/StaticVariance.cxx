@@ -87,7 +87,7 @@ DrawFirstLine(ProjectedVariance &               projected,
   if (const std::optional<BrighterPixels> brighter = FindBrighterPixels(projected, usable, mask, parallelFor))
   {
     VarianceLine line = DrawSettledLine(projected, brighter->mask, brighter->through, parallelFor);
-    if (line.isDetermined && FollowLine(projected, brighter->beyond, line) && FollowLine(projected, mask, line))
+    if (line.isDetermined && FollowsLine(projected, brighter->beyond, line) && FollowsLine(projected, mask, line))
     {
       mask = brighter->mask;
       return line;
@@ -139,32 +139,34 @@ SelectPixels(const ProjectedVariance &         projected,
   return static_cast<std::size_t>(std::count(misfit.begin(), misfit.end(), std::uint8_t{ 1 }));
 }
 
-/** The tiles by which parts are compared: of the measured variance of the pixels of \a mask. \a hasRatios: the variance
- * of the projection was divided by the ratios of parts. */
-PartTiles
-TilesOf(const ProjectedVariance &         projected,
-        const PartReference &             reference,
-        const std::vector<std::uint8_t> & mask,
-        bool                              hasRatios,
-        const ParallelFor &               parallelFor)
+/** Compares the parts by the measured variance of the pixels of \a mask. */
+GainByParts
+ComparePartsOf(const ProjectedVariance &         projected,
+               const PartReference &             reference,
+               const std::vector<std::uint8_t> & mask,
+               const ParallelFor &               parallelFor)
 {
-  const std::vector<double> measured = hasRatios ? projected.MeasuredVariance() : std::vector<double>();
-  VarianceData              data = projected.GetData(mask);
-  data.variance = hasRatios ? measured.data() : data.variance;
-  return MakePartTiles(data, projected.GetFrame().geometry, reference, parallelFor);
+  VarianceData        data = projected.GetData(mask);
+  std::vector<double> measured;
+  if (projected.HasRatios())
+  {
+    measured = projected.MeasuredVariance();
+    data.variance = measured.data();
+  }
+  return CompareParts(MakePartTiles(data, projected.GetFrame().geometry, reference, parallelFor));
 }
 
 /** Divides the variance by the ratios of parts whose gains differ much, before pixels are rejected for it, and draws
- * the line \a drawn anew. Returns false, and leaves all as it is, unless most pixels then follow the line: what else
- * makes parts differ, such as a response that is not linear, is left to the fit. */
-bool
+ * the line \a drawn anew. Leaves all as it is unless most pixels then follow the line: what else makes parts differ,
+ * such as a response that is not linear, is left to the fit. */
+void
 AllowForParts(ProjectedVariance &               projected,
               const PartReference &             reference,
               const std::vector<std::uint8_t> & mask,
               VarianceLine &                    drawn,
               const ParallelFor &               parallelFor)
 {
-  GainByParts parts = CompareParts(TilesOf(projected, reference, mask, false, parallelFor));
+  GainByParts parts = ComparePartsOf(projected, reference, mask, parallelFor);
   for (auto * const own : { &parts.places, &parts.phases })
   {
     if (*own && !(*own)->DifferMuch())
@@ -174,18 +176,17 @@ AllowForParts(ProjectedVariance &               projected,
   }
   if (parts.Larger() == nullptr)
   {
-    return false;
+    return;
   }
   const ReferenceFrame & frame = projected.GetFrame();
   projected.SetRatios(MapOfRatios(parts, frame.mean, frame.geometry, reference, parallelFor));
   const VarianceLine line = DrawSettledLine(projected, mask, drawn, parallelFor);
-  if (!line.isDetermined || !FollowLine(projected, mask, line))
+  if (!line.isDetermined || !FollowsLine(projected, mask, line))
   {
     projected.SetRatios({});
-    return false;
+    return;
   }
   drawn = line;
-  return true;
 }
 
 /** The mean has noise of its own, and it is correlated with the variance as the noise is skewed. Both together bias
@@ -198,19 +199,25 @@ CorrectForNoisyMeans(VarianceLine & line, double offsetDn, std::size_t frames)
   line.gain -= bias;
   line.intercept += bias * line.pivotDn;
 }
-/** FitStaticVariance(), once. \a hasRatios says whether the variance may be divided by the ratios of parts, and then
- * whether it was. */
+/** What FitStaticVariance() is told of the levels and the noise. */
+struct FitPremises
+{
+  double slopeDn;
+  double offsetDn;
+  double blackDn;
+  double sharedSquares;
+};
+
+/** FitStaticVariance(), once. \a mayDivide: the variance may be divided by the ratios of parts. */
 StaticVariance
 FitOnce(ProjectedVariance &               projected,
         const std::vector<std::uint8_t> & usable,
         std::vector<std::uint8_t>         pixelUse,
-        double                            slopeDn,
-        double                            offsetDn,
-        double                            blackDn,
-        const ParallelFor &               parallelFor,
-        double                            sharedSquares,
-        bool &                            hasRatios)
+        const FitPremises &               premises,
+        bool                              mayDivide,
+        const ParallelFor &               parallelFor)
 {
+  const auto [slopeDn, offsetDn, blackDn, sharedSquares] = premises;
   StaticVariance found;
   found.sharedSquares = sharedSquares;
   found.pixelUse = std::move(pixelUse);
@@ -218,9 +225,11 @@ FitOnce(ProjectedVariance &               projected,
   projected.SetRatios({});
   projected.Compute(slopeDn);
   found.mask = MaskOfFlatClasses(projected, usable, parallelFor);
-  VarianceLine        drawn = DrawFirstLine(projected, usable, found.mask, parallelFor);
-  const PartReference reference{ drawn, blackDn, sharedSquares };
-  hasRatios = hasRatios && drawn.isDetermined && AllowForParts(projected, reference, found.mask, drawn, parallelFor);
+  VarianceLine drawn = DrawFirstLine(projected, usable, found.mask, parallelFor);
+  if (mayDivide && drawn.isDetermined)
+  {
+    AllowForParts(projected, { drawn, blackDn, sharedSquares }, found.mask, drawn, parallelFor);
+  }
   bool isJudged = false;
   for (int round = 0; round < 2 && drawn.isDetermined && !isJudged; ++round)
   {
@@ -267,7 +276,7 @@ FitOnce(ProjectedVariance &               projected,
   found.line = line;
   std::vector<std::uint8_t> kept = found.mask;
   ForPixels(kept.size(), parallelFor, [&](std::size_t p) { kept[p] = trimmed[p] != 0 ? 0 : kept[p]; });
-  found.parts = CompareParts(TilesOf(projected, { line, blackDn, sharedSquares }, kept, hasRatios, parallelFor));
+  found.parts = ComparePartsOf(projected, { line, blackDn, sharedSquares }, kept, parallelFor);
   found.curve = fit.CurveAbout(found.fromLight.isDetermined ? found.fromLight : line);
   found.notStatic = static_cast<std::size_t>(
     std::count(found.pixelUse.begin(), found.pixelUse.end(), static_cast<std::uint8_t>(PixelUse::NotStatic)));
@@ -285,15 +294,12 @@ FitStaticVariance(ProjectedVariance &               projected,
                   const ParallelFor &               parallelFor,
                   double                            sharedSquares)
 {
-  bool           hasRatios = true;
-  StaticVariance found =
-    FitOnce(projected, usable, pixelUse, slopeDn, offsetDn, blackDn, parallelFor, sharedSquares, hasRatios);
-  if (hasRatios && found.parts.Larger() == nullptr)
+  const FitPremises premises{ slopeDn, offsetDn, blackDn, sharedSquares };
+  StaticVariance    found = FitOnce(projected, usable, pixelUse, premises, true, parallelFor);
+  if (projected.HasRatios() && found.parts.Larger() == nullptr)
   {
     // The pixels that fit do not confirm the parts: a response that is not linear, on a chart, looks like them.
-    hasRatios = false;
-    found = FitOnce(
-      projected, usable, std::move(pixelUse), slopeDn, offsetDn, blackDn, parallelFor, sharedSquares, hasRatios);
+    found = FitOnce(projected, usable, std::move(pixelUse), premises, false, parallelFor);
   }
   return found;
 }
