@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import situations
+import situations_borders
 import situations_dark
 import situations_frames
 import situations_parts
@@ -16,7 +17,14 @@ from acceptance_bursts import estimate
 from acceptance_lines import stream_of
 from acceptance_stacks import judge, judge_frames
 
-MODULES = (situations, situations_dark, situations_frames, situations_parts, situations_values)
+MODULES = (
+    situations,
+    situations_borders,
+    situations_dark,
+    situations_frames,
+    situations_parts,
+    situations_values,
+)
 # The compared quantities: member of Burst, and path in the report.
 COMPARED = {
     "gain": ("gain",),

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/base/PixelUse.h"
 #include "sensornoise/report/Report.h"
 #include "sensornoise/report/ReportTable.h"
 #include "sensornoise/simulation/Random.h"
@@ -11,7 +12,9 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <cstdint>
 #include <gtest/gtest.h>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -148,6 +151,22 @@ TEST(SensorNoiseRefinedWarnings, OneIlluminatedFrameIsNamed)
   ASSERT_TRUE(HasWarning(report, WarningCode::TooLittleToMeasure)) << MakeText(report);
   EXPECT_NE(MakeText(report).find("frame 19 alone carries 100 % of the illumination"), std::string::npos)
     << MakeText(report);
+}
+
+TEST(SensorNoiseRefinedWarnings, BorderLeftOut)
+{
+  const SimulationSettings   settings = StillCamera(Frames);
+  std::mt19937               random(6);
+  std::normal_distribution<> normal;
+  const Stack<Codes>         stack = Changed([&](std::size_t, std::size_t x, std::size_t, double value) {
+    return x < 10 ? settings.camera.offsetDn - 5.0 + 3.0 * normal(random) : value;
+  });
+  ExpectWarns(stack, WarningCode::BorderLeftOut);
+  const std::vector<std::uint8_t> use = Measure(stack, {}).GetPixelUse();
+  for (std::size_t p = 0; p < Size * Size; ++p)
+  {
+    EXPECT_EQ(use[p] == static_cast<std::uint8_t>(PixelUse::MaskedBorder), p % Size < 10) << p;
+  }
 }
 
 TEST(SensorNoiseRefinedWarnings, GainNotUniform)

@@ -24,7 +24,8 @@ enum class PixelUse : std::uint8_t
   Outlier = 10,       ///< its variance is too far from the line, or dark frames show it defective
   CoarseCodes = 11,   ///< its noise is below half a code step
   OutsideRange = 12,  ///< its level is not one that the user wants
-  Edge = 13           ///< frames were filtered, and neighbours of another level mixed their noise in
+  Edge = 13,          ///< frames were filtered, and neighbours of another level mixed their noise in
+  MaskedBorder = 14   ///< of a strip along the border that is no part of the scene, as optical-black columns
 };
 
 } // namespace sensornoise

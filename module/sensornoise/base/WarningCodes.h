@@ -57,7 +57,8 @@ enum class WarningCode : std::uint8_t
   NoiseNotLinear,
   VarianceNotAffine,
   Contradicted,
-  GainNotUniform
+  GainNotUniform,
+  BorderLeftOut
 };
 
 /** What a warning does to the measurement. */
@@ -85,7 +86,7 @@ struct WarningKind
 
 /** All that a report can warn of, in the order of WarningCode. README and Python show this table; a warning's own
  * message has the numbers. */
-inline constexpr std::array<WarningKind, 45> WarningTable{ {
+inline constexpr std::array<WarningKind, 46> WarningTable{ {
   { WarningCode::FewFrames, "few-frames", Severity::Warning, "Fewer than 20 different frames: indicative only." },
   { WarningCode::Mosaic,
     "mosaic",
@@ -296,6 +297,11 @@ inline constexpr std::array<WarningKind, 45> WarningTable{ {
     "Parts of the frame have different gains, as behind several amplifiers, in stitched blocks, or of a mosaic given "
     "as mono. `gain` is the mean over the pixels, its interval holds the gains of the parts, and `gain_by_parts` has "
     "each. Measure the parts by themselves (--roi, --mask, --bayer)." },
+  { WarningCode::BorderLeftOut,
+    "border-left-out",
+    Severity::Note,
+    "Columns or rows along the border are no part of the scene, as optical-black pixels or masked regions: they have "
+    "one level and end within a pixel along the whole border. They are left out." },
 } };
 
 /** The line of \a code. */
@@ -317,7 +323,7 @@ IsInOrder()
       return false;
     }
   }
-  return static_cast<std::size_t>(WarningCode::GainNotUniform) + 1 == WarningTable.size();
+  return static_cast<std::size_t>(WarningCode::BorderLeftOut) + 1 == WarningTable.size();
 }
 static_assert(IsInOrder(), "the table has a line for every code, in their order");
 } // namespace detail

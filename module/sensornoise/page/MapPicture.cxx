@@ -45,6 +45,7 @@ constexpr std::array UseKinds{
   UseKind{ PixelUse::CoarseCodes, "codes too coarse", { 86, 180, 233 } },
   UseKind{ PixelUse::OutsideRange, "outside the level range", { 240, 228, 66 } },
   UseKind{ PixelUse::Edge, "edge of filtered frames", { 60, 20, 90 } },
+  UseKind{ PixelUse::MaskedBorder, "masked border of the sensor", { 120, 80, 40 } },
 };
 
 constexpr bool

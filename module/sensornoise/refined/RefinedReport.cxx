@@ -71,6 +71,27 @@ WarnOfScene(Report & report, const RefinedResults & found)
   }
 }
 
+/** What was left out of the frame along its borders, and where. */
+void
+WarnOfBorder(Report & report, const StillScene & scene)
+{
+  std::string strips;
+  for (const MaskedStrip & strip : scene.border.strips)
+  {
+    strips += (strips.empty() ? "the " : "; the ") + std::to_string(strip.lines) + " " + strip.words + " (" +
+              Rounded(strip.levelDn) + " DN, the line beside " + Rounded(strip.besideDn) + " DN)";
+  }
+  if (!strips.empty())
+  {
+    report.Warn(
+      WarningCode::BorderLeftOut,
+      std::to_string(scene.border.Pixels(scene.frame.geometry)) + " pixels along the border, " +
+        Percent(static_cast<double>(scene.border.Pixels(scene.frame.geometry)) /
+                static_cast<double>(scene.frame.geometry.Pixels())) +
+        " of the frame, have one level, end within a pixel, and are left out as no part of the scene: " + strips);
+  }
+}
+
 /** Where the table's own limits do not exclude it. */
 void
 WarnOfMotion(Report & report, const RefinedResults & found)
@@ -119,6 +140,7 @@ DescribeInput(const RefinedSettings & settings, const StillScene & scene, const 
   NoteCodes(report, settings.codes);
   DescribeStack(report, scene.frame.geometry, scene.frame.frames, scene.summary, scene.valid, pixelUse);
   WarnOfStack(report, scene.frame.frames, scene.summary);
+  WarnOfBorder(report, scene);
   return report;
 }
 

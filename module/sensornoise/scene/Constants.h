@@ -84,6 +84,32 @@ struct SceneConstants
    * can. Set by hand. */
   double leastStill{ 0.05 };
   ///@}
+
+  /** \name Masked borders */
+  ///@{
+  /** Sides of a frame [pixels], and part of its columns or rows that a strip may take [1]. Chosen empirically: sensors
+   * have up to a tenth, and the middle of the frame must be left. */
+  std::size_t leastBorderedSide{ 32 };
+  double      largestBorder{ 0.25 };
+  /** Pixels by which a column or row is judged, about, and at least: the medians of so many bound the time. */
+  std::size_t pixelsOfBorderLine{ 128 };
+  std::size_t leastPixelsOfBorderLine{ 8 };
+  /** Standard deviations of the pixels of the outermost line by which a line or a pixel differs from it [1]. Chosen
+   * empirically: of normal levels 1 of 16,000 does. */
+  double borderZ{ 4.0 };
+  /** Part of the pixels beside a strip that must differ from it [1]: a scene may have its level in places. */
+  double leastBorderShare{ 0.95 };
+  /** Part of the step at the end of a strip by which pixels of the next lines may differ, as medians [1], and its last
+   * line from its first one [1]. The image of an edge is not as sharp: a Gaussian of 0.4 pixels leaves 0.16 in the
+   * pixel before. Chosen empirically for the former. */
+  double largestBorderSlope{ 0.34 };
+  double largestBlur{ 0.08 };
+  /** Standard deviation of the levels beside a strip, in units of that in the strip, from which on the structure of the
+   * scene ends with the strip [1]. Chosen empirically. */
+  double leastStructure{ 8.0 };
+  /** Quantile of the levels of the scene below which the strip is without light [1]. */
+  double darkestOfScene{ 0.02 };
+  ///@}
 };
 
 SENSORNOISE_CONSTANT SceneConstants InScene;

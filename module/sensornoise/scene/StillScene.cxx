@@ -3,6 +3,7 @@
 #include "sensornoise/scene/StillScene.h"
 
 #include "sensornoise/base/PixelUse.h"
+#include "sensornoise/base/Stencils.h"
 #include "sensornoise/moments/StackRequirements.h"
 #include "sensornoise/scene/CrossedRegion.h"
 #include "sensornoise/scene/UsablePixels.h"
@@ -15,6 +16,40 @@ namespace sensornoise
 
 namespace
 {
+/** Makes the pixels of the border that are no part of the scene invalid: no neighbour is to see them. */
+void
+LeaveOutBorder(std::vector<std::uint8_t> & valid, const MaskedBorder & border, const FrameGeometry & geometry)
+{
+  for (std::size_t p = 0; p < valid.size() && !border.strips.empty(); ++p)
+  {
+    valid[p] = border.Holds(p % geometry.width, p / geometry.width, geometry) ? 0 : valid[p];
+  }
+}
+
+/** Names the pixels of the border that are no part of the scene, and those beside, which have no centred difference. */
+void
+NameBorder(StillScene & scene)
+{
+  const FrameGeometry & geometry = scene.frame.geometry;
+  const auto            widened = [](std::size_t lines) { return lines > 0 ? lines + StencilMargin : 0; };
+  MaskedBorder          withMargin = scene.border;
+  for (std::size_t * const side : { &withMargin.left, &withMargin.right, &withMargin.top, &withMargin.bottom })
+  {
+    *side = widened(*side);
+  }
+  for (std::size_t p = 0; p < scene.pixelUse.size() && !scene.border.strips.empty(); ++p)
+  {
+    const std::size_t x = p % geometry.width;
+    const std::size_t y = p / geometry.width;
+    if (withMargin.Holds(x, y, geometry) && scene.pixelUse[p] != static_cast<std::uint8_t>(PixelUse::Masked))
+    {
+      const bool isMasked = scene.border.Holds(x, y, geometry);
+      scene.frame.usable[p] = 0;
+      scene.pixelUse[p] = static_cast<std::uint8_t>(isMasked ? PixelUse::MaskedBorder : PixelUse::Border);
+    }
+  }
+}
+
 /** Leaves out what something crosses; false: nothing does. */
 bool
 LeaveOutCrossed(StillScene & scene)
@@ -47,8 +82,11 @@ MakeStillScene(const StackSummary &              summary,
   StillScene scene;
   scene.summary = summary;
   scene.changesStrongly = darkestNoiseDn2.has_value();
+  scene.border = FindMaskedBorder(mean, valid, geometry);
+  LeaveOutBorder(valid, scene.border, geometry);
   scene.frame = MakeReferenceFrame(std::move(mean), std::move(variance), valid, geometry, frames, parallelFor);
   scene.pixelUse = FindPixelUse(scene.frame, valid, userMask, parallelFor);
+  NameBorder(scene);
   // After the reference frame: a masked pixel is a good neighbour.
   for (std::size_t p = 0; p < userMask.size(); ++p)
   {

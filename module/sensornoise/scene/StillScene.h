@@ -7,6 +7,7 @@
 #include "sensornoise/base/NothingToMeasure.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/moments/StackMaps.h"
+#include "sensornoise/scene/MaskedBorder.h"
 #include "sensornoise/scene/ProvisionalModel.h"
 #include "sensornoise/scene/ReferenceFrame.h"
 
@@ -22,6 +23,7 @@ namespace sensornoise
 struct StillScene
 {
   StackSummary              summary;
+  MaskedBorder              border;     ///< strips that are no part of the scene, which are left out
   std::size_t               valid{ 0 }; ///< pixels that are finite, never at a clip level, and not masked by the user
   ReferenceFrame            frame;      ///< its `usable` pixels are those that serve
   ProvisionalModel          model;

@@ -1,0 +1,73 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Borders that are no part of the scene: optical-black columns and rows, masked regions, test rows.
+
+The true values are those of the pixels of the scene.
+"""
+
+import numpy as np
+from situations import FRAMES, GAIN, OFFSET, READ_NOISE, SCENES, Burst, Situation, digitise, expose, illumination
+
+BITS = 12
+
+
+def bordered(random, electrons, cover):
+    """A burst whose border cover(light, offset, noise) changes in place: images (y, x)."""
+    light = electrons.copy()
+    offset = np.full(light.shape, OFFSET[BITS])
+    noise = np.full(light.shape, READ_NOISE)
+    cover(light, offset, noise)
+    frames = expose(random, light, illumination(random, FRAMES), GAIN, offset, noise)
+    return Burst(digitise(frames, BITS), offset=OFFSET[BITS], read_noise=READ_NOISE, unlike_frames=())
+
+
+def black_columns(columns, below):
+    """Optical-black columns at the left, so many DN below the pixels without light."""
+
+    def cover(light, offset, _noise):
+        light[:, :columns] = 0
+        offset[:, :columns] -= below
+
+    return cover
+
+
+def black_frame(columns, rows, below):
+    """Masked regions at both sides, above and below."""
+
+    def cover(light, offset, _noise):
+        masked = np.ones(light.shape, bool)
+        masked[rows:-rows, columns:-columns] = False
+        light[masked] = 0
+        offset[masked] -= below
+
+    return cover
+
+
+def test_rows(rows, level):
+    """Rows at the bottom that hold a test level with a noise of their own, and no light."""
+
+    def cover(light, offset, noise):
+        light[-rows:] = 0
+        offset[-rows:] = level
+        noise[-rows:] = 2 * READ_NOISE
+
+    return cover
+
+
+KINDS = {
+    "black-columns-8": black_columns(8, 5.0),
+    "black-columns-24": black_columns(24, 5.0),
+    "black-columns-16-above": black_columns(16, -5.0),
+    "black-frame-12": black_frame(12, 8, 5.0),
+    "test-rows-2": test_rows(2, 600.0),
+    "test-rows-8": test_rows(8, 600.0),
+}
+
+SITUATIONS = tuple(
+    Situation(
+        f"borders/{name}",
+        lambda random, electrons, cover=cover: bordered(random, electrons, cover),
+        scenes=tuple(SCENES),
+    )
+    for name, cover in KINDS.items()
+)
