@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import situations
 import situations_borders
+import situations_branches
 import situations_dark
 import situations_frames
 import situations_parts
@@ -20,6 +21,7 @@ from acceptance_stacks import judge, judge_frames
 MODULES = (
     situations,
     situations_borders,
+    situations_branches,
     situations_dark,
     situations_frames,
     situations_parts,

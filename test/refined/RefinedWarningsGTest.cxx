@@ -153,6 +153,26 @@ TEST(SensorNoiseRefinedWarnings, OneIlluminatedFrameIsNamed)
     << MakeText(report);
 }
 
+TEST(SensorNoiseRefinedWarnings, VarianceSteps)
+{
+  // A second amplifier of 30 DN of read noise takes the samples above a level in the middle of the target's.
+  const SimulationSettings   settings = StillCamera(Frames);
+  std::mt19937               random(5);
+  std::normal_distribution<> normal;
+  const double               switchDn = 0.4 * settings.camera.gainDnPerElectron * settings.camera.electrons;
+  const Report               report =
+    Measure(Changed([&](std::size_t, std::size_t, std::size_t, double value) {
+              return value > settings.camera.offsetDn + switchDn ? value + 30.0 * normal(random) : value;
+            }),
+            {})
+      .GetReport();
+  EXPECT_TRUE(HasWarning(report, WarningCode::VarianceSteps)) << MakeText(report);
+  ASSERT_EQ(report.gain.status, EstimateStatus::Identified);
+  EXPECT_LT(*report.gain.interval95->low, 1.0);
+  EXPECT_GT(*report.gain.interval95->high, 1.0);
+  EXPECT_FALSE(HasWarning(Measure(Simulate<Codes>(settings, Size, Size), {}).GetReport(), WarningCode::VarianceSteps));
+}
+
 TEST(SensorNoiseRefinedWarnings, BorderLeftOut)
 {
   const SimulationSettings   settings = StillCamera(Frames);

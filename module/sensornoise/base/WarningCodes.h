@@ -58,6 +58,7 @@ enum class WarningCode : std::uint8_t
   VarianceNotAffine,
   Contradicted,
   GainNotUniform,
+  VarianceSteps,
   BorderLeftOut
 };
 
@@ -86,7 +87,7 @@ struct WarningKind
 
 /** All that a report can warn of, in the order of WarningCode. README and Python show this table; a warning's own
  * message has the numbers. */
-inline constexpr std::array<WarningKind, 46> WarningTable{ {
+inline constexpr std::array<WarningKind, 47> WarningTable{ {
   { WarningCode::FewFrames, "few-frames", Severity::Warning, "Fewer than 20 different frames: indicative only." },
   { WarningCode::Mosaic,
     "mosaic",
@@ -297,6 +298,12 @@ inline constexpr std::array<WarningKind, 46> WarningTable{ {
     "Parts of the frame have different gains, as behind several amplifiers, in stitched blocks, or of a mosaic given "
     "as mono. `gain` is the mean over the pixels, its interval holds the gains of the parts, and `gain_by_parts` has "
     "each. Measure the parts by themselves (--roi, --mask, --bayer)." },
+  { WarningCode::VarianceSteps,
+    "variance-steps",
+    Severity::Warning,
+    "The variance steps at a level: pixels are read by two amplifiers, each for a part of the levels (dual gain, HDR). "
+    "`gain` is that of both sides, its interval holds both; intercept, offset and read noise are those of the levels "
+    "below the step. Measure either side by itself (--level-range), or ask the camera for one amplifier." },
   { WarningCode::BorderLeftOut,
     "border-left-out",
     Severity::Note,

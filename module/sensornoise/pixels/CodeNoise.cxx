@@ -117,7 +117,8 @@ CodeNoise::ErrorOfLine(double pivotDn) const
 void
 TakeOffLine(StaticVariance & variance, const CodeNoise & noise)
 {
-  for (VarianceLine * line : { &variance.line, &variance.fromLight, &variance.fromFlat, &variance.curve.line })
+  for (VarianceLine * line :
+       { &variance.line, &variance.fromLight, &variance.fromFlat, &variance.curve.line, &variance.ofOwnLevels.line })
   {
     line->gain -= noise.slopeDn;
     line->intercept -= noise.interceptDn2;

@@ -241,6 +241,33 @@ struct PartsConstants
 
 SENSORNOISE_CONSTANT PartsConstants InParts;
 
+/** The numbers of the room `pixels` by which a step of the variance is found. Estimator.md, 3.16. */
+struct StepConstants
+{
+  /** Reduced chi-square of the variance about its line from which on a step is looked for [1]: a step of leastZ adds as
+   * much to that of 64 bins. */
+  double leastChi2{ 1.25 };
+  /** Size of a step, relative to the larger variance beside it, from which on it counts [1]. Chosen by the size of the
+   * effect: in the middle of the levels a step of so much moves the gain by 1 to 2 %. */
+  double leastSize{ 0.03 };
+  /** Standard errors that a step must exceed, and the square of which it must gain in chi-square against a smooth curve
+   * of as many parameters, in units of the scatter [1]. The level is one of at most 64: by chance 1 of 10^5 curves. */
+  double leastZ{ 5.0 };
+  /** Part of its size that a step must keep beside a parabola [1]: of a bend nothing is left. Chosen empirically. */
+  double leastBesideCurve{ 0.5 };
+  /** Bins on either side of a step, at least. Chosen empirically: a line of fewer is not known. */
+  std::size_t leastBins{ 4 };
+  /** Standard deviations of the noise about the step, at which a pixel is of either amplifier in some frames, and does
+   * not count [1]. Beyond, fewer than 5 % of its values are of the other one. */
+  double widthSds{ 2.0 };
+  /** What is known beforehand of the gains of two amplifiers, after the camera has matched them, as the standard
+   * deviation of either from the common one [1]. From public reports on dual-gain sensors, whose branches differ by 0.5
+   * to 2 % in level. */
+  double priorOfGains{ 0.01 };
+};
+
+SENSORNOISE_CONSTANT StepConstants InSteps;
+
 } // namespace sensornoise
 
 #endif

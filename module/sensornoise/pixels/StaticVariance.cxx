@@ -278,6 +278,10 @@ FitOnce(ProjectedVariance &               projected,
   ForPixels(kept.size(), parallelFor, [&](std::size_t p) { kept[p] = trimmed[p] != 0 ? 0 : kept[p]; });
   found.parts = ComparePartsOf(projected, { line, blackDn, sharedSquares }, kept, parallelFor);
   found.curve = fit.CurveAbout(found.fromLight.isDetermined ? found.fromLight : line);
+  if (found.curve.ReducedChi2() > InSteps.leastChi2 * sharedSquares)
+  {
+    found.ofOwnLevels = fit.CurveAbout(found.curve.line, VarianceFit::SortedBy::OwnLevel);
+  }
   found.notStatic = static_cast<std::size_t>(
     std::count(found.pixelUse.begin(), found.pixelUse.end(), static_cast<std::uint8_t>(PixelUse::NotStatic)));
   return found;

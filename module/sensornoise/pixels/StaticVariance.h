@@ -38,6 +38,9 @@ struct StaticVariance
   ClassFit      classes;
   /** About the line, or that of light alone. */
   VarianceCurve curve;
+  /** The same of pixels sorted by their own levels, which decide between two amplifiers; without bins where \a curve
+   * follows its line. */
+  VarianceCurve ofOwnLevels;
   /** The parts of the frame whose gains differ; the lines are then of the variance over the ratios of these parts. */
   GainByParts parts;
   /** What rounding to companded codes adds; where it is not zero, it has been taken off all of the above. */

@@ -163,8 +163,9 @@ VarianceFit::FindTrimmed() const
 }
 
 VarianceCurve
-VarianceFit::CurveAbout(const VarianceLine & line) const
+VarianceFit::CurveAbout(const VarianceLine & line, SortedBy sortedBy) const
 {
+  const double * const levels = sortedBy == SortedBy::OwnLevel ? m_Data.mean : m_Data.neighbourMean;
   using SumsOfBins = std::array<double, VarianceCurve::Bins * CurveBin::Sums>;
   const std::vector<double> edges = EdgesOfEqualCount(this->SampleLevels(), VarianceCurve::Bins);
   const double              toPivot = m_Line.pivotDn - line.pivotDn;
@@ -175,7 +176,7 @@ VarianceFit::CurveAbout(const VarianceLine & line) const
       const double w = kept.weight[i];
       if (w > 0.0)
       {
-        double * own = sums.data() + CurveBin::Sums * BinOf(edges, m_Data.neighbourMean[first + i]);
+        double * own = sums.data() + CurveBin::Sums * BinOf(edges, levels[first + i]);
         own[0] += 1.0;
         own[1] += w;
         own[2] += w * (kept.x[i] + toPivot);

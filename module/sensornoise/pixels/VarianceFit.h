@@ -80,9 +80,17 @@ public:
   std::vector<std::uint8_t>
   FindTrimmed() const;
 
+  /** What sorts the pixels of a curve: the mean of the neighbours, which is free of the pixel's own pattern and noise,
+   * or the pixel's own mean. */
+  enum class SortedBy : std::uint8_t
+  {
+    Neighbours,
+    OwnLevel
+  };
+
   /** The excess of the variance over \a line, along the intensity, of the pixels that the fit keeps. */
   VarianceCurve
-  CurveAbout(const VarianceLine & line) const;
+  CurveAbout(const VarianceLine & line, SortedBy sortedBy = SortedBy::Neighbours) const;
 
   /** What a pixel of the mask counts for. */
   struct Weighed

@@ -109,6 +109,44 @@ ChooseLine(GainEstimate &           estimate,
   estimate.covariance += SlopeCovariance(ErrorOfVibration(all, model), all.pivotDn) + lines.errorOfShared;
 }
 
+/** Draws one line on either side of a step of the variance, of one gain, and looks for all else in what is left. */
+void
+UseStep(GainEstimate &           estimate,
+        const SensorLines &      lines,
+        const StaticVariance &   variance,
+        const ProvisionalModel & model)
+{
+  estimate.step = FindVarianceStep(lines.ofOwnLevels);
+  if (!estimate.step)
+  {
+    return;
+  }
+  const VarianceStep & step = *estimate.step;
+  estimate.line = step.line;
+  estimate.curve = step.RestOf(lines.ofOwnLevels);
+  estimate.reducedChi2 = estimate.curve.ReducedChi2() / variance.sharedSquares;
+  estimate.covariance = DispersionOfClasses(variance) * step.line.covariance + lines.errorOfShared;
+  const double ofPattern = variance.pattern.LargestShare() * std::abs(step.line.gain);
+  for (const double error : { ErrorOfVibration(step.line, model), ofPattern, step.errorOfSlopes })
+  {
+    estimate.covariance += SlopeCovariance(error, step.line.pivotDn);
+  }
+}
+
+/** The gains of the two amplifiers are in the interval. */
+void
+HoldSlopesBesideStep(GainEstimate & estimate)
+{
+  if (estimate.step)
+  {
+    for (const double slope : { estimate.step->slopeBelow, estimate.step->slopeAbove })
+    {
+      double & side = slope < 0.0 ? estimate.below : estimate.above;
+      side = std::max(side, std::abs(slope));
+    }
+  }
+}
+
 /** The size of a difference without what chance makes of it, \a z of its standard deviations. */
 double
 SizeBeyondChance(double difference, double variance, double z)
@@ -214,7 +252,7 @@ EstimateOfFrames(const VarianceCurve &   frames,
 void
 UseFrames(GainEstimate & estimate, const SensorLines & lines, double blackDn, double sharedSquares)
 {
-  if (!lines.fromFrames.line.isDetermined)
+  if (!lines.fromFrames.line.isDetermined || estimate.step) // the frames' variance steps, too
   {
     return;
   }
@@ -261,10 +299,12 @@ EstimateGain(const RefinedResults & found, const SensorLines & lines)
   estimate.curve = lines.curve;
   estimate.reducedChi2 = lines.curve.ReducedChi2() / variance.sharedSquares;
   ChooseLine(estimate, lines, variance, found.scene.model);
+  UseStep(estimate, lines, variance, found.scene.model);
   estimate.scale = estimate.line.At(estimate.line.pivotDn) / std::max(1e-9, estimate.line.pivotDn - found.blackDn);
   const double dispersion =
     std::min(DispersionOfClasses(variance), InRefined.largestDispersion * variance.sharedSquares);
-  FindModelError(estimate, lines.curve, variance.pattern, found.blackDn, dispersion);
+  FindModelError(estimate, estimate.curve, variance.pattern, found.blackDn, dispersion);
+  HoldSlopesBesideStep(estimate);
   UseFrames(estimate, lines, found.blackDn, variance.sharedSquares);
   if (found.settings.offset && found.settings.offset->variance)
   {

@@ -8,6 +8,7 @@
 #include "sensornoise/moments/KnownOffset.h"
 #include "sensornoise/pixels/VarianceLine.h"
 #include "sensornoise/pixels/VarianceCurve.h"
+#include "sensornoise/pixels/VarianceStep.h"
 #include "sensornoise/refined/RefinedResults.h"
 #include "sensornoise/refined/SensorLines.h"
 
@@ -38,6 +39,9 @@ struct GainEstimate
   bool isWide{ true };
   /** Reduced chi-square of the variance about its line, along the intensity. */
   double reducedChi2{ 1.0 };
+  /** Where the variance steps, as between two amplifiers: the line is that of the levels below, the gain that of both
+   * sides. Null: it does not. */
+  std::optional<VarianceStep> step;
   /** About the gain, whatever the slope: the variance over the light, both at the pivot [DN/e-]. */
   double scale{ 0.0 };
 

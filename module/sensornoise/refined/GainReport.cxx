@@ -10,6 +10,7 @@
 #include "sensornoise/pixels/LevelPattern.h"
 #include "sensornoise/pixels/VarianceCurve.h"
 #include "sensornoise/pixels/VarianceLine.h"
+#include "sensornoise/pixels/VarianceStep.h"
 #include "sensornoise/refined/Constants.h"
 #include "sensornoise/refined/GainEstimate.h"
 #include "sensornoise/report/Quantities.h"
@@ -214,6 +215,23 @@ FillParts(Report & report, const RefinedResults & found, const GainEstimate & ga
   return range;
 }
 
+void
+WarnOfStep(Report & report, const GainEstimate & gain)
+{
+  if (gain.step)
+  {
+    const VarianceStep & step = *gain.step;
+    const double         below = step.line.At(step.levelDn);
+    report.Warn(WarningCode::VarianceSteps,
+                "the variance steps by " + Measured(step.sizeDn2, step.errorDn2) + " DN^2 at a level of " +
+                  Rounded(step.levelDn) + " DN, " + Percent(step.sizeDn2 / std::max(1e-9, below)) +
+                  " of the variance below it (expected less than " + Percent(InSteps.leastSize) +
+                  " of the larger one): two amplifiers read the pixels, each a part of the levels. The gain is that of "
+                  "both, intercept and read noise are those of the levels below. Measure either side by itself: "
+                  "--level-range");
+  }
+}
+
 /** Gain and intercept with their intervals, which hold the gains of all parts of the levels. */
 void
 FillGainAndIntercept(Report &               report,
@@ -224,7 +242,8 @@ FillGainAndIntercept(Report &               report,
 {
   const CodeNoise & codes = found.variance.codeNoise;
   const PartsRange  parts = FillParts(report, found, gain);
-  const double      error = std::sqrt(gain.covariance(0, 0));
+  WarnOfStep(report, gain);
+  const double error = std::sqrt(gain.covariance(0, 0));
   report.gain = WithError(gain.line.gain, std::hypot(gain.StandardError(), parts.rms * gain.line.gain), student);
   report.gain.interval95 =
     Interval{ gain.line.gain * (1.0 - parts.below) - gain.below - student * error * (1.0 - parts.below),

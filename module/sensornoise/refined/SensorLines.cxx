@@ -169,8 +169,8 @@ ErrorOf(const NoiseCorrelation & correlation,
 SensorLines
 LinesOf(const StaticVariance & variance)
 {
-  return { variance.line,       variance.fromLight, variance.fromFlat,
-           variance.fromFrames, variance.curve,     Eigen::Matrix2d::Zero() };
+  return { variance.line,  variance.fromLight,      variance.fromFlat,   variance.fromFrames,
+           variance.curve, Eigen::Matrix2d::Zero(), variance.ofOwnLevels };
 }
 
 double
@@ -191,6 +191,7 @@ WithSharedNoise(const SensorLines & lines, const NoiseCorrelation & correlation,
   sensor.fromFlat = shared.SensorOf(lines.fromFlat, square);
   sensor.fromFrames = CurveOfSensor(lines.fromFrames, shared, shared.SensorOf(lines.fromFrames.line, square));
   sensor.curve = CurveOfSensor(lines.curve, shared, shared.SensorOf(lines.curve.line, square));
+  sensor.ofOwnLevels = CurveOfSensor(lines.ofOwnLevels, shared, shared.SensorOf(lines.ofOwnLevels.line, square));
   sensor.errorOfShared = ErrorOf(correlation, lines.all, sensor.all, square, blackDn, codesDn2);
   return sensor;
 }

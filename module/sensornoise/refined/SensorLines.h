@@ -24,6 +24,8 @@ struct SensorLines
   VarianceCurve curve;      ///< how the variance departs from its line
   /** Of gain and intercept: what is not known of what is shared. */
   Eigen::Matrix2d errorOfShared{ Eigen::Matrix2d::Zero() };
+  /** See StaticVariance::ofOwnLevels. */
+  VarianceCurve ofOwnLevels;
 };
 
 /** The lines of the variance as it is. */
