@@ -189,6 +189,26 @@ TEST(SensorNoiseRefinedWarnings, BorderLeftOut)
   }
 }
 
+TEST(SensorNoiseRefinedWarnings, LightSeriesLeft)
+{
+  // Bands of 8 rows, each with a flicker of its own.
+  std::vector<double>        flicker;
+  std::mt19937               random(7);
+  std::normal_distribution<> normal;
+  for (std::size_t i = 0; i < Frames * Size / 8; ++i)
+  {
+    flicker.push_back(0.02 * normal(random));
+  }
+  const SimulationSettings settings = StillCamera(Frames);
+  const Report             report = Measure(Changed([&](std::size_t t, std::size_t, std::size_t y, double value) {
+                                  return settings.camera.offsetDn +
+                                         (value - settings.camera.offsetDn) * (1.0 + flicker[t * Size / 8 + y / 8]);
+                                }),
+                                            {})
+                          .GetReport();
+  EXPECT_TRUE(HasWarning(report, WarningCode::LightSeriesLeft)) << MakeText(report);
+}
+
 TEST(SensorNoiseRefinedWarnings, GainNotUniform)
 {
   // Two cameras of one scene, side by side, whose gains differ by a quarter.

@@ -59,7 +59,8 @@ enum class WarningCode : std::uint8_t
   Contradicted,
   GainNotUniform,
   VarianceSteps,
-  BorderLeftOut
+  BorderLeftOut,
+  LightSeriesLeft
 };
 
 /** What a warning does to the measurement. */
@@ -87,7 +88,7 @@ struct WarningKind
 
 /** All that a report can warn of, in the order of WarningCode. README and Python show this table; a warning's own
  * message has the numbers. */
-inline constexpr std::array<WarningKind, 47> WarningTable{ {
+inline constexpr std::array<WarningKind, 48> WarningTable{ {
   { WarningCode::FewFrames, "few-frames", Severity::Warning, "Fewer than 20 different frames: indicative only." },
   { WarningCode::Mosaic,
     "mosaic",
@@ -309,6 +310,13 @@ inline constexpr std::array<WarningKind, 47> WarningTable{ {
     Severity::Note,
     "Columns or rows along the border are no part of the scene, as optical-black pixels or masked regions: they have "
     "one level and end within a pixel along the whole border. They are left out." },
+  { WarningCode::LightSeriesLeft,
+    "light-series-left",
+    Severity::Warning,
+    "The illumination changes in more independent ways over the frame than can be taken out of so many frames, as with "
+    "cells that flash one by one or lamps that pulse under a rolling shutter. What is left may add to the gain, and "
+    "its "
+    "interval holds that. Record more frames, or choose a part that is lit evenly (--roi)." },
 } };
 
 /** The line of \a code. */
@@ -330,7 +338,7 @@ IsInOrder()
       return false;
     }
   }
-  return static_cast<std::size_t>(WarningCode::BorderLeftOut) + 1 == WarningTable.size();
+  return static_cast<std::size_t>(WarningCode::LightSeriesLeft) + 1 == WarningTable.size();
 }
 static_assert(IsInOrder(), "the table has a line for every code, in their order");
 } // namespace detail

@@ -24,6 +24,13 @@ struct RefinedConstants
    * differ by 4 % make 0.03 to 0.1 of it, a gamma of 1.3 from 0.13 on. Half: a shoulder of 4 % is refused; twice:
    * the same. */
   double largestNonlinearity{ 0.12 };
+  /** Factor by which the sum over lags may change the gain where illumination is left that could not be projected out
+   * [1]. Chosen by the size of the effect: of what is more than twice the variance most is not the noise. */
+  double largestCorrection{ 2.0 };
+  /** Relative change of the gain that illumination which is left may make, over the relative change of the variance
+   * that cells show [1]: 2 as the slope of the square of the signal, and as much again for what differs within cells.
+   * Chosen on simulated bands of 12 rows, which made 2.5 to 4.7. */
+  double slopeOfRest{ 4.0 };
   ///@}
 
   /** \name Errors of the gain */

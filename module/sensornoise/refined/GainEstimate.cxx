@@ -147,6 +147,21 @@ HoldSlopesBesideStep(GainEstimate & estimate)
   }
 }
 
+/** What the illumination series that could not be projected out may have added to the gain. They add the square of the
+ * signal, whose slope is twice its ratio to the signal; and neighbours share them, so that the sum over lags may hold
+ * light instead of noise. */
+void
+HoldRestOfLight(GainEstimate & estimate, const RefinedResults & found)
+{
+  const double rest = found.RestOfLight();
+  if (rest > 0.0)
+  {
+    const double ofVariance = (1.0 - InRefined.slopeOfRest * rest) * found.variance.line.gain;
+    estimate.below = std::max(estimate.below, estimate.line.gain - ofVariance);
+    estimate.above = std::max(estimate.above, ofVariance - estimate.line.gain);
+  }
+}
+
 /** The size of a difference without what chance makes of it, \a z of its standard deviations. */
 double
 SizeBeyondChance(double difference, double variance, double z)
@@ -305,6 +320,7 @@ EstimateGain(const RefinedResults & found, const SensorLines & lines)
     std::min(DispersionOfClasses(variance), InRefined.largestDispersion * variance.sharedSquares);
   FindModelError(estimate, estimate.curve, variance.pattern, found.blackDn, dispersion);
   HoldSlopesBesideStep(estimate);
+  HoldRestOfLight(estimate, found);
   UseFrames(estimate, lines, found.blackDn, variance.sharedSquares);
   if (found.settings.offset && found.settings.offset->variance)
   {

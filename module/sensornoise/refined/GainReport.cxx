@@ -53,6 +53,15 @@ FindContradiction(const RefinedResults & found, const GainEstimate & gain)
            Percent(InRefined.leastUnlikeNoise) +
            "): they are of several gains, or processed in several ways; measure the frames of each by themselves";
   }
+  const double correction = gain.line.gain / std::max(1e-9, found.variance.line.gain);
+  if (found.RestOfLight() > 0.0 &&
+      std::abs(std::log(std::max(1e-9, correction))) > std::log(InRefined.largestCorrection))
+  {
+    return "what neighbours share changes the gain by a factor of " + Rounded(correction) + " (expected at most " +
+           Rounded(InRefined.largestCorrection) +
+           "), but illumination is left in the frames, which neighbours share as well: record more frames, or choose a "
+           "part that is lit evenly and at rest";
+  }
   if (gain.nonlinearity > InRefined.largestNonlinearity)
   {
     return "the variance departs from its line by " + PercentApart(gain.nonlinearity, InRefined.largestNonlinearity) +

@@ -51,6 +51,17 @@ WarnOfScene(Report & report, const RefinedResults & found)
                     " further series): a rolling shutter, several lamps or bleaching; gain and intercept allow for it");
     }
   }
+  if (found.RestOfLight() > 0.0)
+  {
+    report.Warn(WarningCode::LightSeriesLeft,
+                "beside the " + std::to_string(found.series.local.series.cols()) +
+                  " further series of the illumination, the most that " + std::to_string(found.scene.frame.frames) +
+                  " frames allow, others are left (the next is " + RoundedApart(found.series.local.beyond, 1.0) +
+                  " times as large as chance makes it): they add about " + Percent(found.RestOfLight()) +
+                  " to the variance, and may add " + Rounded(InRefined.slopeOfRest) +
+                  " times as much to the gain, which its interval holds. Record more "
+                  "frames, or choose a part that is lit evenly: --roi");
+  }
   if (static_cast<double>(found.variance.notStatic) > InRefined.reportedShare * total)
   {
     report.Warn(WarningCode::NotStatic,

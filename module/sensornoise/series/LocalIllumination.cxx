@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sensornoise
 {
@@ -112,9 +113,45 @@ ScaleCells(Eigen::MatrixXd & rest, Eigen::MatrixXd & whole)
   }
 }
 
-/** The factors of \a rest above the noise's edge, at most \a most; \a freedom is its number of free frames. */
+/** Notes the factors above the edge that are left after the first \a taken. The squares of a cell's light over its
+ * error, summed over the frames, are the sum over its pixels of the relative variance that the light adds. */
+void
+NoteRest(LocalIllumination &         found,
+         const std::vector<double> & values,
+         std::size_t                 taken,
+         double                      edge,
+         double                      noise,
+         double                      pixelFrames)
+{
+  if (taken < values.size() && values[taken] > edge)
+  {
+    found.beyond = values[taken] / edge;
+    for (std::size_t k = taken; k < values.size() && values[k] > edge; ++k)
+    {
+      found.restOfVariance += values[k] / (noise * pixelFrames);
+    }
+  }
+}
+
+/** What the series that were found leave of \a rest beyond the noise of the cells, whose variance is 1, as
+ * LocalIllumination::restOfVariance: of light in many patterns most factors are below the edge. */
+double
+VarianceLeft(Eigen::MatrixXd rest, const Eigen::MatrixXd & series, Eigen::Index freedom, double pixelFrames)
+{
+  const Eigen::MatrixXd found = Orthonormalise(series, series.cols());
+  rest -= found * (found.transpose() * rest);
+  const double noise = static_cast<double>(rest.cols()) * static_cast<double>(freedom - found.cols());
+  return std::max(0.0, rest.squaredNorm() - noise) / pixelFrames;
+}
+
+/** The factors of \a rest above the noise's edge, at most \a most; \a freedom is its number of free frames, \a
+ * pixelFrames that of frames times the pixels of all cells. */
 LocalIllumination
-FindFactors(const Eigen::MatrixXd & rest, const Eigen::MatrixXd & whole, Eigen::Index freedom, std::size_t most)
+FindFactors(const Eigen::MatrixXd & rest,
+            const Eigen::MatrixXd & whole,
+            Eigen::Index            freedom,
+            std::size_t             most,
+            double                  pixelFrames)
 {
   const Eigen::Index    frames = rest.rows();
   const Eigen::Index    count = rest.cols();
@@ -142,6 +179,7 @@ FindFactors(const Eigen::MatrixXd & rest, const Eigen::MatrixXd & whole, Eigen::
   {
     ++factors;
   }
+  NoteRest(found, values, static_cast<std::size_t>(factors), edge, noise, pixelFrames);
   found.series.resize(frames, factors);
   for (Eigen::Index j = 0; j < factors; ++j)
   {
@@ -160,22 +198,26 @@ FindFactorsOfUnequalFrames(const Eigen::MatrixXd & whole,
                            const Eigen::MatrixXd & basis,
                            const Eigen::VectorXd & gamma,
                            const Eigen::VectorXd & signal,
-                           std::size_t             most)
+                           std::size_t             most,
+                           double                  pixelFrames)
 {
   const Eigen::Index frames = whole.rows();
   const Eigen::Index largest = frames - 1 - InSeries.leastFreedomOfCells;
   Eigen::MatrixXd    columns = basis;
   LocalIllumination  found;
   found.series.resize(frames, 0);
-  while (found.series.cols() < static_cast<Eigen::Index>(most) && columns.cols() <= largest)
+  while (columns.cols() <= largest)
   {
+    const bool      isLast = found.series.cols() == static_cast<Eigen::Index>(most); // only to see what is left
     Eigen::MatrixXd scaled = whole;
     Eigen::MatrixXd rest =
       WhitenedResiduals(whole, columns, gamma, EstimateShotFractions(whole, columns, gamma, signal));
     ScaleCells(rest, scaled);
-    const LocalIllumination next = FindFactors(rest, scaled, frames - 1 - columns.cols(), 1);
+    const LocalIllumination next = FindFactors(rest, scaled, frames - 1 - columns.cols(), isLast ? 0 : 1, pixelFrames);
+    found.beyond = isLast ? next.beyond : 0.0;
+    found.restOfVariance = isLast ? next.restOfVariance : 0.0;
     found.excess = std::max(found.excess, next.excess);
-    if (next.series.cols() == 0)
+    if (isLast || next.series.cols() == 0)
     {
       break;
     }
@@ -261,15 +303,32 @@ FindLocalIllumination(const FrameSums &           sums,
     return none;
   }
   const Eigen::Map<const Eigen::VectorXd> illumination(gamma.data(), frames);
+  double                                  pixels = 0.0;
+  for (const std::size_t c : used.cells)
+  {
+    pixels += static_cast<double>(sums.GetCells()[c].pixels);
+  }
+  const double pixelFrames = pixels * static_cast<double>(frames);
+  const double side = std::sqrt(pixels / static_cast<double>(used.Count()));
   if (illumination.cwiseAbs().maxCoeff() > InSeries.equalFrameNoise)
   {
     const Eigen::Map<const Eigen::VectorXd> signal(used.signal.data(), used.Count());
-    return FindFactorsOfUnequalFrames(whole, basis, illumination, signal, most);
+    LocalIllumination found = FindFactorsOfUnequalFrames(whole, basis, illumination, signal, most, pixelFrames);
+    found.sideOfCell = side;
+    return found;
   }
   Eigen::MatrixXd rest = whole.rowwise() - whole.colwise().mean();
   rest -= basis * (basis.transpose() * rest);
-  ScaleCells(rest, whole);
-  return FindFactors(rest, whole, freedom, most);
+  Eigen::MatrixXd scaled = rest;
+  ScaleCells(scaled, whole);
+  LocalIllumination found = FindFactors(scaled, whole, freedom, most, pixelFrames);
+  found.sideOfCell = side;
+  if (found.beyond > 1.0)
+  {
+    found.restOfVariance =
+      std::max(found.restOfVariance, VarianceLeft(std::move(rest), found.series, freedom, pixelFrames));
+  }
+  return found;
 }
 
 } // namespace sensornoise

@@ -32,6 +32,13 @@ struct LocalIllumination
   Eigen::MatrixXd series; ///< frames x factors
   /** How much more the cells' light varies than one global series and noise allow: largest eigenvalue over the edge. */
   double excess{ 0.0 };
+  /** Where as many series as may be were found: the largest eigenvalue that is left over the edge; 0: fewer were found,
+   * or none is left. */
+  double beyond{ 0.0 };
+  /** Mean over the pixels of what the series above the edge that are left add to the variance, relative to it [1]. */
+  double restOfVariance{ 0.0 };
+  /** Side of a square of as many pixels as a cell has, on average [pixels]. */
+  double sideOfCell{ 1.0 };
 };
 
 /** Finds the temporal series of local light.

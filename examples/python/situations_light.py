@@ -1,0 +1,82 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Illumination of more independent components than the estimator projects out, and scenes that are none.
+
+Cells that flash one by one, light-emitting diodes that pulse in bands of a few states, rain, and frames with skipped
+blocks.
+"""
+
+import numpy as np
+from situations import FRAMES, GAIN, OFFSET, READ_NOISE, SCENES, SHAPE, Burst, Situation, digitise, illumination, smooth
+
+BITS = 12
+
+
+def changing(random, light):
+    """A burst of the expected electrons (t, y, x)."""
+    signal = GAIN * random.poisson(light)
+    frames = signal + OFFSET[BITS] + READ_NOISE * random.normal(size=signal.shape)
+    return Burst(digitise(frames, BITS), offset=OFFSET[BITS], read_noise=READ_NOISE)
+
+
+def calcium(random, electrons, amplitude):
+    """A quarter of the area in cells of 8 pixels, each with transients of its own, which decay over 8 frames."""
+    light = illumination(random)[:, None, None] * electrons[None]
+    y, x = np.indices(SHAPE)
+    kernel = np.exp(-np.arange(FRAMES) / 8.0)
+    for _ in range(int(0.25 * SHAPE[0] * SHAPE[1] / (np.pi * 4.0**2))):
+        cy, cx = random.uniform(0, SHAPE[0]), random.uniform(0, SHAPE[1])
+        cell = (y - cy) ** 2 + (x - cx) ** 2 < 4.0**2
+        trace = np.convolve(random.random(FRAMES) < 0.05, kernel)[:FRAMES]
+        light[:, cell] *= (1 + amplitude * trace)[:, None]
+    return changing(random, np.minimum(light, 7000.0))
+
+
+def bands(random, electrons, depth):
+    """Light-emitting diodes in three states, whose bands move at random under a rolling shutter."""
+    rows = np.arange(SHAPE[0])
+    factors = []
+    for _ in range(FRAMES):
+        states = random.integers(0, 3, size=SHAPE[0] // 12 + 2)
+        factors.append(1 + depth * (states[(rows + random.integers(0, 12)) // 12] - 1))
+    return changing(random, np.array(factors)[:, :, None] * electrons[None])
+
+
+def rain(random, electrons, drops):
+    """Streaks of rain, which brighten other pixels in every frame."""
+    light = illumination(random)[:, None, None] * electrons[None]
+    for t in range(FRAMES):
+        streaks = np.zeros(SHAPE)
+        for _ in range(drops):
+            cy, cx, length = random.integers(0, SHAPE[0]), random.integers(0, SHAPE[1]), random.integers(8, 24)
+            streaks[cy : cy + length, cx : cx + 2] = random.uniform(0.05, 0.3)
+        light[t] *= 1 + smooth(streaks, 0.7)
+    return changing(random, np.minimum(light, 7000.0))
+
+
+def skipped(random, electrons, fraction):
+    """A video coder that repeats blocks of 8 x 8 pixels of the frame before, this fraction of them."""
+    burst = changing(random, illumination(random)[:, None, None] * electrons[None])
+    frames = burst.frames.copy()
+    for t in range(1, FRAMES):
+        skip = np.kron(random.random((SHAPE[0] // 8, SHAPE[1] // 8)) < fraction, np.ones((8, 8), bool))
+        frames[t][skip] = frames[t - 1][skip]
+    return burst._replace(frames=frames)
+
+
+KINDS = {
+    "calcium": (calcium, (0.1, 0.3)),
+    "led-bands": (bands, (0.003, 0.01)),
+    "rain": (rain, (50, 200)),
+    "skipped-blocks": (skipped, (0.5, 0.8)),
+}
+
+SITUATIONS = tuple(
+    Situation(
+        f"light/{kind}-{strength:g}",
+        lambda random, electrons, make=make, strength=strength: make(random, electrons, strength),
+        scenes=tuple(SCENES),
+    )
+    for kind, (make, strengths) in KINDS.items()
+    for strength in strengths
+)
