@@ -12,6 +12,7 @@ import situations_borders
 import situations_branches
 import situations_dark
 import situations_frames
+import situations_good
 import situations_light
 import situations_parts
 import situations_values
@@ -25,6 +26,7 @@ MODULES = (
     situations_branches,
     situations_dark,
     situations_frames,
+    situations_good,
     situations_light,
     situations_parts,
     situations_values,
