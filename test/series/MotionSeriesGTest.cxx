@@ -8,6 +8,7 @@
 #include "sensornoise/series/FrameEquations.h"
 #include "sensornoise/series/FrameProducts.h"
 #include "sensornoise/series/FrameSums.h"
+#include "sensornoise/series/OffsetLine.h"
 #include "sensornoise/series/ShiftInstruments.h"
 #include "helpers/FrameTestHelper.h"
 #include "helpers/StackTestHelper.h"
@@ -46,6 +47,20 @@ Flicker()
   return gamma;
 }
 
+/** The same, with so much of a third difference along an axis as the first one has of it, times \a third. */
+std::vector<FrameChange>
+ChangesWithThird(double third)
+{
+  std::vector<FrameChange> changes = Changes();
+  for (FrameChange & change : changes)
+  {
+    change.motion[StencilXXX] = third * change.motion[StencilX];
+    change.motion[StencilYYY] = third * change.motion[StencilY];
+    std::fill(change.motion.begin() + StencilYYY + 1, change.motion.end(), 0.0);
+  }
+  return changes;
+}
+
 /** What the regression is given and finds. */
 struct Fit
 {
@@ -55,8 +70,8 @@ struct Fit
   MotionSeries    motion;
   double          offset;
 
-  explicit Fit(double noise)
-    : frames(Width, Height, Changes(), noise)
+  explicit Fit(double noise, const std::vector<FrameChange> & changes = Changes())
+    : frames(Width, Height, changes, noise)
     , sums(frames.Sums())
     , equations(MakeFrameEquations(sums, {}, GradientClasses - 1))
     , offset(OffsetDn - sums.GetRegressors().GetModel().centreDn)
@@ -116,16 +131,65 @@ TEST(SensorNoiseMotionSeries, InactiveStencilsHaveTheCoefficientZero)
   EXPECT_EQ(series.Get(2, StencilX), 0.0);
 }
 
+// Between what cubics interpolate and what a band-limited scene has.
 TEST(SensorNoiseMotionSeries, InstrumentsFindTheShiftsOfNoiseFreeFrames)
 {
-  const Fit  fit(0.0);
-  const auto shifts = SolveShifts(fit.sums, fit.motion, {}, Flicker(), fit.offset);
+  for (const double third : { 0.0, -1.0 / 12.0, -1.0 / 6.0 })
+  {
+    const Fit  fit(0.0, ChangesWithThird(third));
+    const auto shifts = SolveShifts(fit.sums, fit.equations, fit.motion, {}, Flicker(), fit.offset);
+    ASSERT_TRUE(shifts);
+    for (std::size_t t = 0; t < Frames; ++t)
+    {
+      const auto row = static_cast<Eigen::Index>(t);
+      // Least squares finds the part of the third difference to 1e-4.
+      EXPECT_NEAR(shifts->coefficients(row, 0), Changes()[t].motion[StencilX], 1e-4) << t << ' ' << third;
+      EXPECT_NEAR(shifts->coefficients(row, 1), Changes()[t].motion[StencilY], 1e-4) << t << ' ' << third;
+    }
+    EXPECT_LT(shifts->scaleErrors.norm(), 1e-3) << third;
+  }
+}
+
+// Of edges that are sharper than the pixels least squares finds more of a third difference than a derivative has.
+TEST(SensorNoiseMotionSeries, ThirdDifferencesBeyondADerivativeAreNotTakenOff)
+{
+  const Fit             fit(0.0, ChangesWithThird(-0.5));
+  const auto            shifts = SolveShifts(fit.sums, fit.equations, fit.motion, {}, Flicker(), fit.offset);
+  const auto &          gram = fit.sums.GetInstrumentGram();
+  const Eigen::Matrix2d first = gram.middleCols<2>(2 + StencilX);
+  const Eigen::Matrix2d third = gram.middleCols<2>(2 + StencilXXX);
   ASSERT_TRUE(shifts);
   for (std::size_t t = 0; t < Frames; ++t)
   {
-    const auto row = static_cast<Eigen::Index>(t);
-    EXPECT_NEAR(shifts->coefficients(row, 0), Changes()[t].motion[StencilX], 1e-7) << t;
-    EXPECT_NEAR(shifts->coefficients(row, 1), Changes()[t].motion[StencilY], 1e-7) << t;
+    const Eigen::Vector2d shift(Changes()[t].motion[StencilX], Changes()[t].motion[StencilY]);
+    const Eigen::Vector2d expected = (first - third / 6.0).inverse() * (first - 0.5 * third) * shift;
+    const Eigen::Vector2d found = shifts->coefficients.row(static_cast<Eigen::Index>(t)).transpose();
+    EXPECT_LT((found - expected).norm(), 1e-6 * (1.0 + expected.norm())) << t;
+  }
+}
+
+// The frames are noise, so that the shifts have no other variance.
+TEST(SensorNoiseMotionSeries, TheCovarianceOfTheShiftsHoldsTheNoiseOfTheFlicker)
+{
+  constexpr std::size_t frames = 400;
+  const SyntheticFrames noise(Width, Height, std::vector<FrameChange>(frames), 1.0);
+  const FrameSums       sums = noise.Sums();
+  const FrameEquations  equations = MakeFrameEquations(sums, {}, GradientClasses - 1);
+  const auto            line = FitOffsetLine(equations);
+  ASSERT_TRUE(line);
+  OffsetLine light = *line;
+  light.UseOffset(OffsetDn - sums.GetRegressors().GetModel().centreDn);
+  const double       offset = OffsetDn - sums.GetRegressors().GetModel().centreDn;
+  const MotionSeries motion = SolveMotion(equations, light.gamma, offset);
+  const double       black = noise.model.interceptDn2 - noise.model.slopeDn * noise.model.darkestDn;
+  const auto         ofInstruments = sums.NoiseOfInstruments(noise.model.slopeDn, black);
+  const auto         shifts = SolveShifts(sums, equations, motion, ofInstruments, light.gamma, offset);
+  ASSERT_TRUE(shifts);
+  for (const Eigen::Index axis : { 0, 1 })
+  {
+    const Eigen::ArrayXd series = shifts->coefficients.col(axis).array();
+    const double         variance = (series - series.mean()).square().sum() / (frames - 1.0);
+    EXPECT_NEAR(variance / shifts->covariance(axis, axis), 1.0, 4.0 * std::sqrt(2.0 / frames)) << axis;
   }
 }
 
@@ -144,26 +208,28 @@ TEST(SensorNoiseMotionSeries, NoiseThatInstrumentsShareWithTheRegressorsIsTakenO
     shared += tap.weight * response[static_cast<std::size_t>((20 - tap.dy) * 41 + 20 - tap.dx)];
   }
   ASSERT_GT(shared, 0.0);
-  const Fit       fit(0.0);
-  InstrumentNoise noise;
+  constexpr double third = -1.0 / 12.0;
+  const Fit        fit(0.0, ChangesWithThird(third));
+  InstrumentNoise  noise;
   // As much as takes a tenth off.
   noise.variance = 0.1 * static_cast<double>(Frames) / shared * fit.sums.GetInstrumentGram()(0, 2 + StencilX);
-  const auto shifts = SolveShifts(fit.sums, fit.motion, noise, Flicker(), fit.offset);
-  const auto plain = SolveShifts(fit.sums, fit.motion, {}, Flicker(), fit.offset);
+  const auto shifts = SolveShifts(fit.sums, fit.equations, fit.motion, noise, Flicker(), fit.offset);
+  const auto plain = SolveShifts(fit.sums, fit.equations, fit.motion, {}, Flicker(), fit.offset);
   ASSERT_TRUE(shifts && plain);
-  Eigen::Matrix2d        gradient = fit.sums.GetInstrumentGram().middleCols<2>(2 + StencilX);
+  const auto &           gram = fit.sums.GetInstrumentGram();
+  Eigen::Matrix2d        gradient = gram.middleCols<2>(2 + StencilX) + third * gram.middleCols<2>(2 + StencilXXX);
   const auto             rest = plain->coefficients * gradient.transpose();
   const Eigen::MatrixX2d expected = rest;
-  gradient.diagonal().array() -= shared * noise.variance / static_cast<double>(Frames);
+  // A third difference shares as much as a first one, with the other sign.
+  gradient.diagonal().array() -= (1.0 - third) * shared * noise.variance / static_cast<double>(Frames);
   EXPECT_LT((shifts->coefficients * gradient.transpose() - expected).norm(), 1e-9 * expected.norm());
 }
 
 TEST(SensorNoiseMotionSeries, BothFirstDerivativesAreNeeded)
 {
   Fit fit(0.0);
-  fit.motion.stencils.erase(fit.motion.stencils.begin() + 1);
-  fit.motion.coefficients.conservativeResize(Eigen::NoChange, fit.motion.coefficients.cols() - 1);
-  EXPECT_FALSE(SolveShifts(fit.sums, fit.motion, {}, Flicker(), fit.offset));
+  fit.equations.active.erase(fit.equations.active.begin() + 3);
+  EXPECT_FALSE(SolveShifts(fit.sums, fit.equations, fit.motion, {}, Flicker(), fit.offset));
 }
 
 TEST(SensorNoiseMotionSeries, SmoothedDerivativeOfARampIsItsSlope)

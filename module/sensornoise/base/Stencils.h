@@ -121,7 +121,9 @@ enum StencilIndex : std::size_t
   StencilY = 1,
   StencilXX = 2,
   StencilYY = 3,
-  StencilXY = 4
+  StencilXY = 4,
+  StencilXXX = 5,
+  StencilYYY = 6
 };
 
 /** The stencil's value at pixel \a p of a map of \a width columns; \a p is StencilMargin pixels from the border. */

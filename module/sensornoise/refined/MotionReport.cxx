@@ -120,14 +120,100 @@ SpreadOf(const TCoefficients &       coefficients,
   return spread;
 }
 
+/** Shifts along one axis, by whichever way they were found, at the offset of the flicker that was taken off. */
+struct AxisShifts
+{
+  Eigen::VectorXd    coefficients; ///< (1 + gamma_t) times the shift [pixel]
+  Eigen::RowVector2d ofLight;      ///< the shift that a change of level, and one of contrast, looks like
+  double             noise{ 0.0 }; ///< variance of one frame's coefficient [pixel^2]
+
+  /** The same about another offset: other flicker is taken off. */
+  AxisShifts
+  About(const OffsetLine & before, const OffsetLine & after) const
+  {
+    AxisShifts   moved = *this;
+    const double off = ofLight.dot(Eigen::RowVector2d(-after.offset, 1.0));
+    const double on = ofLight.dot(Eigen::RowVector2d(-before.offset, 1.0));
+    for (std::size_t t = 0; t < before.gamma.size(); ++t)
+    {
+      moved.coefficients(static_cast<Eigen::Index>(t)) += before.gamma[t] * on - after.gamma[t] * off;
+    }
+    return moved;
+  }
+};
+
+AxisShifts
+ByLeastSquares(const PolishedSeries & polished, Eigen::Index k)
+{
+  AxisShifts   shifts{ polished.motion.coefficients.col(k), polished.motion.ofLight.row(k), 0.0 };
+  const double ofFlicker = shifts.ofLight.dot(Eigen::RowVector2d(-polished.line.offset, 1.0));
+  shifts.noise = polished.motion.covariance(k, k) + ofFlicker * ofFlicker / polished.line.precision;
+  return shifts;
+}
+
+AxisShifts
+ByInstruments(const PolishedSeries & polished, Eigen::Index axis)
+{
+  const InstrumentShifts & shifts = *polished.shifts;
+  return { shifts.coefficients.col(axis), shifts.ofLight.row(axis), shifts.covariance(axis, axis) };
+}
+
+/** What is taken off as flicker, and with what error. */
+struct LightOfShifts
+{
+  const OffsetLine & solved; ///< with which the shifts were found
+  OffsetLine         inUse;  ///< of the flicker that is reported
+  double             offsetErrorDn;
+  double             phi; ///< dispersion of the frames' light
+
+  OffsetLine
+  Beyond(double sds) const
+  {
+    OffsetLine line = inUse;
+    line.UseOffset(inUse.offset + sds * offsetErrorDn);
+    return line;
+  }
+};
+
+/** Part of the noise by which the dispersion of the frames' light lets it be greater, or less, than half of it [1]. */
+double
+Slack(double phi)
+{
+  return 0.5 * (phi - 1.0);
+}
+
+/** The variance of the shifts over time, without that of their noise, and its error. The noise is between that of white
+ * noise and the dispersion of the frames' light times as much: what disperses this need not move anything. A wrong
+ * offset takes off too much level, and leaves a part of the flicker in the shifts: on average this adds the square of
+ * it, half of what an offset too low and one too high add together, which is taken off, too. */
+ShiftSpread
+SpreadAbout(const AxisShifts & shifts, const LightOfShifts & light, const FrameWeights & weights, double & errorSquare)
+{
+  const double white = shifts.noise * weights.MeanNoise();
+  const double noise = white * (1.0 + Slack(light.phi));
+  const auto   spreadAt = [&](const OffsetLine & line) {
+    return SpreadOf(shifts.About(light.solved, line).coefficients, line.gamma, weights, noise);
+  };
+  ShiftSpread  spread = spreadAt(light.inUse);
+  const double low = spreadAt(light.Beyond(-1.0)).square - spread.square;
+  const double high = spreadAt(light.Beyond(1.0)).square - spread.square;
+  const double ofFlicker = std::max(0.0, 0.5 * (low + high));
+  spread.square -= ofFlicker;
+  const double square = std::max(0.0, spread.square);
+  errorSquare = 4.0 * square * noise / weights.EffectiveFreedom() + 2.0 * noise * noise / weights.EffectiveFreedom() +
+                0.25 * (high - low) * (high - low) + 2.0 * ofFlicker * ofFlicker +
+                std::pow(white * Slack(light.phi), 2);
+  return spread;
+}
+
 /** The motion along \a axis, whose derivative is \a stencil: by least squares, or better by instruments where they see
- * it. Half of what both differ by is a systematic error. */
+ * it. A part of what both differ by is a systematic error. */
 AxisMotion
-MotionAlong(Eigen::Index                axis,
-            std::size_t                 stencil,
-            const PolishedSeries &      polished,
-            const std::vector<double> & gamma,
-            const FrameWeights &        weights)
+MotionAlong(Eigen::Index           axis,
+            std::size_t            stencil,
+            const PolishedSeries & polished,
+            const LightOfShifts &  light,
+            const FrameWeights &   weights)
 {
   AxisMotion   result;
   const auto & stencils = polished.motion.stencils;
@@ -136,26 +222,23 @@ MotionAlong(Eigen::Index                axis,
   {
     return result;
   }
-  const auto k = static_cast<Eigen::Index>(place - stencils.begin());
-  result.place = k;
-  const double noise = polished.motionPhi * weights.MeanNoise();
-  const double leastVariance = polished.motion.covariance(k, k) * noise;
-  ShiftSpread  spread = SpreadOf(polished.motion.coefficients.col(k), gamma, weights, leastVariance);
-  double       errorSquare = leastVariance;
-  double       systematic = 0.0;
+  result.place = static_cast<Eigen::Index>(place - stencils.begin());
+  double      errorSquare = 0.0;
+  ShiftSpread spread = SpreadAbout(ByLeastSquares(polished, result.place), light, weights, errorSquare);
+  double      systematic = 0.0;
   result.leastSquares = spread.series;
   if (polished.shifts)
   {
     const double leastSquares = std::sqrt(std::max(0.0, spread.square));
-    errorSquare = polished.shifts->covariance(axis, axis) * noise;
-    spread = SpreadOf(polished.shifts->coefficients.col(axis), gamma, weights, errorSquare);
-    systematic = InRefined.errorOfMotion * std::abs(std::sqrt(std::max(0.0, spread.square)) - leastSquares);
+    spread = SpreadAbout(ByInstruments(polished, axis), light, weights, errorSquare);
+    const double sd = std::sqrt(std::max(0.0, spread.square));
+    systematic =
+      2.0 * sd * std::hypot(InRefined.errorOfMotion * (sd - leastSquares), sd * polished.shifts->scaleErrors(axis));
   }
-  const double sd = std::sqrt(std::max(0.0, spread.square));
-  const double error = std::hypot(2.0 * sd * std::sqrt(errorSquare / weights.EffectiveFreedom()),
-                                  errorSquare * std::sqrt(2.0 / weights.EffectiveFreedom()),
-                                  2.0 * sd * systematic);
-  result.sd = RootOf(spread.square, error);
+  if (!(std::abs(polished.motion.ofOtherAxis) > InRefined.largestShareOfOtherAxis))
+  {
+    result.sd = RootOf(spread.square, std::hypot(std::sqrt(errorSquare), systematic));
+  }
   result.series = std::move(spread.series);
   return result;
 }
@@ -173,31 +256,34 @@ ProductOf(const std::vector<double> & a, const std::vector<double> & b, const Fr
 }
 
 /** The covariance of the shifts along both axes, without that of their noise. Its error is that of a mean product of
- * shifts with Gaussian noise, whose covariance in one frame is known; half of what it differs by from least squares, if
- * it is by instruments, is a systematic one, as of the standard deviations. */
+ * shifts with Gaussian noise, whose covariance in one frame is known; a part of what it differs by from least squares,
+ * if it is by instruments, is a systematic one, as of the standard deviations. */
 Quantity
 CovarianceOf(const AxisMotion & x, const AxisMotion & y, const PolishedSeries & polished, const FrameWeights & weights)
 {
   const Eigen::MatrixXd & ofAll = polished.motion.covariance;
   Eigen::Matrix2d         noise;
   noise << ofAll(x.place, x.place), ofAll(x.place, y.place), ofAll(y.place, x.place), ofAll(y.place, y.place);
-  const double phi = polished.motionPhi * weights.MeanNoise();
-  noise *= phi;
+  const double slack = Slack(polished.motionPhi);
+  const double scale = weights.MeanNoise() * (1.0 + slack);
+  noise *= scale;
   double value = ProductOf(x.leastSquares, y.leastSquares, weights) - noise(0, 1);
   double systematic = 0.0;
   if (polished.shifts)
   {
     const double leastSquares = value;
-    noise = polished.shifts->covariance * phi;
+    noise = polished.shifts->covariance * scale;
     value = ProductOf(x.series, y.series, weights) - noise(0, 1);
-    systematic = 0.5 * std::abs(value - leastSquares);
+    const double scaleError = polished.shifts->scaleErrors.norm();
+    systematic = std::hypot(2.0 * InRefined.errorOfMotion * (value - leastSquares), scaleError * value);
   }
   const double squareX = std::max(0.0, ProductOf(x.series, x.series, weights) - noise(0, 0));
   const double squareY = std::max(0.0, ProductOf(y.series, y.series, weights) - noise(1, 1));
   const double shiftsAndNoise = squareX * noise(1, 1) + squareY * noise(0, 0) + 2.0 * value * noise(0, 1);
   const double noiseAlone = noise(0, 0) * noise(1, 1) + noise(0, 1) * noise(0, 1);
   const double variance = (std::max(0.0, shiftsAndNoise) + noiseAlone) / weights.EffectiveFreedom();
-  return WithError(value, std::hypot(std::sqrt(variance), systematic));
+  const double ofNoise = noise(0, 1) * slack / (1.0 + slack);
+  return WithError(value, std::hypot(std::sqrt(variance), systematic, ofNoise));
 }
 } // namespace
 
@@ -246,7 +332,7 @@ FillFlicker(Report & report, const RefinedResults & found, double offset, double
 }
 
 void
-FillMotion(Report & report, const RefinedResults & found)
+FillMotion(Report & report, const RefinedResults & found, double offset, double offsetErrorDn)
 {
   const PolishedSeries & polished = found.polished;
   const FrameWeights     weights = WeighFrames(report.flicker);
@@ -256,8 +342,11 @@ FillMotion(Report & report, const RefinedResults & found)
     report.vibrationCovariance = Quantity::Without(EstimateStatus::NotIdentifiable);
     return;
   }
-  const AxisMotion x = MotionAlong(0, StencilX, polished, report.flicker, weights);
-  const AxisMotion y = MotionAlong(1, StencilY, polished, report.flicker, weights);
+  LightOfShifts light{ polished.line, polished.line, offsetErrorDn, polished.motionPhi };
+  light.inUse.offset = offset;
+  light.inUse.UseOffset(offset);
+  const AxisMotion x = MotionAlong(0, StencilX, polished, light, weights);
+  const AxisMotion y = MotionAlong(1, StencilY, polished, light, weights);
   report.vibrationSdX = x.sd;
   report.vibrationSdY = y.sd;
   report.vibrationCovariance = Quantity::Without(EstimateStatus::NotIdentifiable);

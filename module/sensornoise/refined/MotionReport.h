@@ -16,9 +16,10 @@ namespace sensornoise
 SensorNoise_EXPORT void
 FillFlicker(Report & report, const RefinedResults & found, double offset, double offsetErrorDn, double scaleError);
 
-/** Files every frame's motion and the vibration's standard deviations and covariance; needs the flicker. */
+/** Files every frame's motion and the vibration's standard deviations and covariance; needs the flicker, which was
+ * filed about the same \a offset. Where that is off by \a offsetErrorDn, a part of the flicker is taken for motion. */
 SensorNoise_EXPORT void
-FillMotion(Report & report, const RefinedResults & found);
+FillMotion(Report & report, const RefinedResults & found, double offset, double offsetErrorDn);
 
 } // namespace sensornoise
 

@@ -69,6 +69,7 @@ PolishSceneSeries(const FrameSums &        sums,
   polished.motionPhi = everywhere ? everywhere->Widening() : 1.0;
   polished.motion = SolveMotion(equations, polished.line.gamma, polished.line.offset);
   polished.shifts = SolveShifts(sums,
+                                equations,
                                 polished.motion,
                                 sums.NoiseOfInstruments(variance.line.gain, variance.line.intercept),
                                 polished.line.gamma,

@@ -205,8 +205,9 @@ FillSensor(Report & report, const RefinedResults & found, const GainEstimate & g
   const OffsetLimits   limits = LimitsOf(found, gain, codesDn2);
   const OffsetEstimate flicker = EstimateOffset(found, gain, limits);
   const UsedOffset     offset = OffsetInUse(found, gain, flicker, limits);
-  FillFlicker(report, found, offset.valueDn - found.scene.model.centreDn, offset.errorDn, gain.RelativeModelError());
-  FillMotion(report, found);
+  const double         offsetFromCentre = offset.valueDn - found.scene.model.centreDn;
+  FillFlicker(report, found, offsetFromCentre, offset.errorDn, gain.RelativeModelError());
+  FillMotion(report, found, offsetFromCentre, offset.errorDn);
   WarnOfMotion(report, found);
   const bool isLinear = found.correlation.kind != NoiseKind::NotLinear;
   if (isLinear && FillGain(report, found, gain, codesDn2, StudentOf(found)))

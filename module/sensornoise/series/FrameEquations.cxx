@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sensornoise
 {
@@ -307,6 +308,9 @@ MakeFrameEquations(const FrameSums &           sums,
   equations.right = Select(right, rows, equations.active);
   PartialOutMotion(equations);
   PartialOutLevel(equations, LeastShareBeside(rawGram, gram, equations.active, pixels));
+  equations.allRawGram = rawGram;
+  equations.allGram = gram;
+  equations.allRight = std::move(right);
   return equations;
 }
 

@@ -27,12 +27,15 @@ struct RegressorNoise
 /** Normal equations of the regression of every frame on the active columns. */
 struct SensorNoise_EXPORT FrameEquations
 {
-  std::vector<std::size_t> active;   ///< columns: 0 and 1 (light), then 2 + index in MotionStencils (motion)
-  Eigen::MatrixXd          rawGram;  ///< as summed
-  Eigen::MatrixXd          gram;     ///< without the noise of the regressors
-  Eigen::MatrixXd          right;    ///< frames x active
-  Eigen::Matrix2d          light;    ///< of columns 0 and 1, the motion partialled out (Schur complement)
-  Eigen::MatrixX2d         response; ///< frames x 2, the same
+  std::vector<std::size_t> active;     ///< columns: 0 and 1 (light), then 2 + index in MotionStencils (motion)
+  Eigen::MatrixXd          rawGram;    ///< as summed
+  Eigen::MatrixXd          gram;       ///< without the noise of the regressors
+  Eigen::MatrixXd          right;      ///< frames x active
+  Eigen::MatrixXd          allRawGram; ///< the three of all columns, active or not
+  Eigen::MatrixXd          allGram;    ///< without the noise of the regressors
+  Eigen::MatrixXd          allRight;   ///< frames x columns
+  Eigen::Matrix2d          light;      ///< of columns 0 and 1, the motion partialled out (Schur complement)
+  Eigen::MatrixX2d         response;   ///< frames x 2, the same
   /** Whether a level that all pixels share cannot be told from motion: the derivatives are the same everywhere, the
    * scene is a ramp. Then light and response hold column 1 alone, all else partialled out. */
   bool isLevelMotion{ false };
