@@ -50,8 +50,8 @@ LeaveOutCoarseAndGuarded(const ReferenceFrame &        frame,
                          const ParallelFor &           parallelFor,
                          const std::optional<double> & darkestNoiseDn2 = std::nullopt);
 
-/** Throws NothingToMeasure, CodesTooCoarse, if codes of spacing \a stepDn hide the noise of more than 2 % of the
- * pixels: the dark end goes with them. */
+/** Throws NothingToMeasure, CodesTooCoarse, if codes of spacing \a stepDn hide the noise of more than half of the
+ * pixels. */
 SensorNoise_EXPORT void
 RequireFineCodes(const UsablePixels & pixels, double stepDn);
 
