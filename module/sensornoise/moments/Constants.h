@@ -40,6 +40,20 @@ struct MomentsConstants
   int levelsOutsidePileUp{ 4 };
   ///@}
 
+  /** \name Counts from 0 */
+  ///@{
+  /** Pixels, about, that tell whether values are counts. They bound the time. */
+  std::size_t pixelsOfCounts{ 65536 };
+  /** Means between which the ratio of variance and mean is looked at [counts]: below, rare events carry it; above, a
+   * flicker of 3 % adds 2 % to the variance. */
+  double leastCount{ 0.25 };
+  double largestCount{ 30.0 };
+  /** Standard error of that ratio for a group of pixels to count, and difference of the ratios, of counts at most,
+   * relative to them [1]. Chosen: read noise of 0.3 steps changes it by a tenth. */
+  double errorOfCountRatio{ 0.02 };
+  double largestCountRatio{ 0.05 };
+  ///@}
+
   /** \name Steps of the codes */
   ///@{
   /** Codes off the grid of the step, relative to all and beside that, up to which codes are regular [1, codes]. Set by

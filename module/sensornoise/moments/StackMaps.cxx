@@ -9,6 +9,7 @@
 #include "sensornoise/moments/CodeSettings.h"
 #include "sensornoise/moments/Codes.h"
 #include "sensornoise/moments/Constants.h"
+#include "sensornoise/moments/CountsFromZero.h"
 #include "sensornoise/moments/FloatingLevels.h"
 #include "sensornoise/moments/OutermostLevels.h"
 #include "sensornoise/moments/PileUp.h"
@@ -73,6 +74,14 @@ FindCodesOfWhole(const TemporalMaps<TPixel> & maps, const CodeSettings & setting
     (isHigh == 1 ? depths.high : depths.low) = MedianDepth(maps, end, { isHigh == 1 ? level : -level, 0 });
   });
   CodeRange codes = FindCodes(minima, maxima, TypicalVariance(maps), settings, depths);
+  if (!settings.clipLowDn && codes.clipLowDn == 0.0 && minima.Count(0) > 0 &&
+      AreCountsFromZero(maps, std::max(1.0, codes.quantisationStepDn)))
+  {
+    // Nothing is below 0, so that nothing is cut off there, and counts are not rounded.
+    codes.clipLowDn.reset();
+    codes.SetClipSources("none", codes.clipSource == "code range" ? "code range" : "pile-up");
+    codes.quantisationStepDn = settings.quantisationStepDn.value_or(0.0);
+  }
   // A signed 16-bit number ends at 32767, whatever 16 bits would hold.
   const double largest = std::numeric_limits<TPixel>::max();
   codes.clipHighDn = std::min(codes.clipHighDn.value_or(largest), largest);
