@@ -32,6 +32,9 @@ struct CorrelationConstants
   /** Standard errors by which the variance of whole rows' or columns' noise must exceed 0 to be there [1]. Set by hand.
    */
   double leastLineNoiseZ{ 4.0 };
+  /** Tiles, at most, that tell the illumination that rows have of their own. Chosen for the time: a thousandth of that
+   * of 100 frames of 512 x 512 pixels. */
+  std::size_t mostTilesOfRowLight{ 32 };
   /** Part of the lines' variance that the series of the scene may take for light [1]. Set by hand: a row noise as large
    * as the read noise loses 3 to 8 %. */
   double lostToSeries{ 0.04 };

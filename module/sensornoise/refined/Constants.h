@@ -154,12 +154,20 @@ struct RefinedConstants
   double negativeNoiseZ{ 4.0 };
   /** Error of the light above the offset, relative to it, at which a flicker is no number [1]. Set by hand. */
   double largestScaleError{ 0.25 };
-  /** Part of what two ways to measure motion differ by that is its systematic error [1]. Chosen on simulated scenes: the
-   * motion of pages of sharp text is off by a fifth of it, of others by less than a tenth. */
+  /** Part of what two ways to measure motion differ by that is its systematic error [1]. Chosen on simulated scenes:
+   * the motion of pages of sharp text is off by a fifth of it, of others by less than a tenth. */
   double errorOfMotion{ 0.2 };
   /** Part of the motion along one axis, at most, that looks like motion along the other one, where the scene has one
    * direction and no motion along the first is seen [1]. Chosen: equal motion along both adds 0.5 % to it. */
   double largestShareOfOtherAxis{ 0.1 };
+  ///@}
+
+  /** \name The illumination of rows */
+  ///@{
+  /** What the illumination that rows have of their own may add to the slope of the variance, relative to it [1], and
+   * the standard errors by which it must be there [1]. Chosen by the size of the effect. */
+  double largestRowLight{ 0.01 };
+  double rowLightZ{ 4.0 };
   ///@}
 
   /** \name What is worth a warning */

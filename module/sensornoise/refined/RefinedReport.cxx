@@ -198,6 +198,31 @@ SettingsOfSensor(const RefinedResults & found, double codesDn2)
   return settings;
 }
 
+/** What the illumination that rows have of their own adds to the slope of the variance, relative to the gain [1]; 0:
+ * nothing beyond chance. A change of the mean square e of it adds e q^2 to the variance of the signal q. */
+double
+EffectOfRowLight(const RefinedResults & found, const GainEstimate & gain)
+{
+  const MeasuredNumber & square = found.correlation.rowLight;
+  const double           signalDn = std::max(0.0, found.scene.model.brightestDn - found.blackDn);
+  const double           effect = square.value * signalDn / gain.line.gain;
+  return square.value > InRefined.rowLightZ * square.standardError && effect > InRefined.largestRowLight ? effect : 0.0;
+}
+
+/** Files no gain, where the frames' rows had light of their own. */
+void
+RefuseRowLight(Report & report, const RefinedResults & found, double effect)
+{
+  SetSensorParameters(report, EstimateStatus::Failed);
+  report.Warn(WarningCode::Contradicted,
+              "the illumination differs from row to row within a frame, by " +
+                Percent(std::sqrt(found.correlation.rowLight.value)) + " rms more than is allowed for, which adds " +
+                Percent(effect) + " to the slope of the variance (expected at most " +
+                Percent(InRefined.largestRowLight) +
+                "): a lamp that pulses under a rolling shutter, or interlaced frames: no gain is given. Use light on "
+                "direct current, an exposure time of whole periods of the lamp, or one field of the frames");
+}
+
 /** Files gain, offset, read noise and what the light and the floor did. */
 void
 FillSensor(Report & report, const RefinedResults & found, const GainEstimate & gain, double codesDn2)
@@ -209,6 +234,12 @@ FillSensor(Report & report, const RefinedResults & found, const GainEstimate & g
   FillFlicker(report, found, offsetFromCentre, offset.errorDn, gain.RelativeModelError());
   FillMotion(report, found, offsetFromCentre, offset.errorDn);
   WarnOfMotion(report, found);
+  if (const double effect = EffectOfRowLight(found, gain); effect > 0.0)
+  {
+    RefuseRowLight(report, found, effect);
+    FillFromDarkFrames(report, found.settings, codesDn2);
+    return;
+  }
   const bool isLinear = found.correlation.kind != NoiseKind::NotLinear;
   if (isLinear && FillGain(report, found, gain, codesDn2, StudentOf(found)))
   {

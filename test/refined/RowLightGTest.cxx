@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/report/Report.h"
+#include "sensornoise/simulation/SimulationSettings.h"
+#include "helpers/RefinedTestHelper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <gtest/gtest.h>
+#include <random>
+#include <string>
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+
+namespace
+{
+constexpr std::size_t Size = 128;
+constexpr std::size_t Frames = 50;
+
+/** The report of frames whose odd rows have an illumination of their own, of the standard deviation \a sd. */
+Report
+ReportOfInterlaced(double sd)
+{
+  SimulationSettings settings = FlickeringSettings(Frames);
+  settings.seed = 3;
+  auto                       stack = Simulate<unsigned short>(settings, Size, Size);
+  std::mt19937               random(7);
+  std::normal_distribution<> normal(0.0, sd);
+  for (std::size_t t = 0; t < Frames; ++t)
+  {
+    const double factor = 1.0 + normal(random);
+    for (std::size_t p = 0; p < Size * Size; ++p)
+    {
+      if (p / Size % 2 != 0 && sd > 0.0)
+      {
+        auto &       value = stack.pixels[t * Size * Size + p];
+        const double level = settings.camera.offsetDn + factor * (value - settings.camera.offsetDn);
+        value = static_cast<unsigned short>(std::lround(std::max(0.0, level)));
+      }
+    }
+  }
+  return Measure(stack).GetReport();
+}
+
+bool
+IsRefusedForRows(const Report & report)
+{
+  return !report.gain.value && std::any_of(report.warnings.begin(), report.warnings.end(), [](const Warning & warning) {
+    return warning.code == WarningCode::Contradicted && warning.message.find("interlaced") != std::string::npos;
+  });
+}
+} // namespace
+
+TEST(SensorNoiseRowLight, InterlacedFramesHaveNoGain)
+{
+  EXPECT_TRUE(IsRefusedForRows(ReportOfInterlaced(0.008)));
+}
+
+TEST(SensorNoiseRowLight, FramesThatFlickerAsAWholeAreNotRefused)
+{
+  const Report report = ReportOfInterlaced(0.0);
+  EXPECT_TRUE(report.gain.value);
+  EXPECT_FALSE(IsRefusedForRows(report));
+}
