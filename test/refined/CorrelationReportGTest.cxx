@@ -153,3 +153,14 @@ TEST(SensorNoiseCorrelationReport, EveryKindHasANameOfItsOwn)
   EXPECT_STREQ(NameOf(NoiseKind::BrighterFatter), "brighter-fatter");
   EXPECT_STREQ(NameOf(NoiseKind::NotLinear), "not-linear");
 }
+
+// The distribution is what a linear filter leaves: it is not the reason.
+TEST(SensorNoiseCorrelationReport, NormalNoiseThatIsNotLinearIsInterferenceOrRounding)
+{
+  NoiseCorrelation correlation = CorrelationOf(NoiseKind::NotLinear);
+  correlation.kurtosis.fill({ 0.001, 0.002 });
+  const std::string warning = WarningOf(correlation, false);
+  EXPECT_TRUE(Has(warning, "noise-not-linear: pixels 1 row apart share 5.00 +- 0.30 % of their noise")) << warning;
+  EXPECT_TRUE(Has(warning, "periodic interference")) << warning;
+  EXPECT_FALSE(Has(warning, "takes medians")) << warning;
+}

@@ -3,6 +3,7 @@
 #include "sensornoise/refined/CorrelationReport.h"
 
 #include "sensornoise/base/Text.h"
+#include "sensornoise/correlation/Constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,6 +53,40 @@ Consequence(const Report & report)
          Text(std::round(100.0 * *report.varianceSlope.value / *report.gain.value)) +
          " % of the gain, which is from the sum over all lags; variance_slope is that of the variance";
 }
+
+/** Whether the distribution of the noise is what a linear filter leaves: then what neighbours share is against it. */
+bool
+IsNormal(const NoiseCorrelation & correlation)
+{
+  return std::none_of(correlation.kurtosis.begin(), correlation.kurtosis.end(), [](const MeasuredNumber & kurtosis) {
+    return kurtosis.Exceeds(0.0, InCorrelation.anyZ);
+  });
+}
+
+void
+WarnOfNonlinear(Report & report, const NoiseCorrelation & correlation, const LagCoefficient * space)
+{
+  const MeasuredNumber & own = correlation.kurtosis.front();
+  const MeasuredNumber & ofFour = correlation.kurtosis[3];
+  const std::string      kurtosis = "excess kurtosis " + Measured(own.value, own.standardError) +
+                               ", of four neighbours in turn " + Measured(ofFour.value, ofFour.standardError) +
+                               ", expected 0";
+  if (space != nullptr && IsNormal(correlation))
+  {
+    report.Warn(
+      WarningCode::NoiseNotLinear,
+      NeighbourAt(space->lag) + PercentOf(space->coefficient) +
+        " of their noise, which does not grow with the light as that of a filter does: periodic interference, "
+        "or blocks of pixels that were rounded (compression). No gain is given. Record raw frames, and look for "
+        "the source of the interference: cables, power supply, read-out clock (" +
+        kurtosis + ": the distribution is normal)");
+    return;
+  }
+  report.Warn(WarningCode::NoiseNotLinear,
+              "the noise is not distributed as a sensor's or a linear filter's (" + kurtosis +
+                "): the camera corrects defects, takes medians or compresses, and what gain it had before cannot be "
+                "told; ask it for raw frames");
+}
 } // namespace
 
 void
@@ -62,13 +97,7 @@ WarnOfCorrelation(Report & report, const NoiseCorrelation & correlation)
   switch (correlation.kind)
   {
     case NoiseKind::NotLinear:
-      report.Warn(WarningCode::NoiseNotLinear,
-                  "the noise is not distributed as a sensor's or a linear filter's (excess kurtosis " +
-                    Measured(correlation.kurtosis.front().value, correlation.kurtosis.front().standardError) +
-                    ", of four neighbours in turn " +
-                    Measured(correlation.kurtosis[3].value, correlation.kurtosis[3].standardError) +
-                    ", expected 0): the camera corrects defects, takes medians or compresses, and what gain it had "
-                    "before cannot be told; ask it for raw frames");
+      WarnOfNonlinear(report, correlation, space);
       break;
     case NoiseKind::Temporal:
       report.Warn(WarningCode::NoiseCorrelated,
