@@ -209,6 +209,31 @@ TEST(SensorNoiseRefinedWarnings, LightSeriesLeft)
   EXPECT_TRUE(HasWarning(report, WarningCode::LightSeriesLeft)) << MakeText(report);
 }
 
+// Half of the blocks of 8 x 8 pixels repeat the frame before.
+TEST(SensorNoiseRefinedWarnings, SkippedBlocksAreNoFilter)
+{
+  Stack<Codes>                stack = Simulate<Codes>(StillCamera(Frames), Size, Size);
+  std::mt19937                random(8);
+  std::bernoulli_distribution isSkipped(0.5);
+  for (std::size_t t = 1; t < Frames; ++t)
+  {
+    for (std::size_t block = 0; block < Size * Size / 64; ++block)
+    {
+      const std::size_t first = block / (Size / 8) * 8 * Size + block % (Size / 8) * 8;
+      const std::size_t pixels = isSkipped(random) ? 64 : 0;
+      for (std::size_t k = 0; k < pixels; ++k)
+      {
+        const std::size_t own = t * Size * Size + first + k / 8 * Size + k % 8;
+        stack.pixels[own] = stack.pixels[own - Size * Size];
+      }
+    }
+  }
+  const Report report = Measure(stack, {}).GetReport();
+  EXPECT_NE(report.gain.status, EstimateStatus::Identified) << MakeText(report);
+  ASSERT_TRUE(HasWarning(report, WarningCode::NoiseNotLinear)) << MakeText(report);
+  EXPECT_NE(MakeText(report).find("repeat that of the frame before"), std::string::npos) << MakeText(report);
+}
+
 TEST(SensorNoiseRefinedWarnings, GainNotUniform)
 {
   // Two cameras of one scene, side by side, whose gains differ by a quarter.

@@ -7,9 +7,11 @@
 #include "sensornoise/base/WideVectors.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <stdexcept>
 #include <type_traits>
@@ -135,6 +137,41 @@ FrameSample::Restore(std::istream & in)
   ReadNumbers(in, read.m_Codes);
   ReadNumbers(in, read.m_Values.data(), static_cast<std::size_t>(read.m_Values.size()));
   *this = std::move(read);
+}
+
+double
+FrameSample::RepeatedShare(const std::vector<std::uint8_t> & mask, double stepDn) const
+{
+  const auto step = static_cast<int>(std::max(1.0, std::round(stepDn)));
+  if (m_Codes.empty())
+  {
+    return 0.0;
+  }
+  std::array<double, 3> count{}; // of differences of 0, 1 and 2 steps
+  double                pairs = 0.0;
+  const std::size_t     pixels = m_Tiles.Pixels();
+  const std::size_t     every = std::max<std::size_t>(1, m_Tiles.origins.size() / SampleTiles::EnoughTiles);
+  for (std::size_t i = 0; i < m_Tiles.origins.size(); i += every)
+  {
+    for (std::size_t t = 1; t < m_Tiles.frames; ++t)
+    {
+      const std::uint16_t * const before = m_Codes.data() + m_Tiles.PlaceOf(i, t - 1);
+      const std::uint16_t * const now = before + pixels;
+      for (std::size_t p = 0; p < pixels; ++p)
+      {
+        if (mask[m_Tiles.PixelOf(i, p, m_Width)] != 0)
+        {
+          const int difference = std::abs(static_cast<int>(now[p]) - static_cast<int>(before[p]));
+          pairs += 1.0;
+          count[0] += difference == 0 ? 1.0 : 0.0;
+          count[1] += difference == step ? 0.5 : 0.0; // of either sign
+          count[2] += difference == 2 * step ? 0.5 : 0.0;
+        }
+      }
+    }
+  }
+  const double byNoise = count[1] * count[1] / std::max(1.0, count[2]);
+  return pairs > 0.0 ? std::max(0.0, count[0] - byNoise) / pairs : 0.0;
 }
 
 NoiseSample

@@ -81,6 +81,12 @@ public:
   void
   Restore(std::istream & in);
 
+  /** Part of the values at the pixels of \a mask that are those of the frame before, beyond what noise makes [1]; 0 of
+   * floating-point numbers. Differences of noise are log-concave: as many are 0 as the square of those of one
+   * \a stepDn, over those of two, at most. Estimator.md, 3.12. */
+  double
+  RepeatedShare(const std::vector<std::uint8_t> & mask, double stepDn) const;
+
   /** Gives the memory away for the values above \a mean, that of every pixel; the sample is empty after it. */
   NoiseSample
   TakeNoise(const std::vector<double> & mean, const ParallelFor & parallelFor = SerialFor);

@@ -87,6 +87,8 @@ struct SensorNoise_EXPORT NoiseCorrelation
   MeasuredNumber timeFactor{ 1.0, 0.0 };
   /** What the lags beyond the last may add, relative to the variance [1]. */
   double beyondReach{ 0.0 };
+  /** Part of the values that repeat that of the frame before beyond chance, where the kind is NotLinear for it [1]. */
+  double repeatedShare{ 0.0 };
   /** Of the lags in space that are summed [pixels]. */
   int reach{ 1 };
   /** The sum of the coefficients over all lags in space within reach, that of lag 0 with it [1]: what the variance has

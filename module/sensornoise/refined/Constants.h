@@ -24,6 +24,9 @@ struct RefinedConstants
    * differ by 4 % make 0.03 to 0.1 of it, a gamma of 1.3 from 0.13 on. Half: a shoulder of 4 % is refused; twice:
    * the same. */
   double largestNonlinearity{ 0.12 };
+  /** Part of the values that may repeat that of the frame before, beyond what noise makes, where frames share noise
+   * [1]. Chosen by the size of the effect: the sum over lags of so many is 6 % too large. */
+  double largestRepeatedShare{ 0.03 };
   /** Factor by which the sum over lags may change the gain where illumination is left that could not be projected out
    * [1]. Chosen by the size of the effect: of what is more than twice the variance most is not the noise. */
   double largestCorrection{ 2.0 };

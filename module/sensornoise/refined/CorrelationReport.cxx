@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/Text.h"
 #include "sensornoise/correlation/Constants.h"
+#include "sensornoise/refined/Constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -66,6 +67,16 @@ IsNormal(const NoiseCorrelation & correlation)
 void
 WarnOfNonlinear(Report & report, const NoiseCorrelation & correlation, const LagCoefficient * space)
 {
+  if (correlation.repeatedShare > 0.0)
+  {
+    report.Warn(WarningCode::NoiseNotLinear,
+                PercentApart(correlation.repeatedShare, InRefined.largestRepeatedShare) +
+                  " of the pixels' values repeat that of the frame before beyond what noise makes (expected at most " +
+                  Percent(InRefined.largestRepeatedShare) +
+                  "): a video coder skips blocks, or parts of frames are repeated, and what gain the sensor had "
+                  "cannot be told from what frames share; record raw frames");
+    return;
+  }
   const MeasuredNumber & own = correlation.kurtosis.front();
   const MeasuredNumber & ofFour = correlation.kurtosis[3];
   const std::string      kurtosis = "excess kurtosis " + Measured(own.value, own.standardError) +

@@ -126,6 +126,7 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   std::vector<std::uint8_t> used = MaskOfUsed(noise.variance.pixelUse);
   const bool                isTold = settings.offset.has_value() || series->isOffsetTold;
   const double   zeroDn = isTold ? blackDn : ZeroOfLight(scene.model.darkestDn, scene.model.brightestDn, blackDn);
+  const double   repeated = sample.RepeatedShare(used, scene.summary.codes.quantisationStepDn);
   NoiseResiduals residuals(
     std::move(sample), series->basis.GetBasis(), { scene.frame.mean, used, zeroDn }, parallelFor);
   const FrameComparison comparison{
@@ -157,6 +158,11 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   compare();
   noise.frames = CompareFrames(noise.variance, comparison, shared, parallelFor);
   MeasureSettledFrames(noise.correlation, residuals, codesDn2, parallelFor);
+  if (noise.correlation.kind == NoiseKind::Temporal && repeated > InRefined.largestRepeatedShare)
+  {
+    noise.correlation.kind = NoiseKind::NotLinear; // a filter blends values, and repeats none
+    noise.correlation.repeatedShare = repeated;
+  }
   return noise;
 }
 
