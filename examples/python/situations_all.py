@@ -12,6 +12,7 @@ import situations_borders
 import situations_branches
 import situations_dark
 import situations_frames
+import situations_gains
 import situations_good
 import situations_light
 import situations_parts
@@ -26,6 +27,7 @@ MODULES = (
     situations_branches,
     situations_dark,
     situations_frames,
+    situations_gains,
     situations_good,
     situations_light,
     situations_parts,
