@@ -245,6 +245,8 @@ NameOf(FrameFault fault)
       return "no-noise";
     case FrameFault::OtherShape:
       return "other-shape";
+    case FrameFault::OtherOffset:
+      return "other-offset";
     case FrameFault::OtherNoise:
       break;
   }

@@ -20,6 +20,7 @@ enum class FrameFault : std::uint8_t
   NotFinite,  ///< most of it is NaN or infinite
   NoNoise,    ///< neighbouring pixels are equal in most of it: zeros, or saturated
   OtherShape, ///< it is not the scene of the others in other light: another scene, a shadow
+  OtherOffset, ///< its level differs by as much in dark places as in bright ones: another dark offset
   OtherNoise  ///< its noise is not that of the others at its level: another gain, another processing
 };
 

@@ -282,7 +282,14 @@ OffsetByIllumination(const RefinedResults & found, const GainEstimate & gain, co
   const double slackDn = InRefined.slackOfOffsetZ * estimate.standardErrorDn;
   const double slackBelowDn =
     slackDn + InRefined.slackOfInterceptZ * std::sqrt(gain.covariance(1, 1)) / std::max(1e-9, gain.line.gain);
-  if (!(line.contrast > InSeries.leastContrast))
+  const FrameOffsets & others = found.series.frameOffsets;
+  if (!others.unlike.empty()) // too many to be left out
+  {
+    estimate.obstacle = "the dark offset of " + std::to_string(others.unlike.size()) + " of " +
+                        std::to_string(line.response.rows()) + " frames differs by " + Rounded(others.stepDn) +
+                        " DN from that of the others";
+  }
+  else if (!(line.contrast > InSeries.leastContrast))
   {
     estimate.obstacle = "the scene has one intensity";
   }

@@ -296,6 +296,11 @@ RefinedMethod<TPixel>::EndFrameSums()
                                    knownOffsetDn,
                                    BlackLevel(m_Settings, *m_Scene, std::nullopt),
                                    m_Scene->changesStrongly));
+  if (this->StartAgainWithout(m_Series->frameOffsets.unlike, FrameFault::OtherOffset))
+  {
+    this->ForgetFindings();
+    return;
+  }
   const MemoryNeed  need{ m_Geometry.Pixels(), m_Distinct.Count() };
   const double      left = m_Settings.memoryLimitBytes - need.BesideProjections();
   const std::size_t slabs = PixelProjections::SlabsWithin(left, m_Series->basis.Size());

@@ -40,6 +40,24 @@ struct SeriesConstants
    * at 0.5 flats with an offset pattern pass, 0.95 asks 100 frames of a flat field with a shading of 3 %. */
   double leastContrast{ 0.9 };
 
+  /** \name Frames of another dark offset */
+  ///@{
+  /** Offsets that are tried over the possible ones, and as many twice about the best. Chosen empirically: 4000 DN are
+   * then known to 0.02 DN. */
+  int offsetsTried{ 200 };
+  /** Ratio of the spread of the densest half of the frames to the least, up to which an offset fits as well [1]. Chosen
+   * empirically: chance makes 1.2 of it for 20 frames. */
+  double likelyOffset{ 1.3 };
+  /** Standard deviations by which a frame of another offset must differ [1]: of a million frames none does. */
+  double otherOffsetZ{ 6.0 };
+  /** Step of the offset, relative to the noise of the darkest pixels [1]. Chosen by the size of the effect: a fifth of
+   * the frames that differ by it change the read noise by 0.5 %. */
+  double leastOffsetStep{ 0.25 };
+  /** The same relative to the change of the signal of the darkest pixels to the centre in that frame [1]: a response
+   * that is bent by a few per cent makes less. */
+  double leastStepOfChange{ 0.05 };
+  ///@}
+
   /** \name Instruments of the shifts */
   ///@{
   /** Half width of the box that smooths the derivatives twice along each axis [pixels]: a triangle of standard

@@ -55,7 +55,14 @@ FindSceneSeries(const FrameSums &             sums,
   SceneSeries found;
   found.line = *line;
   const ProvisionalModel & model = sums.GetRegressors().GetModel();
-  FrameEquations           equations = MakeFrameEquations(sums, noise, GradientClasses - 1);
+  if (!changesStrongly) // a response that is not linear departs from the line by more, then
+  {
+    found.frameOffsets =
+      FindFrameOffsets(*line,
+                       { std::min(blackDn, model.darkestDn) - model.centreDn, model.darkestDn - model.centreDn, 2 },
+                       InSeries.leastOffsetStep * std::sqrt(model.NoiseVariance(model.darkestDn)));
+  }
+  FrameEquations equations = MakeFrameEquations(sums, noise, GradientClasses - 1);
   // Patterns of a flat field's pixels have contrast, too.
   const bool isPrecise =
     line->standardError < InSeries.largestOffsetError * std::max(0.0, -line->offset) || !changesStrongly;

@@ -6,6 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/RollingShutter.h"
 #include "sensornoise/series/FrameEquations.h"
+#include "sensornoise/series/FrameOffsets.h"
 #include "sensornoise/series/FrameRegressors.h"
 #include "sensornoise/series/FrameSums.h"
 #include "sensornoise/series/LocalIllumination.h"
@@ -27,6 +28,7 @@ struct SceneSeries
   double            offset{ 0.0 }; ///< minus the centre: of the line, or what is known, or the darkest level [DN]
   bool              isOffsetTold{ false }; ///< whether the offset is the line's: the flicker tells it
   TemporalBasis     basis;                 ///< of the third pass
+  FrameOffsets      frameOffsets;          ///< frames of another dark offset
 };
 
 /** The noise by the provisional model itself, by which w V = 1. */
