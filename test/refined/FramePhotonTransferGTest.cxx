@@ -223,14 +223,64 @@ TEST(SensorNoiseFrameNoise, IsOneForAllFramesAndNamesTheOthers)
   EXPECT_TRUE(small.unlike.empty());
 }
 
-TEST(SensorNoiseFrameNoise, OfTwoKindsIsScatter)
+TEST(SensorNoiseFrameNoise, OfTwoKindsMakesGroups)
+{
+  // Two halves that differ by 20 %: the value between them is 10 % from either, and none of the frames has it.
+  const TileLevels levels(Gamma(), OffsetDn, ZeroDn);
+  const auto       energies = Energies(Gamma(), [](Eigen::Index, Eigen::Index t) { return t % 2 == 0 ? 1.0 : 1.2; });
+  const FrameNoise found =
+    JudgeFrameNoise(NoiseOfFrames(energies, levels, LineOf(Gain, InterceptDn2), 0.0), 0.01, InRefined.leastUnlikeNoise);
+  ASSERT_EQ(found.groups.size(), 2U);
+  EXPECT_EQ(found.groups[0].frames.size(), 10U);
+  EXPECT_EQ(found.groups[1].frames.size(), 10U);
+  EXPECT_NEAR(std::max(found.groups[0].noise, found.groups[1].noise) /
+                std::min(found.groups[0].noise, found.groups[1].noise),
+              1.2,
+              0.05);
+  EXPECT_EQ(found.unlike, found.groups[1].frames);
+  EXPECT_TRUE(found.HasSeveralKinds());
+}
+
+TEST(SensorNoiseFrameNoise, ThatVariesWithoutGroupsIsScatter)
 {
   const TileLevels levels(Gamma(), OffsetDn, ZeroDn);
-  const auto       energies = Energies(Gamma(), [](Eigen::Index, Eigen::Index t) { return t % 2 == 0 ? 1.0 : 2.0; });
+  const auto       energies = Energies(
+    Gamma(), [](Eigen::Index, Eigen::Index t) { return std::exp(0.05 * static_cast<double>((7 * t) % Frames - 10)); });
   const FrameNoise found =
     JudgeFrameNoise(NoiseOfFrames(energies, levels, LineOf(Gain, InterceptDn2), 0.0), 0.01, InRefined.leastUnlikeNoise);
   EXPECT_TRUE(found.unlike.empty());
   EXPECT_GT(found.scatter, InRefined.leastUnlikeNoise);
+}
+
+TEST(SensorNoiseFrameNoise, ThatIsKnownIsTakenOffTheOthers)
+{
+  // The projection leaves some of the noise of a frame in the others.
+  const TileLevels   levels(Gamma(), OffsetDn, ZeroDn);
+  const VarianceLine line = LineOf(Gain, InterceptDn2);
+  Eigen::VectorXd    known = Eigen::VectorXd::Ones(Frames);
+  known(1) = 40.0;
+  Eigen::MatrixXd       squares(Tiles, Frames);
+  Eigen::VectorXd       light(Tiles);
+  const Eigen::VectorXd ofTile = Eigen::VectorXd::Constant(Tiles, PixelsOfTile);
+  const FrameEnergies   model(squares, light, ofTile, BasisOf(Gamma()));
+  for (Eigen::Index i = 0; i < Tiles; ++i)
+  {
+    light(i) = 1000.0 + static_cast<double>(i);
+    const Eigen::VectorXd variances = InterceptDn2 + Gain * levels.Of(light(i)).array();
+    squares.row(i) = model.ExpectedSquares(variances.cwiseProduct(known)).transpose();
+  }
+  const FrameEnergies   energies(squares, light, ofTile, BasisOf(Gamma()));
+  const Eigen::VectorXd first = NoiseOfFrames(energies, levels, line, 0.0);
+  EXPECT_GT((first - known).tail(Frames - 2).cwiseAbs().maxCoeff(), 0.1);
+  const Eigen::VectorXd second = NoiseOfFrames(energies, levels, line, 0.0, known);
+  EXPECT_LT((second - known).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+TEST(SensorNoiseFrameNoise, NamesGroupsInWords)
+{
+  FrameNoise noise;
+  noise.groups = { { { 0, 1, 2, 5 }, 0.8 }, { { 3 }, 1.6 } };
+  EXPECT_EQ(noise.Text(0.5), "frames 0 to 2, 5: 0.8 times, about 0.4 DN/e-; frame 3: 1.6 times, about 0.8 DN/e-");
 }
 
 TEST(SensorNoiseFrameNoise, IsWithinTheErrorOfTheSlope)

@@ -7,7 +7,9 @@
 #include "helpers/MergeTestHelper.h"
 #include "helpers/RepeatedTestHelper.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <gtest/gtest.h>
 #include <limits>
@@ -249,15 +251,84 @@ TEST(SensorNoiseLeftOutFrames, OfAnotherGainInSeveralProcessesAreThoseOfOne)
   EXPECT_EQ(ToJson(two.GetReport()), ToJson(whole.GetReport()));
 }
 
-TEST(SensorNoiseLeftOutFrames, OfSeveralGainsInHalfOfTheStackGiveNoGain)
+namespace
 {
-  auto stack = NoisyStack(40);
-  for (std::size_t t = 0; t < stack.frames; t += 2)
+/** The stack with every so many frames, the first ones, of another gain. */
+Report
+ReportOfMixed(Stack<Codes> stack, std::size_t every, std::size_t count, double gain)
+{
+  for (std::size_t k = 0; k < count; ++k)
   {
-    const auto frame = OfAnotherGain(stack, t, 2.0, OffsetDn);
+    const std::size_t t = k * every;
+    const auto        frame = OfAnotherGain(stack, t, gain, OffsetDn);
     std::copy(frame.begin(), frame.end(), stack.pixels.begin() + static_cast<std::ptrdiff_t>(t * frame.size()));
   }
-  const Report report = Measure(stack, RefinedSettings()).GetReport();
+  return Measure(stack, RefinedSettings()).GetReport();
+}
+} // namespace
+
+TEST(SensorNoiseLeftOutFrames, OfSeveralGainsInHalfOfTheStackGiveNoGain)
+{
+  const Report report = ReportOfMixed(NoisyStack(40), 2, 20, 2.0);
   EXPECT_FALSE(report.gain.value) << *report.gain.value;
   EXPECT_TRUE(report.framesLeftOut.empty());
+}
+
+TEST(SensorNoiseLeftOutFrames, OfAStepOfTheGainAreNamedInGroups)
+{
+  // Halves that differ by 25 %: each is within 12 % of the mean.
+  const Report report = ReportOfMixed(NoisyStack(40), 1, 20, 1.25);
+  EXPECT_FALSE(report.gain.value) << *report.gain.value;
+  ASSERT_FALSE(report.warnings.empty());
+  std::string all;
+  for (const Warning & warning : report.warnings)
+  {
+    all += warning.message;
+  }
+  EXPECT_NE(all.find("in groups (frames 0 to 19"), std::string::npos) << all;
+}
+
+TEST(SensorNoiseLeftOutFrames, OfNoiseAloneMakeNoLocalLight)
+{
+  // Four times the noise at the same level, as of interpolated or amplified frames: what a frame has alone is no light
+  // that changes, behind which its noise would be hidden.
+  auto       stack = NoisyStack(40);
+  const auto others = NoisyStack(43);
+  const auto pixels = stack.width * stack.height;
+  for (const std::size_t t : { std::size_t{ 8 }, std::size_t{ 21 } })
+  {
+    for (std::size_t p = 0; p < pixels; ++p)
+    {
+      const double noise = static_cast<double>(others.pixels[40 * pixels + p]) -
+                           static_cast<double>(others.pixels[(t == 8 ? 41 : 42) * pixels + p]);
+      stack.pixels[t * pixels + p] = static_cast<Codes>(
+        std::clamp(std::round(static_cast<double>(stack.pixels[t * pixels + p]) + 1.5 * noise), 0.0, 65535.0));
+    }
+  }
+  const Report report = Measure(stack, RefinedSettings()).GetReport();
+  EXPECT_EQ(NamesOf(report.framesLeftOut), "8 other-noise; 21 other-noise; ");
+  EXPECT_FALSE(HasWarning(report, WarningCode::LocalLight));
+}
+
+TEST(SensorNoiseLeftOutFrames, OfAnotherDarkOffsetAreNamed)
+{
+  const auto stack = NoisyStack(40);
+  const auto raised = [&](std::size_t count) {
+    auto frames = stack;
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      const std::size_t first = (3 + 2 * k) * stack.width * stack.height;
+      for (std::size_t p = 0; p < stack.width * stack.height; ++p)
+      {
+        frames.pixels[first + p] = static_cast<Codes>(frames.pixels[first + p] + 15);
+      }
+    }
+    return Measure(frames, RefinedSettings()).GetReport();
+  };
+  EXPECT_EQ(NamesOf(raised(2).framesLeftOut), "3 other-offset; 5 other-offset; ");
+  // More than a fifth: it is not clear what the offset is.
+  const Report report = raised(12);
+  EXPECT_TRUE(report.framesLeftOut.empty());
+  EXPECT_FALSE(report.offset.value) << *report.offset.value;
+  EXPECT_TRUE(HasWarning(report, WarningCode::OffsetNotIdentifiable));
 }

@@ -146,6 +146,9 @@ struct MomentsConstants
   ///@{
   /** Frames that may be left out, relative to all [1]: of more it is not clear which are the burst. */
   double largestLeftOutShare{ 0.2 };
+  /** The same of frames of about one level whose noise is another than that of the rest, which is one group [1]: three
+   * frames of five are more than chance makes of two equal groups, and it is clear which are the burst. */
+  double largestOtherGroup{ 0.4 };
   /** Share of a frame's cells that are even, or hold nothing finite, from which on it is no picture with noise [1]. Set
    * by hand: half. */
   double largestEmptyShare{ 0.5 };

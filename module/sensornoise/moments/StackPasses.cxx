@@ -208,14 +208,14 @@ StackPasses<TPixel>::EndPass()
 
 template <typename TPixel>
 bool
-StackPasses<TPixel>::StartAgainWithout(const std::vector<std::size_t> & places, FrameFault fault)
+StackPasses<TPixel>::StartAgainWithout(const std::vector<std::size_t> & places, FrameFault fault, double largestShare)
 {
   const std::vector<std::size_t> counted = m_Distinct.Counted();
   std::vector<LeftOutFrame>      found;
   std::transform(places.begin(), places.end(), std::back_inserter(found), [&](std::size_t place) {
     return LeftOutFrame{ counted[place], fault };
   });
-  const std::vector<LeftOutFrame> all = JoinUnlikeFrames({ this->GetLeftOut(), found }, m_Frames);
+  const std::vector<LeftOutFrame> all = JoinUnlikeFrames({ this->GetLeftOut(), found }, m_Frames, largestShare);
   if (found.empty() || all.empty())
   {
     return false;

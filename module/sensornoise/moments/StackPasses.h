@@ -212,9 +212,11 @@ protected:
 
   /** A later pass found that the frames at these places among the distinct ones are unlike the others: the next pass
    * is for the moments of the rest, and all that the method found is to be found anew. Returns whether it is so: not if
-   * they are too many (JoinUnlikeFrames). */
+   * they are too many, all together more than \a largestShare of the frames (JoinUnlikeFrames). */
   bool
-  StartAgainWithout(const std::vector<std::size_t> & places, FrameFault fault);
+  StartAgainWithout(const std::vector<std::size_t> & places,
+                    FrameFault                       fault,
+                    double                           largestShare = InMoments.largestLeftOutShare);
 
   /** Whether the current pass gathers moments. */
   bool

@@ -56,24 +56,24 @@ CellsThatTell(const FrameThumbnails & thumbnails)
 
 using Faults = std::map<std::size_t, FrameFault>; // of the frames that are left out
 
-/** How many of so many frames may be left out. */
+/** How many of so many frames may be left out, if \a share of them may be [1]. */
 std::size_t
-MostLeftOut(std::size_t frames)
+MostLeftOut(std::size_t frames, double share = InMoments.largestLeftOutShare)
 {
   return std::min(frames - std::min(frames, MinimumFrames),
-                  static_cast<std::size_t>(InMoments.largestLeftOutShare * static_cast<double>(frames)));
+                  static_cast<std::size_t>(share * static_cast<double>(frames)));
 }
 
 /** In their order; none if they are too many of so many frames. */
 std::vector<LeftOutFrame>
-AsList(const Faults & faults, std::size_t frames)
+AsList(const Faults & faults, std::size_t frames, double share = InMoments.largestLeftOutShare)
 {
   std::vector<LeftOutFrame> leftOut;
   for (const auto & [frame, fault] : faults)
   {
     leftOut.push_back({ frame, fault });
   }
-  return leftOut.size() > MostLeftOut(frames) ? std::vector<LeftOutFrame>() : leftOut;
+  return leftOut.size() > MostLeftOut(frames, share) ? std::vector<LeftOutFrame>() : leftOut;
 }
 
 /** The frames with nothing in most of their cells, where the others have something. */
@@ -278,7 +278,7 @@ FindUnlikeFrames(const FrameThumbnails & thumbnails)
 }
 
 std::vector<LeftOutFrame>
-JoinUnlikeFrames(const std::vector<std::vector<LeftOutFrame>> & ofParts, std::size_t frames)
+JoinUnlikeFrames(const std::vector<std::vector<LeftOutFrame>> & ofParts, std::size_t frames, double largestShare)
 {
   Faults faults;
   for (const std::vector<LeftOutFrame> & part : ofParts)
@@ -288,7 +288,7 @@ JoinUnlikeFrames(const std::vector<std::vector<LeftOutFrame>> & ofParts, std::si
       faults.emplace(frame, fault);
     }
   }
-  return AsList(faults, frames);
+  return AsList(faults, frames, largestShare);
 }
 
 std::vector<std::size_t>

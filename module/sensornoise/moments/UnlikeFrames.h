@@ -4,6 +4,7 @@
 #define sensornoise_moments_UnlikeFrames_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/moments/Constants.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -17,11 +18,11 @@ class FrameThumbnails;
 /** The reason for which a frame is not one of the burst. */
 enum class FrameFault : std::uint8_t
 {
-  NotFinite,  ///< most of it is NaN or infinite
-  NoNoise,    ///< neighbouring pixels are equal in most of it: zeros, or saturated
-  OtherShape, ///< it is not the scene of the others in other light: another scene, a shadow
+  NotFinite,   ///< most of it is NaN or infinite
+  NoNoise,     ///< neighbouring pixels are equal in most of it: zeros, or saturated
+  OtherShape,  ///< it is not the scene of the others in other light: another scene, a shadow
   OtherOffset, ///< its level differs by as much in dark places as in bright ones: another dark offset
-  OtherNoise  ///< its noise is not that of the others at its level: another gain, another processing
+  OtherNoise   ///< its noise is not that of the others at its level: another gain, another processing
 };
 
 /** Its name in the JSON record; stable, for programs. */
@@ -44,10 +45,12 @@ struct LeftOutFrame
 SensorNoise_EXPORT std::vector<LeftOutFrame>
 FindUnlikeFrames(const FrameThumbnails & thumbnails);
 
-/** Joins the unlike frames of several parts of the frames, as the planes of a mosaic; none if they are too many of
- * \a frames. */
+/** Joins the unlike frames of several parts of the frames, as the planes of a mosaic; none if they are more than
+ * \a largestShare of \a frames. */
 SensorNoise_EXPORT std::vector<LeftOutFrame>
-JoinUnlikeFrames(const std::vector<std::vector<LeftOutFrame>> & ofParts, std::size_t frames);
+JoinUnlikeFrames(const std::vector<std::vector<LeftOutFrame>> & ofParts,
+                 std::size_t                                    frames,
+                 double                                         largestShare = InMoments.largestLeftOutShare);
 
 /** The numbers of the frames. */
 SensorNoise_EXPORT std::vector<std::size_t>

@@ -112,6 +112,12 @@ struct RefinedConstants
    * is not known in every frame [1]. Chosen larger than the local changes of lamps that pulse under a rolling shutter.
    */
   double leastUnlikeUnderLocalLight{ 0.3 };
+  /** That difference where the scene moves by more than smallVibration [1]: twice the noise. Chosen empirically: the
+   * motion that is left in a frame adds less in the flatter half of a scene. */
+  double leastUnlikeUnderMotion{ 1.0 };
+  /** How often the groups of frames are found anew with their noise known. Chosen empirically: the third time changes
+   * nothing for three frames of four times the noise. */
+  int roundsOfFrameNoise{ 3 };
   /** Standard deviations of the other frames by which it must differ, too [1]: of 1000 normal frames none does. */
   double unlikeNoiseZ{ 6.0 };
   /** Standard errors of the slope within which a frame's level may make its noise what it is [1]. */

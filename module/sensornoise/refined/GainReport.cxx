@@ -46,12 +46,15 @@ FindContradiction(const RefinedResults & found, const GainEstimate & gain)
 {
   const std::string advice = ": the data are not raw (gamma, compression), or not linear";
   const bool        hasCodes = found.scene.summary.codes.clipHighDn.has_value();
-  if (found.noiseScatter > 0.0)
+  if (found.frameNoise.HasSeveralKinds())
   {
-    return "the noise of the frames differs from what their levels make of it, half of them by more than " +
-           PercentApart(found.noiseScatter, InRefined.leastUnlikeNoise) + " (expected at most " +
-           Percent(InRefined.leastUnlikeNoise) +
-           "): they are of several gains, or processed in several ways; measure the frames of each by themselves";
+    const FrameNoise & noise = found.frameNoise;
+    return "the noise variance of the frames differs from what their levels make of it, " +
+           (noise.scatter > 0.0 ? "half of them by more than " + PercentApart(noise.scatter, InRefined.leastUnlikeNoise)
+                                : "in groups (" + noise.Text(gain.line.gain) + "; the first frame is 0)") +
+           " (expected at most " + Percent(InRefined.leastUnlikeNoise) +
+           " apart): they are of several gains, or processed in several ways. Measure the frames of each kind by "
+           "themselves: --frames";
   }
   const double correction = gain.line.gain / std::max(1e-9, found.variance.line.gain);
   if (found.RestOfLight() > 0.0 &&
@@ -290,7 +293,7 @@ FillGain(Report &               report,
   const double error = gain.isWide ? std::sqrt(gain.covariance(0, 0)) : gain.StandardError();
   const bool   isTooLittle = error > InRefined.largestGainError * gain.scale ||
                            static_cast<double>(report.pixels.used) < InRefined.leastUsedShare * found.scene.usable;
-  if (isTooLittle && !(gain.nonlinearity > InRefined.largestNonlinearity))
+  if (isTooLittle && !found.frameNoise.HasSeveralKinds() && !(gain.nonlinearity > InRefined.largestNonlinearity))
   {
     FillTooLittle(report, found, gain);
     return false;

@@ -63,9 +63,9 @@ struct SlopeOfLine
   double               error;
 };
 
-/** The line of which the slope is better known: that of the frames, or that of the pixels. */
-SlopeOfLine
-BetterLine(const StaticVariance & variance)
+/** The lines that are determined, of the frames and of the pixels, first the one whose slope is better known. */
+std::vector<SlopeOfLine>
+LinesByError(const StaticVariance & variance)
 {
   const VarianceCurve & frames = variance.fromFrames;
   const auto   errorOf = [](const VarianceLine & line) { return std::sqrt(std::max(0.0, line.covariance(0, 0))); };
@@ -74,11 +74,23 @@ BetterLine(const StaticVariance & variance)
   const double chi2 = frames.ReducedChi2() / variance.sharedSquares;
   const double ofFrames =
     errorOf(frames.line) * std::sqrt(BeyondChance(chi2, static_cast<double>(frames.bins.size()) - 2.0));
-  return frames.line.isDetermined && ofFrames < ofPixels ? SlopeOfLine{ frames.line, ofFrames }
-                                                         : SlopeOfLine{ variance.line, ofPixels };
+  if (!frames.line.isDetermined)
+  {
+    return { { variance.line, ofPixels } };
+  }
+  return ofFrames < ofPixels ? std::vector<SlopeOfLine>{ { frames.line, ofFrames }, { variance.line, ofPixels } }
+                             : std::vector<SlopeOfLine>{ { variance.line, ofPixels }, { frames.line, ofFrames } };
 }
 
-/** The frames whose noise is not that of the others. */
+/** The line of which the slope is better known: that of the frames, or that of the pixels. */
+const VarianceLine &
+BetterLine(const StaticVariance & variance)
+{
+  return LinesByError(variance).front().line;
+}
+
+/** The frames whose noise is not that of the others. Frames of two gains that have two levels make a line of the frames
+ * that fits them all; the line of the pixels then contradicts it. */
 FrameNoise
 CompareFrames(const StaticVariance &  variance,
               const FrameComparison & by,
@@ -86,16 +98,28 @@ CompareFrames(const StaticVariance &  variance,
               const ParallelFor &     parallelFor)
 {
   const double vibration = std::max(by.scene.model.vibrationXPixels2, by.scene.model.vibrationYPixels2);
-  if (vibration > InRefined.smallVibration)
-  {
-    return {}; // what is left of the motion of a frame is not its noise
-  }
+  // What is left of the motion of a frame is not its noise, and levels of tiles are not known under local light.
+  const double least = std::max(vibration > InRefined.smallVibration ? InRefined.leastUnlikeUnderMotion : 0.0,
+                                by.isLightLocal ? InRefined.leastUnlikeUnderLocalLight : InRefined.leastUnlikeNoise);
   const std::vector<std::uint8_t> used = MaskOfUsed(variance.pixelUse);
   const FrameEnergies             flat(by.residuals, MaskOfFlatClasses(by.projected, used, parallelFor), parallelFor);
-  const auto [line, error] = BetterLine(variance);
-  return JudgeFrameNoise(NoiseOfFrames(flat, by.levels, line, error),
-                         std::sqrt(2.0 * sharedSquares / std::max(1.0, flat.Pixels().sum())),
-                         by.isLightLocal ? InRefined.leastUnlikeUnderLocalLight : InRefined.leastUnlikeNoise);
+  const double                    chance = std::sqrt(2.0 * sharedSquares / std::max(1.0, flat.Pixels().sum()));
+  FrameNoise                      noise;
+  for (const auto & [line, error] : LinesByError(variance))
+  {
+    noise = JudgeFrameNoise(NoiseOfFrames(flat, by.levels, line, error), chance, least);
+    for (int round = 0; round < InRefined.roundsOfFrameNoise && noise.groups.size() > 1; ++round)
+    {
+      const Eigen::VectorXd known = noise.OfFrames(flat.Frames());
+      noise = JudgeFrameNoise(NoiseOfFrames(flat, by.levels, line, error, known), chance, least);
+    }
+    noise.areFramesEqual = !by.AreUnequal();
+    if (noise.HasSeveralKinds())
+    {
+      break;
+    }
+  }
+  return noise;
 }
 } // namespace
 
@@ -137,7 +161,7 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
     compare();
     if (comparison.AreUnequal())
     {
-      residuals.SetUnequalFrames({ series->line.gamma, BetterLine(noise.variance).line.gain, offsetDn - zeroDn });
+      residuals.SetUnequalFrames({ series->line.gamma, BetterLine(noise.variance).gain, offsetDn - zeroDn });
     }
   };
   allowForFrames();

@@ -329,10 +329,18 @@ RefinedMethod<TPixel>::EndProjections()
   else
   {
     this->MeasureVariance();
-    if (this->StartAgainWithout(m_FrameNoise.unlike, FrameFault::OtherNoise))
+    const double most = m_FrameNoise.areFramesEqual ? InMoments.largestOtherGroup : InMoments.largestLeftOutShare;
+    if (this->StartAgainWithout(m_FrameNoise.unlike, FrameFault::OtherNoise, most))
     {
       this->ForgetFindings();
       return false;
+    }
+    const std::vector<std::size_t> counted = m_Distinct.Counted();
+    for (FrameGroup & group : m_FrameNoise.groups)
+    {
+      std::transform(group.frames.begin(), group.frames.end(), group.frames.begin(), [&](std::size_t place) {
+        return counted[place];
+      });
     }
     if (isLightLocal && !m_Projections->HasCoordinates())
     {
@@ -424,7 +432,7 @@ RefinedMethod<TPixel>::MakeReport()
                                               m_CorrectedVariance,
                                               BlackLevel(m_Settings, *m_Scene, m_Series),
                                               m_Correlation,
-                                              m_FrameNoise.scatter,
+                                              m_FrameNoise,
                                               m_ExposureFit ? &*m_ExposureFit : nullptr },
                                             m_ParallelFor);
   ReportLinearity(m_Report, m_ExposureFit);

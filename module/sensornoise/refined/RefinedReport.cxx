@@ -302,7 +302,7 @@ MakeRefinedReport(const RefinedResults & found, const ParallelFor & parallelFor)
     const SensorLines     lines = WithSharedNoise(LinesOf(found.variance), found.correlation, found.blackDn, codesDn2);
     const RefinedResults  sensor = { settings,       found.scene,       found.series,
                                      found.variance, found.polished,    found.correctedVariance,
-                                     found.blackDn,  found.correlation, found.noiseScatter,
+                                     found.blackDn,  found.correlation, found.frameNoise,
                                      found.exposures };
     FillSensor(report, sensor, EstimateGain(sensor, lines), codesDn2);
   }

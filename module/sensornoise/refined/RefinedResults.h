@@ -7,6 +7,7 @@
 #include "sensornoise/moments/ExposureFit.h"
 #include "sensornoise/refined/PolishedSeries.h"
 #include "sensornoise/refined/RefinedSettings.h"
+#include "sensornoise/refined/UnlikeNoise.h"
 #include "sensornoise/scene/StillScene.h"
 #include "sensornoise/series/Constants.h"
 
@@ -27,8 +28,7 @@ struct RefinedResults
   const std::vector<double> & correctedVariance; ///< NaN where it was not computed [DN^2]
   double                      blackDn{ 0.0 };    ///< see BlackLevel()
   NoiseCorrelation            correlation{};     ///< of the third pass's sample
-  /** How much the frames' noise differs from what their levels make of it, see FrameNoise [1]. */
-  double noiseScatter{ 0.0 };
+  FrameNoise                  frameNoise{};      ///< of the frames as given
   /** What the frames' exposures tell; null: none were given. */
   const ExposureFit * exposures{ nullptr };
 

@@ -3,12 +3,16 @@
 #include "sensornoise/refined/UnlikeNoise.h"
 
 #include "sensornoise/base/Quantiles.h"
+#include "sensornoise/base/Text.h"
 #include "sensornoise/refined/Constants.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <limits>
+#include <string>
 #include <utility>
 
 namespace sensornoise
@@ -27,9 +31,13 @@ MedianOf(std::vector<double> values)
   return values.empty() ? Unknown : QuantileOf(std::move(values), 0.5);
 }
 
-/** The squares of every frame over those that \a line makes of the levels, median over the tiles. */
+/** The squares of every frame over those that \a line makes of the levels, median over the tiles. \a noise is what is
+ * known of the frames: the projection leaves some of the noise of each in the others. */
 Eigen::VectorXd
-RatiosOfFrames(const FrameEnergies & energies, const TileLevels & levels, const VarianceLine & line)
+RatiosOfFrames(const FrameEnergies &   energies,
+               const TileLevels &      levels,
+               const VarianceLine &    line,
+               const Eigen::VectorXd & noise)
 {
   const Eigen::Index               frames = energies.Frames();
   std::vector<std::vector<double>> ofFrames(static_cast<std::size_t>(frames));
@@ -38,13 +46,13 @@ RatiosOfFrames(const FrameEnergies & energies, const TileLevels & levels, const 
     const Eigen::VectorXd level = levels.Of(energies.LightDn()(i)).head(frames);
     const double          least = InRefined.leastWeighedVariance * energies.SquaresDn2().row(i).mean();
     const Eigen::VectorXd variance = (line.intercept + line.gain * level.array()).max(least);
-    const Eigen::VectorXd expected = energies.ExpectedSquares(variance);
+    const Eigen::VectorXd expected = energies.ExpectedSquares(variance.cwiseProduct(noise));
     std::vector<double>   ratios;
     std::vector<double>   known;
     for (Eigen::Index t = 0; t < frames; ++t)
     {
       const bool isLeft = energies.LeftShare()(t) > InRefined.leastLeftShare && expected(t) > 0.0;
-      ratios.push_back(isLeft ? energies.SquaresDn2()(i, t) / expected(t) : Unknown);
+      ratios.push_back(isLeft ? energies.SquaresDn2()(i, t) * noise(t) / expected(t) : Unknown);
       if (isLeft)
       {
         known.push_back(ratios.back());
@@ -76,11 +84,126 @@ Turned(const VarianceLine & line, double byGain)
   turned.intercept -= byGain * line.pivotDn;
   return turned;
 }
+
+/** A frame and its noise. */
+using NoiseOfFrame = std::pair<double, std::size_t>;
+
+/** Median, and standard deviation by the median difference from it, of a part of \a sorted. */
+struct CentreOfNoise
+{
+  double median{ 1.0 };
+  double spread{ 0.0 };
+};
+
+template <typename TIterator>
+CentreOfNoise
+CentreOf(TIterator begin, TIterator end)
+{
+  std::vector<double> values;
+  std::transform(begin, end, std::back_inserter(values), [](const NoiseOfFrame & frame) { return frame.first; });
+  CentreOfNoise centre;
+  centre.median = MedianOf(values);
+  std::transform(
+    values.begin(), values.end(), values.begin(), [&](double value) { return std::abs(value - centre.median); });
+  centre.spread = MedianOf(values) / MedianOfNormal;
+  return centre;
+}
+
+/** The largest group of \a sorted: first the shortest interval that holds half of them, then all that are near it. */
+std::pair<std::size_t, std::size_t>
+FindLargestGroup(const std::vector<NoiseOfFrame> & sorted, double chance, double least)
+{
+  const std::size_t half = (sorted.size() + 1) / 2;
+  std::size_t       begin = 0;
+  for (std::size_t i = 1; i + half <= sorted.size(); ++i)
+  {
+    const auto length = [&](std::size_t first) { return sorted[first + half - 1].first - sorted[first].first; };
+    begin = length(i) < length(begin) ? i : begin;
+  }
+  std::size_t end = begin + half;
+  for (int round = 0; round < 2; ++round) // the spread of the densest half is too small
+  {
+    const auto          at = [&](std::size_t i) { return sorted.begin() + static_cast<std::ptrdiff_t>(i); };
+    const CentreOfNoise centre = CentreOf(at(begin), at(end));
+    const double        most =
+      std::max(least * centre.median, InRefined.unlikeNoiseZ * std::max(chance * centre.median, centre.spread));
+    const auto isBelow = [](const NoiseOfFrame & frame, double value) { return frame.first < value; };
+    begin = static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), centre.median - most, isBelow) -
+                                     sorted.begin());
+    end = static_cast<std::size_t>(
+      std::lower_bound(sorted.begin(), sorted.end(), std::nextafter(centre.median + most, 1e300), isBelow) -
+      sorted.begin());
+  }
+  return { begin, end };
+}
+
+FrameGroup
+GroupOf(const std::vector<NoiseOfFrame> & sorted, std::size_t begin, std::size_t end)
+{
+  FrameGroup          group;
+  std::vector<double> noise;
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    group.frames.push_back(sorted[i].second);
+    noise.push_back(sorted[i].first);
+  }
+  std::sort(group.frames.begin(), group.frames.end());
+  group.noise = MedianOf(noise);
+  return group;
+}
+
+/** Adds the frames begin ... end - 1 in groups, parted where the noise differs by as much as counts. */
+void
+AddGroups(const std::vector<NoiseOfFrame> & sorted,
+          std::size_t                       begin,
+          std::size_t                       end,
+          double                            least,
+          std::vector<FrameGroup> &         groups)
+{
+  for (std::size_t first = begin, i = begin + 1; i <= end && begin < end; ++i)
+  {
+    if (i == end || sorted[i].first - sorted[i - 1].first > least * sorted[i].first)
+    {
+      groups.push_back(GroupOf(sorted, first, i));
+      first = i;
+    }
+  }
+}
+
+/** "frames 0 to 29, 31, 33, ...": the first ones. */
+std::string
+TextOfFrames(const std::vector<std::size_t> & frames)
+{
+  constexpr std::size_t most = 4;
+  std::string           text = frames.size() == 1 ? "frame " : "frames ";
+  std::size_t           count = 0;
+  for (std::size_t i = 0; i < frames.size(); ++count)
+  {
+    std::size_t last = i;
+    while (last + 1 < frames.size() && frames[last + 1] == frames[last] + 1)
+    {
+      ++last;
+    }
+    text += count == 0 ? "" : ", ";
+    if (count == most)
+    {
+      return text + "... (" + std::to_string(frames.size()) + " in all)";
+    }
+    text += std::to_string(frames[i]) + (last > i ? " to " + std::to_string(frames[last]) : "");
+    i = last + 1;
+  }
+  return text;
+}
 } // namespace
 
 Eigen::VectorXd
-NoiseOfFrames(const FrameEnergies & energies, const TileLevels & levels, const VarianceLine & line, double slopeError)
+NoiseOfFrames(const FrameEnergies &   energies,
+              const TileLevels &      levels,
+              const VarianceLine &    line,
+              double                  slopeError,
+              const Eigen::VectorXd & known)
 {
+  const Eigen::VectorXd noise = known.size() > 0 ? known : Eigen::VectorXd::Ones(energies.Frames());
   if (energies.Tiles() < static_cast<Eigen::Index>(InRefined.leastTilesOfTransfer))
   {
     return {};
@@ -89,7 +212,7 @@ NoiseOfFrames(const FrameEnergies & energies, const TileLevels & levels, const V
   std::array<Eigen::VectorXd, 3> ratios;
   std::array<double, 3>          turns = { -slack, 0.0, slack };
   std::transform(turns.begin(), turns.end(), ratios.begin(), [&](double byGain) {
-    return RatiosOfFrames(energies, levels, Turned(line, byGain));
+    return RatiosOfFrames(energies, levels, Turned(line, byGain), noise);
   });
   Eigen::VectorXd nearest = ratios[1];
   for (Eigen::Index t = 0; t < nearest.size(); ++t)
@@ -104,30 +227,63 @@ NoiseOfFrames(const FrameEnergies & energies, const TileLevels & levels, const V
 FrameNoise
 JudgeFrameNoise(const Eigen::VectorXd & ofFrames, double chance, double least)
 {
-  std::vector<double> differences;
+  std::vector<NoiseOfFrame> sorted;
+  std::vector<double>       differences;
   for (Eigen::Index t = 0; t < ofFrames.size(); ++t)
   {
     if (std::isfinite(ofFrames(t)))
     {
+      sorted.emplace_back(ofFrames(t), static_cast<std::size_t>(t));
       differences.push_back(std::abs(ofFrames(t) - 1.0));
     }
   }
   FrameNoise found;
-  if (differences.empty())
+  if (sorted.empty())
   {
     return found;
   }
-  const double median = MedianOf(differences);
-  const double most = InRefined.unlikeNoiseZ * std::max(chance, median / MedianOfNormal);
-  for (Eigen::Index t = 0; t < ofFrames.size(); ++t)
+  std::sort(sorted.begin(), sorted.end());
+  const auto [begin, end] = FindLargestGroup(sorted, chance, least);
+  found.groups.push_back(GroupOf(sorted, begin, end));
+  AddGroups(sorted, 0, begin, least, found.groups);
+  AddGroups(sorted, end, sorted.size(), least, found.groups);
+  for (std::size_t k = 1; k < found.groups.size(); ++k)
   {
-    if (std::abs(ofFrames(t) - 1.0) > std::max(most, least)) // false where it is not known
+    found.unlike.insert(found.unlike.end(), found.groups[k].frames.begin(), found.groups[k].frames.end());
+  }
+  std::sort(found.unlike.begin(), found.unlike.end());
+  const double median = MedianOf(differences);
+  found.scatter = found.unlike.empty() && median > std::max(least, InRefined.unlikeNoiseZ * chance) ? median : 0.0;
+  return found;
+}
+
+Eigen::VectorXd
+FrameNoise::OfFrames(Eigen::Index frames) const
+{
+  Eigen::VectorXd noise = Eigen::VectorXd::Ones(frames);
+  for (const FrameGroup & group : groups)
+  {
+    for (const std::size_t t : group.frames)
     {
-      found.unlike.push_back(static_cast<std::size_t>(t));
+      noise(static_cast<Eigen::Index>(t)) = group.noise;
     }
   }
-  found.scatter = median > std::max(least, InRefined.unlikeNoiseZ * chance) ? median : 0.0;
-  return found;
+  return noise;
+}
+
+std::string
+FrameNoise::Text(double gain) const
+{
+  constexpr std::size_t most = 4;
+  std::string           text;
+  for (std::size_t k = 0; k < groups.size() && k <= most; ++k)
+  {
+    text += k == 0 ? "" : "; ";
+    text += k == most ? "..."
+                      : TextOfFrames(groups[k].frames) + ": " + Rounded(groups[k].noise) + " times, about " +
+                          Rounded(gain * groups[k].noise) + " DN/e-";
+  }
+  return text;
 }
 
 } // namespace sensornoise

@@ -144,6 +144,58 @@ VarianceLeft(Eigen::MatrixXd rest, const Eigen::MatrixXd & series, Eigen::Index 
   return std::max(0.0, rest.squaredNorm() - noise) / pixelFrames;
 }
 
+/** The eigenvalues of the products of the cells' series, the largest first, and the edge of those of noise (Marchenko
+ * and Pastur), by their median. */
+struct Eigenvalues
+{
+  std::vector<double> values;
+  double              noise{ 0.0 };
+  double              edge{ 0.0 };
+
+  Eigenvalues(const Eigen::VectorXd & rising, Eigen::Index freedom, Eigen::Index count)
+  {
+    const auto shorter = std::min(freedom, count);
+    const auto longer = static_cast<double>(std::max(freedom, count));
+    for (Eigen::Index i = 0; i < shorter; ++i)
+    {
+      values.push_back(rising(rising.size() - 1 - i));
+    }
+    const double ratio = static_cast<double>(shorter) / longer;
+    noise = QuantileOf(values, 0.5) / (MedianNoiseEigenvalue(ratio) * longer);
+    edge = InSeries.edgeOfNoise * noise * std::pow(std::sqrt(static_cast<double>(shorter)) + std::sqrt(longer), 2);
+  }
+};
+
+/** The products of the shorter side of \a rest with itself. */
+Eigen::MatrixXd
+GramOf(const Eigen::MatrixXd & rest)
+{
+  return rest.rows() > rest.cols() ? Eigen::MatrixXd(rest.transpose() * rest)
+                                   : Eigen::MatrixXd(rest * rest.transpose());
+}
+
+/** Whether several frames have a factor in common: one is above the edge also where no frame counts more than a typical
+ * one. The noise of a few frames of another gain is above it by its size alone, but they share nothing. */
+bool
+DoFramesShareFactors(Eigen::MatrixXd rest, Eigen::Index freedom)
+{
+  std::vector<double> sizes(static_cast<std::size_t>(rest.rows()));
+  for (Eigen::Index t = 0; t < rest.rows(); ++t)
+  {
+    const Eigen::VectorXd squares = rest.row(t).cwiseAbs2().transpose();
+    sizes[static_cast<std::size_t>(t)] =
+      std::sqrt(QuantileOf(std::vector<double>(squares.data(), squares.data() + squares.size()), 0.5));
+  }
+  const double typical = QuantileOf(sizes, 0.5);
+  for (Eigen::Index t = 0; t < rest.rows(); ++t)
+  {
+    rest.row(t) *= std::min(1.0, typical / std::max(1e-30, sizes[static_cast<std::size_t>(t)]));
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(GramOf(rest), Eigen::EigenvaluesOnly);
+  const Eigenvalues                                    found(eigen.eigenvalues(), freedom, rest.cols());
+  return found.values.front() > found.edge;
+}
+
 /** The factors of \a rest above the noise's edge, at most \a most; \a freedom is its number of free frames, \a
  * pixelFrames that of frames times the pixels of all cells. */
 LocalIllumination
@@ -153,33 +205,28 @@ FindFactors(const Eigen::MatrixXd & rest,
             std::size_t             most,
             double                  pixelFrames)
 {
-  const Eigen::Index    frames = rest.rows();
-  const Eigen::Index    count = rest.cols();
-  const bool            isTall = frames > count;
-  const Eigen::MatrixXd gram =
-    isTall ? Eigen::MatrixXd(rest.transpose() * rest) : Eigen::MatrixXd(rest * rest.transpose());
+  const Eigen::Index                                   frames = rest.rows();
+  const bool                                           isTall = frames > rest.cols();
+  const Eigen::MatrixXd                                gram = GramOf(rest);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
-  const auto                                           shorter = std::min(freedom, count);
-  const auto                                           longer = static_cast<double>(std::max(freedom, count));
-  std::vector<double>                                  values;
-  for (Eigen::Index i = 0; i < shorter; ++i)
-  {
-    values.push_back(eigen.eigenvalues()(gram.rows() - 1 - i));
-  }
-  const double ratio = static_cast<double>(shorter) / longer;
-  const double noise = QuantileOf(values, 0.5) / (MedianNoiseEigenvalue(ratio) * longer);
-  const double edge =
-    InSeries.edgeOfNoise * noise * std::pow(std::sqrt(static_cast<double>(shorter)) + std::sqrt(longer), 2);
+  const auto [values, noise, edge] = Eigenvalues(eigen.eigenvalues(), freedom, rest.cols());
 
   LocalIllumination found;
   found.excess = values.front() / edge;
   Eigen::Index factors = 0;
-  while (factors < shorter && factors < static_cast<Eigen::Index>(most) &&
+  while (factors < static_cast<Eigen::Index>(std::min(values.size(), most)) &&
          values[static_cast<std::size_t>(factors)] > edge)
   {
     ++factors;
   }
-  NoteRest(found, values, static_cast<std::size_t>(factors), edge, noise, pixelFrames);
+  if (values.front() > edge && !DoFramesShareFactors(rest, freedom))
+  {
+    factors = 0;
+  }
+  else
+  {
+    NoteRest(found, values, static_cast<std::size_t>(factors), edge, noise, pixelFrames);
+  }
   found.series.resize(frames, factors);
   for (Eigen::Index j = 0; j < factors; ++j)
   {
