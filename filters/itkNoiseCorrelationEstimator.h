@@ -43,8 +43,9 @@ namespace itk
  * find it. Output: a decorated sensornoise::CorrelationEstimate:
  *
  * - the record of the report (sensornoise::NoiseCorrelationRecord): the kind of processing (`white`, `crosstalk`,
- *   `filtered`, `temporal`, `brighter-fatter`, `not-linear`, `not-measured` where there are fewer than 1024 pixels in
- *   4 tiles), the correlation coefficients by lag [1], the noise of whole rows and columns [DN], all with errors;
+ *   `filtered`, `temporal`, `enlarged`, `brighter-fatter`, `not-linear`, `not-measured` where there are fewer than
+ *   1024 pixels in 4 tiles), the correlation coefficients by lag [1], the noise of whole rows and columns [DN], all
+ * with errors;
  * - the sum over all lags of the covariances, relative to the variance [1]. A camera that smooths its frames lowers
  *   the variance, and a photon transfer of variance against mean then gives too small a gain; variance, or gain, times
  *   this sum is what it was before. For any linear processing whose weights sum to 1. Of all pixels, and for quarters

@@ -16,6 +16,7 @@ import situations_gains
 import situations_good
 import situations_light
 import situations_parts
+import situations_shared
 import situations_values
 from acceptance_bursts import estimate
 from acceptance_lines import stream_of
@@ -31,6 +32,7 @@ MODULES = (
     situations_good,
     situations_light,
     situations_parts,
+    situations_shared,
     situations_values,
 )
 # The compared quantities: member of Burst, and path in the report.

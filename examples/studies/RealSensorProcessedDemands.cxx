@@ -75,7 +75,7 @@ AsFromDistinctFrames()
 }
 
 Demands
-DemandsOnNotLinear()
+DemandsOnNoGain()
 {
   return { { "refused, or no gain",
              [](const Setting &, const Outcome & outcome) -> Verdict { return IsWithoutGain(outcome); },
@@ -108,7 +108,7 @@ MakeProcessedDemands()
                              LineNoiseWithin(JudgedQuantity::ColumnNoise) }) },
            { "smoothed", DemandsOnGain(0.02, "2 %", isNamed) },
            { "resampled", DemandsOnGain(0.02, "2 %", isNamed) },
-           { "binned", DemandsOnGain(0.02, "2 %", isNamed) },
+           { "binned", DemandsOnNoGain() },
            { "coupling", DemandsOnGain(0.02, "2 %", isNamed) },
            { "blur", DemandsOnGain(0.02, "2 %", isNamed) },
            { "temporal", { WithinOrNone(0.05, "5 %"), Coverage(JudgedQuantity::Gain), KindNamed(MostStacks) } },
@@ -117,9 +117,9 @@ MakeProcessedDemands()
                0.02, "2 %", { Warned(WarningCode::RepeatedFrames), AsFromDistinctFrames(), KindNamed(MostStacks) }) },
            { "companded", DemandsOnGain(0.01, "1 %", { Warned(WarningCode::Companded) }) },
            { "brighter-fatter", DemandsOnGain(0.01, "1 %", isNamed) },
-           { "defects", DemandsOnNotLinear() },
-           { "median", DemandsOnNotLinear() },
-           { "blocks", DemandsOnNotLinear() } };
+           { "defects", DemandsOnNoGain() },
+           { "median", DemandsOnNoGain() },
+           { "blocks", DemandsOnNoGain() } };
 }
 } // namespace
 

@@ -15,6 +15,7 @@ using Kinds = std::vector<std::string>;
 
 const Kinds White{ "white" };
 const Kinds Filtered{ "filtered" };
+const Kinds Enlarged{ "enlarged" };
 const Kinds NotWhite{ "not-linear", "filtered" };
 
 /** A setting for each of \a strengths, which \a apply puts into the flaws. */
@@ -91,7 +92,7 @@ MakeBinnedSettings()
   Settings all;
   for (const Interpolation interpolation : { Interpolation::Nearest, Interpolation::Linear })
   {
-    AppendEverywhere(all, std::string("2 x 2, ") + NameOf(interpolation), Filtered, [=](RealSensorSetting & setting) {
+    AppendEverywhere(all, std::string("2 x 2, ") + NameOf(interpolation), Enlarged, [=](RealSensorSetting & setting) {
       setting.settings.flaws.binning = { 2, interpolation };
     });
   }

@@ -45,7 +45,7 @@ FitOf(const std::array<FittedShape, NumberOfShapes> & fits, ShapeOfShared shape)
 TEST(SensorNoiseSharedShapes, AreRelativeToTheVariance)
 {
   constexpr double codesDn2 = 2.0;
-  const auto       shapes = PredictShapes(OwnSums(), codesDn2);
+  const auto       shapes = ShapesOfShared(OwnSums(), 0.0, codesDn2).InBins();
   for (std::size_t b = 0; b < LightDn.size(); ++b)
   {
     const double z = LightDn[b];
@@ -62,18 +62,40 @@ TEST(SensorNoiseSharedShapes, BinWithoutPairsSharesNothing)
 {
   LagSums own = OwnSums();
   own.bins[2] = {};
-  EXPECT_EQ(PredictShapes(own, 1.0).row(2).norm(), 0.0);
+  EXPECT_EQ(ShapesOfShared(own, 0.0, 1.0).InBins().row(2).norm(), 0.0);
+}
+
+TEST(SensorNoiseSharedShapes, PartsOfTheNoiseWithoutLightMayComeAfterAFilter)
+{
+  constexpr double     codesDn2 = 2.0;
+  const ShapesOfShared shapes(OwnSums(), 0.0, codesDn2);
+  for (const std::size_t part : { std::size_t{ 1 }, PartsAfterFilter })
+  {
+    const auto   k = static_cast<std::size_t>(ShapeOfShared::FirstPart) + part - 1;
+    const double late = (20.0 - codesDn2) * static_cast<double>(part) / PartsAfterFilter;
+    EXPECT_EQ(shapes.UnitOf(k).ofVariance, 1.0);
+    EXPECT_NEAR(shapes.UnitOf(k).constantDn2, -late, 1e-12);
+    for (std::size_t b = 0; b < LightDn.size(); ++b)
+    {
+      const double v = VarianceAt(LightDn[b]);
+      EXPECT_NEAR(
+        shapes.InBins()(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(k)), (v - codesDn2 - late) / v, 1e-12);
+    }
+  }
+  // The least light is that of the darkest pixels where black is not known.
+  const auto last = NumberOfShapes - 1;
+  EXPECT_NEAR(ShapesOfShared(OwnSums(), 6.0, codesDn2).UnitOf(last).constantDn2, -(21.0 + 2.0 - codesDn2), 1e-12);
 }
 
 TEST(SensorNoiseSharedShapes, EachIsRecoveredExactlyAndNoOtherFits)
 {
-  const auto shapes = PredictShapes(OwnSums(), 2.0);
-  for (Eigen::Index k = 0; k < shapes.cols(); ++k)
+  const auto shapes = ShapesOfShared(OwnSums(), 0.0, 2.0).InBins();
+  for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(ShapeOfShared::FirstPart); ++k)
   {
     const double          coefficient = 0.1 / shapes.col(k).maxCoeff();
     const Eigen::VectorXd shared = coefficient * shapes.col(k);
     const auto            fits = FitShapes(shapes, shared, Errors);
-    for (std::size_t other = 0; other < fits.size(); ++other)
+    for (std::size_t other = 0; other < static_cast<std::size_t>(ShapeOfShared::FirstPart); ++other)
     {
       if (static_cast<Eigen::Index>(other) == k)
       {
@@ -90,7 +112,7 @@ TEST(SensorNoiseSharedShapes, EachIsRecoveredExactlyAndNoOtherFits)
 
 TEST(SensorNoiseSharedShapes, ChiSquareIsThatOfTheWeightedResiduals)
 {
-  const auto            shapes = PredictShapes(OwnSums(), 2.0);
+  const auto            shapes = ShapesOfShared(OwnSums(), 0.0, 2.0).InBins();
   const Eigen::VectorXd shared = Eigen::Vector4d(0.02, 0.05, 0.01, 0.04);
   const auto            fits = FitShapes(shapes, shared, Errors);
   for (Eigen::Index k = 0; k < shapes.cols(); ++k)
@@ -104,7 +126,7 @@ TEST(SensorNoiseSharedShapes, ChiSquareIsThatOfTheWeightedResiduals)
 
 TEST(SensorNoiseSharedShapes, BinsWithoutErrorAreLeftOut)
 {
-  const auto      shapes = PredictShapes(OwnSums(), 0.0);
+  const auto      shapes = ShapesOfShared(OwnSums(), 0.0, 0.0).InBins();
   Eigen::VectorXd shared = 0.03 * shapes.col(0);
   Eigen::VectorXd errors = Errors;
   shared(1) = 7.0;

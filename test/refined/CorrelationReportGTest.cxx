@@ -99,6 +99,31 @@ TEST(SensorNoiseCorrelationReport, EachKindIsSaidInItsWords)
   EXPECT_TRUE(Has(bent, "ask it for raw frames")) << bent;
 }
 
+TEST(SensorNoiseCorrelationReport, NoiseOfAFilterBeforeTheReadOutIsSaidToBeSo)
+{
+  NoiseCorrelation correlation = CorrelationOf(NoiseKind::Filtered);
+  EXPECT_FALSE(Has(WarningOf(correlation), "before the read-out"));
+  correlation.shapes.back().probability = 0.6;
+  EXPECT_TRUE(Has(WarningOf(correlation), "spread before the read-out")) << WarningOf(correlation);
+  EXPECT_TRUE(Has(WarningOf(correlation), "(scintillator, intensifier), the gain is that of an event"));
+}
+
+TEST(SensorNoiseCorrelationReport, EnlargedFramesAreNamedWithThePeriodAndTheLimitsOfTheGain)
+{
+  NoiseCorrelation correlation = CorrelationOf(NoiseKind::Enlarged);
+  correlation.enlargement = EnlargementTrace{ 2, false, false, 0.4, 0.23 };
+  Report report;
+  report.gain = Quantity::Without(EstimateStatus::NotIdentifiable, Interval{ 0.25, 3.25 });
+  WarnOfCorrelation(report, correlation);
+  ASSERT_EQ(report.warnings.size(), 1U);
+  EXPECT_EQ(report.warnings[0].code, WarningCode::FramesEnlarged);
+  const std::string & text = report.warnings[0].message;
+  EXPECT_EQ(text.rfind("what pixels 2 rows apart share of their noise changes with their place by 23 % of it", 0), 0U)
+    << text;
+  EXPECT_TRUE(Has(text, "every 2.5 pixels")) << text;
+  EXPECT_TRUE(Has(text, "between 0.25 and 3.25 DN/e-")) << text;
+}
+
 TEST(SensorNoiseCorrelationReport, WithoutAGainNothingIsSaidOfIt)
 {
   const std::string warning = WarningOf(CorrelationOf(NoiseKind::Filtered), false);

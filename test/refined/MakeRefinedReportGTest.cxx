@@ -112,6 +112,28 @@ TEST(SensorNoiseMakeRefinedReport, NoiseThatIsNotLinearLeavesTheLineOfTheFrames)
   EXPECT_DOUBLE_EQ(ValueOf(report.totalIntercept), -36.0);
 }
 
+TEST(SensorNoiseMakeRefinedReport, EnlargedFramesLeaveLimitsOfTheGainAndTheLineOfTheFrames)
+{
+  HandMadeResults results;
+  results.correlation.kind = NoiseKind::Enlarged;
+  results.correlation.enlargement = EnlargementTrace{ 1, true, false, 0.5, 0.15 };
+  SharedShape & shape = results.correlation.Shape(ShapeOfShared::Variance);
+  shape = { { 3.0, 0.0 }, 1.0, 1.0, 0.0, 0.0, 0.0 };
+  const Report report = MakeRefinedReport(results.Get());
+  EXPECT_EQ(report.gain.status, EstimateStatus::NotIdentifiable);
+  ASSERT_TRUE(report.gain.bracket);
+  // As for white noise, and four times that, each with two of its standard errors.
+  EXPECT_NEAR(*report.gain.bracket->low, 1.0, 0.03);
+  EXPECT_NEAR(*report.gain.bracket->high, 4.0, 0.1);
+  EXPECT_EQ(report.readNoise.status, EstimateStatus::NotIdentifiable);
+  EXPECT_EQ(report.intercept.status, EstimateStatus::NotIdentifiable);
+  EXPECT_FALSE(report.covariance);
+  EXPECT_DOUBLE_EQ(ValueOf(report.offset), 100.0);
+  EXPECT_DOUBLE_EQ(ValueOf(report.varianceSlope), 1.0);
+  EXPECT_TRUE(HasWarning(report, WarningCode::FramesEnlarged));
+  EXPECT_FALSE(HasWarning(report, WarningCode::ReadNoiseUpperLimit));
+}
+
 TEST(SensorNoiseMakeRefinedReport, RefusalKeepsWhatDarkFramesTell)
 {
   HandMadeResults results;

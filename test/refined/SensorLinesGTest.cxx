@@ -69,12 +69,22 @@ VarianceOf(const VarianceCurve & curve, std::size_t b)
   return curve.line.intercept + curve.line.gain * curve.LevelOf(bin) + bin.excess / bin.weight;
 }
 
+void
+SetShape(NoiseCorrelation & correlation, ShapeOfShared which, const MeasuredNumber & coefficient, double probability)
+{
+  SharedShape & shape = correlation.Shape(which);
+  shape = { coefficient, probability };
+  shape.ofVariance = which == ShapeOfShared::Variance ? 1.0 : 0.0;
+  shape.ofLight = which == ShapeOfShared::Light ? 1.0 : 0.0;
+  shape.ofSquare = which == ShapeOfShared::Square ? 1.0 : 0.0;
+}
+
 /** What is shared, all of one shape. */
 NoiseCorrelation
-Sharing(SharedShape NoiseCorrelation::* shape, double coefficient, double standardError = 0.0)
+Sharing(ShapeOfShared shape, double coefficient, double standardError = 0.0)
 {
   NoiseCorrelation correlation;
-  correlation.*shape = { { coefficient, standardError }, 1.0 };
+  SetShape(correlation, shape, { coefficient, standardError }, 1.0);
   return correlation;
 }
 } // namespace
@@ -101,7 +111,7 @@ TEST(SensorNoiseSensorLines, AFilterScalesTheVarianceWithoutTheCodesNoise)
 {
   constexpr double  shared = 1.5;
   const SensorLines lines = StraightLines();
-  const auto        correlation = Sharing(&NoiseCorrelation::ofVariance, shared);
+  const auto        correlation = Sharing(ShapeOfShared::Variance, shared);
   const SensorLines sensor = WithSharedNoise(lines, correlation, BlackDn, CodesDn2);
   constexpr double  factor = 1.0 + shared;
   EXPECT_DOUBLE_EQ(FilterFactor(correlation), factor);
@@ -121,7 +131,7 @@ TEST(SensorNoiseSensorLines, AFilterScalesTheVarianceWithoutTheCodesNoise)
 
 TEST(SensorNoiseSensorLines, FramesThatAreMixedScaleItToo)
 {
-  auto correlation = Sharing(&NoiseCorrelation::ofVariance, 0.5);
+  auto correlation = Sharing(ShapeOfShared::Variance, 0.5);
   correlation.timeFactor = { 3.0, 0.0 };
   EXPECT_DOUBLE_EQ(FilterFactor(correlation), 4.5);
   const SensorLines sensor = WithSharedNoise(StraightLines(), correlation, BlackDn, CodesDn2);
@@ -133,7 +143,7 @@ TEST(SensorNoiseSensorLines, CoupledChargeAddsASlopeAboutBlack)
 {
   constexpr double  shared = 0.05;
   const SensorLines lines = StraightLines();
-  const SensorLines sensor = WithSharedNoise(lines, Sharing(&NoiseCorrelation::ofLight, shared), BlackDn, CodesDn2);
+  const SensorLines sensor = WithSharedNoise(lines, Sharing(ShapeOfShared::Light, shared), BlackDn, CodesDn2);
   EXPECT_NEAR(sensor.all.gain, Gain + shared, 1e-12);
   EXPECT_NEAR(
     sensor.all.intercept + sensor.all.gain * BlackDn, InterceptDn2 + Gain * BlackDn, 1e-9); // read noise stays
@@ -153,7 +163,7 @@ TEST(SensorNoiseSensorLines, ChargeThatRepelsChargeLeavesALineBehind)
     const double z = level - BlackDn;
     return 30.0 + 0.4 * z - shared * z * z;
   });
-  const SensorLines sensor = WithSharedNoise(lines, Sharing(&NoiseCorrelation::ofSquare, shared), BlackDn, CodesDn2);
+  const SensorLines sensor = WithSharedNoise(lines, Sharing(ShapeOfShared::Square, shared), BlackDn, CodesDn2);
   for (std::size_t b = 0; b < VarianceCurve::Bins; ++b)
   {
     const double z = lines.curve.LevelOf(lines.curve.bins[b]) - BlackDn;
@@ -182,7 +192,7 @@ TEST(SensorNoiseSensorLines, TheLineThroughALossIsMadeTheSensorsOwn)
   const Eigen::Vector2d fitted = square.inverse() * product;
   lines.all.gain = fitted(0);
   lines.all.intercept = fitted(1);
-  const SensorLines sensor = WithSharedNoise(lines, Sharing(&NoiseCorrelation::ofSquare, shared), BlackDn, CodesDn2);
+  const SensorLines sensor = WithSharedNoise(lines, Sharing(ShapeOfShared::Square, shared), BlackDn, CodesDn2);
   EXPECT_NEAR(sensor.all.gain, 0.4, 1e-9);
   EXPECT_NEAR(sensor.all.intercept + sensor.all.gain * BlackDn, 30.0, 1e-6);
 }
@@ -191,22 +201,35 @@ TEST(SensorNoiseSensorLines, WhatIsNotKnownOfTheSharingIsAnErrorOfGainAndInterce
 {
   const SensorLines lines = StraightLines();
   const auto        filtered =
-    WithSharedNoise(lines, Sharing(&NoiseCorrelation::ofVariance, 1.5, 0.02), BlackDn, CodesDn2).errorOfShared;
+    WithSharedNoise(lines, Sharing(ShapeOfShared::Variance, 1.5, 0.02), BlackDn, CodesDn2).errorOfShared;
   EXPECT_NEAR(std::sqrt(filtered(0, 0)), 0.02 * Gain, 1e-12);
   EXPECT_NEAR(std::sqrt(filtered(1, 1)), 0.02 * (InterceptDn2 - CodesDn2), 1e-12);
   EXPECT_NEAR(filtered(0, 1), 4e-4 * Gain * (InterceptDn2 - CodesDn2), 1e-12);
   const auto coupled =
-    WithSharedNoise(lines, Sharing(&NoiseCorrelation::ofLight, 0.05, 0.002), BlackDn, CodesDn2).errorOfShared;
+    WithSharedNoise(lines, Sharing(ShapeOfShared::Light, 0.05, 0.002), BlackDn, CodesDn2).errorOfShared;
   EXPECT_NEAR(std::sqrt(coupled(0, 0)), 0.002, 1e-12);
   EXPECT_NEAR(coupled(0, 1), -4e-6 * BlackDn, 1e-12);
 
   // Two shapes, as likely: the gain may be either.
   NoiseCorrelation both;
-  both.ofVariance = { { 0.2, 0.0 }, 0.5 };
-  both.ofLight = { { 0.06, 0.0 }, 0.5 };
+  SetShape(both, ShapeOfShared::Variance, { 0.2, 0.0 }, 0.5);
+  SetShape(both, ShapeOfShared::Light, { 0.06, 0.0 }, 0.5);
   const SensorLines sensor = WithSharedNoise(lines, both, BlackDn, CodesDn2);
   EXPECT_NEAR(sensor.all.gain, Gain + 0.5 * (0.2 * Gain + 0.06), 1e-12);
   EXPECT_NEAR(std::sqrt(sensor.errorOfShared(0, 0)), 0.5 * (0.2 * Gain - 0.06), 1e-12);
+
+  // Half of the dark noise lies behind the filter, or all of it: the same gain, other intercepts.
+  NoiseCorrelation part;
+  SetShape(part, ShapeOfShared::Variance, { 1.0, 0.0 }, 0.5);
+  const double darkDn2 = InterceptDn2 + Gain * BlackDn - CodesDn2;
+  part.Shape(ShapeOfShared::FirstPart) = { { 1.0, 0.0 }, 0.5, 1.0, 0.0, 0.0, -0.5 * darkDn2 };
+  const SensorLines between = WithSharedNoise(lines, part, BlackDn, CodesDn2);
+  EXPECT_NEAR(between.all.gain, 2.0 * Gain, 1e-12);
+  EXPECT_NEAR(between.all.At(BlackDn), 1.75 * darkDn2 + CodesDn2, 1e-9);
+  const Eigen::Vector2d atBlack(BlackDn, 1.0);
+  EXPECT_NEAR(std::sqrt(atBlack.dot(between.errorOfShared * atBlack)), 0.25 * darkDn2, 1e-9);
+  EXPECT_NEAR(VarianceOfSensor(darkDn2 + CodesDn2, part, CodesDn2), between.all.At(BlackDn), 1e-9);
+  EXPECT_NEAR(SpreadOfShapes(darkDn2 + CodesDn2, part, CodesDn2), 0.25 * darkDn2, 1e-9);
 
   NoiseCorrelation mixed;
   mixed.timeFactor = { 3.0, 0.06 };
@@ -219,7 +242,7 @@ TEST(SensorNoiseSensorLines, WhatIsNotKnownOfTheSharingIsAnErrorOfGainAndInterce
 
 TEST(SensorNoiseSensorLines, NoiseOfWholeRowsIsNotThePixelsOwn)
 {
-  NoiseCorrelation correlation = Sharing(&NoiseCorrelation::ofVariance, 1.5);
+  NoiseCorrelation correlation = Sharing(ShapeOfShared::Variance, 1.5);
   correlation.rowsDn2 = { 4.0, 0.1 };
   correlation.columnsDn2 = { 0.3, 0.1 }; // not seen
   const SensorLines lines = StraightLines();

@@ -55,6 +55,7 @@ enum class WarningCode : std::uint8_t
   CodesTooCoarse,
   IntensityRangeTooSmall,
   NoiseNotLinear,
+  FramesEnlarged,
   VarianceNotAffine,
   Contradicted,
   GainNotUniform,
@@ -88,7 +89,7 @@ struct WarningKind
 
 /** All that a report can warn of, in the order of WarningCode. README and Python show this table; a warning's own
  * message has the numbers. */
-inline constexpr std::array<WarningKind, 48> WarningTable{ {
+inline constexpr std::array<WarningKind, 49> WarningTable{ {
   { WarningCode::FewFrames, "few-frames", Severity::Warning, "Fewer than 20 different frames: indicative only." },
   { WarningCode::Mosaic,
     "mosaic",
@@ -283,6 +284,12 @@ inline constexpr std::array<WarningKind, 48> WarningTable{ {
     "The noise is not as a linear filter leaves it: the camera corrects defects, takes medians or compresses. Ask it "
     "for "
     "raw frames." },
+  { WarningCode::FramesEnlarged,
+    "frames-enlarged",
+    Severity::Error,
+    "The frames were enlarged or a mosaic was interpolated: they have fewer samples than pixels. Give the frames as "
+    "the "
+    "camera read them." },
   { WarningCode::VarianceNotAffine,
     "variance-not-affine",
     Severity::Error,

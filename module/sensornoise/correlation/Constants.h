@@ -89,6 +89,9 @@ struct CorrelationConstants
   double farZ{ 3.0 };
   /** Evidence that a constant needs, as a difference of chi-squares [1]: one in e. Set by hand. */
   double evidenceOfConstant{ 2.0 };
+  /** Evidence that each part of the noise after a filter needs, as a difference of chi-squares [1]: 2 ln 16, so that
+   * all together are as probable as none. */
+  double evidenceOfPart{ 5.545 };
   /** Chi-square that a bend of the variance may count at most [1]: the response may bend, too. Set by hand. */
   double mostEvidenceOfBend{ 20.0 };
   /** Part of that chi-square that may be left of a bend that charge makes [1]. Set by hand. */
@@ -106,6 +109,13 @@ struct CorrelationConstants
   double largestSpreadOfPhases{ 0.003 };
   /** Standard deviations of chance by which the sum of these squared differences is cut [1]. Set by hand. */
   double phaseZ{ 4.0 };
+  /** Frequency from which a coefficient's oscillation is looked for [cycles/pixel]: enlargements up to 16 times. */
+  double leastCyclesPerPixel{ 1.0 / 16.0 };
+  /** Amplitude that only fewer samples than pixels leave [1]. Set by hand: enlarging by 1.25 to 4 times, doubling and
+   * the interpolation of a mosaic make 0.16 to 0.64, filters of a texture, a chart or a ramp at most 0.008. */
+  double leastOscillation{ 0.03 };
+  /** Of its square to the mean of those at other frequencies [1]: chance exceeds it in one of 10^6 spectra of 10^5. */
+  double oscillationRatio{ 25.0 };
   /** Excess kurtosis that no linear filter leaves [1], and the standard errors by which one must exceed it [1]. Set by
    * hand: the correction of defects at 3 standard deviations makes -0.06 to -0.08 of the noise and 0.1 to 0.25 of four
    * neighbours in turn, white and filtered noise 0.01. */

@@ -125,8 +125,7 @@ SeriesOf(const CorrelationSettings & settings, const std::vector<std::size_t> & 
 Quantity
 SumOverLags(const NoiseCorrelation & correlation, const MeasuredNumber & space)
 {
-  const bool isKnown = correlation.kind != NoiseKind::NotMeasured && correlation.kind != NoiseKind::NotLinear;
-  if (!isKnown)
+  if (correlation.kind == NoiseKind::NotMeasured || correlation.kind == NoiseKind::NotLinear)
   {
     return Quantity::Without(EstimateStatus::Failed);
   }
@@ -228,9 +227,11 @@ EstimateCorrelation(NoiseSample                       sample,
   const Eigen::MatrixXd means = settings.frameMeans ? FrameMeansOf(sample, mean, taken, blackDn, parallelFor)
                                                     : Eigen::MatrixXd(static_cast<Eigen::Index>(distinct.size()), 0);
   const double          codesDn2 = settings.quantisationStepDn * settings.quantisationStepDn / 12.0;
-  NoiseResiduals        residuals(
-    std::move(sample), SeriesOf(settings, distinct, means), { mean, taken, blackDn }, parallelFor);
-  NoiseCorrelation correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
+  NoiseResiduals        residuals(std::move(sample),
+                           SeriesOf(settings, distinct, means),
+                                  { mean, taken, blackDn, !std::isnan(settings.offsetDn) },
+                           parallelFor);
+  NoiseCorrelation      correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
   MeasureSettledFrames(correlation, residuals, codesDn2, parallelFor);
 
   estimate.framesUsed = residuals.GetTiles().frames;

@@ -41,6 +41,15 @@ RecordOf(const NoiseCorrelation & correlation)
   };
   std::transform(correlation.space.begin(), correlation.space.end(), std::back_inserter(record.space), lagOf);
   std::transform(correlation.time.begin(), correlation.time.end(), std::back_inserter(record.time), lagOf);
+  for (const CovarianceLine & line : correlation.covarianceLines)
+  {
+    record.covarianceLines.push_back({ line.lag.x,
+                                       line.lag.y,
+                                       line.slopeDn.value,
+                                       line.slopeDn.standardError,
+                                       line.interceptDn2.value,
+                                       line.interceptDn2.standardError });
+  }
   record.rowNoise = LineNoise(correlation.rowsDn2);
   record.columnNoise = LineNoise(correlation.columnsDn2);
   record.excessKurtosis =

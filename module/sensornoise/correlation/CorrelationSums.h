@@ -13,6 +13,7 @@
 #include "sensornoise/correlation/NoiseKurtosis.h"
 #include "sensornoise/correlation/NoiseResiduals.h"
 #include "sensornoise/correlation/SharedLight.h"
+#include "sensornoise/correlation/SharedShapes.h"
 
 #include <cstddef>
 #include <vector>
@@ -102,6 +103,12 @@ public:
    * the light [1]. */
   Eigen::VectorXd
   SharedInBins(const TileSums & sums, const Lags & lags) const;
+  /** What they are compared with; \a unfilteredDn2 as in ShapesOfShared. */
+  ShapesOfShared
+  ShapesOf(const TileSums & sums, double unfilteredDn2) const
+  {
+    return { sums.lags[0], m_Residuals.GetLeastLight(), unfilteredDn2 };
+  }
   /** The standard errors of SharedInBins() of all tiles. */
   Eigen::VectorXd
   ErrorsInBins(const Lags & lags) const;

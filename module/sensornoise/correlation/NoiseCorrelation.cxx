@@ -7,6 +7,7 @@
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/correlation/Constants.h"
 #include "sensornoise/correlation/CorrelationSums.h"
+#include "sensornoise/correlation/CovarianceLines.h"
 #include "sensornoise/correlation/SpaceCorrelation.h"
 #include "sensornoise/correlation/TemporalMixing.h"
 #include "sensornoise/correlation/TimeCorrelation.h"
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <set>
 #include <utility>
 #include <vector>
@@ -179,6 +181,8 @@ NameOf(NoiseKind kind)
       return "filtered";
     case NoiseKind::Temporal:
       return "temporal";
+    case NoiseKind::Enlarged:
+      return "enlarged";
     case NoiseKind::BrighterFatter:
       return "brighter-fatter";
     case NoiseKind::NotLinear:
@@ -208,6 +212,14 @@ NoiseCorrelation::LineNoise() const
     }
   }
   return sum;
+}
+
+double
+NoiseCorrelation::ProbabilityOfLateNoise() const
+{
+  const auto half = shapes.begin() + static_cast<std::size_t>(ShapeOfShared::FirstPart) + PartsAfterFilter / 2 - 1;
+  return std::accumulate(
+    half, shapes.end(), 0.0, [](double sum, const SharedShape & shape) { return sum + shape.probability; });
 }
 
 double
@@ -245,6 +257,10 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const
   {
     SumOverSpace(sums, found);
   }
+  if (inSpace)
+  {
+    found.covarianceLines = FitCovarianceLines(sums, sums.Ring(1, found.reach));
+  }
   if (inTime || inSpace)
   {
     FindCoefficients(sums, found); // at all lags that were added
@@ -256,6 +272,11 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const
   if (!IsLinear(sums, found))
   {
     found.kind = NoiseKind::NotLinear;
+  }
+  if (inSpace && found.kind != NoiseKind::NotLinear)
+  {
+    found.enlargement = FindEnlargementTrace(residuals, parallelFor);
+    found.kind = found.enlargement ? NoiseKind::Enlarged : found.kind;
   }
   return found;
 }

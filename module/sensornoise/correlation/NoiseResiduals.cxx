@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/correlation/NoiseResiduals.h"
 
+#include "sensornoise/base/Constants.h"
 #include "sensornoise/base/WideVectors.h"
 #include "sensornoise/correlation/Constants.h"
 #include "sensornoise/correlation/PixelsByLight.h"
@@ -140,6 +141,8 @@ NoiseResiduals::Project(const SampledPixels & pixels, const ParallelFor & parall
   const std::size_t   size = tiles.Pixels();
   m_Light.resize(tiles.origins.size() * size);
   m_Variance.resize(m_Light.size());
+  m_BlackDn = pixels.blackDn;
+  m_IsBlackKnown = pixels.isBlackKnown;
   parallelFor(tiles.origins.size(), [&](std::size_t i) {
     for (std::size_t p = 0; p < size; ++p)
     {
@@ -244,6 +247,8 @@ NoiseResiduals::Weigh(const std::vector<std::uint8_t> & take)
   m_Bin.assign(take.size(), 0);
   const std::vector<std::uint32_t> order = PixelsByLight(m_Light, take);
   m_Pixels = order.size();
+  const auto darkest = static_cast<std::size_t>(InCommon.darkestQuantile * static_cast<double>(m_Pixels));
+  m_DarkestLight = m_Pixels > 0 ? m_Light[order[darkest]] : 0.0;
   const std::size_t bins =
     std::clamp<std::size_t>(order.size() / InCorrelation.leastPixelsOfBin, 1, InCorrelation.noiseBins);
   NoiseCurve curve;

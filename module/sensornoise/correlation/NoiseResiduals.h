@@ -21,9 +21,10 @@ namespace sensornoise
 /** What is known of the pixels of a frame whose noise is looked at. */
 struct SampledPixels
 {
-  const std::vector<double> &       mean;    ///< of each pixel or its neighbours [DN]
-  const std::vector<std::uint8_t> & take;    ///< 1: static and not clipped
-  double                            blackDn; ///< level without light, from which light is measured
+  const std::vector<double> &       mean;                 ///< of each pixel or its neighbours [DN]
+  const std::vector<std::uint8_t> & take;                 ///< 1: static and not clipped
+  double                            blackDn;              ///< level without light, from which light is measured
+  bool                              isBlackKnown{ true }; ///< else it is a level that nothing can be below
 };
 
 /** The level from which light is measured where nothing tells it [DN]: the darkest if that is near \a blackDn, which it
@@ -125,6 +126,18 @@ public:
   {
     return static_cast<double>(m_Basis.rows() - m_Basis.cols());
   }
+  /** The level from which light is measured [DN]. */
+  double
+  GetBlackDn() const
+  {
+    return m_BlackDn;
+  }
+  /** Light that no pixel can be below: none where black is known, else that of the darkest pixels [DN]. */
+  double
+  GetLeastLight() const
+  {
+    return m_IsBlackKnown ? 0.0 : m_DarkestLight;
+  }
   /** Pixels that are taken. */
   std::size_t
   GetNumberOfPixels() const
@@ -152,6 +165,9 @@ private:
   std::vector<float>        m_Weight;
   std::vector<std::uint8_t> m_Bin;
   std::size_t               m_Pixels{ 0 };
+  double                    m_BlackDn{ 0.0 };
+  bool                      m_IsBlackKnown{ true };
+  double                    m_DarkestLight{ 0.0 };
   UnequalFrames             m_Unequal;
 };
 

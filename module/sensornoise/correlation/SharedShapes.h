@@ -14,20 +14,31 @@
 namespace sensornoise
 {
 
-/** How what is shared may depend on the light. */
-enum class ShapeOfShared : std::uint8_t
+/** What the shapes are made of: sums of the lag 0; the least light that there can be, of the black level where it is
+ * known; and the part of the variance that no filter has seen, of the codes' steps. */
+class SensorNoise_EXPORT ShapesOfShared
 {
-  Variance,
-  Light,
-  Square,
-  Constant
-};
-inline constexpr std::size_t NumberOfShapes = 4;
+public:
+  ShapesOfShared(const LagSums & own, double leastLightDn, double unfilteredDn2);
 
-/** What one unit of a shape makes of the covariance relative to the variance, in each bin of the light;
- * \a unfilteredDn2 is the part of the variance that no filter has seen, of the codes' steps. */
-SensorNoise_EXPORT Eigen::MatrixXd
-PredictShapes(const LagSums & own, double unfilteredDn2);
+  /** What one unit of each shape makes of the covariance relative to the variance: bins of the light x shapes. */
+  const Eigen::MatrixXd &
+  InBins() const
+  {
+    return m_InBins;
+  }
+  /** A shape, by its index, without coefficient and probability. */
+  SharedShape
+  UnitOf(std::size_t shape) const;
+
+private:
+  /** Variance that may have come after the filter [DN^2]. */
+  double
+  PartAfterFilter(std::size_t shape) const;
+
+  Eigen::MatrixXd m_InBins;
+  double          m_DarkDn2{ 0.0 }; // variance at the least light
+};
 
 /** A shape that was fitted to what the bins share. */
 struct FittedShape

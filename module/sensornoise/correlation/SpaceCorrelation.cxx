@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 namespace sensornoise
 {
@@ -83,7 +84,7 @@ Eigen::VectorXd
 Chi2OfSums(const CorrelationSums & sums, const TileSums & all, const Eigen::VectorXd & coefficients)
 {
   const CorrelationSums::Lags itself{ 0 };
-  const Eigen::MatrixXd       shapes = PredictShapes(all.lags[0], sums.GetCodesDn2());
+  const Eigen::MatrixXd       shapes = sums.ShapesOf(all, sums.GetCodesDn2()).InBins();
   const Eigen::VectorXd       own = 0.5 * sums.SharedInBins(all, itself);
   const Eigen::VectorXd       errors = 0.5 * sums.ErrorsInBins(itself);
   const double                straight = Chi2OfLine(shapes, own, errors);
@@ -100,8 +101,9 @@ FitAllShapes(const CorrelationSums & sums, const CorrelationSums::Lags & lags, d
 {
   const Eigen::VectorXd errors = sums.ErrorsInBins(lags);
   return Jackknife(sums.GetTiles(), [&](const TileSums & tiles) {
-    const auto shapes = FitShapes(PredictShapes(tiles.lags[0], unfilteredDn2), sums.SharedInBins(tiles, lags), errors);
-    Eigen::VectorXd figures(2 * NumberOfShapes);
+    const ShapesOfShared predicted = sums.ShapesOf(tiles, unfilteredDn2);
+    const auto           shapes = FitShapes(predicted.InBins(), sums.SharedInBins(tiles, lags), errors);
+    Eigen::VectorXd      figures(2 * NumberOfShapes);
     for (std::size_t k = 0; k < NumberOfShapes; ++k)
     {
       figures(static_cast<Eigen::Index>(k)) = shapes[k].coefficient;
@@ -111,7 +113,26 @@ FitAllShapes(const CorrelationSums & sums, const CorrelationSums::Lags & lags, d
   });
 }
 
-/** Probabilities of the shapes, by their chi-squares: charge is coupled weakly and not far. */
+/** What a shape's chi-square must be smaller by than that of the likeliest ones; none of a shape that cannot be. Charge
+ * is coupled weakly and not far; stronger filters may lie before the read-out, or between two parts of its noise. */
+std::optional<double>
+EvidenceFor(ShapeOfShared shape, bool mayBeCharge)
+{
+  switch (shape)
+  {
+    case ShapeOfShared::Variance:
+      return 0.0;
+    case ShapeOfShared::Light:
+    case ShapeOfShared::Square:
+      return mayBeCharge ? std::optional(0.0) : std::nullopt;
+    case ShapeOfShared::Constant:
+      return InCorrelation.evidenceOfConstant;
+    default:
+      return mayBeCharge ? std::nullopt : std::optional(InCorrelation.evidenceOfPart);
+  }
+}
+
+/** Probabilities of the shapes, by their chi-squares. */
 std::array<double, NumberOfShapes>
 ProbabilitiesOf(const Eigen::VectorXd & chi2, bool mayBeCharge)
 {
@@ -119,13 +140,11 @@ ProbabilitiesOf(const Eigen::VectorXd & chi2, bool mayBeCharge)
   double                             sum = 0.0;
   for (std::size_t k = 0; k < NumberOfShapes; ++k)
   {
-    const auto   shape = static_cast<ShapeOfShared>(k);
-    const bool   isCharge = shape == ShapeOfShared::Light || shape == ShapeOfShared::Square;
-    const double evidence = shape == ShapeOfShared::Constant ? InCorrelation.evidenceOfConstant : 0.0;
-    probabilities[k] = isCharge && !mayBeCharge
-                         ? 0.0
-                         : std::exp(-0.5 * (chi2(static_cast<Eigen::Index>(k)) + evidence - chi2.minCoeff()));
-    sum += probabilities[k];
+    if (const auto evidence = EvidenceFor(static_cast<ShapeOfShared>(k), mayBeCharge))
+    {
+      probabilities[k] = std::exp(-0.5 * (chi2(static_cast<Eigen::Index>(k)) + *evidence - chi2.minCoeff()));
+      sum += probabilities[k];
+    }
   }
   for (double & probability : probabilities)
   {
@@ -143,7 +162,7 @@ StraightensVariance(const CorrelationSums & sums, const Eigen::VectorXd & errors
     return false;
   }
   const TileSums        all = sums.Total();
-  const Eigen::MatrixXd shapes = PredictShapes(all.lags[0], sums.GetCodesDn2());
+  const Eigen::MatrixXd shapes = sums.ShapesOf(all, sums.GetCodesDn2()).InBins();
   const auto            fits = FitShapes(shapes, sums.SharedInBins(all, sums.Nearest()), errors);
   Eigen::VectorXd       coefficients(NumberOfShapes);
   std::transform(
@@ -161,7 +180,7 @@ SharesInSpace(const CorrelationSums & sums, const std::vector<LagCoefficient> & 
   const CorrelationSums::Lags nearest = sums.Nearest();
   const Eigen::VectorXd       errors = sums.ErrorsInBins(nearest);
   const JackknifeEstimate     atTheTop = Jackknife(sums.GetTiles(), [&](const TileSums & tiles) {
-    const Eigen::MatrixXd shapes = PredictShapes(tiles.lags[0], sums.GetCodesDn2());
+    const Eigen::MatrixXd shapes = sums.ShapesOf(tiles, sums.GetCodesDn2()).InBins();
     const auto            fits = FitShapes(shapes, sums.SharedInBins(tiles, nearest), errors);
     Eigen::Vector3d       effects;
     for (Eigen::Index k = 0; k < effects.size(); ++k) // not of the constant
@@ -210,22 +229,22 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
   const Eigen::VectorXd       chi2 = fits.value.tail(NumberOfShapes);
   const Eigen::VectorXd       withBend = chi2 + Chi2OfSums(sums, all, fits.value.head(NumberOfShapes));
   const auto                  probabilities = ProbabilitiesOf(withBend, mayBeCharge);
-  const auto                  shapeOf = [&](ShapeOfShared shape) {
-    const auto k = static_cast<std::size_t>(shape);
-    return SharedShape{ NumberAt(fits, k), probabilities[k] };
-  };
-  found.ofVariance = shapeOf(ShapeOfShared::Variance);
-  found.ofLight = shapeOf(ShapeOfShared::Light);
-  found.ofSquare = shapeOf(ShapeOfShared::Square);
+  const ShapesOfShared        predicted = sums.ShapesOf(all, sums.GetCodesDn2() + found.LineNoise().value);
+  for (std::size_t k = 0; k < NumberOfShapes; ++k)
+  {
+    found.shapes[k] = predicted.UnitOf(k);
+    found.shapes[k].coefficient = NumberAt(fits, k);
+    found.shapes[k].probability = probabilities[k];
+  }
   // A filter that sharpens takes in proportion to the variance, and alike everywhere; what blocks of pixels are rounded
   // to does not.
   const double constant = probabilities[static_cast<std::size_t>(ShapeOfShared::Constant)];
-  const double shared = found.ofVariance.coefficient.value;
+  const auto & shared = found.Shape(ShapeOfShared::Variance).coefficient;
   const bool   isUnlikeFilter =
     constant > InCorrelation.roundingProbability || chi2.minCoeff() > InCorrelation.largestChi2;
   const bool isRounding =
-    (shared < -InCorrelation.roundingZ * found.ofVariance.coefficient.standardError && isUnlikeFilter) ||
-    (shared < 0.0 && SpreadOfPhases(sums.SumPhases()) > InCorrelation.largestSpreadOfPhases);
+    (shared.value < -InCorrelation.roundingZ * shared.standardError && isUnlikeFilter) ||
+    (shared.value < 0.0 && SpreadOfPhases(sums.SumPhases()) > InCorrelation.largestSpreadOfPhases);
   if (isRounding)
   {
     found.kind = NoiseKind::NotLinear;
@@ -234,10 +253,12 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
   {
     const bool isNear =
       !SumOfCoefficients(sums, sums.Ring(2, found.reach)).Exceeds(InCorrelation.smallRing, InCorrelation.farZ);
-    const bool isCharge = mayBeCharge && (isNear || found.ofLight.probability > found.ofVariance.probability);
-    found.kind = found.ofSquare.probability > 0.5 ? NoiseKind::BrighterFatter
-                 : isCharge                       ? NoiseKind::Crosstalk
-                                                  : NoiseKind::Filtered;
+    const auto probabilityOf = [&](ShapeOfShared shape) { return found.Shape(shape).probability; };
+    const bool isCharge =
+      mayBeCharge && (isNear || probabilityOf(ShapeOfShared::Light) > probabilityOf(ShapeOfShared::Variance));
+    found.kind = probabilityOf(ShapeOfShared::Square) > 0.5 ? NoiseKind::BrighterFatter
+                 : isCharge                                 ? NoiseKind::Crosstalk
+                                                            : NoiseKind::Filtered;
   }
 }
 

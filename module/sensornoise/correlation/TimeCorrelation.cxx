@@ -27,7 +27,7 @@ SharesInTime(const CorrelationSums & sums, const std::vector<LagCoefficient> & c
   const TileSums              all = sums.Total();
   const CorrelationSums::Lags next{ sums.TimeLags().front() };
   const auto                  fits =
-    FitShapes(PredictShapes(all.lags[0], sums.GetCodesDn2()), sums.SharedInBins(all, next), sums.ErrorsInBins(next));
+    FitShapes(sums.ShapesOf(all, sums.GetCodesDn2()).InBins(), sums.SharedInBins(all, next), sums.ErrorsInBins(next));
   return fits[static_cast<std::size_t>(ShapeOfShared::Constant)].chi2 + InCorrelation.evidenceOfDrift >
          fits[static_cast<std::size_t>(ShapeOfShared::Variance)].chi2;
 }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 namespace sensornoise
@@ -98,6 +99,33 @@ WarnOfNonlinear(Report & report, const NoiseCorrelation & correlation, const Lag
                 "): the camera corrects defects, takes medians or compresses, and what gain it had before cannot be "
                 "told; ask it for raw frames");
 }
+
+std::string
+TextOf(const EnlargementTrace & trace, const std::optional<Interval> & gain)
+{
+  std::string text = "what pixels " + std::to_string(trace.lag) + (trace.isAlongX ? " column" : " row") +
+                     (trace.lag == 1 ? "" : "s") + " apart share of their noise changes with their place by " +
+                     Percent(trace.amplitude) + " of it (expected at most " + Percent(InCorrelation.leastOscillation) +
+                     "), every " + Text(std::round(10.0 / trace.cyclesPerPixel) / 10.0) +
+                     " pixels: the frames were enlarged or a mosaic was interpolated, and have fewer samples than "
+                     "pixels";
+  if (gain && gain->low && gain->high)
+  {
+    text += ". The gain is between " + Rounded(*gain->low) + " and " + Rounded(*gain->high) + " DN/e-";
+  }
+  return text + "; give the frames as the camera read them";
+}
+
+/** Where what is shared grows with the light alone: a filter before the read-out, or events of several electrons. */
+std::string
+BeforeReadOut(const NoiseCorrelation & correlation)
+{
+  return correlation.ProbabilityOfLateNoise() > 0.5
+           ? ". What they share grows with the light more than their noise does, as if it were spread before the "
+             "read-out. Where an event frees several electrons (scintillator, intensifier), the gain is that of an "
+             "event"
+           : "";
+}
 } // namespace
 
 void
@@ -118,7 +146,11 @@ WarnOfCorrelation(Report & report, const NoiseCorrelation & correlation)
     case NoiseKind::Filtered:
       report.Warn(WarningCode::NoiseCorrelated,
                   "the camera smooths, resamples or sharpens its frames: " + NeighbourAt(space->lag) +
-                    PercentOf(space->coefficient) + " of their noise" + Consequence(report));
+                    PercentOf(space->coefficient) + " of their noise" + Consequence(report) +
+                    BeforeReadOut(correlation));
+      break;
+    case NoiseKind::Enlarged:
+      report.Warn(WarningCode::FramesEnlarged, TextOf(*correlation.enlargement, report.gain.bracket));
       break;
     case NoiseKind::Crosstalk:
       report.Warn(WarningCode::NoiseCorrelated,

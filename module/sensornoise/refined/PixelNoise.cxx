@@ -152,7 +152,7 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   const double   zeroDn = isTold ? blackDn : ZeroOfLight(scene.model.darkestDn, scene.model.brightestDn, blackDn);
   const double   repeated = sample.RepeatedShare(used, scene.summary.codes.quantisationStepDn);
   NoiseResiduals residuals(
-    std::move(sample), series->basis.GetBasis(), { scene.frame.mean, used, zeroDn }, parallelFor);
+    std::move(sample), series->basis.GetBasis(), { scene.frame.mean, used, zeroDn, isTold }, parallelFor);
   const FrameComparison comparison{
     residuals, projected, scene, { series->line.gamma, offsetDn, zeroDn }, series->local.series.cols() > 0
   };

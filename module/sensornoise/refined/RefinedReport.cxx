@@ -181,9 +181,11 @@ SettingsOfSensor(const RefinedResults & found, double codesDn2)
   if (settings.offset && settings.offset->variance)
   {
     DarkVariance & dark = *settings.offset->variance;
+    const double   spread = SpreadOfShapes(dark.valueDn2, found.correlation, codesDn2);
     dark.valueDn2 = VarianceOfSensor(dark.valueDn2, found.correlation, codesDn2);
-    dark.standardErrorDn2 =
-      FilterFactor(found.correlation) * std::hypot(dark.standardErrorDn2, found.correlation.LineNoise().standardError);
+    dark.standardErrorDn2 = std::hypot(FilterFactor(found.correlation) * dark.standardErrorDn2,
+                                       FilterFactor(found.correlation) * found.correlation.LineNoise().standardError,
+                                       spread);
     settings.offset->maps.reset();
     if (auto & median = settings.offset->readNoiseMedian; median && FilterFactor(found.correlation) == 1.0)
     {
@@ -254,6 +256,36 @@ FillSensor(Report & report, const RefinedResults & found, const GainEstimate & g
   FillFromDarkFrames(report, found.settings, codesDn2);
 }
 
+/** Takes the gain from a report of frames that have fewer samples than pixels, and what follows from it, and leaves its
+ * limits: as for white noise, and as for all covariances together. \a slopeDn of a pixel's variance. */
+void
+WithholdGain(Report & report, const Quantity & slopeDn)
+{
+  if (!report.gain.interval95 || !slopeDn.interval95)
+  {
+    return;
+  }
+  const auto lower = [](const Interval & a, const Interval & b) {
+    return a.low && b.low ? std::optional(std::max(0.0, std::min(*a.low, *b.low))) : std::nullopt;
+  };
+  const auto higher = [](const Interval & a, const Interval & b) {
+    return a.high && b.high ? std::optional(std::max(*a.high, *b.high)) : std::nullopt;
+  };
+  const Interval limits{ lower(*report.gain.interval95, *slopeDn.interval95),
+                         higher(*report.gain.interval95, *slopeDn.interval95) };
+  report.gain = Quantity::Without(EstimateStatus::NotIdentifiable, limits);
+  report.gainByParts.clear();
+  report.covariance.reset();
+  for (Quantity * const quantity :
+       { &report.intercept, &report.readNoise, &report.readNoiseMedian, &report.readNoiseElectrons })
+  {
+    *quantity = Quantity::Without(EstimateStatus::NotIdentifiable);
+  }
+  const auto isOfReadNoise = [](const Warning & warning) { return warning.code == WarningCode::ReadNoiseUpperLimit; };
+  report.warnings.erase(std::remove_if(report.warnings.begin(), report.warnings.end(), isOfReadNoise),
+                        report.warnings.end());
+}
+
 /** Files what a denoiser needs: a pixel's variance as a function of its level, whatever the sensor's was. */
 void
 FillVariance(Report & report, const RefinedResults & found, const GainEstimate & ofVariance)
@@ -315,6 +347,10 @@ MakeRefinedReport(const RefinedResults & found, const ParallelFor & parallelFor)
     report.noiseCorrelation = RecordOf(found.correlation);
   }
   FillVariance(report, found, ofVariance);
+  if (found.correlation.kind == NoiseKind::Enlarged)
+  {
+    WithholdGain(report, report.varianceSlope);
+  }
   WarnOfCorrelation(report, found.correlation);
   return report;
 }

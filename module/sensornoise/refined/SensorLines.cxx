@@ -10,14 +10,28 @@ namespace sensornoise
 
 namespace
 {
+/** The mean over all shapes of what is shared. */
+SharedShape
+MeanShape(const NoiseCorrelation & correlation)
+{
+  SharedShape mean;
+  for (const SharedShape & shape : correlation.shapes)
+  {
+    const double weight = shape.probability * shape.coefficient.value;
+    mean.ofVariance += weight * shape.ofVariance;
+    mean.ofLight += weight * shape.ofLight;
+    mean.ofSquare += weight * shape.ofSquare;
+    mean.constantDn2 += weight * shape.constantDn2;
+  }
+  return mean;
+}
+
 /** What is shared as a function of the level, of a line and a parabola. */
 class SharedVariance
 {
 public:
   SharedVariance(const NoiseCorrelation & correlation, double blackDn, double codesDn2)
-    : m_OfVariance(correlation.ofVariance.probability * correlation.ofVariance.coefficient.value)
-    , m_OfLight(correlation.ofLight.probability * correlation.ofLight.coefficient.value)
-    , m_OfSquare(correlation.ofSquare.probability * correlation.ofSquare.coefficient.value)
+    : m_Mean(MeanShape(correlation))
     , m_Time(correlation.timeFactor.value)
     , m_BlackDn(blackDn)
     , m_CodesDn2(codesDn2)
@@ -30,13 +44,14 @@ public:
   {
     const double light = levelDn - m_BlackDn;
     const double noise = varianceDn2 - m_CodesDn2 - m_LinesDn2;
-    return m_Time * (noise * (1.0 + m_OfVariance) + light * (m_OfLight + light * m_OfSquare)) + m_CodesDn2;
+    return m_CodesDn2 + m_Time * (noise * (1.0 + m_Mean.ofVariance) + m_Mean.constantDn2 +
+                                  light * (m_Mean.ofLight + light * m_Mean.ofSquare));
   }
   /** How much the sensor's variance changes with that of a pixel. */
   double
   Factor() const
   {
-    return m_Time * (1.0 + m_OfVariance);
+    return m_Time * (1.0 + m_Mean.ofVariance);
   }
   /** The line of the sensor; \a slopeOfSquare and \a meanOfSquare are of the line through the square of the level. */
   VarianceLine
@@ -44,12 +59,12 @@ public:
   {
     VarianceLine sensor = line;
     const double factor = this->Factor();
-    sensor.gain = factor * line.gain + m_Time * (m_OfLight + m_OfSquare * lineOfSquare(0));
+    sensor.gain = factor * line.gain + m_Time * (m_Mean.ofLight + m_Mean.ofSquare * lineOfSquare(0));
     sensor.intercept = m_CodesDn2 + factor * (line.intercept - m_CodesDn2 - m_LinesDn2) +
-                       m_Time * (m_OfSquare * lineOfSquare(1) - m_OfLight * m_BlackDn);
+                       m_Time * (m_Mean.ofSquare * lineOfSquare(1) - m_Mean.ofLight * m_BlackDn + m_Mean.constantDn2);
     sensor.lowestDn2 = line.lowestDn2 * factor;
     sensor.covariance = line.covariance * (factor * factor);
-    sensor.curvature = line.curvature * factor + m_Time * m_OfSquare;
+    sensor.curvature = line.curvature * factor + m_Time * m_Mean.ofSquare;
     sensor.curvatureSd = line.curvatureSd * factor;
     sensor.weightSum = line.weightSum / (factor * factor);
     sensor.noiseSpreadDn4 = line.noiseSpreadDn4 * factor * factor;
@@ -57,13 +72,11 @@ public:
   }
 
 private:
-  double m_OfVariance;
-  double m_OfLight;
-  double m_OfSquare;
-  double m_Time;
-  double m_BlackDn;
-  double m_CodesDn2;
-  double m_LinesDn2;
+  SharedShape m_Mean;
+  double      m_Time;
+  double      m_BlackDn;
+  double      m_CodesDn2;
+  double      m_LinesDn2;
 };
 
 /** Slope and intercept of the line through the square of the light, weighted as the curve. */
@@ -134,27 +147,25 @@ ErrorOf(const NoiseCorrelation & correlation,
         double                   blackDn,
         double                   codesDn2)
 {
-  const double          time = correlation.timeFactor.value;
-  const Eigen::Vector2d units[] = { { line.gain, line.intercept - codesDn2 }, { 1.0, -blackDn }, lineOfSquare };
-  const SharedShape     shapes[] = { correlation.ofVariance, correlation.ofLight, correlation.ofSquare };
-  Eigen::Vector2d       mean = Eigen::Vector2d::Zero();
-  for (int k = 0; k < 3; ++k)
-  {
-    mean += shapes[k].probability * shapes[k].coefficient.value * time * units[k];
-  }
+  const double time = correlation.timeFactor.value;
+  const auto   unitOf = [&](const SharedShape & shape) {
+    return Eigen::Vector2d(time * (shape.ofVariance * Eigen::Vector2d(line.gain, line.intercept - codesDn2) +
+                                   shape.ofLight * Eigen::Vector2d(1.0, -blackDn) + shape.ofSquare * lineOfSquare +
+                                   Eigen::Vector2d(0.0, shape.constantDn2)));
+  };
+  const Eigen::Vector2d mean = unitOf(MeanShape(correlation));
   // That it is a constant, or that nothing of it grows with the light, is left.
-  double constant = 1.0;
-  for (const SharedShape & shape : shapes)
+  double          constant = 1.0;
+  Eigen::Matrix2d error = Eigen::Matrix2d::Zero();
+  for (const SharedShape & shape : correlation.shapes)
   {
+    const Eigen::Vector2d unit = unitOf(shape);
+    const Eigen::Vector2d own = shape.coefficient.value * unit - mean;
+    const Eigen::Vector2d chance = shape.coefficient.standardError * unit;
+    error += shape.probability * (own * own.transpose() + chance * chance.transpose());
     constant -= shape.probability;
   }
-  Eigen::Matrix2d error = std::max(0.0, constant) * mean * mean.transpose();
-  for (int k = 0; k < 3; ++k)
-  {
-    const Eigen::Vector2d own = shapes[k].coefficient.value * time * units[k] - mean;
-    const Eigen::Vector2d chance = shapes[k].coefficient.standardError * time * units[k];
-    error += shapes[k].probability * (own * own.transpose() + chance * chance.transpose());
-  }
+  error += std::max(0.0, constant) * mean * mean.transpose();
   const Eigen::Vector2d whole(sensor.gain, sensor.intercept - codesDn2);
   const double          relative = std::hypot(correlation.timeFactor.standardError / std::max(1e-9, time),
                                      correlation.beyondReach * line.gain * time / std::max(1e-9, sensor.gain));
@@ -176,8 +187,30 @@ LinesOf(const StaticVariance & variance)
 double
 FilterFactor(const NoiseCorrelation & correlation)
 {
-  return correlation.timeFactor.value *
-         (1.0 + correlation.ofVariance.probability * correlation.ofVariance.coefficient.value);
+  return correlation.timeFactor.value * (1.0 + MeanShape(correlation).ofVariance);
+}
+
+double
+VarianceOfSensor(double varianceDn2, const NoiseCorrelation & correlation, double codesDn2)
+{
+  return SharedVariance(correlation, 0.0, codesDn2).SensorOf(varianceDn2, 0.0);
+}
+
+double
+SpreadOfShapes(double varianceDn2, const NoiseCorrelation & correlation, double codesDn2)
+{
+  const double noise = varianceDn2 - codesDn2 - correlation.LineNoise().value;
+  const auto   sharedOf = [noise](const SharedShape & shape) { return shape.ofVariance * noise + shape.constantDn2; };
+  const double mean = sharedOf(MeanShape(correlation));
+  double       square = 0.0;
+  double       left = 1.0;
+  for (const SharedShape & shape : correlation.shapes)
+  {
+    const double own = shape.coefficient.value * sharedOf(shape) - mean;
+    square += shape.probability * own * own;
+    left -= shape.probability;
+  }
+  return correlation.timeFactor.value * std::sqrt(square + std::max(0.0, left) * mean * mean);
 }
 
 SensorLines

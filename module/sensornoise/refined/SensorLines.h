@@ -37,13 +37,15 @@ LinesOf(const StaticVariance & variance);
 SensorNoise_EXPORT double
 FilterFactor(const NoiseCorrelation & correlation);
 
-/** The variance of a pixel before a filter, which the codes' noise, \a codesDn2, has not passed, without that of its
- * row and column [DN^2]. */
-inline double
-VarianceOfSensor(double varianceDn2, const NoiseCorrelation & correlation, double codesDn2)
-{
-  return (varianceDn2 - codesDn2 - correlation.LineNoise().value) * FilterFactor(correlation) + codesDn2;
-}
+/** The variance of a pixel without light before a filter, which the codes' noise, \a codesDn2, has not passed, without
+ * that of its row and column [DN^2]. */
+SensorNoise_EXPORT double
+VarianceOfSensor(double varianceDn2, const NoiseCorrelation & correlation, double codesDn2);
+
+/** By how much that is not known, as the filter may lie before the read-out or after it: a standard deviation [DN^2].
+ */
+SensorNoise_EXPORT double
+SpreadOfShapes(double varianceDn2, const NoiseCorrelation & correlation, double codesDn2);
 
 /** The lines of the variance that the sensor's pixels had: with what neighbours and frames share, summed over all lags,
  * and without the noise of whole rows and columns. Levels are light above \a blackDn. */

@@ -82,12 +82,23 @@ struct NoiseCorrelationRecord
     double value{ 0.0 }; ///< correlation coefficient [1]
     double standardError{ 0.0 };
   };
-  std::string      kind; ///< white, crosstalk, filtered, temporal, brighter-fatter, not-linear, not-measured
-  std::vector<Lag> space;
-  std::vector<Lag> time;
-  Quantity         rowNoise;    ///< common to a row of one frame
-  Quantity         columnNoise; ///< common to a column
-  Quantity         excessKurtosis;
+  /** The covariance of pixels \a x columns and \a y rows apart: slope times level + intercept. */
+  struct Line
+  {
+    int    x{ 0 };
+    int    y{ 0 };
+    double slope{ 0.0 }; ///< [DN/e-]
+    double slopeStandardError{ 0.0 };
+    double intercept{ 0.0 }; ///< [DN^2]
+    double interceptStandardError{ 0.0 };
+  };
+  std::string       kind; ///< white, crosstalk, filtered, temporal, enlarged, brighter-fatter, not-linear, not-measured
+  std::vector<Lag>  space;
+  std::vector<Lag>  time;
+  std::vector<Line> covarianceLines; ///< empty: neighbours share nothing
+  Quantity          rowNoise;        ///< common to a row of one frame
+  Quantity          columnNoise;     ///< common to a column
+  Quantity          excessKurtosis;
 };
 
 /** Gains of the parts of the frame, where they differ. */

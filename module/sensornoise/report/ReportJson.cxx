@@ -102,11 +102,22 @@ WriteJson(JsonWriter & json, const NoiseCorrelationRecord::Lag & lag)
 }
 
 void
+WriteJson(JsonWriter & json, const NoiseCorrelationRecord::Line & line)
+{
+  json.Object([&] {
+    json.Member("lag", std::array<int, 2>{ line.x, line.y });
+    json.Member("slope", line.slope).Member("slope_standard_error", line.slopeStandardError);
+    json.Member("intercept", line.intercept).Member("intercept_standard_error", line.interceptStandardError);
+  });
+}
+
+void
 WriteJson(JsonWriter & json, const NoiseCorrelationRecord & correlation)
 {
   json.Object([&] {
     json.Member("kind", correlation.kind);
     json.Member("space", correlation.space).Member("time", correlation.time);
+    json.Member("covariance_lines", correlation.covarianceLines);
     Report report;
     report.noiseCorrelation = correlation;
     WriteQuantities(json, report, "noise_correlation.");

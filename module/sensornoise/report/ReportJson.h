@@ -33,6 +33,8 @@ WriteQuantity(JsonWriter & json, const char * name, const Quantity & quantity, c
 SensorNoise_EXPORT void
 WriteJson(JsonWriter & json, const NoiseCorrelationRecord::Lag & lag);
 SensorNoise_EXPORT void
+WriteJson(JsonWriter & json, const NoiseCorrelationRecord::Line & line);
+SensorNoise_EXPORT void
 WriteJson(JsonWriter & json, const NoiseCorrelationRecord & correlation);
 
 /** `of`, which is "files" or "pixels", their `sha256` (null: not computed), `files` and `bytes`, and of dark frames the

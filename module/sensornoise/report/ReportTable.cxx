@@ -183,6 +183,10 @@ DescribeNoise(const Report & report)
   {
     return "noise: not-linear (not as a sensor's or a linear filter's: what gain it had cannot be told)";
   }
+  if (noise.kind == "enlarged")
+  {
+    return "noise: enlarged (fewer samples than pixels: the gain cannot be told)";
+  }
   const std::string text =
     "noise: " + noise.kind +
     (noise.kind == "temporal" ? ", frames " + MostShared(noise.time) : ", neighbours " + MostShared(noise.space));

@@ -1,0 +1,138 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Noise that neighbours share: filtered before and after the read-out, several counts an event, enlarged and
+demosaiced frames.
+
+A filter whose weights sum to 1 keeps the sum of the covariances over all lags; true values are those before it. In
+enlarged frames there are fewer samples than pixels, and the frames do not determine the gain.
+"""
+
+import numpy as np
+from acceptance_lines import MAY_REFUSE, MUST_REFUSE
+from situations import (
+    ELECTRONS,
+    FRAMES,
+    GAIN,
+    OFFSET,
+    READ_NOISE,
+    SCENES,
+    SHAPE,
+    Burst,
+    Situation,
+    digitise,
+    expose,
+    illumination,
+    smooth,
+)
+
+BITS = 16  # fine steps: what the rounding adds is not filtered
+
+
+def gaussian(frames, radius):
+    """The frames with a periodic Gaussian blur of this standard deviation [pixels]."""
+    return np.stack([smooth(frame, radius) for frame in frames])
+
+
+def filtered(random, electrons, radius, after):
+    """Frames that are blurred between two parts of the read noise, of which `after` is the later one's variance over
+    that of both [1]."""
+    before = np.sqrt(1 - after) * READ_NOISE
+    frames = expose(random, electrons, illumination(random), offset=OFFSET[BITS], read_noise=before)
+    frames = gaussian(frames, radius) + np.sqrt(after) * READ_NOISE * random.normal(size=frames.shape)
+    return Burst(digitise(frames, BITS), offset=OFFSET[BITS], read_noise=READ_NOISE)
+
+
+def intensified(random, electrons, counts, radius):
+    """Each event releases Poisson `counts` quanta, spread by a Gaussian: the sum over lags is the gain of an event."""
+    factors = illumination(random)
+    events = random.poisson(factors[:, None, None] * electrons / counts)
+    expected = np.maximum(gaussian(counts * events, radius), 0)
+    frames = GAIN * random.poisson(expected) + OFFSET[BITS] + READ_NOISE * random.normal(size=events.shape)
+    return Burst(digitise(frames, BITS), gain=GAIN * (1 + counts), offset=OFFSET[BITS], read_noise=READ_NOISE)
+
+
+def nearest(distance):
+    return np.where((distance > -0.5) & (distance <= 0.5), 1.0, 0.0)
+
+
+def tent(distance):
+    return np.maximum(0, 1 - np.abs(distance))
+
+
+def cubic(distance):
+    """The kernel of Keys 1981 with a = -1/2."""
+    d = np.abs(distance)
+    return np.where(d < 1, 1.5 * d**3 - 2.5 * d**2 + 1, np.where(d < 2, -0.5 * d**3 + 2.5 * d**2 - 4 * d + 2, 0.0))
+
+
+KERNELS = {"nearest": nearest, "bilinear": tent, "cubic": cubic}
+
+
+def weights_of(kernel, size, ratio, aligned):
+    """The matrix (pixels, samples) that enlarges one axis to `size` pixels."""
+    pixels = np.arange(size)
+    places = pixels / ratio if aligned else (pixels + 0.5) / ratio - 0.5
+    weights = KERNELS[kernel](places[:, None] - np.arange(-2, np.ceil(size / ratio) + 2)[None])
+    return weights / weights.sum(axis=1, keepdims=True)
+
+
+def enlarged(random, scene, kernel, ratios, aligned=False):
+    """Frames of fewer pixels, enlarged by `ratios` (y, x)."""
+    y, x = (weights_of(kernel, size, ratio, aligned) for size, ratio in zip(SHAPE, ratios, strict=True))
+    electrons = ELECTRONS * SCENES[scene](random, (y.shape[1], x.shape[1]))
+    frames = expose(random, electrons, illumination(random, FRAMES), offset=OFFSET[BITS])
+    return Burst(digitise(y @ frames @ x.T, BITS))
+
+
+def neighbours(frames, offsets):
+    return sum(np.roll(frames, offset, axis=(1, 2)) for offset in offsets) / len(offsets)
+
+
+def demosaiced(random, electrons, channel):
+    """One channel of a Bayer mosaic, whose missing pixels are the mean of the nearest ones of that channel."""
+    frames = expose(random, electrons, illumination(random), offset=OFFSET[BITS])
+    y, x = np.indices(SHAPE)
+    cross = neighbours(frames, [(0, 1), (0, -1), (1, 0), (-1, 0)])
+    if channel == "green":
+        return Burst(digitise(np.where((x + y) % 2, frames, cross), BITS))
+    along = neighbours(frames, [(0, 1), (0, -1)]), neighbours(frames, [(1, 0), (-1, 0)])
+    corners = neighbours(frames, [(a, b) for a in (1, -1) for b in (1, -1)])
+    odd = np.where(x % 2, corners, along[1])
+    return Burst(digitise(np.where(y % 2, odd, np.where(x % 2, along[0], frames)), BITS))
+
+
+def line(name, make, *given, expected="measured"):
+    return Situation(
+        name, lambda random, electrons: make(random, electrons, *given), expected=expected, scenes=tuple(SCENES)
+    )
+
+
+def of_samples(kernel, ratios, aligned=False):
+    """The lines of an enlargement: one for each scene, as the samples are fewer than the pixels."""
+    size = "x".join(f"{ratio:g}" for ratio in ratios)
+    return [
+        Situation(
+            f"enlarged/{kernel}-{size}{'-aligned' if aligned else ''}-{scene}",
+            lambda random, _electrons, scene=scene: enlarged(random, scene, kernel, ratios, aligned),
+            expected=MUST_REFUSE,
+        )
+        for scene in SCENES
+    ]
+
+
+SITUATIONS = (
+    *(line(f"filtered/after-read-out-{radius}", filtered, radius, 0.0) for radius in (0.5, 0.8, 1.2)),
+    *(line(f"filtered/before-read-out-{radius}", filtered, radius, 1.0) for radius in (0.5, 0.8, 1.2)),
+    line("filtered/between-0.8", filtered, 0.8, 0.5),
+    *(line(f"events/{counts}-counts", intensified, counts, 0.8, expected=MAY_REFUSE) for counts in (3, 10)),
+    *of_samples("bilinear", (2, 2)),
+    *of_samples("bilinear", (2, 2), aligned=True),
+    *of_samples("bilinear", (1, 2)),
+    *of_samples("bilinear", (3, 3)),
+    *of_samples("bilinear", (1.5, 1.5)),
+    *of_samples("bilinear", (1.37, 1.37)),
+    *of_samples("bilinear", (2.5, 2.5)),
+    *of_samples("cubic", (2, 2)),
+    *of_samples("nearest", (2, 2)),
+    *(line(f"demosaiced/{channel}", demosaiced, channel, expected=MUST_REFUSE) for channel in ("green", "red")),
+)
