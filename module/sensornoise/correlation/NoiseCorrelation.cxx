@@ -256,9 +256,6 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const
   if (inSpace)
   {
     SumOverSpace(sums, found);
-  }
-  if (inSpace)
-  {
     found.covarianceLines = FitCovarianceLines(sums, sums.Ring(1, found.reach));
   }
   if (inTime || inSpace)

@@ -182,7 +182,8 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   compare();
   noise.frames = CompareFrames(noise.variance, comparison, shared, parallelFor);
   MeasureSettledFrames(noise.correlation, residuals, codesDn2, parallelFor);
-  if (noise.correlation.kind == NoiseKind::Temporal && repeated > InRefined.largestRepeatedShare)
+  const bool mayRepeat = noise.correlation.kind == NoiseKind::Temporal || noise.correlation.kind == NoiseKind::Enlarged;
+  if (mayRepeat && repeated > InRefined.largestRepeatedShare)
   {
     noise.correlation.kind = NoiseKind::NotLinear; // a filter blends values, and repeats none
     noise.correlation.repeatedShare = repeated;
