@@ -342,9 +342,13 @@ FillMotion(Report & report, const RefinedResults & found, double offset, double 
     report.vibrationCovariance = Quantity::Without(EstimateStatus::NotIdentifiable);
     return;
   }
-  LightOfShifts light{ polished.line, polished.line, offsetErrorDn, polished.motionPhi };
-  light.inUse.offset = offset;
-  light.inUse.UseOffset(offset);
+  LightOfShifts light{ polished.line, polished.line, 0.0, polished.motionPhi };
+  if (std::isfinite(offset) && std::isfinite(offsetErrorDn))
+  {
+    light.offsetErrorDn = offsetErrorDn;
+    light.inUse.offset = offset;
+    light.inUse.UseOffset(offset);
+  }
   const AxisMotion x = MotionAlong(0, StencilX, polished, light, weights);
   const AxisMotion y = MotionAlong(1, StencilY, polished, light, weights);
   report.vibrationSdX = x.sd;
