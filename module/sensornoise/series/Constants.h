@@ -104,6 +104,10 @@ struct SeriesConstants
    * hand. Half: noise that neighbours share is taken for light, gains of smoothed frames are 2 % low; twice: the same.
    */
   double edgeOfNoise{ 1.25 };
+  /** Standard deviation of a frame's cells over that of a typical frame, from which it is scaled down where light that
+   * frames share is looked for [1]. Chosen: between frames of four times the noise variance, 2, and the scatter of
+   * frames with light of their own, 0.5 to 1.2 in a real burst. */
+  double noisyFrame{ 1.5 };
   /** Series of local light, at most, and frames that each needs. Set by hand. */
   std::size_t mostLocalSeries{ 12 };
   std::size_t framesPerLocalSeries{ 6 };

@@ -174,8 +174,8 @@ GramOf(const Eigen::MatrixXd & rest)
                                    : Eigen::MatrixXd(rest * rest.transpose());
 }
 
-/** Whether several frames have a factor in common: one is above the edge also where no frame counts more than a typical
- * one. The noise of a few frames of another gain is above it by its size alone, but they share nothing. */
+/** Whether several frames have a factor in common: one is above the edge also where much noisier frames count as a
+ * typical one. The noise of a few frames of another gain is above it by its size alone, but they share nothing. */
 bool
 DoFramesShareFactors(Eigen::MatrixXd rest, Eigen::Index freedom)
 {
@@ -189,7 +189,8 @@ DoFramesShareFactors(Eigen::MatrixXd rest, Eigen::Index freedom)
   const double typical = QuantileOf(sizes, 0.5);
   for (Eigen::Index t = 0; t < rest.rows(); ++t)
   {
-    rest.row(t) *= std::min(1.0, typical / std::max(1e-30, sizes[static_cast<std::size_t>(t)]));
+    const double size = sizes[static_cast<std::size_t>(t)];
+    rest.row(t) *= size > InSeries.noisyFrame * typical ? typical / size : 1.0;
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(GramOf(rest), Eigen::EigenvaluesOnly);
   const Eigenvalues                                    found(eigen.eigenvalues(), freedom, rest.cols());
