@@ -105,15 +105,15 @@ TEST(SensorNoiseUsablePixels, GuardedAndCoarsePixelsAreLeftOut)
   EXPECT_GT(scene.Find(frameMeans).nearClip, found.nearClip);
 }
 
-TEST(SensorNoiseUsablePixels, CoarseCodesAreRefusedAboveAHalf)
+TEST(SensorNoiseUsablePixels, CoarseCodesAreRefusedAboveAFifth)
 {
   UsablePixels found;
-  found.count = 400.0;
+  found.count = 700.0;
   found.nearClip = 100;
-  found.coarse = 500;
+  found.coarse = 200;
   EXPECT_NO_THROW(RequireFineCodes(found, 4.0));
   found.nearClip = 99;
-  found.coarse = 501;
+  found.coarse = 201;
   try
   {
     RequireFineCodes(found, 4.0);
@@ -123,7 +123,7 @@ TEST(SensorNoiseUsablePixels, CoarseCodesAreRefusedAboveAHalf)
   {
     EXPECT_EQ(error.GetCode(), WarningCode::CodesTooCoarse);
     EXPECT_EQ(std::string(error.what()),
-              "the noise of 50.1 % of the pixels, the darkest, is below half a code step of 4 DN, where the codes hide "
+              "the noise of 20.1 % of the pixels, the darkest, is below half a code step of 4 DN, where the codes hide "
               "it: use more bits, or a higher analogue gain");
   }
 }

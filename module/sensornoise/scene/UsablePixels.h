@@ -50,7 +50,7 @@ LeaveOutCoarseAndGuarded(const ReferenceFrame &        frame,
                          const ParallelFor &           parallelFor,
                          const std::optional<double> & darkestNoiseDn2 = std::nullopt);
 
-/** Throws NothingToMeasure, CodesTooCoarse, if codes of spacing \a stepDn hide the noise of more than half of the
+/** Throws NothingToMeasure, CodesTooCoarse, if codes of spacing \a stepDn hide the noise of more than a fifth of the
  * pixels. */
 SensorNoise_EXPORT void
 RequireFineCodes(const UsablePixels & pixels, double stepDn);
