@@ -23,7 +23,7 @@ struct SampledPixels
 {
   const std::vector<double> &       mean;                 ///< of each pixel or its neighbours [DN]
   const std::vector<std::uint8_t> & take;                 ///< 1: static and not clipped
-  double                            blackDn;              ///< level without light, from which light is measured
+  double                            blackDn{ 0.0 };       ///< level without light, from which light is measured
   bool                              isBlackKnown{ true }; ///< else it is a level that nothing can be below
 };
 

@@ -120,7 +120,7 @@ StandsBesideCurve(const StepCandidate & step, double scatter)
 struct SlopeOfSide
 {
   double value{ 0.0 };
-  double error;
+  double error{ 0.0 };
 };
 
 /** By the bins of that side, and by what is known beforehand, \a prior [DN/e-]. */

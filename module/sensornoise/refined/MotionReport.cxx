@@ -163,8 +163,8 @@ struct LightOfShifts
 {
   const OffsetLine & solved; ///< with which the shifts were found
   OffsetLine         inUse;  ///< of the flicker that is reported
-  double             offsetErrorDn;
-  double             phi; ///< dispersion of the frames' light
+  double             offsetErrorDn{ 0.0 };
+  double             phi{ 1.0 }; ///< dispersion of the frames' light
 
   OffsetLine
   Beyond(double sds) const

@@ -243,6 +243,13 @@ OffsetByExposures(const RefinedResults & found)
   return estimate;
 }
 
+std::string
+TextOfOtherOffsets(const FrameOffsets & others, Eigen::Index frames)
+{
+  return "the dark offset of " + std::to_string(others.unlike.size()) + " of " + std::to_string(frames) +
+         " frames differs by " + Rounded(others.stepDn) + " DN from that of the others";
+}
+
 /** The offset as the illumination tells it. */
 OffsetEstimate
 OffsetByIllumination(const RefinedResults & found, const GainEstimate & gain, const OffsetLimits & limits)
@@ -285,9 +292,7 @@ OffsetByIllumination(const RefinedResults & found, const GainEstimate & gain, co
   const FrameOffsets & others = found.series.frameOffsets;
   if (!others.unlike.empty()) // too many to be left out
   {
-    estimate.obstacle = "the dark offset of " + std::to_string(others.unlike.size()) + " of " +
-                        std::to_string(line.response.rows()) + " frames differs by " + Rounded(others.stepDn) +
-                        " DN from that of the others";
+    estimate.obstacle = TextOfOtherOffsets(others, line.response.rows());
   }
   else if (!(line.contrast > InSeries.leastContrast))
   {

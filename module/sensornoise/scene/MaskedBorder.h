@@ -17,7 +17,7 @@ namespace sensornoise
 /** A strip along a border of the frame that is no part of the scene. */
 struct MaskedStrip
 {
-  const char * words;           ///< such as "leftmost columns"
+  const char * words{ "" };     ///< such as "leftmost columns"
   std::size_t  lines{ 0 };      ///< columns or rows; 0: there is no strip
   double       levelDn{ 0.0 };  ///< its median
   double       besideDn{ 0.0 }; ///< median of the line of the scene next to it
