@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/correlation/NoiseCorrelation.h"
 
-#include "sensornoise/correlation/RowLight.h"
 
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/correlation/Constants.h"
@@ -246,7 +245,6 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const
   NoiseCorrelation found;
   found.kind = NoiseKind::White;
   FindCoefficients(sums, found);
-  found.rowLight = FindRowLight(residuals, parallelFor);
   const bool inTime = SharesInTime(sums, found.time);
   const bool inSpace = SharesInSpace(sums, found.space);
   if (inTime)

@@ -4,6 +4,7 @@
 
 #include "sensornoise/correlation/FrameEnergies.h"
 #include "sensornoise/correlation/NoiseResiduals.h"
+#include "sensornoise/correlation/RowLight.h"
 #include "sensornoise/pixels/FlatPixels.h"
 #include "sensornoise/refined/BeyondChance.h"
 #include "sensornoise/refined/Constants.h"
@@ -182,6 +183,10 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   compare();
   noise.frames = CompareFrames(noise.variance, comparison, shared, parallelFor);
   MeasureSettledFrames(noise.correlation, residuals, codesDn2, parallelFor);
+  if (noise.correlation.kind != NoiseKind::NotMeasured)
+  {
+    noise.correlation.rowLight = FindRowLight(residuals, parallelFor);
+  }
   const bool mayRepeat = noise.correlation.kind == NoiseKind::Temporal || noise.correlation.kind == NoiseKind::Enlarged;
   if (mayRepeat && repeated > InRefined.largestRepeatedShare)
   {
