@@ -3,6 +3,7 @@
 #include "sensornoise/pixels/MeanGain.h"
 
 #include "sensornoise/base/Eigen.h"
+#include "sensornoise/pixels/NormalEquations.h"
 #include "sensornoise/pixels/VarianceCurve.h"
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace sensornoise
@@ -39,52 +41,18 @@ PolynomialAt(const Eigen::VectorXd & coefficients, double x)
   return value;
 }
 
-/** The inverse of a matrix of normal equations; null if they do not determine its terms. In plain loops, because
- * Eigen's decompositions and products of matrices as small as these end in other bits from version to version. */
+/** The inverse of a matrix of normal equations; null if they do not determine its terms. */
 std::optional<Eigen::MatrixXd>
 InverseOf(Eigen::MatrixXd matrix)
 {
-  const Eigen::Index terms = matrix.rows();
-  double             smallest = std::numeric_limits<double>::infinity();
-  double             largest = 0.0;
-  for (Eigen::Index k = 0; k < terms; ++k)
-  {
-    const double pivot = matrix(k, k);
+  double     smallest = std::numeric_limits<double>::infinity();
+  double     largest = 0.0;
+  const bool isDetermined = InvertNormalEquations(matrix, [&](Eigen::Index, double pivot) {
     smallest = std::min(smallest, pivot);
     largest = std::max(largest, pivot);
-    if (!(smallest > 1e-10 * largest))
-    {
-      return std::nullopt;
-    }
-    for (Eigen::Index j = 0; j < terms; ++j)
-    {
-      matrix(k, j) = (j == k ? 1.0 : matrix(k, j)) / pivot;
-    }
-    for (Eigen::Index i = 0; i < terms; ++i)
-    {
-      const double factor = i == k ? 0.0 : matrix(i, k);
-      for (Eigen::Index j = 0; j < terms && i != k; ++j)
-      {
-        matrix(i, j) = (j == k ? 0.0 : matrix(i, j)) - factor * matrix(k, j);
-      }
-    }
-  }
-  return matrix;
-}
-
-/** Matrix times vector, in plain loops as above. */
-Eigen::VectorXd
-ProductOf(const Eigen::MatrixXd & matrix, const Eigen::VectorXd & vector)
-{
-  Eigen::VectorXd product = Eigen::VectorXd::Zero(matrix.rows());
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
-  {
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j)
-    {
-      product(i) += matrix(i, j) * vector(j);
-    }
-  }
-  return product;
+    return smallest > 1e-10 * largest;
+  });
+  return isDetermined ? std::optional(std::move(matrix)) : std::nullopt;
 }
 
 /** The mean local gain of the line and the polynomial \a excess above it; null if it has none. */
@@ -170,7 +138,7 @@ FindMeanGain(const VarianceCurve & curve, int degree, const std::optional<double
   {
     return std::nullopt;
   }
-  const Eigen::VectorXd       excess = ProductOf(*covariance, right);
+  const Eigen::VectorXd       excess = ProductInLoops(*covariance, right);
   const std::optional<double> value = MeanLocalGain(scaled, excess);
   if (!value)
   {
@@ -185,7 +153,7 @@ FindMeanGain(const VarianceCurve & curve, int degree, const std::optional<double
     moved(k) += 0.1 * step;
     derivative(k) = (MeanLocalGain(scaled, moved).value_or(*value) - *value) / (0.1 * step);
   }
-  const Eigen::VectorXd moment = ProductOf(*covariance, derivative);
+  const Eigen::VectorXd moment = ProductInLoops(*covariance, derivative);
   double                variance = -1.0 / information; // of the line's gain
   for (Eigen::Index k = 0; k < terms; ++k)
   {

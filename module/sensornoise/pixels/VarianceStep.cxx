@@ -6,7 +6,6 @@
 #include "sensornoise/pixels/CurveRegression.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -44,7 +43,7 @@ struct StepCandidate
 CurveRegression<3>
 FitStep(const std::vector<ExcessOfBin> & bins, double at)
 {
-  return RegressCurve<3>(bins, [at](double x) { return std::array<double, 3>{ 1.0, x, x > at ? 1.0 : 0.0 }; });
+  return RegressCurve<3>(bins, [at](double x) { return Eigen::Vector3d{ 1.0, x, x > at ? 1.0 : 0.0 }; });
 }
 
 /** The candidate that gains most against a line. */
@@ -74,8 +73,8 @@ FindBestStep(const VarianceCurve & curve, const std::vector<ExcessOfBin> & bins)
     tried.fit = FitStep(tried.bins, tried.x);
     if (tried.fit.isDetermined)
     {
-      const double size = tried.fit.coefficients[2];
-      const double gained = size * size / tried.fit.covariance[2][2]; // chi-square of a line less that of the step
+      const double size = tried.fit.coefficients(2);
+      const double gained = size * size / tried.fit.covariance(2, 2); // chi-square of a line less that of the step
       if (gained > most)
       {
         most = gained;
@@ -93,13 +92,13 @@ LeastSmoothChi2(const std::vector<ExcessOfBin> & bins)
   const double scale = std::max(std::abs(bins.front().x), std::abs(bins.back().x));
   const auto   cubic = RegressCurve<4>(bins, [scale](double x) {
     const double s = x / scale;
-    return std::array<double, 4>{ 1.0, s, s * s, s * s * s };
+    return Eigen::Vector4d{ 1.0, s, s * s, s * s * s };
   });
   double       least = cubic.isDetermined ? cubic.chi2 : std::numeric_limits<double>::infinity();
   for (const ExcessOfBin & bend : bins)
   {
     const auto bent =
-      RegressCurve<3>(bins, [at = bend.x](double x) { return std::array<double, 3>{ 1.0, x, std::max(0.0, x - at) }; });
+      RegressCurve<3>(bins, [at = bend.x](double x) { return Eigen::Vector3d{ 1.0, x, std::max(0.0, x - at) }; });
     least = bent.isDetermined ? std::min(least, bent.chi2) : least;
   }
   return least;
@@ -110,10 +109,10 @@ bool
 StandsBesideCurve(const StepCandidate & step, double scatter)
 {
   const auto fit = RegressCurve<4>(
-    step.bins, [at = step.x](double x) { return std::array<double, 4>{ 1.0, x, x * x, x > at ? 1.0 : 0.0 }; });
-  const double ratio = fit.coefficients[3] / step.fit.coefficients[2];
+    step.bins, [at = step.x](double x) { return Eigen::Vector4d{ 1.0, x, x * x, x > at ? 1.0 : 0.0 }; });
+  const double ratio = fit.coefficients(3) / step.fit.coefficients(2);
   return fit.isDetermined && ratio > InSteps.leastBesideCurve &&
-         std::abs(fit.coefficients[3]) > InSteps.leastZ * std::sqrt(scatter * fit.covariance[3][3]);
+         std::abs(fit.coefficients(3)) > InSteps.leastZ * std::sqrt(scatter * fit.covariance(3, 3));
 }
 
 /** The slope of one side above the common one, and its error [DN/e-]. */
@@ -135,14 +134,14 @@ FitSide(const StepCandidate & step, bool isAbove, double prior, double scatter)
       side.push_back(bin);
     }
   }
-  const auto fit = RegressCurve<2>(side, [](double x) { return std::array<double, 2>{ 1.0, x }; });
+  const auto fit = RegressCurve<2>(side, [](double x) { return Eigen::Vector2d{ 1.0, x }; });
   if (!fit.isDetermined)
   {
     return { 0.0, prior };
   }
-  const double variance = scatter * fit.covariance[1][1];
+  const double variance = scatter * fit.covariance(1, 1);
   const double share = prior * prior / (prior * prior + variance);
-  return { share * (fit.coefficients[1] - step.fit.coefficients[1]), std::sqrt(share * variance) };
+  return { share * (fit.coefficients(1) - step.fit.coefficients(1)), std::sqrt(share * variance) };
 }
 } // namespace
 
@@ -187,11 +186,11 @@ FindVarianceStep(const VarianceCurve & curve)
   VarianceStep               step;
   step.levelDn = curve.line.pivotDn + found->x;
   step.halfWidthDn = std::max(found->halfWidth, 1e-9 * std::abs(step.levelDn));
-  step.sizeDn2 = fit.coefficients[2];
-  step.errorDn2 = std::sqrt(scatter * fit.covariance[2][2]);
+  step.sizeDn2 = fit.coefficients(2);
+  step.errorDn2 = std::sqrt(scatter * fit.covariance(2, 2));
   step.line = curve.line;
-  step.line.gain += fit.coefficients[1];
-  step.line.intercept += fit.coefficients[0] - fit.coefficients[1] * curve.line.pivotDn;
+  step.line.gain += fit.coefficients(1);
+  step.line.intercept += fit.coefficients(0) - fit.coefficients(1) * curve.line.pivotDn;
   const double below = step.line.intercept + step.line.gain * step.levelDn;
   const double least = InSteps.leastSize * std::max({ below, below + step.sizeDn2, 0.0 });
   if (std::abs(step.sizeDn2) < least || std::abs(step.sizeDn2) < InSteps.leastZ * step.errorDn2 ||
@@ -202,9 +201,9 @@ FindVarianceStep(const VarianceCurve & curve)
   }
   const double pivot = curve.line.pivotDn;
   auto &       covariance = step.line.covariance;
-  covariance(0, 0) = fit.covariance[1][1];
-  covariance(0, 1) = covariance(1, 0) = fit.covariance[0][1] - pivot * fit.covariance[1][1];
-  covariance(1, 1) = fit.covariance[0][0] - 2.0 * pivot * fit.covariance[0][1] + pivot * pivot * fit.covariance[1][1];
+  covariance(0, 0) = fit.covariance(1, 1);
+  covariance(0, 1) = covariance(1, 0) = fit.covariance(0, 1) - pivot * fit.covariance(1, 1);
+  covariance(1, 1) = fit.covariance(0, 0) - 2.0 * pivot * fit.covariance(0, 1) + pivot * pivot * fit.covariance(1, 1);
   covariance *= scatter;
   const double      prior = InSteps.priorOfGains * std::abs(step.line.gain);
   const SlopeOfSide ofBelow = FitSide(*found, false, prior, scatter);
