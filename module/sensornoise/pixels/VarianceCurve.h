@@ -61,6 +61,13 @@ struct SensorNoise_EXPORT VarianceCurve
     return line.pivotDn + bin.x / bin.weight;
   }
 
+  /** The mean variance of a bin [DN^2]. */
+  double
+  VarianceOf(const CurveBin & bin) const
+  {
+    return line.intercept + line.gain * this->LevelOf(bin) + bin.excess / bin.weight;
+  }
+
   /** Part of the brightest levels' light, above \a blackDn, that the darkest have [1]; 1 without levels. */
   double
   DarkestShare(double blackDn) const;

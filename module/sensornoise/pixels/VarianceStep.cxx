@@ -158,7 +158,7 @@ VarianceStep::RestOf(const VarianceCurve & curve) const
     const double level = curve.LevelOf(bin);
     if (std::abs(level - levelDn) > halfWidthDn)
     {
-      const double variance = curve.line.intercept + curve.line.gain * level + bin.excess / bin.weight;
+      const double variance = curve.VarianceOf(bin);
       const double own = line.intercept + line.gain * level + (level > levelDn ? sizeDn2 : 0.0);
       rest.bins.push_back(
         { bin.pixels, bin.weight, bin.weight * (level - line.pivotDn), bin.weight * (variance - own) });

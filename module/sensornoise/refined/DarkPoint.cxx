@@ -110,7 +110,7 @@ GainsOfLevels(const VarianceCurve & curve, const DarkPoint & dark)
     const double light = level - dark.offsetDn;
     if (light > InRefined.leastLight * (brightestDn - dark.offsetDn))
     {
-      const double own = curve.line.intercept + curve.line.gain * level + bin.excess / bin.weight;
+      const double own = curve.VarianceOf(bin);
       const double gain = (own - dark.varianceDn2) / light;
       const double w = bin.weight * light * light;
       weight += w;

@@ -127,7 +127,7 @@ CurveOfSensor(const VarianceCurve & curve, const SharedVariance & shared, const 
     if (bin.weight > 0.0)
     {
       const double level = curve.LevelOf(bin);
-      const double variance = curve.line.intercept + curve.line.gain * level + bin.excess / bin.weight;
+      const double variance = curve.VarianceOf(bin);
       changed.weight = bin.weight / (shared.Factor() * shared.Factor());
       changed.x = changed.weight * (level - line.pivotDn);
       changed.excess = changed.weight * (shared.SensorOf(variance, level) - line.intercept - line.gain * level);
