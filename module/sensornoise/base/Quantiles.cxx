@@ -59,6 +59,32 @@ QuantileOf(std::vector<double> values, double q)
   return Quantile(values, q);
 }
 
+RobustCentre
+CentreOf(std::vector<double> values)
+{
+  RobustCentre centre;
+  centre.median = Quantile(values, 0.5);
+  for (double & value : values)
+  {
+    value = std::abs(value - centre.median);
+  }
+  centre.sd = Quantile(values, 0.5) / MedianOfNormal;
+  return centre;
+}
+
+std::size_t
+FindDensestHalf(const std::vector<double> & sorted)
+{
+  const std::size_t half = (sorted.size() + 1) / 2;
+  std::size_t       begin = 0;
+  for (std::size_t i = 1; i + half <= sorted.size(); ++i)
+  {
+    const auto length = [&](std::size_t first) { return sorted[first + half - 1] - sorted[first]; };
+    begin = length(i) < length(begin) ? i : begin;
+  }
+  return begin;
+}
+
 double
 SortedQuantile(const std::vector<double> & sorted, double q)
 {

@@ -25,6 +25,22 @@ QuantileOf(std::vector<double> values, double q);
 SensorNoise_EXPORT double
 SortedQuantile(const std::vector<double> & sorted, double q);
 
+/** Median of the absolute value of a normal number of standard deviation 1. */
+inline constexpr double MedianOfNormal = 0.6745;
+
+/** The median of values, and their standard deviation by the median difference from it, if they are normal. */
+struct RobustCentre
+{
+  double median{ 0.0 };
+  double sd{ 0.0 };
+};
+SensorNoise_EXPORT RobustCentre
+CentreOf(std::vector<double> values);
+
+/** Where in \a sorted values the shortest interval begins that holds half of them, (n + 1) / 2 of n. */
+SensorNoise_EXPORT std::size_t
+FindDensestHalf(const std::vector<double> & sorted);
+
 /** Pixels among which quantiles and rough fits are taken: all of the mask, or evenly spread ones of a large frame. */
 SensorNoise_EXPORT std::vector<std::size_t>
 SamplePixels(const std::uint8_t * mask, std::size_t pixels, std::size_t most = 32768);

@@ -40,8 +40,7 @@ VariancesOf(const std::vector<double> & mean, const std::vector<double> & frame)
     squares += (frame[i] - fit.level) * (frame[i] - fit.level);
     differences.push_back(std::abs(fit.DifferenceOf(mean[i], frame[i])));
   }
-  constexpr double medianOfNormal = 0.6745; // of the absolute value, over the standard deviation
-  const double     sd = Quantile(differences, 0.5) / medianOfNormal;
+  const double sd = Quantile(differences, 0.5) / MedianOfNormal;
   return { sd * sd, squares / (static_cast<double>(mean.size()) - 1.0) };
 }
 

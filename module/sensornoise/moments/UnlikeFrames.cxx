@@ -151,17 +151,9 @@ FindMisfits(const FrameThumbnails &     thumbnails,
 std::vector<double>
 HowFar(const std::vector<double> & values, std::size_t cells)
 {
-  const double        median = QuantileOf(values, 0.5);
-  std::vector<double> deviations;
-  deviations.reserve(values.size());
-  for (const double value : values)
-  {
-    deviations.push_back(std::abs(value - median));
-  }
-  constexpr double    medianOfNormal = 0.6745; // of the absolute value, over the standard deviation
-  const double        spread = std::max({ QuantileOf(deviations, 0.5) / medianOfNormal,
-                                          median * std::sqrt(2.0 / static_cast<double>(cells)),
-                                          std::numeric_limits<double>::min() });
+  const auto [median, sd] = CentreOf(values);
+  const double spread =
+    std::max({ sd, median * std::sqrt(2.0 / static_cast<double>(cells)), std::numeric_limits<double>::min() });
   std::vector<double> far;
   far.reserve(values.size());
   for (const double value : values)

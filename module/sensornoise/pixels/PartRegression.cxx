@@ -16,9 +16,6 @@ namespace
 {
 constexpr int FieldDegree = 4;
 
-/** Median of the size of a normal number of variance 1. */
-constexpr double MedianOfNormalTile = 0.6745;
-
 std::array<double, FieldDegree + 1>
 Legendre(double place)
 {
@@ -109,7 +106,7 @@ ScaleOf(const std::vector<double> & residuals)
 {
   std::vector<double> sizes;
   std::transform(residuals.begin(), residuals.end(), std::back_inserter(sizes), [](double r) { return std::abs(r); });
-  return std::max(1.0, Quantile(sizes, 0.5) / MedianOfNormalTile);
+  return std::max(1.0, Quantile(sizes, 0.5) / MedianOfNormal);
 }
 
 /** Least absolute deviations first, which any half of the tiles withstands, then Tukey's bisquare. */

@@ -22,9 +22,6 @@ namespace
 {
 constexpr double Unknown = std::numeric_limits<double>::quiet_NaN();
 
-/** Median of the size of a normal number of variance 1. */
-constexpr double MedianOfNormal = 0.6745;
-
 double
 MedianOf(std::vector<double> values)
 {
@@ -88,53 +85,24 @@ Turned(const VarianceLine & line, double byGain)
 /** A frame and its noise. */
 using NoiseOfFrame = std::pair<double, std::size_t>;
 
-/** Median, and standard deviation by the median difference from it, of a part of \a sorted. */
-struct CentreOfNoise
-{
-  double median{ 1.0 };
-  double spread{ 0.0 };
-};
-
-template <typename TIterator>
-CentreOfNoise
-CentreOf(TIterator begin, TIterator end)
-{
-  std::vector<double> values;
-  std::transform(begin, end, std::back_inserter(values), [](const NoiseOfFrame & frame) { return frame.first; });
-  CentreOfNoise centre;
-  centre.median = MedianOf(values);
-  std::transform(
-    values.begin(), values.end(), values.begin(), [&](double value) { return std::abs(value - centre.median); });
-  centre.spread = MedianOf(values) / MedianOfNormal;
-  return centre;
-}
-
 /** The largest group of \a sorted: first the shortest interval that holds half of them, then all that are near it. */
 std::pair<std::size_t, std::size_t>
 FindLargestGroup(const std::vector<NoiseOfFrame> & sorted, double chance, double least)
 {
-  const std::size_t half = (sorted.size() + 1) / 2;
-  std::size_t       begin = 0;
-  for (std::size_t i = 1; i + half <= sorted.size(); ++i)
-  {
-    const auto length = [&](std::size_t first) { return sorted[first + half - 1].first - sorted[first].first; };
-    begin = length(i) < length(begin) ? i : begin;
-  }
-  std::size_t end = begin + half;
+  std::vector<double> noise;
+  std::transform(
+    sorted.begin(), sorted.end(), std::back_inserter(noise), [](const NoiseOfFrame & frame) { return frame.first; });
+  auto begin = noise.begin() + static_cast<std::ptrdiff_t>(FindDensestHalf(noise));
+  auto end = begin + static_cast<std::ptrdiff_t>((noise.size() + 1) / 2);
   for (int round = 0; round < 2; ++round) // the spread of the densest half is too small
   {
-    const auto          at = [&](std::size_t i) { return sorted.begin() + static_cast<std::ptrdiff_t>(i); };
-    const CentreOfNoise centre = CentreOf(at(begin), at(end));
-    const double        most =
-      std::max(least * centre.median, InRefined.unlikeNoiseZ * std::max(chance * centre.median, centre.spread));
-    const auto isBelow = [](const NoiseOfFrame & frame, double value) { return frame.first < value; };
-    begin = static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), centre.median - most, isBelow) -
-                                     sorted.begin());
-    end = static_cast<std::size_t>(
-      std::lower_bound(sorted.begin(), sorted.end(), std::nextafter(centre.median + most, 1e300), isBelow) -
-      sorted.begin());
+    const RobustCentre centre = CentreOf({ begin, end });
+    const double       most =
+      std::max(least * centre.median, InRefined.unlikeNoiseZ * std::max(chance * centre.median, centre.sd));
+    begin = std::lower_bound(noise.begin(), noise.end(), centre.median - most);
+    end = std::upper_bound(noise.begin(), noise.end(), centre.median + most);
   }
-  return { begin, end };
+  return { static_cast<std::size_t>(begin - noise.begin()), static_cast<std::size_t>(end - noise.begin()) };
 }
 
 FrameGroup

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace sensornoise
@@ -16,8 +17,6 @@ namespace sensornoise
 
 namespace
 {
-constexpr double sdOfMedianDeviation = 1.4826; // standard deviation of a normal distribution by that
-
 /** The lines of the frame that are parallel to a border: line 0 is the outermost one. */
 struct BorderLines
 {
@@ -48,14 +47,8 @@ struct BorderLines
   }
 };
 
-/** Median and robust standard deviation of the levels of a line; null: too few of its pixels are valid. */
-struct LineLevels
-{
-  double medianDn;
-  double sdDn;
-};
-
-std::optional<LineLevels>
+/** Of the levels of a line [DN]; null: too few of its pixels are valid. */
+std::optional<RobustCentre>
 LevelsOfLine(std::vector<double> levels)
 {
   levels.erase(std::remove_if(levels.begin(), levels.end(), [](double level) { return !std::isfinite(level); }),
@@ -64,12 +57,7 @@ LevelsOfLine(std::vector<double> levels)
   {
     return std::nullopt;
   }
-  const double median = Quantile(levels, 0.5);
-  for (double & level : levels)
-  {
-    level = std::abs(level - median);
-  }
-  return LineLevels{ median, sdOfMedianDeviation * Quantile(levels, 0.5) };
+  return CentreOf(std::move(levels));
 }
 
 /** Median of the differences between \a levels and \a others, without their signs; infinite where there are none. */
@@ -105,17 +93,17 @@ ShareBeyond(const std::vector<double> & levels, double level, double distance)
 /** Whether the strip of \a count lines ends within one pixel, and is darker than nearly all of the scene or has nothing
  * of the structure that the scene has beside it. */
 bool
-EndsSharply(const BorderLines & border, const LineLevels & outermost, std::size_t count)
+EndsSharply(const BorderLines & border, const RobustCentre & outermost, std::size_t count)
 {
-  const double                    distance = InScene.borderZ * outermost.sdDn;
-  const std::vector<double>       beside = border.LevelsOf(count);
-  const std::vector<double>       next = border.LevelsOf(count + 1);
-  const std::optional<LineLevels> first = LevelsOfLine(beside);
-  if (!first || ShareBeyond(beside, outermost.medianDn, distance) < InScene.leastBorderShare)
+  const double                      distance = InScene.borderZ * outermost.sd;
+  const std::vector<double>         beside = border.LevelsOf(count);
+  const std::vector<double>         next = border.LevelsOf(count + 1);
+  const std::optional<RobustCentre> first = LevelsOfLine(beside);
+  if (!first || ShareBeyond(beside, outermost.median, distance) < InScene.leastBorderShare)
   {
     return false;
   }
-  const double step = MedianDifference(beside, std::vector<double>(beside.size(), outermost.medianDn));
+  const double step = MedianDifference(beside, std::vector<double>(beside.size(), outermost.median));
   const double inside = std::max(MedianDifference(next, beside), MedianDifference(border.LevelsOf(count + 2), next));
   if (!(step > distance) || inside > InScene.largestBorderSlope * step)
   {
@@ -124,12 +112,12 @@ EndsSharply(const BorderLines & border, const LineLevels & outermost, std::size_
   if (count > 1)
   {
     const auto last = LevelsOfLine(border.LevelsOf(count - 1));
-    if (!last || std::abs(last->medianDn - outermost.medianDn) > InScene.largestBlur * step)
+    if (!last || std::abs(last->median - outermost.median) > InScene.largestBlur * step)
     {
       return false;
     }
   }
-  const bool          hasStructure = first->sdDn > InScene.leastStructure * outermost.sdDn;
+  const bool          hasStructure = first->sd > InScene.leastStructure * outermost.sd;
   std::vector<double> scene;
   const std::size_t   middle = border.lines - border.lines / 4; // the other border may have a strip, too
   for (std::size_t line = count; line < middle; line += std::max<std::size_t>(1, border.lines / 64))
@@ -140,23 +128,23 @@ EndsSharply(const BorderLines & border, const LineLevels & outermost, std::size_
   scene.erase(std::remove_if(scene.begin(), scene.end(), [](double level) { return !std::isfinite(level); }),
               scene.end());
   const double darkest = Quantile(scene, InScene.darkestOfScene);
-  return hasStructure || outermost.medianDn + distance < darkest;
+  return hasStructure || outermost.median + distance < darkest;
 }
 
 /** The lines of the strip that begins with line 0; 0: there is none. */
 std::size_t
-CountLines(const BorderLines & border, const LineLevels & outermost)
+CountLines(const BorderLines & border, const RobustCentre & outermost)
 {
   const auto largest = static_cast<std::size_t>(InScene.largestBorder * static_cast<double>(border.lines));
   for (std::size_t k = 1; k <= largest && k + 3 <= border.lines; ++k)
   {
-    const std::optional<LineLevels> own = LevelsOfLine(border.LevelsOf(k));
+    const std::optional<RobustCentre> own = LevelsOfLine(border.LevelsOf(k));
     if (!own)
     {
       return 0;
     }
-    const bool isEven = own->sdDn < InScene.borderZ * outermost.sdDn;
-    const bool isNear = std::abs(own->medianDn - outermost.medianDn) < InScene.borderZ * outermost.sdDn;
+    const bool isEven = own->sd < InScene.borderZ * outermost.sd;
+    const bool isNear = std::abs(own->median - outermost.median) < InScene.borderZ * outermost.sd;
     if (!(isEven && isNear) && EndsSharply(border, outermost, k))
     {
       return k;
@@ -172,13 +160,13 @@ CountLines(const BorderLines & border, const LineLevels & outermost)
 std::optional<MaskedStrip>
 FindStrip(const BorderLines & border, const char * words)
 {
-  const std::optional<LineLevels> outermost = LevelsOfLine(border.LevelsOf(0));
-  const std::size_t               count = outermost && outermost->sdDn > 0.0 ? CountLines(border, *outermost) : 0;
+  const std::optional<RobustCentre> outermost = LevelsOfLine(border.LevelsOf(0));
+  const std::size_t                 count = outermost && outermost->sd > 0.0 ? CountLines(border, *outermost) : 0;
   if (count == 0)
   {
     return std::nullopt;
   }
-  return MaskedStrip{ words, count, outermost->medianDn, LevelsOfLine(border.LevelsOf(count))->medianDn };
+  return MaskedStrip{ words, count, outermost->median, LevelsOfLine(border.LevelsOf(count))->median };
 }
 } // namespace
 

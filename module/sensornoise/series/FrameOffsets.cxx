@@ -31,7 +31,6 @@ struct DarkLevels
 DarkLevels
 LevelsAbout(double offset, const Eigen::MatrixX2d & changes, const Eigen::Matrix2d & covariance)
 {
-  constexpr double      quartileOfNormal = 0.6745;
   const Eigen::Vector2d dark(1.0, offset); // level at the centre, and slope
   DarkLevels            levels;
   levels.errorDn = std::sqrt(dark.dot(covariance * dark));
@@ -39,14 +38,9 @@ LevelsAbout(double offset, const Eigen::MatrixX2d & changes, const Eigen::Matrix
   std::vector<double> sorted(levels.stepDn.data(), levels.stepDn.data() + levels.stepDn.size());
   std::sort(sorted.begin(), sorted.end());
   const std::size_t half = (sorted.size() + 1) / 2;
-  std::size_t       begin = 0;
-  for (std::size_t i = 1; i + half <= sorted.size(); ++i)
-  {
-    const auto length = [&](std::size_t first) { return sorted[first + half - 1] - sorted[first]; };
-    begin = length(i) < length(begin) ? i : begin;
-  }
+  const std::size_t begin = FindDensestHalf(sorted);
   levels.stepDn.array() -= sorted[begin + half / 2];
-  levels.spread = 0.5 * (sorted[begin + half - 1] - sorted[begin]) / quartileOfNormal / levels.errorDn;
+  levels.spread = 0.5 * (sorted[begin + half - 1] - sorted[begin]) / MedianOfNormal / levels.errorDn;
   return levels;
 }
 
