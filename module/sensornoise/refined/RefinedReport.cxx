@@ -257,11 +257,13 @@ FillSensor(Report & report, const RefinedResults & found, const GainEstimate & g
 }
 
 /** Takes the gain from a report of frames that have fewer samples than pixels, and what follows from it, and leaves its
- * limits: as for white noise, and as for all covariances together. \a slopeDn of a pixel's variance. */
+ * limits: as for white noise, of which the slope of the variance is the gain, and as for all covariances together. */
 void
-WithholdGain(Report & report, const Quantity & slopeDn)
+WithholdGain(Report & report)
 {
-  if (!report.gain.interval95 || !slopeDn.interval95)
+  const std::optional<Interval> & all = report.gain.interval95;
+  const std::optional<Interval> & white = report.varianceSlope.interval95;
+  if (!all || !white)
   {
     return;
   }
@@ -271,9 +273,8 @@ WithholdGain(Report & report, const Quantity & slopeDn)
   const auto higher = [](const Interval & a, const Interval & b) {
     return a.high && b.high ? std::optional(std::max(*a.high, *b.high)) : std::nullopt;
   };
-  const Interval limits{ lower(*report.gain.interval95, *slopeDn.interval95),
-                         higher(*report.gain.interval95, *slopeDn.interval95) };
-  report.gain = Quantity::Without(EstimateStatus::NotIdentifiable, limits);
+  report.gain =
+    Quantity::Without(EstimateStatus::NotIdentifiable, Interval{ lower(*all, *white), higher(*all, *white) });
   report.gainByParts.clear();
   report.covariance.reset();
   for (Quantity * const quantity :
@@ -349,7 +350,7 @@ MakeRefinedReport(const RefinedResults & found, const ParallelFor & parallelFor)
   FillVariance(report, found, ofVariance);
   if (found.correlation.kind == NoiseKind::Enlarged)
   {
-    WithholdGain(report, report.varianceSlope);
+    WithholdGain(report);
   }
   WarnOfCorrelation(report, found.correlation);
   return report;
