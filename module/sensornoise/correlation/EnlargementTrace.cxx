@@ -44,6 +44,15 @@ struct PlaceSums
 };
 using PlaceBins = std::array<PlaceSums, NoiseResiduals::LightBins>;
 
+void
+AddBins(const PlaceBins & bins, PlaceBins & sum)
+{
+  for (std::size_t b = 0; b < sum.size(); ++b)
+  {
+    sum[b] += bins[b];
+  }
+}
+
 /** By the parity of the line, then by the place along the axis. */
 using AxisSums = std::array<std::vector<PlaceBins>, 2>;
 
@@ -62,15 +71,45 @@ IndexOf(int lag, std::size_t axis)
   return 2 * static_cast<std::size_t>(lag - 1) + axis;
 }
 
+/** The sums of a tile along one axis; \a squares are of its pixels, \a products of those with their neighbours. */
+AxisSums
+SumAxis(const NoiseResiduals &     residuals,
+        std::size_t                tile,
+        std::size_t                axis,
+        std::size_t                apart,
+        const std::vector<float> & squares,
+        const std::vector<float> & products)
+{
+  const std::size_t    side = residuals.GetTiles().side;
+  const auto &         origin = residuals.GetTiles().origins[tile];
+  const std::size_t    firstLine = axis == 0 ? origin.y : origin.x;
+  const float *        weight = residuals.WeightOf(tile);
+  const std::uint8_t * bin = residuals.BinOf(tile);
+  AxisSums             sums;
+  sums.fill(std::vector<PlaceBins>(side));
+  for (std::size_t line = 0; line < side; ++line)
+  {
+    for (std::size_t place = 0; place + apart < side; ++place)
+    {
+      const std::size_t p = axis == 0 ? line * side + place : place * side + line;
+      const std::size_t q = p + apart * (axis == 0 ? 1 : side);
+      const double      w = static_cast<double>(weight[p]) * weight[q];
+      if (w > 0.0)
+      {
+        sums[(firstLine + line) % 2][place][bin[p]] += { 1.0,
+                                                         products[p] * std::sqrt(w),
+                                                         static_cast<double>(squares[p]) * weight[p],
+                                                         static_cast<double>(squares[q]) * weight[q] };
+      }
+    }
+  }
+  return sums;
+}
+
 TraceSums
 SumTraces(const NoiseResiduals & residuals, std::size_t tile)
 {
-  const SampleTiles & tiles = residuals.GetTiles();
-  const std::size_t   side = tiles.side;
-  const auto & [originX, originY] = tiles.origins[tile];
-  const float *        weight = residuals.WeightOf(tile);
-  const std::uint8_t * bin = residuals.BinOf(tile);
-  std::vector<Lag>     lags{ {} };
+  std::vector<Lag> lags{ {} };
   for (int lag = 1; lag <= LargestLag; ++lag)
   {
     lags.push_back({ lag, 0, 0 });
@@ -78,32 +117,11 @@ SumTraces(const NoiseResiduals & residuals, std::size_t tile)
   }
   const auto products = SumProducts(residuals, tile, lags);
   TraceSums  sums;
-  for (int lag = 1; lag <= LargestLag; ++lag)
+  for (std::size_t index = 0; index < sums.axes.size(); ++index)
   {
-    for (std::size_t axis = 0; axis < 2; ++axis)
-    {
-      const std::size_t index = IndexOf(lag, axis);
-      const auto        apart = static_cast<std::size_t>(lag);
-      AxisSums &        own = sums.axes[index];
-      own.fill(std::vector<PlaceBins>(side));
-      for (std::size_t line = 0; line < side; ++line)
-      {
-        const std::size_t parity = ((axis == 0 ? originY : originX) + line) % 2;
-        for (std::size_t place = 0; place + apart < side; ++place)
-        {
-          const std::size_t p = axis == 0 ? line * side + place : place * side + line;
-          const std::size_t q = p + apart * (axis == 0 ? 1 : side);
-          const double      w = static_cast<double>(weight[p]) * weight[q];
-          if (w > 0.0)
-          {
-            own[parity][place][bin[p]] += { 1.0,
-                                            products[1 + index][p] * std::sqrt(w),
-                                            static_cast<double>(products[0][p]) * weight[p],
-                                            static_cast<double>(products[0][q]) * weight[q] };
-          }
-        }
-      }
-    }
+    const Lag & lag = lags[1 + index];
+    const auto  apart = static_cast<std::size_t>(lag.x + lag.y);
+    sums.axes[index] = SumAxis(residuals, tile, index % 2, apart, products[0], products[1 + index]);
   }
   return sums;
 }
@@ -128,10 +146,7 @@ SumsOfFrame(const NoiseResiduals & residuals, const std::vector<TraceSums> & til
     {
       for (std::size_t place = 0; place < places.side; ++place)
       {
-        for (std::size_t b = 0; b < NoiseResiduals::LightBins; ++b)
-        {
-          frame[parity][first + place][b] += tiles[i].axes[index][parity][place][b];
-        }
+        AddBins(tiles[i].axes[index][parity][place], frame[parity][first + place]);
       }
     }
   }
@@ -152,10 +167,7 @@ CoefficientsOf(const std::vector<PlaceBins> & sums)
   PlaceBins all{};
   for (const PlaceBins & place : sums)
   {
-    for (std::size_t b = 0; b < all.size(); ++b)
-    {
-      all[b] += place[b];
-    }
+    AddBins(place, all);
   }
   PlaceCoefficients found;
   for (const PlaceBins & place : sums)
@@ -190,14 +202,14 @@ LargestOscillation(const std::vector<double> & values, const std::vector<double>
   {
     return std::nullopt;
   }
-  const auto first = static_cast<std::size_t>(2.0 * InCorrelation.leastCyclesPerPixel * static_cast<double>(extent));
+  const auto   first = static_cast<std::size_t>(2.0 * InCorrelation.leastCyclesPerPixel * static_cast<double>(extent));
+  const double pi = std::acos(-1.0);
   std::vector<double> squares;
   for (std::size_t k = first; k <= extent; ++k)
   {
-    const std::complex<double> step =
-      std::polar(1.0, std::acos(-1.0) * static_cast<double>(k) / static_cast<double>(extent));
-    std::complex<double> phase = 1.0;
-    std::complex<double> sum = 0.0;
+    const std::complex<double> step = std::polar(1.0, pi * static_cast<double>(k) / static_cast<double>(extent));
+    std::complex<double>       phase = 1.0;
+    std::complex<double>       sum = 0.0;
     for (std::size_t x = 0; x < extent; ++x)
     {
       sum += pairs[x] * values[x] * phase;
