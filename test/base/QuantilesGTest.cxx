@@ -83,3 +83,18 @@ TEST(SensorNoiseQuantiles, SampleIsEveryNthPixelOfAnyMask)
     }
   }
 }
+
+TEST(SensorNoiseQuantiles, RobustCentreIsTheMedianAndTheMedianDifference)
+{
+  const RobustCentre centre = CentreOf({ 7.0, 1.0, 3.0, 100.0, 4.0 });
+  EXPECT_EQ(centre.median, 4.0);
+  EXPECT_DOUBLE_EQ(centre.sd, 3.0 / MedianOfNormal); // of 3, 3, 1, 96, 0
+}
+
+TEST(SensorNoiseQuantiles, DensestHalfIsTheShortestInterval)
+{
+  EXPECT_EQ(FindDensestHalf({ 0.0, 5.0, 6.0, 6.5, 9.0 }), 1U); // 5 to 6.5
+  EXPECT_EQ(FindDensestHalf({ 1.0, 2.0, 8.0, 9.5 }), 0U);
+  EXPECT_EQ(FindDensestHalf({ 0.0, 1.0, 2.0 }), 0U); // the first of equal ones
+  EXPECT_EQ(FindDensestHalf({ 3.0 }), 0U);
+}
