@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <gtest/gtest.h>
+#include <limits>
 #include <vector>
 
 using namespace sensornoise;
@@ -294,4 +295,19 @@ TEST(SensorNoiseFrameNoise, IsWithinTheErrorOfTheSlope)
   EXPECT_GT((sure.array() - 1.0).abs().maxCoeff(), 0.3);
   const Eigen::VectorXd unsure = NoiseOfFrames(energies, levels, line, Gain);
   EXPECT_LT((unsure.array() - 1.0).abs().maxCoeff(), 1e-9);
+}
+
+TEST(SensorNoiseFrameNoise, OfALineThatTellsNoSlopeIsJudgedBySlopesOfSensors)
+{
+  // Frames of several levels then say nothing against each other; frames of one level do, whatever the slope.
+  VarianceLine line = LineOf(0.5 * Gain, 0.0);
+  line.intercept = InterceptDn2 + Gain * line.pivotDn - line.gain * line.pivotDn;
+  const double          unknown = std::numeric_limits<double>::infinity();
+  const TileLevels      levels(Gamma(), OffsetDn, ZeroDn);
+  const Eigen::VectorXd plain = NoiseOfFrames(Energies(Gamma(), Exactly), levels, line, unknown);
+  EXPECT_LT((plain.array() - 1.0).abs().maxCoeff(), 1e-9);
+  const std::vector<double> steady(Frames, 0.0);
+  const auto            energies = Energies(steady, [](Eigen::Index, Eigen::Index t) { return t == 4 ? 1.5 : 1.0; });
+  const Eigen::VectorXd other = NoiseOfFrames(energies, { steady, OffsetDn, ZeroDn }, line, unknown);
+  EXPECT_NEAR(other(4), 1.5, 1e-9);
 }

@@ -122,6 +122,8 @@ struct RefinedConstants
   double unlikeNoiseZ{ 6.0 };
   /** Standard errors of the slope within which a frame's level may make its noise what it is [1]. */
   double slackOfSlopeZ{ 2.0 };
+  /** Slopes that are tried on either side, as the noise of a frame need not rise with the slope. Chosen empirically. */
+  int stepsOfSlope{ 4 };
   /** Part of the information on the slope that must be left without the fifth of the frames that have most of it [1].
    * Chosen between two cases: it is 0.25 of pulses in every fourth frame, 0.05 of two frames of 1.5 times the level
    * among 60 that flicker by 2 %. */

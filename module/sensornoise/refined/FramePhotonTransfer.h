@@ -26,6 +26,12 @@ public:
   Eigen::VectorXd
   Of(double lightDn) const;
 
+  double
+  OffsetDn() const
+  {
+    return m_OffsetDn;
+  }
+
 private:
   Eigen::VectorXd m_Illumination;
   double          m_OffsetDn;

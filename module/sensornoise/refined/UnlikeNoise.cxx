@@ -7,7 +7,6 @@
 #include "sensornoise/refined/Constants.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -80,6 +79,15 @@ Turned(const VarianceLine & line, double byGain)
   turned.gain += byGain;
   turned.intercept -= byGain * line.pivotDn;
   return turned;
+}
+
+/** The slope of a line about the pivot of \a line that has no noise without light, and twice as much, as the dark
+ * offset may not be known [DN/e-]. */
+double
+SteepestSlope(const VarianceLine & line, const TileLevels & levels)
+{
+  const double lightDn = line.pivotDn - levels.OffsetDn();
+  return lightDn > 0.0 ? 2.0 * line.At(line.pivotDn) / lightDn : std::numeric_limits<double>::infinity();
 }
 
 /** A frame and its noise. */
@@ -176,18 +184,25 @@ NoiseOfFrames(const FrameEnergies &   energies,
   {
     return {};
   }
-  const double                   slack = InRefined.slackOfSlopeZ * slopeError;
-  std::array<Eigen::VectorXd, 3> ratios;
-  std::array<double, 3>          turns = { -slack, 0.0, slack };
-  std::transform(turns.begin(), turns.end(), ratios.begin(), [&](double byGain) {
-    return RatiosOfFrames(energies, levels, Turned(line, byGain), noise);
-  });
-  Eigen::VectorXd nearest = ratios[1];
+  const double    slack = InRefined.slackOfSlopeZ * slopeError;
+  const double    down = std::min(slack, std::max(0.0, line.gain));
+  const double    up = std::min(slack, std::max(0.0, SteepestSlope(line, levels) - line.gain));
+  Eigen::VectorXd nearest = RatiosOfFrames(energies, levels, line, noise);
+  Eigen::VectorXd low = nearest;
+  Eigen::VectorXd high = nearest;
+  for (int step = 1; step <= InRefined.stepsOfSlope; ++step)
+  {
+    const double part = static_cast<double>(step) / InRefined.stepsOfSlope;
+    for (const double turn : { -part * down, part * up })
+    {
+      const Eigen::VectorXd ratios = RatiosOfFrames(energies, levels, Turned(line, turn), noise);
+      low = low.cwiseMin(ratios);
+      high = high.cwiseMax(ratios);
+    }
+  }
   for (Eigen::Index t = 0; t < nearest.size(); ++t)
   {
-    const double low = std::min({ ratios[0](t), ratios[1](t), ratios[2](t) });
-    const double high = std::max({ ratios[0](t), ratios[1](t), ratios[2](t) });
-    nearest(t) = std::isfinite(nearest(t)) ? std::clamp(1.0, low, high) : nearest(t);
+    nearest(t) = std::isfinite(nearest(t)) ? std::clamp(1.0, low(t), high(t)) : nearest(t);
   }
   return nearest;
 }

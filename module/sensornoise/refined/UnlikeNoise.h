@@ -19,8 +19,9 @@ namespace sensornoise
 /** The noise variance of every frame over that which its level makes of that of the others [1]: 1 but for chance.
  * Medians over the tiles, so that what moves in some of them does not count. NaN where the projection leaves next to
  * nothing of a frame; empty where there are too few tiles. \a slopeError is the standard error of the \a line's slope,
- * within which the value that comes nearest to 1 is taken [DN/e-]. \a known is what was found before; the
- * projection leaves some of the noise of a frame in the others, which is taken off by it. Without it all have 1. */
+ * within which the value that comes nearest to 1 is taken, of slopes that a sensor may have [DN/e-]; it may be
+ * infinite. \a known is what was found before; the projection leaves some of the noise of a frame in the others, which
+ * is taken off by it. Without it all have 1. */
 SensorNoise_EXPORT Eigen::VectorXd
 NoiseOfFrames(const FrameEnergies &   energies,
               const TileLevels &      levels,
