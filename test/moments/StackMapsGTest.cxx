@@ -221,6 +221,18 @@ TEST(SensorNoiseStackMaps, TheTypeOfWholeNumbersChangesNothing)
   }
 }
 
+TEST(SensorNoiseStackMaps, ClipLevelsThatNoPixelAttainsHaveCutOffNothing)
+{
+  const StackSummary plain = MapsOf(CodesBetween(std::nullopt, std::nullopt)).summary;
+  EXPECT_TRUE(plain.codes.clipLowDn && plain.codes.clipHighDn); // the ends of the code range
+  EXPECT_FALSE(plain.AttainedCodes().clipLowDn || plain.AttainedCodes().clipHighDn);
+  const StackSummary saturated = MapsOf(CodesBetween(std::nullopt, 2000.0)).summary;
+  EXPECT_EQ(saturated.clippedLow, 0U);
+  EXPECT_EQ(saturated.clippedHigh, saturated.clipped);
+  EXPECT_EQ(saturated.AttainedCodes().clipHighDn, 2000.0);
+  EXPECT_FALSE(saturated.AttainedCodes().clipLowDn);
+}
+
 TEST(SensorNoiseStackMaps, ScaledCodesHaveTheirStep)
 {
   const Stack<std::uint16_t> codes = CodesBetween(std::nullopt, std::nullopt);

@@ -37,9 +37,19 @@ struct CodeRange
   }
   /** Whether a pixel with these extremes over time attains a clip level. */
   bool
+  IsClippedLow(double minimumDn) const
+  {
+    return clipLowDn && minimumDn <= *clipLowDn;
+  }
+  bool
+  IsClippedHigh(double maximumDn) const
+  {
+    return clipHighDn && maximumDn >= *clipHighDn;
+  }
+  bool
   IsClipped(double minimumDn, double maximumDn) const
   {
-    return (clipLowDn && minimumDn <= *clipLowDn) || (clipHighDn && maximumDn >= *clipHighDn);
+    return this->IsClippedLow(minimumDn) || this->IsClippedHigh(maximumDn);
   }
 };
 

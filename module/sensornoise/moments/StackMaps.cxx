@@ -177,6 +177,15 @@ FindEnds(const TemporalMaps<TPixel> & maps, const ParallelFor & parallelFor)
 
 } // namespace
 
+CodeRange
+StackSummary::AttainedCodes() const
+{
+  CodeRange attained = codes;
+  attained.clipLowDn = clippedLow > 0 ? codes.clipLowDn : std::nullopt;
+  attained.clipHighDn = clippedHigh > 0 ? codes.clipHighDn : std::nullopt;
+  return attained;
+}
+
 template <typename TPixel>
 StackSummary
 SummariseStack(const TemporalMaps<TPixel> & maps,
@@ -198,15 +207,20 @@ SummariseStack(const TemporalMaps<TPixel> & maps,
     for (std::size_t p = begin; p < end; ++p)
     {
       const bool finite = maps.IsFinite(p);
-      const bool clipped = finite && summary.codes.IsClipped(maps.GetMinimum(p), maps.GetMaximum(p));
-      valid[p] = finite && !clipped ? 1 : 0;
-      count.clipped += clipped ? 1 : 0;
+      const bool isLow = finite && summary.codes.IsClippedLow(maps.GetMinimum(p));
+      const bool isHigh = finite && summary.codes.IsClippedHigh(maps.GetMaximum(p));
+      valid[p] = finite && !isLow && !isHigh ? 1 : 0;
+      count.clipped += isLow || isHigh ? 1 : 0;
+      count.clippedLow += isLow ? 1 : 0;
+      count.clippedHigh += isHigh ? 1 : 0;
       count.notFinite += finite ? 0 : 1;
     }
   });
   for (const StackSummary & count : counts)
   {
     summary.clipped += count.clipped;
+    summary.clippedLow += count.clippedLow;
+    summary.clippedHigh += count.clippedHigh;
     summary.notFinite += count.notFinite;
   }
   return summary;

@@ -102,8 +102,10 @@ MakeStillScene(const StackSummary &              summary,
     {
       scene.model = FitProvisionalModel(scene.frame);
     }
-    UsablePixels found = LeaveOutCoarseAndGuarded(
-      scene.frame, scene.model, summary.codes, frameMeans, std::move(scene.pixelUse), parallelFor, darkestNoiseDn2);
+    // How far strong changes of the light take a pixel is known roughly only: of a flat field all or none are guarded.
+    const CodeRange codes = scene.changesStrongly ? summary.AttainedCodes() : summary.codes;
+    UsablePixels    found = LeaveOutCoarseAndGuarded(
+      scene.frame, scene.model, codes, frameMeans, std::move(scene.pixelUse), parallelFor, darkestNoiseDn2);
     scene.frame.usable = std::move(found.usable);
     scene.pixelUse = std::move(found.pixelUse);
     scene.usable = found.count;
