@@ -152,6 +152,18 @@ TEST(SensorNoiseUnlikeFrames, MoreThanAFifthAreTheBurst)
   EXPECT_EQ(FindUnlikeFrames(otherUntil(5)).size(), 0U);
 }
 
+TEST(SensorNoiseUnlikeFrames, EmptyFramesAreNoBurstHoweverManyTheyAre)
+{
+  std::vector<float> stack =
+    Expose(20, [](std::size_t t, double x, double y) { return t == 19 ? Scene(y, x) : Scene(x, y); });
+  for (std::size_t t = 0; t < 8; ++t)
+  {
+    Fill(stack, t, 4095.0F);
+  }
+  const std::vector<LeftOutFrame> found = FindUnlikeFrames(ThumbnailsOf(stack));
+  EXPECT_EQ(NumbersOf(found), (std::vector<std::size_t>{ 0, 1, 2, 3, 4, 5, 6, 7, 19 }));
+}
+
 TEST(SensorNoiseUnlikeFrames, MinimumFramesAreLeft)
 {
   const auto otherFirst = [](std::size_t frames) {
@@ -193,7 +205,7 @@ TEST(SensorNoiseUnlikeFrames, OfMergedPartsAreThoseOfTheWhole)
 
 TEST(SensorNoiseUnlikeFrames, OfPartsAreJoinedUnlessTheyAreTooMany)
 {
-  const std::vector<LeftOutFrame> one{ { 3, FrameFault::NoNoise } };
+  const std::vector<LeftOutFrame> one{ { 3, FrameFault::OtherNoise } };
   const std::vector<LeftOutFrame> two{ { 1, FrameFault::OtherShape }, { 3, FrameFault::OtherShape } };
   EXPECT_EQ(NumbersOf(JoinUnlikeFrames({ one, two, {} }, 10)), (std::vector<std::size_t>{ 1, 3 }));
   EXPECT_EQ(NumbersOf(JoinUnlikeFrames({ one, two, {} }, 9)), std::vector<std::size_t>());

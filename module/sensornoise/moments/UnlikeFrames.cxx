@@ -56,12 +56,21 @@ CellsThatTell(const FrameThumbnails & thumbnails)
 
 using Faults = std::map<std::size_t, FrameFault>; // of the frames that are left out
 
-/** How many of so many frames may be left out, if \a share of them may be [1]. */
-std::size_t
-MostLeftOut(std::size_t frames, double share = InMoments.largestLeftOutShare)
+bool
+IsEmpty(FrameFault fault)
 {
-  return std::min(frames - std::min(frames, MinimumFrames),
-                  static_cast<std::size_t>(share * static_cast<double>(frames)));
+  return fault == FrameFault::NotFinite || fault == FrameFault::NoNoise;
+}
+
+/** Whether so few of so many frames are left out that the others are the burst. Empty frames are no burst, however many
+ * they are; of the others at most \a share may be left out [1]. */
+bool
+AreFew(const Faults & faults, std::size_t frames, double share)
+{
+  const auto empty = static_cast<std::size_t>(
+    std::count_if(faults.begin(), faults.end(), [](const auto & fault) { return IsEmpty(fault.second); }));
+  const auto full = static_cast<double>(frames - std::min(frames, empty));
+  return static_cast<double>(faults.size() - empty) <= share * full && faults.size() + MinimumFrames <= frames;
 }
 
 /** In their order; none if they are too many of so many frames. */
@@ -69,11 +78,14 @@ std::vector<LeftOutFrame>
 AsList(const Faults & faults, std::size_t frames, double share = InMoments.largestLeftOutShare)
 {
   std::vector<LeftOutFrame> leftOut;
-  for (const auto & [frame, fault] : faults)
+  if (AreFew(faults, frames, share))
   {
-    leftOut.push_back({ frame, fault });
+    for (const auto & [frame, fault] : faults)
+    {
+      leftOut.push_back({ frame, fault });
+    }
   }
-  return leftOut.size() > MostLeftOut(frames, share) ? std::vector<LeftOutFrame>() : leftOut;
+  return leftOut;
 }
 
 /** The frames with nothing in most of their cells, where the others have something. */
@@ -254,9 +266,8 @@ FindUnlikeFrames(const FrameThumbnails & thumbnails)
   {
     return {};
   }
-  const std::size_t most = MostLeftOut(frames);
-  Faults            faults = FindEmptyFrames(thumbnails, cells);
-  if (faults.size() <= most)
+  Faults faults = FindEmptyFrames(thumbnails, cells);
+  if (AreFew(faults, frames, InMoments.largestLeftOutShare))
   {
     const Indices kept = FramesWithout(faults, frames);
     const Indices finite = FiniteCells(thumbnails, cells, kept);

@@ -36,8 +36,8 @@ struct LeftOutFrame
   FrameFault  fault{ FrameFault::OtherShape };
 };
 
-/** Finds the frames that are unlike the others, in their order; none if more than a fifth of the frames are, or fewer
- * than MinimumFrames would be left.
+/** Finds the frames that are unlike the others, in their order; none if fewer than MinimumFrames would be left, or if
+ * more than a fifth of the frames that have something in them are unlike.
  *
  * A frame of the burst is a level plus a factor times the mean frame, but for noise, vibration, and light that is not
  * the same everywhere, of which the others have as much. A dark frame has the factor 0: it belongs to the burst.
@@ -45,8 +45,8 @@ struct LeftOutFrame
 SensorNoise_EXPORT std::vector<LeftOutFrame>
 FindUnlikeFrames(const FrameThumbnails & thumbnails);
 
-/** Joins the unlike frames of several parts of the frames, as the planes of a mosaic; none if they are more than
- * \a largestShare of \a frames. */
+/** Joins the unlike frames of several parts of \a frames, as the planes of a mosaic; none if those that have something
+ * in them are more than \a largestShare. */
 SensorNoise_EXPORT std::vector<LeftOutFrame>
 JoinUnlikeFrames(const std::vector<std::vector<LeftOutFrame>> & ofParts,
                  std::size_t                                    frames,
