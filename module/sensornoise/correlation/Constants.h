@@ -116,6 +116,11 @@ struct CorrelationConstants
   double leastOscillation{ 0.03 };
   /** Of its square to the mean of those at other frequencies [1]: chance exceeds it in one of 10^6 spectra of 10^5. */
   double oscillationRatio{ 25.0 };
+  /** Part of the noise variance that places which move by themselves may have where neighbours share noise [1], and the
+   * standard errors by which one must exceed it [1]. Chosen by the size of the effect: the lags within reach sum up to
+   * ten times as much. */
+  double leastLocalMotion{ 0.005 };
+  double localMotionZ{ 4.0 };
   /** Excess kurtosis that no linear filter leaves [1], and the standard errors by which one must exceed it [1]. Set by
    * hand: the correction of defects at 3 standard deviations makes -0.06 to -0.08 of the noise and 0.1 to 0.25 of four
    * neighbours in turn, white and filtered noise 0.01. */

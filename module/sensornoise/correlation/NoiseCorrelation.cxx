@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/correlation/NoiseCorrelation.h"
 
-
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/correlation/Constants.h"
 #include "sensornoise/correlation/CorrelationSums.h"
 #include "sensornoise/correlation/CovarianceLines.h"
+#include "sensornoise/correlation/LocalMotion.h"
 #include "sensornoise/correlation/SpaceCorrelation.h"
 #include "sensornoise/correlation/TemporalMixing.h"
 #include "sensornoise/correlation/TimeCorrelation.h"
@@ -213,6 +213,12 @@ NoiseCorrelation::LineNoise() const
   return sum;
 }
 
+bool
+NoiseCorrelation::HasLocalMotion() const
+{
+  return localMotion.value > 0.0 && localMotion.Exceeds(InCorrelation.leastLocalMotion, InCorrelation.localMotionZ);
+}
+
 double
 NoiseCorrelation::ProbabilityOfLateNoise() const
 {
@@ -255,6 +261,7 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const
   {
     SumOverSpace(sums, found);
     found.covarianceLines = FitCovarianceLines(sums, sums.Ring(1, found.reach));
+    found.localMotion = FindLocalMotion(residuals, parallelFor);
   }
   if (inTime || inSpace)
   {

@@ -118,6 +118,8 @@ struct SensorNoise_EXPORT NoiseCorrelation
   double beyondReach{ 0.0 };
   /** Part of the values that repeat that of the frame before beyond chance, where the kind is NotLinear for it [1]. */
   double repeatedShare{ 0.0 };
+  /** See FindLocalMotion(), where neighbours share anything. */
+  MeasuredNumber localMotion;
   /** Where frames were enlarged. */
   std::optional<EnlargementTrace> enlargement;
   /** Of the lags in space that are summed [pixels]. */
@@ -129,6 +131,10 @@ struct SensorNoise_EXPORT NoiseCorrelation
   /** Variance of the noise of whole rows and columns, where it is seen [DN^2]. */
   MeasuredNumber
   LineNoise() const;
+
+  /** Whether what neighbours share is, in part, of places that move by themselves. */
+  bool
+  HasLocalMotion() const;
 
   /** Probability that most of the variance without light came after the filter. */
   double

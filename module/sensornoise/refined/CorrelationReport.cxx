@@ -78,6 +78,17 @@ WarnOfNonlinear(Report & report, const NoiseCorrelation & correlation, const Lag
                   "cannot be told from what frames share; record raw frames");
     return;
   }
+  if (correlation.HasLocalMotion())
+  {
+    report.Warn(WarningCode::NoiseNotLinear,
+                PercentOf(correlation.localMotion) +
+                  " of the noise variance is what neighbours share in proportion to the slopes of the scene at both "
+                  "(expected at most " +
+                  Percent(InCorrelation.leastLocalMotion) +
+                  "): places of the scene move by themselves, as in heat haze, and a filter cannot be told from it. "
+                  "Choose a smooth part of the scene (--roi), or record it at rest");
+    return;
+  }
   const MeasuredNumber & own = correlation.kurtosis.front();
   const MeasuredNumber & ofFour = correlation.kurtosis[3];
   const std::string      kurtosis = "excess kurtosis " + Measured(own.value, own.standardError) +
