@@ -110,6 +110,10 @@ SITUATIONS = (
         for k in (2.0, 5.0, 20.0)
     ),
     *(
+        situation(f"gains/alternating-{k:g}%", lambda r, e, k=k: with_gains(r, e, EVERY_SECOND, 1 + k / 100, 1.0))
+        for k in (2.0, 5.0)
+    ),
+    *(
         situation(
             f"gains/interpolated-{every}-{name}",
             lambda r, e, every=every, weights=weights: interpolated(r, e, every, weights),

@@ -281,9 +281,8 @@ inline constexpr std::array<WarningKind, 49> WarningTable{ {
   { WarningCode::NoiseNotLinear,
     "noise-not-linear",
     Severity::Error,
-    "The noise is not as a linear filter leaves it: the camera corrects defects, takes medians or compresses. Ask it "
-    "for "
-    "raw frames." },
+    "The noise is not as a linear filter leaves it: the camera corrects defects, takes medians or compresses (ask it "
+    "for raw frames), or places of the scene move by themselves (choose a smooth part)." },
   { WarningCode::FramesEnlarged,
     "frames-enlarged",
     Severity::Error,
@@ -304,8 +303,9 @@ inline constexpr std::array<WarningKind, 49> WarningTable{ {
     "gain-not-uniform",
     Severity::Warning,
     "Parts of the frame have different gains, as behind several amplifiers, in stitched blocks, or of a mosaic given "
-    "as mono. `gain` is the mean over the pixels, its interval holds the gains of the parts, and `gain_by_parts` has "
-    "each. Measure the parts by themselves (--roi, --mask, --bayer)." },
+    "as mono; or parts of the burst have, as where the camera changed while it recorded. `gain` is the mean over all, "
+    "its interval holds the gains of the parts, and `gain_by_parts` has each. Measure the parts by themselves (--roi, "
+    "--mask, --bayer, --frames)." },
   { WarningCode::VarianceSteps,
     "variance-steps",
     Severity::Warning,

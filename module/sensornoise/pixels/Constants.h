@@ -222,6 +222,9 @@ struct PartsConstants
   double leastDifference{ 0.0075 };
   /** The same from which on the rejection of pixels allows for it [1]: neighbourhoods are rejected from 4 % on. */
   double largeDifference{ 0.0125 };
+  /** Difference of the variances without signal, rms over the pixels, from which on it counts [1]: 5 % of the read
+   * noise. As InRefined.leastDarkDifference. */
+  double leastDarkDifference{ 0.1 };
   /** Standard deviations of chi-square by which parts must differ, too [1]: of 10^6 uniform sensors none does. */
   double differenceZ{ 5.0 };
   /** Scatter of the tiles within parts over that of sampling, up to which parts are uniform in themselves [1]: where

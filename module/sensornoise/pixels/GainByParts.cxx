@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace sensornoise
 {
@@ -20,6 +21,23 @@ StandardDeviationsOf(double chi2, double dof)
 {
   const double s = 2.0 / (9.0 * dof);
   return (std::cbrt(chi2 / dof) - 1.0 + s) / std::sqrt(s);
+}
+
+/** Standard deviations of chi-square by which the coefficients from \a first on differ from 0, or, with
+ * \a fromTheLast, from the last of them: these differences are independent numbers. */
+double
+SignificanceOf(const PartRegression & fit, Eigen::Index first, Eigen::Index count, bool fromTheLast)
+{
+  const Eigen::Index rank = fromTheLast ? count - 1 : count;
+  Eigen::MatrixXd    contrast = Eigen::MatrixXd::Zero(rank, fit.theta.size());
+  for (Eigen::Index k = 0; k < rank; ++k)
+  {
+    contrast(k, first + k) = 1.0;
+    contrast(k, first + count - 1) -= fromTheLast ? 1.0 : 0.0;
+  }
+  const Eigen::VectorXd difference = contrast * fit.theta;
+  const Eigen::MatrixXd chance = contrast * fit.covariance * contrast.transpose();
+  return StandardDeviationsOf(difference.dot(chance.ldlt().solve(difference)), static_cast<double>(rank));
 }
 
 /** Relates the gains of the parts to their pixel-weighted mean. */
@@ -48,17 +66,15 @@ FillGains(PartGains & gains, const PartRegression & fit, const std::vector<TileE
     square += share(k) * (gains.excess.back() * gains.excess.back() - covariance(k, k));
   }
   gains.size = std::sqrt(std::max(0.0, square));
-  // The differences from the last part are independent numbers.
-  const Eigen::Index rank = fit.IsSmooth() ? fit.gains - 1 : parts - 1;
-  Eigen::MatrixXd    contrast = Eigen::MatrixXd::Zero(rank, fit.theta.size());
-  for (Eigen::Index k = 0; k < rank; ++k)
+  gains.z = fit.IsSmooth() ? SignificanceOf(fit, 1, fit.gains - 1, false) : SignificanceOf(fit, 0, parts, true);
+  if (!fit.IsSmooth())
   {
-    contrast(k, fit.IsSmooth() ? k + 1 : k) = 1.0;
-    contrast(k, fit.IsSmooth() ? k + 1 : parts - 1) += fit.IsSmooth() ? 0.0 : -1.0;
+    const Eigen::VectorXd dark = fit.theta.segment(fit.gains, parts);
+    const Eigen::VectorXd beyond =
+      (dark.array() - share.dot(dark)).square() - fit.covariance.diagonal().segment(fit.gains, parts).array();
+    gains.darkSize = std::sqrt(std::max(0.0, share.dot(beyond)));
+    gains.darkZ = SignificanceOf(fit, fit.gains, parts, true);
   }
-  const Eigen::VectorXd difference = contrast * fit.theta;
-  const Eigen::MatrixXd chance = contrast * fit.covariance * contrast.transpose();
-  gains.z = StandardDeviationsOf(difference.dot(chance.ldlt().solve(difference)), static_cast<double>(rank));
 }
 
 PartGains
@@ -76,9 +92,10 @@ GainsOf(const PartRegression & fit, const std::vector<TileExcess> & tiles)
   return gains;
 }
 
-/** The partition of those by place, or by phase, that describes the tiles best; null: none is better than one gain. */
+/** The partition of what is \a divided that describes the tiles best; null: none is better than one part, or the parts
+ * do not differ. */
 std::optional<PartGains>
-FindBest(const std::vector<TileExcess> & tiles, bool isPhase)
+FindBest(const std::vector<TileExcess> & tiles, Divided divided)
 {
   if (tiles.size() < InParts.fewestTiles)
   {
@@ -88,7 +105,7 @@ FindBest(const std::vector<TileExcess> & tiles, bool isPhase)
   double                      scale = std::numeric_limits<double>::infinity();
   for (const PartitionKind & kind : PartitionTable)
   {
-    if (kind.isPhase == isPhase)
+    if (kind.divided == divided)
     {
       fits.push_back(FitParts(kind.partition, tiles));
       scale = std::min(scale, fits.back().scale);
@@ -106,7 +123,13 @@ FindBest(const std::vector<TileExcess> & tiles, bool isPhase)
       chosen = &fit;
     }
   }
-  return chosen != nullptr ? std::optional<PartGains>(GainsOf(*chosen, tiles)) : std::nullopt;
+  if (chosen == nullptr)
+  {
+    return std::nullopt;
+  }
+  PartGains  gains = GainsOf(*chosen, tiles);
+  const bool isTold = gains.Differ() || gains.DifferInTheDark();
+  return isTold ? std::optional<PartGains>(std::move(gains)) : std::nullopt;
 }
 
 std::size_t
@@ -131,18 +154,25 @@ PartGains::Differ() const
 }
 
 bool
+PartGains::DifferInTheDark() const
+{
+  return darkSize > InParts.leastDarkDifference && darkZ > InParts.differenceZ;
+}
+
+bool
 PartGains::DifferMuch() const
 {
-  return this->Differ() && size > InParts.largeDifference && scale < InParts.largestScatter;
+  return ((this->Differ() && size > InParts.largeDifference) || this->DifferInTheDark()) &&
+         scale < InParts.largestScatter;
 }
 
 GainByParts
 CompareParts(const PartTiles & tiles)
 {
   GainByParts found;
-  found.places = FindBest(tiles.places, false);
+  found.places = FindBest(tiles.places, Divided::Places);
   std::vector<TileExcess> phases = tiles.phases;
-  if (found.places && found.places->Differ())
+  if (found.places)
   {
     for (TileExcess & tile : phases)
     {
@@ -150,16 +180,15 @@ CompareParts(const PartTiles & tiles)
       tile.excess = (1.0 + tile.excess) / ratio - 1.0;
     }
   }
-  else
-  {
-    found.places.reset();
-  }
-  found.phases = FindBest(phases, true);
-  if (found.phases && !found.phases->Differ())
-  {
-    found.phases.reset();
-  }
+  found.phases = FindBest(phases, Divided::Phases);
   return found;
+}
+
+std::optional<PartGains>
+CompareFrameParts(const std::vector<TileExcess> & tiles)
+{
+  std::optional<PartGains> found = FindBest(tiles, Divided::Frames);
+  return found && found->Differ() ? found : std::nullopt;
 }
 
 std::vector<float>

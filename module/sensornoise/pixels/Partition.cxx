@@ -49,6 +49,12 @@ PartOf(Partition partition, double x, double y, std::size_t phase)
       return column;
     case Partition::Rows4:
       return row;
+    case Partition::FrameHalves:
+      return phase / 4;
+    case Partition::FrameQuarters:
+      return phase / 2;
+    case Partition::FrameParities:
+      return phase % 2;
     case Partition::Phases4:
       break;
   }
@@ -79,6 +85,12 @@ NameOfPart(Partition partition, std::size_t part)
       return "column " + std::to_string(part) + " of 4";
     case Partition::Rows4:
       return "row " + std::to_string(part) + " of 4";
+    case Partition::FrameHalves:
+      return part == 0 ? "first half of the frames" : "last half of the frames";
+    case Partition::FrameQuarters:
+      return "quarter " + std::to_string(part + 1) + " of the frames";
+    case Partition::FrameParities:
+      return part == 0 ? "even frames" : "odd frames";
     case Partition::Phases4:
       break;
   }

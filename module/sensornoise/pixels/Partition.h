@@ -13,8 +13,8 @@
 namespace sensornoise
 {
 
-/** Ways to divide the pixels of a frame into parts that may have gains of their own: by place, or by the position of a
- * pixel in a pattern that repeats (its phase). */
+/** Ways to divide a burst into parts that may have gains of their own: the pixels by their place or by their position
+ * in a pattern that repeats (the phase), and the frames. */
 enum class Partition : std::uint8_t
 {
   LeftRight,
@@ -27,7 +27,18 @@ enum class Partition : std::uint8_t
   Phases2,
   Columns4,
   Rows4,
-  Phases4
+  Phases4,
+  FrameHalves,
+  FrameQuarters,
+  FrameParities
+};
+
+/** What a partition divides. */
+enum class Divided : std::uint8_t
+{
+  Places,
+  Phases,
+  Frames
 };
 
 /** An entry of the table of partitions. */
@@ -37,25 +48,34 @@ struct PartitionKind
   const char * name; ///< in the record; stable, for programs
   const char * words;
   std::size_t  parts;
-  bool         isPhase;
+  Divided      divided;
 };
 
 /** Blocks along either axis, and the largest period of a phase [pixels]. */
 inline constexpr std::size_t BlocksAcross = 4;
 inline constexpr std::size_t LargestPeriod = 4;
+/** Quarters of the burst, each with its even and its odd frames. */
+inline constexpr std::size_t FrameGroups = 8;
 
-inline constexpr std::array<PartitionKind, 11> PartitionTable{ {
-  { Partition::LeftRight, "left-right", "the left and the right half", 2, false },
-  { Partition::UpperLower, "upper-lower", "the upper and the lower half", 2, false },
-  { Partition::Quadrants, "quadrants", "the quadrants", 4, false },
-  { Partition::Blocks, "blocks", "4 x 4 blocks", 16, false },
-  { Partition::SmoothField, "smooth-field", "a smooth field, as where vignetting was divided out", 16, false },
-  { Partition::Columns2, "columns-2", "even and odd columns", 2, true },
-  { Partition::Rows2, "rows-2", "even and odd rows", 2, true },
-  { Partition::Phases2, "phases-2x2", "the pixels of a 2 x 2 mosaic", 4, true },
-  { Partition::Columns4, "columns-4", "every fourth column", 4, true },
-  { Partition::Rows4, "rows-4", "every fourth row", 4, true },
-  { Partition::Phases4, "phases-4x4", "the pixels of a 4 x 4 mosaic", 16, true },
+inline constexpr std::array<PartitionKind, 14> PartitionTable{ {
+  { Partition::LeftRight, "left-right", "the left and the right half", 2, Divided::Places },
+  { Partition::UpperLower, "upper-lower", "the upper and the lower half", 2, Divided::Places },
+  { Partition::Quadrants, "quadrants", "the quadrants", 4, Divided::Places },
+  { Partition::Blocks, "blocks", "4 x 4 blocks", 16, Divided::Places },
+  { Partition::SmoothField,
+    "smooth-field",
+    "a smooth field, as where vignetting was divided out",
+    16,
+    Divided::Places },
+  { Partition::Columns2, "columns-2", "even and odd columns", 2, Divided::Phases },
+  { Partition::Rows2, "rows-2", "even and odd rows", 2, Divided::Phases },
+  { Partition::Phases2, "phases-2x2", "the pixels of a 2 x 2 mosaic", 4, Divided::Phases },
+  { Partition::Columns4, "columns-4", "every fourth column", 4, Divided::Phases },
+  { Partition::Rows4, "rows-4", "every fourth row", 4, Divided::Phases },
+  { Partition::Phases4, "phases-4x4", "the pixels of a 4 x 4 mosaic", 16, Divided::Phases },
+  { Partition::FrameHalves, "frame-halves", "the first and the last half of the frames", 2, Divided::Frames },
+  { Partition::FrameQuarters, "frame-quarters", "the quarters of the burst", 4, Divided::Frames },
+  { Partition::FrameParities, "frame-parities", "even and odd frames", 2, Divided::Frames },
 } };
 
 constexpr const PartitionKind &
@@ -65,7 +85,7 @@ KindOf(Partition partition)
 }
 
 /** The part of a pixel: \a x and \a y in units of the frame's width and height, from 0 to 1 [1]; \a phase is
- * 4 (row mod 4) + (column mod 4). */
+ * 4 (row mod 4) + (column mod 4), or, of a frame, 2 quarter + (frame mod 2). */
 SensorNoise_EXPORT std::size_t
 PartOf(Partition partition, double x, double y, std::size_t phase);
 

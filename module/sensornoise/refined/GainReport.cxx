@@ -183,6 +183,25 @@ struct PartsRange
   double rms{ 0.0 };
 };
 
+std::string
+AdviceOn(Divided divided)
+{
+  switch (divided)
+  {
+    case Divided::Phases:
+      return "A mosaic given as mono, or rows or columns of several amplifiers: measure the planes of a colour mosaic "
+             "by "
+             "--bayer, other pixels by --mask";
+    case Divided::Frames:
+      return "The camera changed while it recorded (gain, exposure, temperature), or frames were processed: measure "
+             "the "
+             "parts by themselves: --frames";
+    case Divided::Places:
+      break;
+  }
+  return "Measure the parts by themselves: --roi";
+}
+
 /** Files the gains of the parts and warns of them. Noise that neighbours share depends on the phase by itself, as where
  * frames were resampled: then phases tell nothing of the gain. */
 PartsRange
@@ -190,9 +209,9 @@ FillParts(Report & report, const RefinedResults & found, const GainEstimate & ga
 {
   PartsRange          range;
   const GainByParts & parts = found.variance.parts;
-  for (const auto * const own : { &parts.places, &parts.phases })
+  for (const auto * const own : { &parts.places, &parts.phases, &parts.frames })
   {
-    if (!*own || (KindOf((*own)->partition).isPhase && found.correlation.IsShared()))
+    if (!*own || !(*own)->Differ() || (own == &parts.phases && found.correlation.IsShared()))
     {
       continue;
     }
@@ -218,10 +237,7 @@ FillParts(Report & report, const RefinedResults & found, const GainEstimate & ga
                   Measured(lowest->gain, lowest->standardError) + " DN/e- (" + lowest->name + ") to " +
                   Measured(highest->gain, highest->standardError) + " DN/e- (" + highest->name + "), " +
                   Percent(gains.size) + " rms (expected at most " + Percent(InParts.leastDifference) +
-                  "). The gain is the mean over the pixels. " +
-                  (kind.isPhase ? "A mosaic given as mono, or rows or columns of several amplifiers: measure the "
-                                  "planes of a colour mosaic by --bayer, other pixels by --mask"
-                                : "Measure the parts by themselves: --roi"));
+                  "). The gain is the mean over all. " + AdviceOn(kind.divided));
     report.gainByParts.push_back(std::move(record));
   }
   return range;

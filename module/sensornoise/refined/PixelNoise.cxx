@@ -8,6 +8,7 @@
 #include "sensornoise/pixels/FlatPixels.h"
 #include "sensornoise/refined/BeyondChance.h"
 #include "sensornoise/refined/Constants.h"
+#include "sensornoise/refined/FrameParts.h"
 #include "sensornoise/refined/FramePhotonTransfer.h"
 #include "sensornoise/refined/PixelsOfVariance.h"
 #include "sensornoise/report/StackReport.h"
@@ -88,6 +89,14 @@ const VarianceLine &
 BetterLine(const StaticVariance & variance)
 {
   return LinesByError(variance).front().line;
+}
+
+/** Whether levels and motion of all frames are known so well that small differences of the noise are not theirs. */
+bool
+AreComparable(const FrameComparison & by)
+{
+  const double vibration = std::max(by.scene.model.vibrationXPixels2, by.scene.model.vibrationYPixels2);
+  return !by.isLightLocal && vibration < InRefined.smallVibration;
 }
 
 /** The frames whose noise is not that of the others. Frames of two gains that have two levels make a line of the frames
@@ -182,10 +191,24 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   const double shared = std::max(1.0, SharedSquares(noise.correlation.space));
   compare();
   noise.frames = CompareFrames(noise.variance, comparison, shared, parallelFor);
+  if (!noise.frames.HasSeveralKinds() && AreComparable(comparison))
+  {
+    const FrameEnergies energies(residuals, MaskOfUsed(noise.variance.pixelUse), parallelFor);
+    noise.variance.parts.frames =
+      CompareFrameParts(MakeFrameParts(energies, comparison.levels, { BetterLine(noise.variance), blackDn, shared }));
+  }
   MeasureSettledFrames(noise.correlation, residuals, codesDn2, parallelFor);
   if (noise.correlation.kind != NoiseKind::NotMeasured)
   {
     noise.correlation.rowLight = FindRowLight(residuals, parallelFor);
+  }
+  if (!AreComparable(comparison)) // what is left of the motion of whole frames has the slopes of the scene, too
+  {
+    noise.correlation.localMotion = {};
+  }
+  else if (noise.correlation.HasLocalMotion())
+  {
+    noise.correlation.kind = NoiseKind::NotLinear;
   }
   const bool mayRepeat = noise.correlation.kind == NoiseKind::Temporal || noise.correlation.kind == NoiseKind::Enlarged;
   if (mayRepeat && repeated > InRefined.largestRepeatedShare)

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/refined/FrameParts.h"
+#include "sensornoise/pixels/GainByParts.h"
+#include "sensornoise/simulation/Random.h"
+
+#include <cmath>
+#include <cstddef>
+#include <gtest/gtest.h>
+#include <string>
+#include <vector>
+
+// Groups of frames whose gains differ, in tiles of known squares.
+
+using namespace sensornoise;
+
+namespace
+{
+constexpr Eigen::Index Frames = 40;
+constexpr Eigen::Index Tiles = 20;
+constexpr double       PixelsOfTile = 1000.0;
+constexpr double       Gain = 0.5;         // [DN/e-]
+constexpr double       ReadDn2 = 4.0;      // [DN^2]
+constexpr double       OffsetDn = 100.0;   // [DN]
+constexpr double       LargestShare = 0.9; // of the light that the darkest tile lacks
+
+VarianceLine
+Line()
+{
+  VarianceLine line;
+  line.gain = Gain;
+  line.intercept = ReadDn2 - Gain * OffsetDn;
+  line.isDetermined = true;
+  return line;
+}
+
+/** Tiles from dark to bright, whose shot noise is as many times that of the line as \a gainOf(t) says; all frames have
+ * one level. Squares scatter by chance. */
+template <typename TFunction>
+std::vector<TileExcess>
+TilesOf(TFunction gainOf)
+{
+  const Eigen::MatrixXd basis = Eigen::MatrixXd::Constant(Frames, 1, 1.0 / std::sqrt(static_cast<double>(Frames)));
+  const TileLevels      levels(std::vector<double>(Frames, 0.0), OffsetDn, OffsetDn);
+  Eigen::MatrixXd       squares = Eigen::MatrixXd::Zero(Tiles, Frames);
+  Eigen::VectorXd       light(Tiles);
+  const Eigen::VectorXd pixels = Eigen::VectorXd::Constant(Tiles, PixelsOfTile);
+  const FrameEnergies   model(squares, light, pixels, basis);
+  CounterSeededRandom   random(5, 0, 0);
+  for (Eigen::Index i = 0; i < Tiles; ++i)
+  {
+    light(i) = 1000.0 * (1.0 - LargestShare * static_cast<double>(i) / static_cast<double>(Tiles));
+    Eigen::VectorXd variances(Frames);
+    for (Eigen::Index t = 0; t < Frames; ++t)
+    {
+      variances(t) = ReadDn2 + gainOf(t) * Gain * light(i);
+    }
+    squares.row(i) = model.ExpectedSquares(variances).transpose();
+    for (Eigen::Index t = 0; t < Frames; ++t)
+    {
+      squares(i, t) *= 1.0 + std::sqrt(2.0 / PixelsOfTile) * random.Normal();
+    }
+  }
+  return MakeFrameParts({ squares, light, pixels, basis }, levels, { Line(), OffsetDn, 1.0 });
+}
+} // namespace
+
+TEST(SensorNoiseFrameParts, AreWhatTheLevelsMakeOfEqualFrames)
+{
+  const std::vector<TileExcess> tiles = TilesOf([](Eigen::Index) { return 1.0; });
+  ASSERT_EQ(tiles.size(), FrameGroups * static_cast<std::size_t>(Tiles));
+  double chi2 = 0.0;
+  for (const TileExcess & tile : tiles)
+  {
+    EXPECT_NEAR(tile.excess, 0.0, 5.0 * tile.error);
+    EXPECT_NEAR(tile.error, std::sqrt(2.0 / (5.0 * PixelsOfTile)), 0.01 * tile.error); // five frames a group
+    EXPECT_NEAR(tile.shotFraction, 1.0 - ReadDn2 / (ReadDn2 + Gain * (tile.levelDn - OffsetDn)), 1e-9);
+    chi2 += std::pow(tile.excess / tile.error, 2);
+  }
+  const auto count = static_cast<double>(tiles.size());
+  EXPECT_NEAR(chi2 / count, 1.0, 5.0 * std::sqrt(2.0 / count));
+  EXPECT_FALSE(CompareFrameParts(tiles));
+}
+
+TEST(SensorNoiseFrameParts, FindTheGainsOfEachPartition)
+{
+  const auto expect = [](Partition partition, const std::vector<double> & gains) {
+    const auto found = CompareFrameParts(TilesOf([&](Eigen::Index t) {
+      const auto group = static_cast<std::size_t>(2 * (4 * t / Frames) + t % 2);
+      return gains[PartOf(partition, 0.0, 0.0, group)];
+    }));
+    ASSERT_TRUE(found) << KindOf(partition).name;
+    EXPECT_EQ(found->partition, partition) << KindOf(found->partition).name;
+    double mean = 0.0;
+    for (const double gain : gains)
+    {
+      mean += gain / static_cast<double>(gains.size());
+    }
+    for (std::size_t k = 0; k < gains.size(); ++k)
+    {
+      EXPECT_NEAR(found->excess[k], gains[k] / mean - 1.0, 4.5 * found->error[k]) << KindOf(partition).name << k;
+      EXPECT_LT(found->error[k], 0.01);
+    }
+  };
+  expect(Partition::FrameHalves, { 0.98, 1.02 });
+  expect(Partition::FrameQuarters, { 0.95, 1.03, 0.99, 1.05 });
+  expect(Partition::FrameParities, { 1.03, 0.97 });
+}
+
+TEST(SensorNoiseFrameParts, OfADifferenceThatDoesNotCountAreOne)
+{
+  EXPECT_FALSE(CompareFrameParts(TilesOf([](Eigen::Index t) { return t < Frames / 2 ? 0.995 : 1.005; })));
+}
