@@ -150,11 +150,10 @@ private:
     }
     m_Strips.CheckPage(page, found);
     m_Reduced += found.isReduced ? 1 : 0;
-    m_Full += found.isFull ? 1 : 0;
     return directory.next;
   }
 
-  /** Throws unless ITK makes as many frames of the pages as there are, and no program says that there are more. */
+  /** Throws unless each page is a frame, and no program says that there are more. */
   void
   RequireAllPages() const
   {
@@ -168,12 +167,6 @@ private:
       throw FileError(m_File.name,
                       pages + "of which " + std::to_string(m_Reduced) +
                         " are said to be thumbnails or masks (NewSubfileType); expected frames alone");
-    }
-    if (m_Pages > 1 && m_Full > 0 && m_Full != m_Pages)
-    {
-      throw FileError(m_File.name,
-                      pages + "but ITK reads " + std::to_string(m_Full) +
-                        " frames of them, because NewSubfileType is not the same on all; expected the same");
     }
     // ImageJ writes a stack above 4 GiB as one page and says in words how many follow
     if (!m_Images.empty() && std::strtoull(m_Images.c_str() + 7, nullptr, 10) != m_Pages)
@@ -199,7 +192,6 @@ private:
   std::uint64_t                     m_Planes{ 0 };
   std::uint64_t                     m_Pages{ 0 };
   std::uint64_t                     m_Reduced{ 0 };
-  std::uint64_t                     m_Full{ 0 };
 };
 } // namespace
 

@@ -58,7 +58,7 @@ RequirePlainStrips(const TiffTags & tags)
 FramePixel
 PixelOfTiff(const TiffTags & tags)
 {
-  const std::uint64_t bits = tags.Required(258, "BitsPerSample");
+  const std::uint64_t bits = tags.Number(258, "BitsPerSample", 1);
   const std::uint64_t format = tags.Number(339, "SampleFormat", 1);
   if (bits == 8 && format == 1)
   {
@@ -89,7 +89,7 @@ PixelOfTiff(const TiffTags & tags)
 TiffCompression
 CompressionOf(const TiffTags & tags)
 {
-  const std::uint64_t compression = tags.Required(259, "Compression");
+  const std::uint64_t compression = tags.Number(259, "Compression", 1);
   std::string         name;
   switch (compression)
   {
@@ -140,9 +140,8 @@ ReadPredictor(const TiffTags & tags, TiffPage & page)
 void
 ReadSubfileType(const TiffTags & tags, TiffPage & page)
 {
-  const std::uint64_t type = tags.Number(254, "NewSubfileType", 2);
+  const std::uint64_t type = tags.Number(254, "NewSubfileType", 0);
   const std::uint64_t oldType = tags.Number(255, "SubfileType", 1);
-  page.isFull = type == 0;
   page.isReduced = (type & 5) != 0 || oldType == 2;
 }
 

@@ -33,14 +33,14 @@ struct TiffPage
   std::uint64_t         rowsPerStrip{ 0 }; // at most the height
   std::uint64_t         orientation{ 1 };
   bool                  isReduced{ false };      // a thumbnail or a mask, by NewSubfileType
-  bool                  isFull{ false };         // NewSubfileType says so
   std::array<double, 2> spacing{ { 1.0, 1.0 } }; // along x and y [mm], 1 where it is not said
   TiffEntry             offsets{};               // of its strips
   TiffEntry             byteCounts{};
 };
 
-/** Reads what a directory says. \a page begins the errors. Throws FileError unless the page consists of strips of one
- * grey value a pixel, which ITK reads without conversion, and whose compression can be checked. */
+/** Reads what a directory says, with the defaults of TIFF 6.0 for tags that it lacks. \a page begins the errors. Throws
+ * FileError unless the page consists of strips of one grey value a pixel, which ITK reads without conversion, and whose
+ * compression can be checked. */
 TiffPage
 ReadTiffPage(const std::string & page, TiffBytes & tiff, const TiffDirectory & directory);
 
