@@ -22,6 +22,7 @@
 #include "sensornoise/files/FileError.h"
 #include "sensornoise/files/FrameFormats.h"
 #include "sensornoise/files/RawLayout.h"
+#include "sensornoise/files/StoredNumber.h"
 
 #include <algorithm>
 #include <cmath>
@@ -175,6 +176,7 @@ ReadPixels(const FrameFile & file, itk::ImageIOBase * io, std::size_t first, std
   io->SetUseStreamedReading(count < file.frames);
   io->SetIORegion(RegionOf(*io, first, count));
   io->Read(buffer);
+  ConvertStored(file.stored, file.width * file.height * count, buffer);
 }
 
 void

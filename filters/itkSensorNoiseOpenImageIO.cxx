@@ -19,6 +19,7 @@
 
 #include "sensornoise/files/FileError.h"
 #include "sensornoise/files/FrameFormats.h"
+#include "sensornoise/files/StoredNumber.h"
 #include "itkObjectFactoryBase.h"
 
 #include <algorithm>
@@ -104,7 +105,7 @@ RequireSameFrames(const FrameFile & file, const itk::ImageIOBase & io)
   {
     found += ", " + std::to_string(io.GetNumberOfComponents()) + " components a pixel";
   }
-  const std::string expected = Describe(file.width, file.height, file.frames, NameOf(file.pixel));
+  const std::string expected = Describe(file.width, file.height, file.frames, NameOf(file.pixel, file.stored));
   if (found != expected)
   {
     throw FileError(file.name, "ITK would read " + found + "; expected " + expected + ", as the file declares");

@@ -103,7 +103,7 @@ TEST_F(MetaImageFile, WhatIsNoImageOfOneValueIsRefused)
   HeaderIsRefused(Replaced(good, "Type = Image", "Type = Tube"), { "ObjectType is Tube; expected Image" });
   LineIsRefused("ElementNumberOfChannels = 3", "3 components a pixel; expected 1");
   LineIsRefused("ElementNumberOfChannels = x", "ElementNumberOfChannels is x");
-  HeaderIsRefused(Replaced(good, "MET_USHORT", "MET_INT"), { "component type int is not supported" });
+  HeaderIsRefused(Replaced(good, "MET_USHORT", "MET_LONG"), { "component type long is not supported" });
   HeaderIsRefused(Replaced(good, "MET_USHORT", "MET_USHORT_ARRAY"), { "component type MET_USHORT_ARRAY" });
   HeaderIsRefused(Replaced(good, "BinaryData = True", "BinaryData = False"), { "BinaryData is False" });
   LineIsRefused("ElementByteOrderMSB = True", "BinaryDataByteOrderMSB is False and ElementByteOrderMSB True");

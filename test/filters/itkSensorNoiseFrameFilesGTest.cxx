@@ -58,12 +58,9 @@ TEST_F(SensorNoiseFrameFiles, AStackAmongFramesIsRefused)
 
 TEST_F(SensorNoiseFrameFiles, OtherComponentTypesAreRefusedByName)
 {
-  const std::string expected = "expected unsigned char, unsigned short, short, float or double";
+  const std::string expected = "expected unsigned char, unsigned short, short, unsigned int, int, float or double";
   for (const std::string extension : { ".mha", ".nrrd" })
   {
-    OpeningIsRefusedWith({ WriteFrame<int>("i" + extension) }, { "i" + extension, "component type int is", expected });
-    OpeningIsRefusedWith({ WriteFrame<unsigned int>("u" + extension) },
-                         { "u" + extension, "component type unsigned int is", expected });
     OpeningIsRefusedWith({ WriteFrame<signed char>("c" + extension) },
                          { "c" + extension, "component type char is", expected });
   }

@@ -31,6 +31,15 @@ enum class FramePixel
   Double
 };
 
+/** The numbers that a file holds: those of FramePixel, or integers of 32 bits, which are read as double, that holds each
+ * exactly. Integers of 64 bits are refused. */
+enum class StoredNumber
+{
+  SameAsPixel,
+  UnsignedInt,
+  Int
+};
+
 /** What a file of a frame or of a stack says of itself, after it was found to be whole. */
 struct FrameFile
 {
@@ -41,7 +50,8 @@ struct FrameFile
   std::size_t         height{ 0 }; // [pixels]
   std::size_t         frames{ 0 }; // 1 where the file is a single frame
   FramePixel          pixel{ FramePixel::UnsignedChar };
-  std::uint64_t       bytes{ 0 }; // of its pixels, uncompressed
+  StoredNumber        stored{ StoredNumber::SameAsPixel };
+  std::uint64_t       bytes{ 0 }; // of its pixels as they are read; StoredBytesOf(): as they are in the file
 
   /** Of a PNG whose sBIT chunk says that fewer bits than it has are significant: their number, else 0. ITK shifts such
    * codes down by the others, which are 0 (or the file is refused): shifted up again they are what the file holds. */

@@ -8,6 +8,7 @@
 #include "sensornoise/files/FrameSizes.h"
 #include "sensornoise/files/MetaImageHeader.h"
 #include "sensornoise/files/MetaImagePlaces.h"
+#include "sensornoise/files/StoredNumber.h"
 #include "sensornoise/files/TextHeader.h"
 
 #include <cstddef>
@@ -21,24 +22,33 @@ namespace sensornoise
 {
 namespace
 {
-FramePixel
-PixelOfMetaImage(const std::string & file, const std::string & type)
+void
+SetPixelOfMetaImage(FrameFile & file, const std::string & type)
 {
-  static const std::vector<std::pair<std::string, FramePixel>> types{ { "MET_UCHAR", FramePixel::UnsignedChar },
-                                                                      { "MET_USHORT", FramePixel::UnsignedShort },
-                                                                      { "MET_SHORT", FramePixel::Short },
-                                                                      { "MET_FLOAT", FramePixel::Float },
-                                                                      { "MET_DOUBLE", FramePixel::Double } };
-  for (const auto & [name, pixel] : types)
+  struct KnownType
   {
-    if (type == name)
+    const char * name;
+    FramePixel   pixel;
+    StoredNumber stored;
+  };
+  constexpr StoredNumber           same = StoredNumber::SameAsPixel;
+  static const std::vector<KnownType> types{ { "MET_UCHAR", FramePixel::UnsignedChar, same },
+                                             { "MET_USHORT", FramePixel::UnsignedShort, same },
+                                             { "MET_SHORT", FramePixel::Short, same },
+                                             { "MET_UINT", FramePixel::Double, StoredNumber::UnsignedInt },
+                                             { "MET_INT", FramePixel::Double, StoredNumber::Int },
+                                             { "MET_FLOAT", FramePixel::Float, same },
+                                             { "MET_DOUBLE", FramePixel::Double, same } };
+  for (const KnownType & known : types)
+  {
+    if (type == known.name)
     {
-      return pixel;
+      file.pixel = known.pixel;
+      file.stored = known.stored;
+      return;
     }
   }
   static const std::vector<std::pair<std::string, std::string>> others{ { "MET_CHAR", "char" },
-                                                                        { "MET_INT", "int" },
-                                                                        { "MET_UINT", "unsigned int" },
                                                                         { "MET_LONG", "long" },
                                                                         { "MET_ULONG", "unsigned long" },
                                                                         { "MET_LONG_LONG", "long long" },
@@ -47,10 +57,10 @@ PixelOfMetaImage(const std::string & file, const std::string & type)
   {
     if (type == name)
     {
-      throw FileError(file, UnsupportedPixel(component));
+      throw FileError(file.name, UnsupportedPixel(component));
     }
   }
-  throw FileError(file, UnsupportedPixel(type));
+  throw FileError(file.name, UnsupportedPixel(type));
 }
 
 bool
@@ -124,7 +134,7 @@ InspectMetaImage(FileBytes & bytes, FrameFile & file, const BeforeInflating & be
 {
   const MetaImageHeader header = ReadMetaImageHeader(file.name, bytes);
   CheckMetaImageMeaning(file.name, header);
-  file.pixel = PixelOfMetaImage(file.name, header.Field("ElementType"));
+  SetPixelOfMetaImage(file, header.Field("ElementType"));
   std::vector<std::uint64_t> sizes;
   for (const std::string & word : WordsOf(header.Field("DimSize")))
   {
@@ -136,6 +146,7 @@ InspectMetaImage(FileBytes & bytes, FrameFile & file, const BeforeInflating & be
     sizes.push_back(*number);
   }
   SetFrameSizes(file, sizes);
+  const std::uint64_t          bytesInFile = StoredBytesOf(file);
   const std::uint64_t          compressed = CompressedBytesOf(file.name, header);
   const std::vector<DataPlace> places = PlacesOfMetaImage(file, header, bytes.Size());
   if (compressed > 0 && beforeInflating)
@@ -150,11 +161,11 @@ InspectMetaImage(FileBytes & bytes, FrameFile & file, const BeforeInflating & be
     }
     if (compressed > 0)
     {
-      RequireInflates(file.name, place, compressed, file.bytes, true);
+      RequireInflates(file.name, place, compressed, bytesInFile, true);
     }
     else
     {
-      RequireExactly(file.name, place, file.bytes / places.size(), file.bytes / file.frames);
+      RequireExactly(file.name, place, bytesInFile / places.size(), bytesInFile / file.frames);
     }
   }
 }

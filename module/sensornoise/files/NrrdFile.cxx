@@ -7,6 +7,7 @@
 #include "sensornoise/files/FrameFormats.h"
 #include "sensornoise/files/FrameSizes.h"
 #include "sensornoise/files/NrrdHeader.h"
+#include "sensornoise/files/StoredNumber.h"
 #include "sensornoise/files/TextHeader.h"
 
 #include <algorithm>
@@ -29,35 +30,48 @@ IsOneOf(const std::string & word, const std::vector<std::string> & words)
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-FramePixel
-PixelOfNrrd(const std::string & file, const NrrdHeader & header)
+void
+SetPixelOfNrrd(FrameFile & file, const NrrdHeader & header)
 {
-  static const std::vector<std::pair<std::vector<std::string>, FramePixel>> types{
-    { { "uchar", "unsigned char", "uint8", "uint8_t" }, FramePixel::UnsignedChar },
-    { { "ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t" }, FramePixel::UnsignedShort },
-    { { "short", "short int", "signed short", "signed short int", "int16", "int16_t" }, FramePixel::Short },
-    { { "float" }, FramePixel::Float },
-    { { "double" }, FramePixel::Double }
-  };
-  static const std::vector<NamesOfType> others{ { { "signed char", "int8", "int8_t" }, "char" },
-                                                { { "int", "signed int", "int32", "int32_t" }, "int" },
-                                                { { "uint", "unsigned int", "uint32", "uint32_t" }, "unsigned int" } };
-  const std::string                     type = WithoutBlanks(InSmallLetters(header.Field("type")));
-  for (const auto & [names, pixel] : types)
+  struct KnownType
   {
-    if (IsOneOf(type, names))
+    std::vector<std::string> names;
+    FramePixel               pixel;
+    StoredNumber             stored;
+  };
+  constexpr StoredNumber              same = StoredNumber::SameAsPixel;
+  static const std::vector<KnownType> types{
+    { { "uchar", "unsigned char", "uint8", "uint8_t" }, FramePixel::UnsignedChar, same },
+    { { "ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t" }, FramePixel::UnsignedShort, same },
+    { { "short", "short int", "signed short", "signed short int", "int16", "int16_t" }, FramePixel::Short, same },
+    { { "uint", "unsigned int", "uint32", "uint32_t" }, FramePixel::Double, StoredNumber::UnsignedInt },
+    { { "int", "signed int", "int32", "int32_t" }, FramePixel::Double, StoredNumber::Int },
+    { { "float" }, FramePixel::Float, same },
+    { { "double" }, FramePixel::Double, same }
+  };
+  static const std::vector<NamesOfType> others{
+    { { "signed char", "int8", "int8_t" }, "char" },
+    { { "longlong", "long long", "long long int", "signed long long", "int64", "int64_t" }, "long long" },
+    { { "ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t" }, "unsigned long long" }
+  };
+  const std::string                     type = WithoutBlanks(InSmallLetters(header.Field("type")));
+  for (const KnownType & known : types)
+  {
+    if (IsOneOf(type, known.names))
     {
-      return pixel;
+      file.pixel = known.pixel;
+      file.stored = known.stored;
+      return;
     }
   }
   for (const auto & [names, component] : others)
   {
     if (IsOneOf(type, names))
     {
-      throw FileError(file, UnsupportedPixel(component));
+      throw FileError(file.name, UnsupportedPixel(component));
     }
   }
-  throw FileError(file, UnsupportedPixel(type));
+  throw FileError(file.name, UnsupportedPixel(type));
 }
 
 std::vector<std::uint64_t>
@@ -207,11 +221,12 @@ InspectNrrd(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeI
     throw FileError(file.name, "begins as a NRRD file; expected its name to end with .nrrd or .nhdr");
   }
   const NrrdHeader header = ReadNrrdHeader(file.name, bytes);
-  file.pixel = PixelOfNrrd(file.name, header);
+  SetPixelOfNrrd(file, header);
   const std::vector<std::uint64_t> sizes = SizesOfNrrd(file.name, header);
   CheckKinds(file.name, header, sizes);
   SetFrameSizes(file, sizes);
   const bool                   isGzip = IsGzip(file, header);
+  const std::uint64_t          bytesInFile = StoredBytesOf(file);
   const std::vector<DataPlace> places = PlacesOfNrrd(file, header);
   if (isGzip && beforeInflating)
   {
@@ -225,11 +240,11 @@ InspectNrrd(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeI
     }
     if (isGzip)
     {
-      RequireInflates(file.name, place, 0, file.bytes / places.size(), false);
+      RequireInflates(file.name, place, 0, bytesInFile / places.size(), false);
     }
     else
     {
-      RequireExactly(file.name, place, file.bytes / places.size(), file.bytes / file.frames);
+      RequireExactly(file.name, place, bytesInFile / places.size(), bytesInFile / file.frames);
     }
   }
 }

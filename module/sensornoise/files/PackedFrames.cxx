@@ -5,6 +5,7 @@
 #include "sensornoise/files/FileBytes.h"
 #include "sensornoise/files/FileError.h"
 #include "sensornoise/files/FrameSizes.h"
+#include "sensornoise/files/StoredNumber.h"
 
 #include <algorithm>
 #include <memory>
@@ -22,8 +23,9 @@ ReadRun(FileBytes & bytes, const SampleFormat & format, std::uint64_t offset, st
 {
   if (format.packing == SamplePacking::Whole)
   {
-    bytes.Read(offset, pixels, samples * SizeOf(format.pixel));
-    ToOwnByteOrder(format.isBigEndian, SizeOf(format.pixel), samples, pixels);
+    bytes.Read(offset, pixels, samples * BytesInGroup(format));
+    ToOwnByteOrder(format.isBigEndian, BytesInGroup(format), samples, pixels);
+    ConvertStored(format.stored, samples, pixels);
     return;
   }
   const std::size_t          bytesInGroup = BytesInGroup(format);
@@ -129,6 +131,7 @@ SetFramePlaces(FrameFile &                  file,
         (trailerBytes == 0 ? "" : ", and " + std::to_string(trailerBytes) + " bytes more for each or none"));
   }
   file.pixel = places.sample.pixel;
+  file.stored = places.sample.stored;
   SetFrameSizes(file, { file.width, file.height, number });
   file.reader = std::make_shared<PackedFrames>(std::move(places));
 }

@@ -6,6 +6,7 @@
 #include "sensornoise/files/FrameFormats.h"
 #include "sensornoise/files/FrameSizes.h"
 #include "sensornoise/files/PackedFrames.h"
+#include "sensornoise/files/StoredNumber.h"
 #include "sensornoise/files/TextHeader.h"
 
 #include <algorithm>
@@ -57,20 +58,26 @@ struct NumberType
   const char * name;
   FramePixel   pixel;
   bool         isBigEndian;
+  StoredNumber stored;
 };
 
 std::optional<SampleFormat>
 FormatOfNumbers(const std::string & name)
 {
-  static constexpr std::array<NumberType, 9> types{ { { "uint8", FramePixel::UnsignedChar, false },
-                                                      { "uint16le", FramePixel::UnsignedShort, false },
-                                                      { "uint16be", FramePixel::UnsignedShort, true },
-                                                      { "int16le", FramePixel::Short, false },
-                                                      { "int16be", FramePixel::Short, true },
-                                                      { "float32le", FramePixel::Float, false },
-                                                      { "float32be", FramePixel::Float, true },
-                                                      { "float64le", FramePixel::Double, false },
-                                                      { "float64be", FramePixel::Double, true } } };
+  constexpr StoredNumber same = StoredNumber::SameAsPixel;
+  static constexpr std::array<NumberType, 13> types{ { { "uint8", FramePixel::UnsignedChar, false, same },
+{ "uint16le", FramePixel::UnsignedShort, false, same },
+{ "uint16be", FramePixel::UnsignedShort, true, same },
+{ "int16le", FramePixel::Short, false, same },
+{ "int16be", FramePixel::Short, true, same },
+{ "uint32le", FramePixel::Double, false, StoredNumber::UnsignedInt },
+{ "uint32be", FramePixel::Double, true, StoredNumber::UnsignedInt },
+{ "int32le", FramePixel::Double, false, StoredNumber::Int },
+{ "int32be", FramePixel::Double, true, StoredNumber::Int },
+{ "float32le", FramePixel::Float, false, same },
+{ "float32be", FramePixel::Float, true, same },
+{ "float64le", FramePixel::Double, false, same },
+{ "float64be", FramePixel::Double, true, same } } };
   const auto * const                         found =
     std::find_if(types.begin(), types.end(), [&](const NumberType & type) { return name == type.name; });
   if (found == types.end())
@@ -79,8 +86,9 @@ FormatOfNumbers(const std::string & name)
   }
   SampleFormat format;
   format.pixel = found->pixel;
+  format.stored = found->stored;
   format.isBigEndian = found->isBigEndian;
-  format.bits = static_cast<unsigned>(8 * SizeOf(found->pixel));
+  format.bits = static_cast<unsigned>(8 * SizeOf(found->pixel, found->stored));
   return format;
 }
 
@@ -173,7 +181,11 @@ ReadType(const std::string & text, const std::string & type, RawLayout & layout)
   const auto camera = isLinux && layout.camera.bayerPattern.empty() ? std::nullopt : FormatOfCamera(name);
   if (!camera)
   {
-    const bool lacksOrder = name == "uint16" || name == "int16" || name == "float32" || name == "float64";
+    const bool lacksOrder = FormatOfNumbers(name + "le").has_value();
+    if (name.rfind("uint64", 0) == 0 || name.rfind("int64", 0) == 0)
+    {
+      RefuseLayout(text, "integers of 64 bits (" + type + ") are not supported, those of up to 32 bits are");
+    }
     RefuseLayout(text,
                  lacksOrder
                    ? "the type " + type + " does not say which byte comes first; " + name + "le or " + name + "be would"

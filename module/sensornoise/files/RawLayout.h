@@ -26,8 +26,8 @@ struct RawLayout
 };
 
 /** Reads "WIDTHxHEIGHT:TYPE[:SKIP[:ROW]]". TYPE, in whichever case, is
- * - uint8, uint16le, uint16be, int16le, int16be, float32le, float32be, float64le or float64be, as numpy counts bits,
- * the end saying which byte comes first;
+ * - uint8, uint16le, uint16be, int16le, int16be, uint32le, uint32be, int32le, int32be, float32le, float32be, float64le or
+ * float64be, as numpy counts bits, the end saying which byte comes first; integers of 32 bits are read as double;
  * - as GenICam calls it: Mono8, Mono10, Mono12, Mono14, Mono16, Mono10p, Mono12p, Mono14p, Mono10Packed, Mono12Packed,
  *   and BayerRG8 and so on, whose pattern is then known;
  * - RAW10, RAW12 or RAW14, packed as by MIPI CSI-2, and SRGGB10P and so on, as Linux and libcamera call these with the

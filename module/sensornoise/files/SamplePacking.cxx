@@ -3,6 +3,7 @@
 #include "sensornoise/files/SamplePacking.h"
 
 #include "sensornoise/files/ByteOrder.h"
+#include "sensornoise/files/StoredNumber.h"
 
 #include <algorithm>
 #include <cstring>
@@ -55,7 +56,7 @@ BytesInGroup(const SampleFormat & format)
 {
   if (format.packing == SamplePacking::Whole)
   {
-    return SizeOf(format.pixel);
+    return SizeOf(format.pixel, format.stored);
   }
   return format.packing == SamplePacking::GigE ? 3 : SamplesInGroup(format) * format.bits / 8;
 }
@@ -82,6 +83,7 @@ UnpackSamples(const SampleFormat & format, const unsigned char * bytes, std::siz
   {
     std::memcpy(pixels, bytes, groups * bytesInGroup);
     ToOwnByteOrder(format.isBigEndian, bytesInGroup, groups, pixels);
+    ConvertStored(format.stored, groups, pixels);
     return;
   }
   const std::size_t samples = SamplesInGroup(format);

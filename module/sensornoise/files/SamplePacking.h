@@ -24,10 +24,11 @@ enum class SamplePacking
 /** How pixels are written in a file. */
 struct SampleFormat
 {
-  FramePixel    pixel{ FramePixel::UnsignedShort }; ///< what they are read as, without conversion
+  FramePixel    pixel{ FramePixel::UnsignedShort }; ///< what they are read as
   SamplePacking packing{ SamplePacking::Whole };
   bool          isBigEndian{ false }; ///< of Whole
   unsigned      bits{ 16 };           ///< that a pixel takes in a stream; of Whole those of its type
+  StoredNumber  stored{ StoredNumber::SameAsPixel }; ///< of Whole
 };
 
 /** The smallest number of pixels whose bytes are all their own. */

@@ -61,10 +61,10 @@ RequireSamePage(const std::string & page, const TiffPage & found, const TiffPage
                       " pixels, but the first page has " + std::to_string(first.width) + " x " +
                       std::to_string(first.height) + "; all pages must have the same size");
   }
-  if (found.pixel != first.pixel)
+  if (found.pixel != first.pixel || found.stored != first.stored)
   {
     throw FileError(page,
-                    SamplesOf(found.pixel) + " samples, but the first page has " + SamplesOf(first.pixel) +
+                    SamplesOf(found) + " samples, but the first page has " + SamplesOf(first) +
                       " ones; all pages must have the same");
   }
   if (found.compression != first.compression || found.predictor != first.predictor)
@@ -139,6 +139,7 @@ private:
     {
       m_First = found;
       m_File.pixel = found.pixel;
+      m_File.stored = found.stored;
       m_Images = ImagesOfImageJ(m_Tiff, directory);
       m_Planes = PlanesOfMetaMorph(directory);
     }

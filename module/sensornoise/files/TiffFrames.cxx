@@ -7,6 +7,7 @@
 #include "sensornoise/files/FrameFile.h"
 #include "sensornoise/files/Inflate.h"
 #include "sensornoise/files/SamplePacking.h"
+#include "sensornoise/files/StoredNumber.h"
 #include "sensornoise/files/TiffDirectory.h"
 #include "sensornoise/files/TiffLzw.h"
 #include "sensornoise/files/TiffPage.h"
@@ -117,8 +118,11 @@ UndoDifferences(void * row, std::size_t width, std::size_t bytesOfPixel)
     case 2:
       AddUp<std::uint16_t>(row, width);
       return;
-    default:
+    case 4:
       AddUp<std::uint32_t>(row, width);
+      return;
+    default:
+      AddUp<std::uint64_t>(row, width);
   }
 }
 
@@ -144,7 +148,7 @@ void
 MakePixels(const TiffPage & page, bool isBigEndian, std::size_t rows, unsigned char * pixels)
 {
   const auto        width = static_cast<std::size_t>(page.width);
-  const std::size_t size = SizeOf(page.pixel);
+  const std::size_t size = SizeOf(page.pixel, page.stored);
   if (page.predictor != 3)
   {
     ToOwnByteOrder(isBigEndian, size, rows * width, pixels);
@@ -162,6 +166,7 @@ MakePixels(const TiffPage & page, bool isBigEndian, std::size_t rows, unsigned c
       UndoFloatDifferences(first, width, size, bytes);
     }
   }
+  ConvertStored(page.stored, rows * width, pixels);
 }
 
 void
@@ -178,11 +183,13 @@ void
 ReadPage(const FrameFile & file, TiffBytes & tiff, std::uint64_t directory, unsigned char * pixels)
 {
   const TiffPage page = ReadTiffPage(file.name, tiff, tiff.ReadDirectory(file.name, directory));
-  if (page.width != file.width || page.height != file.height || page.pixel != file.pixel)
+  if (page.width != file.width || page.height != file.height || page.pixel != file.pixel ||
+      page.stored != file.stored)
   {
     throw FileError(file.name, "the size or type of a page has changed since it was opened; expected the same");
   }
-  const std::size_t  rowBytes = file.width * SizeOf(file.pixel);
+  const std::size_t  rowBytes = file.width * SizeOf(file.pixel, file.stored); // in the file
+  const std::size_t  rowPixelBytes = file.width * SizeOf(file.pixel);
   TiffBytes::Numbers offsets(tiff, page.offsets);
   TiffBytes::Numbers counts(tiff, page.byteCounts);
   for (std::uint64_t first = 0; first < page.height; first += page.rowsPerStrip)
@@ -193,7 +200,7 @@ ReadPage(const FrameFile & file, TiffBytes & tiff, std::uint64_t directory, unsi
     strip.count = counts.Next();
     strip.bytes = rows * rowBytes;
     strip.wholeBytes = static_cast<std::size_t>(page.rowsPerStrip) * rowBytes;
-    unsigned char * const to = pixels + first * rowBytes;
+    unsigned char * const to = pixels + first * rowPixelBytes;
     if (UnpackStrip(tiff.File(), page.compression, strip, to) != strip.bytes)
     {
       throw FileError(file.name, "a strip of a page has changed since it was opened; expected the same");
@@ -202,7 +209,7 @@ ReadPage(const FrameFile & file, TiffBytes & tiff, std::uint64_t directory, unsi
   }
   if (page.orientation == 4)
   {
-    TurnUpsideDown(rowBytes, file.height, pixels);
+    TurnUpsideDown(rowPixelBytes, file.height, pixels);
   }
 }
 } // namespace

@@ -3,9 +3,11 @@
 #include "sensornoise/files/TiffPage.h"
 
 #include "sensornoise/files/FrameSizes.h"
+#include "sensornoise/files/StoredNumber.h"
 #include "sensornoise/files/TiffTags.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 
 namespace sensornoise
@@ -55,26 +57,34 @@ RequirePlainStrips(const TiffTags & tags)
   }
 }
 
-FramePixel
-PixelOfTiff(const TiffTags & tags)
+void
+ReadPixelType(const TiffTags & tags, TiffPage & page)
 {
   const std::uint64_t bits = tags.Number(258, "BitsPerSample", 1);
   const std::uint64_t format = tags.Number(339, "SampleFormat", 1);
-  if (bits == 8 && format == 1)
+  struct KnownType
   {
-    return FramePixel::UnsignedChar;
-  }
-  if (bits == 16 && (format == 1 || format == 2))
+    std::uint64_t bits;
+    std::uint64_t format;
+    FramePixel    pixel;
+    StoredNumber  stored;
+  };
+  constexpr StoredNumber                    same = StoredNumber::SameAsPixel;
+  static constexpr std::array<KnownType, 7> types{ { { 8, 1, FramePixel::UnsignedChar, same },
+                                                     { 16, 1, FramePixel::UnsignedShort, same },
+                                                     { 16, 2, FramePixel::Short, same },
+                                                     { 32, 1, FramePixel::Double, StoredNumber::UnsignedInt },
+                                                     { 32, 2, FramePixel::Double, StoredNumber::Int },
+                                                     { 32, 3, FramePixel::Float, same },
+                                                     { 64, 3, FramePixel::Double, same } } };
+  for (const KnownType & known : types)
   {
-    return format == 2 ? FramePixel::Short : FramePixel::UnsignedShort;
-  }
-  if (bits == 32 && format == 3)
-  {
-    return FramePixel::Float;
-  }
-  if ((bits == 32 || bits == 8) && (format == 1 || format == 2))
-  {
-    tags.Refuse(UnsupportedPixel(bits == 8 ? "char" : format == 1 ? "unsigned int" : "int"));
+    if (bits == known.bits && format == known.format)
+    {
+      page.pixel = known.pixel;
+      page.stored = known.stored;
+      return;
+    }
   }
   const std::string kind = format == 1   ? "unsigned"
                            : format == 2 ? "signed"
@@ -82,8 +92,8 @@ PixelOfTiff(const TiffTags & tags)
                                          : "format " + std::to_string(format);
   tags.Refuse(
     std::to_string(bits) + "-bit " + kind +
-    " samples, which ITK does not read as they are; expected 8-bit unsigned, 16-bit, or 32-bit floating-point "
-    "samples, the same on all pages");
+    " samples, which are not supported; expected 8-bit unsigned, 16-bit or 32-bit integers, or 32-bit or 64-bit "
+    "floating-point samples, the same on all pages");
 }
 
 TiffCompression
@@ -129,7 +139,8 @@ ReadPredictor(const TiffTags & tags, TiffPage & page)
 {
   const std::uint64_t predictor = tags.Number(317, "Predictor", 1);
   const bool          isUsed = page.compression == TiffCompression::Lzw || page.compression == TiffCompression::Deflate;
-  const bool          isFloat = page.pixel == FramePixel::Float;
+  const bool          isFloat = page.stored == StoredNumber::SameAsPixel &&
+                       (page.pixel == FramePixel::Float || page.pixel == FramePixel::Double);
   if (isUsed && predictor != 1 && predictor != (isFloat ? 3U : 2U) && !(isFloat && predictor == 2))
   {
     tags.Refuse("Predictor is " + std::to_string(predictor) + "; expected 1 or " + (isFloat ? "3" : "2"));
@@ -163,12 +174,15 @@ SpacingOf(const TiffTags & tags, TiffBytes & tiff, const TiffDirectory & directo
 } // namespace
 
 std::string
-SamplesOf(FramePixel pixel)
+SamplesOf(const TiffPage & page)
 {
-  return std::to_string(8 * SizeOf(pixel)) + "-bit " +
-         (pixel == FramePixel::Float   ? "floating-point"
-          : pixel == FramePixel::Short ? "signed"
-                                       : "unsigned");
+  const bool isSame = page.stored == StoredNumber::SameAsPixel;
+  const bool isFloat = isSame && (page.pixel == FramePixel::Float || page.pixel == FramePixel::Double);
+  const bool isSigned = page.pixel == FramePixel::Short || page.stored == StoredNumber::Int;
+  return std::to_string(8 * SizeOf(page.pixel, page.stored)) + "-bit " +
+         (isFloat    ? "floating-point"
+          : isSigned ? "signed"
+                     : "unsigned");
 }
 
 TiffPage
@@ -181,7 +195,7 @@ ReadTiffPage(const std::string & page, TiffBytes & tiff, const TiffDirectory & d
   TiffPage found;
   found.width = tags.Required(256, "ImageWidth");
   found.height = tags.Required(257, "ImageLength");
-  found.pixel = PixelOfTiff(tags);
+  ReadPixelType(tags, found);
   found.compression = CompressionOf(tags);
   ReadPredictor(tags, found);
   ReadSubfileType(tags, found);

@@ -28,6 +28,7 @@ struct TiffPage
   std::uint64_t         width{ 0 };
   std::uint64_t         height{ 0 };
   FramePixel            pixel{ FramePixel::UnsignedChar };
+  StoredNumber          stored{ StoredNumber::SameAsPixel };
   TiffCompression       compression{ TiffCompression::None };
   std::uint64_t         predictor{ 1 };
   std::uint64_t         rowsPerStrip{ 0 }; // at most the height
@@ -39,14 +40,14 @@ struct TiffPage
 };
 
 /** Reads what a directory says, with the defaults of TIFF 6.0 for tags that it lacks. \a page begins the errors. Throws
- * FileError unless the page consists of strips of one grey value a pixel, which ITK reads without conversion, and whose
- * compression can be checked. */
+ * FileError unless the page consists of strips of one grey value a pixel, of a type that a pixel holds exactly, and
+ * whose compression can be checked. */
 TiffPage
 ReadTiffPage(const std::string & page, TiffBytes & tiff, const TiffDirectory & directory);
 
-/** What ITK takes the samples for: "16-bit unsigned". */
+/** What the samples are: "16-bit unsigned". */
 std::string
-SamplesOf(FramePixel pixel);
+SamplesOf(const TiffPage & page);
 
 } // namespace sensornoise
 

@@ -4,6 +4,7 @@
 
 #include "sensornoise/files/FileError.h"
 #include "sensornoise/files/Inflate.h"
+#include "sensornoise/files/StoredNumber.h"
 #include "sensornoise/files/TiffLzw.h"
 
 #include <algorithm>
@@ -162,7 +163,7 @@ TiffStrips::CheckStrip(const std::string & page,
                        std::uint64_t       offset,
                        std::uint64_t       count)
 {
-  const std::uint64_t rowBytes = found.width * SizeOf(found.pixel);
+  const std::uint64_t rowBytes = found.width * SizeOf(found.pixel, found.stored);
   switch (found.compression)
   {
     case TiffCompression::None:
