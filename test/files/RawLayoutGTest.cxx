@@ -93,6 +93,28 @@ TEST_F(RawFile, RowsMayHaveAGapBehindThem)
             (std::vector<unsigned short>{ 1, 2, 3, 4, 5, 6, 7, 1023 }));
 }
 
+// A spool file has a frame and what follows it; FITS fills its last block up.
+TEST_F(RawFile, BytesMayLieBehindFramesAndAtTheEnd)
+{
+  const std::vector<unsigned char> second{ 'e', 'f', 'g', 'h' };
+  EXPECT_EQ(Read<unsigned char>("!abcd--efgh--", "2x2:uint8:1:0:2", 1, 1), second);
+  EXPECT_EQ(Read<unsigned char>("!abcd--efgh", "2x2:uint8:1:0:2", 1, 1), second);
+  EXPECT_EQ(Read<unsigned char>("!abcd--efgh...", "2x2:uint8:1:0:2:3", 1, 1), second);
+  EXPECT_EQ(Read<unsigned char>("abcdefgh...", "2x2:uint8:0:0:0:3", 1, 1), second);
+  EXPECT_EQ(Read<unsigned char>("ab-cd-!ef-gh-!", "2x2:uint8:0:3:1", 1, 1), second);
+  EXPECT_EQ(InspectRawFile(Path("a.raw"), ReadRawLayout("2x2:uint8:0:0:10")).frames, 1u);
+  const auto refused = [this](const std::string & layout, const std::string & part) {
+    const std::string said = SaidOfRaw("abcd--efgh...", layout);
+    EXPECT_NE(said.find(part), std::string::npos) << layout << ": " << said;
+  };
+  refused("2x2:uint8",
+          "3 frames and 1 bytes more; expected a whole number of frames, or in the layout the bytes behind");
+  refused("2x2:uint8:0:0:2", "at 4 bytes a frame of 2 x 2 pixels, 2 behind each 2 frames and 1 bytes more");
+  refused("2x2:uint8:0:0:2:4", "2 behind each, 4 behind the last 1 frames and 3 bytes more");
+  refused("2x2:uint8:0:0:2:14", "0 frames");
+  refused("2x2:uint8:0:0:900000000000000000", "13 bytes of pixels; expected 4, 4 bytes a frame of 2 x 2 pixels, 9");
+}
+
 // More than is held at a time.
 TEST_F(RawFile, LargeFramesAreReadInPieces)
 {
@@ -146,7 +168,7 @@ TEST_F(RawFile, LayoutsThatAreNoneAreRefused)
   const auto refused = [](const std::string & text, const std::string & part) {
     const std::string said = SaidOfLayout(text);
     EXPECT_NE(said.find(part), std::string::npos) << said;
-    EXPECT_NE(said.find("expected WIDTHxHEIGHT:TYPE[:SKIP[:ROW]]"), std::string::npos) << said;
+    EXPECT_NE(said.find("expected WIDTHxHEIGHT:TYPE[:SKIP[:ROW[:GAP[:END]]]]"), std::string::npos) << said;
   };
   refused("", "its size is \"\"");
   refused("4x4", "it has 1 parts");
@@ -162,6 +184,10 @@ TEST_F(RawFile, LayoutsThatAreNoneAreRefused)
   refused("4x4:", "the type \"\" is not known");
   refused("4x4:uint8:", "the bytes to skip is \"\"");
   refused("4x4:uint8:1:x", "the bytes of a row is \"x\"");
-  refused("4x4:uint8:1:2:3", "it has 5 parts");
+  refused("4x4:uint8:1:2:x", "the bytes behind a frame is \"x\"");
+  refused("4x4:uint8:1:2:3:x", "the bytes at the end is \"x\"");
+  refused("4x4:uint8:1:2:3:4:5", "it has 7 parts");
+  refused("4x4:int32", "int32le or int32be would");
+  refused("4x4:uint64le", "integers of 64 bits (uint64le) are not supported");
 }
 } // namespace

@@ -87,6 +87,21 @@ BytesOfFrame(const FrameFile & file, const FramePlaces & places)
   }
   return *bytes;
 }
+
+std::optional<std::uint64_t>
+CheckedSum(std::uint64_t a, std::uint64_t b)
+{
+  constexpr std::uint64_t largest = INT64_MAX;
+  return a > largest || b > largest - a ? std::nullopt : std::optional<std::uint64_t>(a + b);
+}
+
+/** In words, behind those of a frame's own bytes. */
+std::string
+BytesBesideFrames(const FramePlaces & places)
+{
+  return (places.gapBytes == 0 ? "" : ", " + std::to_string(places.gapBytes) + " behind each") +
+         (places.endBytes == 0 ? "" : ", " + std::to_string(places.endBytes) + " behind the last");
+}
 } // namespace
 
 std::optional<std::uint64_t>
@@ -106,27 +121,35 @@ SetFramePlaces(FrameFile &                  file,
                std::optional<std::uint64_t> frames,
                std::uint64_t                trailerBytes)
 {
-  places.frameBytes = BytesOfFrame(file, places);
+  const std::uint64_t frameBytes = BytesOfFrame(file, places);
+  places.frameBytes = CheckedSum(frameBytes, places.gapBytes).value_or(INT64_MAX);
   const std::uint64_t found = fileBytes - std::min(fileBytes, places.offset);
   const std::string   held =
     std::to_string(found) + " bytes of pixels" + (places.path == file.name ? "" : " in its data file " + places.path);
-  const std::string frame = std::to_string(places.frameBytes) + " bytes a frame of " + std::to_string(file.width) +
-                            " x " + std::to_string(file.height) + " pixels";
-  if (!frames && (found == 0 || found % places.frameBytes != 0))
-  {
-    throw FileError(file.name,
-                    held + ", at " + frame + " " + std::to_string(found / places.frameBytes) + " frames and " +
-                      std::to_string(found % places.frameBytes) + " bytes more; expected a whole number of frames");
-  }
-  const std::uint64_t                number = frames.value_or(found / places.frameBytes);
-  const std::optional<std::uint64_t> expected = CheckedProduct(places.frameBytes, number);
-  const std::optional<std::uint64_t> trailer = CheckedProduct(trailerBytes, number);
-  if (!expected || found < *expected || (found > *expected && found - *expected != trailer))
+  const std::string frame = std::to_string(frameBytes) + " bytes a frame of " + std::to_string(file.width) + " x " +
+                            std::to_string(file.height) + " pixels" + BytesBesideFrames(places);
+  const std::uint64_t inFrames = found - std::min(found, places.endBytes);
+  const std::uint64_t number = frames.value_or((inFrames + places.gapBytes) / places.frameBytes);
+  const std::uint64_t rest = inFrames - std::min(inFrames, number * places.frameBytes);
+  const bool          isWhole = number > 0 && ((inFrames + places.gapBytes) % places.frameBytes == 0 || rest == 0);
+  if (!frames && (!isWhole || found < places.endBytes))
   {
     throw FileError(
       file.name,
-      std::string(!expected || found < *expected ? "truncated: " : "") + held + "; expected " +
-        (expected ? std::to_string(*expected) : "more than can be counted") + ", " + frame +
+      held + ", at " + frame + " " + std::to_string(number) + " frames and " + std::to_string(rest) +
+        " bytes more; expected a whole number of frames, or in the layout the bytes behind each (GAP) or at the "
+        "end of the file (END): WIDTHxHEIGHT:TYPE:SKIP:ROW:GAP:END");
+  }
+  const std::optional<std::uint64_t> all = CheckedProduct(places.frameBytes, number);
+  const std::optional<std::uint64_t> trailer = CheckedProduct(trailerBytes, number);
+  // the last frame may have nothing behind it
+  const std::uint64_t least = all ? *all - std::min(*all, places.gapBytes) : 0;
+  if (!all || inFrames < least || (inFrames != least && inFrames != *all && inFrames - least != trailer))
+  {
+    throw FileError(
+      file.name,
+      std::string(!all || inFrames < least ? "truncated: " : "") + held + "; expected " +
+        (all ? std::to_string(least) : "more than can be counted") + ", " + frame +
         ", frames: " + std::to_string(number) +
         (trailerBytes == 0 ? "" : ", and " + std::to_string(trailerBytes) + " bytes more for each or none"));
   }

@@ -21,6 +21,8 @@ struct FramePlaces
   std::uint64_t offset{ 0 };     // of the first
   std::uint64_t frameBytes{ 0 }; // from a frame to the next; set by SetFramePlaces()
   std::uint64_t rowBytes{ 0 };   // from a row to the next; 0: bits run on from row to row
+  std::uint64_t gapBytes{ 0 };   // behind each frame; behind the last they may be missing
+  std::uint64_t endBytes{ 0 };   // behind all frames
   SampleFormat  sample{};
 };
 
@@ -30,8 +32,9 @@ std::optional<std::uint64_t>
 PackedBytes(const SampleFormat & format, std::uint64_t samples);
 
 /** Sets where the frames of \a file are, whose size is known, and the reader of them. \a frames: how many there must
- * be; nothing: as many as the bytes hold. \a trailer: bytes for each frame that may follow behind the last. Throws
- * FileError unless the bytes from places.offset on are exactly so many whole frames. */
+ * be; nothing: as many as the bytes hold. \a trailerBytes: bytes for each frame that may follow behind the last. Throws
+ * FileError unless the bytes from places.offset on are exactly so many whole frames, with the bytes that \a places has
+ * between and behind them. */
 void
 SetFramePlaces(FrameFile &                  file,
                FramePlaces                  places,

@@ -25,7 +25,7 @@ RefuseLayout(const std::string & text, const std::string & found)
 {
   throw std::invalid_argument(
     "\"" + text + "\" is no layout of raw frames: " + found +
-    "; expected WIDTHxHEIGHT:TYPE[:SKIP[:ROW]], for example 640x480:uint16le or 1920x1080:Mono12p:64");
+    "; expected WIDTHxHEIGHT:TYPE[:SKIP[:ROW[:GAP[:END]]]], for example 640x480:uint16le or 1920x1080:Mono12p:64");
 }
 
 std::string
@@ -64,21 +64,23 @@ struct NumberType
 std::optional<SampleFormat>
 FormatOfNumbers(const std::string & name)
 {
-  constexpr StoredNumber same = StoredNumber::SameAsPixel;
-  static constexpr std::array<NumberType, 13> types{ { { "uint8", FramePixel::UnsignedChar, false, same },
-{ "uint16le", FramePixel::UnsignedShort, false, same },
-{ "uint16be", FramePixel::UnsignedShort, true, same },
-{ "int16le", FramePixel::Short, false, same },
-{ "int16be", FramePixel::Short, true, same },
-{ "uint32le", FramePixel::Double, false, StoredNumber::UnsignedInt },
-{ "uint32be", FramePixel::Double, true, StoredNumber::UnsignedInt },
-{ "int32le", FramePixel::Double, false, StoredNumber::Int },
-{ "int32be", FramePixel::Double, true, StoredNumber::Int },
-{ "float32le", FramePixel::Float, false, same },
-{ "float32be", FramePixel::Float, true, same },
-{ "float64le", FramePixel::Double, false, same },
-{ "float64be", FramePixel::Double, true, same } } };
-  const auto * const                         found =
+  constexpr StoredNumber                      same = StoredNumber::SameAsPixel;
+  static constexpr std::array<NumberType, 13> types{
+    { { "uint8", FramePixel::UnsignedChar, false, same },
+      { "uint16le", FramePixel::UnsignedShort, false, same },
+      { "uint16be", FramePixel::UnsignedShort, true, same },
+      { "int16le", FramePixel::Short, false, same },
+      { "int16be", FramePixel::Short, true, same },
+      { "uint32le", FramePixel::Double, false, StoredNumber::UnsignedInt },
+      { "uint32be", FramePixel::Double, true, StoredNumber::UnsignedInt },
+      { "int32le", FramePixel::Double, false, StoredNumber::Int },
+      { "int32be", FramePixel::Double, true, StoredNumber::Int },
+      { "float32le", FramePixel::Float, false, same },
+      { "float32be", FramePixel::Float, true, same },
+      { "float64le", FramePixel::Double, false, same },
+      { "float64be", FramePixel::Double, true, same } }
+  };
+  const auto * const found =
     std::find_if(types.begin(), types.end(), [&](const NumberType & type) { return name == type.name; });
   if (found == types.end())
   {
@@ -217,7 +219,7 @@ ReadRawLayout(const std::string & text)
 {
   const std::vector<std::string> parts = Parted(text, ':');
   const std::vector<std::string> size = Parted(LowerCaseOf(parts.front()), 'x');
-  if (parts.size() < 2 || parts.size() > 4 || size.size() != 2)
+  if (parts.size() < 2 || parts.size() > 6 || size.size() != 2)
   {
     RefuseLayout(text,
                  size.size() != 2 ? "its size is \"" + parts.front() + "\""
@@ -234,6 +236,8 @@ ReadRawLayout(const std::string & text)
   ReadType(text, parts[1], layout);
   layout.skipBytes = parts.size() > 2 ? ReadCount(text, "the bytes to skip", parts[2]) : 0;
   layout.rowBytes = parts.size() > 3 ? ReadCount(text, "the bytes of a row", parts[3]) : 0;
+  layout.gapBytes = parts.size() > 4 ? ReadCount(text, "the bytes behind a frame", parts[4]) : 0;
+  layout.endBytes = parts.size() > 5 ? ReadCount(text, "the bytes at the end", parts[5]) : 0;
   return layout;
 }
 
@@ -252,6 +256,8 @@ InspectRawFile(const std::string & name, const RawLayout & layout)
   places.path = name;
   places.offset = layout.skipBytes;
   places.rowBytes = layout.rowBytes;
+  places.gapBytes = layout.gapBytes;
+  places.endBytes = layout.endBytes;
   places.sample = layout.sample;
   SetFramePlaces(file, places, bytes.Size(), std::nullopt);
   RequireUnchanged(file);
