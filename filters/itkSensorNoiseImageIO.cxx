@@ -48,25 +48,9 @@ SensorNoiseImageIO::SensorNoiseImageIO()
   this->SetNumberOfDimensions(3);
   this->SetNumberOfComponents(1);
   this->SetPixelType(IOPixelEnum::SCALAR);
-  for (const char * const ending : { ".ser",
-                                     ".mraw",
-                                     ".cihx",
-                                     ".cih",
-                                     ".tif",
-                                     ".tiff",
-                                     ".dng",
-                                     ".cr2",
-                                     ".cr3",
-                                     ".nef",
-                                     ".nrw",
-                                     ".arw",
-                                     ".raf",
-                                     ".orf",
-                                     ".rw2",
-                                     ".pef",
-                                     ".srw",
-                                     ".3fr",
-                                     ".iiq" })
+  for (const char * const ending :
+       { ".ser", ".fits", ".fit", ".fts", ".npy", ".pgm", ".mraw", ".cihx", ".cih", ".tif", ".tiff", ".dng",
+         ".cr2", ".cr3",  ".nef", ".nrw", ".arw", ".raf", ".orf",  ".rw2",  ".pef", ".srw", ".3fr",  ".iiq" })
   {
     this->AddSupportedReadExtension(ending);
   }
@@ -146,7 +130,8 @@ SensorNoiseImageIO::ReadImageInformation()
   if (!m_File.reader)
   {
     itkExceptionMacro(<< m_File.name << ": of format " << m_File.format->name << ", which ITK's "
-                      << m_File.format->imageIO << " reads; expected camera raw, SER, MRAW, TIFF or raw frames");
+                      << m_File.format->imageIO
+                      << " reads; expected camera raw, SER, MRAW, TIFF, FITS, NPY, PGM or raw frames");
   }
   const unsigned int dimensions = m_File.frames > 1 ? 3 : 2;
   this->SetNumberOfDimensions(dimensions);

@@ -136,11 +136,11 @@ FilesInUse::Write(const std::string & file, const std::string & option)
 void
 RequireReportName(const std::string & file, const std::string & option)
 {
-  static const std::set<std::string> images{ ".avi", ".bin",  ".cih",  ".cihx", ".bmp",  ".bz2",  ".cr2", ".dcm",
-                                             ".dng", ".fits", ".gif",  ".gipl", ".gz",   ".h5",   ".hdr", ".img",
-                                             ".jpg", ".jpeg", ".lsm",  ".mha",  ".mhd",  ".mraw", ".nef", ".nhdr",
-                                             ".nii", ".npy",  ".nrrd", ".pgm",  ".png",  ".ppm",  ".raw", ".ser",
-                                             ".stk", ".tif",  ".tiff", ".vtk",  ".webp", ".zraw" };
+  static const std::set<std::string> images{ ".avi", ".bin",  ".cih",  ".cihx", ".bmp",  ".bz2",  ".cr2",  ".dcm",
+                                             ".dng", ".fit",  ".fits", ".fts",  ".gif",  ".gipl", ".gz",   ".h5",
+                                             ".hdr", ".img",  ".jpg",  ".jpeg", ".lsm",  ".mha",  ".mhd",  ".mraw",
+                                             ".nef", ".nhdr", ".nii",  ".npy",  ".nrrd", ".pgm",  ".png",  ".ppm",
+                                             ".raw", ".ser",  ".stk",  ".tif",  ".tiff", ".vtk",  ".webp", ".zraw" };
   const std::string                  ending = fs::path(file).extension().string();
   if (images.count(LowerCase(ending)) != 0)
   {

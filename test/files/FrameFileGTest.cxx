@@ -84,7 +84,7 @@ TEST_F(FrameFileInspection, WhatIsNoRegularFileIsRefusedUnopened)
 
 TEST_F(FrameFileInspection, FormatsThatCannotBeCheckedAreRefusedByName)
 {
-  const std::string expected = "; expected camera raw, TIFF, PNG, MetaImage, NRRD, SER or MRAW";
+  const std::string expected = "; expected camera raw, TIFF, PNG, MetaImage, NRRD, SER, MRAW, FITS, NPY or PGM";
   IsRefused("a.jpg", "\xFF\xD8\xFF\xE0 and so on", { "a JPEG file, which cannot be checked" + expected });
   IsRefused("a.bmp", "BM and so on", { "a BMP file" });
   IsRefused("a.vtk", "# vtk DataFile Version 3.0\n", { "a VTK file" });

@@ -26,7 +26,7 @@ TEST(FrameFormats, HaveReadersOfITK)
   {
     EXPECT_TRUE(format.imageIO == nullptr || readers.count(format.imageIO) == 1) << format.name;
   }
-  EXPECT_EQ(NamesOfFrameFormats(), "camera raw, TIFF, PNG, MetaImage, NRRD, SER or MRAW");
+  EXPECT_EQ(NamesOfFrameFormats(), "camera raw, TIFF, PNG, MetaImage, NRRD, SER, MRAW, FITS, NPY or PGM");
 }
 
 TEST(FrameFormats, AreToldByContentsFirst)

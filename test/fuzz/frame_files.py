@@ -274,6 +274,39 @@ def sers(frames: list[bytes]) -> list[Case]:
     ]
 
 
+def _fits_unit(cards: list[tuple[str, str]], data: bytes) -> list[tuple[str, bytes]]:
+    """The parts of a unit, both filled up to whole blocks."""
+    text = "".join(f"{key:8}= {value:>20}".ljust(80) for key, value in cards) + "END"
+    filled = bytes(-len(data) % 2880)
+    return [("header", text.ljust(-(-len(text) // 2880) * 2880).encode()), ("raw", data), ("header", filled)]
+
+
+def fitses(frames: list[bytes]) -> list[Case]:
+    sizes = [("NAXIS", "3"), ("NAXIS1", f"{WIDTH}"), ("NAXIS2", f"{HEIGHT}"), ("NAXIS3", f"{len(frames)}")]
+    codes = _codes(frames, 16)
+    unsigned = struct.pack(f">{len(codes)}H", *(code ^ 32768 for code in codes))
+    wide = struct.pack(f">{len(codes)}i", *codes)
+    first = [("SIMPLE", "T"), ("BITPIX", "16"), *sizes, ("BZERO", "32768"), ("BSCALE", "1")]
+    empty = [("SIMPLE", "T"), ("BITPIX", "8"), ("NAXIS", "0")]
+    extension = [("XTENSION", "'IMAGE   '"), ("BITPIX", "32"), *sizes, ("PCOUNT", "0"), ("GCOUNT", "1")]
+    return [
+        Case("fits", [_parts("s.fits", *_fits_unit(first, unsigned))], ["s.fits"]),
+        Case("fits 32", [_parts("s.fits", *_fits_unit(empty, b""), *_fits_unit(extension, wide))], ["s.fits"]),
+    ]
+
+
+def npys(frames: list[bytes]) -> list[Case]:
+    text = f"{{'descr': '<u2', 'fortran_order': False, 'shape': ({len(frames)}, {HEIGHT}, {WIDTH}), }}"
+    header = b"\x93NUMPY\x01\x00" + struct.pack("<H", 118) + text.ljust(117).encode() + b"\n"
+    return [Case("npy", [_parts("s.npy", ("header", header), ("raw", b"".join(frames)))], ["s.npy"])]
+
+
+def pgms(frames: list[bytes]) -> list[Case]:
+    header = ("header", f"P5\n{WIDTH} {HEIGHT}\n65535\n".encode())
+    parts = [part for frame in frames for part in (header, ("raw", _swapped(frame)))]
+    return [Case("pgm", [_parts("s.pgm", *parts)], ["s.pgm"])]
+
+
 def mraws(frames: list[bytes]) -> list[Case]:
     def header(bits: int) -> File:
         text = (
@@ -388,6 +421,6 @@ def others(frames: list[bytes]) -> list[Case]:
 def all_cases(frames: list[bytes]) -> list[Case]:
     """Every format, of the same frames: bytes of little-endian unsigned 16-bit pixels."""
     made: list[Case] = []
-    for make in (meta_images, nrrds, tiffs, pngs, sers, mraws, raws, dngs, others):
+    for make in (meta_images, nrrds, tiffs, pngs, sers, fitses, npys, pgms, mraws, raws, dngs, others):
         made += make(frames)
     return made

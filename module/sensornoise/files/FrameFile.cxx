@@ -43,7 +43,8 @@ OtherFormat(const std::string & head, const std::string & name)
   {
     return "no MetaImage, or damaged at its start";
   }
-  return "no image in a format that can be checked, or damaged at its start";
+  return "no image in a format that can be checked, or damaged at its start (frames without a header need a layout, "
+         "WIDTHxHEIGHT:TYPE)";
 }
 
 void

@@ -31,8 +31,8 @@ enum class FramePixel
   Double
 };
 
-/** The numbers that a file holds: those of FramePixel, or integers of 32 bits, which are read as double, that holds each
- * exactly. Integers of 64 bits are refused. */
+/** The numbers that a file holds: those of FramePixel, or integers of 32 bits, which are read as double, that holds
+ * each exactly. Integers of 64 bits are refused. */
 enum class StoredNumber
 {
   SameAsPixel,

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/files/FrameFormats.h"
 
+#include "sensornoise/files/FitsFile.h"
 #include "sensornoise/files/MetaImageFile.h"
 #include "sensornoise/files/MrawFile.h"
+#include "sensornoise/files/NpyFile.h"
 #include "sensornoise/files/NrrdFile.h"
 #include "sensornoise/files/PngFile.h"
+#include "sensornoise/files/PnmFile.h"
 #include "sensornoise/files/RawCameraFile.h"
 #include "sensornoise/files/SerFile.h"
 #include "sensornoise/files/TiffFile.h"
@@ -28,6 +31,9 @@ FrameFormats()
     { "NRRD", "NrrdImageIO", "ITKIONRRD", IsHeadOfNrrd, InspectNrrd },
     { "SER", nullptr, nullptr, IsHeadOfSer, InspectSer },
     { "MRAW", nullptr, nullptr, IsHeadOfMraw, InspectMraw },
+    { "FITS", nullptr, nullptr, IsHeadOfFits, InspectFits },
+    { "NPY", nullptr, nullptr, IsHeadOfNpy, InspectNpy },
+    { "PGM", nullptr, nullptr, IsHeadOfPnm, InspectPnm },
   };
   return formats;
 }

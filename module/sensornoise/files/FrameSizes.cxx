@@ -80,7 +80,8 @@ SetFrameSizes(FrameFile & file, const std::vector<std::uint64_t> & sizes)
 std::string
 UnsupportedPixel(const std::string & name)
 {
-  return "component type " + name + " is not supported; expected unsigned char, unsigned short, short, "
+  return "component type " + name +
+         " is not supported; expected unsigned char, unsigned short, short, "
          "unsigned int, int, float or double";
 }
 

@@ -31,7 +31,7 @@ SetPixelOfMetaImage(FrameFile & file, const std::string & type)
     FramePixel   pixel;
     StoredNumber stored;
   };
-  constexpr StoredNumber           same = StoredNumber::SameAsPixel;
+  constexpr StoredNumber              same = StoredNumber::SameAsPixel;
   static const std::vector<KnownType> types{ { "MET_UCHAR", FramePixel::UnsignedChar, same },
                                              { "MET_USHORT", FramePixel::UnsignedShort, same },
                                              { "MET_SHORT", FramePixel::Short, same },

@@ -54,7 +54,7 @@ SetPixelOfNrrd(FrameFile & file, const NrrdHeader & header)
     { { "longlong", "long long", "long long int", "signed long long", "int64", "int64_t" }, "long long" },
     { { "ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t" }, "unsigned long long" }
   };
-  const std::string                     type = WithoutBlanks(InSmallLetters(header.Field("type")));
+  const std::string type = WithoutBlanks(InSmallLetters(header.Field("type")));
   for (const KnownType & known : types)
   {
     if (IsOneOf(type, known.names))

@@ -26,8 +26,8 @@ struct SampleFormat
 {
   FramePixel    pixel{ FramePixel::UnsignedShort }; ///< what they are read as
   SamplePacking packing{ SamplePacking::Whole };
-  bool          isBigEndian{ false }; ///< of Whole
-  unsigned      bits{ 16 };           ///< that a pixel takes in a stream; of Whole those of its type
+  bool          isBigEndian{ false };                ///< of Whole
+  unsigned      bits{ 16 };                          ///< that a pixel takes in a stream; of Whole those of its type
   StoredNumber  stored{ StoredNumber::SameAsPixel }; ///< of Whole
 };
 

@@ -25,8 +25,8 @@ NameOf(FramePixel pixel, StoredNumber stored);
 SensorNoise_EXPORT std::uint64_t
 StoredBytesOf(const FrameFile & file);
 
-/** Converts \a count numbers, which lie at the beginning of \a numbers in this machine's byte order, to pixels in place.
- * The buffer has room for as many pixels. */
+/** Converts \a count numbers, which lie at the beginning of \a numbers in this machine's byte order, to pixels in
+ * place. The buffer has room for as many pixels. */
 SensorNoise_EXPORT void
 ConvertStored(StoredNumber stored, std::size_t count, void * numbers);
 

@@ -183,8 +183,7 @@ void
 ReadPage(const FrameFile & file, TiffBytes & tiff, std::uint64_t directory, unsigned char * pixels)
 {
   const TiffPage page = ReadTiffPage(file.name, tiff, tiff.ReadDirectory(file.name, directory));
-  if (page.width != file.width || page.height != file.height || page.pixel != file.pixel ||
-      page.stored != file.stored)
+  if (page.width != file.width || page.height != file.height || page.pixel != file.pixel || page.stored != file.stored)
   {
     throw FileError(file.name, "the size or type of a page has changed since it was opened; expected the same");
   }

@@ -139,8 +139,8 @@ ReadPredictor(const TiffTags & tags, TiffPage & page)
 {
   const std::uint64_t predictor = tags.Number(317, "Predictor", 1);
   const bool          isUsed = page.compression == TiffCompression::Lzw || page.compression == TiffCompression::Deflate;
-  const bool          isFloat = page.stored == StoredNumber::SameAsPixel &&
-                       (page.pixel == FramePixel::Float || page.pixel == FramePixel::Double);
+  const bool          isFloat =
+    page.stored == StoredNumber::SameAsPixel && (page.pixel == FramePixel::Float || page.pixel == FramePixel::Double);
   if (isUsed && predictor != 1 && predictor != (isFloat ? 3U : 2U) && !(isFloat && predictor == 2))
   {
     tags.Refuse("Predictor is " + std::to_string(predictor) + "; expected 1 or " + (isFloat ? "3" : "2"));
