@@ -59,11 +59,12 @@ RequireAlike(const FrameFile & found, const FrameFile & first)
   }
 }
 
-/** A stack that does not stream is held in memory. */
+/** A stack that does not stream is held in memory, with those before it. */
 void
-RequireMemoryFor(const FrameFile & stack)
+RequireMemoryFor(const FrameFile & stack, std::uint64_t bytesBefore)
 {
-  RequireMemory(static_cast<double>(stack.bytes), stack.name + " cannot be read in parts: all of it");
+  RequireMemory(static_cast<double>(stack.bytes) + static_cast<double>(bytesBefore),
+                stack.name + " cannot be read in parts: all of it");
 }
 
 double
@@ -238,11 +239,11 @@ OpenFrames(const std::vector<std::string> & names,
   for (const std::string & name : names)
   {
     const auto requireFitting = [&](const FrameFile & file) {
-      if (file.frames > 1 && names.size() > 1)
+      if (file.frames > 1 && !list.files.empty() && !list.isStack)
       {
         throw FileError(name,
-                        "has " + std::to_string(file.frames) + " frames, and " + std::to_string(names.size()) +
-                          " files were given; expected one stack alone, or one frame a file");
+                        "has " + std::to_string(file.frames) + " frames, but " + list.files.front().name +
+                          " has one; expected stacks alone, or one frame a file");
       }
       if (!list.files.empty())
       {
@@ -253,7 +254,7 @@ OpenFrames(const std::vector<std::string> & names,
       requireFitting(known);
       if (known.frames > 1 && known.format->imageIO != nullptr)
       {
-        RequireMemoryFor(known); // ITK reads no compressed stack in parts
+        RequireMemoryFor(known, list.bytes); // ITK reads no compressed stack in parts
       }
       if (beforeInflating)
       {
@@ -271,13 +272,14 @@ OpenFrames(const std::vector<std::string> & names,
       list.width = file.width;
       list.height = file.height;
       list.camera = file.camera;
-      list.streams = !list.isStack || file.reader || io->CanStreamRead();
       list.geometry = file.reader ? GeometryOf(file) : GeometryOf(*io);
       list.geometry = list.isStack ? list.geometry : WithoutTime(list.geometry);
-      if (!list.streams)
-      {
-        RequireMemoryFor(file);
-      }
+    }
+    const bool streams = file.frames == 1 || file.reader || io->CanStreamRead();
+    list.streams = streams && (list.files.empty() || list.streams);
+    if (!streams)
+    {
+      RequireMemoryFor(file, list.bytes);
     }
     list.bytes += file.bytes;
     list.frames += file.frames;
@@ -289,15 +291,20 @@ OpenFrames(const std::vector<std::string> & names,
 void
 ReadFrames(const FrameList & list, std::size_t first, std::size_t count, void * buffer)
 {
-  if (list.isStack)
-  {
-    ReadFile(list.files.front(), first, count, buffer);
-    return;
-  }
   const std::size_t frameBytes = list.bytes / list.frames;
-  for (std::size_t i = 0; i < count; ++i)
+  const bool        isList = list.files.size() == list.frames;
+  std::size_t       index = isList ? first : 0;
+  for (std::size_t begin = index; begin < first + count; ++index)
   {
-    ReadFile(list.files.at(first + i), 0, 1, static_cast<char *>(buffer) + i * frameBytes);
+    const FrameFile & file = list.files.at(index);
+    const std::size_t end = begin + file.frames;
+    const std::size_t from = std::max(first, begin);
+    const std::size_t to = std::min(first + count, end);
+    if (from < to)
+    {
+      ReadFile(file, from - begin, to - from, static_cast<char *>(buffer) + (from - first) * frameBytes);
+    }
+    begin = end;
   }
 }
 

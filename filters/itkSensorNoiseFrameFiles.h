@@ -42,11 +42,11 @@ struct FrameListGeometry
   };
 };
 
-/** Frames on files in time order, of which all headers have been checked: one stack, or one frame a file. */
+/** Frames on files in time order, of which all headers have been checked: stacks, or one frame a file. */
 struct FrameList
 {
   std::vector<FrameFile> files;
-  bool                   isStack{ false }; // one file holds all frames
+  bool                   isStack{ false }; // a stack, or several that follow each other in time
   FramePixel             pixel{ FramePixel::UnsignedShort };
   std::size_t            width{ 0 };  // pixels
   std::size_t            height{ 0 }; // pixels
@@ -63,8 +63,9 @@ struct FrameList
 /** Checks every file (InspectFrameFile()), then has ITK open it, and requires that ITK says the same. No pixel is kept.
  *
  * Throws std::invalid_argument without a file, and FileError unless each file is a complete image of one grey value of
- * type unsigned char, unsigned short, short, float or double a pixel, and all have the same size and type. One 3-D file
- * is a stack; a list holds 2-D files, or 3-D files of one slice. Formats are those of FrameFormats(), as far as the
+ * type unsigned char, unsigned short, short, float or double a pixel, and all have the same size and type. A 3-D file
+ * is a stack; several stacks are one burst, in the order given. A list of frames holds 2-D files, or 3-D files of one
+ * slice, and no stack. Formats are those of FrameFormats(), as far as the
  * program has registered their ImageIO. \a beforeInflating is asked about each compressed file before it is
  * inflated. \a rawLayout: how frames lie in files without a header, see ReadRawLayout(), which throws for what is none;
  * empty: the files say so. */
@@ -74,7 +75,7 @@ OpenFrames(const std::vector<std::string> & names,
            const std::string &              rawLayout = {});
 
 /** Reads \a count frames from the frame \a first on, one after the other, without conversion: \a buffer has room for
- * width x height x count pixels of the list's type. Of a stack that does not stream only all frames can be read.
+ * width x height x count pixels of the list's type. Of stacks that do not stream only all frames can be read.
  *
  * Throws FileError if a file has changed since OpenFrames(), before or while it is read, and where its pixels cannot be
  * read. */

@@ -33,7 +33,8 @@ namespace itk
 {
 
 /** \class SensorNoiseFrameListSource
- * \brief Reads frames from files as a stack, an image whose last axis is time: one stack file, or a list of frames.
+ * \brief Reads frames from files as a stack, an image whose last axis is time: one stack file or several, or a list of
+ * frames.
  *
  * Every file is checked before a pixel is read (sensornoise::OpenFrames()): whether it is complete, of one grey value a
  * pixel, and as all others in size and type. Whatever a damaged file would make of ITK's own readers, which fill up,
@@ -85,7 +86,7 @@ public:
     return "SensorNoiseFrameListSource";
   }
 
-  /** Files in time order: 2-D images, or 3-D ones of one slice; or one stack alone. Required: without one, or with
+  /** Files in time order: 2-D images, or 3-D ones of one slice; or stacks. Required: without one, or with
    * files that OpenFrames() refuses, Update() and UpdateOutputInformation() throw. */
   void
   SetFileNames(const std::vector<std::string> & names);

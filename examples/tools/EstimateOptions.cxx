@@ -341,7 +341,8 @@ std::optional<int>
 EstimateOptions::Parse(int argc, char ** argv)
 {
   CLI::App app("Measures gain, offset and read noise of a camera from a burst of raw frames of a static scene.\n"
-               "FRAME...: 2-D image files in time order, or one 3-D stack file (.mha .mhd .nrrd .tif .ser .mraw).\n"
+               "FRAME...: 2-D image files in time order, or 3-D stack files of one burst (.mha .mhd .nrrd .tif .ser "
+               ".mraw .fits .npy).\n"
                "Exit code: 0 done, 2 wrong use or unreadable input, 3 nothing could be estimated.");
   Texts    texts;
   AddOptions(app, *this, texts);
@@ -367,9 +368,9 @@ EstimateOptions::Parse(int argc, char ** argv)
 }
 
 void
-EstimateOptions::SelectFiles()
+EstimateOptions::SelectFiles(bool areStacks)
 {
-  if (!frames || files.size() == 1)
+  if (!frames || areStacks)
   {
     cut = frames;
     return;

@@ -67,9 +67,9 @@ struct EstimateOptions
   std::optional<int>
   Parse(int argc, char ** argv);
 
-  /** Applies --frames to a list of files; one file, a stack, is cut later. */
+  /** Applies --frames to a list of files; stacks are cut later. */
   void
-  SelectFiles();
+  SelectFiles(bool areStacks);
 
   /** Applies --frames to the exposures. The files hold \a all frames. Throws std::invalid_argument unless there is one
    * exposure for each frame. */

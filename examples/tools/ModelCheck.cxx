@@ -51,6 +51,7 @@ MeasureFramesToCheck(const EstimateOptions & options, const MeasuredStack & meas
   }
   other.files = options.check;
   other.frames.reset();
+  other.cut.reset();
   other.dark.clear();
   const FrameList frames = OpenFrames(other.files, {}, other.raw);
   TellWarningOf(frames);

@@ -87,6 +87,21 @@ WriteReport(const MeasuredStack &        measured,
   }
 }
 
+/** Whether --frames counts the frames of stacks, not files. Files that --frames leaves out of a list are not opened. */
+bool
+AreStacks(const EstimateOptions & options)
+{
+  if (!options.frames)
+  {
+    return false;
+  }
+  const auto isStack = [&options](std::size_t file) {
+    return sensornoise::OpenFrames({ options.files[file] }, {}, options.raw).isStack;
+  };
+  const std::size_t files = options.files.size();
+  return isStack(std::min(options.frames->first, files - 1)) || (options.frames->second > files && isStack(0));
+}
+
 /** To be called before anything is read, and when the folder of the maps is there. */
 void
 RequireOutputsApart(const EstimateOptions & options)
@@ -221,9 +236,9 @@ Run(EstimateOptions & options)
   }
   RequireOutputsApart(options);
   const std::size_t listed = options.files.size();
-  options.SelectFiles();
+  options.SelectFiles(listed == 1 || AreStacks(options));
   const sensornoise::FrameList frames = sensornoise::OpenFrames(options.files, {}, options.raw);
-  options.SelectExposures(listed == 1 ? frames.frames : listed);
+  options.SelectExposures(listed == 1 || frames.isStack ? frames.frames : listed);
   TellWarningOf(frames);
   TellWhetherHeldInMemory(frames);
 

@@ -52,8 +52,9 @@ TEST_F(SensorNoiseFrameFiles, DifferentSizesAndComponentTypesAreRefused)
 
 TEST_F(SensorNoiseFrameFiles, AStackAmongFramesIsRefused)
 {
-  OpeningIsRefusedWith({ WriteFrame<short>("frame.tif"), WriteStack<short>("stack.tif") },
-                       { "stack.tif", "has 4 frames", "2 files" });
+  OpeningIsRefusedWith(
+    { WriteFrame<short>("frame.tif"), WriteStack<short>("stack.tif") },
+    { "stack.tif", "has 4 frames, but", "frame.tif has one; expected stacks alone, or one frame a file" });
 }
 
 TEST_F(SensorNoiseFrameFiles, OtherComponentTypesAreRefusedByName)

@@ -50,6 +50,20 @@ TEST_F(SensorNoiseFrameListSource, AStackReadsWhatWasWritten)
   }
 }
 
+// A camera's program begins a new file when one is full.
+TEST_F(SensorNoiseFrameListSource, SeveralStacksAreOneBurst)
+{
+  for (const std::string extension : { ".mha", ".nrrd", ".tif" })
+  {
+    const std::vector<std::string> files{ Write<short, 3>("a" + extension, { { width, height, 2 } }, 0),
+                                          Write<short, 3>("b" + extension, { { width, height, 1 } }, 2),
+                                          Write<short, 3>("c" + extension, { { width, height, 1 } }, 3) };
+    ReadsWhatWasWritten<short>(files, true, extension != ".nrrd");
+  }
+  const std::string mixed = Write<short, 3>("b.nrrd", { { width, height, 2 } }, 2);
+  ReadsWhatWasWritten<short>({ Path("a.mha"), mixed }, true, false);
+}
+
 TEST_F(SensorNoiseFrameListSource, AListOfSlicesOfThreeDimensionsReadsWhatWasWritten)
 {
   std::vector<std::string> files;

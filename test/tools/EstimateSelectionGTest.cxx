@@ -81,6 +81,33 @@ TEST_F(EstimateSelectionTool, FramesAreCutOutOfAStackAndAList)
   EXPECT_EQ(MeasuredTextOf(Joined(WriteList<unsigned short>(burst, ".tif")) + "--frames 3:25"), expected);
 }
 
+TEST_F(EstimateSelectionTool, SeveralStacksAreOneBurst)
+{
+  const auto        burst = MakeBurst(30);
+  const std::string expected = JsonTextOf(Write("whole.mha", burst.GetPointer()));
+  const std::string cut = JsonTextOf("whole.mha --frames 3:25");
+  for (const std::string extension : { ".mha", ".tif", ".nrrd" })
+  {
+    const auto        first = Cut<unsigned short>(burst, { { 0, 0, 0 } }, { { 64, 64, 14 } });
+    const auto        second = Cut<unsigned short>(burst, { { 0, 0, 14 } }, { { 64, 64, 16 } });
+    const std::string names =
+      Write("a" + extension, first.GetPointer()) + " " + Write("b" + extension, second.GetPointer());
+    EXPECT_EQ(JsonTextOf(names), expected) << extension;
+    EXPECT_EQ(JsonTextOf(names + " --frames 3:25"), cut) << extension;
+  }
+  EXPECT_EQ(Run("a.mha b.mha --exposures 1,1,1"), 2);
+  EXPECT_NE(m_Message.find("--exposures holds 3 numbers, but there are 30 frames"), std::string::npos) << m_Message;
+}
+
+TEST_F(EstimateSelectionTool, FramesThatAreChosenOfTheBurstAreNoChoiceOfThoseToCheck)
+{
+  const auto burst = MakeBurst(30);
+  const auto part = Cut<unsigned short>(burst, { { 0, 0, 0 } }, { { 64, 64, 14 } });
+  EXPECT_NE(Run(Write("s.mha", burst.GetPointer()) + " --frames 10:30 --check " + Write("part.mha", part.GetPointer())),
+            2)
+    << m_Message;
+}
+
 TEST_F(EstimateSelectionTool, FilesThatFramesLeavesOutAreNotOpened)
 {
   std::vector<std::string> names = WriteList<unsigned short>(MakeBurst(26), ".tif");
