@@ -320,9 +320,14 @@ WarningOf(const FrameList & list)
   std::stable_sort(sorted.begin(), sorted.end(), [&](const auto * a, const auto * b) { return place(a) < place(b); });
   const auto twice = std::adjacent_find(
     sorted.begin(), sorted.end(), [&](const auto * a, const auto * b) { return place(a) == place(b); });
-  return twice == sorted.end() ? ""
-                               : (*twice)->name + ": is given twice, the second time as " + (*(twice + 1))->name +
-                                   "; expected each frame once";
+  if (twice != sorted.end())
+  {
+    return (*twice)->name + ": is given twice, the second time as " + (*(twice + 1))->name +
+           "; expected each frame once";
+  }
+  const auto odd =
+    std::find_if(list.files.begin(), list.files.end(), [](const FrameFile & file) { return !file.warning.empty(); });
+  return odd == list.files.end() ? "" : odd->name + ": " + odd->warning;
 }
 
 std::string

@@ -82,7 +82,8 @@ OpenFrames(const std::vector<std::string> & names,
 SensorNoise_EXPORT void
 ReadFrames(const FrameList & list, std::size_t first, std::size_t count, void * buffer);
 
-/** What is odd about the files and no error, as a sentence, or nothing: that one is there twice, by whatever names. */
+/** What is odd about the files and no error, as a sentence, or nothing: that one is there twice, by whatever names,
+ * or the first FrameFile::warning. */
 SensorNoise_EXPORT std::string
 WarningOf(const FrameList & list);
 

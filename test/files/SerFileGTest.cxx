@@ -118,6 +118,24 @@ TEST_F(SerFile, MayEndWithATimeForEachFrameAndWithNothingElse)
   IsRefused("a.ser", whole.substr(0, 177), { "truncated: " });
 }
 
+// The number of frames is what programs write last.
+TEST_F(SerFile, ThatWasNotClosedIsReadWithAWarning)
+{
+  SerOf           ser = Sound();
+  const FrameFile closed = IsFrames("a.ser", ser.Bytes(), FramePixel::UnsignedShort, 7, 5, 4);
+  EXPECT_EQ(closed.warning, "");
+  ser.frames = 0;
+  ser.trailer = "the beginning of a frame";
+  const FrameFile open = IsFrames("b.ser", ser.Bytes(), FramePixel::UnsignedShort, 7, 5, 4);
+  EXPECT_EQ(open.warning,
+            "says 0 frames, but holds 4 and 24 bytes more: the recording was not closed. All whole frames are read");
+  std::vector<unsigned short> expected(140);
+  std::vector<unsigned short> found(140);
+  closed.reader->Read(closed, 0, 4, expected.data());
+  open.reader->Read(open, 0, 4, found.data());
+  EXPECT_EQ(found, expected);
+}
+
 TEST_F(SerFile, HeadersThatCannotBeTrueAreRefused)
 {
   const auto refused = [this](const auto & change, const std::vector<std::string> & parts) {
@@ -132,7 +150,7 @@ TEST_F(SerFile, HeadersThatCannotBeTrueAreRefused)
   refused([](SerOf & ser) { ser.depth = 32; }, { "PixelDepthPerPlane is 32 bits" });
   refused([](SerOf & ser) { ser.isLittleEndian = 2; }, { "LittleEndian is 2; expected 0 or 1" });
   refused([](SerOf & ser) { ser.width = 0; }, { "size 0 along axis 0" });
-  refused([](SerOf & ser) { ser.frames = 0; }, { "size 0 along axis 2" });
+  refused([](SerOf & ser) { ser.pixels.resize(69), ser.frames = 0; }, { "size 0 along axis 2" });
   refused([](SerOf & ser) { ser.height = 0xFFFFFFFF; }, { "size 4294967295 along axis 1" });
   refused([](SerOf & ser) { ser.frames = 5; }, { "truncated: 280 bytes of pixels; expected 350" });
   refused([](SerOf & ser) { ser.frames = 3; }, { "280 bytes of pixels; expected 210" });

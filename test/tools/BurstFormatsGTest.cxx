@@ -103,6 +103,17 @@ TEST_F(BurstFormatsTool, WhatDoesNotFitIsOneSentence)
   isRefused("p12", "p12: no image in a format that can be checked");
 }
 
+TEST_F(BurstFormatsTool, ARecordingThatWasNotClosedHasAWarning)
+{
+  WriteAll();
+  std::string text = ReadText(Path("a.ser"));
+  text.replace(38, 4, std::string(4, '\0'));
+  WriteText("open.ser", text);
+  EXPECT_EQ(MeasuredOf("open.ser --bit-depth 12"), JsonTextOf("a.mha --bit-depth 12"));
+  EXPECT_EQ(Run("open.ser --bit-depth 12"), 0);
+  EXPECT_NE(m_Message.find("warning: open.ser: says 0 frames, but holds 24"), std::string::npos) << m_Message;
+}
+
 // The other file of a recording is no place for a report.
 TEST_F(BurstFormatsTool, NeitherFileOfARecordingIsOverwritten)
 {

@@ -57,7 +57,8 @@ struct FrameFile
    * codes down by the others, which are 0 (or the file is refused): shifted up again they are what the file holds. */
   unsigned significantBits{ 0 };
 
-  CameraSettings camera{}; // what it says of it
+  CameraSettings camera{};  // what it says of it
+  std::string    warning{}; // what is odd about the file and no error, without its name; empty: nothing
 
   /** Reads its pixels; null: ITK does, by the class that `format` names. */
   std::shared_ptr<const FrameReader> reader{};

@@ -140,7 +140,7 @@ IsHeadOfSer(const std::string & head, const std::string & /*name*/)
 void
 InspectSer(FileBytes & bytes, FrameFile & file, const BeforeInflating & /*beforeInflating*/)
 {
-  const SerHeader header = ReadSerHeader(bytes);
+  SerHeader header = ReadSerHeader(bytes);
   file.camera.bayerPattern = BayerPatternOfSer(file, header.color);
   file.camera.camera = header.instrument;
   if (header.depth < 1 || header.depth > 16)
@@ -158,6 +158,16 @@ InspectSer(FileBytes & bytes, FrameFile & file, const BeforeInflating & /*before
   places.offset = SerHeaderBytes;
   places.sample.pixel = header.depth <= 8 ? FramePixel::UnsignedChar : FramePixel::UnsignedShort;
   file.pixel = places.sample.pixel;
+  SetFrameSizes(file, { header.width, header.height });
+  const std::uint64_t whole = (bytes.Size() - SerHeaderBytes) / file.bytes;
+  if (header.frames == 0 && whole > 0)
+  {
+    // The number of frames is what a program writes last.
+    header.frames = whole;
+    places.endBytes = (bytes.Size() - SerHeaderBytes) % file.bytes;
+    file.warning = "says 0 frames, but holds " + std::to_string(whole) + " and " + std::to_string(places.endBytes) +
+                   " bytes more: the recording was not closed. All whole frames are read";
+  }
   SetFrameSizes(file, { header.width, header.height, header.frames });
   SetFramePlaces(file, places, bytes.Size(), header.frames, SerTimeBytes);
   if (header.depth <= 8)
