@@ -3,11 +3,13 @@
 #include "tools/DenoiseOptions.h"
 
 #include "sensornoise/report/Version.h"
+#include "tools/HelpText.h"
 #include "tools/LowerCase.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <stdexcept>
 
 namespace sensornoise::tools
@@ -58,13 +60,16 @@ DenoiseOptions::Parse(int argc, char ** argv, const std::vector<std::string> & d
                "generalized Anscombe transform, denoiser of unit Gaussian noise, exact unbiased inverse.\n"
                "INPUT OUTPUT, or with --output-folder INPUT...: 2-D images, or 3-D stacks frame by frame (.mha .mhd\n"
                ".nrrd .nhdr .png .tif). The report may lack gain and offset; it needs a variance_slope.\n"
-               "Exit code: 0 done, 2 wrong use or unreadable input, 3 the report cannot serve.");
+               "Exit code: 0 done, 2 wrong use or unreadable input, 3 the report cannot serve.",
+               "denoise-with-noise-model");
+  app.formatter(std::make_shared<HelpFormatter>(TerminalWidth()));
   denoiser = denoisers.front();
   app.add_option("FILE", files, "INPUT OUTPUT, or INPUT... with --output-folder")->required();
   app.add_option("--report", report, "JSON file of the camera at this setting (estimate-sensor-noise --json)")
     ->required();
   app.add_option("--output-folder", outputFolder, "folder for the images, under the names of the inputs");
-  app.add_option("--raw", raw, "WxH:TYPE[:SKIP[:ROW]]: inputs without a header, as estimate-sensor-noise --raw has it");
+  app.add_option(
+    "--raw", raw, "WxH:TYPE[:SKIP[:ROW[:GAP[:END]]]]: inputs without a header, as estimate-sensor-noise --raw has it");
   app
     .add_option("--denoiser",
                 denoiser,

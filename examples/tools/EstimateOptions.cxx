@@ -3,14 +3,16 @@
 #include "tools/EstimateOptions.h"
 
 #include "sensornoise/base/RollingShutter.h"
-#include "sensornoise/report/Version.h"
+#include "tools/EstimateOptionList.h"
 #include "tools/ExposureList.h"
+#include "tools/FileNames.h"
+#include "tools/HelpText.h"
 #include "tools/LowerCase.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstddef>
-#include <limits>
+#include <memory>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -48,134 +50,8 @@ ReadNumbers(const std::string & option, const std::string & text, char separator
   return numbers;
 }
 
-/** Values that are read once all options are known. */
-struct Texts
-{
-  std::string bitDepth{ "auto" };
-  std::string clip;
-  std::string step;
-  std::string levelRange;
-  std::string offset;
-  std::string rollingShutter{ "auto" };
-  std::string roi;
-  std::string frames;
-};
-
-/** What changes no number. */
 void
-AddMachineOptions(CLI::App & app, EstimateOptions & options)
-{
-  app
-    .add_option(
-      "--memory-limit",
-      options.memoryLimit,
-      "most memory for the estimate, for instance 4G [bytes]: the stack is read more often where it would need "
-      "more, with the same result")
-    ->transform(CLI::AsSizeValue(true));
-  app.add_option("--threads", options.threads, "number of threads; else all")->check(CLI::Range(1, 1024));
-}
-
-/** What is written, and where. */
-void
-AddOutputOptions(CLI::App & app, EstimateOptions & options)
-{
-  app.add_option("--json", options.json, "file for the report, or - for standard output");
-  app.add_option("--plot",
-                 options.plot,
-                 "file.html: the report as a page to look at, with figures and maps, that needs no other file; "
-                 "file.svg or, where the program was built with librsvg, file.png: variance against mean alone");
-  app.add_flag("--hash",
-               options.hash,
-               "also the SHA-256 of the frames' files in the report, as a page always has it: that of cat FRAME... | "
-               "sha256sum, behind a header the files of its pixels. Reads the files once more");
-  app.add_option(
-    "--maps",
-    options.maps,
-    "folder for mean, variance, corrected variance and pixel use (.mha); from two --dark frames on also the "
-    "pixels' offset and read noise, with the ends of their 95 % intervals");
-  app
-    .add_option(
-      "--compare",
-      options.compare,
-      "two or more stored reports (--json), of exposures, settings, cameras or days: what differs by more than "
-      "its errors, and by how much, in place of a measurement; with --plot as a page or a figure")
-    ->expected(1, std::numeric_limits<int>::max());
-  app.add_flag("--quiet", options.quiet, "no table and no progress");
-}
-
-void
-AddOptions(CLI::App & app, EstimateOptions & options, Texts & texts)
-{
-  app.add_option("FRAME", options.files, "frames in time order, or one stack");
-  app.add_option(
-    "--raw",
-    options.raw,
-    "WxH:TYPE[:SKIP[:ROW]]: frames without a header, for instance 640x480:uint16le, or 1920x1080:Mono12p:64 "
-    "behind 64 other bytes; TYPE: uint8, uint16le, uint16be, int16le, float32le, float64le, Mono10p, "
-    "Mono12p, Mono12Packed, BayerRG12p, RAW10, RAW12, SRGGB10P, uint12msb and the like; ROW: bytes from a row "
-    "to the next. Dark frames and those of --check are taken for the same");
-  app.add_option("--method", options.method, "refined, or published: Figure 2 of Sur & Grediac 2015")
-    ->check(CLI::IsMember({ "refined", "published" }))
-    ->capture_default_str();
-  app
-    .add_option(
-      "--bayer",
-      options.bayer,
-      "colour filters of the sensor: RGGB, GRBG, GBRG or BGGR, from the upper left pixel on, whose four planes "
-      "are measured each by itself; none: a monochrome sensor; auto: as the file says, else as the levels "
-      "tell, which cannot tell red from blue")
-    ->check(CLI::IsMember({ "auto", "none", "RGGB", "GRBG", "GBRG", "BGGR" }))
-    ->capture_default_str();
-  app.add_option("--bit-depth", texts.bitDepth, "bits of the sensor's codes, 1 to 16, or auto")->capture_default_str();
-  app.add_option("--clip", texts.clip, "LOW,HIGH: lowest and highest level that the sensor attains [DN]; else found");
-  app.add_option("--step", texts.step, "spacing of the codes [DN]; else found");
-  app.add_option("--level-range",
-                 texts.levelRange,
-                 "LOW,HIGH: levels between which the variance is fitted [DN], where the response is straight in a part "
-                 "of its range; else all");
-  app.add_option(
-    "--exposures",
-    options.exposuresText,
-    "exposures of the frames, in their order and in any unit, 0 for dark frames: numbers with commas, or a "
-    "file with one frame a line, whose exposure is the last column. With them the linearity error of EMVA "
-    "1288 is measured. Of all FRAME..., also of those that --frames leaves out");
-  app
-    .add_option("--excess-noise-factor",
-                options.excessNoiseFactor,
-                "F, 1 or more, if the sensor multiplies electrons at random: 2 for an EMCCD. The gain is the slope of "
-                "the variance divided by F, which the frames cannot tell")
-    ->check(CLI::Range(1.0, std::numeric_limits<double>::max(), "NUMBER >= 1"))
-    ->capture_default_str();
-  app
-    .add_option("--rolling-shutter",
-                texts.rollingShutter,
-                "auto, off, or (for published) the width sigma_y of a row's neighbourhood [rows]")
-    ->capture_default_str();
-  const auto offsetOption =
-    app.add_option("--offset", texts.offset, "VALUE[,ERROR]: offset and its standard error [DN], if known; else found");
-  app
-    .add_option("--dark",
-                options.dark,
-                "frames without light, or one stack, of the same size and type and at the same exposure, gain and "
-                "temperature: they tell offset and read noise. Write them behind FRAME...")
-    ->excludes(offsetOption);
-  app
-    .add_option(
-      "--check",
-      options.check,
-      "says at which levels the report's noise model is true of other frames, or one stack, of the same camera "
-      "and setting; without a name, of FRAME... themselves. Write them behind FRAME...")
-    ->expected(0, std::numeric_limits<int>::max());
-  app.add_option("--roi", texts.roi, "X,Y,W,H: only these pixels");
-  app.add_option("--mask", options.mask, "image file: only pixels that are not 0");
-  app.add_option("--frames", texts.frames, "A:B: only the frames A, A+1, ... B-1, counted from 0");
-  AddMachineOptions(app, options);
-  AddOutputOptions(app, options);
-  app.set_version_flag("--version", std::string("estimate-sensor-noise ") + GetModuleVersion());
-}
-
-void
-ReadCodes(EstimateOptions & options, const Texts & texts)
+ReadCodes(EstimateOptions & options, const EstimateTexts & texts)
 {
   if (texts.bitDepth != "auto")
   {
@@ -239,7 +115,7 @@ ReadExposuresOf(EstimateOptions & options)
 }
 
 void
-ReadOffset(EstimateOptions & options, const Texts & texts)
+ReadOffset(EstimateOptions & options, const EstimateTexts & texts)
 {
   if (!texts.offset.empty())
   {
@@ -285,6 +161,25 @@ RequirePlotName(const std::string & name)
   }
 }
 
+/** --dark and --check take all names behind them. */
+[[noreturn]] void
+RefuseMissingFrames(const EstimateOptions & options)
+{
+  const std::string tool = "estimate-sensor-noise ";
+  if (options.dark.empty() && options.check.empty())
+  {
+    throw std::invalid_argument("no FRAME was given; expected image files, a folder or a stack: " + tool +
+                                "FRAMES [OPTIONS] (--help explains the options)");
+  }
+  const bool        isDark = !options.dark.empty();
+  const std::string option = isDark ? "--dark" : "--check";
+  const std::string files = isDark ? "DARKS" : "OTHERS";
+  const std::size_t names = isDark ? options.dark.size() : options.check.size();
+  throw std::invalid_argument("no FRAME is left: " + option + " takes all names behind it, here " +
+                              std::to_string(names) + ". Write the frames first: " + tool + "FRAMES " + option + " " +
+                              files + ". Or end the list with --: " + tool + option + " " + files + " -- FRAMES");
+}
+
 /** There are frames to be measured, or reports to be compared and nothing that is for measuring. */
 void
 RequireWork(const CLI::App & app, const EstimateOptions & options)
@@ -293,7 +188,7 @@ RequireWork(const CLI::App & app, const EstimateOptions & options)
   {
     if (options.files.empty())
     {
-      throw CLI::RequiredError("FRAME");
+      RefuseMissingFrames(options);
     }
     return;
   }
@@ -314,7 +209,7 @@ RequireWork(const CLI::App & app, const EstimateOptions & options)
 }
 
 void
-ReadRegion(EstimateOptions & options, const Texts & texts)
+ReadRegion(EstimateOptions & options, const EstimateTexts & texts)
 {
   if (!texts.roi.empty())
   {
@@ -340,12 +235,18 @@ ReadRegion(EstimateOptions & options, const Texts & texts)
 std::optional<int>
 EstimateOptions::Parse(int argc, char ** argv)
 {
-  CLI::App app("Measures gain, offset and read noise of a camera from a burst of raw frames of a static scene.\n"
-               "FRAME...: 2-D image files in time order, or 3-D stack files of one burst (.mha .mhd .nrrd .tif .ser "
-               ".mraw .fits .npy).\n"
-               "Exit code: 0 done, 2 wrong use or unreadable input, 3 nothing could be estimated.");
-  Texts    texts;
-  AddOptions(app, *this, texts);
+  CLI::App app(
+    "Example:\n"
+    "  estimate-sensor-noise frame_*.tif --dark dark_*.tif --plot report.html\n\n"
+    "Measures gain, offset and read noise of a camera from a burst of raw frames of a static scene.\n\n"
+    "FRAME...: images in time order, one frame a file; or stacks (.mha .mhd .nrrd .tif .ser .mraw .fits .npy), "
+    "several of which are one burst; or a folder, or a pattern in quotation marks ('frame_*.tif'), whose files "
+    "are read in the order of their numbers.\n\n"
+    "Exit code: 0 done, 2 wrong use or unreadable input, 3 nothing could be estimated.",
+    "estimate-sensor-noise");
+  app.formatter(std::make_shared<HelpFormatter>(TerminalWidth()));
+  EstimateTexts texts;
+  AddEstimateOptions(app, *this, texts);
   try
   {
     app.parse(argc, argv);
@@ -357,6 +258,10 @@ EstimateOptions::Parse(int argc, char ** argv)
   RequireWork(app, *this);
   hasCheck = app.count("--check") > 0;
   check.erase(std::remove(check.begin(), check.end(), ""), check.end()); // what CLI11 makes of no name
+  for (std::vector<std::string> * const names : { &files, &dark, &check })
+  {
+    *names = ExpandNames(*names, !raw.empty());
+  }
   ReadCodes(*this, texts);
   ReadLevelRange(*this, texts.levelRange);
   ReadExposuresOf(*this);

@@ -3,8 +3,10 @@
 #include "tools/SimulateOptions.h"
 
 #include "sensornoise/report/Version.h"
+#include "tools/HelpText.h"
 
 #include <CLI/CLI.hpp>
+#include <memory>
 #include <string>
 
 namespace sensornoise::tools
@@ -13,8 +15,12 @@ namespace sensornoise::tools
 bool
 SimulateOptions::Parse(int argc, char ** argv)
 {
-  CLI::App app{ "Simulates a burst of raw frames of a camera whose noise is known, under flickering light and on a "
-                "trembling floor (Sur and Grediac 2015, section 4.2)." };
+  CLI::App app{ "Example:\n"
+                "  simulate-sensor-noise --output burst.mha --truth truth.json\n\n"
+                "Simulates a burst of raw frames of a camera whose noise is known, under flickering light and on a "
+                "trembling floor (Sur and Grediac 2015, section 4.2).",
+                "simulate-sensor-noise" };
+  app.formatter(std::make_shared<HelpFormatter>(TerminalWidth()));
   app.option_defaults()->always_capture_default();
   app.add_option("--output", output, "Stack to write: .mha (streamed, any length), .nrrd, .tif or .tiff")->required();
   app.add_option("--truth", truth, "JSON file to write, with what an estimator should find");

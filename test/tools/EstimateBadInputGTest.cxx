@@ -27,7 +27,7 @@ protected:
 
 TEST_F(EstimateBadInputTool, NoFrameIsRefused)
 {
-  IsRefused("", { "FRAME is required" });
+  IsRefused("", { "no FRAME was given; expected image files, a folder or a stack" });
 }
 
 TEST_F(EstimateBadInputTool, OneToFourFramesAreRefused)
@@ -97,8 +97,8 @@ TEST_F(EstimateBadInputTool, ATruncatedStackIsRefused)
 TEST_F(EstimateBadInputTool, AFolderATextAndAnEmptyFileAreRefused)
 {
   std::filesystem::create_directories(Path("folder.tif"));
-  IsRefused("folder.tif", { "folder.tif", "is a folder", "expected an image file" });
-  IsRefused(".", { "is a folder" });
+  IsRefused("folder.tif", { "folder.tif: none of the 0 files in this folder is an image" });
+  IsRefused("s.mha --mask folder.tif", { "s.mha", "does not exist" });
   IsRefused(WriteText("empty.mha", ""), { "empty.mha", "has 0 bytes" });
   IsRefused(WriteText("text.tif", "Dear reader,\nthis is no image.\n"), { "text.tif", "no image in a format" });
   IsRefused("nowhere.mha", { "nowhere.mha", "does not exist" });

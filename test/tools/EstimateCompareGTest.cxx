@@ -92,5 +92,5 @@ TEST_F(EstimateCompareTool, WhatIsNoReportIsRefusedInASentence)
   SaysInOneSentence({ "leave out FRAME" });
   EXPECT_EQ(Run("--compare r.json r.json --plot r.json"), 2);
   EXPECT_EQ(Run(""), 2);
-  SaysInOneSentence({ "FRAME is required" });
+  SaysInOneSentence({ "no FRAME was given" });
 }
