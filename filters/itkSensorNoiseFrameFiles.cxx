@@ -223,7 +223,8 @@ FrameList::Names() const
 FrameList
 OpenFrames(const std::vector<std::string> & names,
            const BeforeInflating &          beforeInflating,
-           const std::string &              rawLayout)
+           const std::string &              rawLayout,
+           const FrameChoice &              choice)
 {
   if (names.empty())
   {
@@ -239,12 +240,6 @@ OpenFrames(const std::vector<std::string> & names,
   for (const std::string & name : names)
   {
     const auto requireFitting = [&](const FrameFile & file) {
-      if (file.frames > 1 && !list.files.empty() && !list.isStack)
-      {
-        throw FileError(name,
-                        "has " + std::to_string(file.frames) + " frames, but " + list.files.front().name +
-                          " has one; expected stacks alone, or one frame a file");
-      }
       if (!list.files.empty())
       {
         RequireAlike(file, list.files.front());
@@ -261,7 +256,14 @@ OpenFrames(const std::vector<std::string> & names,
         beforeInflating(known);
       }
     };
-    const FrameFile file = layout ? InspectRawFile(name, *layout) : InspectFrameFile(name, beforeWork);
+    FrameFile file = layout ? InspectRawFile(name, *layout) : InspectFrameFile(name, beforeWork);
+    ChooseFrames(file, choice);
+    if (file.frames > 1 && !list.files.empty() && !list.isStack)
+    {
+      throw FileError(name,
+                      "has " + std::to_string(file.frames) + " frames, but " + list.files.front().name +
+                        " has one; expected stacks alone, or one frame a file");
+    }
     requireFitting(file);
     // ITK's reader has to say the same as the file
     const itk::ImageIOBase::Pointer io = file.reader ? nullptr : OpenImageIO(file);

@@ -19,6 +19,7 @@
 #define itkSensorNoiseFrameFiles_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/files/FrameChoice.h"
 #include "sensornoise/files/FrameFile.h"
 
 #include <array>
@@ -68,11 +69,12 @@ struct FrameList
  * slice, and no stack. Formats are those of FrameFormats(), as far as the
  * program has registered their ImageIO. \a beforeInflating is asked about each compressed file before it is
  * inflated. \a rawLayout: how frames lie in files without a header, see ReadRawLayout(), which throws for what is none;
- * empty: the files say so. */
+ * empty: the files say so. \a choice: the channel and the plane, where files have several, see ChooseFrames(). */
 SensorNoise_EXPORT FrameList
 OpenFrames(const std::vector<std::string> & names,
            const BeforeInflating &          beforeInflating = {},
-           const std::string &              rawLayout = {});
+           const std::string &              rawLayout = {},
+           const FrameChoice &              choice = {});
 
 /** Reads \a count frames from the frame \a first on, one after the other, without conversion: \a buffer has room for
  * width x height x count pixels of the list's type. Of stacks that do not stream only all frames can be read.

@@ -53,9 +53,12 @@ catch (const FileError & error)
 }
 
 FrameList
-OpenDark(const std::vector<std::string> & files, const FrameList & frames, const std::string & rawLayout)
+OpenDark(const std::vector<std::string> & files,
+         const FrameList &                frames,
+         const std::string &              rawLayout,
+         const FrameChoice &              choice)
 {
-  FrameList dark = OpenFrames(files, {}, rawLayout);
+  FrameList dark = OpenFrames(files, {}, rawLayout, choice);
   TellWarningOf(dark);
   if (DescribeFrame(dark) != DescribeFrame(frames))
   {

@@ -189,7 +189,9 @@ WriteDenoised(const std::string &    input,
               bool                   asFloat,
               const std::string &    rawLayout)
 {
-  const FrameList list = OpenFrames({ input }, {}, rawLayout);
+  FrameChoice all;
+  all.all = true;
+  const FrameList list = OpenFrames({ input }, {}, rawLayout, all);
   switch (list.pixel)
   {
     case FramePixel::UnsignedChar:

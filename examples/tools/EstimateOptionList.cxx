@@ -42,6 +42,15 @@ AddInputOptions(CLI::App & app, EstimateOptions & options, EstimateTexts & texts
     "like. ROW: bytes from a row to the next (0: those of its pixels). GAP: bytes behind each frame. END: bytes at "
     "the end of the file. Dark frames and those of --check are taken for the same")
     ->group("Input");
+  app
+    .add_option("--channel",
+                options.choice.channel,
+                "the channel that is measured, from 0, where a TIFF of OME or ImageJ has several")
+    ->type_name("N")
+    ->group("Input");
+  app.add_option("--plane", options.choice.plane, "the same, of the planes (Z, slices)")
+    ->type_name("N")
+    ->group("Input");
   AddText(app, "--frames", texts.frames, "A:B", "only the frames A, A+1, ... B-1, counted from 0")->group("Input");
   AddText(app, "--roi", texts.roi, "X,Y,W,H", "only these pixels")->group("Input");
   AddText(app, "--mask", options.mask, "FILE", "image: only pixels that are not 0")->group("Input");

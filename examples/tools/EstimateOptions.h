@@ -4,6 +4,7 @@
 #define EstimateOptions_h
 
 #include "sensornoise/base/RollingShutter.h"
+#include "sensornoise/files/FrameChoice.h"
 
 #include <array>
 #include <cstddef>
@@ -30,7 +31,8 @@ enum class PlotKind
 struct EstimateOptions
 {
   std::vector<std::string>                 files;
-  std::string                              raw; ///< how frames lie in files without a header; empty: none
+  std::string                              raw;    ///< how frames lie in files without a header; empty: none
+  FrameChoice                              choice; ///< of files with several channels or planes
   std::string                              bayer{ "auto" };
   std::string                              method{ "refined" };
   unsigned int                             bitDepth{ 0 }; ///< 0: found

@@ -47,13 +47,13 @@ MeasureFramesToCheck(const EstimateOptions & options, const MeasuredStack & meas
   other.bayer = PatternOf(options, measured);
   if (options.check.empty())
   {
-    return EstimateStack(other, OpenFrames(other.files, {}, other.raw), nullptr);
+    return EstimateStack(other, OpenFrames(other.files, {}, other.raw, other.choice), nullptr);
   }
   other.files = options.check;
   other.frames.reset();
   other.cut.reset();
   other.dark.clear();
-  const FrameList frames = OpenFrames(other.files, {}, other.raw);
+  const FrameList frames = OpenFrames(other.files, {}, other.raw, other.choice);
   TellWarningOf(frames);
   return EstimateStack(other, frames, nullptr);
 }

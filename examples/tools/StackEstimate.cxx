@@ -219,7 +219,7 @@ Estimate(const EstimateOptions & options, const FrameList & list, MapFiles * map
   typename itk::ExtractImageFilter<StackType, StackType>::Pointer darkCrop;
   if (!options.dark.empty())
   {
-    darkList = OpenDark(options.dark, list, options.raw);
+    darkList = OpenDark(options.dark, list, options.raw, options.choice);
     darkReader = MakeReader<StackType>(darkList);
     darkReader->UpdateOutputInformation();
     itk::ImageRegion<3> dark = region;

@@ -96,7 +96,7 @@ AreStacks(const EstimateOptions & options)
     return false;
   }
   const auto isStack = [&options](std::size_t file) {
-    return sensornoise::OpenFrames({ options.files[file] }, {}, options.raw).isStack;
+    return sensornoise::OpenFrames({ options.files[file] }, {}, options.raw, options.choice).isStack;
   };
   const std::size_t files = options.files.size();
   return isStack(std::min(options.frames->first, files - 1)) || (options.frames->second > files && isStack(0));
@@ -237,7 +237,7 @@ Run(EstimateOptions & options)
   RequireOutputsApart(options);
   const std::size_t listed = options.files.size();
   options.SelectFiles(listed == 1 || AreStacks(options));
-  const sensornoise::FrameList frames = sensornoise::OpenFrames(options.files, {}, options.raw);
+  const sensornoise::FrameList frames = sensornoise::OpenFrames(options.files, {}, options.raw, options.choice);
   options.SelectExposures(listed == 1 || frames.isStack ? frames.frames : listed);
   TellWarningOf(frames);
   TellWhetherHeldInMemory(frames);

@@ -193,6 +193,21 @@ def _tiff(
     return made
 
 
+def _described(frames: list[bytes]) -> File:
+    """ImageJ's stack above 4 GiB: one page, behind which the images lie that its description counts."""
+    text = f"ImageJ=1.53t\nimages={len(frames)}\nslices={len(frames)}\n\0".encode()
+    step = 2 * WIDTH * HEIGHT
+    entries = [(256, 4, 1, WIDTH), (257, 4, 1, HEIGHT), (258, 3, 1, 16), (262, 3, 1, 1)]
+    begin = 8 + 2 + 12 * (len(entries) + 5) + 4
+    entries += [(270, 2, len(text), begin), (273, 4, 1, begin + len(text)), (277, 3, 1, 1), (278, 4, 1, HEIGHT)]
+    entries += [(279, 4, 1, step)]
+    directory = struct.pack(">2sHIH", b"MM", 42, 8, len(entries))
+    for tag, kind, values, value in entries:
+        directory += struct.pack(">HHI", tag, kind, values) + struct.pack(">H" if kind == 3 else ">I", value).ljust(4, b"\0")
+    header = directory + struct.pack(">I", 0) + text
+    return _parts("s.tif", ("header", header), *(("raw", _swapped(frame)) for frame in frames))
+
+
 def tiffs(frames: list[bytes]) -> list[Case]:
     stacks = [("tiff " + compression, dict(compression=compression)) for compression in _TIFF]
     stacks += [
@@ -203,6 +218,7 @@ def tiffs(frames: list[bytes]) -> list[Case]:
     ]
     names = [f"f{t}.tif" for t in range(len(frames))]
     return [Case(name, [_tiff("s.tif", frames, **how)], ["s.tif"]) for name, how in stacks] + [
+        Case("tiff imagej", [_described(frames)], ["s.tif"]),
         Case("tiff list", [_tiff(name, [frame], "none") for name, frame in zip(names, frames, strict=True)], names)
     ]
 

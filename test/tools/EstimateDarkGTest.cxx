@@ -154,7 +154,8 @@ TEST_F(EstimateDarkTool, WrongUseIsRefused)
   IsRefused(stack + " --offset 1,2,3", { "--offset", "holds 3 numbers", "expected 2" });
   IsRefused(stack + " --offset 100,-1", { "100", "standard error of -1", "expected" });
   IsRefused(stack + " --dark nowhere.mha", { "nowhere.mha", "does not exist" });
-  IsRefused("--dark d.mha s.mha", { "no FRAME is left: --dark takes all names behind it, here 2" }); // both are dark frames
+  IsRefused("--dark d.mha s.mha",
+            { "no FRAME is left: --dark takes all names behind it, here 2" }); // both are dark frames
   Write("wide.mha", MakeDark(5, "66x64").GetPointer());
   IsRefused(stack + " --dark wide.mha", { "the dark frames have 66 x 64 pixels", "wide.mha", "have 64 x 64 pixels" });
   Write("bytes.mha", Make<itk::Image<unsigned char, 3>>({ { 64, 64, 5 } }, 100).GetPointer());

@@ -40,6 +40,19 @@ enum class StoredNumber
   Int
 };
 
+/** What the frames of a file differ in. */
+struct FrameAxis
+{
+  enum class Kind
+  {
+    Channel,
+    Plane, ///< Z, the focus
+    Time
+  };
+  Kind        kind{ Kind::Time };
+  std::size_t size{ 1 };
+};
+
 /** What a file of a frame or of a stack says of itself, after it was found to be whole. */
 struct FrameFile
 {
@@ -56,6 +69,10 @@ struct FrameFile
   /** Of a PNG whose sBIT chunk says that fewer bits than it has are significant: their number, else 0. ITK shifts such
    * codes down by the others, which are 0 (or the file is refused): shifted up again they are what the file holds. */
   unsigned significantBits{ 0 };
+
+  /** The axes of its frames, the fastest first, where the file says that they differ in more than time: their sizes,
+   * each above 1, multiply to `frames`. Empty: time alone. ChooseFrames() takes those of one channel and plane. */
+  std::vector<FrameAxis> axes{};
 
   CameraSettings camera{};  // what it says of it
   std::string    warning{}; // what is odd about the file and no error, without its name; empty: nothing

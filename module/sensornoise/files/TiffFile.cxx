@@ -4,6 +4,9 @@
 
 #include "sensornoise/files/FileError.h"
 #include "sensornoise/files/FrameSizes.h"
+#include "sensornoise/files/PackedFrames.h"
+#include "sensornoise/files/StoredNumber.h"
+#include "sensornoise/files/TiffDescription.h"
 #include "sensornoise/files/TiffDirectory.h"
 #include "sensornoise/files/TiffFrames.h"
 #include "sensornoise/files/TiffPage.h"
@@ -12,8 +15,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <memory>
+#include <optional>
 #include <string>
 #include <unordered_set>
 #include <utility>
@@ -25,23 +28,6 @@ namespace
 {
 // ITK counts pages with 16 bits, and older versions of libtiff go no further.
 constexpr std::uint64_t MaximumPages = 65534;
-
-/** How many images ImageJ's description of the first page says there are; empty where there is no such description. */
-std::string
-ImagesOfImageJ(TiffBytes & tiff, const TiffDirectory & directory)
-{
-  const TiffEntry * const entry = directory.Find(270);
-  if (entry == nullptr || entry->type != 2)
-  {
-    return "";
-  }
-  std::string text(static_cast<std::size_t>(std::min<std::uint64_t>(entry->count, 65536)), '\0');
-  tiff.File().Read(entry->offset, text.data(), text.size());
-  const std::size_t images = text.rfind("ImageJ=", 0) == 0 ? text.find("\nimages=") : std::string::npos;
-  return images == std::string::npos
-           ? ""
-           : text.substr(images + 1, text.find_first_of(std::string("\n\r\0", 3), images + 1) - images - 1);
-}
 
 /** How many planes MetaMorph says that there are, of which it lists one as a page; 0 where it says nothing. */
 std::uint64_t
@@ -101,10 +87,19 @@ public:
       CheckOffset(page, offset);
       offset = ReadPage(page, offset);
     }
+    m_File.spacing = m_First.spacing;
+    const std::uint64_t images = ImagesOfImageJ(m_Description).value_or(m_Pages);
+    if (m_Pages == 1 && images > 1)
+    {
+      ReadDescribedFrames(images);
+    }
     RequireAllPages();
     m_Strips.RequireAllBytes(m_File.name);
-    m_File.spacing = m_First.spacing;
-    m_File.reader = std::make_shared<TiffFrames>(std::move(m_Directories));
+    if (!m_File.reader)
+    {
+      m_File.reader = std::make_shared<TiffFrames>(std::move(m_Directories));
+    }
+    SetAxes();
   }
 
 private:
@@ -140,7 +135,7 @@ private:
       m_First = found;
       m_File.pixel = found.pixel;
       m_File.stored = found.stored;
-      m_Images = ImagesOfImageJ(m_Tiff, directory);
+      m_Description = DescriptionOf(m_Tiff, directory);
       m_Planes = PlanesOfMetaMorph(directory);
     }
     RequireSamePage(page, found, m_First);
@@ -152,6 +147,78 @@ private:
     m_Strips.CheckPage(page, found);
     m_Reduced += found.isReduced ? 1 : 0;
     return directory.next;
+  }
+
+  /** ImageJ writes a stack above 4 GiB as one page and says in words how many images follow it, one after the other. */
+  void
+  ReadDescribedFrames(std::uint64_t images)
+  {
+    TiffBytes::Numbers offsets(m_Tiff, m_First.offsets);
+    FramePlaces        places;
+    places.path = m_File.name;
+    places.offset = offsets.Next();
+    places.sample.pixel = m_First.pixel;
+    places.sample.stored = m_First.stored;
+    places.sample.isBigEndian = m_Tiff.IsBigEndian();
+    const std::uint64_t                frame = StoredBytesOf(m_File);
+    const std::optional<std::uint64_t> all = CheckedProduct(frame, images);
+    const bool                         isOneRun =
+      m_First.compression == TiffCompression::None && m_First.offsets.count == 1 && m_First.orientation == 1;
+    const bool isThere = isOneRun && all && m_Bytes.Holds(places.offset, *all);
+    if (!isThere || m_Bytes.Size() - places.offset - *all >= frame) // programs may leave some words at the end
+    {
+      throw FileError(m_File.name,
+                      "pages: 1, but ImageJ's description of it says images=" + std::to_string(images) +
+                        ", which need " + (all ? std::to_string(*all) : "too many") + " bytes from byte " +
+                        std::to_string(places.offset) + " on, without compression, and the file has " +
+                        std::to_string(m_Bytes.Size()) + "; expected all of them" + RawLayoutOf(places));
+    }
+    m_Strips.AddPixels(m_File.name, places.offset + frame, *all - frame);
+    SetFramePlaces(m_File, places, places.offset + *all, images);
+    m_Described = images;
+  }
+
+  /** What reads the whole frames behind an offset. */
+  std::string
+  RawLayoutOf(const FramePlaces & places) const
+  {
+    const bool isInteger = m_First.pixel != FramePixel::Float &&
+                           (m_First.pixel != FramePixel::Double || m_First.stored != StoredNumber::SameAsPixel);
+    const bool        isSigned = m_First.pixel == FramePixel::Short || m_First.stored == StoredNumber::Int;
+    const std::size_t bytes = SizeOf(m_First.pixel, m_First.stored);
+    const std::string type = (isInteger ? (isSigned ? "int" : "uint") : "float") + std::to_string(8 * bytes) +
+                             (bytes == 1                  ? ""
+                              : places.sample.isBigEndian ? "be"
+                                                          : "le");
+    const std::uint64_t rest = (m_Bytes.Size() - places.offset) % std::max<std::uint64_t>(1, StoredBytesOf(m_File));
+    return m_First.compression != TiffCompression::None
+             ? ""
+             : ", or what is there: --raw " + std::to_string(m_First.width) + "x" + std::to_string(m_First.height) +
+                 ":" + type + ":" + std::to_string(places.offset) + (rest == 0 ? "" : ":0:0:" + std::to_string(rest));
+  }
+
+  /** Where the pages differ in more than time. */
+  void
+  SetAxes()
+  {
+    std::vector<FrameAxis> axes = AxesOfDescription(m_File.name, m_Description);
+    if (axes.empty() || m_File.frames == 1)
+    {
+      return;
+    }
+    std::optional<std::uint64_t> planes = 1;
+    for (const FrameAxis & axis : axes)
+    {
+      planes = planes ? CheckedProduct(*planes, axis.size) : planes;
+    }
+    if (planes != m_File.frames)
+    {
+      throw FileError(m_File.name,
+                      "pages: " + std::to_string(m_File.frames) + ", but its description has axes for " +
+                        (planes ? std::to_string(*planes) : "more") +
+                        " of several channels, planes or times; expected as many pages");
+    }
+    m_File.axes = std::move(axes);
   }
 
   /** Throws unless each page is a frame, and no program says that there are more. */
@@ -169,10 +236,12 @@ private:
                       pages + "of which " + std::to_string(m_Reduced) +
                         " are said to be thumbnails or masks (NewSubfileType); expected frames alone");
     }
-    // ImageJ writes a stack above 4 GiB as one page and says in words how many follow
-    if (!m_Images.empty() && std::strtoull(m_Images.c_str() + 7, nullptr, 10) != m_Pages)
+    const std::optional<std::uint64_t> images = ImagesOfImageJ(m_Description);
+    if (images && *images != m_Pages && *images != m_Described)
     {
-      throw FileError(m_File.name, pages + "but ImageJ's description of it says " + m_Images);
+      throw FileError(m_File.name,
+                      pages + "but ImageJ's description of it says images=" + std::to_string(*images) +
+                        "; expected as many pages");
     }
     if (m_Planes > m_Pages)
     {
@@ -189,7 +258,8 @@ private:
   std::unordered_set<std::uint64_t> m_Seen{};
   std::vector<std::uint64_t>        m_Directories{}; // of the pages
   TiffPage                          m_First{};
-  std::string                       m_Images{};
+  std::string                       m_Description{};  // of the first page
+  std::uint64_t                     m_Described{ 0 }; // frames that are no pages
   std::uint64_t                     m_Planes{ 0 };
   std::uint64_t                     m_Pages{ 0 };
   std::uint64_t                     m_Reduced{ 0 };

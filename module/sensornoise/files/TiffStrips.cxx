@@ -156,6 +156,15 @@ TiffStrips::CheckPage(const std::string & page, const TiffPage & found)
 }
 
 void
+TiffStrips::AddPixels(const std::string & page, std::uint64_t offset, std::uint64_t count)
+{
+  if (!m_Ranges.AddPixels(offset, count))
+  {
+    throw FileError(page, "damaged: its strips overlap, or lie in more places than can be checked");
+  }
+}
+
+void
 TiffStrips::CheckStrip(const std::string & page,
                        const TiffPage &    found,
                        std::uint64_t       strip,

@@ -30,6 +30,10 @@ public:
   void
   CheckPage(const std::string & page, const TiffPage & found);
 
+  /** Pixels behind those of the pages. */
+  void
+  AddPixels(const std::string & page, std::uint64_t offset, std::uint64_t count);
+
   /** Throws FileError if bytes of a strip belong to another one, or to a directory, and if there is the directory of a
    * page that a damaged chain of pages has left out. */
   void
