@@ -16,8 +16,8 @@ namespace sensornoise::tools
 itk::Image<unsigned char, 2>::Pointer
 ReadMask(const std::string & file, const FrameList & frames);
 
-/** Opens the headers of dark frames, which must have the size and type of the others; \a rawLayout and \a choice as OpenFrames()
- * takes them. Throws std::runtime_error. */
+/** Opens the headers of dark frames, which must have the size and type of the others; \a rawLayout and \a choice as
+ * OpenFrames() takes them. Throws std::runtime_error. */
 FrameList
 OpenDark(const std::vector<std::string> & files,
          const FrameList &                frames,

@@ -18,6 +18,7 @@
 #include "tools/PendingFile.h"
 #include "tools/StackEstimate.h"
 #include "tools/SvgAsPng.h"
+#include "tools/TerminalText.h"
 #include "tools/ItkThreads.h"
 #include "itkSensorNoiseFrameFiles.h"
 
@@ -71,7 +72,7 @@ WriteReport(const MeasuredStack &        measured,
   }
   if (!options.quiet)
   {
-    std::cout << MakeTable(measured, checks);
+    std::cout << ForStandardOutput(MakeTable(measured, checks));
   }
   if (options.json == "-")
   {
@@ -203,7 +204,7 @@ RunComparison(const EstimateOptions & options)
     plot->Write(DrawComparison(options.Plot(), comparison));
     plot->Commit();
   }
-  if (!options.quiet && !(std::cout << MakeText(comparison) << std::flush))
+  if (!options.quiet && !(std::cout << ForStandardOutput(MakeText(comparison)) << std::flush))
   {
     throw std::runtime_error("cannot write the result to standard output: it was not taken");
   }

@@ -203,7 +203,9 @@ def _described(frames: list[bytes]) -> File:
     entries += [(279, 4, 1, step)]
     directory = struct.pack(">2sHIH", b"MM", 42, 8, len(entries))
     for tag, kind, values, value in entries:
-        directory += struct.pack(">HHI", tag, kind, values) + struct.pack(">H" if kind == 3 else ">I", value).ljust(4, b"\0")
+        directory += struct.pack(">HHI", tag, kind, values) + struct.pack(">H" if kind == 3 else ">I", value).ljust(
+            4, b"\0"
+        )
     header = directory + struct.pack(">I", 0) + text
     return _parts("s.tif", ("header", header), *(("raw", _swapped(frame)) for frame in frames))
 
@@ -219,7 +221,7 @@ def tiffs(frames: list[bytes]) -> list[Case]:
     names = [f"f{t}.tif" for t in range(len(frames))]
     return [Case(name, [_tiff("s.tif", frames, **how)], ["s.tif"]) for name, how in stacks] + [
         Case("tiff imagej", [_described(frames)], ["s.tif"]),
-        Case("tiff list", [_tiff(name, [frame], "none") for name, frame in zip(names, frames, strict=True)], names)
+        Case("tiff list", [_tiff(name, [frame], "none") for name, frame in zip(names, frames, strict=True)], names),
     ]
 
 

@@ -184,8 +184,9 @@ TEST(SensorNoiseComparison, ThePageSaysWhatEachReportIs)
     EXPECT_TRUE(Contains(page, part)) << part;
   }
   const std::string text = MakeText(comparison);
-  EXPECT_TRUE(std::all_of(text.begin(), text.end(), [](char c) { return (c >= ' ' && c < '\x7f') || c == '\n'; }));
-  EXPECT_TRUE(Contains(text, "+0.500 +- 0.050 DN/e-, +50 % of the first; changed by more than its errors"));
+  EXPECT_EQ(text.find("\u00A0"), std::string::npos) << text;
+  EXPECT_TRUE(Contains(text, "+0.500 \u00B1 0.050 DN/e\u207B, +50 % of the first; changed by more than its errors"))
+    << text;
   const std::string svg = ToSvg(comparison);
   EXPECT_EQ(svg.rfind("<svg ", 0), 0U);
   EXPECT_EQ(FaultOfTags(svg), "");

@@ -171,12 +171,12 @@ TEST(ChannelReports, TableHasALineAChannel)
   const std::string    table = MakeTable(reports);
   for (const char * expected : { "planes of 0 x 0 pixels of a GBRG mosaic",
                                  "\nchannel  gain g",
-                                 "\nR        1.000 +- 0.010",
+                                 "\nR        1.000 \u00B1 0.010",
                                  "\nG1 ",
                                  "\nG2 ",
                                  "\nB  ",
                                  "< 0.0123",
-                                 "joint offset: 100.0 +- 1.0 DN, 2 times as precise" })
+                                 "joint offset: 100.0 \u00B1 1.0 DN, 2 times as precise" })
   {
     EXPECT_NE(table.find(expected), std::string::npos) << expected << "\n" << table;
   }

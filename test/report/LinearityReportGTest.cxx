@@ -68,7 +68,7 @@ TEST(SensorNoiseLinearityReport, ValuesArePercentWithErrors)
   EXPECT_TRUE(Has(json, R"("status": "identified", "reason": null)"));
   EXPECT_TRUE(Has(json, R"({"exposure": 1, "frames": 2, "mean_dn": 135, "deviation_percent": null})")) << json;
   const std::string table = MakeTable(report);
-  EXPECT_TRUE(Has(table, "\nlinearity error                   0.5  +- 0.02       %        identified")) << table;
+  EXPECT_TRUE(Has(table, "\nlinearity error                 0.500 \u00B1 0.020      %        identified")) << table;
   EXPECT_TRUE(
     Has(table, "\nlinearity: 2 of 3 exposures in the range, saturation 4095 DN (code range), offset of the line"))
     << table;

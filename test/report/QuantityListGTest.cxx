@@ -4,6 +4,7 @@
 #include "sensornoise/report/Quantities.h"
 #include "sensornoise/report/ReportJson.h"
 #include "sensornoise/report/ReportTable.h"
+#include "sensornoise/report/Signs.h"
 
 #include <gtest/gtest.h>
 #include <cmath>
@@ -64,8 +65,7 @@ TEST(SensorNoiseQuantityList, TableHasALineForWhatEveryTableShows)
   const std::string table = MakeTable(Report());
   for (const QuantityEntry & entry : QuantityList())
   {
-    EXPECT_EQ(table.find(std::string("\n") + entry.label + "  ") != std::string::npos,
-              entry.shown == ShownIn::EveryTable)
+    EXPECT_EQ(table.find("\n" + WithSigns(entry.label) + "  ") != std::string::npos, entry.shown == ShownIn::EveryTable)
       << entry.label << '\n'
       << table;
   }

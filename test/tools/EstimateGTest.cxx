@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "helpers/EstimateToolTestHelper.h"
+#include "sensornoise/base/Text.h"
+#include "sensornoise/report/Signs.h"
 #include "sensornoise/report/QuantityList.h"
 
 #include <cmath>
@@ -163,20 +165,27 @@ TEST_P(EstimateToolWith, ATableForPeopleIsOnStandardOutput)
                                                                { "flicker sd", "flicker_sd" } };
   for (const auto & [label, name] : rows)
   {
-    char line[128];
-    char error[32] = "";
-    if (!report[name]["standard_error"].is_null())
+    const nlohmann::json & quantity = report[name];
+    const double           value = quantity["value"];
+    const auto             unit = sensornoise::WithSigns(quantity["unit"].get<std::string>());
+    std::string            error;
+    std::string            digits = "";
+    if (quantity["standard_error"].is_null())
     {
-      std::snprintf(error, sizeof(error), "+- %-9.2g  ", report[name]["standard_error"].get<double>());
+      char text[32];
+      std::snprintf(text, sizeof(text), "%.5g", value);
+      digits = text;
     }
-    std::snprintf(line,
-                  sizeof(line),
-                  "\n%-24s %12.5g  %s%-8s %s",
-                  label.c_str(),
-                  report[name]["value"].get<double>(),
-                  error,
-                  report[name]["unit"].get<std::string>().c_str(),
-                  report[name]["status"].get<std::string>().c_str());
+    else
+    {
+      const std::string measured =
+        sensornoise::WithSigns(sensornoise::Measured(value, quantity["standard_error"].get<double>()));
+      digits = measured.substr(0, measured.find(' '));
+      error = sensornoise::PaddedRight(measured.substr(measured.find(' ') + 1), 12);
+    }
+    const std::string line = "\n" + sensornoise::PaddedRight(sensornoise::WithSigns(label), 24) + " " +
+                             sensornoise::PaddedLeft(digits, 12) + " " + error + " " +
+                             sensornoise::PaddedRight(unit, 8) + " " + quantity["status"].get<std::string>();
     EXPECT_NE(m_Output.find(line), std::string::npos) << line << " is not in\n" << m_Output;
   }
 }

@@ -9,10 +9,8 @@
 #include "sensornoise/report/ReportJson.h"
 #include "sensornoise/report/Version.h"
 
-#include <array>
 #include <cstddef>
 #include <string>
-#include <utility>
 
 namespace sensornoise
 {
@@ -130,27 +128,14 @@ QuantitySection(const Comparison & comparison, const ComparedQuantity & quantity
   return text;
 }
 
-/** Letters of ASCII for those that people write. */
+/** Lines of text are not broken by a browser. */
 std::string
-PlainText(std::string text)
+WithPlainBlanks(std::string text)
 {
-  constexpr std::array<std::pair<const char *, const char *>, 10> letters{ { { "\u00A0", " " },
-                                                                             { "\u2212", "-" },
-                                                                             { "\u00B1", "+-" },
-                                                                             { "\u00B2", "^2" },
-                                                                             { "\u207B", "-" },
-                                                                             { "\u03C7", "chi" },
-                                                                             { "\u03C3", "sigma" },
-                                                                             { "\u03BC", "mu" },
-                                                                             { "\u00D7", "x" },
-                                                                             { "\u2013", "-" } } };
-  for (const auto & [letter, plain] : letters)
+  const std::string blank = "\u00A0";
+  for (std::size_t at = text.find(blank); at != std::string::npos; at = text.find(blank, at))
   {
-    const std::string found = letter;
-    for (std::size_t at = text.find(found); at != std::string::npos; at = text.find(found, at))
-    {
-      text.replace(at, found.size(), plain);
-    }
+    text.replace(at, blank.size(), " ");
   }
   return text;
 }
@@ -200,7 +185,7 @@ MakeText(const Comparison & comparison)
       text += "  " + MeanSentence(quantity, common) + '\n';
     }
   }
-  return PlainText(text + '\n' + VerdictOf(comparison).sentence + '\n');
+  return WithPlainBlanks(text + '\n' + VerdictOf(comparison).sentence + '\n');
 }
 
 } // namespace sensornoise

@@ -6,6 +6,7 @@
 #include "sensornoise/report/JsonWriter.h"
 #include "sensornoise/report/ReportJson.h"
 #include "sensornoise/report/ReportTable.h"
+#include "sensornoise/report/Signs.h"
 #include "sensornoise/report/Version.h"
 
 #include <algorithm>
@@ -47,7 +48,8 @@ CellOf(const Quantity & quantity)
 {
   if (quantity.value)
   {
-    return quantity.standardError ? Measured(*quantity.value, *quantity.standardError) : Text(*quantity.value);
+    return quantity.standardError ? WithSigns(Measured(*quantity.value, *quantity.standardError))
+                                  : Text(*quantity.value);
   }
   const auto & range = quantity.interval95 ? quantity.interval95 : quantity.bracket;
   if (quantity.status == EstimateStatus::UpperLimit && range && range->high)
@@ -55,12 +57,6 @@ CellOf(const Quantity & quantity)
     return "< " + Rounded(*range->high);
   }
   return NameOf(quantity.status);
-}
-
-std::string
-Padded(const std::string & text, std::size_t width)
-{
-  return text + std::string(width > text.size() ? width - text.size() : 0, ' ');
 }
 
 /** Rows of cells, each column as wide as its widest cell. */
@@ -81,7 +77,7 @@ Align(const std::vector<std::vector<std::string>> & rows)
     std::string line;
     for (std::size_t k = 0; k < row.size(); ++k)
     {
-      line += Padded(row[k], widths[k] + 2);
+      line += PaddedRight(row[k], widths[k] + 2);
     }
     table += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
   }
@@ -102,7 +98,7 @@ std::string
 DescribeMotion(const JointMotion & motion)
 {
   return "joint vibration: x " + CellOf(motion.sdX) + ", y " + CellOf(motion.sdY) + " pixel of a plane, covariance " +
-         CellOf(motion.covariance) + " pixel^2\n";
+         CellOf(motion.covariance) + WithSigns(" pixel^2\n");
 }
 } // namespace
 
@@ -160,8 +156,8 @@ MakeTable(const ChannelReports & reports)
   std::vector<std::vector<std::string>> rows{ { "channel" }, { "" } };
   for (const Column & column : Columns())
   {
-    rows[0].emplace_back(column.title);
-    rows[1].push_back(std::string("[") + column.unit + "]");
+    rows[0].push_back(WithSigns(column.title));
+    rows[1].push_back(WithSigns(std::string("[") + column.unit + "]"));
   }
   for (const Report & channel : reports.channels)
   {

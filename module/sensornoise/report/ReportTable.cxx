@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/report/ReportTable.h"
 
+#include "sensornoise/base/Text.h"
 #include "sensornoise/report/QuantityList.h"
 #include "sensornoise/report/ReportJson.h"
+#include "sensornoise/report/Signs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,20 +50,52 @@ Value(const Quantity & quantity)
                                                                                : Number(quantity.value);
 }
 
+/** The value and its error, to two digits of the error. */
+struct RoundedQuantity
+{
+  std::string value{};
+  std::string error{};
+  int         decimals{ -1 }; // below 0: there is no error to round to
+};
+
+RoundedQuantity
+RoundToError(const Quantity & quantity)
+{
+  RoundedQuantity rounded{ Value(quantity), "", -1 };
+  if (quantity.value && quantity.standardError)
+  {
+    const std::string sign = " +- ";
+    const std::string text = Measured(*quantity.value, *quantity.standardError);
+    const std::size_t at = text.find(sign);
+    const std::size_t point = text.find('.');
+    rounded.value = text.substr(0, at);
+    rounded.error = WithSigns(sign).substr(1) + text.substr(at + sign.size());
+    rounded.decimals = point < at ? static_cast<int>(at - point) - 1 : 0;
+  }
+  return rounded;
+}
+
+/** An end of an interval: as its value is rounded. */
+std::string
+End(const std::optional<double> & end, const RoundedQuantity & rounded)
+{
+  constexpr int most = 15;
+  return end && rounded.decimals >= 0 && rounded.decimals <= most && std::abs(*end) < 1e9
+           ? Format("%.*f", rounded.decimals, *end)
+           : Number(end);
+}
+
 /** \a hasErrors: with a column for the standard error. */
 std::string
 Line(const QuantityEntry & entry, const Quantity & quantity, bool hasErrors)
 {
   const std::optional<Interval> & range = RangeOf(quantity);
-  std::string                     line = Format("%-24s %12s  ", entry.label, Value(quantity).c_str());
-  if (hasErrors)
-  {
-    line += Format("%-12s  ", quantity.standardError ? Format("+- %.2g", *quantity.standardError).c_str() : "");
-  }
-  return line + Format("%-8s %-17s %s\n",
-                       entry.unit,
-                       NameOf(quantity.status),
-                       range ? ("[" + Number(range->low) + ", " + Number(range->high) + "]").c_str() : "");
+  const RoundedQuantity           rounded = RoundToError(quantity);
+  std::string line = PaddedRight(WithSigns(entry.label), 24) + " " + PaddedLeft(rounded.value, 12) + " ";
+  line += hasErrors ? PaddedRight(rounded.error, 12) + " " : " ";
+  line += PaddedRight(WithSigns(entry.unit), 8) + " " + PaddedRight(NameOf(quantity.status), 17) + " ";
+  line += range ? "[" + End(range->low, rounded) + ", " + End(range->high, rounded) + "]" : "";
+  return line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
 }
 
 std::string
@@ -249,7 +283,7 @@ MakeTable(const Report & report)
                [&](const QuantityEntry & entry) { return IsShown(entry, report); });
   const bool hasErrors = std::any_of(
     rows.begin(), rows.end(), [&](const QuantityEntry & entry) { return entry.of(report)->standardError.has_value(); });
-  table += Format("%-24s %12s  ", "quantity", "value") + (hasErrors ? Format("%-12s  ", "error") : "");
+  table += Format("%-24s %12s ", "quantity", "value") + (hasErrors ? Format("%-12s ", "  error") : " ");
   table += Format("%-8s %-17s %s\n", "unit", "status", hasErrors ? "95 % interval or limits" : "limits");
   for (const QuantityEntry & entry : rows)
   {

@@ -3,6 +3,7 @@
 #include "sensornoise/stabilise/CheckSentence.h"
 
 #include "sensornoise/report/JsonWriter.h"
+#include "sensornoise/report/Signs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -159,14 +160,10 @@ MakeTable(const NoiseModelCheck & check)
     const std::string levels = LevelText(band.lowDn) + " to " + LevelText(band.highDn);
     const std::string ratio = band.ratio ? Formatted("%.3f +- %.3f", *band.ratio, band.standardError) : "no variance";
     const std::string transform = band.transformVariance ? Formatted("%.3f", *band.transformVariance) : "-";
-    text += Formatted("%-22s %10zu  %-17s %10s%s\n",
-                      levels.c_str(),
-                      band.pixels,
-                      ratio.c_str(),
-                      transform.c_str(),
-                      band.fits ? "" : "  does not fit");
+    text += Formatted("%-22s %10zu  ", levels.c_str(), band.pixels) + PaddedRight(WithSigns(ratio), 17) +
+            Formatted(" %10s%s\n", transform.c_str(), band.fits ? "" : "  does not fit");
   }
-  return text + check.sentence + "\n";
+  return text + WithSigns(check.sentence) + "\n";
 }
 
 } // namespace sensornoise

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/TerminalText.h"
+
+#include "sensornoise/report/Signs.h"
+#include "tools/LowerCase.h"
+
+#include <cstdlib>
+#include <unistd.h>
+
+namespace sensornoise::tools
+{
+namespace
+{
+/** By the first of these variables that is set, as POSIX has it. */
+bool
+IsUtf8()
+{
+  for (const char * const name : { "LC_ALL", "LC_CTYPE", "LANG" })
+  {
+    const char * const value = std::getenv(name);
+    if (value != nullptr && *value != '\0')
+    {
+      const std::string locale = LowerCase(value);
+      return locale.find("utf-8") != std::string::npos || locale.find("utf8") != std::string::npos;
+    }
+  }
+  return false;
+}
+} // namespace
+
+std::string
+ForStandardOutput(const std::string & text)
+{
+  return isatty(STDOUT_FILENO) != 0 && !IsUtf8() ? WithoutSigns(text) : text;
+}
+
+} // namespace sensornoise::tools

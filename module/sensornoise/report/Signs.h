@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_report_Signs_h
+#define sensornoise_report_Signs_h
+
+#include "SensorNoiseExport.h"
+
+#include <cstddef>
+#include <string>
+
+namespace sensornoise
+{
+
+/** The text with the signs that people write (UTF-8) for those of ASCII that records have: "±", "e⁻", "²". */
+SensorNoise_EXPORT std::string
+WithSigns(std::string text);
+
+/** The text in ASCII, as far as this library writes it, for terminals that show nothing else. */
+SensorNoise_EXPORT std::string
+WithoutSigns(std::string text);
+
+/** Blanks behind the text up to \a width characters, each of which may have several bytes. */
+SensorNoise_EXPORT std::string
+PaddedRight(const std::string & text, std::size_t width);
+
+/** The same, before the text. */
+SensorNoise_EXPORT std::string
+PaddedLeft(const std::string & text, std::size_t width);
+
+} // namespace sensornoise
+
+#endif
