@@ -205,6 +205,14 @@ TEST_F(FitsFile, DamagedHeadersAreRefused)
   IsRefused("a.fits", with(2, "1000"), { "NAXIS is 1000; expected 0 to 999" });
   IsRefused("a.fits", with(2, "4"), { "has no keyword NAXIS4" });
   IsRefused("a.fits", UnitOf(CardsOf(16, { { "BITPIX", "8" } }), pixels), { "the keyword BITPIX comes twice" });
+  IsFrames("a.fits",
+           UnitOf(CardsOf(16, { { "ORIGIN", "'a'" }, { "ORIGIN", "'b'" } }), pixels), // as programs write it
+           FramePixel::Short,
+           4,
+           2,
+           2);
+  IsRefused(
+    "a.fits", UnitOf(CardsOf(16, { { "GROUPS", "T" } }), pixels), { "holds random groups, which are no image" });
   IsRefused("a.fits", UnitOf(CardsOf(16, { { "BSCALE", "0" } }), pixels), { "BSCALE is 0" });
   IsRefused("a.fits", UnitOf(CardsOf(16, { { "BZERO", "nan" } }), pixels), { "BZERO is \"nan\"; expected a number" });
   IsRefused("a.fits", Replaced(good, "/ bits", "/ \x01its"), { "card 1 of its header is no text of ASCII" });

@@ -47,10 +47,11 @@ TEST_F(TiffFile, WhatWritersAddIsAccepted)
   const auto isAccepted = [this](const TiffOf & tiff) {
     IsFrames("a.tif", tiff.Bytes(), FramePixel::UnsignedShort, 13, 9, 3);
   };
-  isAccepted(TiffWith({ { 254, { 4, { 0 } } } })); // full images
-  isAccepted(TiffWith({ { 254, { 4, { 2 } } } })); // pages
-  isAccepted(TiffWith({ { 274, { 3, { 4 } } } })); // upside down
-  isAccepted(TiffWith({ { 262, { 3, { 0 } } } })); // 0 is white
+  isAccepted(TiffWith({ { 254, { 4, { 0 } } } }));      // full images
+  isAccepted(TiffWith({ { 254, { 4, { 2 } } } }));      // pages
+  isAccepted(TiffWith({ { 274, { 3, { 4 } } } }));      // upside down
+  isAccepted(TiffWith({ { 336, { 3, { 0, 255 } } } })); // of inks
+  isAccepted(TiffWith({ { 262, { 3, { 0 } } } }));      // 0 is white
   isAccepted(TiffWith({ { 270, Text("ImageJ=1.53t\nimages=3\nslices=3\n") } }));
   isAccepted(TiffWith({ { 305, Text("a program") }, { 50839, { 1, { 1, 2, 3, 4, 5, 6 } } } }));
   for (const unsigned compression : { 1u, 8u })
@@ -84,7 +85,7 @@ TEST_F(TiffFile, TagsThatAreMissingHaveTheDefaultOfTiff)
   IsFrames("a.tif", mixed.Bytes(), FramePixel::UnsignedShort, 13, 9, 3);
 }
 
-TEST_F(TiffFile, WhatITKWouldConvertIsRefused)
+TEST_F(TiffFile, PixelsOfOtherTypesAndOrdersAreRefused)
 {
   const auto isRefused = [this](const TiffTags & tags, const std::string & words) {
     IsRefused("a.tif", TiffWith(tags).Bytes(), { words });
@@ -97,10 +98,10 @@ TEST_F(TiffFile, WhatITKWouldConvertIsRefused)
   isRefused({ { 277, { 3, { 3 } } } }, "3 components a pixel; expected 1");
   isRefused({ { 262, { 3, { 3 } } } }, "palette of colours");
   isRefused({ { 262, {} } }, "has no tag 262");
-  isRefused({ { 322, { 3, { 16 } } }, { 323, { 3, { 16 } } } }, "a tiled TIFF");
-  isRefused({ { 274, { 3, { 3 } } } }, "Orientation is 3");
+  isRefused({ { 322, { 3, { 16 } } }, { 323, { 3, { 16 } } } },
+            "a TIFF of tiles; expected strips: tiffcp -s FILE OTHER.tif");
+  isRefused({ { 274, { 3, { 3 } } } }, "Orientation is 3, a frame that is turned or mirrored; expected 1");
   isRefused({ { 266, { 3, { 2 } } } }, "FillOrder is 2");
-  isRefused({ { 336, { 3, { 0, 255 } } } }, "the tag 336 (DotRange)");
   isRefused({ { 32997, { 4, { 2 } } } }, "ImageDepth is 2");
 }
 

@@ -7,6 +7,7 @@
 #include "sensornoise/files/TextHeader.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <locale>
@@ -47,6 +48,16 @@ ValueOfCard(const std::string & card)
   return WithoutBlanks(text);
 }
 
+/** Whether other pixels would be read with another value. */
+bool
+DecidesPixels(const std::string & key)
+{
+  static constexpr std::array<const char *, 10> keys{
+    { "SIMPLE", "XTENSION", "BITPIX", "PCOUNT", "GCOUNT", "BSCALE", "BZERO", "BLANK", "ZIMAGE", "DATASUM" }
+  };
+  return key.rfind("NAXIS", 0) == 0 || std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
 /** Reads the cards up to END into header.values; returns where the data begin. */
 std::uint64_t
 ReadCards(FileBytes & bytes, std::uint64_t offset, FitsHeader & header)
@@ -74,7 +85,8 @@ ReadCards(FileBytes & bytes, std::uint64_t offset, FitsHeader & header)
       return offset + (end + FitsBlockBytes - 1) / FitsBlockBytes * FitsBlockBytes;
     }
     const bool hasValue = card.compare(8, 2, "= ") == 0;
-    if (hasValue && !header.values.emplace(key, ValueOfCard(card)).second)
+    const bool isNew = !hasValue || header.values.emplace(key, ValueOfCard(card)).second;
+    if (!isNew && DecidesPixels(key)) // programs write others several times
     {
       throw FileError(header.name, "damaged: the keyword " + key + " comes twice; expected each once");
     }
@@ -180,6 +192,10 @@ ReadFitsHeader(const std::string & name, FileBytes & bytes, std::uint64_t offset
   FitsHeader header;
   header.name = name;
   header.dataBegin = ReadCards(bytes, offset, header);
+  if (header.Text("GROUPS") == "T")
+  {
+    throw FileError(name, "holds random groups, which are no image; expected an image of two or three axes");
+  }
   header.bitsOfPixel = RequiredInteger(header, "BITPIX");
   const std::int64_t axes = RequiredInteger(header, "NAXIS");
   if (axes < 0 || axes > MostFitsAxes)

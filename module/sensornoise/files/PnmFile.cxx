@@ -133,8 +133,7 @@ RequirePgm(const std::string & file, FileBytes & bytes)
     case '6':
       throw FileError(file, SeveralComponents(3));
     case '2':
-      throw FileError(file,
-                      "a PGM file of text (P2); expected binary grey values (P5): pnmtoplainpnm's reverse, pamtopnm");
+      throw FileError(file, "a PGM file of text (P2); expected binary grey values (P5): pamtopnm FILE > OTHER.pgm");
     default:
       throw FileError(file, std::string("a file of Netpbm (P") + head[1] + ") without grey values; expected PGM (P5)");
   }

@@ -35,13 +35,13 @@ RequireGrey(const TiffTags & tags)
   }
 }
 
-/** Throws for what ITK's reader, or libtiff, would not read as it is meant. */
+/** Throws for pixels that lie in another order than row by row. */
 void
 RequirePlainStrips(const TiffTags & tags)
 {
   if (tags.Has(322) || tags.Has(323) || tags.Has(324) || tags.Has(325))
   {
-    tags.Refuse("a tiled TIFF, which ITK converts to 8-bit colours; expected a TIFF with strips");
+    tags.Refuse("a TIFF of tiles; expected strips: tiffcp -s FILE OTHER.tif");
   }
   if (const std::uint64_t order = tags.Number(266, "FillOrder", 1); order != 1)
   {
@@ -50,10 +50,6 @@ RequirePlainStrips(const TiffTags & tags)
   if (const std::uint64_t depth = tags.Number(32997, "ImageDepth", 1); depth != 1)
   {
     tags.Refuse("ImageDepth is " + std::to_string(depth) + "; expected 1, and a page for each frame");
-  }
-  if (tags.Has(336))
-  {
-    tags.Refuse("has the tag 336 (DotRange), which ITK's reader cannot take; expected none");
   }
 }
 
@@ -204,7 +200,7 @@ ReadTiffPage(const std::string & page, TiffBytes & tiff, const TiffDirectory & d
   if (found.orientation != 1 && found.orientation != 4)
   {
     tags.Refuse("Orientation is " + std::to_string(found.orientation) +
-                ", which ITK converts to 8-bit colours; expected 1 (or 4, upside down)");
+                ", a frame that is turned or mirrored; expected 1 (or 4, upside down)");
   }
   FrameFile sizes;
   sizes.name = page;
