@@ -99,6 +99,19 @@ TEST(SensorNoiseCorrelationReport, EachKindIsSaidInItsWords)
   EXPECT_TRUE(Has(bent, "ask it for raw frames")) << bent;
 }
 
+// The number that decided stands in the sentence.
+TEST(SensorNoiseCorrelationReport, NeighboursThatDecidedAreNamed)
+{
+  NoiseCorrelation correlation = CorrelationOf(NoiseKind::NotLinear);
+  correlation.kurtosis[0] = { -0.0069, 0.0040 };
+  correlation.kurtosis[3] = { 0.001, 0.01 };
+  correlation.kurtosis[4] = { 0.09, 0.01 };
+  const std::string warning = WarningOf(correlation);
+  EXPECT_EQ(warning.rfind("noise-not-linear: differences of neighbours' noise are not distributed", 0), 0U) << warning;
+  EXPECT_TRUE(Has(warning, "excess kurtosis -0.0069 +- 0.0040, of eight neighbours of a row in turn 0.090 +- 0.010"))
+    << warning;
+}
+
 TEST(SensorNoiseCorrelationReport, NoiseOfAFilterBeforeTheReadOutIsSaidToBeSo)
 {
   NoiseCorrelation correlation = CorrelationOf(NoiseKind::Filtered);

@@ -122,6 +122,9 @@ TEST(SensorNoiseRefinedWarnings, FlickerNotIdentifiable)
     Measure(Simulate<Codes>(StillCamera(Frames), Size, Size, FlatScene(Size, 0.05)), {}).GetReport();
   EXPECT_TRUE(HasWarning(report, WarningCode::FlickerNotIdentifiable)) << MakeText(report);
   EXPECT_FALSE(report.flickerSd.value);
+  const std::string text = MakeText(report);
+  EXPECT_NE(text.find("the illumination change is known only to within"), std::string::npos) << text;
+  EXPECT_NE(text.find("25 % is needed for the flicker: give the offset (--offset)"), std::string::npos) << text;
 }
 
 TEST(SensorNoiseRefinedWarnings, NoiseNotLinear)

@@ -54,6 +54,11 @@ ExpectScenesChange(const Stack<Codes> & stack)
   {
     ASSERT_FALSE(report.warnings.empty()) << MakeText(report);
     EXPECT_EQ(report.warnings.front().code, WarningCode::SceneChanges) << MakeText(report);
+    const std::string & text = report.warnings.front().message;
+    EXPECT_EQ(text.rfind("the frames do not show one static scene: ", 0), 0U) << text;
+    EXPECT_NE(text.find("a pulsed lamp is off in some frames, or the bytes of each pixel are in the other order"),
+              std::string::npos)
+      << text;
     EXPECT_EQ(std::count_if(report.warnings.begin(),
                             report.warnings.end(),
                             [](const Warning & warning) { return KindOf(warning.code).severity == Severity::Error; }),

@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/Quantiles.h"
+#include "sensornoise/base/Text.h"
 #include "sensornoise/moments/CodeRange.h"
 #include "sensornoise/moments/CodeSettings.h"
 #include "sensornoise/moments/Constants.h"
@@ -90,11 +91,11 @@ RequireDarkLevel(const DarkSurvey & survey)
   if (clippedFraction > std::max(InMoments.largestClippedShare, 1.0 - std::pow(InMoments.leastShareOfSamples, frames)))
   {
     const CodeRange & range = survey.codes;
-    throw std::invalid_argument(std::to_string(100.0 * clippedFraction) +
-                                " % of the pixels of the dark frames reach a clip level, " +
-                                (range.clipLowDn ? std::to_string(*range.clipLowDn) : "none") + " or " +
-                                (range.clipHighDn ? std::to_string(*range.clipHighDn) : "none") +
-                                " DN; expected at most 1 %: their black level is cut off, or they are not dark");
+    const auto        levelText = [](const std::optional<double> & level) { return level ? Text(*level) : "none"; };
+    throw std::invalid_argument(Percent(clippedFraction) + " of the pixels of the dark frames reach a clip level, " +
+                                levelText(range.clipLowDn) + " or " + levelText(range.clipHighDn) +
+                                " DN; expected at most 1 %: their black level is cut off, or they are not dark. Raise "
+                                "the camera's black level, or cover the sensor");
   }
   if (survey.usable < InMoments.fewestDarkPixels)
   {

@@ -7,7 +7,9 @@
 #include "sensornoise/refined/Constants.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -65,6 +67,33 @@ IsNormal(const NoiseCorrelation & correlation)
   });
 }
 
+/** Of KurtosisSums, without the first. */
+constexpr std::array<const char *, KurtosisSums::Kinds - 1> NamesOfDifferences{ { "left and right neighbours in turn",
+                                                                                  "upper and lower neighbours in turn",
+                                                                                  "four neighbours in turn",
+                                                                                  "eight neighbours of a row in turn",
+                                                                                  "eight neighbours of a column in "
+                                                                                  "turn" } };
+
+/** The kind of KurtosisSums, without single pixels, whose kurtosis is the least probable for normal noise. */
+std::size_t
+MostUnusualDifference(const NoiseCorrelation & correlation)
+{
+  std::size_t most = 3; // where none is measured
+  double      largest = 0.0;
+  for (std::size_t kind = 1; kind < correlation.kurtosis.size(); ++kind)
+  {
+    const MeasuredNumber & kurtosis = correlation.kurtosis[kind];
+    const double           z = kurtosis.standardError > 0.0 ? std::abs(kurtosis.value) / kurtosis.standardError : 0.0;
+    if (z > largest)
+    {
+      largest = z;
+      most = kind;
+    }
+  }
+  return most;
+}
+
 void
 WarnOfNonlinear(Report & report, const NoiseCorrelation & correlation, const LagCoefficient * space)
 {
@@ -90,9 +119,10 @@ WarnOfNonlinear(Report & report, const NoiseCorrelation & correlation, const Lag
     return;
   }
   const MeasuredNumber & own = correlation.kurtosis.front();
-  const MeasuredNumber & ofFour = correlation.kurtosis[3];
-  const std::string      kurtosis = "excess kurtosis " + Measured(own.value, own.standardError) +
-                               ", of four neighbours in turn " + Measured(ofFour.value, ofFour.standardError) +
+  const std::size_t      kind = MostUnusualDifference(correlation);
+  const MeasuredNumber & other = correlation.kurtosis.at(kind);
+  const std::string      kurtosis = "excess kurtosis " + Measured(own.value, own.standardError) + ", of " +
+                               NamesOfDifferences.at(kind - 1) + " " + Measured(other.value, other.standardError) +
                                ", expected 0";
   if (space != nullptr && IsNormal(correlation))
   {
@@ -105,8 +135,12 @@ WarnOfNonlinear(Report & report, const NoiseCorrelation & correlation, const Lag
         kurtosis + ": the distribution is normal)");
     return;
   }
+  const bool isOfPixels = own.Exceeds(0.0, InCorrelation.anyZ);
   report.Warn(WarningCode::NoiseNotLinear,
-              "the noise is not distributed as a sensor's or a linear filter's (" + kurtosis +
+              (isOfPixels
+                 ? "the noise is not distributed as a sensor's or a linear filter's ("
+                 : "differences of neighbours' noise are not distributed as a sensor's or a linear filter's (") +
+                kurtosis +
                 "): the camera corrects defects, takes medians or compresses, and what gain it had before cannot be "
                 "told; ask it for raw frames");
 }

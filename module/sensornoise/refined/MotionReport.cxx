@@ -14,6 +14,8 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -285,6 +287,26 @@ CovarianceOf(const AxisMotion & x, const AxisMotion & y, const PolishedSeries & 
   const double ofNoise = noise(0, 1) * slack / (1.0 + slack);
   return WithError(value, std::hypot(std::sqrt(variance), systematic, ofNoise));
 }
+/** Why there is no flicker, and what to do. \a ofScale: the relative error of the illumination change [1]. */
+std::string
+TextOfUnknownFlicker(double ofScale, const std::optional<Interval> & limit)
+{
+  const std::string giveOffset =
+    ": give the offset (--offset) or dark frames (--dark), or include dark and bright areas "
+    "in the scene";
+  if (!std::isfinite(ofScale))
+  {
+    return "the illumination change is not known, and neither is the flicker" + giveOffset;
+  }
+  if (ofScale > InRefined.largestScaleError)
+  {
+    return "the illumination change is known only to within " + PercentApart(ofScale, InRefined.largestScaleError) +
+           "; " + Percent(InRefined.largestScaleError) + " is needed for the flicker" + giveOffset;
+  }
+  return "the flicker is not distinguished from the frames' noise: its standard deviation may be " +
+         (limit && limit->high ? Rounded(*limit->high) : std::string("of any size")) +
+         ", and below 1 is needed; record more frames";
+}
 } // namespace
 
 void
@@ -322,12 +344,7 @@ FillFlicker(Report & report, const RefinedResults & found, double offset, double
   if (ofScale > InRefined.largestScaleError || !(isLarge || (limit && limit->high.value_or(2.0) < 1.0)))
   {
     report.flickerSd = Quantity::Without(EstimateStatus::NotIdentifiable);
-    report.Warn(WarningCode::FlickerNotIdentifiable,
-                (std::isfinite(ofScale)
-                   ? "the light is known to " + PercentApart(ofScale, InRefined.largestScaleError) +
-                       " only, and so is the flicker (expected " + Percent(InRefined.largestScaleError) + " at most)"
-                   : std::string("the light is not known, and neither is the flicker")) +
-                  ": a known offset would tell, or a scene with dark and bright areas");
+    report.Warn(WarningCode::FlickerNotIdentifiable, TextOfUnknownFlicker(ofScale, limit));
   }
 }
 

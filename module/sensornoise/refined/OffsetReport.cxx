@@ -93,10 +93,14 @@ CompareKnownOffset(Report &               report,
   }
   if (IsKnownOffsetOutOfRange(found, gain, limits))
   {
+    const bool        isDark = found.settings.offset->darkFrames > 0;
+    const std::string lowest = limits.lowestDn ? "between " + Rounded(*limits.lowestDn) + " and " : "at most ";
     report.Warn(WarningCode::OffsetOutOfRange,
-                "the given offset, " + Text(offsetDn) + " DN, is not between " +
-                  (limits.lowestDn ? Rounded(*limits.lowestDn) : std::string("-infinity")) + " and " +
-                  Rounded(limits.highestDn) + " DN, where sigma^2 >= 0 and the darkest pixels put it");
+                (isDark ? "the mean level of the dark frames is " : "the given offset is ") + Text(offsetDn) +
+                  " DN, but a read noise above 0 and the darkest pixels allow " + lowest + Rounded(limits.highestDn) +
+                  " DN: " +
+                  (isDark ? "are frames and dark frames exchanged, or was another setting used for the dark frames?"
+                          : "leave it out, or measure it with dark frames (--dark)"));
   }
 }
 

@@ -37,12 +37,15 @@ ReportSceneChange(Report & report, const SceneChange & change)
   warnings.erase(
     std::remove_if(warnings.begin(), warnings.end(), [](const Warning & warning) { return MayFollow(warning.code); }),
     warnings.end());
-  const Warning warning{ WarningCode::SceneChanges,
-                         "the frames do not show one still scene: of what the areas of a frame differ by, " +
-                           PercentApart(change.share, InMoments.sceneChangeShare) +
-                           " is not as in the others (expected under " + Percent(InMoments.sceneChangeShare) +
-                           "): another axis than time was taken for time, or the scene changes, or the camera moves by "
-                           "many pixels" };
+  const Warning warning{
+    WarningCode::SceneChanges,
+    "the frames do not show one static scene: of what the areas of a frame differ by, " +
+      PercentApart(change.share, InMoments.sceneChangeShare) + " is not as in the others (expected under " +
+      Percent(InMoments.sceneChangeShare) +
+      "): another axis than time was taken for time, the scene changes, the camera moves by many "
+      "pixels, a pulsed lamp is off in some frames, or the bytes of each pixel are in the other order "
+      "(--raw)"
+  };
   warnings.insert(warnings.begin(), warning);
 }
 

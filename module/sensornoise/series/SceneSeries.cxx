@@ -50,7 +50,15 @@ FindSceneSeries(const FrameSums &             sums,
   const std::optional<OffsetLine> line = FitOffsetLine(sums, noise);
   if (!line)
   {
-    throw NothingToMeasure("the pixels have one intensity; expected dark and bright areas");
+    double pixels = 0.0;
+    for (std::size_t c = 0; c < GradientClasses; ++c)
+    {
+      pixels += sums.GetRegressors().PixelsOfClass(c);
+    }
+    throw NothingToMeasure(pixels > 0.0
+                             ? "the usable pixels have one intensity; expected dark and bright areas"
+                             : "no usable pixel is left: all are masked, clipped, next to a clip level or in "
+                               "moving areas; expected a static scene between the clip levels");
   }
   SceneSeries found;
   found.line = *line;
