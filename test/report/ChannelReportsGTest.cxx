@@ -171,7 +171,7 @@ TEST(ChannelReports, TableHasALineAChannel)
   const std::string    table = MakeTable(reports);
   for (const char * expected : { "planes of 0 x 0 pixels of a GBRG mosaic",
                                  "\nchannel  gain g",
-                                 "\nR        1.000 \u00B1 0.010",
+                                 "\nR        1.000 \u00B1 0.010  100.0 \u00B1 2.0",
                                  "\nG1 ",
                                  "\nG2 ",
                                  "\nB  ",

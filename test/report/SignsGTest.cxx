@@ -23,6 +23,7 @@ TEST(SensorNoiseSigns, CountAsOneCharacterEach)
   EXPECT_EQ(PaddedRight("\u00B1 1", 5), "\u00B1 1  ");
   EXPECT_EQ(PaddedLeft("e\u207B", 4), "  e\u207B");
   EXPECT_EQ(PaddedLeft("12345", 4), "12345");
+  EXPECT_EQ(CharactersIn("\u00B1 e\u207B\u00B2"), 5u);
 }
 
 // Values and the ends of intervals have two digits of the error.

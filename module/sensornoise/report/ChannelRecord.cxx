@@ -68,7 +68,7 @@ Align(const std::vector<std::vector<std::string>> & rows)
   {
     for (std::size_t k = 0; k < row.size(); ++k)
     {
-      widths[k] = std::max(widths[k], row[k].size());
+      widths[k] = std::max(widths[k], CharactersIn(row[k]));
     }
   }
   std::string table;

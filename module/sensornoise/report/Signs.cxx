@@ -28,12 +28,11 @@ Replace(std::string text, const std::array<Replacement, VCount> & replacements)
   return text;
 }
 
-/** The blanks that a text lacks. Bytes 10xxxxxx of UTF-8 belong to the character before. */
+/** The blanks that a text lacks. */
 std::string
 BlanksFor(const std::string & text, std::size_t width)
 {
-  const auto characters = static_cast<std::size_t>(
-    std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+  const std::size_t characters = CharactersIn(text);
   return std::string(width > characters ? width - characters : 0, ' ');
 }
 } // namespace
@@ -61,6 +60,14 @@ WithoutSigns(std::string text)
                                                    { "\u00D7", "x" },
                                                    { "\u2013", "-" } } };
   return Replace(std::move(text), letters);
+}
+
+std::size_t
+CharactersIn(const std::string & text)
+{
+  // bytes 10xxxxxx belong to the character before
+  return static_cast<std::size_t>(
+    std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
 std::string

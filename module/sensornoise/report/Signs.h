@@ -19,7 +19,11 @@ WithSigns(std::string text);
 SensorNoise_EXPORT std::string
 WithoutSigns(std::string text);
 
-/** Blanks behind the text up to \a width characters, each of which may have several bytes. */
+/** The characters of a text in UTF-8, each of which may have several bytes. */
+SensorNoise_EXPORT std::size_t
+CharactersIn(const std::string & text);
+
+/** Blanks behind the text up to \a width characters. */
 SensorNoise_EXPORT std::string
 PaddedRight(const std::string & text, std::size_t width);
 
