@@ -34,7 +34,7 @@ rows = [("gain g", truth["gain"], report["gain"]),
         ("vibration sd y", truth["realised_vibration_sd"][1], report["vibration"]["sd_y"])]
 for name, value, quantity in rows:
     estimate = "-" if quantity["value"] is None else f"{quantity['value']:.5g}"
-    error = "" if quantity["standard_error"] is None else f"+- {quantity['standard_error']:.2g}"
-    print(f"{name:<24} {value:>10.5g} {estimate:>10}  {error:<11} {quantity['unit']}")
+    error = "" if quantity["standard_error"] is None else f"± {quantity['standard_error']:.2g}"
+    print(f"{name:<24} {value:>10.5g} {estimate:>10}  {error:<11} {quantity['unit'].replace('e-', 'e⁻').replace('^2', '²')}")
 PY
 echo "stack, truth and report: $work"
