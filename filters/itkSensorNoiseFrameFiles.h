@@ -43,7 +43,7 @@ struct FrameListGeometry
   };
 };
 
-/** Frames on files in time order, of which all headers have been checked: stacks, or one frame a file. */
+/** Frames on files in time order, whose headers have all been checked: stacks, or one frame a file. */
 struct FrameList
 {
   std::vector<FrameFile> files;
@@ -84,8 +84,8 @@ OpenFrames(const std::vector<std::string> & names,
 SensorNoise_EXPORT void
 ReadFrames(const FrameList & list, std::size_t first, std::size_t count, void * buffer);
 
-/** What is odd about the files and no error, as a sentence, or nothing: that one is there twice, by whatever names,
- * or the first FrameFile::warning. */
+/** Returns a sentence on what is odd about the files and no error, or nothing: a file that is there twice, by any
+ * names, or the first FrameFile::warning. */
 SensorNoise_EXPORT std::string
 WarningOf(const FrameList & list);
 

@@ -115,7 +115,7 @@ AddSensorOptions(CLI::App & app, EstimateOptions & options, EstimateTexts & text
     ->group("Sensor");
 }
 
-/** What is written, and where. */
+/** Options of files that are written. */
 void
 AddOutputOptions(CLI::App & app, EstimateOptions & options)
 {
@@ -135,10 +135,11 @@ AddOutputOptions(CLI::App & app, EstimateOptions & options)
           "pixels' offset and read noise, with the ends of their 95 % intervals")
     ->group("Output");
   app
-    .add_flag("--hash",
-              options.hash,
-              "also the SHA-256 of the frames' files in the report, as a page always has it: that of cat FRAME... | "
-              "sha256sum, behind a header the files of its pixels. Reads the files once more")
+    .add_flag(
+      "--hash",
+      options.hash,
+      "also the SHA-256 of the frames' files in the report, as a page always has it: cat FRAME... | sha256sum, where a "
+      "header stands for the files of its pixels. Reads the files once more")
     ->group("Output");
   app.add_flag("--quiet", options.quiet, "no table and no progress")->group("Output");
 }

@@ -240,7 +240,7 @@ EstimateOptions::Parse(int argc, char ** argv)
     "  estimate-sensor-noise frame_*.tif --dark dark_*.tif --plot report.html\n\n"
     "Measures gain, offset and read noise of a camera from a burst of raw frames of a static scene.\n\n"
     "FRAME...: images in time order, one frame a file; or stacks (.mha .mhd .nrrd .tif .ser .mraw .fits .npy), "
-    "several of which are one burst; or a folder, or a pattern in quotation marks ('frame_*.tif'), whose files "
+    "which together are one burst; or a folder, or a pattern in quotation marks ('frame_*.tif'), whose files "
     "are read in the order of their numbers.\n\n"
     "Exit code: 0 done, 2 wrong use or unreadable input, 3 nothing could be estimated.",
     "estimate-sensor-noise");

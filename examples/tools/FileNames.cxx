@@ -97,7 +97,7 @@ FilesLike(const std::string & pattern)
 {
   glob_t                   found{};
   std::vector<std::string> names;
-  if (glob(pattern.c_str(), GLOB_NOSORT, nullptr, &found) == 0)
+  if (glob(pattern.c_str(), GLOB_NOSORT, nullptr, &found) == 0) // NOLINT(concurrency-mt-unsafe)
   {
     names.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
   }

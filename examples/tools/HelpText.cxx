@@ -16,13 +16,15 @@ TerminalWidth()
 {
   constexpr long narrowest = 40;
   constexpr long widest = 1000;
-  winsize        window{};
-  long           columns = 80;
+  // no other thread runs yet
+  const char * const text = std::getenv("COLUMNS"); // NOLINT(concurrency-mt-unsafe)
+  winsize            window{};
+  long               columns = 80;
   if (isatty(STDOUT_FILENO) != 0 && ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 0)
   {
     columns = window.ws_col;
   }
-  else if (const char * const text = std::getenv("COLUMNS"); text != nullptr && std::atol(text) > 0)
+  else if (text != nullptr && std::atol(text) > 0)
   {
     columns = std::atol(text);
   }

@@ -17,8 +17,8 @@ SimulateOptions::Parse(int argc, char ** argv)
 {
   CLI::App app{ "Example:\n"
                 "  simulate-sensor-noise --output burst.mha --truth truth.json\n\n"
-                "Simulates a burst of raw frames of a camera whose noise is known, under flickering light and on a "
-                "trembling floor (Sur and Grediac 2015, section 4.2).",
+                "Simulates a burst of raw frames of a camera whose noise is known, under flickering illumination and "
+                "vibrations (Sur and Grediac 2015, section 4.2).",
                 "simulate-sensor-noise" };
   app.formatter(std::make_shared<HelpFormatter>(TerminalWidth()));
   app.option_defaults()->always_capture_default();

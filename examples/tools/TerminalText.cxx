@@ -12,13 +12,13 @@ namespace sensornoise::tools
 {
 namespace
 {
-/** By the first of these variables that is set, as POSIX has it. */
+/** Whether the character set is UTF-8, by the first of these variables that is set, as POSIX has it. */
 bool
 IsUtf8()
 {
   for (const char * const name : { "LC_ALL", "LC_CTYPE", "LANG" })
   {
-    const char * const value = std::getenv(name);
+    const char * const value = std::getenv(name); // NOLINT(concurrency-mt-unsafe)
     if (value != nullptr && *value != '\0')
     {
       const std::string locale = LowerCase(value);

@@ -52,8 +52,8 @@ TEST_F(PnmFile, DamagedFilesAreRefused)
   IsRefused("a.pgm", "P5\n99999999999999999999999 2\n255\nabcdef", { "the width in the header" });
   IsRefused("a.pgm", "P5\n#" + std::string(70000, 'c') + "\n3 2\n255\nabcdef", { "a header of more than 65536 bytes" });
   const std::string first = "P5\n1 1\n255\na";
-  IsRefused("a.pgm", first + "P5\n1 1\n254\na", { "the header of image 1 is not that of the first" });
-  IsRefused("a.pgm", first + "P5\n1  1\n255\na", { "the header of image 1 is not that of the first" });
+  IsRefused("a.pgm", first + "P5\n1 1\n254\na", { "the header of image 1 differs from the header of the first" });
+  IsRefused("a.pgm", first + "P5\n1  1\n255\na", { "the header of image 1 differs from the header of the first" });
   IsRefused("a.pgm", first + "P5\n1 1\n255\n", { "truncated" });
   const std::string good = "P5\n# a camera\n3 2\n255\nabcdef";
   for (std::size_t size = 1; size < good.size(); ++size)

@@ -17,7 +17,7 @@ using namespace sensornoise::test;
 class TiffDescription : public FrameFileTest
 {
 protected:
-  /** Of so many pages, whose first pixels are 100 + 3 times their number, the first with a description. */
+  /** A TIFF of so many pages, whose first pixels are 100 + 3 times their number. The first page has the description. */
   static std::string
   Pages(std::size_t pages, const std::string & description)
   {
@@ -27,7 +27,7 @@ protected:
     return tiff.Bytes();
   }
 
-  /** One page, of which ImageJ says that images follow. */
+  /** A TIFF of one page, whose ImageJ description says that images follow. */
   static std::string
   Described(std::size_t images, const std::string & rest, bool isBigEndian = true)
   {

@@ -15,7 +15,7 @@ namespace
 class EstimateNamesTool : public EstimateToolTest
 {
 protected:
-  /** Writes the burst into the folder `frames`, so that the order of text is not that of time. */
+  /** Writes the burst into the folder `frames`, in which the order of text differs from the order of time. */
   std::string
   WriteFolder()
   {

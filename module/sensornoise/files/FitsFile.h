@@ -16,10 +16,10 @@ namespace sensornoise
 SensorNoise_EXPORT bool
 IsHeadOfFits(const std::string & head, const std::string & name);
 
-/** Reads the headers of all units of a FITS file, one of which must be an image of two axes, a frame, or three, a
- * stack.
+/** Reads the headers of all units of a FITS file. Exactly one of them must be an image: a frame has two axes, a stack
+ * three.
  *
- * Integers with the BZERO of unsigned ones are read as these; where BSCALE, BZERO or BLANK say something else, values
+ * Integers with the BZERO of unsigned ones are read as these. Where BSCALE, BZERO or BLANK say something else, values
  * are read as double: BZERO + BSCALE times the number, NaN for BLANK. Rows are read in the order of the file. Throws
  * FileError for compressed images, for several images, for integers of 64 bits, and where DATASUM does not fit the
  * data. FITS standard, version 4. */

@@ -106,7 +106,7 @@ RequiredInteger(const FitsHeader & header, const std::string & key)
   return *number;
 }
 
-/** Of the axes, the bits of an element and the keywords of extensions; 0 where there are no data. */
+/** Returns the bytes of the data, by axes, BITPIX, PCOUNT and GCOUNT; 0 where there are no data. */
 std::uint64_t
 DataBytesOf(const FitsHeader & header)
 {

@@ -34,7 +34,7 @@ struct FitsHeader
   std::optional<double>
   Number(const std::string & key) const;
 
-  /** The same, of a whole number. */
+  /** The value of a keyword as a whole number, as Number() returns others. */
   std::optional<std::int64_t>
   Integer(const std::string & key) const;
 };

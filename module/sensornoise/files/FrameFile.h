@@ -40,7 +40,7 @@ enum class StoredNumber
   Int
 };
 
-/** What the frames of a file differ in. */
+/** An axis along which the frames of a file differ. */
 struct FrameAxis
 {
   enum class Kind

@@ -179,9 +179,10 @@ InspectPnm(FileBytes & bytes, FrameFile & file, const BeforeInflating & /*before
   {
     if (!(PgmReader(file.name, bytes, frames * step).Read() == header))
     {
-      throw FileError(file.name,
-                      "the header of image " + std::to_string(frames) +
-                        " is not that of the first; expected the same size, largest value and length of all headers");
+      throw FileError(
+        file.name,
+        "the header of image " + std::to_string(frames) +
+          " differs from the header of the first; expected the same size, largest value and length of all headers");
     }
   }
   SetFramePlaces(file, places, bytes.Size(), frames);

@@ -16,8 +16,8 @@ namespace sensornoise
 SensorNoise_EXPORT bool
 IsHeadOfPnm(const std::string & head, const std::string & name);
 
-/** Reads the headers of a binary PGM file (P5, 8 or 16 bits), of which there may be several images, one after the
- * other: frames. Throws FileError unless all are whole and alike, and for colours, text and bitmaps. A maximum of 2^n -
+/** Reads the headers of a binary PGM file (P5, 8 or 16 bits). It may have several images, one after the other: frames.
+ * Throws FileError unless all are whole and alike, and for colours, text and bitmaps. A maximum of 2^n -
  * 1 is taken for n bits of the camera. */
 SensorNoise_EXPORT void
 InspectPnm(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating);

@@ -22,10 +22,9 @@ DescriptionOf(TiffBytes & tiff, const TiffDirectory & directory);
 std::optional<std::uint64_t>
 ImagesOfImageJ(const std::string & description);
 
-/** The axes of the pages in the order of the file, the fastest first, as ImageJ's description or OME-XML says; empty
- * where it is neither, or has no more than one axis of several elements that is not that of channels. Throws FileError,
- * which
- * \a file begins, where OME-XML describes several images. */
+/** The axes of the pages in the order of the file, the fastest first, as ImageJ's description or OME-XML gives them.
+ * Empty where neither is there, and where the pages differ along one axis alone, which is then time; channels are no
+ * time. Throws FileError, which \a file begins, where OME-XML describes several images. */
 std::vector<FrameAxis>
 AxesOfDescription(const std::string & file, const std::string & description);
 

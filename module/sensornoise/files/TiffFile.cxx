@@ -178,7 +178,7 @@ private:
     m_Described = images;
   }
 
-  /** What reads the whole frames behind an offset. */
+  /** Returns the layout (--raw) that reads the whole frames from an offset on. */
   std::string
   RawLayoutOf(const FramePlaces & places) const
   {

@@ -45,7 +45,7 @@ struct TiffPage
 TiffPage
 ReadTiffPage(const std::string & page, TiffBytes & tiff, const TiffDirectory & directory);
 
-/** What the samples are: "16-bit unsigned". */
+/** Describes the samples: "16-bit unsigned". */
 std::string
 SamplesOf(const TiffPage & page);
 

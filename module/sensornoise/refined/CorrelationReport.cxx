@@ -67,7 +67,7 @@ IsNormal(const NoiseCorrelation & correlation)
   });
 }
 
-/** Of KurtosisSums, without the first. */
+/** Names of the kinds of KurtosisSums, without single pixels. */
 constexpr std::array<const char *, KurtosisSums::Kinds - 1> NamesOfDifferences{ { "left and right neighbours in turn",
                                                                                   "upper and lower neighbours in turn",
                                                                                   "four neighbours in turn",

@@ -19,7 +19,7 @@ WithSigns(std::string text);
 SensorNoise_EXPORT std::string
 WithoutSigns(std::string text);
 
-/** The characters of a text in UTF-8, each of which may have several bytes. */
+/** Counts the characters of a text in UTF-8; a character may have several bytes. */
 SensorNoise_EXPORT std::size_t
 CharactersIn(const std::string & text);
 
@@ -27,7 +27,7 @@ CharactersIn(const std::string & text);
 SensorNoise_EXPORT std::string
 PaddedRight(const std::string & text, std::size_t width);
 
-/** The same, before the text. */
+/** Blanks before the text up to \a width characters. */
 SensorNoise_EXPORT std::string
 PaddedLeft(const std::string & text, std::size_t width);
 
