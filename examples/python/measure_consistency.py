@@ -4,10 +4,10 @@
 
     measure_consistency.py build/bin/estimate-sensor-noise FRAMES...
 
-The gain of the quadrants of the frame, and of halves and quarters of the burst, is measured by itself (--roi, --frames).
-With g_k and their standard errors e_k, chi-square is the sum of ((g_k - g) / e_k)^2 about their weighted mean g, and has
-one degree of freedom fewer than there are parts. It is about 1 if the parts have one gain and the errors are right; far
-above 1, they have not, or the errors are too small; far below 1, the errors are too large.
+The gain of the quadrants of the frame, and of halves and quarters of the burst, is measured by itself (--roi,
+--frames). With g_k and their standard errors e_k, chi-square is the sum of ((g_k - g) / e_k)^2 about their weighted
+mean g, and has one degree of freedom fewer than there are parts. It is about 1 if the parts have one gain and the
+errors are right; far above 1, they have not, or the errors are too small; far below 1, the errors are too large.
 """
 
 import argparse
