@@ -103,7 +103,17 @@ protected:
   HasOpenCV()
   {
     Denoise("--help");
-    return m_Output.find("}=nlm") != std::string::npos || m_Output.find("[nlm]") != std::string::npos;
+    std::istringstream words(m_Output); // of lines that are wrapped anywhere
+    std::string        before;
+    for (std::string word; words >> word; before = word)
+    {
+      if (before == "(default:" && (word == "nlm)" || word == "itk)"))
+      {
+        return word == "nlm)";
+      }
+    }
+    ADD_FAILURE() << "no default denoiser in " << m_Output;
+    return false;
   }
 
   StackType::Pointer m_Truth;
