@@ -92,7 +92,7 @@ def test_folder_empty_file_and_other_file_are_refused_by_name(tmp_path):
 
 def test_stack_among_frames_is_refused_by_name(names, burst):
     itk.imwrite(itk.image_view_from_array(burst[:7]), str(names[1]))
-    refused(names, f"{names[1]}: has 7 frames, and 6 files were given; expected one stack alone, or one frame a file")
+    refused(names, f"{names[1]}: has 7 frames, but {names[0]} has one; expected stacks alone, or one frame a file")
 
 
 def test_lines_are_refused_as_those_of_an_array(tmp_path):

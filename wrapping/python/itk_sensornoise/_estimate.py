@@ -121,7 +121,8 @@ def estimate_sensor_noise(
         and `frame_range` only that of a list, which has the frames in the range. All is read once more: lazy frames,
         too. "of" says which it is, "files" or "pixels".
     raw
-        How frames lie in files without a header, those of `frames` and of `dark`: "WxH:TYPE[:SKIP[:ROW]]", for example
+        How frames lie in files without a header, those of `frames` and of `dark`:
+        "WxH:TYPE[:SKIP[:ROW[:GAP[:END]]]]", for example
         "640x480:uint16le", or "1920x1080:Mono12p:64" behind 64 other bytes; the types are README.md's. Default: the
         files say so.
     memory_limit
