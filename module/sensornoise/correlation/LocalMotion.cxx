@@ -85,9 +85,13 @@ SumsOf(const NoiseResiduals & residuals, std::size_t tile)
         }
       }
     }
-    const auto            count = static_cast<Eigen::Index>(x.size());
-    const Eigen::VectorXd own = Eigen::Map<const Eigen::VectorXd>(x.data(), count).array() -
-                                Eigen::Map<const Eigen::VectorXd>(x.data(), count).sum() / std::max<double>(1.0, count);
+    if (x.empty())
+    {
+      continue;
+    }
+    const auto                       count = static_cast<Eigen::Index>(x.size());
+    Eigen::Map<const Eigen::ArrayXd> ofX(x.data(), count);
+    const Eigen::VectorXd            own = ofX - ofX.mean();
     sums.xx += own.squaredNorm();
     sums.xy += own.dot(Eigen::Map<const Eigen::VectorXd>(y.data(), count));
   }
