@@ -24,17 +24,17 @@ python3 - "$work/truth.json" "$work/report.json" <<'PY'
 import json, sys
 
 truth, report = (json.load(open(name)) for name in sys.argv[1:])
-print(f"{'quantity':<24} {'truth':>10} {'estimate':>10}  {'error':<11}")
+print(f"{'quantity':<24} {'truth':>10} {'estimate':>10}  error")
 rows = [("gain g", truth["gain"], report["gain"]),
         ("offset mu", truth["offset"], report["offset"]),
         ("read noise sigma", truth["read_noise"], report["read_noise"]),
-        ("intercept sigma^2 - g mu", truth["intercept"], report["intercept"]),
+        ("intercept sigma² - g mu", truth["intercept"], report["intercept"]),
         ("flicker sd", truth["realised_flicker_sd"], report["flicker_sd"]),
         ("vibration sd x", truth["realised_vibration_sd"][0], report["vibration"]["sd_x"]),
         ("vibration sd y", truth["realised_vibration_sd"][1], report["vibration"]["sd_y"])]
 for name, value, quantity in rows:
     estimate = "-" if quantity["value"] is None else f"{quantity['value']:.5g}"
     error = "" if quantity["standard_error"] is None else f"± {quantity['standard_error']:.2g}"
-    print(f"{name:<24} {value:>10.5g} {estimate:>10}  {error:<11} {quantity['unit'].replace('e-', 'e⁻').replace('^2', '²')}")
+    print(f"{name:<24} {value:>10.5g} {estimate:>10}  {error:<10} {quantity['unit'].replace('e-', 'e⁻').replace('^2', '²')}")
 PY
 echo "stack, truth and report: $work"
