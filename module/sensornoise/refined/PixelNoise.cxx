@@ -91,12 +91,11 @@ BetterLine(const StaticVariance & variance)
   return LinesByError(variance).front().line;
 }
 
-/** Whether levels and motion of all frames are known so well that small differences of the noise are not theirs. */
+/** Whether frames move so little that nothing of it is left in their residuals. */
 bool
-AreComparable(const FrameComparison & by)
+IsNearlyStill(const FrameComparison & by)
 {
-  const double vibration = std::max(by.scene.model.vibrationXPixels2, by.scene.model.vibrationYPixels2);
-  return !by.isLightLocal && vibration < InRefined.smallVibration;
+  return std::max(by.scene.model.vibrationXPixels2, by.scene.model.vibrationYPixels2) < InRefined.smallVibration;
 }
 
 /** The frames whose noise is not that of the others. Frames of two gains that have two levels make a line of the frames
@@ -107,9 +106,8 @@ CompareFrames(const StaticVariance &  variance,
               double                  sharedSquares,
               const ParallelFor &     parallelFor)
 {
-  const double vibration = std::max(by.scene.model.vibrationXPixels2, by.scene.model.vibrationYPixels2);
   // What is left of the motion of a frame is not its noise, and levels of tiles are not known under local light.
-  const double least = std::max(vibration > InRefined.smallVibration ? InRefined.leastUnlikeUnderMotion : 0.0,
+  const double least = std::max(IsNearlyStill(by) ? 0.0 : InRefined.leastUnlikeUnderMotion,
                                 by.isLightLocal ? InRefined.leastUnlikeUnderLocalLight : InRefined.leastUnlikeNoise);
   const std::vector<std::uint8_t> used = MaskOfUsed(variance.pixelUse);
   const FrameEnergies             flat(by.residuals, MaskOfFlatClasses(by.projected, used, parallelFor), parallelFor);
@@ -191,7 +189,7 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   const double shared = std::max(1.0, SharedSquares(noise.correlation.space));
   compare();
   noise.frames = CompareFrames(noise.variance, comparison, shared, parallelFor);
-  if (!noise.frames.HasSeveralKinds() && AreComparable(comparison))
+  if (!noise.frames.HasSeveralKinds() && !comparison.isLightLocal && IsNearlyStill(comparison))
   {
     const FrameEnergies energies(residuals, MaskOfUsed(noise.variance.pixelUse), parallelFor);
     noise.variance.parts.frames =
@@ -202,7 +200,7 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   {
     noise.correlation.rowLight = FindRowLight(residuals, parallelFor);
   }
-  if (!AreComparable(comparison)) // what is left of the motion of whole frames has the slopes of the scene, too
+  if (!IsNearlyStill(comparison)) // what is left of the motion of whole frames has the slopes of the scene, too
   {
     noise.correlation.localMotion = {};
   }
