@@ -32,10 +32,10 @@ def test_refined_is_the_default_and_has_errors(burst):
         assert is_near(report[name], truth)
         low, high = report[name]["interval95"]
         assert low < report[name]["value"] < high
-    assert "+-" in str(report)
+    assert "±" in str(report)
     published = itk.estimate_sensor_noise(burst, method="published")
     assert published["method"] == "published"
-    assert published["gain"]["standard_error"] is None and "+-" not in str(published)
+    assert published["gain"]["standard_error"] is None and "±" not in str(published)
     assert published["pixels"]["used"] < report["pixels"]["used"]
 
 
