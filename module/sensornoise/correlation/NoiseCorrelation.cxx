@@ -6,7 +6,6 @@
 #include "sensornoise/correlation/Constants.h"
 #include "sensornoise/correlation/CorrelationSums.h"
 #include "sensornoise/correlation/CovarianceLines.h"
-#include "sensornoise/correlation/LocalMotion.h"
 #include "sensornoise/correlation/SpaceCorrelation.h"
 #include "sensornoise/correlation/TemporalMixing.h"
 #include "sensornoise/correlation/TimeCorrelation.h"
@@ -261,7 +260,6 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const
   {
     SumOverSpace(sums, found);
     found.covarianceLines = FitCovarianceLines(sums, sums.Ring(1, found.reach));
-    found.localMotion = FindLocalMotion(residuals, parallelFor);
   }
   if (inTime || inSpace)
   {

@@ -190,12 +190,10 @@ AdviceOn(Divided divided)
   {
     case Divided::Phases:
       return "A mosaic given as mono, or rows or columns of several amplifiers: measure the planes of a colour mosaic "
-             "by "
-             "--bayer, other pixels by --mask";
+             "by --bayer, other pixels by --mask";
     case Divided::Frames:
       return "The camera changed while it recorded (gain, exposure, temperature), or frames were processed: measure "
-             "the "
-             "parts by themselves: --frames";
+             "the parts by themselves: --frames";
     case Divided::Places:
       break;
   }

@@ -3,6 +3,7 @@
 #include "sensornoise/refined/PixelNoise.h"
 
 #include "sensornoise/correlation/FrameEnergies.h"
+#include "sensornoise/correlation/LocalMotion.h"
 #include "sensornoise/correlation/NoiseResiduals.h"
 #include "sensornoise/correlation/RowLight.h"
 #include "sensornoise/pixels/FlatPixels.h"
@@ -200,13 +201,11 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   {
     noise.correlation.rowLight = FindRowLight(residuals, parallelFor);
   }
-  if (!IsNearlyStill(comparison)) // what is left of the motion of whole frames has the slopes of the scene, too
+  // What is left of the motion of whole frames has the slopes of the scene, too.
+  if (!noise.correlation.covarianceLines.empty() && IsNearlyStill(comparison))
   {
-    noise.correlation.localMotion = {};
-  }
-  else if (noise.correlation.HasLocalMotion())
-  {
-    noise.correlation.kind = NoiseKind::NotLinear;
+    noise.correlation.localMotion = FindLocalMotion(residuals, parallelFor);
+    noise.correlation.kind = noise.correlation.HasLocalMotion() ? NoiseKind::NotLinear : noise.correlation.kind;
   }
   const bool mayRepeat = noise.correlation.kind == NoiseKind::Temporal || noise.correlation.kind == NoiseKind::Enlarged;
   if (mayRepeat && repeated > InRefined.largestRepeatedShare)
