@@ -16,28 +16,6 @@ namespace
 {
 constexpr std::size_t Phases = LargestPeriod * LargestPeriod;
 
-struct PartSums
-{
-  double pixels{ 0.0 };
-  double level{ 0.0 };
-  double variance{ 0.0 };
-  double expected{ 0.0 };
-  double shot{ 0.0 };
-  double chance{ 0.0 };
-
-  PartSums &
-  operator+=(const PartSums & other)
-  {
-    pixels += other.pixels;
-    level += other.level;
-    variance += other.variance;
-    expected += other.expected;
-    shot += other.shot;
-    chance += other.chance;
-    return *this;
-  }
-};
-
 /** The side of a tile, a multiple of the largest period [pixels]. */
 std::size_t
 SideOfTile(const FrameGeometry & geometry)
@@ -78,17 +56,6 @@ SumTile(const VarianceData &           data,
   }
 }
 
-TileExcess
-ExcessOf(const PartSums & sums, double sharedSquares)
-{
-  TileExcess tile;
-  tile.pixels = sums.pixels;
-  tile.levelDn = sums.level / sums.pixels;
-  tile.shotFraction = sums.shot / sums.expected;
-  tile.excess = sums.variance / sums.expected - 1.0;
-  tile.error = std::sqrt(sharedSquares * sums.chance) / sums.expected;
-  return tile;
-}
 /** The phases of larger tiles: several tiles of \a side pixels together, \a across of which lie side by side. Phases do
  * not differ from place to place, and each tile has 16 of them. */
 std::vector<TileExcess>
@@ -119,7 +86,7 @@ PhasesOf(const std::vector<std::array<PartSums, Phases>> & sums,
     {
       if (large[i][phase].pixels >= 1.0)
       {
-        phases.push_back(ExcessOf(large[i][phase], sharedSquares));
+        phases.push_back(large[i][phase].Excess(sharedSquares));
         const double left = static_cast<double>(i % largeAcross) + 0.5;
         const double top = static_cast<double>(i / largeAcross) + 0.5;
         phases.back().x = std::min(1.0, left * largeSide / static_cast<double>(geometry.width));
@@ -131,6 +98,30 @@ PhasesOf(const std::vector<std::array<PartSums, Phases>> & sums,
   return phases;
 }
 } // namespace
+
+PartSums &
+PartSums::operator+=(const PartSums & other)
+{
+  pixels += other.pixels;
+  level += other.level;
+  variance += other.variance;
+  expected += other.expected;
+  shot += other.shot;
+  chance += other.chance;
+  return *this;
+}
+
+TileExcess
+PartSums::Excess(double sharedSquares) const
+{
+  TileExcess tile;
+  tile.pixels = pixels;
+  tile.levelDn = level / pixels;
+  tile.shotFraction = shot / expected;
+  tile.excess = variance / expected - 1.0;
+  tile.error = std::sqrt(sharedSquares * chance) / expected;
+  return tile;
+}
 
 PartTiles
 MakePartTiles(const VarianceData &  data,
@@ -163,7 +154,7 @@ MakePartTiles(const VarianceData &  data,
     }
     if (all.pixels >= InParts.leastTileShare * static_cast<double>(side * side))
     {
-      tiles.places.push_back(ExcessOf(all, reference.sharedSquares));
+      tiles.places.push_back(all.Excess(reference.sharedSquares));
       tiles.places.back().x = std::min(1.0, x);
       tiles.places.back().y = std::min(1.0, y);
     }

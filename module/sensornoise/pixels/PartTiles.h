@@ -27,6 +27,23 @@ struct TileExcess
   double      error{ 0.0 };        ///< its standard error, by sampling [1]
 };
 
+/** Sums over values: pixels, or pixels in some frames. */
+struct SensorNoise_EXPORT PartSums
+{
+  double pixels{ 0.0 };
+  double level{ 0.0 };
+  double variance{ 0.0 };
+  double expected{ 0.0 };
+  double shot{ 0.0 };
+  double chance{ 0.0 }; ///< variance of the sum of variances, if no two share noise [DN^4]
+
+  PartSums &
+  operator+=(const PartSums & other);
+  /** Without a place. \a sharedSquares: see JudgingLine. */
+  TileExcess
+  Excess(double sharedSquares) const;
+};
+
 /** What the variance of the pixels is held against. */
 struct PartReference
 {

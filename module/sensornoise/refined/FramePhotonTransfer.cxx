@@ -222,6 +222,17 @@ TileLevels::Of(double lightDn) const
   return m_OffsetDn + m_Illumination.array() * (lightDn + m_ZeroDn - m_OffsetDn);
 }
 
+Eigen::VectorXd
+VariancesOfFrames(const FrameEnergies & energies,
+                  const TileLevels &    levels,
+                  const VarianceLine &  line,
+                  Eigen::Index          tile)
+{
+  const Eigen::VectorXd level = levels.Of(energies.LightDn()(tile)).head(energies.Frames());
+  const double          least = InRefined.leastWeighedVariance * energies.SquaresDn2().row(tile).mean();
+  return (line.intercept + line.gain * level.array()).max(least);
+}
+
 VarianceCurve
 FitFramePhotonTransfer(const FrameEnergies & energies, const TileLevels & levels, const VarianceLine & start)
 {

@@ -38,6 +38,14 @@ private:
   double          m_ZeroDn;
 };
 
+/** The variance that \a line makes of the level of a \a tile in every frame; where the line is near 0 or below, a small
+ * part of the tile's mean square [DN^2]. */
+SensorNoise_EXPORT Eigen::VectorXd
+VariancesOfFrames(const FrameEnergies & energies,
+                  const TileLevels &    levels,
+                  const VarianceLine &  line,
+                  Eigen::Index          tile);
+
 /** The photon transfer of the frames: the line of the noise variance over the level, by what a place has of both in
  * bright and in dark frames. A flat field determines it as well as a scene with contrast, and differences between
  * pixels do not count. Estimator.md, 3.14.

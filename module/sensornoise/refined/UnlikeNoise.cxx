@@ -39,9 +39,7 @@ RatiosOfFrames(const FrameEnergies &   energies,
   std::vector<std::vector<double>> ofFrames(static_cast<std::size_t>(frames));
   for (Eigen::Index i = 0; i < energies.Tiles(); ++i)
   {
-    const Eigen::VectorXd level = levels.Of(energies.LightDn()(i)).head(frames);
-    const double          least = InRefined.leastWeighedVariance * energies.SquaresDn2().row(i).mean();
-    const Eigen::VectorXd variance = (line.intercept + line.gain * level.array()).max(least);
+    const Eigen::VectorXd variance = VariancesOfFrames(energies, levels, line, i);
     const Eigen::VectorXd expected = energies.ExpectedSquares(variance.cwiseProduct(noise));
     std::vector<double>   ratios;
     std::vector<double>   known;
