@@ -23,7 +23,7 @@ def test_other_frames_of_the_camera_fit(report, tmp_path):
     found = itk.check_noise_model(simulated(2, flicker_sd=0.02), report)
     assert found and found["verdict"] == "fits", found
     assert found["sentence"].startswith("variance 1.0") and found["sentence"].endswith("this model can be used")
-    assert str(found).endswith(found["sentence"])
+    assert str(found).endswith(found["sentence"].replace(" +- ", " ± "))
     assert all(band["fits"] for band in found["bands"]) and len(found["bands"]) >= 5
     assert json.loads(found.to_json()) == found == pickle.loads(pickle.dumps(found))
     (tmp_path / "report.json").write_text(report.to_json(), encoding="utf-8")
