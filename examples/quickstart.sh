@@ -5,12 +5,16 @@
 #
 #   bash examples/quickstart.sh                  a simulated burst: camera B, condition 3 of Sur & Grediac 2015
 #   bash examples/quickstart.sh FRAME...         your own raw frames in time order, or one stack file
+#
+# With SENSORNOISE_BUILT=1 it measures by the programs that build/bin holds, and neither installs nor builds.
 set -euo pipefail
 here="$(cd "$(dirname "$0")/.." && pwd)"
 source "$here/examples/setup.sh"
 
-sensornoise_install
-sensornoise_build "$here/build" -DBUILD_TESTING=OFF -DSensorNoise_BUILD_STUDIES=OFF
+if [ "${SENSORNOISE_BUILT:-}" != 1 ]; then
+  sensornoise_install
+  sensornoise_build "$here/build" -DBUILD_TESTING=OFF -DSensorNoise_BUILD_STUDIES=OFF
+fi
 
 if [ $# -gt 0 ]; then
   exec "$here/build/bin/estimate-sensor-noise" "$@"
