@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/files/RawLayout.h"
 
+#include "sensornoise/files/ByteOrders.h"
 #include "sensornoise/files/FileBytes.h"
 #include "sensornoise/files/FrameFormats.h"
 #include "sensornoise/files/FrameSizes.h"
@@ -12,8 +13,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace sensornoise
@@ -210,6 +214,33 @@ ReadCount(const std::string & text, const std::string & what, const std::string 
   return *number;
 }
 
+/** Of pixels of 16 bits, what is to be said where the first frame looks as if its bytes were swapped; else empty. */
+std::string
+WarningOfByteOrder(FileBytes & bytes, const RawLayout & layout)
+{
+  const FramePixel pixel = layout.sample.pixel;
+  if (layout.sample.packing != SamplePacking::Whole || layout.rowBytes % 2 != 0 ||
+      (pixel != FramePixel::UnsignedShort && pixel != FramePixel::Short))
+  {
+    return "";
+  }
+  constexpr std::uint64_t    most = std::uint64_t{ 1 } << 16; // pixels
+  const auto                 pixels = static_cast<std::size_t>(std::min(layout.width * layout.height, most));
+  std::vector<unsigned char> held(2 * pixels);
+  bytes.Read(layout.skipBytes, held.data(), held.size());
+  const ByteOrders     orders = CompareByteOrders(held.data(), pixels, pixel == FramePixel::Short);
+  const bool           isBig = layout.sample.isBigEndian;
+  const BytesInOrder & given = isBig ? orders.big : orders.little;
+  if (!given.IsSwapped(isBig ? orders.little : orders.big))
+  {
+    return "";
+  }
+  const std::string type = pixel == FramePixel::Short ? "int16" : "uint16";
+  return "its bytes look swapped, as neighbouring pixels differ far less in the other order. Use the type " + type +
+         (isBig ? "le" : "be") + ": --raw " + std::to_string(layout.width) + "x" + std::to_string(layout.height) + ":" +
+         type + (isBig ? "le" : "be");
+}
+
 /** Not in the table of formats: nothing tells such a file. */
 const FrameFormat RawFormat{ "raw frames without a header", nullptr, nullptr, nullptr, nullptr };
 } // namespace
@@ -260,6 +291,7 @@ InspectRawFile(const std::string & name, const RawLayout & layout)
   places.endBytes = layout.endBytes;
   places.sample = layout.sample;
   SetFramePlaces(file, places, bytes.Size(), std::nullopt);
+  file.warning = WarningOfByteOrder(bytes, layout);
   RequireUnchanged(file);
   return file;
 }

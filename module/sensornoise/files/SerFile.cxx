@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/files/SerFile.h"
 
+#include "sensornoise/files/ByteOrders.h"
 #include "sensornoise/files/FileError.h"
 #include "sensornoise/files/FrameSizes.h"
 #include "sensornoise/files/PackedFrames.h"
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstdlib>
 #include <vector>
 
 namespace sensornoise
@@ -78,56 +78,25 @@ BayerPatternOfSer(const FrameFile & file, std::uint64_t color)
   return "";
 }
 
-/** What the first frame says, read either way. */
-struct BytesInOrder
-{
-  double       roughness{ 0.0 }; // sum of the differences of neighbours, those of the same colour of a mosaic
-  unsigned int largest{ 0 };
-  bool         usesLowByte{ false };
-
-  void
-  Add(unsigned int pixel, unsigned int neighbour)
-  {
-    roughness += std::abs(static_cast<double>(pixel) - static_cast<double>(neighbour));
-    largest = std::max(largest, pixel);
-    usesLowByte = usesLowByte || (pixel & 255) != 0;
-  }
-};
-
-struct FirstFrame
-{
-  BytesInOrder little{};
-  BytesInOrder big{};
-};
-
-FirstFrame
+/** The first frame, or its first million pixels. */
+ByteOrders
 ReadFirstFrame(FileBytes & bytes, const SerHeader & header)
 {
   constexpr std::size_t most = std::size_t{ 1 } << 20;
   const auto            pixels = static_cast<std::size_t>(std::min<std::uint64_t>(header.width * header.height, most));
   std::vector<unsigned char> held(2 * pixels);
   bytes.Read(SerHeaderBytes, held.data(), held.size());
-  FirstFrame frame;
-  for (std::size_t i = 2; i < pixels; ++i)
-  {
-    const unsigned char * const pixel = held.data() + 2 * i;
-    const unsigned char * const other = pixel - 4;
-    frame.little.Add(pixel[0] + 256U * pixel[1], other[0] + 256U * other[1]);
-    frame.big.Add(pixel[1] + 256U * pixel[0], other[1] + 256U * other[0]);
-  }
-  return frame;
+  return CompareByteOrders(held.data(), pixels, false);
 }
 
 /** Whether the highest byte comes first, see InspectSer(). */
 bool
-IsBigEndian(const SerHeader & header, const FirstFrame & frame)
+IsBigEndian(const SerHeader & header, const ByteOrders & frame)
 {
-  constexpr double     clearly = 4.0;
   const bool           isBig = header.isLittleEndian != 0;
   const BytesInOrder & said = isBig ? frame.big : frame.little;
   const BytesInOrder & other = isBig ? frame.little : frame.big;
-  // where one byte is always 0, both orders make sense
-  return said.usesLowByte && other.usesLowByte && said.roughness > clearly * other.roughness ? !isBig : isBig;
+  return said.IsSwapped(other) ? !isBig : isBig;
 }
 } // namespace
 
@@ -175,7 +144,7 @@ InspectSer(FileBytes & bytes, FrameFile & file, const BeforeInflating & /*before
     file.camera.bitDepth = static_cast<unsigned int>(header.depth);
     return;
   }
-  const FirstFrame frame = ReadFirstFrame(bytes, header);
+  const ByteOrders frame = ReadFirstFrame(bytes, header);
   places.sample.isBigEndian = IsBigEndian(header, frame);
   SetFramePlaces(file, places, bytes.Size(), header.frames, SerTimeBytes);
   // 16 is what programs write for any sensor, and some move the codes up
