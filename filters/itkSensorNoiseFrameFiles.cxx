@@ -47,9 +47,10 @@ RequireAlike(const FrameFile & found, const FrameFile & first)
     const auto size = [](const FrameFile & file) {
       return std::to_string(file.width) + " x " + std::to_string(file.height);
     };
-    throw FileError(found.name,
-                    size(found) + " pixels, but " + first.name + " has " + size(first) +
-                      "; all frames must have the same size");
+    throw FileError(
+      found.name,
+      size(found) + " pixels, but " + first.name + " has " + size(first) +
+        "; all frames must have the same size. Leave the file out, or name the frames by a pattern, 'frame_*.tif'");
   }
   if (found.pixel != first.pixel)
   {

@@ -7,9 +7,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
+#include <set>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace sensornoise::tools
@@ -29,7 +32,7 @@ try
     throw FileError(file,
                     "has " + std::to_string(list.width) + " x " + std::to_string(list.height) +
                       " pixels, but the frames have " + std::to_string(frames.width) + " x " +
-                      std::to_string(frames.height));
+                      std::to_string(frames.height) + "; expected the same size");
   }
   const itk::Image<double, 2>::Pointer image = ReadImage(list);
   auto                                 mask = itk::Image<unsigned char, 2>::New();
@@ -52,6 +55,29 @@ catch (const FileError & error)
   throw std::runtime_error(std::string("the mask ") + error.what());
 }
 
+void
+RequireOwnDarkFrames(const std::vector<std::string> & dark, const std::vector<std::string> & frames)
+{
+  const auto placeOf = [](const std::string & name) {
+    std::error_code ignored;
+    return std::filesystem::weakly_canonical(name, ignored);
+  };
+  std::set<std::filesystem::path> places;
+  for (const std::string & name : frames)
+  {
+    places.insert(placeOf(name));
+  }
+  for (const std::string & name : dark)
+  {
+    if (places.count(placeOf(name)) != 0)
+    {
+      throw std::runtime_error(name +
+                               " is given as a frame and as a dark frame (--dark); expected dark frames that are "
+                               "files of their own");
+    }
+  }
+}
+
 FrameList
 OpenDark(const std::vector<std::string> & files,
          const FrameList &                frames,
@@ -63,7 +89,8 @@ OpenDark(const std::vector<std::string> & files,
   if (DescribeFrame(dark) != DescribeFrame(frames))
   {
     throw std::runtime_error("the dark frames have " + DescribeFrame(dark) + " (" + files.front() +
-                             "), but the frames have " + DescribeFrame(frames));
+                             "), but the frames have " + DescribeFrame(frames) +
+                             "; record dark frames with the settings of the frames");
   }
   return dark;
 }

@@ -8,26 +8,33 @@
 #include "tools/FileNames.h"
 #include "tools/HelpText.h"
 #include "tools/LowerCase.h"
+#include "tools/OptionHints.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace sensornoise::tools
 {
 namespace
 {
-/** Reads "a,b,...", exactly \a count numbers. */
+/** Reads "a,b,...", exactly \a count numbers, whose \a form is said where they are not. */
 template <typename TNumber>
 std::vector<TNumber>
-ReadNumbers(const std::string & option, const std::string & text, char separator, std::size_t count)
+ReadNumbers(const std::string & option,
+            const std::string & text,
+            char                separator,
+            std::size_t         count,
+            const std::string & form)
 {
   std::vector<TNumber> numbers;
   std::istringstream   stream(text);
@@ -37,15 +44,17 @@ ReadNumbers(const std::string & option, const std::string & text, char separator
     TNumber            number{};
     if (!(field >> number) || !field.eof())
     {
-      throw CLI::ValidationError(option, "\"" + part + "\" in \"" + text + "\" is not a number");
+      throw CLI::ValidationError(option,
+                                 "\"" + part + "\" in \"" + text + "\" is not a " +
+                                   (std::is_integral_v<TNumber> ? "whole number" : "number") + "; expected " + form);
     }
     numbers.push_back(number);
   }
   if (numbers.size() != count)
   {
     throw CLI::ValidationError(option,
-                               "\"" + text + "\" holds " + std::to_string(numbers.size()) + " numbers; expected " +
-                                 std::to_string(count));
+                               "\"" + text + "\" holds " + std::to_string(numbers.size()) +
+                                 (numbers.size() == 1 ? " number" : " numbers") + "; expected " + form);
   }
   return numbers;
 }
@@ -55,7 +64,7 @@ ReadCodes(EstimateOptions & options, const EstimateTexts & texts)
 {
   if (texts.bitDepth != "auto")
   {
-    options.bitDepth = ReadNumbers<unsigned int>("--bit-depth", texts.bitDepth, ',', 1)[0];
+    options.bitDepth = ReadNumbers<unsigned int>("--bit-depth", texts.bitDepth, ',', 1, "auto or 1 to 16")[0];
     if (options.bitDepth < 1 || options.bitDepth > 16)
     {
       throw CLI::ValidationError("--bit-depth", texts.bitDepth + " is not auto or a number from 1 to 16");
@@ -63,7 +72,7 @@ ReadCodes(EstimateOptions & options, const EstimateTexts & texts)
   }
   if (!texts.step.empty())
   {
-    options.step = ReadNumbers<double>("--step", texts.step, ',', 1)[0];
+    options.step = ReadNumbers<double>("--step", texts.step, ',', 1, "one number above 0")[0];
     if (!(options.step > 0.0))
     {
       throw CLI::ValidationError("--step", texts.step + " is not a positive number");
@@ -71,7 +80,11 @@ ReadCodes(EstimateOptions & options, const EstimateTexts & texts)
   }
   if (!texts.clip.empty())
   {
-    const auto levels = ReadNumbers<double>("--clip", texts.clip, ',', 2);
+    const auto levels = ReadNumbers<double>("--clip", texts.clip, ',', 2, "LOW,HIGH");
+    if (levels[0] >= levels[1])
+    {
+      throw CLI::ValidationError("--clip", texts.clip + " ends below its beginning; expected LOW,HIGH with LOW < HIGH");
+    }
     options.clipLow = levels[0];
     options.clipHigh = levels[1];
   }
@@ -84,7 +97,7 @@ ReadLevelRange(EstimateOptions & options, const std::string & text)
   {
     return;
   }
-  const auto levels = ReadNumbers<double>("--level-range", text, ',', 2);
+  const auto levels = ReadNumbers<double>("--level-range", text, ',', 2, "LOW,HIGH");
   if (!(levels[0] < levels[1]))
   {
     throw CLI::ValidationError("--level-range", text + " holds no level; expected LOW,HIGH with LOW < HIGH");
@@ -120,7 +133,7 @@ ReadOffset(EstimateOptions & options, const EstimateTexts & texts)
   if (!texts.offset.empty())
   {
     const bool hasError = texts.offset.find(',') != std::string::npos;
-    const auto numbers = ReadNumbers<double>("--offset", texts.offset, ',', hasError ? 2 : 1);
+    const auto numbers = ReadNumbers<double>("--offset", texts.offset, ',', hasError ? 2 : 1, "VALUE or VALUE,ERROR");
     options.offset = numbers[0];
     options.offsetStandardError = hasError ? numbers[1] : 0.0;
   }
@@ -142,7 +155,7 @@ ReadRollingShutter(EstimateOptions & options, const std::string & text)
   else if (text != "auto")
   {
     options.rollingShutter = RollingShutter::Fixed;
-    options.sigmaRows = ReadNumbers<double>("--rolling-shutter", text, ',', 1)[0];
+    options.sigmaRows = ReadNumbers<double>("--rolling-shutter", text, ',', 1, "auto, off or a number of rows")[0];
     if (!(options.sigmaRows > 0.0))
     {
       throw CLI::ValidationError("--rolling-shutter", text + " is not auto, off or a positive number of rows");
@@ -166,6 +179,12 @@ RequirePlotName(const std::string & name)
 RefuseMissingFrames(const EstimateOptions & options)
 {
   const std::string tool = "estimate-sensor-noise ";
+  if (LowerCaseEnding(options.json) != ".json" && std::filesystem::exists(options.json))
+  {
+    throw std::invalid_argument("no FRAME is left: --json takes the name behind it, " + options.json +
+                                ", for the report. Name the report, too: " + tool + options.json +
+                                " --json report.json");
+  }
   if (options.dark.empty() && options.check.empty())
   {
     throw std::invalid_argument("no FRAME was given; expected image files, a folder or a stack: " + tool +
@@ -213,16 +232,18 @@ ReadRegion(EstimateOptions & options, const EstimateTexts & texts)
 {
   if (!texts.roi.empty())
   {
-    const auto numbers = ReadNumbers<long>("--roi", texts.roi, ',', 4);
+    const auto numbers = ReadNumbers<long>("--roi", texts.roi, ',', 4, "X,Y,W,H in pixels");
     options.roi = { numbers[0], numbers[1], numbers[2], numbers[3] };
     if (numbers[0] < 0 || numbers[1] < 0 || numbers[2] < 1 || numbers[3] < 1)
     {
-      throw CLI::ValidationError("--roi", texts.roi + " has a negative corner or no pixels");
+      throw CLI::ValidationError("--roi",
+                                 texts.roi + " has a negative corner or no pixels; expected X,Y,W,H in pixels");
     }
   }
   if (!texts.frames.empty())
   {
-    const auto numbers = ReadNumbers<long>("--frames", texts.frames, ':', 2);
+    const auto numbers =
+      ReadNumbers<long>("--frames", texts.frames, ':', 2, "A:B for the frames A to B-1, counted from 0");
     if (numbers[0] < 0 || numbers[1] <= numbers[0])
     {
       throw CLI::ValidationError("--frames", texts.frames + " holds no frame; expected A:B with 0 <= A < B");
@@ -255,6 +276,11 @@ EstimateOptions::Parse(int argc, char ** argv)
   {
     return app.exit(request); // --help or --version
   }
+  catch (const CLI::ExtrasError &)
+  {
+    throw std::invalid_argument(UnknownOption(app, app.remaining(true).front()));
+  }
+  RequireValues(app);
   RequireWork(app, *this);
   hasCheck = app.count("--check") > 0;
   check.erase(std::remove(check.begin(), check.end(), ""), check.end()); // what CLI11 makes of no name
@@ -283,7 +309,8 @@ EstimateOptions::SelectFiles(bool areStacks)
   if (frames->second > files.size())
   {
     throw std::invalid_argument("--frames ends at " + std::to_string(frames->second) + ", but there are " +
-                                std::to_string(files.size()) + " files");
+                                std::to_string(files.size()) + " files; expected A:B with B of at most " +
+                                std::to_string(files.size()));
   }
   files = { files.begin() + static_cast<std::ptrdiff_t>(frames->first),
             files.begin() + static_cast<std::ptrdiff_t>(frames->second) };

@@ -65,7 +65,7 @@ std::vector<std::string>
 ImagesIn(const std::string & folder, bool areRaw)
 {
   std::vector<std::string> names;
-  std::size_t              others = 0;
+  std::vector<std::string> others;
   for (const fs::directory_entry & entry : fs::directory_iterator(folder))
   {
     if (!entry.is_regular_file() || entry.path().filename().string().front() == '.')
@@ -73,21 +73,24 @@ ImagesIn(const std::string & folder, bool areRaw)
       continue;
     }
     const bool isTaken = areRaw || (IsImage(entry.path()) && !IsHeaderOfOther(entry.path()));
-    others += isTaken ? 0 : 1;
-    if (isTaken)
-    {
-      names.push_back(entry.path().string());
-    }
+    (isTaken ? names : others).push_back(entry.path().string());
+  }
+  if (names.empty() && others.empty())
+  {
+    throw std::invalid_argument(folder + ": there is no file in this folder, and folders in it are not searched; "
+                                         "expected the folder of the frames");
   }
   if (names.empty())
   {
-    throw std::invalid_argument(folder + ": none of the " + std::to_string(others) +
+    throw std::invalid_argument(folder + ": none of the " + std::to_string(others.size()) +
                                 " files in this folder is an image; expected " + NamesOfFrameFormats());
   }
-  if (others > 0)
+  if (!others.empty())
   {
-    std::cerr << "note: " << folder << ": " << others << " of " << names.size() + others
-              << " files are no images and are left out\n";
+    std::cerr << "note: " << folder << ": " << others.size() << " of " << names.size() + others.size() << " files "
+              << (others.size() == 1 ? "is no image and is" : "are no images and are") << " left out, "
+              << (others.size() == 1 ? "" : "the first ") << *std::min_element(others.begin(), others.end(), IsBefore)
+              << (others.size() == 1 ? "" : " by name") << '\n';
   }
   return names;
 }
@@ -157,6 +160,11 @@ ExpandNames(const std::vector<std::string> & names, bool areRaw)
   NoteOrderOfText(names);
   for (const std::string & name : names)
   {
+    if (name.empty())
+    {
+      throw std::invalid_argument("the name of a file is empty, as of a shell's variable that is not set; expected the "
+                                  "names of image files");
+    }
     std::error_code          ignored;
     const bool               isPattern = name.find_first_of("*?[") != std::string::npos && !fs::exists(name, ignored);
     std::vector<std::string> found{ name };

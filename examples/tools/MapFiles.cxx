@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -54,14 +55,23 @@ MapFiles::NamesIn(const fs::path & folder, bool hasDark)
 MapFiles::MapFiles(const fs::path & folder, bool hasDark)
 {
   std::error_code error;
-  for (fs::path path = folder; !path.empty() && !fs::exists(path, error); path = path.parent_path())
+  fs::path        path = folder;
+  for (; !path.empty() && !fs::exists(path, error); path = path.parent_path())
   {
     m_Made.insert(m_Made.begin(), path);
   }
-  for (const fs::path & path : m_Made)
+  if (fs::is_regular_file(path, error))
   {
-    m_AtSignal.emplace_back(fs::absolute(path, error).string());
-    fs::create_directory(path, error);
+    throw std::runtime_error("cannot write maps to " + folder.string() + " (--maps): " + path.string() +
+                             " is a file; expected a folder");
+  }
+  for (const fs::path & made : m_Made)
+  {
+    m_AtSignal.emplace_back(fs::absolute(made, error).string());
+    if (!fs::create_directory(made, error) && error)
+    {
+      throw std::runtime_error("cannot make the folder " + made.string() + " (--maps): " + error.message());
+    }
   }
   for (const std::string & name : NamesIn(folder, hasDark))
   {

@@ -84,9 +84,12 @@ SelectRegion(const EstimateOptions & options, const FrameList & list, const itk:
   }
   if (!whole.IsInside(region))
   {
-    throw std::invalid_argument("--roi and --frames ask for " + options.DescribeRegion() + ", but the stack has " +
+    const std::string names = options.roi && options.cut ? "--roi and --frames ask"
+                              : options.roi              ? "--roi asks"
+                                                         : "--frames asks";
+    throw std::invalid_argument(names + " for " + options.DescribeRegion() + ", but the stack has " +
                                 std::to_string(list.width) + " x " + std::to_string(list.height) + " pixels and " +
-                                std::to_string(list.frames) + " frames");
+                                std::to_string(list.frames) + " frames, counted from 0; expected a part of it");
   }
   return region;
 }
@@ -186,8 +189,8 @@ NoteMemory(const EstimateOptions & options, const itk::ImageRegion<3> & region)
   if (options.memoryLimit == 0)
   {
     std::cerr << ", or " << TextOfBytes(need.BesideProjections()) << " and " << TextOfBytes(need.OfProjections(1))
-              << " for each series of light and motion that is found (2 to 20), if that is more; --memory-limit reads "
-                 "the stack more often instead";
+              << " for each temporal component of illumination and motion (2 to 20), if that is more; --memory-limit "
+                 "reads the stack more often instead";
   }
   std::cerr << '\n';
 }

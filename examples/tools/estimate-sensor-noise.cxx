@@ -80,7 +80,8 @@ WriteReport(const MeasuredStack &        measured,
   }
   if (!std::cout.flush())
   {
-    throw std::runtime_error("cannot write the result to standard output: it was not taken");
+    throw std::runtime_error(
+      "cannot write the result to standard output: it is full or closed. Write a file: --json FILE");
   }
   if (json && !isFile)
   {
@@ -206,7 +207,8 @@ RunComparison(const EstimateOptions & options)
   }
   if (!options.quiet && !(std::cout << ForStandardOutput(MakeText(comparison)) << std::flush))
   {
-    throw std::runtime_error("cannot write the result to standard output: it was not taken");
+    throw std::runtime_error(
+      "cannot write the result to standard output: it is full or closed. Write a file: --plot FILE");
   }
   const bool isUsable =
     std::any_of(comparison.rows.begin(), comparison.rows.end(), [](const auto & row) { return row.report.IsUsable(); });
@@ -218,6 +220,7 @@ Run(EstimateOptions & options)
 {
   SetItkThreads(options.threads);
   RequireAbilities(options);
+  RequireOwnDarkFrames(options.dark, options.files);
   // whether they can be written is found before the work begins
   std::optional<PendingFile> json;
   if (options.HasReportFile())

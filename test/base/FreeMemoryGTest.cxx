@@ -18,6 +18,7 @@ using namespace sensornoise;
 
 TEST(FreeMemory, BytesAsPeopleReadThem)
 {
+  EXPECT_EQ(TextOfBytes(4.0), "4 bytes");
   EXPECT_EQ(TextOfBytes(5e5), "0.5 MB");
   EXPECT_EQ(TextOfBytes(2.436e9), "2.44 GB");
   EXPECT_EQ(TextOfBytes(1.6e12), "1.6 TB");

@@ -151,7 +151,7 @@ TEST_F(EstimateDarkTool, WrongUseIsRefused)
   IsRefused(stack + " --offset 100 --method published", { "--offset", "published", "--method refined" });
   IsRefused(stack + " --dark d.mha --method published", { "--dark", "published", "--method refined" });
   IsRefused(stack + " --offset much", { "--offset", "much", "not a number" });
-  IsRefused(stack + " --offset 1,2,3", { "--offset", "holds 3 numbers", "expected 2" });
+  IsRefused(stack + " --offset 1,2,3", { "--offset", "holds 3 numbers", "expected VALUE or VALUE,ERROR" });
   IsRefused(stack + " --offset 100,-1", { "100", "standard error of -1", "expected" });
   IsRefused(stack + " --dark nowhere.mha", { "nowhere.mha", "does not exist" });
   IsRefused("--dark d.mha s.mha",

@@ -90,7 +90,7 @@ TEST_F(EstimateLevelRangeTool, ARangeThatHoldsAllLevelsChangesNothingElse)
 TEST_F(EstimateLevelRangeTool, WrongUseIsRefused)
 {
   const std::string stack = Write("s.mha", MakeBurst().GetPointer());
-  IsRefused(stack + " --level-range 500", { "--level-range", "\"500\" holds 1 numbers", "expected 2" });
+  IsRefused(stack + " --level-range 500", { "--level-range", "\"500\" holds 1 number", "expected LOW,HIGH" });
   IsRefused(stack + " --level-range 500,high", { "--level-range", "\"high\"", "not a number" });
   IsRefused(stack + " --level-range 500,500", { "--level-range", "500,500 holds no level", "LOW < HIGH" });
   IsRefused(stack + " --level-range 500,2000 --method published",

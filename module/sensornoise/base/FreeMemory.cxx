@@ -138,8 +138,12 @@ std::string
 TextOfBytes(double bytes)
 {
   const std::array<const char *, 4> units{ "MB", "GB", "TB", "PB" };
-  double                            value = bytes / 1e6;
-  std::size_t                       unit = 0;
+  if (bytes < 1e3)
+  {
+    return std::to_string(static_cast<int>(bytes)) + " bytes";
+  }
+  double      value = bytes / 1e6;
+  std::size_t unit = 0;
   for (; value >= 1000.0 && unit + 1 < units.size(); ++unit)
   {
     value /= 1000.0;
