@@ -129,7 +129,7 @@ TEST(NoiseRegressionEstimator, DataThatContradictTheModelFail)
     ImageOf<FrameType>(Size, [&](const auto & index) { return 9000.0 - 2.0 * estimator->GetMean()->GetPixel(index); }));
   expectFailure("slope -2 DN");
   estimator->SetMask(ConstantImage<MaskType>(Size, 0));
-  expectFailure("the regression has 0 pixels");
+  expectFailure("the 0 pixels of the regression");
 }
 
 TEST(NoiseRegressionEstimator, ReadNoiseBelowItsErrorsIsNotIdentifiable)

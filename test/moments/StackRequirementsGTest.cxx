@@ -21,6 +21,6 @@ TEST(SensorNoiseStackRequirements, NoMoreFramesThanHaveExactSums)
   catch (const std::invalid_argument & error)
   {
     EXPECT_EQ(std::string(error.what()),
-              "the stack has 4194305 frames; expected at most 4194304, up to which sums are exact");
+              "the stack has 4194305 frames; expected at most 4194304. Measure a part of them: --frames");
   }
 }

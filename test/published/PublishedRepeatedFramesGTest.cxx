@@ -48,6 +48,7 @@ TEST(SensorNoisePublishedRepeatedFrames, TooFewDistinctOnesAreRefused)
   EXPECT_FALSE(report.IsUsable());
   EXPECT_EQ(report.framesDistinct, 4U);
   EXPECT_TRUE(HasWarning(report, WarningCode::RepeatedFrames));
-  EXPECT_EQ(report.warnings.back().message,
-            "equal frames are counted once, and only 4 different frames are left; expected at least 5");
+  EXPECT_EQ(
+    report.warnings.back().message,
+    "only 4 distinct frames are left, as equal frames are counted once; expected at least 5. Record more frames");
 }

@@ -184,7 +184,7 @@ TEST(SensorNoiseKnownOffset, OffsetThatTheDataContradictIsNoticed)
   EXPECT_TRUE(HasWarning(ReportOf(stack, KnownOffset{ 900.0, 0.1 }), WarningCode::OffsetOutOfRange));
   EXPECT_FALSE(HasWarning(ReportOf(stack, KnownOffset{ 100.0, 0.1 }), WarningCode::OffsetOutOfRange));
   const std::string given = MakeText(ReportOf(stack, KnownOffset{ 900.0, 0.1 }));
-  EXPECT_NE(given.find("the given offset is 900 DN, but a read noise above 0 and the darkest pixels allow "),
+  EXPECT_NE(given.find("the given offset is 900 DN, but the darkest pixels and a read noise above 0 allow "),
             std::string::npos)
     << given;
   EXPECT_NE(given.find("measure it with dark frames (--dark)"), std::string::npos) << given;
@@ -192,8 +192,7 @@ TEST(SensorNoiseKnownOffset, OffsetThatTheDataContradictIsNoticed)
   dark.darkFrames = 1;
   const std::string exchanged = MakeText(ReportOf(stack, dark));
   EXPECT_NE(exchanged.find("the mean level of the dark frames is 900 DN"), std::string::npos) << exchanged;
-  EXPECT_NE(exchanged.find("are frames and dark frames exchanged, or was another setting used"), std::string::npos)
-    << exchanged;
+  EXPECT_NE(exchanged.find("are frames and dark frames exchanged?"), std::string::npos) << exchanged;
   EXPECT_EQ(exchanged.find("infinity"), std::string::npos) << exchanged;
 }
 

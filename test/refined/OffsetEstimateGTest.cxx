@@ -82,22 +82,22 @@ TEST(SensorNoiseOffsetEstimate, WhatKeepsTheFlickerFromTellingItIsSaid)
   EXPECT_TRUE(refusedWith([](Results & r) { r.polished.line.isLevelMotion = true; }, "the scene is a ramp"));
   EXPECT_TRUE(refusedWith([](Results & r) { r.polished.line.flickerZ = 6.0; }, "the flicker"));
   EXPECT_TRUE(refusedWith([](Results & r) { r.polished.line.low = -std::numeric_limits<double>::infinity(); },
-                          "the offset's interval"));
+                          "the flicker leaves the offset without bounds"));
   // A quarter of 3,000 DN.
-  EXPECT_TRUE(refusedWith([](Results & r) { r.polished.line.high = -250.9; }, "the offset's interval"));
-  EXPECT_FALSE(refusedWith([](Results & r) { r.polished.line.high = -251.1; }, "the offset's interval"));
+  EXPECT_TRUE(refusedWith([](Results & r) { r.polished.line.high = -250.9; }, "the interval of the offset"));
+  EXPECT_FALSE(refusedWith([](Results & r) { r.polished.line.high = -251.1; }, "the interval of the offset"));
 }
 
 TEST(SensorNoiseOffsetEstimate, LimitsHoldButForThreeOfItsErrors)
 {
   Results results;
   results.limits.highestDn = 98.4; // 1.6 DN below: 3.2 errors
-  EXPECT_TRUE(results.IsRefused("the flicker's zero, 100 DN"));
+  EXPECT_TRUE(results.IsRefused("the level that does not flicker, 100 DN"));
   results.limits.highestDn = 98.6;
   EXPECT_EQ(results.Estimate().obstacle, "");
   results.limits.highestDn = 150.0;
   results.limits.lowestDn = 101.6;
-  EXPECT_TRUE(results.IsRefused("the flicker's zero, 100 DN"));
+  EXPECT_TRUE(results.IsRefused("the level that does not flicker, 100 DN"));
   // The error of the intercept, 0.1 DN^2 over a gain of 1 DN/e-, moves that end, too.
   results.gain.covariance(1, 1) = 0.01;
   EXPECT_EQ(results.Estimate().obstacle, "");
@@ -113,9 +113,9 @@ TEST(SensorNoiseOffsetEstimate, WhereLightIsLocalTheResponsesToItTell)
   EXPECT_DOUBLE_EQ(offset.valueDn, 102.0);
   EXPECT_DOUBLE_EQ(offset.standardErrorDn, 1.0);
   results.polished.localOffset->phi = 4.1;
-  EXPECT_TRUE(results.IsRefused("the responses to the lamps do not meet"));
+  EXPECT_TRUE(results.IsRefused("the lamps do not agree on one offset"));
   results.polished.localOffset.reset();
-  EXPECT_TRUE(results.IsRefused("the light changes differently over the frame"));
+  EXPECT_TRUE(results.IsRefused("the illumination changes differently over the frame"));
   results.polished.isOffsetDrift = true; // then it is no light, and the flicker counts
   EXPECT_TRUE(results.IsRefused("the flicker"));
 }

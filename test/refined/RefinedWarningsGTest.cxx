@@ -234,7 +234,7 @@ TEST(SensorNoiseRefinedWarnings, SkippedBlocksAreNoFilter)
   const Report report = Measure(stack, {}).GetReport();
   EXPECT_NE(report.gain.status, EstimateStatus::Identified) << MakeText(report);
   ASSERT_TRUE(HasWarning(report, WarningCode::NoiseNotLinear)) << MakeText(report);
-  EXPECT_NE(MakeText(report).find("repeat that of the frame before"), std::string::npos) << MakeText(report);
+  EXPECT_NE(MakeText(report).find("repeat their value in the frame before"), std::string::npos) << MakeText(report);
 }
 
 TEST(SensorNoiseRefinedWarnings, GainNotUniform)

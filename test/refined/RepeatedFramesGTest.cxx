@@ -220,7 +220,8 @@ TEST(SensorNoiseRepeatedFrames, TooFewDistinctOnesAreRefused)
     EXPECT_EQ(report.framesDistinct, distinct);
     EXPECT_TRUE(HasWarning(report, WarningCode::RepeatedFrames));
     EXPECT_EQ(report.warnings.back().code, WarningCode::NothingToMeasure);
-    const std::string found = "only " + std::to_string(distinct) + (distinct == 1 ? " frame is" : " different frames");
+    const std::string found =
+      "only " + std::to_string(distinct) + (distinct == 1 ? " distinct frame is" : " distinct frames");
     EXPECT_NE(report.warnings.back().message.find(found), std::string::npos) << report.warnings.back().message;
     EXPECT_NE(report.warnings.back().message.find("expected at least 5"), std::string::npos);
   }

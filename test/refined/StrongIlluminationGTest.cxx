@@ -152,7 +152,8 @@ TEST(SensorNoiseStrongIllumination, FewIlluminatedFramesAreNoLocalLight)
       const Report & report = method.GetReport();
       const bool     isRolling = periodRows > 0.0;
       EXPECT_EQ(HasWarning(report, WarningCode::LocalLight), isRolling) << seed;
-      EXPECT_EQ(MakeText(report).find("(2 further series)") != std::string::npos, isRolling) << MakeText(report);
+      EXPECT_EQ(MakeText(report).find("(2 further temporal components)") != std::string::npos, isRolling)
+        << MakeText(report);
       ASSERT_EQ(report.gain.status, EstimateStatus::Identified) << periodRows << ' ' << seed;
       EXPECT_NEAR(*report.gain.value, 0.5, 4.0 * *report.gain.standardError) << periodRows << ' ' << seed;
       // Of 62 degrees of freedom 1 +- 0.18.

@@ -129,3 +129,10 @@ TEST(SensorNoiseReportTable, VarianceSlopeHasALineWhereItIsNotTheGain)
   report.gain = Quantity::Without(EstimateStatus::Failed);
   EXPECT_EQ(LineOf(report, "variance slope"), "variance slope                  0.245  DN/e\u207B    identified");
 }
+
+TEST(SensorNoiseReportTable, AReportWithoutPixelsHasNoShareOfThem)
+{
+  const std::string text = MakeTable(Report());
+  EXPECT_NE(text.find("0 of 0 pixels used (0.0 %)"), std::string::npos) << text;
+  EXPECT_EQ(text.find("nan"), std::string::npos) << text;
+}

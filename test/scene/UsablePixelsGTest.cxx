@@ -122,8 +122,9 @@ TEST(SensorNoiseUsablePixels, CoarseCodesAreRefusedAboveAFifth)
   catch (const NothingToMeasure & error)
   {
     EXPECT_EQ(error.GetCode(), WarningCode::CodesTooCoarse);
-    EXPECT_EQ(std::string(error.what()),
-              "the noise of 20.1 % of the pixels, the darkest, is below half a code step of 4 DN, where the codes hide "
-              "it: use more bits, or a higher analogue gain");
+    EXPECT_EQ(
+      std::string(error.what()),
+      "the noise of 20.1 % of the pixels, the darkest, is below half the quantization step of 4 DN, which hides it "
+      "(expected at most 20 % of the pixels). Use more bits, or a higher analogue gain");
   }
 }

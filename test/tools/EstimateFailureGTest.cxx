@@ -34,7 +34,8 @@ TEST_F(EstimateFailureTool, AConstantStackGivesNoEstimate)
   for (const std::string name : { "s.mha", "s.nrrd", "s.tif" })
   {
     const auto stack = Make<StackType>({ { 32, 32, 20 } }, 700);
-    GivesNoEstimate(Write(name, stack.GetPointer()), { "counted once", "only 1 frame is left", "expected at least 5" });
+    GivesNoEstimate(Write(name, stack.GetPointer()),
+                    { "counted once", "only 1 distinct frame is left", "expected at least 5" });
     for (unsigned short t = 0; t < 20; ++t)
     {
       stack->SetPixel({ { 0, 0, t } }, 700 + t); // a pixel at the border tells the frames apart
@@ -47,7 +48,7 @@ TEST_F(EstimateFailureTool, TheSameFrameTwelveTimesGivesNoEstimate)
 {
   const std::string name = WriteList<unsigned short>(MakeBurst(1), ".tif").front();
   GivesNoEstimate(Joined(std::vector<std::string>(12, name)),
-                  { "counted once", "only 1 frame is left", "expected at least 5" });
+                  { "counted once", "only 1 distinct frame is left", "expected at least 5" });
 }
 
 TEST_F(EstimateFailureTool, PixelsThatAreAllNaNGiveNoEstimate)
@@ -76,7 +77,7 @@ TEST_F(EstimateFailureTool, CodesThatHideTheNoiseGiveNoEstimate)
   std::for_each(stack->GetBufferPointer(), stack->GetBufferPointer() + 64 * 64 * 24, [](unsigned short & pixel) {
     pixel = static_cast<unsigned short>(pixel / 128 * 128);
   });
-  GivesNoEstimate(Write("s.mha", stack.GetPointer()), { "code step of 128 DN", "use more bits" });
+  GivesNoEstimate(Write("s.mha", stack.GetPointer()), { "quantization step of 128 DN", "Use more bits" });
 }
 
 TEST_F(EstimateFailureTool, AReportWithoutAnEstimateIsWrittenWhole)
@@ -95,8 +96,8 @@ TEST_F(EstimateFailureTool, UnknownAndMalformedOptionsAreRefused)
   IsRefused(stack + " --method best", { "--method", "best", "refined", "published" });
   IsRefused(stack + " --bit-depth 17", { "--bit-depth", "17", "1 to 16" });
   IsRefused(stack + " --bit-depth many", { "--bit-depth", "many" });
-  IsRefused(stack + " --clip 100", { "--clip", "holds 1 numbers", "expected 2" });
-  IsRefused(stack + " --clip 100,50", { "clip levels", "100", "50", "expected low < high" });
+  IsRefused(stack + " --clip 100", { "--clip", "holds 1 number;", "expected LOW,HIGH" });
+  IsRefused(stack + " --clip 100,50", { "--clip", "100,50", "LOW < HIGH" });
   IsRefused(stack + " --step 0", { "--step", "0 is not a positive number" });
   IsRefused(stack + " --rolling-shutter never", { "--rolling-shutter", "never" });
   IsRefused(stack + " --rolling-shutter 0", { "--rolling-shutter", "positive number of rows" });
@@ -114,11 +115,11 @@ TEST_F(EstimateFailureTool, RoiAndFramesOutsideTheStackAreRefused)
     IsRefused(input + " --roi 40,0,25,10", { "25 x 10 pixels from 40,0", "64 x 64 pixels" });
     IsRefused(input + " --frames 10:25", { "--frames", "24" });
   }
-  IsRefused(stack + " --roi 0,0,10", { "--roi", "holds 3 numbers", "expected 4" });
-  IsRefused(stack + " --roi 0,0,10,x", { "--roi", "\"x\"", "not a number" });
+  IsRefused(stack + " --roi 0,0,10", { "--roi", "holds 3 numbers", "expected X,Y,W,H in pixels" });
+  IsRefused(stack + " --roi 0,0,10,x", { "--roi", "\"x\"", "not a whole number" });
   IsRefused(stack + " --roi 0,0,0,10", { "--roi", "0,0,0,10", "no pixels" });
   IsRefused(stack + " --roi=-1,0,10,10", { "--roi", "negative corner" });
-  IsRefused(stack + " --frames 7", { "--frames", "holds 1 numbers", "expected 2" });
+  IsRefused(stack + " --frames 7", { "--frames", "holds 1 number;", "expected A:B" });
   IsRefused(stack + " --frames 7:7", { "--frames", "7:7 holds no frame" });
   IsRefused(stack + " --frames 3:7", { "the stack has 4 frames", "expected at least 5" });
 }
@@ -133,7 +134,7 @@ TEST_F(EstimateFailureTool, OutputThatCannotBeWrittenIsNoticedBeforeTheWorkBegin
     EXPECT_EQ(FilesLeft(), (std::set<std::string>{ "s.mha" }));
   };
   isRefused(" --json nowhere/r.json", { "cannot write nowhere/r.json", "no folder nowhere" });
-  isRefused(" --maps s.mha", { "cannot write s.mha/mean.mha", "no folder s.mha" });
+  isRefused(" --maps s.mha", { "cannot write maps to s.mha", "s.mha is a file; expected a folder" });
   std::filesystem::create_directories(Path("r.json"));
   isRefused(" --json r.json", { "cannot write r.json", "it is a folder" });
 }

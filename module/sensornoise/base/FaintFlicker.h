@@ -16,9 +16,10 @@ namespace sensornoise
 inline std::string
 TextOfFaintFlicker(double flickerZ)
 {
-  return flickerZ > 0.0 ? "the flicker's variance exceeds that of its noise by " + Rounded(flickerZ) +
-                            " standard deviations (expected more than " + Text(InCommon.requiredFlickerZ) + ")"
-                        : "the flicker is lost in its noise";
+  return flickerZ > 0.0
+           ? "the flicker is only " + RoundedApart(flickerZ, InCommon.requiredFlickerZ) +
+               " standard errors above its noise (more than " + Rounded(InCommon.requiredFlickerZ) + " needed)"
+           : "the flicker is below its noise";
 }
 
 } // namespace sensornoise

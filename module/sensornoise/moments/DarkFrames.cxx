@@ -92,8 +92,9 @@ RequireDarkLevel(const DarkSurvey & survey)
   {
     const CodeRange & range = survey.codes;
     const auto        levelText = [](const std::optional<double> & level) { return level ? Text(*level) : "none"; };
-    throw std::invalid_argument(Percent(clippedFraction) + " of the pixels of the dark frames reach a clip level, " +
-                                levelText(range.clipLowDn) + " or " + levelText(range.clipHighDn) +
+    throw std::invalid_argument(PercentApart(clippedFraction, InMoments.largestClippedShare) +
+                                " of the pixels of the dark frames reach a clip level, " + levelText(range.clipLowDn) +
+                                " or " + levelText(range.clipHighDn) +
                                 " DN; expected at most 1 %: their black level is cut off, or they are not dark. Raise "
                                 "the camera's black level, or cover the sensor");
   }
@@ -101,7 +102,8 @@ RequireDarkLevel(const DarkSurvey & survey)
   {
     throw std::invalid_argument("only " + std::to_string(survey.usable) +
                                 " pixels of the dark frames are usable; expected at least " +
-                                std::to_string(InMoments.fewestDarkPixels));
+                                std::to_string(InMoments.fewestDarkPixels) +
+                                ". Record dark frames of the whole sensor, or correct --mask, --roi or --clip");
   }
 }
 

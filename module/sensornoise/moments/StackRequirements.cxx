@@ -15,13 +15,14 @@ RequireStack(const FrameGeometry & geometry, std::size_t frames, std::size_t mas
 {
   if (frames < MinimumFrames)
   {
-    throw std::invalid_argument("the stack has " + std::to_string(frames) + " frames; expected at least " +
-                                std::to_string(MinimumFrames));
+    throw std::invalid_argument("the stack has " + std::to_string(frames) + (frames == 1 ? " frame" : " frames") +
+                                "; expected at least " + std::to_string(MinimumFrames) +
+                                ". Give all frames of the burst, as a list, a folder or a stack");
   }
   if (frames > MaximumFrames)
   {
     throw std::invalid_argument("the stack has " + std::to_string(frames) + " frames; expected at most " +
-                                std::to_string(MaximumFrames) + ", up to which sums are exact");
+                                std::to_string(MaximumFrames) + ". Measure a part of them: --frames");
   }
   if (geometry.width < 3 || geometry.height < 3)
   {
@@ -31,7 +32,7 @@ RequireStack(const FrameGeometry & geometry, std::size_t frames, std::size_t mas
   if (maskPixels != 0 && maskPixels != geometry.Pixels())
   {
     throw std::invalid_argument("the mask has " + std::to_string(maskPixels) + " pixels, but the frames have " +
-                                std::to_string(geometry.Pixels()));
+                                std::to_string(geometry.Pixels()) + "; expected one value for each pixel");
   }
 }
 

@@ -39,9 +39,10 @@ RequireDistinctFrames(std::size_t distinct, const std::vector<std::uint8_t> & va
 {
   if (distinct < MinimumFrames && std::find(valid.begin(), valid.end(), std::uint8_t{ 1 }) != valid.end())
   {
-    throw NothingToMeasure("equal frames are counted once, and only " + std::to_string(distinct) +
-                           (distinct == 1 ? " frame is" : " different frames are") + " left; expected at least " +
-                           std::to_string(MinimumFrames));
+    throw NothingToMeasure("only " + std::to_string(distinct) +
+                           (distinct == 1 ? " distinct frame is" : " distinct frames are") +
+                           " left, as equal frames are counted once; expected at least " +
+                           std::to_string(MinimumFrames) + ". Record more frames");
   }
 }
 

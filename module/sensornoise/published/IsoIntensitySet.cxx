@@ -41,7 +41,8 @@ IsoIntensitySetFinder::IsoIntensitySetFinder(const double *       mean,
   {
     throw NothingToMeasure("only " + std::to_string(m_Index.Count()) +
                            " pixels are neither clipped nor moved by vibrations; expected at least " +
-                           std::to_string(IsoIntensitySet::MinimumPixels));
+                           std::to_string(IsoIntensitySet::MinimumPixels) +
+                           ". Record a scene between the clip levels with larger even areas");
   }
 }
 
@@ -74,7 +75,8 @@ IsoIntensitySetFinder::Find(double quantile) const
   }
   throw NothingToMeasure("found " + std::to_string(set.pixels.size()) + " pixels of nearly the intensity " +
                          Rounded(set.levelDn) + " DN; expected at least " +
-                         std::to_string(IsoIntensitySet::MinimumPixels) + " (the scene has too few even areas)");
+                         std::to_string(IsoIntensitySet::MinimumPixels) +
+                         ". Record a scene with larger even areas, or use --method refined");
 }
 
 IsoIntensitySet

@@ -35,9 +35,10 @@ FillOffset(Report & report, const PolynomialFit & line, std::optional<double> of
   {
     report.readNoise = Quantity::Without(EstimateStatus::NotIdentifiable);
     report.readNoiseElectrons = Quantity::Without(EstimateStatus::NotIdentifiable);
-    report.Warn(WarningCode::ReadNoiseNotIdentifiable,
-                "gain, intercept and offset give a squared read noise of " + Rounded(squared) +
-                  " DN^2, expected above 0: it is smaller than their errors");
+    report.Warn(
+      WarningCode::ReadNoiseNotIdentifiable,
+      "gain, intercept and offset give a squared read noise of " + Rounded(squared) +
+        " DN^2 (expected above 0), which is within their errors. Record more frames, or use --method refined");
   }
 }
 } // namespace
@@ -52,10 +53,13 @@ FillNoiseParameters(Report &              report,
   {
     SetSensorParameters(report, EstimateStatus::Failed);
     report.Warn(WarningCode::VarianceNotAffine,
-                line.isDetermined ? "the variance does not rise with the mean (slope " + Rounded(line.slope) +
-                                      " DN/e-, expected above 0): the data are not raw, or hold too little noise"
-                                  : "the regression has " + std::to_string(line.pixels) +
-                                      " pixels of one intensity; expected pixels of different intensities");
+                line.isDetermined
+                  ? "the variance does not rise with the mean (slope " + Rounded(line.slope) +
+                      " DN/e-, expected above 0): the frames are not raw, or have too little noise. Record raw "
+                      "frames"
+                  : "the " + std::to_string(line.pixels) +
+                      " pixels of the regression have one intensity. Include dark and bright areas in "
+                      "the scene");
     return;
   }
   report.gain = Quantity::Identified(line.slope);
@@ -74,9 +78,8 @@ FillNoiseParameters(Report &              report,
     if (offsetDn && *offsetDn > *darkestDn)
     {
       report.Warn(WarningCode::OffsetAboveDarkest,
-                  "the offset " + Rounded(*offsetDn) + " DN is above the darkest level, " + Rounded(*darkestDn) +
-                    " DN, which is not possible: its error is larger than that; more " +
-                    "frames or more flicker would help");
+                  "the offset, " + RoundedApart(*offsetDn, *darkestDn) + " DN, is above the darkest level, " +
+                    Rounded(*darkestDn) + " DN, because its error is large. Record more flicker or more frames");
     }
   }
 }
@@ -93,15 +96,15 @@ FillFit(Report & report, const FitQuality & quality)
     report.Warn(
       WarningCode::VarianceNotAffine,
       "the corrected variance scatters about its line " + RoundedApart(quality.reducedChi2, LargestReducedChi2) +
-        " times as much as sampling noise does (expected 1, at most 10): the scene moves, the flicker differs "
-        "within the frame, or the data are not raw");
+        " times as much as sampling noise does (expected at most 10): the scene moves, the flicker differs within the "
+        "frame, or the frames are not raw. Use --method refined, or raw frames");
   }
   else if (quality.reducedChi2 > 1.5)
   {
     report.Warn(WarningCode::PoorFit,
-                "the corrected variance scatters about its line " + Rounded(quality.reducedChi2) +
-                  " times as much as sampling noise does (expected 1): vibrations, flicker that differs within the "
-                  "frame, or a scene that moves are left in it");
+                "the corrected variance scatters about its line " + RoundedApart(quality.reducedChi2, 1.5) +
+                  " times as much as sampling noise does (expected at most 1.5): vibrations, flicker that differs "
+                  "within the frame, or moving objects are left in it. Use --method refined");
   }
 }
 

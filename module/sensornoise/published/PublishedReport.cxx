@@ -50,9 +50,9 @@ WarnOfWidening(Report & report, WarningCode code, const char * name, const IsoIn
   if (set.wideningSteps > 0)
   {
     report.Warn(code,
-                std::string("the ") + name + " set was too small and was taken at the quantile " + Text(set.quantile) +
-                  " with " + std::to_string(set.pixels.size()) + " pixels (" + std::to_string(set.wideningSteps) +
-                  " steps, Remark 3)");
+                std::string("too few pixels have the ") + name + " intensity: " + std::to_string(set.pixels.size()) +
+                  " pixels at the quantile " + Text(set.quantile) + " were taken instead (" +
+                  std::to_string(set.wideningSteps) + " steps, Remark 3 of the paper)");
   }
 }
 
@@ -62,21 +62,22 @@ WarnOfFlicker(Report & report, const FlickerEstimate & flicker)
   if (flicker.sigmaRows > 0.0)
   {
     report.Warn(WarningCode::RollingShutter,
-                "the flicker differs from line to line; it is estimated with sigma_y = " + Text(flicker.sigmaRows) +
-                  " lines");
+                "the flicker differs from row to row and is estimated over neighbourhoods of sigma_y = " +
+                  Text(flicker.sigmaRows) + " rows");
     const auto unknown = std::count(flicker.rowKnown.begin(), flicker.rowKnown.end(), 0);
     if (unknown > 0)
     {
       report.Warn(WarningCode::LinesWithoutFlicker,
                   "the brightest pixels do not reach " + std::to_string(unknown) + " of " +
-                    std::to_string(flicker.rows) + " lines, whose flicker is not known: their pixels are left out");
+                    std::to_string(flicker.rows) + " rows, whose flicker is not known: their pixels are left out");
     }
   }
   if (flicker.offsetLinePhi > 3.0)
   {
     report.Warn(WarningCode::OffsetLineMisfit,
-                "dark pixels do not follow the bright ones' flicker (residual variance " +
-                  Rounded(flicker.offsetLinePhi) + " times that of noise, expected 1): the offset is not reliable");
+                "dark pixels do not follow the flicker of the bright ones (residual variance " +
+                  RoundedApart(flicker.offsetLinePhi, 1.0) +
+                  " times the noise, expected 1), so that the offset is doubtful. Use one lamp, or --method refined");
   }
 }
 
@@ -143,8 +144,8 @@ HasRange(Report & report, const PublishedScene & scene)
   SetSensorParameters(report, EstimateStatus::NotIdentifiable);
   report.Warn(WarningCode::IntensityRangeTooSmall,
               "the even areas span " + RoundedApart(ContrastDn(scene), 6.0 * spreadDn) + " DN, expected more than " +
-                Rounded(6.0 * spreadDn) + " DN (6 standard deviations of their means): use a scene with dark " +
-                "and bright areas");
+                Rounded(6.0 * spreadDn) +
+                " DN (6 standard deviations of their means). Include dark and bright areas in the scene");
   return false;
 }
 
@@ -162,7 +163,9 @@ FillNoise(Report &                  report,
   if (!isIdentified)
   {
     report.Warn(WarningCode::OffsetNotIdentifiable,
-                TextOfFaintFlicker(flicker.flickerZ) + ": a lamp that flickers more, or more frames, would help");
+                TextOfFaintFlicker(flicker.flickerZ) +
+                  ". Record more flicker or more frames, or use --method refined with dark frames "
+                  "(--dark)");
   }
   // The darkest mean bounds the offset (flux >= 0); being a mean of noise it may lie below it by some of its errors.
   const IntensityIndex index(scene.mean.data(), scene.valid.data(), corrected.pixels, parallelFor);
@@ -188,8 +191,9 @@ FillQuality(Report &                  report,
   if (std::abs(quality.curvatureZ) > 5.0 && std::abs(bendDn2) > 0.03 * middleDn2)
   {
     report.Warn(WarningCode::CorrectedVarianceCurved,
-                "the corrected variance bends by " + PercentApart(bendDn2 / middleDn2, 0.03) +
-                  " of itself (expected under 3 %): vibrations, several lamps, or data that are not linear");
+                "the corrected variance bends by " + PercentApart(std::abs(bendDn2) / middleDn2, 0.03) +
+                  " of itself (expected less than 3 %): vibrations, several lamps, or a non-linear response. Use "
+                  "--method refined");
   }
 }
 } // namespace

@@ -45,17 +45,17 @@ NeighbourAt(const Lag & lag)
   return "pixels " + distance + " apart share ";
 }
 
-/** What the user is told of the gain. */
+/** What it means for the gain, and what to do: \a action, a sentence. */
 std::string
-Consequence(const Report & report)
+Consequence(const Report & report, const std::string & action)
 {
   if (!report.gain.value || !report.varianceSlope.value)
   {
-    return "";
+    return action.empty() ? "" : ". " + action;
   }
-  return ": the variance of a pixel shows " +
+  return ". The slope of the variance (variance_slope) is " +
          Text(std::round(100.0 * *report.varianceSlope.value / *report.gain.value)) +
-         " % of the gain, which is from the sum over all lags; variance_slope is that of the variance";
+         " % of the gain, which is from the covariance over all lags" + (action.empty() ? "" : ". " + action);
 }
 
 /** Whether the distribution of the noise is what a linear filter leaves: then what neighbours share is against it. */
@@ -68,12 +68,11 @@ IsNormal(const NoiseCorrelation & correlation)
 }
 
 /** Names of the kinds of KurtosisSums, without single pixels. */
-constexpr std::array<const char *, KurtosisSums::Kinds - 1> NamesOfDifferences{ { "left and right neighbours in turn",
-                                                                                  "upper and lower neighbours in turn",
-                                                                                  "four neighbours in turn",
-                                                                                  "eight neighbours of a row in turn",
-                                                                                  "eight neighbours of a column in "
-                                                                                  "turn" } };
+constexpr std::array<const char *, KurtosisSums::Kinds - 1> NamesOfDifferences{ { "of horizontal differences",
+                                                                                  "of vertical differences",
+                                                                                  "of differences in 2 x 2 pixels",
+                                                                                  "of differences in 8 x 1 pixels",
+                                                                                  "of differences in 1 x 8 pixels" } };
 
 /** The kind of KurtosisSums, without single pixels, whose kurtosis is the least probable for normal noise. */
 std::size_t
@@ -101,27 +100,28 @@ WarnOfNonlinear(Report & report, const NoiseCorrelation & correlation, const Lag
   {
     report.Warn(WarningCode::NoiseNotLinear,
                 PercentApart(correlation.repeatedShare, InRefined.largestRepeatedShare) +
-                  " of the pixels' values repeat that of the frame before beyond what noise makes (expected at most " +
+                  " of the pixels repeat their value in the frame before, beyond chance (expected at most " +
                   Percent(InRefined.largestRepeatedShare) +
-                  "): a video coder skips blocks, or parts of frames are repeated, and what gain the sensor had "
-                  "cannot be told from what frames share; record raw frames");
+                  "): a video coder skips blocks, or parts of frames are repeated, so that the gain is not "
+                  "identifiable. Record raw frames");
     return;
   }
   if (correlation.HasLocalMotion())
   {
-    report.Warn(WarningCode::NoiseNotLinear,
-                PercentOf(correlation.localMotion) +
-                  " of the noise variance is what neighbours share in proportion to the slopes of the scene at both "
-                  "(expected at most " +
-                  Percent(InCorrelation.leastLocalMotion) +
-                  "): places of the scene move by themselves, as in heat haze, and a filter cannot be told from it. "
-                  "Choose a smooth part of the scene (--roi), or record it at rest");
+    report.Warn(
+      WarningCode::NoiseNotLinear,
+      PercentOf(correlation.localMotion) +
+        " of the noise variance is common to neighbours in proportion to the slopes of the scene (expected "
+        "at most " +
+        Percent(InCorrelation.leastLocalMotion) +
+        "): parts of the scene move by themselves, as in heat haze. Choose a smooth part of the scene (--roi), "
+        "or record it at rest");
     return;
   }
   const MeasuredNumber & own = correlation.kurtosis.front();
   const std::size_t      kind = MostUnusualDifference(correlation);
   const MeasuredNumber & other = correlation.kurtosis.at(kind);
-  const std::string      kurtosis = "excess kurtosis " + Measured(own.value, own.standardError) + ", of " +
+  const std::string      kurtosis = "excess kurtosis " + Measured(own.value, own.standardError) + ", " +
                                NamesOfDifferences.at(kind - 1) + " " + Measured(other.value, other.standardError) +
                                ", expected 0";
   if (space != nullptr && IsNormal(correlation))
@@ -129,46 +129,47 @@ WarnOfNonlinear(Report & report, const NoiseCorrelation & correlation, const Lag
     report.Warn(
       WarningCode::NoiseNotLinear,
       NeighbourAt(space->lag) + PercentOf(space->coefficient) +
-        " of their noise, which does not grow with the light as that of a filter does: periodic interference, "
-        "or blocks of pixels that were rounded (compression). No gain is given. Record raw frames, and look for "
-        "the source of the interference: cables, power supply, read-out clock (" +
-        kurtosis + ": the distribution is normal)");
+        " of their noise, which does not grow with the signal as after a filter, though the noise is normal (" +
+        kurtosis +
+        "): periodic interference, or blocks of rounded pixels (compression). Record raw frames, and look for the "
+        "source "
+        "of the interference: cables, power supply, read-out clock");
     return;
   }
   const bool isOfPixels = own.Exceeds(0.0, InCorrelation.anyZ);
   report.Warn(WarningCode::NoiseNotLinear,
               (isOfPixels
-                 ? "the noise is not distributed as a sensor's or a linear filter's ("
-                 : "differences of neighbours' noise are not distributed as a sensor's or a linear filter's (") +
+                 ? "the noise is not distributed as the noise of a sensor or of a linear filter ("
+                 : "differences of neighbours are not distributed as the noise of a sensor or of a linear filter (") +
                 kurtosis +
-                "): the camera corrects defects, takes medians or compresses, and what gain it had before cannot be "
-                "told; ask it for raw frames");
+                "): the camera corrects defects, takes medians or compresses. Set the camera to raw frames, without "
+                "corrections");
 }
 
 std::string
 TextOf(const EnlargementTrace & trace, const std::optional<Interval> & gain)
 {
-  std::string text = "what pixels " + std::to_string(trace.lag) + (trace.isAlongX ? " column" : " row") +
-                     (trace.lag == 1 ? "" : "s") + " apart share of their noise changes with their place by " +
-                     Percent(trace.amplitude) + " of it (expected at most " + Percent(InCorrelation.leastOscillation) +
-                     "), every " + Text(std::round(10.0 / trace.cyclesPerPixel) / 10.0) +
-                     " pixels: the frames were enlarged or a mosaic was interpolated, and have fewer samples than "
-                     "pixels";
+  std::string text = "the noise correlation of pixels " + std::to_string(trace.lag) +
+                     (trace.isAlongX ? " column" : " row") + (trace.lag == 1 ? "" : "s") + " apart changes by " +
+                     PercentApart(trace.amplitude, InCorrelation.leastOscillation) + " (expected at most " +
+                     Percent(InCorrelation.leastOscillation) + ") every " +
+                     Text(std::round(10.0 / trace.cyclesPerPixel) / 10.0) +
+                     " pixels: the frames were enlarged or a mosaic was interpolated";
   if (gain && gain->low && gain->high)
   {
     text += ". The gain is between " + Rounded(*gain->low) + " and " + Rounded(*gain->high) + " DN/e-";
   }
-  return text + "; give the frames as the camera read them";
+  return text + ". Give the frames as the camera read them";
 }
 
-/** Where what is shared grows with the light alone: a filter before the read-out, or events of several electrons. */
+/** An addition to the action, where the covariance grows with the signal alone: a filter before the read-out, or events
+ * of several electrons. */
 std::string
 BeforeReadOut(const NoiseCorrelation & correlation)
 {
   return correlation.ProbabilityOfLateNoise() > 0.5
-           ? ". What they share grows with the light more than their noise does, as if it were spread before the "
-             "read-out. Where an event frees several electrons (scintillator, intensifier), the gain is that of an "
-             "event"
+           ? "; their noise is spread before the read-out, so that the gain is per event where one event frees several "
+             "electrons (scintillator, intensifier)"
            : "";
 }
 } // namespace
@@ -186,13 +187,14 @@ WarnOfCorrelation(Report & report, const NoiseCorrelation & correlation)
     case NoiseKind::Temporal:
       report.Warn(WarningCode::NoiseCorrelated,
                   "the camera mixes its frames: frames " + std::to_string(time->lag.t) + " apart share " +
-                    PercentOf(time->coefficient) + " of their noise" + Consequence(report));
+                    PercentOf(time->coefficient) + " of their noise" +
+                    Consequence(report, "Switch the temporal noise reduction off"));
       break;
     case NoiseKind::Filtered:
       report.Warn(WarningCode::NoiseCorrelated,
                   "the camera smooths, resamples or sharpens its frames: " + NeighbourAt(space->lag) +
-                    PercentOf(space->coefficient) + " of their noise" + Consequence(report) +
-                    BeforeReadOut(correlation));
+                    PercentOf(space->coefficient) + " of their noise" +
+                    Consequence(report, "Set the camera to raw frames" + BeforeReadOut(correlation)));
       break;
     case NoiseKind::Enlarged:
       report.Warn(WarningCode::FramesEnlarged, TextOf(*correlation.enlargement, report.gain.bracket));
@@ -200,13 +202,14 @@ WarnOfCorrelation(Report & report, const NoiseCorrelation & correlation)
     case NoiseKind::Crosstalk:
       report.Warn(WarningCode::NoiseCorrelated,
                   "neighbours are coupled, or slightly filtered: " + NeighbourAt(space->lag) +
-                    PercentOf(space->coefficient) + " of their noise" + Consequence(report));
+                    PercentOf(space->coefficient) + " of their noise" +
+                    Consequence(report, "Set the camera to raw frames, if it filters"));
       break;
     case NoiseKind::BrighterFatter:
       report.Warn(WarningCode::NoiseCorrelated,
                   "charge repels charge in bright pixels (brighter-fatter effect): " + NeighbourAt(space->lag) +
-                    PercentOf(space->coefficient) + " of their noise, in proportion to the square of the light" +
-                    Consequence(report));
+                    PercentOf(space->coefficient) + " of their noise, in proportion to the square of the signal" +
+                    Consequence(report, ""));
       break;
     case NoiseKind::White:
     case NoiseKind::NotMeasured:

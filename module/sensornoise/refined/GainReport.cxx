@@ -40,46 +40,64 @@ FillFit(Report & report, const RefinedResults & found, const GainEstimate & gain
   report.fit.line = Report::Baseline{ 0.0, v.gain, v.intercept };
 }
 
+/** A question, where dark frames are brighter than the frames; else \a otherwise. */
+std::string
+AskIfExchanged(const RefinedResults & found, const std::string & otherwise)
+{
+  const auto & known = found.settings.offset;
+  if (!known || known->darkFrames == 0 || !(known->valueDn > found.scene.model.brightestDn))
+  {
+    return otherwise;
+  }
+  return "The dark frames are brighter than the frames, with " + Rounded(known->valueDn) + " DN against " +
+         RoundedApart(found.scene.model.brightestDn, known->valueDn) + " DN: are they exchanged?";
+}
+
 /** Why the variance is not that of a sensor; empty: it may be. */
 std::string
 FindContradiction(const RefinedResults & found, const GainEstimate & gain)
 {
-  const std::string advice = ": the data are not raw (gamma, compression), or not linear";
+  const std::string notRaw = ": the frames are not raw (gamma, compression), not linear";
   const bool        hasCodes = found.scene.summary.codes.clipHighDn.has_value();
   if (found.frameNoise.HasSeveralKinds())
   {
     const FrameNoise & noise = found.frameNoise;
-    return "the noise variance of the frames differs from what their levels make of it, " +
-           (noise.scatter > 0.0 ? "half of them by more than " + PercentApart(noise.scatter, InRefined.leastUnlikeNoise)
-                                : "in groups (" + noise.Text(gain.line.gain) + "; the first frame is 0)") +
+    return "the noise variance of the frames does not follow their levels, " +
+           (noise.scatter > 0.0
+              ? "for half of them by more than " + PercentApart(noise.scatter, InRefined.leastUnlikeNoise)
+              : "in groups (" + noise.Text(gain.line.gain) + "; the first frame is 0)") +
            " (expected at most " + Percent(InRefined.leastUnlikeNoise) +
-           " apart): they are of several gains, or processed in several ways. Measure the frames of each kind by "
-           "themselves: --frames";
+           "): they have several gains or were processed differently. Measure the frames of each kind by themselves: "
+           "--frames";
   }
   const double correction = gain.line.gain / std::max(1e-9, found.variance.line.gain);
   if (found.RestOfLight() > 0.0 &&
       std::abs(std::log(std::max(1e-9, correction))) > std::log(InRefined.largestCorrection))
   {
-    return "what neighbours share changes the gain by a factor of " + Rounded(correction) + " (expected at most " +
-           Rounded(InRefined.largestCorrection) +
-           "), but illumination is left in the frames, which neighbours share as well: record more frames, or choose a "
-           "part that is lit evenly and at rest";
+    return "the spatial noise correlation changes the gain by a factor of " +
+           RoundedApart(std::max(correction, 1.0 / std::max(1e-9, correction)), InRefined.largestCorrection) +
+           " (expected at most " + Rounded(InRefined.largestCorrection) +
+           "), but changes of the illumination that are left correlate neighbours, too. Record more frames, or choose "
+           "an evenly lit part at rest: --roi";
   }
   if (gain.nonlinearity > InRefined.largestNonlinearity)
   {
-    return "the variance departs from its line by " + PercentApart(gain.nonlinearity, InRefined.largestNonlinearity) +
-           " of itself (expected less than " + Percent(InRefined.largestNonlinearity) + ")" + advice +
-           (hasCodes ? "" : ", or they saturate: then give the levels that the sensor attains (clip)");
+    return "the variance deviates from its line by " + PercentApart(gain.nonlinearity, InRefined.largestNonlinearity) +
+           " of itself (expected less than " + Percent(InRefined.largestNonlinearity) + ")" + notRaw +
+           (hasCodes ? ", or of several gains. Record raw frames, or fit the linear part alone: --level-range LOW,HIGH"
+                     : ", or saturated. Record raw frames, or give the levels at which they saturate: --clip LOW,HIGH");
   }
   if (gain.isWide && gain.IsBent() && gain.above + gain.below > 2.0 * InRefined.largestGainError * gain.line.gain)
   {
-    return "the variance bends against the mean, and the gain depends on what is taken for read noise, between " +
-           Rounded(gain.line.gain - gain.below) + " and " + Rounded(gain.line.gain + gain.above) + " DN/e-" + advice;
+    return "the variance is a curve of the mean, so that the gain depends on the assumed read noise and is between " +
+           Rounded(gain.line.gain - gain.below) + " and " + Rounded(gain.line.gain + gain.above) + " DN/e-" + notRaw +
+           ", or of several gains. Record raw frames";
   }
   if (!(gain.line.gain > 0.0))
   {
     return "the variance does not rise with the mean (slope " + Measured(gain.line.gain, gain.StandardError()) +
-           " DN/e-, expected above 0): the data are not raw, or hold too little noise";
+           " DN/e-, expected above 0): the frames are not raw, or have too little noise. " +
+           AskIfExchanged(found, "Record raw frames");
   }
   return {};
 }
@@ -134,11 +152,10 @@ FindFewIlluminatedFrames(const RefinedResults & found)
   }
   return (count == 1 ? "frame " + names + " alone carries " : "frames " + names + " carry ") + Percent(carried / all) +
          " of the illumination of " + std::to_string(frames) +
-         " distinct frames (the first is 0): the estimates of flicker and motion take up the shot noise of so few, "
-         "and " +
-         PercentApart(std::max(0.0, left), 1.0 - InPixels.largestFeedback) + " of it is left (at least " +
-         Percent(1.0 - InPixels.largestFeedback) +
-         " expected). The gain is not identifiable: record more frames with light";
+         " distinct frames (the first is 0): flicker and motion take up all but " +
+         PercentApart(std::max(0.0, left), 1.0 - InPixels.largestFeedback) +
+         " of their shot noise (expected at least " + Percent(1.0 - InPixels.largestFeedback) +
+         "). The gain is not identifiable: record more frames with light";
 }
 
 /** The gain that cannot be told: every parameter of the sensor goes with it. */
@@ -153,8 +170,9 @@ FillTooLittle(Report & report, const RefinedResults & found, const GainEstimate 
                 PercentApart(static_cast<double>(report.pixels.used) / std::max(1.0, found.scene.usable),
                              InRefined.leastUsedShare) +
                   " of the pixels that are not clipped fit a static scene (expected at least " +
-                  Percent(InRefined.leastUsedShare) + ") and give a gain of " + Measured(gain.line.gain, error) +
-                  " DN/e-: the scene is not static, or too dark; choose a static part of it");
+                  Percent(InRefined.leastUsedShare) + "), which would give a gain of " +
+                  Measured(gain.line.gain, error) +
+                  " DN/e-: the scene moves, or is too dark. Choose a static part of it (--roi), or more light");
     return;
   }
   BoundGain(report, found, gain);
@@ -166,13 +184,17 @@ FillTooLittle(Report & report, const RefinedResults & found, const GainEstimate 
   }
   const LevelPattern & pattern = found.variance.pattern;
   const double         levels = std::sqrt(std::max(0.0, pattern.lightDn2));
-  report.Warn(WarningCode::IntensityRangeTooSmall,
-              "the scene has one intensity: its levels differ by " + Rounded(levels) + " DN rms, " +
-                Percent(levels / std::max(1e-9, gain.line.pivotDn - found.blackDn)) +
-                " of the light, of which the pixels' own pattern may be " +
-                Percent(std::min(1.0, pattern.LargestShare())) + ", and tell the gain to +- " + Rounded(error) +
-                " DN/e- only (about " + Rounded(gain.scale) +
-                " expected): a scene with dark and bright areas would help, or dark frames");
+  const bool           hasDark = found.settings.offset && found.settings.offset->darkFrames > 0;
+  report.Warn(
+    WarningCode::IntensityRangeTooSmall,
+    "the levels of the scene do not determine the gain: they differ by " + Rounded(levels) + " DN rms, " +
+      Percent(levels / std::max(1e-9, gain.line.pivotDn - found.blackDn)) +
+      " of the signal, of which fixed-pattern noise may be " + Percent(std::min(1.0, pattern.LargestShare())) +
+      ", and the gain is known only to +- " + Rounded(error) + " of about " + Rounded(gain.scale) + " DN/e-. " +
+      AskIfExchanged(
+        found,
+        hasDark ? "Record more frames, or include dark and bright areas in the scene"
+                : "Record more frames, include dark and bright areas in the scene, or give dark frames (--dark)"));
 }
 
 /** How far the gains of the parts lie below and above their mean, relative to it [1]. */
@@ -189,15 +211,14 @@ AdviceOn(Divided divided)
   switch (divided)
   {
     case Divided::Phases:
-      return "A mosaic given as mono, or rows or columns of several amplifiers: measure the planes of a colour mosaic "
-             "by --bayer, other pixels by --mask";
+      return "Measure the colours of a mosaic by themselves (--bayer), or the pixels of each amplifier (--mask)";
     case Divided::Frames:
-      return "The camera changed while it recorded (gain, exposure, temperature), or frames were processed: measure "
-             "the parts by themselves: --frames";
+      return "The camera changed while it recorded, or frames were processed: measure the parts by themselves "
+             "(--frames)";
     case Divided::Places:
       break;
   }
-  return "Measure the parts by themselves: --roi";
+  return "Measure the parts by themselves (--roi)";
 }
 
 /** Files the gains of the parts and warns of them. Noise that neighbours share depends on the phase by itself, as where
@@ -234,8 +255,8 @@ FillParts(Report & report, const RefinedResults & found, const GainEstimate & ga
                 std::string("the gain differs between ") + kind.words + ": from " +
                   Measured(lowest->gain, lowest->standardError) + " DN/e- (" + lowest->name + ") to " +
                   Measured(highest->gain, highest->standardError) + " DN/e- (" + highest->name + "), " +
-                  Percent(gains.size) + " rms (expected at most " + Percent(InParts.leastDifference) +
-                  "). The gain is the mean over all. " + AdviceOn(kind.divided));
+                  PercentApart(gains.size, InParts.leastDifference) + " rms (expected at most " +
+                  Percent(InParts.leastDifference) + "), and their mean is given. " + AdviceOn(kind.divided));
     report.gainByParts.push_back(std::move(record));
   }
   return range;
@@ -248,13 +269,14 @@ WarnOfStep(Report & report, const GainEstimate & gain)
   {
     const VarianceStep & step = *gain.step;
     const double         below = step.line.At(step.levelDn);
-    report.Warn(WarningCode::VarianceSteps,
-                "the variance steps by " + Measured(step.sizeDn2, step.errorDn2) + " DN^2 at a level of " +
-                  Rounded(step.levelDn) + " DN, " + Percent(step.sizeDn2 / std::max(1e-9, below)) +
-                  " of the variance below it (expected less than " + Percent(InSteps.leastSize) +
-                  " of the larger one): two amplifiers read the pixels, each a part of the levels. The gain is that of "
-                  "both, intercept and read noise are those of the levels below. Measure either side by itself: "
-                  "--level-range");
+    const double         larger = std::max({ 1e-9, below, below + step.sizeDn2 });
+    report.Warn(
+      WarningCode::VarianceSteps,
+      "the variance steps by " + Measured(step.sizeDn2, step.errorDn2) + " DN^2 at " + Rounded(step.levelDn) + " DN, " +
+        PercentApart(std::abs(step.sizeDn2) / larger, InSteps.leastSize) +
+        " of the larger variance (expected less than " + Percent(InSteps.leastSize) +
+        "), as where two amplifiers read the pixels; intercept and read noise are of the levels below. Measure "
+        "either side by itself: --level-range");
   }
 }
 
@@ -285,11 +307,13 @@ FillGainAndIntercept(Report &               report,
   report.intercept = WithError(gain.line.intercept - quantisationDn2, interceptError, student);
   if (gain.nonlinearity > InRefined.leastNonlinearity && gain.IsBent())
   {
-    report.Warn(WarningCode::ResponseNotStraight,
-                "the variance departs from its line by up to " + Percent(gain.nonlinearity) +
-                  " of itself: the sensor's response bends, and gain is between " +
-                  Rounded(gain.line.gain - gain.below) + " and " + Rounded(gain.line.gain + gain.above) +
-                  " DN/e- for parts of the levels; its interval holds them");
+    report.Warn(
+      WarningCode::ResponseNotStraight,
+      "the variance deviates from its line by up to " + PercentApart(gain.nonlinearity, InRefined.leastNonlinearity) +
+        " of itself (expected at most " + Percent(InRefined.leastNonlinearity) +
+        "): the response is non-linear, and the interval of the gain contains the gains of parts of the levels, " +
+        Rounded(gain.line.gain - gain.below) + " to " + Rounded(gain.line.gain + gain.above) +
+        " DN/e-. Fit a linear part alone: --level-range");
   }
 }
 } // namespace
@@ -336,11 +360,11 @@ WarnOfNarrowRange(Report & report, const RefinedResults & found, const GainEstim
   if (!isTested && share > InPixels.darkEnough)
   {
     report.Warn(WarningCode::ResponseUnchecked,
-                "the darkest levels have " + PercentApart(share, InPixels.darkEnough) +
-                  " of the brightest's light (expected at most " + Percent(InPixels.darkEnough) +
-                  "): a bent response could not be seen there; " +
-                  (hasDark ? "beside the dark frames record dark and bright areas, or other exposures"
-                           : "dark frames would tell"));
+                "the darkest areas have " + PercentApart(share, InPixels.darkEnough) +
+                  " of the signal of the brightest (expected at most " + Percent(InPixels.darkEnough) +
+                  "), so that a non-linear response would not be noticed. " +
+                  (hasDark ? "Include dark and bright areas in the scene, or record several exposures (--exposures)"
+                           : "Give dark frames (--dark), or include dark areas in the scene"));
   }
 }
 

@@ -303,9 +303,9 @@ TextOfUnknownFlicker(double ofScale, const std::optional<Interval> & limit)
     return "the illumination change is known only to within " + PercentApart(ofScale, InRefined.largestScaleError) +
            "; " + Percent(InRefined.largestScaleError) + " is needed for the flicker" + giveOffset;
   }
-  return "the flicker is not distinguished from the frames' noise: its standard deviation may be " +
-         (limit && limit->high ? Rounded(*limit->high) : std::string("of any size")) +
-         ", and below 1 is needed; record more frames";
+  return "the flicker is not distinguished from the noise of the frames: its standard deviation may be " +
+         (limit && limit->high ? RoundedApart(*limit->high, 1.0) : std::string("of any size")) +
+         " (below 1 is needed). Record more frames";
 }
 } // namespace
 

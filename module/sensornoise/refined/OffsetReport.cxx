@@ -37,11 +37,11 @@ CompareDarkVariance(Report &             report,
   {
     report.Warn(
       WarningCode::DarkFramesDiffer,
-      "at the offset the noise is " +
+      "the noise variance of the dark frames is " + Measured(varianceDn2 - quantisationDn2, errorDn2) +
+        " DN^2, but at the offset it is " +
         Measured(gain.atOffset->valueDn2 - quantisationDn2, gain.atOffset->standardErrorDn2) +
-        " DN^2, but the dark frames have " + Measured(varianceDn2 - quantisationDn2, errorDn2) +
-        " DN^2: their black level, exposure, gain or temperature is another one, or they are not dark. The gain is "
-        "measured without them");
+        " DN^2, so the gain is measured without them. Record dark frames in the dark, with the black level, exposure, "
+        "gain and temperature of the frames");
   }
 }
 
@@ -87,20 +87,23 @@ CompareKnownOffset(Report &               report,
   {
     report.Warn(WarningCode::SteadyLight,
                 "the level that does not flicker is " + Measured(flicker.valueDn, flicker.standardErrorDn) + " DN, " +
-                  Rounded(difference) + " DN from the given offset: " +
-                  (difference > 0.0 ? "light that does not flicker, or dark current, makes the difference"
-                                    : "that is too high for these frames"));
+                  Measured(std::abs(difference), error) + " DN " +
+                  (difference > 0.0 ? "above the given offset: steady illumination or dark current adds to it. Switch "
+                                      "steady lamps off, or give an offset of the same exposure and temperature"
+                                    : "below the given offset, which is too high for these frames. Check --offset or "
+                                      "--dark, or leave it out"));
   }
   if (IsKnownOffsetOutOfRange(found, gain, limits))
   {
     const bool        isDark = found.settings.offset->darkFrames > 0;
-    const std::string lowest = limits.lowestDn ? "between " + Rounded(*limits.lowestDn) + " and " : "at most ";
+    const std::string lowest = limits.lowestDn ? Rounded(*limits.lowestDn) + " to " : "at most ";
     report.Warn(WarningCode::OffsetOutOfRange,
                 (isDark ? "the mean level of the dark frames is " : "the given offset is ") + Text(offsetDn) +
-                  " DN, but a read noise above 0 and the darkest pixels allow " + lowest + Rounded(limits.highestDn) +
-                  " DN: " +
-                  (isDark ? "are frames and dark frames exchanged, or was another setting used for the dark frames?"
-                          : "leave it out, or measure it with dark frames (--dark)"));
+                  " DN, but the darkest pixels and a read noise above 0 allow " + lowest +
+                  RoundedApart(limits.highestDn, offsetDn) + " DN: " +
+                  (isDark
+                     ? "are frames and dark frames exchanged? Else record dark frames with the setting of the frames"
+                     : "leave it out, or measure it with dark frames (--dark)"));
   }
 }
 
@@ -173,7 +176,9 @@ FillReadNoise(Report &               report,
   {
     report.Warn(WarningCode::ReadNoiseUpperLimit,
                 "the read noise is below " + Rounded(*report.readNoise.bracket->high) +
-                  " DN and cannot be told from 0 or from the rounding to codes");
+                  " DN and is not distinguished from 0 or from the quantization noise. Record more frames" +
+                  (found.settings.offset && found.settings.offset->darkFrames > 0 ? ", or use a higher analogue gain"
+                                                                                  : " or dark frames (--dark)"));
   }
 }
 } // namespace
@@ -247,11 +252,19 @@ OffsetByExposures(const RefinedResults & found)
   return estimate;
 }
 
+/** What to do where the illumination does not determine the offset: \a other, which begins with ", or", may help, too.
+ */
+std::string
+Ask(const std::string & other)
+{
+  return ". Give dark frames (--dark) or the offset (--offset)" + other;
+}
+
 std::string
 TextOfOtherOffsets(const FrameOffsets & others, Eigen::Index frames)
 {
   return "the dark offset of " + std::to_string(others.unlike.size()) + " of " + std::to_string(frames) +
-         " frames differs by " + Rounded(others.stepDn) + " DN from that of the others";
+         " frames differs by " + Rounded(others.stepDn) + " DN from the dark offset of the others" + Ask("");
 }
 
 /** The offset as the illumination tells it. */
@@ -290,8 +303,9 @@ OffsetByIllumination(const RefinedResults & found, const GainEstimate & gain, co
     high += 1.96 * fromPatternDn;
     estimate.interval = Interval{ low + model.centreDn, high + model.centreDn };
   }
-  const double slackDn = InRefined.slackOfOffsetZ * estimate.standardErrorDn;
-  const double slackBelowDn =
+  const std::string moreFlicker = ", or record more flicker or more frames";
+  const double      slackDn = InRefined.slackOfOffsetZ * estimate.standardErrorDn;
+  const double      slackBelowDn =
     slackDn + InRefined.slackOfInterceptZ * std::sqrt(gain.covariance(1, 1)) / std::max(1e-9, gain.line.gain);
   const FrameOffsets & others = found.series.frameOffsets;
   if (!others.unlike.empty()) // too many to be left out
@@ -300,40 +314,44 @@ OffsetByIllumination(const RefinedResults & found, const GainEstimate & gain, co
   }
   else if (!(line.contrast > InSeries.leastContrast))
   {
-    estimate.obstacle = "the scene has one intensity";
+    estimate.obstacle = "the scene has one intensity" + Ask(", or include dark and bright areas in the scene");
   }
   else if (line.isLevelMotion && !isLocal)
   {
-    estimate.obstacle = "the scene is a ramp, along which motion changes every level alike, as an offset does";
+    estimate.obstacle =
+      "the scene is a ramp, along which motion changes every level alike, as an offset does" + Ask("");
   }
   else if (!(line.flickerZ > InCommon.requiredFlickerZ) && !isLocal)
   {
-    estimate.obstacle = TextOfFaintFlicker(line.flickerZ);
+    estimate.obstacle = TextOfFaintFlicker(line.flickerZ) + Ask(moreFlicker);
   }
   else if (isLocal && !local)
   {
-    estimate.obstacle = "the light changes differently over the frame, and no part of it tells the offset";
+    estimate.obstacle =
+      "the illumination changes differently over the frame, and no part of it determines the offset" + Ask("");
   }
   else if (!std::isfinite(low) || !std::isfinite(high))
   {
-    estimate.obstacle = "the offset's interval has no end";
+    estimate.obstacle = "the flicker leaves the offset without bounds" + Ask(moreFlicker);
   }
   else if (high - low > LargestOffsetInterval * rangeDn)
   {
-    estimate.obstacle = "the offset's interval, " + Rounded(low + model.centreDn) + " to " +
+    estimate.obstacle = "the interval of the offset, " + Rounded(low + model.centreDn) + " to " +
                         Rounded(high + model.centreDn) + " DN, is wider than a quarter of the range of the scene, " +
-                        Rounded(rangeDn) + " DN";
+                        Rounded(rangeDn) + " DN" + Ask(moreFlicker);
   }
   else if ((limits.lowestDn && estimate.valueDn < *limits.lowestDn - slackBelowDn) ||
            estimate.valueDn > limits.highestDn + slackDn)
   {
-    estimate.obstacle = "the flicker's zero, " + Rounded(estimate.valueDn) +
-                        " DN, contradicts sigma^2 >= 0 or the darkest level: parts of the light flicker differently";
+    estimate.obstacle = "the level that does not flicker, " + Rounded(estimate.valueDn) +
+                        " DN, is above the darkest level or makes the squared read noise negative: parts of the "
+                        "illumination flicker differently" +
+                        Ask("");
   }
   else if (isLocal && local->phi > InRefined.largestLocalDispersion)
   {
     estimate.obstacle =
-      "the responses to the lamps do not meet in one zero (dispersion " + Rounded(local->phi) + ", expected 1)";
+      "the lamps do not agree on one offset (dispersion " + RoundedApart(local->phi, 1.0) + ", expected 1)" + Ask("");
   }
   return estimate;
 }
@@ -358,8 +376,7 @@ FillOffsetAndReadNoise(Report &               report,
   report.fit.offsetLinePhi = flicker.phi;
   if (!found.settings.offset && !flicker.obstacle.empty())
   {
-    report.Warn(WarningCode::OffsetNotIdentifiable,
-                flicker.obstacle + ": more flicker or more frames would help, or dark frames, or a known offset");
+    report.Warn(WarningCode::OffsetNotIdentifiable, flicker.obstacle);
     FillBrackets(report, limits, gain.line.gain);
     FillCovariance(report, gain, std::nullopt);
     return;

@@ -23,7 +23,7 @@ struct OffsetEstimate
   double      standardErrorDn{ 0.0 };
   Interval    interval;   ///< 95 % [DN]
   double      phi{ 1.0 }; ///< dispersion about the offset line; 1: nothing but noise
-  std::string obstacle;   ///< why it cannot be told; empty: it can
+  std::string obstacle;   ///< why it is not identifiable and what to do; empty: it is
 };
 
 /** The offset by the flicker of all frames, or, where the light is local, by the pixels' responses to it. It is told

@@ -391,8 +391,10 @@ RefinedMethod<TPixel>::MeasureVariance()
   m_Variance->codeNoise = codeNoise;
   if (!m_Variance->line.isDetermined)
   {
-    throw NothingToMeasure("too few pixels, or pixels of one intensity only, are left to fit the variance",
-                           WarningCode::IntensityRangeTooSmall);
+    throw NothingToMeasure(
+      "too few pixels are left to fit the variance, or all have one intensity. Include dark and bright areas "
+      "in the scene, or measure a larger part of it (--roi)",
+      WarningCode::IntensityRangeTooSmall);
   }
   m_Correlation = std::move(noise.correlation);
   if (m_Thumbnails.FindChange(m_Distinct.Counted()).IsLarge()) // frames of several scenes tell nothing of each other

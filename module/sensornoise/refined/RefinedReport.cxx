@@ -42,25 +42,25 @@ WarnOfScene(Report & report, const RefinedResults & found)
     if (found.polished.isOffsetDrift)
     {
       report.Warn(WarningCode::OffsetDrift,
-                  "a level common to all pixels drifts over the burst, as a black level does");
+                  "the dark offset of all pixels drifts over the burst. Let the camera warm up before the recording");
     }
     else
     {
       report.Warn(WarningCode::LocalLight,
-                  "the light changes in some places in another way than in others (" + count +
-                    " further series): a rolling shutter, several lamps or bleaching; gain and intercept allow for it");
+                  "the illumination changes differently over the frame (" + count + " further temporal component" +
+                    (count == "1" ? "" : "s") +
+                    "): a rolling shutter, several lamps or bleaching, which gain and intercept allow for");
     }
   }
   if (found.RestOfLight() > 0.0)
   {
-    report.Warn(WarningCode::LightSeriesLeft,
-                "beside the " + std::to_string(found.series.local.series.cols()) +
-                  " further series of the illumination, the most that " + std::to_string(found.scene.frame.frames) +
-                  " frames allow, others are left (the next is " + RoundedApart(found.series.local.beyond, 1.0) +
-                  " times as large as chance makes it): they add about " + Percent(found.RestOfLight()) +
-                  " to the variance, and may add " + Rounded(InRefined.slopeOfRest) +
-                  " times as much to the gain, which its interval holds. Record more "
-                  "frames, or choose a part that is lit evenly: --roi");
+    report.Warn(
+      WarningCode::LightSeriesLeft,
+      "the illumination has more temporal components than the " + std::to_string(found.series.local.series.cols()) +
+        " that " + std::to_string(found.scene.frame.frames) + " frames allow (the next is " +
+        RoundedApart(found.series.local.beyond, 1.0) + " times chance): they add about " +
+        Percent(found.RestOfLight()) + " to the variance, and the interval of the gain contains " +
+        Rounded(InRefined.slopeOfRest) + " times as much. Record more frames, or choose an evenly lit part: --roi");
   }
   if (static_cast<double>(found.variance.notStatic) > InRefined.reportedShare * total)
   {
@@ -116,8 +116,9 @@ WarnOfMotion(Report & report, const RefinedResults & found)
   if (vibration > InRefined.strongVibration && !found.IsFlatUnderChange())
   {
     report.Warn(WarningCode::StrongVibration,
-                "the scene moves by " + Rounded(vibration) +
-                  " pixels rms: register the frames to whole pixels first; rough areas are left out");
+                "the scene may move by " + RoundedApart(vibration, InRefined.strongVibration) +
+                  " pixels rms (expected at most " + Rounded(InRefined.strongVibration) +
+                  "), so that rough areas are left out. Register the frames to whole pixels first");
   }
 }
 
@@ -217,12 +218,12 @@ RefuseRowLight(Report & report, const RefinedResults & found, double effect)
 {
   SetSensorParameters(report, EstimateStatus::Failed);
   report.Warn(WarningCode::Contradicted,
-              "the illumination differs from row to row within a frame, by " +
-                Percent(std::sqrt(found.correlation.rowLight.value)) + " rms more than is allowed for, which adds " +
-                Percent(effect) + " to the slope of the variance (expected at most " +
+              "the illumination differs from row to row within a frame by " +
+                Percent(std::sqrt(found.correlation.rowLight.value)) + " rms, which adds " +
+                PercentApart(effect, InRefined.largestRowLight) + " to the slope of the variance (expected at most " +
                 Percent(InRefined.largestRowLight) +
-                "): a lamp that pulses under a rolling shutter, or interlaced frames: no gain is given. Use light on "
-                "direct current, an exposure time of whole periods of the lamp, or one field of the frames");
+                "): a pulsed lamp under a rolling shutter, or interlaced frames. Use a lamp on direct current, expose "
+                "for whole periods of the lamp, or give one field of the frames");
 }
 
 /** Files gain, offset, read noise and what the light and the floor did. */

@@ -112,7 +112,8 @@ CompareGreens(ChannelReports & reports)
       { WarningCode::GreensDiffer,
         "the gains of the two greens are " + Measured(first->value, first->error) + " and " +
           Measured(second->value, second->error) +
-          " DN/e-: expected one gain; is this the pattern of the sensor, and are its rows read in one way?" });
+          " DN/e-, expected equal: the pattern is another one, or rows are read by different amplifiers. Check the "
+          "pattern: --bayer" });
   }
 }
 
@@ -152,9 +153,9 @@ CompareLevels(ChannelReports & reports)
   {
     reports.warnings.push_back(
       { WarningCode::BayerPatternDiffers,
-        std::string("the pattern is ") + NameOf(reports.pattern) + ", but the levels of its greens, " +
-          Rounded(*first) + " and " + RoundedApart(*second, *first) + " DN, differ, and those of red and blue, " +
-          Rounded(*red) + " and " + Rounded(*blue) + " DN, are alike: expected the pattern of the sensor, " +
+        std::string("the levels contradict the pattern ") + NameOf(reports.pattern) + ": its greens differ, with " +
+          Rounded(*first) + " and " + RoundedApart(*second, *first) + " DN, and its red and blue are alike, with " +
+          Rounded(*red) + " and " + Rounded(*blue) + " DN. Give the pattern of the sensor: --bayer " +
           NameOf(CutPattern(reports.pattern, 1, 0)) + " or " + NameOf(CutPattern(reports.pattern, 0, 1)) });
   }
 }
@@ -202,8 +203,9 @@ MakeChannelReports(BayerPattern pattern, BayerSource source, std::array<Report, 
   {
     reports.warnings.push_back({ WarningCode::RedOrBlue,
                                  std::string("the pattern ") + NameOf(pattern) +
-                                   " was found from the levels, which tell green; of the two other colours the "
-                                   "brighter one is called R, it may be blue" });
+                                   " was found from the levels, which distinguish only green: the brighter of the "
+                                   "two other colours is called R, but may be blue. Give the pattern (--bayer " +
+                                   NameOf(pattern) + " or " + NameOf(CutPattern(pattern, 1, 1)) + ")" });
   }
   reports.joint = JoinOffsets(reports.channels);
   if (reports.joint && reports.joint->offset.status == EstimateStatus::Failed)
@@ -211,8 +213,8 @@ MakeChannelReports(BayerPattern pattern, BayerSource source, std::array<Report, 
     reports.warnings.push_back(
       { WarningCode::OffsetsDiffer,
         "the offsets of the channels differ by " + Rounded(std::sqrt(reports.joint->reducedChi2)) +
-          " times their errors, and have no common value: light that does not flicker, of another colour than that "
-          "which does, or a black level for each channel, makes such a difference" });
+          " times their errors: steady illumination of another colour than the flickering one, or a black level for "
+          "each channel. Give dark frames (--dark)" });
   }
   reports.motion = JoinMotion(reports.channels);
   if (reports.motion)

@@ -272,7 +272,8 @@ MakeTable(const Report & report)
   table += Format("%zu of %zu pixels used (%.1f %%), %zu clipped, %zu not finite\n",
                   report.pixels.used,
                   report.pixels.total,
-                  100.0 * static_cast<double>(report.pixels.used) / static_cast<double>(report.pixels.total),
+                  100.0 * static_cast<double>(report.pixels.used) /
+                    static_cast<double>(std::max<std::size_t>(1, report.pixels.total)),
                   report.pixels.clipped,
                   report.pixels.notFinite);
   table += "method: " + report.method + "\n" + DescribeInput(report.input) + "\n";

@@ -37,15 +37,14 @@ ReportSceneChange(Report & report, const SceneChange & change)
   warnings.erase(
     std::remove_if(warnings.begin(), warnings.end(), [](const Warning & warning) { return MayFollow(warning.code); }),
     warnings.end());
-  const Warning warning{
-    WarningCode::SceneChanges,
-    "the frames do not show one static scene: of what the areas of a frame differ by, " +
-      PercentApart(change.share, InMoments.sceneChangeShare) + " is not as in the others (expected under " +
-      Percent(InMoments.sceneChangeShare) +
-      "): another axis than time was taken for time, the scene changes, the camera moves by many "
-      "pixels, a pulsed lamp is off in some frames, or the bytes of each pixel are in the other order "
-      "(--raw)"
-  };
+  const Warning warning{ WarningCode::SceneChanges,
+                         "the frames do not show one static scene: " +
+                           PercentApart(change.share, InMoments.sceneChangeShare) +
+                           " of the differences between areas change from frame to frame (expected less than " +
+                           Percent(InMoments.sceneChangeShare) +
+                           "). Check whether another axis was taken for time, the scene or camera moves, a pulsed lamp "
+                           "is off in some frames "
+                           "(leave them out: --frames), or the bytes of each pixel are swapped (--raw WxH:uint16be)" };
   warnings.insert(warnings.begin(), warning);
 }
 

@@ -68,8 +68,8 @@ WarnOfStack(Report & report, std::size_t frames, const StackSummary & summary)
   if (frames >= MinimumFrames && frames < 20)
   {
     report.Warn(WarningCode::FewFrames,
-                "the stack has " + std::to_string(frames) +
-                  " different frames: indicative only; 20 or more are usable");
+                "only " + std::to_string(frames) +
+                  " distinct frames: treat the results as indicative. Record at least 20");
   }
   if (codes.clipSource.find("pile-up") != std::string::npos)
   {
@@ -79,20 +79,23 @@ WarnOfStack(Report & report, std::size_t frames, const StackSummary & summary)
   }
   if (codes.steps.IsCompanded())
   {
-    const CodeSteps::Local & dark = codes.steps.GetTable().front();
-    const CodeSteps::Local & bright = codes.steps.GetTable().back();
+    const auto &             table = codes.steps.GetTable();
+    const auto               byStep = [](const auto & a, const auto & b) { return a.stepDn < b.stepDn; };
+    const auto               ends = std::minmax_element(table.begin(), table.end(), byStep);
+    const CodeSteps::Local & fine = *ends.first;
+    const CodeSteps::Local & coarse = *ends.second;
     report.Warn(
       WarningCode::Companded,
-      "the grey levels lie " + Rounded(dark.stepDn) + " DN apart about " + Rounded(dark.levelDn) + " DN and " +
-        Rounded(bright.stepDn) + " DN about " + Rounded(bright.levelDn) +
-        " DN: a tone curve was applied to fewer bits and undone, and the noise of rounding differs from level "
-        "to level");
+      "the quantization step is " + Rounded(fine.stepDn) + " DN at " + Rounded(fine.levelDn) + " DN and " +
+        RoundedApart(coarse.stepDn, fine.stepDn) + " DN at " + Rounded(coarse.levelDn) +
+        " DN: a tone curve to fewer bits was applied and undone, and the quantization noise depends on the level");
   }
   if (!codes.isRegular)
   {
     report.Warn(WarningCode::IrregularCodes,
-                "the spacing of the grey levels varies about " + Text(codes.quantisationStepDn) +
-                  " DN: the data were rescaled and their quantisation noise is not known");
+                "the quantization step varies about " + Rounded(codes.quantisationStepDn) +
+                  " DN: the frames were rescaled, and their quantization noise is not known. Give the frames as the "
+                  "camera recorded them");
   }
   if (summary.notFinite > 0)
   {
@@ -113,8 +116,9 @@ WarnOfMosaic(Report &                    report,
     report.Warn(WarningCode::Mosaic,
                 std::string("the levels of neighbouring pixels alternate as behind a Bayer mosaic, ") +
                   NameOf(*pattern) + " or " + NameOf(other) +
-                  ", and the frames were measured as those of a monochrome sensor; expected the option bayer, which "
-                  "measures each colour by itself");
+                  ", but the frames were measured as those of a monochrome sensor. Measure each colour by itself: "
+                  "--bayer " +
+                  NameOf(*pattern));
   }
 }
 

@@ -77,7 +77,8 @@ WithdrawGain(Report & report, EstimateStatus status, const std::string & contrad
 {
   SetSensorParameters(report, status);
   report.covariance.reset();
-  report.Warn(WarningCode::Contradicted, contradiction + ": no gain is given");
+  report.Warn(WarningCode::Contradicted,
+              contradiction + ", so no gain is given. Record one unprocessed burst of one scene, with more lit frames");
 }
 
 void
@@ -93,17 +94,17 @@ WithdrawContradictedGain(Report & report)
   {
     WithdrawGain(report,
                  EstimateStatus::Failed,
-                 "the variance scatters about its line " + RoundedApart(*chi2, LeastReducedChi2) +
-                   " times as chance makes it (reduced chi2, at least " + Rounded(LeastReducedChi2) + " expected)");
+                 "the variance scatters about its line only " + RoundedApart(*chi2, LeastReducedChi2) +
+                   " times as much as by chance (reduced chi2, expected at least " + Rounded(LeastReducedChi2) + ")");
   }
   else if (const Quantity filed = Filed(gain, QuantityDomain::Positive); filed.status != EstimateStatus::Identified)
   {
     const bool holdsZero = !(gain.interval95->low.value_or(-1.0) > 0.0);
     WithdrawGain(report,
                  filed.status,
-                 holdsZero ? "the interval of the gain holds 0"
+                 holdsZero ? "the interval of the gain contains 0"
                            : "the gain is " + Measured(*gain.value, gain.standardError.value_or(0.0)) +
-                               " DN/e-, an error of more than " + Percent(LargestRelativeError));
+                               " DN/e-, with an error above " + Percent(LargestRelativeError));
   }
 }
 

@@ -55,8 +55,9 @@ FitProvisionalModel(const ReferenceFrame & frame)
   if (pixels.size() < InScene.fewestPixels)
   {
     throw NothingToMeasure("only " + std::to_string(pixels.size()) +
-                           " pixels are free of clipping, with all their neighbours, and vary; expected at least " +
-                           std::to_string(InScene.fewestPixels));
+                           " pixels vary and are not clipped, with all their neighbours; expected at least " +
+                           std::to_string(InScene.fewestPixels) +
+                           ". Record a scene between the clip levels, or correct --mask, --roi or --clip");
   }
   ProvisionalModel model;
   SetLevels(model, frame, pixels);

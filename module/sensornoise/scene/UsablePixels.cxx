@@ -135,9 +135,10 @@ RequireFineCodes(const UsablePixels & pixels, double stepDn)
   const double all = pixels.count + static_cast<double>(pixels.coarse + pixels.nearClip);
   if (coarse > InScene.largestCoarseShare * all)
   {
-    throw NothingToMeasure("the noise of " + Text(100.0 * coarse / all) +
-                             " % of the pixels, the darkest, is below half a code step of " + Text(stepDn) +
-                             " DN, where the codes hide it: use more bits, or a higher analogue gain",
+    throw NothingToMeasure("the noise of " + PercentApart(coarse / all, InScene.largestCoarseShare) +
+                             " of the pixels, the darkest, is below half the quantization step of " + Text(stepDn) +
+                             " DN, which hides it (expected at most " + Percent(InScene.largestCoarseShare) +
+                             " of the pixels). Use more bits, or a higher analogue gain",
                            WarningCode::CodesTooCoarse);
   }
 }

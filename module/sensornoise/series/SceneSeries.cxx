@@ -55,10 +55,11 @@ FindSceneSeries(const FrameSums &             sums,
     {
       pixels += sums.GetRegressors().PixelsOfClass(c);
     }
-    throw NothingToMeasure(pixels > 0.0
-                             ? "the usable pixels have one intensity; expected dark and bright areas"
-                             : "no usable pixel is left: all are masked, clipped, next to a clip level or in "
-                               "moving areas; expected a static scene between the clip levels");
+    throw NothingToMeasure(
+      pixels > 0.0 ? "the usable pixels all have one intensity, which determines neither gain nor offset. Include "
+                     "dark and bright areas in the scene"
+                   : "no pixel is left: all are masked, clipped, next to a clip level or in moving areas. "
+                     "Record a static scene between the clip levels, or correct --mask, --roi or --clip");
   }
   SceneSeries found;
   found.line = *line;
