@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/base/WarningCodes.h"
+#include "helpers/SentencesTestHelper.h"
 
 #include <gtest/gtest.h>
 #include <regex>
@@ -31,6 +32,7 @@ TEST(SensorNoiseWarningCodes, SentencesAreSentences)
     EXPECT_TRUE(sentence.front() >= 'A' && sentence.front() <= 'Z') << sentence;
     EXPECT_EQ(sentence.back(), '.') << sentence;
     EXPECT_EQ(sentence.find('|'), std::string::npos) << sentence; // a column of a table
+    EXPECT_LE(test::WordsOfLongestSentence(sentence), test::MostWords) << sentence;
     EXPECT_EQ(severities.count(NameOf(kind.severity)), 1u);
   }
 }
