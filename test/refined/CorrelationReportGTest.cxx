@@ -4,6 +4,7 @@
 #include "sensornoise/refined/CorrelationReport.h"
 #include "sensornoise/report/Quantities.h"
 #include "helpers/ReportTestHelper.h"
+#include "helpers/SentencesTestHelper.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,6 +48,7 @@ WarningOf(const NoiseCorrelation & correlation, bool hasGain = true)
     return "";
   }
   EXPECT_EQ(report.warnings.size(), 1U);
+  EXPECT_LE(WordsOfLongestSentence(report.warnings[0].message), MostWords) << report.warnings[0].message;
   return std::string(KindOf(report.warnings[0].code).name) + ": " + report.warnings[0].message;
 }
 

@@ -7,6 +7,7 @@
 #include "sensornoise/simulation/Scenes.h"
 #include "sensornoise/simulation/SimulationSettings.h"
 #include "helpers/SensorTestHelper.h"
+#include "helpers/SentencesTestHelper.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,6 +56,10 @@ ExpectWarns(const Stack<Codes> & stack, WarningCode code)
 {
   const Report report = Measure(stack, {}).GetReport();
   EXPECT_TRUE(HasWarning(report, code)) << KindOf(code).name << '\n' << MakeText(report);
+  for (const Warning & warning : report.warnings)
+  {
+    EXPECT_LE(WordsOfLongestSentence(warning.message), MostWords) << warning.message;
+  }
   const bool isMeasured = report.gain.status == EstimateStatus::Identified;
   EXPECT_EQ(isMeasured, KindOf(code).severity != Severity::Error) << KindOf(code).name;
   if (isMeasured)

@@ -214,7 +214,7 @@ ReadCount(const std::string & text, const std::string & what, const std::string 
   return *number;
 }
 
-/** Of pixels of 16 bits, what is to be said where the first frame looks as if its bytes were swapped; else empty. */
+/** Returns a warning where the bytes of 16-bit pixels look swapped in the first frame; else an empty text. */
 std::string
 WarningOfByteOrder(FileBytes & bytes, const RawLayout & layout)
 {

@@ -191,7 +191,8 @@ FillQuality(Report &                  report,
   if (std::abs(quality.curvatureZ) > 5.0 && std::abs(bendDn2) > 0.03 * middleDn2)
   {
     report.Warn(WarningCode::CorrectedVarianceCurved,
-                "the corrected variance bends by " + PercentApart(std::abs(bendDn2) / middleDn2, 0.03) +
+                "the corrected variance deviates from its line by " +
+                  PercentApart(std::abs(bendDn2) / middleDn2, 0.03) +
                   " of itself (expected less than 3 %): vibrations, several lamps, or a non-linear response. Use "
                   "--method refined");
   }

@@ -45,7 +45,7 @@ NeighbourAt(const Lag & lag)
   return "pixels " + distance + " apart share ";
 }
 
-/** What it means for the gain, and what to do: \a action, a sentence. */
+/** Says how the gain follows from the variance, and then \a action, a sentence. */
 std::string
 Consequence(const Report & report, const std::string & action)
 {

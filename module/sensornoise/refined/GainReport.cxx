@@ -189,8 +189,8 @@ FillTooLittle(Report & report, const RefinedResults & found, const GainEstimate 
     WarningCode::IntensityRangeTooSmall,
     "the levels of the scene do not determine the gain: they differ by " + Rounded(levels) + " DN rms, " +
       Percent(levels / std::max(1e-9, gain.line.pivotDn - found.blackDn)) +
-      " of the signal, of which fixed-pattern noise may be " + Percent(std::min(1.0, pattern.LargestShare())) +
-      ", and the gain is known only to +- " + Rounded(error) + " of about " + Rounded(gain.scale) + " DN/e-. " +
+      " of the signal, and fixed-pattern noise may explain " + Percent(std::min(1.0, pattern.LargestShare())) +
+      " of that. The gain is known only to +- " + Rounded(error) + " of about " + Rounded(gain.scale) + " DN/e-. " +
       AskIfExchanged(
         found,
         hasDark ? "Record more frames, or include dark and bright areas in the scene"

@@ -252,8 +252,7 @@ OffsetByExposures(const RefinedResults & found)
   return estimate;
 }
 
-/** What to do where the illumination does not determine the offset: \a other, which begins with ", or", may help, too.
- */
+/** Asks for the offset, which the illumination does not determine. \a other begins with ", or" and may help, too. */
 std::string
 Ask(const std::string & other)
 {
