@@ -60,6 +60,10 @@ SentenceOf(const std::exception & error)
     return "there is not enough memory for images of this size; expected smaller ones (--roi, --frames, --size), or "
            "more memory";
   }
+  if (text.find(": truncated") != std::string::npos || text.find(": damaged") != std::string::npos)
+  {
+    return text + ". Copy the file again, or leave it out";
+  }
   return text;
 }
 

@@ -42,7 +42,7 @@ RequireFolder(const OutputTarget & target)
   const std::string words = given.empty() ? "." : given.string();
   if (!fs::is_directory(folder))
   {
-    RefuseOutput(target.name, "there is no folder " + words);
+    RefuseOutput(target.name, "there is no folder " + words + "; make it first, or name another");
   }
   if (access(folder.c_str(), W_OK | X_OK) != 0)
   {
@@ -97,7 +97,7 @@ FindTarget(const std::string & name)
     const fs::path  folder = fs::canonical(parent, error);
     if (error)
     {
-      RefuseOutput(name, "there is no folder " + parent.string());
+      RefuseOutput(name, "there is no folder " + parent.string() + "; make it first, or name another");
     }
     target.descriptor = DescriptorOf(folder, path.filename().string());
     if (target.descriptor >= 0)

@@ -109,7 +109,8 @@ TEST(SensorNoiseCorrelationReport, NeighboursThatDecidedAreNamed)
   correlation.kurtosis[3] = { 0.001, 0.01 };
   correlation.kurtosis[4] = { 0.09, 0.01 };
   const std::string warning = WarningOf(correlation);
-  EXPECT_EQ(warning.rfind("noise-not-linear: differences of neighbours are not distributed", 0), 0U) << warning;
+  EXPECT_EQ(warning.rfind("noise-not-linear: differences of neighbours are not normally distributed", 0), 0U)
+    << warning;
   EXPECT_TRUE(Has(warning, "excess kurtosis -0.0069 +- 0.0040, of differences in 8 x 1 pixels 0.090 +- 0.010"))
     << warning;
 }

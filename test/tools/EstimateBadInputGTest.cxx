@@ -97,7 +97,7 @@ TEST_F(EstimateBadInputTool, ATruncatedStackIsRefused)
 TEST_F(EstimateBadInputTool, AFolderATextAndAnEmptyFileAreRefused)
 {
   std::filesystem::create_directories(Path("folder.tif"));
-  IsRefused("folder.tif", { "folder.tif: none of the 0 files in this folder is an image" });
+  IsRefused("folder.tif", { "folder.tif: there is no file in this folder" });
   IsRefused("s.mha --mask folder.tif", { "s.mha", "does not exist" });
   IsRefused(WriteText("empty.mha", ""), { "empty.mha", "has 0 bytes" });
   IsRefused(WriteText("text.tif", "Dear reader,\nthis is no image.\n"), { "text.tif", "no image in a format" });

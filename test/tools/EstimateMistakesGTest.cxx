@@ -111,6 +111,13 @@ TEST_F(EstimateMistakes, MapsGoToAFolder)
   IsAnswered("s.mha --maps maps/of/today", { "maps is a file; expected a folder" });
 }
 
+TEST_F(EstimateMistakes, ATruncatedFileIsCopiedAgain)
+{
+  const std::vector<std::string> names = WriteList<unsigned short>(MakeBurst(6), ".tif");
+  std::filesystem::resize_file(Path(names[3]), 4000);
+  IsAnswered(Joined(names), { names[3] + ": ", "truncated", "Copy the file again, or leave it out" });
+}
+
 TEST_F(EstimateMistakes, EmptyNamesAndFoldersAreNamed)
 {
   const std::string stack = Write("s.mha", MakeBurst().GetPointer());

@@ -129,18 +129,16 @@ WarnOfNonlinear(Report & report, const NoiseCorrelation & correlation, const Lag
     report.Warn(
       WarningCode::NoiseNotLinear,
       NeighbourAt(space->lag) + PercentOf(space->coefficient) +
-        " of their noise, which does not grow with the signal as after a filter, though the noise is normal (" +
-        kurtosis +
-        "): periodic interference, or blocks of rounded pixels (compression). Record raw frames, and look for the "
-        "source "
-        "of the interference: cables, power supply, read-out clock");
+        " of their noise, which does not grow with the signal as after a filter: periodic interference, or blocks of "
+        "rounded pixels (compression). Record raw frames, and look for the source of the interference in cables, power "
+        "supply and read-out clock (" +
+        kurtosis + ": the noise is normal)");
     return;
   }
   const bool isOfPixels = own.Exceeds(0.0, InCorrelation.anyZ);
   report.Warn(WarningCode::NoiseNotLinear,
-              (isOfPixels
-                 ? "the noise is not distributed as the noise of a sensor or of a linear filter ("
-                 : "differences of neighbours are not distributed as the noise of a sensor or of a linear filter (") +
+              (isOfPixels ? "the noise is not normally distributed ("
+                          : "differences of neighbours are not normally distributed (") +
                 kurtosis +
                 "): the camera corrects defects, takes medians or compresses. Set the camera to raw frames, without "
                 "corrections");
