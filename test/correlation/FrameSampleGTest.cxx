@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <gtest/gtest.h>
 #include <limits>
+#include <numeric>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -244,11 +245,13 @@ TEST(SensorNoiseFrameSample, LongStacksLeaveTheirFirstFrames)
   EXPECT_TRUE(HaveSameBits(ValuesOf(SampleOfStack(first)), expected));
 }
 
-TEST(SensorNoiseFrameSample, FirstFramesCanBeLeftOut)
+TEST(SensorNoiseFrameSample, OtherFramesAreLeftOut)
 {
   NoiseSample sample = SampleOfStack(RandomStack()).TakeNoise(SomeMean());
   const auto  whole = sample;
-  sample.DropFirst(4);
+  std::vector<std::size_t> kept(Frames - 4);
+  std::iota(kept.begin(), kept.end(), std::size_t{ 4 });
+  sample.KeepFrames(kept);
   const std::size_t pixels = sample.GetTiles().Pixels();
   ASSERT_EQ(sample.GetTiles().frames, Frames - 4);
   ASSERT_EQ(ValuesOf(sample).size(), 8 * 5 * pixels);

@@ -137,19 +137,10 @@ struct CorrelationConstants
    * drifts of a few pixels make 0.003 of it. */
   double leastTimeCoefficient{ 0.01 };
   double timeZ{ 4.0 };
-  /** Difference of chi-squares by which a drift must fit better than a filter [1]. Set by hand. */
-  double evidenceOfDrift{ 2.0 };
   /** Coefficient of the last two lags at which the sum ends [1], and the lags that it may have at most [frames]: three
    * quarters of the last frame are forgotten after 20. */
   double smallTimeCoefficient{ 0.005 };
   int    mostTimeLags{ 24 };
-  /** Error of the sum over frames per square of the part of the frames' freedom that is projected out [1]. Set by hand:
-   * filters of 0.2 to 0.6 of the last frame, 50 frames, 10 to 18 series; half covers 80 %, twice 99 %. */
-  double errorOfMixing{ 0.25 };
-  /** Frames after which a recursive filter has forgotten how it began, for its first frame is not filtered; and at most
-   * one in so many of all. Set by hand. */
-  std::size_t firstFrames{ 8 };
-  std::size_t firstFramesOneIn{ 5 };
   ///@}
 };
 

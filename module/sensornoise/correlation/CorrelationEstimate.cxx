@@ -231,8 +231,7 @@ EstimateCorrelation(NoiseSample                       sample,
                            SeriesOf(settings, distinct, means),
                                   { mean, taken, blackDn, !std::isnan(settings.offsetDn) },
                            parallelFor);
-  NoiseCorrelation      correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
-  MeasureSettledFrames(correlation, residuals, codesDn2, parallelFor);
+  const NoiseCorrelation correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
 
   estimate.framesUsed = residuals.GetTiles().frames;
   estimate.pixelsUsed = residuals.GetNumberOfPixels();

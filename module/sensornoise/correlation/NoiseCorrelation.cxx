@@ -115,31 +115,6 @@ FindCoefficients(const CorrelationSums & sums, NoiseCorrelation & found)
   }
 }
 
-/** The kurtosis of a series is relative to its own variance, whose scatter depends on what its frames share: of normal
- * noise of the covariance S = P R P, E[sum r^4] = 3 sum_t S_tt^2 and E[(sum r^2)^2] = (tr S)^2 + 2 tr S^2. */
-void
-AllowForSharedFrames(const Eigen::MatrixXd & basis, NoiseCorrelation & found)
-{
-  const Eigen::Index frames = basis.rows();
-  Eigen::MatrixXd    shared = Eigen::MatrixXd::Identity(frames, frames);
-  for (const LagCoefficient & lag : found.time)
-  {
-    shared.diagonal(lag.lag.t).setConstant(lag.coefficient.value);
-    shared.diagonal(-lag.lag.t).setConstant(lag.coefficient.value);
-  }
-  const Eigen::MatrixXd projection = Eigen::MatrixXd::Identity(frames, frames) - basis * basis.transpose();
-  const auto            kurtosisOf = [](const Eigen::MatrixXd & covariance) {
-    const double trace = covariance.trace();
-    return covariance.diagonal().squaredNorm() / (trace * trace + 2.0 * covariance.squaredNorm());
-  };
-  const double factor = kurtosisOf(projection) / kurtosisOf(projection * shared * projection);
-  for (MeasuredNumber & kurtosis : found.kurtosis)
-  {
-    kurtosis.value = factor * (kurtosis.value + 3.0) - 3.0;
-    kurtosis.standardError *= factor;
-  }
-}
-
 /** Whether the distribution is that of normal noise, or of few electrons, after a linear filter. */
 bool
 IsLinear(const CorrelationSums & sums, const NoiseCorrelation & found)
@@ -250,7 +225,7 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const
   NoiseCorrelation found;
   found.kind = NoiseKind::White;
   FindCoefficients(sums, found);
-  const bool inTime = SharesInTime(sums, found.time);
+  const bool inTime = SharesInTime(found.time);
   const bool inSpace = SharesInSpace(sums, found.space);
   if (inTime)
   {
@@ -265,10 +240,6 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const
   {
     FindCoefficients(sums, found); // at all lags that were added
   }
-  if (inTime)
-  {
-    AllowForSharedFrames(residuals.GetBasis(), found);
-  }
   if (!IsLinear(sums, found))
   {
     found.kind = NoiseKind::NotLinear;
@@ -279,20 +250,6 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const
     found.kind = found.enlargement ? NoiseKind::Enlarged : found.kind;
   }
   return found;
-}
-
-void
-MeasureSettledFrames(NoiseCorrelation &  correlation,
-                     NoiseResiduals &    residuals,
-                     double              codesDn2,
-                     const ParallelFor & parallelFor)
-{
-  if (correlation.kind == NoiseKind::Temporal)
-  {
-    residuals.DropFirst(
-      std::min(InCorrelation.firstFrames, residuals.GetTiles().frames / InCorrelation.firstFramesOneIn), parallelFor);
-    correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
-  }
 }
 
 } // namespace sensornoise

@@ -4,7 +4,6 @@
 
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/correlation/Constants.h"
-#include "sensornoise/correlation/SharedShapes.h"
 #include "sensornoise/correlation/TemporalMixing.h"
 
 #include <algorithm>
@@ -15,21 +14,11 @@ namespace sensornoise
 {
 
 bool
-SharesInTime(const CorrelationSums & sums, const std::vector<LagCoefficient> & coefficients)
+SharesInTime(const std::vector<LagCoefficient> & coefficients)
 {
-  const bool isLarge = std::any_of(coefficients.begin(), coefficients.end(), [](const LagCoefficient & lag) {
+  return std::any_of(coefficients.begin(), coefficients.end(), [](const LagCoefficient & lag) {
     return lag.coefficient.Exceeds(InCorrelation.leastTimeCoefficient, InCorrelation.timeZ);
   });
-  if (!isLarge)
-  {
-    return false;
-  }
-  const TileSums              all = sums.Total();
-  const CorrelationSums::Lags next{ sums.TimeLags().front() };
-  const auto                  fits =
-    FitShapes(sums.ShapesOf(all, sums.GetCodesDn2()).InBins(), sums.SharedInBins(all, next), sums.ErrorsInBins(next));
-  return fits[static_cast<std::size_t>(ShapeOfShared::Constant)].chi2 + InCorrelation.evidenceOfDrift >
-         fits[static_cast<std::size_t>(ShapeOfShared::Variance)].chi2;
 }
 
 void
@@ -54,11 +43,8 @@ SumOverTime(CorrelationSums & sums, NoiseCorrelation & found)
       sums.AddTimeLags(std::min(static_cast<int>(known) + 2, InCorrelation.mostTimeLags));
     }
   }
-  // What is beyond: a tail that falls off as before. What all pixels have in common: the series that are projected out
-  // have noise of their own, which knows that of the frames.
-  const double projected = static_cast<double>(basis.cols()) / static_cast<double>(basis.rows());
-  const double ofMixing = InCorrelation.errorOfMixing * projected * projected * std::abs(found.timeFactor.value - 1.0);
-  found.timeFactor.standardError = std::hypot(found.timeFactor.standardError, 2.0 * last, ofMixing);
+  // What is beyond: a tail that falls off as before.
+  found.timeFactor.standardError = std::hypot(found.timeFactor.standardError, 2.0 * last);
 }
 
 } // namespace sensornoise

@@ -10,10 +10,9 @@
 namespace sensornoise
 {
 
-/** Whether frames share noise by any of the \a coefficients in time, as a filter shares it: in proportion to the
- * variance. A drift of the offsets is shared, too, and does not grow with the light. */
+/** Whether frames share noise, by any of the \a coefficients in time. */
 SensorNoise_EXPORT bool
-SharesInTime(const CorrelationSums & sums, const std::vector<LagCoefficient> & coefficients);
+SharesInTime(const std::vector<LagCoefficient> & coefficients);
 
 /** Sums what frames share over the lags within reach, which grows until the last two share little. More lags than
  * needed are worse: the projection of a short burst leaves little that tells them apart. */

@@ -48,9 +48,6 @@ public:
   {
     return m_OffsetDn;
   }
-  /** Leaves out all but the last frames. */
-  void
-  KeepLast(Eigen::Index frames);
   /** Leaves out all but the first frames. */
   void
   KeepFirst(Eigen::Index frames);
