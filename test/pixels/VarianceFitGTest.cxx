@@ -236,35 +236,3 @@ TEST(SensorNoiseVarianceFit, OneIntensityOrTooFewPixelsDetermineNothing)
   std::fill_n(maps.mask.begin(), 9, std::uint8_t{ 1 });
   EXPECT_FALSE(maps.Fit().isDetermined);
 }
-
-TEST(SensorNoiseVarianceFit, LineOfAPartIsThatOfItsPixels)
-{
-  const Maps  maps(true);
-  VarianceFit fit(maps.Data(), test::Threads(3), std::nullopt);
-  fit.Iterate(20);
-  fit.FillErrors();
-  const VarianceLine & line = fit.GetLine();
-  // The whole is a part.
-  const VarianceLine whole = fit.LineOfPart(maps.mask);
-  ASSERT_TRUE(whole.isDetermined);
-  EXPECT_NEAR(whole.gain, line.gain, 1e-8 * line.gain);
-  EXPECT_NEAR(whole.intercept, line.intercept, 1e-8 * std::abs(line.intercept));
-  EXPECT_NEAR(whole.pivotDn, line.pivotDn, 1e-6);
-  EXPECT_NEAR(whole.covariance(0, 0), line.covariance(0, 0), 1e-6 * line.covariance(0, 0));
-  EXPECT_NEAR(whole.covariance(0, 1), line.covariance(0, 1), 1e-6 * std::abs(line.covariance(0, 1)));
-  EXPECT_NEAR(whole.covariance(1, 1), line.covariance(1, 1), 1e-6 * line.covariance(1, 1));
-  // The darker half by itself, whose own fit has weights that differ by its error.
-  Maps half = maps;
-  for (std::size_t p = 0; p < Pixels; ++p)
-  {
-    half.mask[p] = maps.neighbourMean[p] < 600.0 ? 1 : 0;
-  }
-  const VarianceLine own = half.Fit();
-  const VarianceLine part = fit.LineOfPart(half.mask);
-  EXPECT_NEAR(part.gain, own.gain, 0.05 * std::sqrt(own.covariance(0, 0)));
-  EXPECT_NEAR(part.intercept, own.intercept, 0.05 * std::sqrt(own.covariance(1, 1)));
-  EXPECT_NEAR(part.covariance(0, 0), own.covariance(0, 0), 0.02 * own.covariance(0, 0));
-  half.mask.assign(Pixels, 0);
-  std::fill_n(half.mask.begin(), 9, std::uint8_t{ 1 });
-  EXPECT_FALSE(fit.LineOfPart(half.mask).isDetermined);
-}

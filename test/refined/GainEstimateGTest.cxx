@@ -111,26 +111,6 @@ TEST(SensorNoiseGainEstimate, LineIsChosenByErrorsAndNeverByValues)
   }
 }
 
-TEST(SensorNoiseGainEstimate, SmootherHalfThatContradictsWidensTheErrors)
-{
-  Found      found;
-  const auto flat = [](double gain) {
-    VarianceLine line = LineOf(gain, 0.003);
-    line.weightSum = 1.0;
-    line.spreadDn2 = 100.0;
-    return line;
-  };
-  found.variance.fromFlat = flat(1.004); // 0.004 of sqrt(0.003^2 - 0.002^2) = 0.0022: chance
-  EXPECT_NEAR(found.Estimate().StandardError(), 0.002, 1e-12);
-  found.variance.fromFlat = flat(1.02);
-  EXPECT_NEAR(found.Estimate().StandardError(), std::sqrt(4e-6 + 4e-4 - 5e-6), 1e-9);
-  EXPECT_EQ(found.Estimate().line.gain, 1.0);
-  // Fixed-pattern noise may be 2 of the 100 DN^2 by which the levels of the half differ, and its slope off by 2 %.
-  found.variance.pattern.lightDn2 = 2e6;
-  found.variance.pattern.offsetShare = 1e-6;
-  EXPECT_NEAR(found.Estimate().StandardError(), 0.002, 1e-5);
-}
-
 TEST(SensorNoiseGainEstimate, BentResponseHasTheMeanGain)
 {
   // About 3 % more variance in the middle of the levels, 6 % less at the ends.

@@ -40,7 +40,6 @@ LinesThrough(TFunction varianceAt)
   SensorLines lines;
   lines.all = Line(Gain, InterceptDn2, 900.0);
   lines.fromLight = Line(1.1 * Gain, 0.9 * InterceptDn2, 800.0);
-  lines.fromFlat = Line(0.9 * Gain, 1.1 * InterceptDn2, 700.0);
   lines.curve.line = lines.all;
   for (std::size_t b = 0; b < VarianceCurve::Bins; ++b)
   {
@@ -96,7 +95,6 @@ TEST(SensorNoiseSensorLines, WithoutSharingTheyAreThoseOfThePixels)
   EXPECT_DOUBLE_EQ(sensor.all.gain, lines.all.gain);
   EXPECT_DOUBLE_EQ(sensor.all.intercept, lines.all.intercept);
   EXPECT_DOUBLE_EQ(sensor.fromLight.gain, lines.fromLight.gain);
-  EXPECT_DOUBLE_EQ(sensor.fromFlat.intercept, lines.fromFlat.intercept);
   EXPECT_EQ(sensor.all.covariance, lines.all.covariance);
   EXPECT_EQ(sensor.errorOfShared.norm(), 0.0);
   for (std::size_t b = 0; b < VarianceCurve::Bins; ++b)

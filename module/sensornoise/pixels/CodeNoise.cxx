@@ -118,7 +118,7 @@ void
 TakeOffLine(StaticVariance & variance, const CodeNoise & noise)
 {
   for (VarianceLine * line :
-       { &variance.line, &variance.fromLight, &variance.fromFlat, &variance.curve.line, &variance.ofOwnLevels.line })
+       { &variance.line, &variance.fromLight, &variance.curve.line, &variance.ofOwnLevels.line })
   {
     line->gain -= noise.slopeDn;
     line->intercept -= noise.interceptDn2;

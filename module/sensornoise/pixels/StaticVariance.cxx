@@ -16,7 +16,6 @@
 #include "sensornoise/pixels/StaticPixels.h"
 #include "sensornoise/pixels/VarianceFit.h"
 #include "sensornoise/pixels/VarianceLine.h"
-#include "sensornoise/pixels/VarianceQuality.h"
 #include "sensornoise/scene/ReferenceFrame.h"
 
 #include <algorithm>
@@ -264,7 +263,6 @@ FitOnce(ProjectedVariance &               projected,
   ForPixels(trimmed.size(), parallelFor, [&](std::size_t p) {
     found.pixelUse[p] = trimmed[p] != 0 ? static_cast<std::uint8_t>(PixelUse::Outlier) : found.pixelUse[p];
   });
-  found.fromFlat = settle(FitFlatHalf(fit, projected, found.classes, found.mask, parallelFor));
   const ReferenceFrame & frame = projected.GetFrame();
   found.pattern = MeasureLevelPattern(frame, data, line, blackDn, parallelFor);
   if (found.pattern.LargestShare() * std::abs(line.gain) >

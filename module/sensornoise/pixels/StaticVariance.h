@@ -30,8 +30,6 @@ struct StaticVariance
   LevelPattern pattern;
   /** The line by light alone; not determined where no pattern is large enough to matter. */
   VarianceLine fromLight;
-  /** Of the smoother half of the pixels, not corrected. */
-  VarianceLine fromFlat;
   /** The line by frames of unequal illumination, and how they deviate from it, see FitFramePhotonTransfer(); not
    * determined where they are about equal. */
   VarianceCurve fromFrames;

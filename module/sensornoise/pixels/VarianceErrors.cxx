@@ -59,7 +59,7 @@ VarianceFit::FillErrors()
     Sums
   };
   const double atPivot = m_Line.intercept + m_Line.gain * m_Line.pivotDn;
-  const auto   s = this->SumTerms<Sums>(m_Data.mask, [atPivot, gain = m_Line.gain](double w, double x, double value) {
+  const auto   s = this->SumTerms<Sums>([atPivot, gain = m_Line.gain](double w, double x, double value) {
     const double residual = value - atPivot - gain * x;
     const double square = w * w * residual * residual;
     const double wxx = w * x * x;
@@ -82,52 +82,6 @@ VarianceFit::FillErrors()
   }
   m_Line.trimmedFraction = (pixels - s[Kept]) / pixels;
   m_Line.isDetermined = std::isfinite(m_Line.gain) && m_Line.covariance.allFinite();
-}
-
-VarianceLine
-VarianceFit::LineOfPart(const std::vector<std::uint8_t> & mask) const
-{
-  // Sums of the weight w times powers of x and the residual R about the line of all; of its square, the scores'.
-  enum : std::size_t
-  {
-    Kept,
-    W,
-    WX,
-    WXX,
-    WR,
-    WXR,
-    WWRR,
-    WWRRX,
-    WWRRXX,
-    Sums
-  };
-  const double pivot = m_Line.pivotDn;
-  const double atPivot = m_Line.intercept + m_Line.gain * pivot;
-  const auto   s = this->SumTerms<Sums>(mask.data(), [atPivot, gain = m_Line.gain](double w, double x, double value) {
-    const double wr = w * (value - atPivot - gain * x);
-    return std::array<double, Sums>{ w > 0.0 ? 1.0 : 0.0, w, w * x, w * x * x, wr, wr * x, wr * wr, wr * wr * x,
-                                     wr * wr * x * x };
-  });
-  VarianceLine line;
-  line.lowestDn2 = m_Line.lowestDn2;
-  line.noiseSpreadDn4 = m_Line.noiseSpreadDn4;
-  const double determinant = s[W] * s[WXX] - s[WX] * s[WX];
-  line.isDetermined = s[Kept] >= static_cast<double>(InPixels.fewestPixelsOfFit) &&
-                      determinant > InPixels.leastDeterminant * s[W] * s[WXX];
-  if (line.isDetermined)
-  {
-    const double moreGain = (s[W] * s[WXR] - s[WX] * s[WR]) / determinant;
-    const double centre = s[WX] / s[W];
-    line.gain = m_Line.gain + moreGain;
-    line.intercept = m_Line.intercept + (s[WXX] * s[WR] - s[WX] * s[WXR]) / determinant - moreGain * pivot;
-    line.weightSum = s[W];
-    line.pivotDn = pivot + centre;
-    line.spreadDn2 = determinant / s[W];
-    line.covariance = Sandwich(
-      line, s[WWRRXX] - 2.0 * centre * s[WWRRX] + centre * centre * s[WWRR], s[WWRRX] - centre * s[WWRR], s[WWRR]);
-    line.isDetermined = std::isfinite(line.gain) && line.covariance.allFinite();
-  }
-  return line;
 }
 
 } // namespace sensornoise

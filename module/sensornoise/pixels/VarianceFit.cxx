@@ -112,7 +112,7 @@ VarianceFit::Iterate(int iterations)
   for (int iteration = 0; m_Trim && iteration < iterations; ++iteration)
   {
     const double pivot = m_Line.pivotDn;
-    const auto   s = this->SumTerms<Sums>(m_Data.mask, [](double w, double x, double value) {
+    const auto   s = this->SumTerms<Sums>([](double w, double x, double value) {
       return std::array<double, Sums>{ w, w * x, w * x * x, w * value, w * x * value };
     });
     const double determinant = s[W] * s[WXX] - s[WX] * s[WX];
@@ -186,7 +186,7 @@ VarianceFit::CurveAbout(const VarianceLine & line, SortedBy sortedBy) const
   };
   const auto s = SumBlocks<std::tuple_size_v<SumsOfBins>>(
     m_Data.pixels, m_ParallelFor, [&](std::size_t begin, std::size_t end, SumsOfBins & sums) {
-      this->ForKept(begin, end, m_Data.mask, [&](std::size_t first, std::size_t pixels, const KeptRun & kept) {
+      this->ForKept(begin, end, [&](std::size_t first, std::size_t pixels, const KeptRun & kept) {
         sumRun(first, pixels, kept, sums);
       });
     });

@@ -71,11 +71,6 @@ public:
     return m_ReachDn2;
   }
 
-  /** The line through the pixels of \a mask, which is part of the fit's own, with its errors and without a curvature.
-   * The weights and the trimming are those of all pixels, so that it differs from their line by what the pixels say. */
-  VarianceLine
-  LineOfPart(const std::vector<std::uint8_t> & mask) const;
-
   /** 1 at the pixels of the mask that the line trims: they have no weight in it. */
   std::vector<std::uint8_t>
   FindTrimmed() const;
@@ -132,7 +127,7 @@ private:
     OfRun value;
   };
 
-  /** The same of those of a mask that are not trimmed, with their means above the pivot; at the others all is 0. */
+  /** The same of those of the mask that are not trimmed, with their means above the pivot; at the others all is 0. */
   struct KeptRun
   {
     OfRun weight;
@@ -148,7 +143,7 @@ private:
   void
   WeighByLevel(std::size_t first, std::size_t pixels, Run & run) const;
   void
-  KeepRun(std::size_t first, std::size_t pixels, const std::uint8_t * mask, Run & run, KeptRun & kept) const;
+  KeepRun(std::size_t first, std::size_t pixels, Run & run, KeptRun & kept) const;
 
   /** Adds up terms(a[i], b[i], c[i]) of a run, in vectors. */
   template <std::size_t VSums, typename TTerms>
@@ -179,24 +174,24 @@ private:
   /** Calls function(first, pixels, what is kept of them) for the runs of [begin, end). */
   template <typename TFunction>
   void
-  ForKept(std::size_t begin, std::size_t end, const std::uint8_t * mask, TFunction function) const
+  ForKept(std::size_t begin, std::size_t end, TFunction function) const
   {
     Run     run{};
     KeptRun kept{};
     ForRuns(begin, end, [&](std::size_t first, std::size_t pixels) {
-      this->KeepRun(first, pixels, mask, run, kept);
+      this->KeepRun(first, pixels, run, kept);
       function(first, pixels, kept);
     });
   }
 
-  /** The sums of terms(weight, mean above the pivot, variance) over the pixels of \a mask. For those that are trimmed
+  /** The sums of terms(weight, mean above the pivot, variance) over the pixels of the mask. For those that are trimmed
    * all three are 0, and so have to be the terms. */
   template <std::size_t VSums, typename TTerms>
   std::array<double, VSums>
-  SumTerms(const std::uint8_t * mask, TTerms terms) const
+  SumTerms(TTerms terms) const
   {
     return SumBlocks<VSums>(m_Data.pixels, m_ParallelFor, [&](std::size_t begin, std::size_t end, auto & sums) {
-      this->ForKept(begin, end, mask, [&](std::size_t, std::size_t, const KeptRun & kept) {
+      this->ForKept(begin, end, [&](std::size_t, std::size_t, const KeptRun & kept) {
         AddTerms(kept.weight, kept.x, kept.value, terms, sums);
       });
     });

@@ -144,10 +144,10 @@ VarianceFit::WeighByLevel(std::size_t first, std::size_t pixels, Run & run) cons
 }
 
 void
-VarianceFit::KeepRun(std::size_t first, std::size_t pixels, const std::uint8_t * mask, Run & run, KeptRun & kept) const
+VarianceFit::KeepRun(std::size_t first, std::size_t pixels, Run & run, KeptRun & kept) const
 {
   this->WeighRun(first, pixels, run);
-  WithWideVectors([&, mean = m_Data.mean + first, used = mask + first, pivot = m_Line.pivotDn] {
+  WithWideVectors([&, mean = m_Data.mean + first, used = m_Data.mask + first, pivot = m_Line.pivotDn] {
     for (std::size_t i = 0; i < pixels; ++i)
     {
       const double weight = run.weight[i];

@@ -80,17 +80,6 @@ MoveToPoint(GainEstimate & estimate, const DarkPoint & dark)
   return std::abs(difference) / std::sqrt(expected);
 }
 
-/** Lets the bounds of the gain hold the gain of the line from its pivot to the point. */
-void
-WidenToPoint(GainEstimate & estimate, const DarkPoint & dark)
-{
-  const VarianceLine & line = estimate.line;
-  const double         signalDn = line.pivotDn - dark.offsetDn;
-  const double difference = signalDn > 0.0 ? (line.At(line.pivotDn) - dark.varianceDn2) / signalDn - line.gain : 0.0;
-  double &     side = difference < 0.0 ? estimate.below : estimate.above;
-  side = std::max(side, std::abs(difference));
-}
-
 /** The gains of the levels, (V - sigma^2) / (mean - mu). */
 struct LevelGains
 {
@@ -152,10 +141,6 @@ UseDarkPoint(GainEstimate & estimate, const RefinedResults & found)
     estimate = before;
     estimate.atOffset = atOffset;
     estimate.isDarkRejected = true;
-    if (isFar)
-    {
-      WidenToPoint(estimate, dark);
-    }
     return;
   }
   const LevelGains   gains = GainsOfLevels(estimate.curve, dark);

@@ -51,30 +51,6 @@ SlopeOfPattern(double gain, const LevelPattern & pattern, double levelsDn2)
   return levelsDn2 > patternDn2 ? std::abs(gain) * patternDn2 / levelsDn2 : std::abs(gain);
 }
 
-/** What the smoother half of the pixels says against all of them, as a covariance: 0 unless gain or value at the centre
- * differ by more than 2 standard deviations of the difference, which is that of a part against the whole (Hausman
- * 1978). Motion that is left in the rough half shows here. */
-Eigen::Matrix2d
-Disagreement(const VarianceLine & all, const VarianceLine & flat, const LevelPattern & pattern)
-{
-  Eigen::Matrix2d added = Eigen::Matrix2d::Zero();
-  if (flat.isDetermined)
-  {
-    const Eigen::Vector2d difference(flat.gain - all.gain, flat.intercept - all.intercept);
-    const double          ofPattern = SlopeOfPattern(all.gain, pattern, flat.spreadDn2 / flat.weightSum);
-    const Eigen::Matrix2d expected = flat.covariance - all.covariance + SlopeCovariance(ofPattern, flat.pivotDn);
-    for (int k = 0; k < 2; ++k)
-    {
-      const double square = difference(k) * difference(k);
-      added(k, k) = square > InRefined.hausmanZ * InRefined.hausmanZ * expected(k, k)
-                      ? std::max(0.0, square - expected(k, k))
-                      : 0.0;
-    }
-    added(0, 1) = added(1, 0) = std::copysign(std::sqrt(added(0, 0) * added(1, 1)), difference(0) * difference(1));
-  }
-  return added;
-}
-
 double
 DispersionOfClasses(const StaticVariance & variance)
 {
@@ -91,11 +67,10 @@ ChooseLine(GainEstimate &           estimate,
 {
   const VarianceLine &  all = lines.all;
   const double          dispersion = DispersionOfClasses(variance);
-  const Eigen::Matrix2d flat = Disagreement(all, lines.fromFlat, variance.pattern);
   const double          fromPattern = variance.pattern.LargestShare() * std::abs(all.gain);
-  const double          error = std::sqrt(dispersion * all.covariance(0, 0) + flat(0, 0));
+  const double          error = std::sqrt(dispersion * all.covariance(0, 0));
   estimate.line = all;
-  estimate.covariance = dispersion * all.covariance + flat;
+  estimate.covariance = dispersion * all.covariance;
   if (lines.fromLight.isDetermined &&
       std::hypot(error, fromPattern) > std::sqrt(dispersion * lines.fromLight.covariance(0, 0)))
   {

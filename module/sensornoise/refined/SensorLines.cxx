@@ -180,7 +180,7 @@ ErrorOf(const NoiseCorrelation & correlation,
 SensorLines
 LinesOf(const StaticVariance & variance)
 {
-  return { variance.line,  variance.fromLight,      variance.fromFlat,   variance.fromFrames,
+  return { variance.line,  variance.fromLight,      variance.fromFrames,
            variance.curve, Eigen::Matrix2d::Zero(), variance.ofOwnLevels };
 }
 
@@ -221,7 +221,6 @@ WithSharedNoise(const SensorLines & lines, const NoiseCorrelation & correlation,
   SensorLines           sensor;
   sensor.all = shared.SensorOf(lines.all, square);
   sensor.fromLight = shared.SensorOf(lines.fromLight, square);
-  sensor.fromFlat = shared.SensorOf(lines.fromFlat, square);
   sensor.fromFrames = CurveOfSensor(lines.fromFrames, shared, shared.SensorOf(lines.fromFrames.line, square));
   sensor.curve = CurveOfSensor(lines.curve, shared, shared.SensorOf(lines.curve.line, square));
   sensor.ofOwnLevels = CurveOfSensor(lines.ofOwnLevels, shared, shared.SensorOf(lines.ofOwnLevels.line, square));

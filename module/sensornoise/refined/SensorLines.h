@@ -19,7 +19,6 @@ struct SensorLines
 {
   VarianceLine  all;        ///< through all pixels that fit a static scene
   VarianceLine  fromLight;  ///< by light alone, see FitLightLine(); may be not determined
-  VarianceLine  fromFlat;   ///< through the smoother half of the pixels, see FitFlatHalf()
   VarianceCurve fromFrames; ///< by frames of unequal illumination, see FitFramePhotonTransfer(); may be not determined
   VarianceCurve curve;      ///< how the variance departs from its line
   /** Of gain and intercept: what is not known of what is shared. */

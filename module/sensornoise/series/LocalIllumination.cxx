@@ -133,17 +133,6 @@ NoteRest(LocalIllumination &         found,
   }
 }
 
-/** What the series that were found leave of \a rest beyond the noise of the cells, whose variance is 1, as
- * LocalIllumination::restOfVariance: of light in many patterns most factors are below the edge. */
-double
-VarianceLeft(Eigen::MatrixXd rest, const Eigen::MatrixXd & series, Eigen::Index freedom, double pixelFrames)
-{
-  const Eigen::MatrixXd found = Orthonormalise(series, series.cols());
-  rest -= found * (found.transpose() * rest);
-  const double noise = static_cast<double>(rest.cols()) * static_cast<double>(freedom - found.cols());
-  return std::max(0.0, rest.squaredNorm() - noise) / pixelFrames;
-}
-
 /** The eigenvalues of the products of the cells' series, the largest first, and the edge of those of noise (Marchenko
  * and Pastur), by their median. */
 struct Eigenvalues
@@ -367,15 +356,9 @@ FindLocalIllumination(const FrameSums &           sums,
   }
   Eigen::MatrixXd rest = whole.rowwise() - whole.colwise().mean();
   rest -= basis * (basis.transpose() * rest);
-  Eigen::MatrixXd scaled = rest;
-  ScaleCells(scaled, whole);
-  LocalIllumination found = FindFactors(scaled, whole, freedom, most, pixelFrames);
+  ScaleCells(rest, whole);
+  LocalIllumination found = FindFactors(rest, whole, freedom, most, pixelFrames);
   found.sideOfCell = side;
-  if (found.beyond > 1.0)
-  {
-    found.restOfVariance =
-      std::max(found.restOfVariance, VarianceLeft(std::move(rest), found.series, freedom, pixelFrames));
-  }
   return found;
 }
 
