@@ -23,6 +23,7 @@
 #include "sensornoise/base/Constants.h"
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/RollingShutter.h"
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/published/FlickerEstimate.h"
 #include "sensornoise/published/FlickerSums.h"
 #include "sensornoise/published/IsoIntensitySet.h"
@@ -203,7 +204,7 @@ FlickerCorrectionImageFilter<TStack>::GenerateData()
   {
     this->EstimateFlicker();
   }
-  const bool isIdentified = m_Flicker.flickerZ > sensornoise::InCommon.requiredFlickerZ;
+  const bool isIdentified = m_Flicker.flickerZ > sensornoise::Significance.everyPixel;
   this->GetOffsetOutput()->Set(isIdentified ? m_Flicker.offsetDn : std::numeric_limits<double>::quiet_NaN());
 
   // The pass above, or the update of the mean from the same reader, left the stack at another chunk.

@@ -247,8 +247,8 @@ TEST(SensorNoiseFrameSample, LongStacksLeaveTheirFirstFrames)
 
 TEST(SensorNoiseFrameSample, OtherFramesAreLeftOut)
 {
-  NoiseSample sample = SampleOfStack(RandomStack()).TakeNoise(SomeMean());
-  const auto  whole = sample;
+  NoiseSample              sample = SampleOfStack(RandomStack()).TakeNoise(SomeMean());
+  const auto               whole = sample;
   std::vector<std::size_t> kept(Frames - 4);
   std::iota(kept.begin(), kept.end(), std::size_t{ 4 });
   sample.KeepFrames(kept);

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/published/FlickerEstimate.h"
 #include "sensornoise/base/Constants.h"
 #include "sensornoise/base/RollingShutter.h"
@@ -194,7 +195,7 @@ TEST(SensorNoiseFlickerEstimate, NoiseDoesNotMoveTheOffsetByMoreThanItsError)
   const FlickerEstimate estimate = Stack(gamma, gamma, 100.0, 20.0).Estimate();
   // sd(v_*) = 20 / sqrt(200 pixels) DN, over sd(gamma) sqrt(T) = 0.7: sd(K) = 2 DN; d mu / d K = 2000^2 / (1700 2100).
   EXPECT_NEAR(estimate.offsetDn, 100.0, 5.0 * 2.0 * 1.12);
-  EXPECT_GT(estimate.flickerZ, InCommon.requiredFlickerZ);
+  EXPECT_GT(estimate.flickerZ, Significance.everyPixel);
   // Residual variance over its expectation, chi-square of 198: sd = sqrt(2 / 198) = 0.1.
   EXPECT_NEAR(estimate.offsetLinePhi, 1.0, 0.5);
 }
@@ -205,7 +206,7 @@ TEST(SensorNoiseFlickerEstimate, NoiseWithoutFlickerIsNotTakenForFlicker)
   {
     const std::vector<double> none(frames, 0.0);
     const FlickerEstimate     estimate = Stack(none, none, 100.0, 20.0).Estimate();
-    EXPECT_LE(estimate.flickerZ, InCommon.requiredFlickerZ) << frames;
+    EXPECT_LE(estimate.flickerZ, Significance.everyPixel) << frames;
     EXPECT_TRUE(std::isfinite(estimate.offsetDn));
     EXPECT_LT(estimate.flickerSd, 0.02) << frames;
   }
@@ -217,14 +218,14 @@ TEST(SensorNoiseFlickerEstimate, SixStandardDeviationsOfTheNoiseAreTheThreshold)
   const auto gamma = NormalFlicker(200, 0.002, 6);
   EXPECT_GT(Stack(gamma, gamma, 100.0, 20.0).Estimate().flickerZ, 30.0);
   const auto faint = NormalFlicker(200, 0.0002, 6);
-  EXPECT_LT(Stack(faint, faint, 100.0, 20.0).Estimate().flickerZ, InCommon.requiredFlickerZ);
+  EXPECT_LT(Stack(faint, faint, 100.0, 20.0).Estimate().flickerZ, Significance.everyPixel);
 }
 
 TEST(SensorNoiseFlickerEstimate, StrongFlickerWithLittleOrNoNoiseIsIdentified)
 {
   const auto gamma = NormalFlicker(30, 0.2, 8);
-  EXPECT_GT(Stack(gamma, gamma, 100.0, 0.0).Estimate().flickerZ, InCommon.requiredFlickerZ);
-  EXPECT_GT(Stack(gamma, gamma, 100.0, 0.5).Estimate().flickerZ, InCommon.requiredFlickerZ);
+  EXPECT_GT(Stack(gamma, gamma, 100.0, 0.0).Estimate().flickerZ, Significance.everyPixel);
+  EXPECT_GT(Stack(gamma, gamma, 100.0, 0.5).Estimate().flickerZ, Significance.everyPixel);
 }
 
 TEST(SensorNoiseFlickerEstimate, DifferentLampsForBrightAndDarkMissTheLine)

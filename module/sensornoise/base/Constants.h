@@ -16,11 +16,6 @@ struct CommonConstants
   double darkestQuantile{ 0.002 };
   double brightestQuantile{ 0.998 };
 
-  /** The flicker tells offset and read noise if its variance exceeds that of its sampling noise by more than this many
-   * standard deviations of the latter [1]: of v^* (published), or of the frames along the offset line (refined). Set by
-   * hand. */
-  double requiredFlickerZ{ 6.0 };
-
   /** Variance of the noise, relative to the square of the code step, below which the codes hide it [1]: that of half a
    * step. */
   double hiddenVariance{ 0.25 };

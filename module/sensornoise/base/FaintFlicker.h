@@ -4,6 +4,7 @@
 #define sensornoise_base_FaintFlicker_h
 
 #include "sensornoise/base/Constants.h"
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/base/Text.h"
 
 #include <string>
@@ -17,8 +18,8 @@ inline std::string
 TextOfFaintFlicker(double flickerZ)
 {
   return flickerZ > 0.0
-           ? "the flicker is only " + RoundedApart(flickerZ, InCommon.requiredFlickerZ) +
-               " standard errors above its noise (more than " + Rounded(InCommon.requiredFlickerZ) + " needed)"
+           ? "the flicker is only " + RoundedApart(flickerZ, Significance.everyPixel) +
+               " standard errors above its noise (more than " + Rounded(Significance.everyPixel) + " needed)"
            : "the flicker is below its noise";
 }
 

@@ -3,6 +3,7 @@
 #include "sensornoise/correlation/BlockPhases.h"
 
 #include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/correlation/Constants.h"
 #include "sensornoise/correlation/Jackknife.h"
 #include "sensornoise/correlation/LagSums.h"
@@ -87,7 +88,7 @@ SpreadOfPhases(const std::vector<BlockPhases> & tiles)
 {
   const JackknifeEstimate estimate = Jackknife(tiles, Differences);
   const Eigen::VectorXd   variances = estimate.covariance.diagonal();
-  const double            chance = variances.sum() + InCorrelation.phaseZ * std::sqrt(2.0 * variances.squaredNorm());
+  const double chance = variances.sum() + Significance.severalTests * std::sqrt(2.0 * variances.squaredNorm());
   return std::sqrt(std::max(0.0, estimate.value.squaredNorm() - chance) / static_cast<double>(estimate.value.size()));
 }
 

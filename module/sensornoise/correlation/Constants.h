@@ -29,9 +29,6 @@ struct CorrelationConstants
   /** Part of the square of the products of the lights that is their spread, from which levels tell what grows with the
    * light from what does not [1]: below, the error of both would be seven times that of their sum. Set by hand. */
   double leastSpread{ 0.05 };
-  /** Standard errors by which the variance of whole rows' or columns' noise must exceed 0 to be there [1]. Set by hand.
-   */
-  double leastLineNoiseZ{ 4.0 };
   /** Tiles, at most, that tell the illumination that rows have of their own. Chosen for the time: a thousandth of that
    * of 100 frames of 512 x 512 pixels. */
   std::size_t mostTilesOfRowLight{ 32 };
@@ -42,10 +39,9 @@ struct CorrelationConstants
 
   /** \name Whether neighbours share */
   ///@{
-  /** Coefficient that is worth a word [1], and the standard errors by which one must exceed it [1]. Set by hand: charge
-   * coupling of 0.3 % makes 0.006 of it, the noise of a plain sample 0.0004 to 0.0007. */
+  /** Coefficient that is worth a word [1]. Set by hand: charge coupling of 0.3 % makes 0.006 of it, the noise of a
+   * plain sample 0.0004 to 0.0007. */
   double leastCoefficient{ 0.002 };
-  double anyZ{ 4.0 };
   /** What the nearest four share together that is worth a word, relative to the variance of the bright pixels [1],
    * and the standard errors by which it must exceed that [1]. Set by hand: a brighter-fatter effect of 2 % at full
    * well makes 0.02. Half of nearestZ: chance is taken for shared noise, errors double in one of six cases; twice:
@@ -83,10 +79,8 @@ struct CorrelationConstants
   double largestCrosstalk{ 0.06 };
   /** Distance up to which charge is coupled [pixels]. Set by hand. */
   int reachOfCharge{ 2 };
-  /** What is farther, relative to the variance, that tells a filter from coupled charge [1], and the standard errors by
-   * which it must exceed that to be no chance [1]. Set by hand. */
+  /** What is farther, relative to the variance, that tells a filter from coupled charge [1]. Set by hand. */
   double smallRing{ 0.005 };
-  double farZ{ 3.0 };
   /** Evidence that a constant needs, as a difference of chi-squares [1]: one in e. Set by hand. */
   double evidenceOfConstant{ 2.0 };
   /** Evidence that each part of the noise after a filter needs, as a difference of chi-squares [1]: 2 ln 16, so that
@@ -96,10 +90,9 @@ struct CorrelationConstants
   double mostEvidenceOfBend{ 20.0 };
   /** Part of that chi-square that may be left of a bend that charge makes [1]. Set by hand. */
   double largestShareOfBend{ 0.5 };
-  /** Probability from which what neighbours share, with the opposite sign, is taken for the rounding of blocks [1], and
-   * the standard errors by which it must be below 0 [1]. Set by hand. */
+  /** Probability from which what neighbours share, with the opposite sign, is taken for the rounding of blocks [1]. Set
+   * by hand. */
   double roundingProbability{ 0.05 };
-  double roundingZ{ 2.0 };
   /** Chi-square of the best shape from which nothing explains it [1]: the 99 % quantile for four bins and one number.
    */
   double largestChi2{ 11.3 };
@@ -107,8 +100,6 @@ struct CorrelationConstants
    * hand: a JPEG of quality 98 makes 0.01. (A positive one may: frames that were binned, sensors read in groups of
    * rows.) */
   double largestSpreadOfPhases{ 0.003 };
-  /** Standard deviations of chance by which the sum of these squared differences is cut [1]. Set by hand. */
-  double phaseZ{ 4.0 };
   /** Frequency from which a coefficient's oscillation is looked for [cycles/pixel]: enlargements up to 16 times. */
   double leastCyclesPerPixel{ 1.0 / 16.0 };
   /** Amplitude that only fewer samples than pixels leave [1]. Set by hand: enlarging by 1.25 to 4 times, doubling and
@@ -116,16 +107,12 @@ struct CorrelationConstants
   double leastOscillation{ 0.03 };
   /** Of its square to the mean of those at other frequencies [1]: chance exceeds it in one of 10^6 spectra of 10^5. */
   double oscillationRatio{ 25.0 };
-  /** Part of the noise variance that places which move by themselves may have where neighbours share noise [1], and the
-   * standard errors by which one must exceed it [1]. Chosen by the size of the effect: the lags within reach sum up to
-   * ten times as much. */
+  /** Part of the noise variance that places which move by themselves may have where neighbours share noise [1]. Chosen
+   * by the size of the effect: the lags within reach sum up to ten times as much. */
   double leastLocalMotion{ 0.005 };
-  double localMotionZ{ 4.0 };
-  /** Excess kurtosis that no linear filter leaves [1], and the standard errors by which one must exceed it [1]. Set by
-   * hand: the correction of defects at 3 standard deviations makes -0.06 to -0.08 of the noise and 0.1 to 0.25 of four
-   * neighbours in turn, white and filtered noise 0.01. */
+  /** Excess kurtosis that no linear filter leaves [1]. Set by hand: the correction of defects at 3 standard deviations
+   * makes -0.06 to -0.08 of the noise and 0.1 to 0.25 of four neighbours in turn, white and filtered noise 0.01. */
   double largestExcess{ 0.04 };
-  double excessZ{ 4.0 };
   /** Part of a pixel's variance that a series must have for its kurtosis to count [1]. Set by hand: of copies of a
    * pixel nothing is left but rounding. */
   float leastNoise{ 1e-3F };
@@ -133,10 +120,8 @@ struct CorrelationConstants
 
   /** \name Frames */
   ///@{
-  /** Coefficient that is worth a word [1], and the standard errors by which one must exceed it [1]. Set by hand: slow
-   * drifts of a few pixels make 0.003 of it. */
+  /** Coefficient that is worth a word [1]. Set by hand: slow drifts of a few pixels make 0.003 of it. */
   double leastTimeCoefficient{ 0.01 };
-  double timeZ{ 4.0 };
   /** Coefficient of the last two lags at which the sum ends [1], and the lags that it may have at most [frames]: three
    * quarters of the last frame are forgotten after 20. */
   double smallTimeCoefficient{ 0.005 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/correlation/CorrelationRecord.h"
 
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/correlation/Constants.h"
 #include "sensornoise/report/Quantities.h"
 
@@ -17,7 +18,7 @@ namespace
 Quantity
 LineNoise(const MeasuredNumber & variance)
 {
-  if (variance.value < InCorrelation.leastLineNoiseZ * variance.standardError)
+  if (variance.value < Significance.severalTests * variance.standardError)
   {
     return UpperLimit(std::sqrt(std::max(0.0, variance.value) + 2.0 * variance.standardError));
   }

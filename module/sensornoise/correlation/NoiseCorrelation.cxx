@@ -3,6 +3,7 @@
 #include "sensornoise/correlation/NoiseCorrelation.h"
 
 #include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/correlation/Constants.h"
 #include "sensornoise/correlation/CorrelationSums.h"
 #include "sensornoise/correlation/CovarianceLines.h"
@@ -129,14 +130,14 @@ IsLinear(const CorrelationSums & sums, const NoiseCorrelation & found)
   }
   MeasuredNumber own = found.kurtosis[0];
   own.value += 1.2 * sums.GetCodesDn2() * sums.GetCodesDn2() * square;
-  if (own.value < 0.0 && own.Exceeds(InCorrelation.largestExcess, InCorrelation.excessZ))
+  if (own.value < 0.0 && own.Exceeds(InCorrelation.largestExcess, Significance.severalTests))
   {
     return false;
   }
   return std::none_of(found.kurtosis.begin() + 1, found.kurtosis.end(), [&](MeasuredNumber more) {
     // The fewer electrons or the more the light changes, the larger both are, and that of one value the more so.
     more.value -= std::max(0.0, own.value);
-    return more.value > 0.0 && more.Exceeds(InCorrelation.largestExcess, InCorrelation.excessZ);
+    return more.value > 0.0 && more.Exceeds(InCorrelation.largestExcess, Significance.severalTests);
   });
 }
 } // namespace
@@ -178,7 +179,7 @@ NoiseCorrelation::LineNoise() const
   MeasuredNumber sum;
   for (const MeasuredNumber & lines : { rowsDn2, columnsDn2 })
   {
-    if (lines.value > InCorrelation.leastLineNoiseZ * lines.standardError)
+    if (lines.value > Significance.severalTests * lines.standardError)
     {
       sum.value += lines.value;
       sum.standardError = std::hypot(sum.standardError, lines.standardError);
@@ -190,7 +191,7 @@ NoiseCorrelation::LineNoise() const
 bool
 NoiseCorrelation::HasLocalMotion() const
 {
-  return localMotion.value > 0.0 && localMotion.Exceeds(InCorrelation.leastLocalMotion, InCorrelation.localMotionZ);
+  return localMotion.value > 0.0 && localMotion.Exceeds(InCorrelation.leastLocalMotion, Significance.severalTests);
 }
 
 double

@@ -3,6 +3,7 @@
 #include "sensornoise/correlation/SpaceCorrelation.h"
 
 #include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/correlation/BlockPhases.h"
 #include "sensornoise/correlation/Constants.h"
 #include "sensornoise/correlation/SharedShapes.h"
@@ -201,7 +202,7 @@ SharesInSpace(const CorrelationSums & sums, const std::vector<LagCoefficient> & 
     return true;
   }
   return std::any_of(coefficients.begin(), coefficients.end(), [](const LagCoefficient & lag) {
-    return lag.coefficient.Exceeds(InCorrelation.leastCoefficient, InCorrelation.anyZ);
+    return lag.coefficient.Exceeds(InCorrelation.leastCoefficient, Significance.severalTests);
   });
 }
 
@@ -218,7 +219,7 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
   }
   const MeasuredNumber far = SumOfCoefficients(sums, sums.Ring(InCorrelation.reachOfCharge + 1, found.reach));
   const bool           mayBeCharge =
-    largest < InCorrelation.largestCrosstalk && !far.Exceeds(InCorrelation.smallRing, InCorrelation.farZ);
+    largest < InCorrelation.largestCrosstalk && !far.Exceeds(InCorrelation.smallRing, Significance.oneTest);
   if (mayBeCharge && found.reach > InCorrelation.reachOfCharge)
   {
     found.reach = InCorrelation.reachOfCharge; // the rest was chance
@@ -243,7 +244,7 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
   const bool   isUnlikeFilter =
     constant > InCorrelation.roundingProbability || chi2.minCoeff() > InCorrelation.largestChi2;
   const bool isRounding =
-    (shared.value < -InCorrelation.roundingZ * shared.standardError && isUnlikeFilter) ||
+    (shared.value < -Significance.hint * shared.standardError && isUnlikeFilter) ||
     (shared.value < 0.0 && SpreadOfPhases(sums.SumPhases()) > InCorrelation.largestSpreadOfPhases);
   if (isRounding)
   {
@@ -252,7 +253,7 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
   else if (found.kind != NoiseKind::Temporal)
   {
     const bool isNear =
-      !SumOfCoefficients(sums, sums.Ring(2, found.reach)).Exceeds(InCorrelation.smallRing, InCorrelation.farZ);
+      !SumOfCoefficients(sums, sums.Ring(2, found.reach)).Exceeds(InCorrelation.smallRing, Significance.oneTest);
     const auto probabilityOf = [&](ShapeOfShared shape) { return found.Shape(shape).probability; };
     const bool isCharge =
       mayBeCharge && (isNear || probabilityOf(ShapeOfShared::Light) > probabilityOf(ShapeOfShared::Variance));

@@ -3,6 +3,7 @@
 #include "sensornoise/correlation/TimeCorrelation.h"
 
 #include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/correlation/Constants.h"
 #include "sensornoise/correlation/TemporalMixing.h"
 
@@ -17,7 +18,7 @@ bool
 SharesInTime(const std::vector<LagCoefficient> & coefficients)
 {
   return std::any_of(coefficients.begin(), coefficients.end(), [](const LagCoefficient & lag) {
-    return lag.coefficient.Exceeds(InCorrelation.leastTimeCoefficient, InCorrelation.timeZ);
+    return lag.coefficient.Exceeds(InCorrelation.leastTimeCoefficient, Significance.severalTests);
   });
 }
 

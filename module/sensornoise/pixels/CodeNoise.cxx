@@ -117,8 +117,7 @@ CodeNoise::ErrorOfLine(double pivotDn) const
 void
 TakeOffLine(StaticVariance & variance, const CodeNoise & noise)
 {
-  for (VarianceLine * line :
-       { &variance.line, &variance.fromLight, &variance.curve.line, &variance.ofOwnLevels.line })
+  for (VarianceLine * line : { &variance.line, &variance.fromLight, &variance.curve.line, &variance.ofOwnLevels.line })
   {
     line->gain -= noise.slopeDn;
     line->intercept -= noise.interceptDn2;

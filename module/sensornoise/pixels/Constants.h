@@ -39,10 +39,8 @@ struct PixelsConstants
   std::size_t misfitRadius{ 7 };
   /** Share of its pixels far above the line from which a neighbourhood does not fit [1]. Set by hand. */
   double largestFarShare{ 0.15 };
-  /** Standard deviations, and excess over the line, by which a neighbourhood's mean variance does not fit [1], and
-   * the share of its pixels that it needs. Set by hand. Half of misfitZ: still areas are blamed, gains of smoothed
-   * frames are 0.5 % low; twice: the same. */
-  double misfitZ{ 5.0 };
+  /** Excess over the line by which a neighbourhood's mean variance does not fit [1], and the share of its pixels that
+   * it needs [1]. Set by hand. */
   double leastMisfit{ 0.04 };
   double leastCountedShare{ 0.3 };
   /** Share of the frame's pixels that do not fit, below which the line that they took part in stands [1]. Set by hand:
@@ -64,11 +62,9 @@ struct PixelsConstants
    * extrapolation by a factor of 2 or more is seen, and a median of 50 variances is known to 4 %. */
   std::size_t levelBins{ 16 };
   std::size_t leastPixelsOfLevel{ 50 };
-  /** Fraction of the bright pixels that must be near a line through dark and bright ones [1], and how near, in standard
-   * errors of a pixel's variance. Of pixels without motion 99.7 % are. Chosen empirically: edges move in most scenes.
-   */
+  /** Fraction of the bright pixels that must be near a line through dark and bright ones [1]. Chosen empirically: edges
+   * move in most scenes. */
   double leastNearLine{ 0.75 };
-  double nearLineZ{ 3.0 };
   ///@}
 
   /** \name The judging line */
@@ -83,10 +79,9 @@ struct PixelsConstants
   /** Levels at most, and squares of each at least. Set by hand. */
   std::size_t mostJudgingLevels{ 16 };
   std::size_t squaresPerLevel{ 8 };
-  /** Departure from the line, beyond so many of its standard errors, that counts [1]. Set by hand: neighbourhoods are
+  /** Departure from the line, beside chance, that counts [1]. Set by hand: neighbourhoods are
    * blamed from 4 % on; half of it is within the noise of frames of 128 x 128 pixels. */
   double leastDeparture{ 0.01 };
-  double departureZ{ 2.0 };
   /** Smallest ratio of the judging line to the line [1]. Set by hand: a variance is above 0. */
   double leastRatio{ 0.1 };
   /** One in so many squares, the darkest, tells the scatter of the pixels' own noise. Set by hand. */
@@ -139,8 +134,6 @@ struct PixelsConstants
 
   /** \name Bends of the response */
   ///@{
-  /** Standard deviations by which chance may carry an excess, the largest of sixteen [1]. Set by hand. */
-  double curveChanceZ{ 3.0 };
   /** VarianceCurve::DarkestShare up to which a bend of the response shows [1]: at levels of 20 to 80 % a gamma of 1.3
    * departs from a line by 2 %, and has half the gain. */
   double darkEnough{ 0.1 };
@@ -176,8 +169,6 @@ struct PatternConstants
    * share the shares of natural scenes change by a third. */
   double      flattestShare{ 0.05 };
   std::size_t fewestSquares{ 4 };
-  /** Standard errors that are added to a square's roughness where squares are chosen [1]. Set by hand. */
-  double roughnessZ{ 2.0 };
   /** Standard deviations of patterns of real sensors, at most: of gain or efficiency [1], and of offset, in units of
    * the noise at the level of the flattest squares [1]. What is larger, in a scene that is rough everywhere, is light.
    * Set by hand, three times and twice what data sheets and measured sensors have. */
@@ -225,8 +216,6 @@ struct PartsConstants
   /** Difference of the variances without signal, rms over the pixels, from which on it counts [1]: 5 % of the read
    * noise. As InRefined.leastDarkDifference. */
   double leastDarkDifference{ 0.1 };
-  /** Standard deviations of chi-square by which parts must differ, too [1]: of 10^6 uniform sensors none does. */
-  double differenceZ{ 5.0 };
   /** Scatter of the tiles within parts over that of sampling, up to which parts are uniform in themselves [1]: where
    * something moves it is 10 and more. Chosen empirically. */
   double largestScatter{ 3.0 };
@@ -247,15 +236,12 @@ SENSORNOISE_CONSTANT PartsConstants InParts;
 /** The numbers of the room `pixels` by which a step of the variance is found. Estimator.md, 3.16. */
 struct StepConstants
 {
-  /** Reduced chi-square of the variance about its line from which on a step is looked for [1]: a step of leastZ adds as
-   * much to that of 64 bins. */
+  /** Reduced chi-square of the variance about its line from which on a step is looked for [1]: a step of five
+   * standard errors adds as much to that of 64 bins. */
   double leastChi2{ 1.25 };
   /** Size of a step, relative to the larger variance beside it, from which on it counts [1]. Chosen by the size of the
    * effect: in the middle of the levels a step of so much moves the gain by 1 to 2 %. */
   double leastSize{ 0.03 };
-  /** Standard errors that a step must exceed, and the square of which it must gain in chi-square against a smooth curve
-   * of as many parameters, in units of the scatter [1]. The level is one of at most 64: by chance 1 of 10^5 curves. */
-  double leastZ{ 5.0 };
   /** Part of its size that a step must keep beside a parabola [1]: of a bend nothing is left. Chosen empirically. */
   double leastBesideCurve{ 0.5 };
   /** Bins on either side of a step, at least. Chosen empirically: a line of fewer is not known. */

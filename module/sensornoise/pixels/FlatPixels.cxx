@@ -3,6 +3,7 @@
 #include "sensornoise/pixels/FlatPixels.h"
 
 #include "sensornoise/base/Quantiles.h"
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/ProjectedVariance.h"
 #include "sensornoise/scene/ReferenceFrame.h"
@@ -204,7 +205,7 @@ FollowsLine(const ProjectedVariance & projected, const std::vector<std::uint8_t>
     if (mask[p] != 0)
     {
       const double expected = line.At(data.mean[p]);
-      const double limit = InPixels.nearLineZ * std::sqrt(line.SamplingVariance(data.freedom[p], expected));
+      const double limit = Significance.oneTest * std::sqrt(line.SamplingVariance(data.freedom[p], expected));
       pixels += 1.0;
       near += std::abs(data.variance[p] - expected) < limit ? 1.0 : 0.0;
     }

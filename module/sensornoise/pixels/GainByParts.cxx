@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/pixels/GainByParts.h"
 
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/PartRegression.h"
 
@@ -150,13 +151,13 @@ PartGains::RatioAt(double x, double y, std::size_t phase, double shotFraction) c
 bool
 PartGains::Differ() const
 {
-  return size > InParts.leastDifference && z > InParts.differenceZ;
+  return size > InParts.leastDifference && z > Significance.manyTests;
 }
 
 bool
 PartGains::DifferInTheDark() const
 {
-  return darkSize > InParts.leastDarkDifference && darkZ > InParts.differenceZ;
+  return darkSize > InParts.leastDarkDifference && darkZ > Significance.manyTests;
 }
 
 bool

@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/Quantiles.h"
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/moments/Constants.h"
 #include "sensornoise/moments/DefectivePixels.h"
 #include "sensornoise/pixels/Constants.h"
@@ -174,7 +175,7 @@ MakeJudgingLine(const VarianceLine &              line,
     }
     // 1.5 median distances are a standard deviation; a median's standard error is 1.25 of a mean's.
     const double error = 1.25 * 1.5 * Quantile(distance, 0.5) / std::sqrt(static_cast<double>(last - first));
-    departs = departs || std::abs(excess) > InPixels.leastDeparture + InPixels.departureZ * error;
+    departs = departs || std::abs(excess) > InPixels.leastDeparture + Significance.hint * error;
     const double level = MedianOf(squares, first, last, &JudgingSquare::level);
     if (judging.levels.empty() || level > judging.levels.back())
     {

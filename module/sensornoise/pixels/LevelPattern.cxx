@@ -3,6 +3,7 @@
 #include "sensornoise/pixels/LevelPattern.h"
 
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/base/WideVectors.h"
 #include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/VarianceLine.h"
@@ -53,7 +54,7 @@ struct Square
   double
   Roughness(std::size_t chooser) const
   {
-    return half[chooser].Pattern() + InPattern.roughnessZ * half[chooser].Error();
+    return half[chooser].Pattern() + Significance.hint * half[chooser].Error();
   }
   /** The same relative to the square of the light [1]. */
   double

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/pixels/StaticPixels.h"
 
 #include "sensornoise/base/BoxSum.h"
@@ -98,7 +99,7 @@ FindMisfitCores(const ProjectedVariance & projected,
         {
           const double level = frame.neighbourMean[y * width + x];
           const double own = line.EffectiveFreedom(freedom * projected.FreedomFractionAt(level), line.At(level));
-          isCore = isCore || excess > InPixels.misfitZ * std::sqrt(2.0 * line.sharedSquares / (own * count));
+          isCore = isCore || excess > Significance.manyTests * std::sqrt(2.0 * line.sharedSquares / (own * count));
         }
         core[y * width + x] = isCore ? 1 : 0;
       }

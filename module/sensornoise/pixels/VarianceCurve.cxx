@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/pixels/VarianceCurve.h"
 
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/pixels/Constants.h"
 
 #include <algorithm>
@@ -60,7 +61,7 @@ VarianceCurve::Nonlinearity(double dispersion) const
     if (group.weight > 0.0)
     {
       const double excess = group.excess / group.weight;
-      const double square = excess * excess - InPixels.curveChanceZ * InPixels.curveChanceZ * dispersion / group.weight;
+      const double square = excess * excess - Significance.oneTest * Significance.oneTest * dispersion / group.weight;
       largest = std::max(largest, std::sqrt(std::max(0.0, square)) / line.At(this->LevelOf(group)));
     }
   }

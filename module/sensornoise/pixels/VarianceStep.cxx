@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/pixels/VarianceStep.h"
 
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/CurveRegression.h"
 
@@ -112,7 +113,7 @@ StandsBesideCurve(const StepCandidate & step, double scatter)
     step.bins, [at = step.x](double x) { return Eigen::Vector4d{ 1.0, x, x * x, x > at ? 1.0 : 0.0 }; });
   const double ratio = fit.coefficients(3) / step.fit.coefficients(2);
   return fit.isDetermined && ratio > InSteps.leastBesideCurve &&
-         std::abs(fit.coefficients(3)) > InSteps.leastZ * std::sqrt(scatter * fit.covariance(3, 3));
+         std::abs(fit.coefficients(3)) > Significance.manyTests * std::sqrt(scatter * fit.covariance(3, 3));
 }
 
 /** The slope of one side above the common one, and its error [DN/e-]. */
@@ -193,8 +194,8 @@ FindVarianceStep(const VarianceCurve & curve)
   step.line.intercept += fit.coefficients(0) - fit.coefficients(1) * curve.line.pivotDn;
   const double below = step.line.intercept + step.line.gain * step.levelDn;
   const double least = InSteps.leastSize * std::max({ below, below + step.sizeDn2, 0.0 });
-  if (std::abs(step.sizeDn2) < least || std::abs(step.sizeDn2) < InSteps.leastZ * step.errorDn2 ||
-      LeastSmoothChi2(found->bins) - fit.chi2 < InSteps.leastZ * InSteps.leastZ * scatter ||
+  if (std::abs(step.sizeDn2) < least || std::abs(step.sizeDn2) < Significance.manyTests * step.errorDn2 ||
+      LeastSmoothChi2(found->bins) - fit.chi2 < Significance.manyTests * Significance.manyTests * scatter ||
       !StandsBesideCurve(*found, scatter))
   {
     return std::nullopt;

@@ -8,6 +8,7 @@
 #include "sensornoise/base/IntensityIndex.h"
 #include "sensornoise/base/PolynomialFit.h"
 #include "sensornoise/base/RollingShutter.h"
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/base/Text.h"
 #include "sensornoise/published/FlickerEstimate.h"
 #include "sensornoise/published/IsoIntensitySet.h"
@@ -159,7 +160,7 @@ FillNoise(Report &                  report,
 {
   const PublishedScene &  scene = found.scene;
   const FlickerEstimate & flicker = found.flicker;
-  const bool              isIdentified = flicker.flickerZ > InCommon.requiredFlickerZ;
+  const bool              isIdentified = flicker.flickerZ > Significance.everyPixel;
   if (!isIdentified)
   {
     report.Warn(WarningCode::OffsetNotIdentifiable,
@@ -217,7 +218,7 @@ MakePublishedReport(const PublishedFindings & found, const ParallelFor & paralle
   WarnOfWidening(report, WarningCode::BrightSetWidened, "bright", scene.bright);
   WarnOfWidening(report, WarningCode::DarkSetWidened, "dark", scene.dark);
   WarnOfFlicker(report, found.flicker);
-  FillFlicker(report, found.flicker, found.flicker.flickerZ > InCommon.requiredFlickerZ);
+  FillFlicker(report, found.flicker, found.flicker.flickerZ > Significance.everyPixel);
   FillVibration(report, found, parallelFor);
   if (!HasRange(report, scene))
   {

@@ -3,6 +3,7 @@
 #ifndef sensornoise_refined_BeyondChance_h
 #define sensornoise_refined_BeyondChance_h
 
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/refined/Constants.h"
 
 #include <algorithm>
@@ -12,11 +13,11 @@ namespace sensornoise
 {
 
 /** The factor by which a reduced chi-square widens a covariance [1]: the chi-square itself where it exceeds 1 by more
- * than InRefined.hausmanZ of its standard deviations, else 1. \a dof: its degrees of freedom. */
+ * than Significance.hint of its standard deviations, else 1. \a dof: its degrees of freedom. */
 inline double
 BeyondChance(double reducedChi2, double dof)
 {
-  return reducedChi2 > 1.0 + InRefined.hausmanZ * std::sqrt(2.0 / std::max(1.0, dof)) ? reducedChi2 : 1.0;
+  return reducedChi2 > 1.0 + Significance.hint * std::sqrt(2.0 / std::max(1.0, dof)) ? reducedChi2 : 1.0;
 }
 
 } // namespace sensornoise

@@ -38,9 +38,6 @@ struct RefinedConstants
 
   /** \name Errors of the gain */
   ///@{
-  /** Standard deviations by which chance may part two fits of the same data [1]. Set by hand. Half: errors are a
-   * tenth larger; twice: the same. */
-  double hausmanZ{ 2.0 };
   /** Vibration beyond which the expansion in derivatives fails, as a square [pixels^2], and what is then known of the
    * bias, relative to the gain, at the reference's square, with which it grows [1, pixels^2]. Measured by
    * measure-robustness. */
@@ -68,12 +65,6 @@ struct RefinedConstants
   /** Departure of the variance from its line that is worth a word [1]. Set by hand: a hundredth moves the gain by about
    * half of it. */
   double leastNonlinearity{ 0.01 };
-  /** Standard deviations by which chance may part the slope of a half of the levels from that of all [1]. Set by hand.
-   */
-  double halvesZ{ 3.0 };
-  /** Standard deviations by which the mean gain must differ from the slope to replace it [1]: below, it widens the
-   * error, as it does below leastNonlinearity. Set by hand. */
-  double meanGainZ{ 3.0 };
   /** What is left of the departure from a line as the error of the mean gain [1]. Set by hand: of three shapes of bend
    * by 2 and 4 % on two scenes the largest error was 0.29 of it; half fails to cover, twice covers all. */
   double errorOfNonlinearity{ 1.0 / 3.0 };
@@ -118,10 +109,6 @@ struct RefinedConstants
   /** How often the groups of frames are found anew with their noise known. Chosen empirically: the third time changes
    * nothing for three frames of four times the noise. */
   int roundsOfFrameNoise{ 3 };
-  /** Standard deviations of the other frames by which it must differ, too [1]: of 1000 normal frames none does. */
-  double unlikeNoiseZ{ 6.0 };
-  /** Standard errors of the slope within which a frame's level may make its noise what it is [1]. */
-  double slackOfSlopeZ{ 2.0 };
   /** Slopes that are tried on either side, as the noise of a frame need not rise with the slope. Chosen empirically. */
   int stepsOfSlope{ 4 };
   /** Part of the information on the slope that must be left without the fifth of the frames that have most of it [1].
@@ -134,13 +121,8 @@ struct RefinedConstants
 
   /** \name Dark frames */
   ///@{
-  /** Standard deviations by which chance may part the dark frames from the line [1]. Set by hand. */
-  double largestContradiction{ 2.0 };
-  /** The same from which on dark frames are of another sensor, exposure or temperature, where the response is straight
-   * [1]. Set by hand. */
-  double anotherSensorZ{ 4.0 };
   /** Difference between the variance of dark frames and that of the line at their level, relative to the larger one,
-   * from which on the dark frames contradict the bright ones, beside anotherSensorZ [1]. Chosen by the size of the
+   * from which on the dark frames are of another sensor, exposure or temperature [1]. Chosen by the size of the
    * effect: 5 % of the read noise. */
   double leastDarkDifference{ 0.1 };
   /** Part of the levels above the offset below which they say nothing of the gain [1]. Set by hand. */
@@ -149,20 +131,10 @@ struct RefinedConstants
 
   /** \name Offset, read noise, flicker and motion */
   ///@{
-  /** How far chance carries the darkest pixels below their level, in standard deviations [1]. Set by hand. */
-  double chanceOfDarkestZ{ 3.0 };
-  /** Standard errors of offset and intercept, and part of the levels' range, by which an offset may lie beyond its
-   * limits [1]. Set by hand. */
-  double slackOfOffsetZ{ 3.0 };
-  double slackOfInterceptZ{ 2.0 };
+  /** Part of the levels' range by which an offset may lie beyond its limits, beside chance [1]. Set by hand. */
   double slackOfRange{ 0.01 };
-  /** Standard errors by which the level that does not flicker and the known offset differ by steady light [1]. Set by
-   * hand. */
-  double steadyLightZ{ 3.0 };
   /** Dispersion of the lines of local light about one zero that is worth a number [1]. Set by hand. */
   double largestLocalDispersion{ 4.0 };
-  /** Standard errors by which a square of the read noise below 0 is no chance [1]. Set by hand. */
-  double negativeNoiseZ{ 4.0 };
   /** Error of the light above the offset, relative to it, at which a flicker is no number [1]. Set by hand. */
   double largestScaleError{ 0.25 };
   /** Part of what two ways to measure motion differ by that is its systematic error [1]. Chosen on simulated scenes:
@@ -175,10 +147,9 @@ struct RefinedConstants
 
   /** \name The illumination of rows */
   ///@{
-  /** What the illumination that rows have of their own may add to the slope of the variance, relative to it [1], and
-   * the standard errors by which it must be there [1]. Chosen by the size of the effect. */
+  /** What the illumination that rows have of their own may add to the slope of the variance, relative to it [1]. Chosen
+   * by the size of the effect. */
   double largestRowLight{ 0.01 };
-  double rowLightZ{ 4.0 };
   ///@}
 
   /** \name What is worth a warning */

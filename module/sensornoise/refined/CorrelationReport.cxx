@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/refined/CorrelationReport.h"
 
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/base/Text.h"
 #include "sensornoise/correlation/Constants.h"
 #include "sensornoise/refined/Constants.h"
@@ -63,7 +64,7 @@ bool
 IsNormal(const NoiseCorrelation & correlation)
 {
   return std::none_of(correlation.kurtosis.begin(), correlation.kurtosis.end(), [](const MeasuredNumber & kurtosis) {
-    return kurtosis.Exceeds(0.0, InCorrelation.anyZ);
+    return kurtosis.Exceeds(0.0, Significance.severalTests);
   });
 }
 
@@ -135,7 +136,7 @@ WarnOfNonlinear(Report & report, const NoiseCorrelation & correlation, const Lag
         kurtosis + ": the noise is normal)");
     return;
   }
-  const bool isOfPixels = own.Exceeds(0.0, InCorrelation.anyZ);
+  const bool isOfPixels = own.Exceeds(0.0, Significance.severalTests);
   report.Warn(WarningCode::NoiseNotLinear,
               (isOfPixels ? "the noise is not normally distributed ("
                           : "differences of neighbours are not normally distributed (") +

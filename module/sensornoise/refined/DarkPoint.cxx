@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/PixelUse.h"
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/moments/DarkMaps.h"
 #include "sensornoise/moments/KnownOffset.h"
 #include "sensornoise/pixels/Constants.h"
@@ -116,7 +117,7 @@ GainsOfLevels(const VarianceCurve & curve, const DarkPoint & dark)
     // Beyond chance by two standard deviations of chi-square.
     const double freedom = std::max(1.0, levels - 1.0);
     const double chi2 = squares - sum * gains.mean;
-    const double more = chi2 - freedom - InRefined.largestContradiction * std::sqrt(2.0 * freedom);
+    const double more = chi2 - freedom - Significance.hint * std::sqrt(2.0 * freedom);
     gains.scatter = std::sqrt(std::max(0.0, more / weight));
   }
   return gains;
@@ -135,7 +136,7 @@ UseDarkPoint(GainEstimate & estimate, const RefinedResults & found)
   estimate.isLinearityTested =
     std::sqrt(before.covariance(0, 0)) < 0.5 * InRefined.largestNonlinearity * std::abs(before.line.gain);
   const double difference = std::abs(dark.varianceDn2 - atOffset->valueDn2);
-  if (!isBent && contradiction > InRefined.anotherSensorZ &&
+  if (!isBent && contradiction > Significance.severalTests &&
       difference > InRefined.leastDarkDifference * std::max(dark.varianceDn2, std::abs(atOffset->valueDn2)))
   {
     estimate = before;
@@ -149,7 +150,7 @@ UseDarkPoint(GainEstimate & estimate, const RefinedResults & found)
   {
     estimate.atOffset.reset(); // a bend of the response may explain the difference
   }
-  if ((isBent || contradiction > InRefined.largestContradiction) && gains.mean > 0.0)
+  if ((isBent || contradiction > Significance.hint) && gains.mean > 0.0)
   {
     const double light = std::max(1e-9, line.pivotDn - dark.offsetDn);
     const double error = std::hypot(dark.varianceErrorDn2 / light, gains.mean * dark.offsetErrorDn / light);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/refined/GainEstimate.h"
 
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/moments/KnownOffset.h"
 #include "sensornoise/pixels/LevelPattern.h"
 #include "sensornoise/pixels/MeanGain.h"
@@ -65,10 +66,10 @@ ChooseLine(GainEstimate &           estimate,
            const StaticVariance &   variance,
            const ProvisionalModel & model)
 {
-  const VarianceLine &  all = lines.all;
-  const double          dispersion = DispersionOfClasses(variance);
-  const double          fromPattern = variance.pattern.LargestShare() * std::abs(all.gain);
-  const double          error = std::sqrt(dispersion * all.covariance(0, 0));
+  const VarianceLine & all = lines.all;
+  const double         dispersion = DispersionOfClasses(variance);
+  const double         fromPattern = variance.pattern.LargestShare() * std::abs(all.gain);
+  const double         error = std::sqrt(dispersion * all.covariance(0, 0));
   estimate.line = all;
   estimate.covariance = dispersion * all.covariance;
   if (lines.fromLight.isDetermined &&
@@ -157,7 +158,7 @@ FindSpreadOfSlopes(GainEstimate &        estimate,
     // The bins are by the mean of 8 neighbours, which has an eighth of the variance of their patterns.
     const double ofPattern = SlopeOfPattern(curve.line.gain, pattern, 8.0 * half.levelsDn2);
     const double variance = dispersion * half.variance + ofPattern * ofPattern;
-    side = std::max(side, SizeBeyondChance(half.value, variance, InRefined.halvesZ));
+    side = std::max(side, SizeBeyondChance(half.value, variance, Significance.oneTest));
   }
 }
 
@@ -172,11 +173,11 @@ UseMeanGain(GainEstimate & estimate, const VarianceCurve & curve, double blackDn
   }
   const double bend = parabola->value - curve.line.gain;
   const double chance = dispersion * parabola->variance;
-  const bool   isSure = estimate.IsBent() || bend * bend > InRefined.meanGainZ * InRefined.meanGainZ * chance;
+  const bool   isSure = estimate.IsBent() || bend * bend > Significance.oneTest * Significance.oneTest * chance;
   if (!isSure || !(estimate.nonlinearity > InRefined.leastNonlinearity))
   {
     double & side = bend < 0.0 ? estimate.below : estimate.above;
-    side = std::max(side, SizeBeyondChance(bend, chance, InRefined.hausmanZ));
+    side = std::max(side, SizeBeyondChance(bend, chance, Significance.hint));
     return;
   }
   const MeanGain best = FindMeanGain(curve, 3).value_or(*parabola);
@@ -262,7 +263,7 @@ UseFrames(GainEstimate & estimate, const SensorLines & lines, double blackDn, do
     estimate.line.intercept += step(1) * difference;
     estimate.covariance -= step * estimate.covariance.row(0);
   }
-  if (difference * difference > InRefined.hausmanZ * InRefined.hausmanZ * expected)
+  if (difference * difference > Significance.hint * Significance.hint * expected)
   {
     estimate.covariance += SlopeCovariance(0.5 * difference, estimate.line.pivotDn);
   }

@@ -6,6 +6,7 @@
 #include "sensornoise/base/Constants.h"
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Quantiles.h"
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/refined/Constants.h"
 #include "sensornoise/refined/GainEstimate.h"
 
@@ -52,7 +53,7 @@ LimitsOf(const RefinedResults & found, const GainEstimate & gain, double quantis
     const double          pivotError = std::sqrt(std::max(0.0, pivot.dot(gain.covariance * pivot)));
     limits.lowestDn = std::min(v.pivotDn - (atPivot + student * pivotError) / slope, darkestDn);
   }
-  limits.highestDn = darkestDn + InRefined.chanceOfDarkestZ * std::sqrt(spreadDn2);
+  limits.highestDn = darkestDn + Significance.oneTest * std::sqrt(spreadDn2);
   const Eigen::Vector2d design(limits.highestDn, 1.0);
   const double          error = std::sqrt(std::max(0.0, design.dot(gain.covariance * design)));
   limits.largestNoiseDn2 = std::max(0.0, v.intercept + v.gain * limits.highestDn + student * error - quantisationDn2);

@@ -5,6 +5,7 @@
 #include "sensornoise/base/ChiSquare.h"
 #include "sensornoise/base/Constants.h"
 #include "sensornoise/base/FaintFlicker.h"
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/base/Text.h"
 #include "sensornoise/moments/KnownOffset.h"
 #include "sensornoise/pixels/Constants.h"
@@ -64,8 +65,8 @@ bool
 IsKnownOffsetOutOfRange(const RefinedResults & found, const GainEstimate & gain, const OffsetLimits & limits)
 {
   const KnownOffset & known = *found.settings.offset;
-  const double        slackDn = InRefined.slackOfOffsetZ * known.standardErrorDn +
-                         InRefined.slackOfInterceptZ * std::sqrt(gain.covariance(1, 1)) / gain.line.gain;
+  const double        slackDn = Significance.oneTest * known.standardErrorDn +
+                         Significance.hint * std::sqrt(gain.covariance(1, 1)) / gain.line.gain;
   const double rangeDn = found.scene.model.brightestDn - found.scene.model.darkestDn;
   return (limits.lowestDn && known.valueDn < *limits.lowestDn - slackDn) ||
          known.valueDn > limits.highestDn + slackDn + InRefined.slackOfRange * rangeDn;
@@ -83,7 +84,7 @@ CompareKnownOffset(Report &               report,
   const double offsetErrorDn = found.settings.offset->standardErrorDn;
   const double difference = flicker.valueDn - offsetDn;
   const double error = std::hypot(flicker.standardErrorDn, offsetErrorDn);
-  if (flicker.obstacle.empty() && std::abs(difference) > InRefined.steadyLightZ * error)
+  if (flicker.obstacle.empty() && std::abs(difference) > Significance.oneTest * error)
   {
     report.Warn(WarningCode::SteadyLight,
                 "the level that does not flicker is " + Measured(flicker.valueDn, flicker.standardErrorDn) + " DN, " +
@@ -162,7 +163,7 @@ FillReadNoise(Report &               report,
     FillElectrons(
       report, dark.valueDn2 - quantisationDn2, dark.standardErrorDn2, v.gain, gain.StandardError(), student);
   }
-  else if (square + InRefined.negativeNoiseZ * error < 0.0)
+  else if (square + Significance.severalTests * error < 0.0)
   {
     report.readNoise = Quantity::Without(EstimateStatus::Failed);
     report.readNoiseElectrons = Quantity::Without(EstimateStatus::Failed);
@@ -303,9 +304,9 @@ OffsetByIllumination(const RefinedResults & found, const GainEstimate & gain, co
     estimate.interval = Interval{ low + model.centreDn, high + model.centreDn };
   }
   const std::string moreFlicker = ", or record more flicker or more frames";
-  const double      slackDn = InRefined.slackOfOffsetZ * estimate.standardErrorDn;
+  const double      slackDn = Significance.oneTest * estimate.standardErrorDn;
   const double      slackBelowDn =
-    slackDn + InRefined.slackOfInterceptZ * std::sqrt(gain.covariance(1, 1)) / std::max(1e-9, gain.line.gain);
+    slackDn + Significance.hint * std::sqrt(gain.covariance(1, 1)) / std::max(1e-9, gain.line.gain);
   const FrameOffsets & others = found.series.frameOffsets;
   if (!others.unlike.empty()) // too many to be left out
   {
@@ -320,7 +321,7 @@ OffsetByIllumination(const RefinedResults & found, const GainEstimate & gain, co
     estimate.obstacle =
       "the scene is a ramp, along which motion changes every level alike, as an offset does" + Ask("");
   }
-  else if (!(line.flickerZ > InCommon.requiredFlickerZ) && !isLocal)
+  else if (!(line.flickerZ > Significance.everyPixel) && !isLocal)
   {
     estimate.obstacle = TextOfFaintFlicker(line.flickerZ) + Ask(moreFlicker);
   }

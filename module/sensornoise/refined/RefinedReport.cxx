@@ -5,6 +5,7 @@
 #include "sensornoise/base/ChiSquare.h"
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/RollingShutter.h"
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/base/Text.h"
 #include "sensornoise/pixels/VarianceLine.h"
 #include "sensornoise/correlation/CorrelationRecord.h"
@@ -209,7 +210,8 @@ EffectOfRowLight(const RefinedResults & found, const GainEstimate & gain)
   const MeasuredNumber & square = found.correlation.rowLight;
   const double           signalDn = std::max(0.0, found.scene.model.brightestDn - found.blackDn);
   const double           effect = square.value * signalDn / gain.line.gain;
-  return square.value > InRefined.rowLightZ * square.standardError && effect > InRefined.largestRowLight ? effect : 0.0;
+  return square.value > Significance.severalTests * square.standardError && effect > InRefined.largestRowLight ? effect
+                                                                                                               : 0.0;
 }
 
 /** Files no gain, where the frames' rows had light of their own. */

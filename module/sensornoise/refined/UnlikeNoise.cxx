@@ -3,6 +3,7 @@
 #include "sensornoise/refined/UnlikeNoise.h"
 
 #include "sensornoise/base/Quantiles.h"
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/base/Text.h"
 #include "sensornoise/refined/Constants.h"
 
@@ -104,7 +105,7 @@ FindLargestGroup(const std::vector<NoiseOfFrame> & sorted, double chance, double
   {
     const RobustCentre centre = CentreOf({ begin, end });
     const double       most =
-      std::max(least * centre.median, InRefined.unlikeNoiseZ * std::max(chance * centre.median, centre.sd));
+      std::max(least * centre.median, Significance.everyPixel * std::max(chance * centre.median, centre.sd));
     begin = std::lower_bound(noise.begin(), noise.end(), centre.median - most);
     end = std::upper_bound(noise.begin(), noise.end(), centre.median + most);
   }
@@ -182,7 +183,7 @@ NoiseOfFrames(const FrameEnergies &   energies,
   {
     return {};
   }
-  const double    slack = InRefined.slackOfSlopeZ * slopeError;
+  const double    slack = Significance.hint * slopeError;
   const double    down = std::min(slack, std::max(0.0, line.gain));
   const double    up = std::min(slack, std::max(0.0, SteepestSlope(line, levels) - line.gain));
   Eigen::VectorXd nearest = RatiosOfFrames(energies, levels, line, noise);
@@ -234,7 +235,7 @@ JudgeFrameNoise(const Eigen::VectorXd & ofFrames, double chance, double least)
   }
   std::sort(found.unlike.begin(), found.unlike.end());
   const double median = MedianOf(differences);
-  found.scatter = found.unlike.empty() && median > std::max(least, InRefined.unlikeNoiseZ * chance) ? median : 0.0;
+  found.scatter = found.unlike.empty() && median > std::max(least, Significance.everyPixel * chance) ? median : 0.0;
   return found;
 }
 

@@ -3,6 +3,7 @@
 #include "sensornoise/report/ChannelReports.h"
 
 #include "sensornoise/base/ChiSquare.h"
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/base/Text.h"
 #include "sensornoise/report/Constants.h"
 #include "sensornoise/report/Quantities.h"
@@ -105,7 +106,7 @@ CompareGreens(ChannelReports & reports)
   const double difference = first->value - second->value;
   const double error = std::hypot(first->error, second->error);
   const double mean = 0.5 * (first->value + second->value);
-  if (std::abs(difference) > InReport.greensDifferZ * error &&
+  if (std::abs(difference) > Significance.oneTest * error &&
       std::abs(difference) > InReport.leastGreenDifference * mean)
   {
     reports.warnings.push_back(

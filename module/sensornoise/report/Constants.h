@@ -11,10 +11,8 @@ namespace sensornoise
 /** The numbers of the room `report`. */
 struct ReportConstants
 {
-  /** The gains of the two greens differ where their difference is more than so many of its standard errors, and more
-   * than this share of the gain [1]. Set by hand: by chance alone one of 370 mosaics has the first, what is smaller
-   * than the second matters to nobody. */
-  double greensDifferZ{ 3.0 };
+  /** Difference of the gains of the two greens, relative to them, from which on it counts [1]. Set by hand: what is
+   * smaller matters to nobody. */
   double leastGreenDifference{ 0.005 };
   /** Difference of the mean levels of the two planes called green, relative to that of green to the two others, from
    * which on they are no greens [1]: as InMoments.leastColourDifference; planes of one colour differ by what the scene

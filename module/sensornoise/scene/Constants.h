@@ -17,10 +17,9 @@ struct SceneConstants
   ///@{
   /** Pixels to which a model is fitted, at least. Set by hand. */
   std::size_t fewestPixels{ 100 };
-  /** Ratio of raw to modelled variance above which a pixel is not explained [1]: at least so much, and so many standard
-   * deviations of chi-square. Set by hand: weights and masks need the model to some 10 %. */
+  /** Ratio of raw to modelled variance above which a pixel is not explained, beside chance [1]. Set by hand: weights
+   * and masks need the model to some 10 %. */
   double largestRatio{ 2.5 };
-  double largestRatioZ{ 6.0 };
   /** Ratio to the median of its bin from which a pixel is left out of the first fit [1]: of the smoother half, where
    * motion adds little, and of the rougher. Set by hand. */
   double startRatioSmooth{ 2.5 };
@@ -95,9 +94,6 @@ struct SceneConstants
   /** Pixels by which a column or row is judged, about, and at least: the medians of so many bound the time. */
   std::size_t pixelsOfBorderLine{ 128 };
   std::size_t leastPixelsOfBorderLine{ 8 };
-  /** Standard deviations of the pixels of the outermost line by which a line or a pixel differs from it [1]. Chosen
-   * empirically: of normal levels 1 of 16,000 does. */
-  double borderZ{ 4.0 };
   /** Part of the pixels beside a strip that must differ from it [1]: a scene may have its level in places. */
   double leastBorderShare{ 0.95 };
   /** Part of the step at the end of a strip by which pixels of the next lines may differ, as medians [1], and its last

@@ -3,6 +3,7 @@
 #include "sensornoise/scene/MaskedBorder.h"
 
 #include "sensornoise/base/Quantiles.h"
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/scene/Constants.h"
 
 #include <algorithm>
@@ -95,7 +96,7 @@ ShareBeyond(const std::vector<double> & levels, double level, double distance)
 bool
 EndsSharply(const BorderLines & border, const RobustCentre & outermost, std::size_t count)
 {
-  const double                      distance = InScene.borderZ * outermost.sd;
+  const double                      distance = Significance.severalTests * outermost.sd;
   const std::vector<double>         beside = border.LevelsOf(count);
   const std::vector<double>         next = border.LevelsOf(count + 1);
   const std::optional<RobustCentre> first = LevelsOfLine(beside);
@@ -143,8 +144,8 @@ CountLines(const BorderLines & border, const RobustCentre & outermost)
     {
       return 0;
     }
-    const bool isEven = own->sd < InScene.borderZ * outermost.sd;
-    const bool isNear = std::abs(own->median - outermost.median) < InScene.borderZ * outermost.sd;
+    const bool isEven = own->sd < Significance.severalTests * outermost.sd;
+    const bool isNear = std::abs(own->median - outermost.median) < Significance.severalTests * outermost.sd;
     if (!(isEven && isNear) && EndsSharply(border, outermost, k))
     {
       return k;

@@ -6,6 +6,7 @@
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/NothingToMeasure.h"
 #include "sensornoise/base/Quantiles.h"
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/scene/Constants.h"
 #include "sensornoise/scene/VarianceSample.h"
 
@@ -62,7 +63,7 @@ FitProvisionalModel(const ReferenceFrame & frame)
   ProvisionalModel model;
   SetLevels(model, frame, pixels);
   model.largestRatio = std::max(InScene.largestRatio,
-                                1.0 + InScene.largestRatioZ * std::sqrt(2.0 / static_cast<double>(frame.frames - 1)));
+                                1.0 + Significance.everyPixel * std::sqrt(2.0 / static_cast<double>(frame.frames - 1)));
   const VarianceSample         sample = SampleVariance(frame, pixels, model);
   VariancePrediction           prediction = StartFromMedians(sample);
   VarianceSample::Coefficients theta = VarianceSample::Coefficients::Zero();

@@ -24,11 +24,6 @@ struct SeriesConstants
   /** Share of a column that others may leave of it for it to be told from them [1]. Set by hand: what is less is within
    * what vignetting makes of a ramp, and an offset by it would be ten times as uncertain as by levels. */
   double leastOwnShare{ 0.01 };
-  /** Standard deviations by which such a share must exceed what chance makes of it [1]. Set by hand. */
-  double ownShareZ{ 4.0 };
-  /** Standard deviations by which a derivative of higher order must show in the frames to be a column [1]. Set by hand.
-   */
-  double leastColumnZ{ 4.0 };
   /** Frames from which derivatives of the third order are tried. Set by hand. */
   std::size_t framesForThirdOrder{ 20 };
   ///@}
@@ -48,8 +43,6 @@ struct SeriesConstants
   /** Ratio of the spread of the densest half of the frames to the least, up to which an offset fits as well [1]. Chosen
    * empirically: chance makes 1.2 of it for 20 frames. */
   double likelyOffset{ 1.3 };
-  /** Standard deviations by which a frame of another offset must differ [1]: of a million frames none does. */
-  double otherOffsetZ{ 6.0 };
   /** Step of the offset, relative to the noise of the darkest pixels [1]. Chosen by the size of the effect: a fifth of
    * the frames that differ by it change the read noise by 0.5 %. */
   double leastOffsetStep{ 0.25 };

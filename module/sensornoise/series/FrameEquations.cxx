@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/series/FrameEquations.h"
 
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/base/Stencils.h"
 #include "sensornoise/series/Constants.h"
 
@@ -82,7 +83,8 @@ LeastShareBeside(const Eigen::MatrixXd &          rawGram,
       noise += (rawGram(i, i) - gram(i, i)) / gram(i, i);
     }
   }
-  return std::max(InSeries.leastOwnShare, noise > 0.0 ? InSeries.ownShareZ * noise * std::sqrt(3.0 / pixels) : 0.0);
+  return std::max(InSeries.leastOwnShare,
+                  noise > 0.0 ? Significance.severalTests * noise * std::sqrt(3.0 / pixels) : 0.0);
 }
 
 /** Leaves out the weaker of the first derivatives, if the other says the same: then only motion along the gradient is
@@ -184,7 +186,7 @@ FindInsignificant(const Eigen::MatrixXd &          rawGram,
     {
       const double z = energy.Significance(coefficients(k), variance(static_cast<Eigen::Index>(k)));
       const double score = z - (order == 3 ? 100.0 : 0.0);
-      if (z < InSeries.leastColumnZ && (worst == 0 || score < worstScore))
+      if (z < Significance.severalTests && (worst == 0 || score < worstScore))
       {
         worst = k;
         worstScore = score;

@@ -3,6 +3,7 @@
 #include "sensornoise/series/FrameOffsets.h"
 
 #include "sensornoise/base/Quantiles.h"
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/series/Constants.h"
 
 #include <algorithm>
@@ -109,7 +110,7 @@ FindFrameOffsets(const OffsetLine & line, const ValueRange & offsets, double lea
   for (Eigen::Index t = 0; t < smallest.size(); ++t)
   {
     const double ofSignal = InSeries.leastStepOfChange * std::abs(changes(t, 1) * offsets.highest);
-    if (far(t) > InSeries.otherOffsetZ && std::abs(smallest(t)) > std::max(leastStepDn, ofSignal))
+    if (far(t) > Significance.everyPixel && std::abs(smallest(t)) > std::max(leastStepDn, ofSignal))
     {
       found.unlike.push_back(static_cast<std::size_t>(t));
       steps.push_back(smallest(t));

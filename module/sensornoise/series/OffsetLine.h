@@ -6,6 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/Constants.h"
 #include "sensornoise/base/Eigen.h"
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/series/Constants.h"
 #include "sensornoise/series/FrameEquations.h"
 #include "sensornoise/series/FrameSums.h"
@@ -45,7 +46,7 @@ struct SensorNoise_EXPORT OffsetLine
   bool
   TellsOffset() const
   {
-    return flickerZ > InCommon.requiredFlickerZ && contrast > InSeries.leastContrast && std::isfinite(low);
+    return flickerZ > Significance.everyPixel && contrast > InSeries.leastContrast && std::isfinite(low);
   }
 
   /** What the dispersion widens variances by [1]; 1: by nothing, chance makes it smaller at times. */
