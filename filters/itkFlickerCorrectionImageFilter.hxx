@@ -20,7 +20,6 @@
 
 #include "itkSensorNoiseChunks.h"
 #include "itkSensorNoiseErrors.h"
-#include "sensornoise/base/Constants.h"
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/RollingShutter.h"
 #include "sensornoise/base/Significance.h"

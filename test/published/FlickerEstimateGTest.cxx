@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/base/Significance.h"
 #include "sensornoise/published/FlickerEstimate.h"
-#include "sensornoise/base/Constants.h"
 #include "sensornoise/base/RollingShutter.h"
 #include "sensornoise/published/FlickerSums.h"
 #include "sensornoise/published/IsoIntensitySet.h"

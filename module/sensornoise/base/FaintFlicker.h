@@ -3,7 +3,6 @@
 #ifndef sensornoise_base_FaintFlicker_h
 #define sensornoise_base_FaintFlicker_h
 
-#include "sensornoise/base/Constants.h"
 #include "sensornoise/base/Significance.h"
 #include "sensornoise/base/Text.h"
 

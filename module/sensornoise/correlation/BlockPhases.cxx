@@ -4,7 +4,6 @@
 
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Significance.h"
-#include "sensornoise/correlation/Constants.h"
 #include "sensornoise/correlation/Jackknife.h"
 #include "sensornoise/correlation/LagSums.h"
 

@@ -3,7 +3,6 @@
 #include "sensornoise/correlation/CorrelationRecord.h"
 
 #include "sensornoise/base/Significance.h"
-#include "sensornoise/correlation/Constants.h"
 #include "sensornoise/report/Quantities.h"
 
 #include <algorithm>

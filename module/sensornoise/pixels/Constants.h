@@ -37,8 +37,6 @@ struct PixelsConstants
   double farZ{ 4.5 };
   /** Half width of a neighbourhood [pixels]. Set by hand: 225 variances of 100 frames have a mean to 1 %. */
   std::size_t misfitRadius{ 7 };
-  /** Share of its pixels far above the line from which a neighbourhood does not fit [1]. Set by hand. */
-  double largestFarShare{ 0.15 };
   /** Excess over the line by which a neighbourhood's mean variance does not fit [1], and the share of its pixels that
    * it needs [1]. Set by hand. */
   double leastMisfit{ 0.04 };
@@ -82,8 +80,6 @@ struct PixelsConstants
   /** Departure from the line, beside chance, that counts [1]. Set by hand: neighbourhoods are
    * blamed from 4 % on; half of it is within the noise of frames of 128 x 128 pixels. */
   double leastDeparture{ 0.01 };
-  /** Smallest ratio of the judging line to the line [1]. Set by hand: a variance is above 0. */
-  double leastRatio{ 0.1 };
   /** One in so many squares, the darkest, tells the scatter of the pixels' own noise. Set by hand. */
   std::size_t darkSquaresOneIn{ 5 };
   /** Variance of what the pixels' own offsets do to the line, relative to its square at the darkest level, up to which
@@ -130,13 +126,6 @@ struct PixelsConstants
   /** Error that a pattern may cause, in standard errors, which is left out [1]. Set by hand: it adds 3 % to the error.
    */
   double negligiblePattern{ 0.25 };
-  ///@}
-
-  /** \name Bends of the response */
-  ///@{
-  /** VarianceCurve::DarkestShare up to which a bend of the response shows [1]: at levels of 20 to 80 % a gamma of 1.3
-   * departs from a line by 2 %, and has half the gain. */
-  double darkEnough{ 0.1 };
   ///@}
 
   /** \name Noise of companded codes */
@@ -200,22 +189,16 @@ struct PartsConstants
    * then take a few per cent of the time of a burst. */
   std::size_t mostTiles{ 32 };
   std::size_t mostPhaseTiles{ 8 };
-  /** Fraction of its pixels that a tile needs [1], and tiles that a comparison needs. Chosen empirically. */
-  double      leastTileShare{ 0.25 };
+  /** Tiles that a comparison needs. Chosen empirically. */
   std::size_t fewestTiles{ 24 };
   /** Variance of a pixel over the line from which on it is left out of the sums [1]: defective, or something moves.
    * Chosen above what twice the gain and chance together make of 10 frames. */
   double largestRatio{ 6.0 };
-  /** Smallest ratio of a part's variance to the line [1]: a variance is above 0. */
-  double leastRatio{ 0.1 };
   /** Difference of the gains, rms over the pixels, from which on it counts [1]. Chosen by the size of the effect:
    * below, the gain of no half is off by more than its error in bursts of 100 frames. */
   double leastDifference{ 0.0075 };
   /** The same from which on the rejection of pixels allows for it [1]: neighbourhoods are rejected from 4 % on. */
   double largeDifference{ 0.0125 };
-  /** Difference of the variances without signal, rms over the pixels, from which on it counts [1]: 5 % of the read
-   * noise. As InRefined.leastDarkDifference. */
-  double leastDarkDifference{ 0.1 };
   /** Scatter of the tiles within parts over that of sampling, up to which parts are uniform in themselves [1]: where
    * something moves it is 10 and more. Chosen empirically. */
   double largestScatter{ 3.0 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/pixels/GainByParts.h"
 
+#include "sensornoise/base/Constants.h"
 #include "sensornoise/base/Significance.h"
 #include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/PartRegression.h"
@@ -145,7 +146,8 @@ PartGains::RatioAt(double x, double y, std::size_t phase, double shotFraction) c
 {
   const std::size_t part = PartOf(partition, x, y, phase);
   const double      gain = field.size() > 0 ? PartRegression::FieldAt(x, y).dot(field) : excess[part];
-  return std::max(InParts.leastRatio, 1.0 + shotFraction * gain + (1.0 - shotFraction) * dark[part % dark.size()]);
+  return std::max(InCommon.leastVarianceRatio,
+                  1.0 + shotFraction * gain + (1.0 - shotFraction) * dark[part % dark.size()]);
 }
 
 bool
@@ -157,7 +159,7 @@ PartGains::Differ() const
 bool
 PartGains::DifferInTheDark() const
 {
-  return darkSize > InParts.leastDarkDifference && darkZ > Significance.manyTests;
+  return darkSize > InCommon.leastDarkDifference && darkZ > Significance.manyTests;
 }
 
 bool

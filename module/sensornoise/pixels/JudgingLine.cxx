@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/pixels/JudgingLine.h"
 
+#include "sensornoise/base/Constants.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/Quantiles.h"
 #include "sensornoise/base/Significance.h"
@@ -180,7 +181,7 @@ MakeJudgingLine(const VarianceLine &              line,
     if (judging.levels.empty() || level > judging.levels.back())
     {
       judging.levels.push_back(level);
-      judging.ratios.push_back(std::max(InPixels.leastRatio, 1.0 + excess));
+      judging.ratios.push_back(std::max(InCommon.leastVarianceRatio, 1.0 + excess));
     }
   }
   if (departs)

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/base/Constants.h"
 #include "sensornoise/base/Significance.h"
 #include "sensornoise/pixels/StaticPixels.h"
 
@@ -94,7 +95,7 @@ FindMisfitCores(const ProjectedVariance & projected,
         const double crowd = both / PixelFits::Rejected;
         const double count = both % PixelFits::Rejected;
         const double excess = sums[x] / std::max(1.0, count) - 1.0;
-        bool         isCore = crowd > InPixels.largestFarShare * area;
+        bool         isCore = crowd > InCommon.largestFarShare * area;
         if (excess > InPixels.leastMisfit && count > InPixels.leastCountedShare * area)
         {
           const double level = frame.neighbourMean[y * width + x];

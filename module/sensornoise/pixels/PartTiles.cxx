@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/pixels/PartTiles.h"
 
+#include "sensornoise/base/Constants.h"
 #include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/Partition.h"
 
@@ -152,7 +153,7 @@ MakePartTiles(const VarianceData &  data,
     {
       all += phase;
     }
-    if (all.pixels >= InParts.leastTileShare * static_cast<double>(side * side))
+    if (all.pixels >= InCommon.leastCoveredShare * static_cast<double>(side * side))
     {
       tiles.places.push_back(all.Excess(reference.sharedSquares));
       tiles.places.back().x = std::min(1.0, x);

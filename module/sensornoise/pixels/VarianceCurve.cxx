@@ -3,7 +3,6 @@
 #include "sensornoise/pixels/VarianceCurve.h"
 
 #include "sensornoise/base/Significance.h"
-#include "sensornoise/pixels/Constants.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,6 @@
 #include "sensornoise/pixels/VarianceFit.h"
 
 #include "sensornoise/base/Eigen.h"
-#include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/VarianceLine.h"
 
 #include <array>

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/published/PublishedReport.h"
 
-#include "sensornoise/base/Constants.h"
 #include "sensornoise/base/FaintFlicker.h"
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/IntensityIndex.h"

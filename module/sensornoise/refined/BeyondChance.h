@@ -4,7 +4,6 @@
 #define sensornoise_refined_BeyondChance_h
 
 #include "sensornoise/base/Significance.h"
-#include "sensornoise/refined/Constants.h"
 
 #include <algorithm>
 #include <cmath>

@@ -15,9 +15,6 @@ struct RefinedConstants
 {
   /** \name Whether the gain is told */
   ///@{
-  /** Standard error of a gain that is worth a number, relative to its order of magnitude [1]. Set by hand. The order of
-   * magnitude is not the gain that came out: nothing is told because it came out large. */
-  double largestGainError{ 0.25 };
   /** Part of the usable pixels that a measurement needs [1]. Set by hand. */
   double leastUsedShare{ 0.1 };
   /** Departure of the variance from its line above which the data are not those of a sensor [1]: local gains that
@@ -119,24 +116,12 @@ struct RefinedConstants
   double leastFrameContrast{ 1e-4 };
   ///@}
 
-  /** \name Dark frames */
-  ///@{
-  /** Difference between the variance of dark frames and that of the line at their level, relative to the larger one,
-   * from which on the dark frames are of another sensor, exposure or temperature [1]. Chosen by the size of the
-   * effect: 5 % of the read noise. */
-  double leastDarkDifference{ 0.1 };
-  /** Part of the levels above the offset below which they say nothing of the gain [1]. Set by hand. */
-  double leastLight{ 0.1 };
-  ///@}
-
   /** \name Offset, read noise, flicker and motion */
   ///@{
   /** Part of the levels' range by which an offset may lie beyond its limits, beside chance [1]. Set by hand. */
   double slackOfRange{ 0.01 };
   /** Dispersion of the lines of local light about one zero that is worth a number [1]. Set by hand. */
   double largestLocalDispersion{ 4.0 };
-  /** Error of the light above the offset, relative to it, at which a flicker is no number [1]. Set by hand. */
-  double largestScaleError{ 0.25 };
   /** Part of what two ways to measure motion differ by that is its systematic error [1]. Chosen on simulated scenes:
    * the motion of pages of sharp text is off by a fifth of it, of others by less than a tenth. */
   double errorOfMotion{ 0.2 };

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/refined/DarkPoint.h"
 
+#include "sensornoise/base/Constants.h"
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/PixelUse.h"
 #include "sensornoise/base/Significance.h"
 #include "sensornoise/moments/DarkMaps.h"
 #include "sensornoise/moments/KnownOffset.h"
-#include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/VarianceCurve.h"
 #include "sensornoise/refined/Constants.h"
 #include "sensornoise/refined/GainEstimate.h"
@@ -98,7 +98,7 @@ GainsOfLevels(const VarianceCurve & curve, const DarkPoint & dark)
   {
     const double level = curve.LevelOf(bin);
     const double light = level - dark.offsetDn;
-    if (light > InRefined.leastLight * (brightestDn - dark.offsetDn))
+    if (light > InCommon.darkShare * (brightestDn - dark.offsetDn))
     {
       const double own = curve.VarianceOf(bin);
       const double gain = (own - dark.varianceDn2) / light;
@@ -132,12 +132,12 @@ UseDarkPoint(GainEstimate & estimate, const RefinedResults & found)
   const GainEstimate before = estimate;
   const double       contradiction = MoveToPoint(estimate, dark);
   const auto         atOffset = estimate.atOffset;
-  const bool         isFar = estimate.curve.DarkestShare(dark.offsetDn) > InPixels.darkEnough;
+  const bool         isFar = estimate.curve.DarkestShare(dark.offsetDn) > InCommon.darkShare;
   estimate.isLinearityTested =
     std::sqrt(before.covariance(0, 0)) < 0.5 * InRefined.largestNonlinearity * std::abs(before.line.gain);
   const double difference = std::abs(dark.varianceDn2 - atOffset->valueDn2);
   if (!isBent && contradiction > Significance.severalTests &&
-      difference > InRefined.leastDarkDifference * std::max(dark.varianceDn2, std::abs(atOffset->valueDn2)))
+      difference > InCommon.leastDarkDifference * std::max(dark.varianceDn2, std::abs(atOffset->valueDn2)))
   {
     estimate = before;
     estimate.atOffset = atOffset;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/refined/GainEstimate.h"
 
+#include "sensornoise/base/Constants.h"
 #include "sensornoise/base/Significance.h"
 #include "sensornoise/moments/KnownOffset.h"
 #include "sensornoise/pixels/LevelPattern.h"
@@ -205,7 +206,7 @@ FindModelError(GainEstimate &        estimate,
                double                dispersion)
 {
   estimate.isWide = curve.DarkestShare(blackDn) < InRefined.largestDarkestShare;
-  if (!estimate.isWide && std::sqrt(estimate.covariance(0, 0)) > InRefined.largestGainError * estimate.scale)
+  if (!estimate.isWide && std::sqrt(estimate.covariance(0, 0)) > InCommon.largestRelativeError * estimate.scale)
   {
     return; // a line that is not known has no departures
   }

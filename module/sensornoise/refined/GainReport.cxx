@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/refined/GainReport.h"
 
+#include "sensornoise/base/Constants.h"
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Text.h"
 #include "sensornoise/pixels/CodeNoise.h"
@@ -87,7 +88,7 @@ FindContradiction(const RefinedResults & found, const GainEstimate & gain)
            (hasCodes ? ", or of several gains. Record raw frames, or fit the linear part alone: --level-range LOW,HIGH"
                      : ", or saturated. Record raw frames, or give the levels at which they saturate: --clip LOW,HIGH");
   }
-  if (gain.isWide && gain.IsBent() && gain.above + gain.below > 2.0 * InRefined.largestGainError * gain.line.gain)
+  if (gain.isWide && gain.IsBent() && gain.above + gain.below > 2.0 * InCommon.largestRelativeError * gain.line.gain)
   {
     return "the variance is a curve of the mean, so that the gain depends on the assumed read noise and is between " +
            Rounded(gain.line.gain - gain.below) + " and " + Rounded(gain.line.gain + gain.above) + " DN/e-" + notRaw +
@@ -329,7 +330,7 @@ FillGain(Report &               report,
   const std::string contradiction = FindContradiction(found, gain);
   // Parts of levels that are all alike differ by patterns, not by a bend.
   const double error = gain.isWide ? std::sqrt(gain.covariance(0, 0)) : gain.StandardError();
-  const bool   isTooLittle = error > InRefined.largestGainError * gain.scale ||
+  const bool   isTooLittle = error > InCommon.largestRelativeError * gain.scale ||
                            static_cast<double>(report.pixels.used) < InRefined.leastUsedShare * found.scene.usable;
   if (isTooLittle && !found.frameNoise.HasSeveralKinds() && !(gain.nonlinearity > InRefined.largestNonlinearity))
   {
@@ -357,11 +358,11 @@ WarnOfNarrowRange(Report & report, const RefinedResults & found, const GainEstim
   const double          inFrames = (found.InDarkestFrame(found.scene.model.centreDn) - blackDn) /
                           (found.InBrightestFrame(found.scene.model.centreDn) - blackDn);
   const double share = curve.DarkestShare(blackDn) * (gain.isFromFrames ? std::max(0.0, inFrames) : 1.0);
-  if (!isTested && share > InPixels.darkEnough)
+  if (!isTested && share > InCommon.darkShare)
   {
     report.Warn(WarningCode::ResponseUnchecked,
-                "the darkest areas have " + PercentApart(share, InPixels.darkEnough) +
-                  " of the signal of the brightest (expected at most " + Percent(InPixels.darkEnough) +
+                "the darkest areas have " + PercentApart(share, InCommon.darkShare) +
+                  " of the signal of the brightest (expected at most " + Percent(InCommon.darkShare) +
                   "), so that a non-linear response would not be noticed. " +
                   (hasDark ? "Include dark and bright areas in the scene, or record several exposures (--exposures)"
                            : "Give dark frames (--dark), or include dark areas in the scene"));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/refined/MotionReport.h"
 
+#include "sensornoise/base/Constants.h"
 #include "sensornoise/base/Stencils.h"
 #include "sensornoise/base/Text.h"
 #include "sensornoise/moments/Constants.h"
@@ -298,10 +299,10 @@ TextOfUnknownFlicker(double ofScale, const std::optional<Interval> & limit)
   {
     return "the illumination change is not known, and neither is the flicker" + giveOffset;
   }
-  if (ofScale > InRefined.largestScaleError)
+  if (ofScale > InCommon.largestRelativeError)
   {
-    return "the illumination change is known only to within " + PercentApart(ofScale, InRefined.largestScaleError) +
-           "; " + Percent(InRefined.largestScaleError) + " is needed for the flicker" + giveOffset;
+    return "the illumination change is known only to within " + PercentApart(ofScale, InCommon.largestRelativeError) +
+           "; " + Percent(InCommon.largestRelativeError) + " is needed for the flicker" + giveOffset;
   }
   return "the flicker is not distinguished from the noise of the frames: its standard deviation may be " +
          (limit && limit->high ? RoundedApart(*limit->high, 1.0) : std::string("of any size")) +
@@ -340,8 +341,8 @@ FillFlicker(Report & report, const RefinedResults & found, double offset, double
   const auto & limit = report.flickerSd.interval95;
   // Noise of a flicker that is not known may be large, but a lamp that is off in most frames makes more than 1, too.
   const bool isLarge = report.flickerSd.value && report.flickerSd.standardError &&
-                       *report.flickerSd.standardError < InRefined.largestScaleError * *report.flickerSd.value;
-  if (ofScale > InRefined.largestScaleError || !(isLarge || (limit && limit->high.value_or(2.0) < 1.0)))
+                       *report.flickerSd.standardError < InCommon.largestRelativeError * *report.flickerSd.value;
+  if (ofScale > InCommon.largestRelativeError || !(isLarge || (limit && limit->high.value_or(2.0) < 1.0)))
   {
     report.flickerSd = Quantity::Without(EstimateStatus::NotIdentifiable);
     report.Warn(WarningCode::FlickerNotIdentifiable, TextOfUnknownFlicker(ofScale, limit));

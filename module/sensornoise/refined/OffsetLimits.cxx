@@ -7,7 +7,6 @@
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Quantiles.h"
 #include "sensornoise/base/Significance.h"
-#include "sensornoise/refined/Constants.h"
 #include "sensornoise/refined/GainEstimate.h"
 
 #include <algorithm>

@@ -3,7 +3,6 @@
 #include "sensornoise/refined/OffsetReport.h"
 
 #include "sensornoise/base/ChiSquare.h"
-#include "sensornoise/base/Constants.h"
 #include "sensornoise/base/FaintFlicker.h"
 #include "sensornoise/base/Significance.h"
 #include "sensornoise/base/Text.h"

@@ -15,7 +15,7 @@ struct SceneConstants
 {
   /** \name The provisional model */
   ///@{
-  /** Pixels to which a model is fitted, at least. Set by hand. */
+  /** Pixels to which a model is fitted, of all or of a part of the frame, at least. Set by hand. */
   std::size_t fewestPixels{ 100 };
   /** Ratio of raw to modelled variance above which a pixel is not explained, beside chance [1]. Set by hand: weights
    * and masks need the model to some 10 %. */
@@ -46,9 +46,6 @@ struct SceneConstants
   /** Share of the pixels whose noise the codes may hide [1]. Chosen: 8-bit frames have 4 to 10 %; with half, the gain
    * of codes of 2.3 standard deviations of the brightest pixels' noise was 5 to 8 % too high. */
   double largestCoarseShare{ 0.2 };
-  /** Share of a neighbourhood's pixels, of a cell or of 7 x 7, far above the model from which all of it is [1]. Set by
-   * hand. */
-  double largestFarShare{ 0.15 };
   ///@}
 
   /** \name What crosses the frame */
@@ -78,8 +75,6 @@ struct SceneConstants
    * bleaching for a thing. */
   double leastLightShare{ 0.8 };
   double largestLight{ 0.1 };
-  /** Pixels of a part of the frame that draws a model, at least. Set by hand. */
-  std::size_t fewestPixelsOfPart{ 100 };
   /** Share of the pixels that must be left [1]. Below, all of the frame moves, and the later passes must see what they
    * can. Set by hand. */
   double leastStill{ 0.05 };

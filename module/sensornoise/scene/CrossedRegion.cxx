@@ -185,7 +185,7 @@ FindBest(Candidate                        best,
   for (const FramePart & part : PartsOfFrame())
   {
     const std::vector<std::size_t> own = PixelsOfPart(pixels, frame.geometry, part);
-    if (own.size() >= InScene.fewestPixelsOfPart)
+    if (own.size() >= InScene.fewestPixels)
     {
       Candidate found = FollowPart(SampleVariance(frame, own, model), whole, cells, model.largestRatio);
       if (found.Score() > best.Score())

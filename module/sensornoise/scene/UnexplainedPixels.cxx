@@ -3,6 +3,7 @@
 #include "sensornoise/scene/UnexplainedPixels.h"
 
 #include "sensornoise/base/BoxSum.h"
+#include "sensornoise/base/Constants.h"
 #include "sensornoise/base/Stencils.h"
 #include "sensornoise/scene/Constants.h"
 #include "sensornoise/scene/InnerBlocks.h"
@@ -51,7 +52,7 @@ FindUnexplained(const ReferenceFrame & frame, const ProvisionalModel & model, co
   const auto                rows = [&] { return RowsOf(unexplained, width); };
   std::vector<std::uint8_t> crowded(unexplained.size());
   ForBoxRows(rows, width, frame.geometry.height, 3, parallelFor, [&](std::size_t y, const double * crowd) {
-    const double most = InScene.largestFarShare * 49.0;
+    const double most = InCommon.largestFarShare * 49.0;
     std::transform(crowd,
                    crowd + width,
                    unexplained.data() + y * width,

@@ -3,6 +3,7 @@
 #include "sensornoise/scene/VarianceCells.h"
 
 #include "sensornoise/base/ChiSquare.h"
+#include "sensornoise/base/Constants.h"
 #include "sensornoise/base/Quantiles.h"
 #include "sensornoise/scene/Constants.h"
 
@@ -51,7 +52,7 @@ VarianceCells::Judge(const VariancePrediction & prediction) const
       continue;
     }
     const double median = Quantile(ratios[c], 0.5);
-    const bool   isAbove = median > InScene.largestMedianRatio || far[c] > InScene.largestFarShare * pixels;
+    const bool   isAbove = median > InScene.largestMedianRatio || far[c] > InCommon.largestFarShare * pixels;
     const bool   isBelow = median < 1.0 / InScene.largestMedianRatio;
     judged.fits.push_back(isAbove ? CellFit::Above : isBelow ? CellFit::Below : CellFit::Fits);
     (isAbove ? judged.above : isBelow ? judged.below : judged.fitting) += pixels;
@@ -98,7 +99,7 @@ VarianceCells::FindLight(const JudgedCells & judged, const VariancePrediction & 
       off += ratio > largestRatio || ratio < 1.0 / largestRatio ? 1.0 : 0.0;
     }
     cells += own.empty() ? 0.0 : 1.0;
-    explained += !own.empty() && off <= InScene.largestFarShare * static_cast<double>(own.size()) ? 1.0 : 0.0;
+    explained += !own.empty() && off <= InCommon.largestFarShare * static_cast<double>(own.size()) ? 1.0 : 0.0;
   }
   return { explained / std::max(1.0, cells), std::sqrt(std::max(0.0, excess / std::max(1e-30, signal))) };
 }

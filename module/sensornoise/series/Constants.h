@@ -28,9 +28,6 @@ struct SeriesConstants
   std::size_t framesForThirdOrder{ 20 };
   ///@}
 
-  /** Standard error of the offset, over the light at the centre of the levels, from which on strong changes of the
-   * illumination do not identify it [1]. As InRefined.largestScaleError. */
-  double largestOffsetError{ 0.25 };
   /** Contrast below which noise is taken for levels, and looks like flicker [1]. Set by hand: natural scenes have 0.99;
    * at 0.5 flats with an offset pattern pass, 0.95 asks 100 frames of a flat field with a shading of 3 %. */
   double leastContrast{ 0.9 };
@@ -75,9 +72,8 @@ struct SeriesConstants
   /** Part of the variance by motion that derivatives do not explain, which is noise to the light of cells [1]. Set by
    * hand. */
   double motionLeftInCells{ 0.2 };
-  /** Pixels of a cell that tells, and those relative to the average cell's [1]. Set by hand. */
+  /** Pixels of a cell that tells. Set by hand. */
   double fewestPixelsOfCell{ 20.0 };
-  double leastCellShare{ 0.25 };
   /** Relative difference between the noise of frames below which it counts as equal [1]: the edge below has 25 % for
    * it. Chosen empirically, on simulated changes of illumination. */
   double equalFrameNoise{ 0.1 };

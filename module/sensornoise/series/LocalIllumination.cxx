@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/series/LocalIllumination.h"
 
+#include "sensornoise/base/Constants.h"
 #include "sensornoise/base/Quantiles.h"
 #include "sensornoise/series/CellNoise.h"
 #include "sensornoise/series/Constants.h"
@@ -44,7 +45,7 @@ FindUsedCells(const FrameSums & sums, double offset)
   {
     const double p = cells[c].sumI[1] - 2.0 * offset * cells[c].sum[1] + offset * offset * cells[c].sum[0];
     if (static_cast<double>(cells[c].pixels) >
-          std::max(InSeries.fewestPixelsOfCell, InSeries.leastCellShare * pixels) &&
+          std::max(InSeries.fewestPixelsOfCell, InCommon.leastCoveredShare * pixels) &&
         p > 0.0)
     {
       used.cells.push_back(c);

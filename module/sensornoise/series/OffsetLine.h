@@ -4,7 +4,6 @@
 #define sensornoise_series_OffsetLine_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/base/Constants.h"
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Significance.h"
 #include "sensornoise/series/Constants.h"

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/series/SceneSeries.h"
 
+#include "sensornoise/base/Constants.h"
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/NothingToMeasure.h"
 #include "sensornoise/scene/ProvisionalModel.h"
@@ -74,7 +75,7 @@ FindSceneSeries(const FrameSums &             sums,
   FrameEquations equations = MakeFrameEquations(sums, noise, GradientClasses - 1);
   // Patterns of a flat field's pixels have contrast, too.
   const bool isPrecise =
-    line->standardError < InSeries.largestOffsetError * std::max(0.0, -line->offset) || !changesStrongly;
+    line->standardError < InCommon.largestRelativeError * std::max(0.0, -line->offset) || !changesStrongly;
   found.isOffsetTold = line->TellsOffset() && isPrecise;
   const bool   hasLevels = line->contrast > InSeries.leastContrast;
   const double fallbackDn = hasLevels ? model.darkestDn : std::min(blackDn, model.darkestDn);
