@@ -12,7 +12,7 @@ namespace sensornoise::tools
 /** A number of the refined method that a study changes. */
 struct VariedConstant
 {
-  std::string name; ///< as at the place where it is used: "InPixels.farZ"
+  std::string name; ///< as at the place where it is used: "Significance.manyTests"
   double *    value;
   std::string unit;
   std::string what; ///< one line for people

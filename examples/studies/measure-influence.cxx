@@ -178,7 +178,8 @@ main(int argc, char * argv[])
                "simulated bursts (measure-robustness --list says what is wrong with them). Prints a table.\n"
                "About half a second a stack, constant, value and thread.");
   app.add_option("--cases", options.cases, "of measure-robustness")->delimiter(',')->capture_default_str();
-  app.add_option("--constant", options.constants, "this one alone, for example InPixels.farZ; may be repeated");
+  app.add_option(
+    "--constant", options.constants, "this one alone, for example Significance.manyTests; may be repeated");
   app.add_option("--reference", options.reference)
     ->check(CLI::IsMember({ "target", "texture" }))
     ->capture_default_str();

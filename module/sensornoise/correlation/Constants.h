@@ -42,16 +42,9 @@ struct CorrelationConstants
   /** Coefficient that is worth a word [1]. Set by hand: charge coupling of 0.3 % makes 0.006 of it, the noise of a
    * plain sample 0.0004 to 0.0007. */
   double leastCoefficient{ 0.002 };
-  /** What the nearest four share together that is worth a word, relative to the variance of the bright pixels [1],
-   * and the standard errors by which it must exceed that [1]. Set by hand: a brighter-fatter effect of 2 % at full
-   * well makes 0.02. Half of nearestZ: chance is taken for shared noise, errors double in one of six cases; twice:
-   * the same. */
+  /** What the nearest four share together that is worth a word, relative to the variance of the bright pixels [1]. Set
+   * by hand: a brighter-fatter effect of 2 % at full well makes 0.02. */
   double leastEffect{ 0.003 };
-  double nearestZ{ 2.7 };
-  /** Standard errors of what grows with the square of the light, and chi-square by which it straightens the variance,
-   * that together tell it from chance [1]. Set by hand. */
-  double leastZOfSquare{ 1.5 };
-  double leastEvidenceOfBend{ 9.0 };
   ///@}
 
   /** \name The sum over neighbours */

@@ -158,7 +158,7 @@ ProbabilitiesOf(const Eigen::VectorXd & chi2, bool mayBeCharge)
 bool
 StraightensVariance(const CorrelationSums & sums, const Eigen::VectorXd & errors, const MeasuredNumber & effect)
 {
-  if (effect.value < InCorrelation.leastEffect || !effect.Exceeds(0.0, InCorrelation.leastZOfSquare))
+  if (effect.value < InCorrelation.leastEffect || !effect.Exceeds(0.0, Significance.hint))
   {
     return false;
   }
@@ -171,7 +171,7 @@ StraightensVariance(const CorrelationSums & sums, const Eigen::VectorXd & errors
   const Eigen::VectorXd chi2 = Chi2OfSums(sums, all, coefficients);
   return chi2(static_cast<Eigen::Index>(ShapeOfShared::Variance)) -
            chi2(static_cast<Eigen::Index>(ShapeOfShared::Square)) >
-         InCorrelation.leastEvidenceOfBend;
+         Significance.oneTest * Significance.oneTest;
 }
 } // namespace
 
@@ -192,7 +192,7 @@ SharesInSpace(const CorrelationSums & sums, const std::vector<LagCoefficient> & 
   });
   for (std::size_t k = 0; k < static_cast<std::size_t>(atTheTop.value.size()); ++k)
   {
-    if (NumberAt(atTheTop, k).Exceeds(InCorrelation.leastEffect, InCorrelation.nearestZ))
+    if (NumberAt(atTheTop, k).Exceeds(InCorrelation.leastEffect, Significance.oneTest))
     {
       return true;
     }

@@ -31,10 +31,6 @@ struct PixelsConstants
 
   /** \name Single pixels, neighbourhoods and classes that do not fit */
   ///@{
-  /** Standard deviations by which the variance of a pixel is far off, by the cube root of chi-square [1]. Set by
-   * hand: 7 of 10^6 pixels are by chance. Half: gains of smoothed frames are 0.3 % low; twice: the same but for
-   * noisy pixels. */
-  double farZ{ 4.5 };
   /** Half width of a neighbourhood [pixels]. Set by hand: 225 variances of 100 frames have a mean to 1 %. */
   std::size_t misfitRadius{ 7 };
   /** Excess over the line by which a neighbourhood's mean variance does not fit [1], and the share of its pixels that
@@ -44,10 +40,8 @@ struct PixelsConstants
   /** Share of the frame's pixels that do not fit, below which the line that they took part in stands [1]. Set by hand:
    * so few have not drawn it. */
   double fewMisfits{ 1e-3 };
-  /** Standard errors, and excess over the flat classes, by which a class of roughness does not fit [1]; or its
-   * outliers beyond theirs, of its pixels [1]. Set by hand. Half of classZ: classes are lost, errors are up to 1.4
-   * times as large; twice: the same. */
-  double classZ{ 2.5 };
+  /** Excess over the flat classes by which a class of roughness does not fit [1]; or its outliers beyond theirs, of its
+   * pixels [1]. Set by hand. */
   double leastClassExcess{ 0.0015 };
   double leastClassOutliers{ 0.01 };
   /** The flattest class that may be left out. Set by hand: those below are the reference. */

@@ -3,14 +3,14 @@
 #ifndef sensornoise_pixels_FarVariance_h
 #define sensornoise_pixels_FarVariance_h
 
-#include "sensornoise/pixels/Constants.h"
+#include "sensornoise/base/Significance.h"
 
 #include <cmath>
 
 namespace sensornoise
 {
 
-/** Where a chi-square variable over its \a freedom is farZ standard deviations off 1: its cube root is about normal
+/** Where a chi-square variable over its \a freedom is far off 1 (Significance.manyTests): its cube root is about normal
  * (Wilson & Hilferty 1931). */
 struct FarLimits
 {
@@ -20,7 +20,7 @@ struct FarLimits
   explicit FarLimits(double freedom)
   {
     const double s = 2.0 / (9.0 * freedom);
-    const double far = InPixels.farZ * std::sqrt(s);
+    const double far = Significance.manyTests * std::sqrt(s);
     const double above = 1.0 - s + far;
     const double below = 1.0 - s - far;
     low = below * below * below;

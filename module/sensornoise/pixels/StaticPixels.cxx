@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/Quantiles.h"
+#include "sensornoise/base/Significance.h"
 #include "sensornoise/base/WideVectors.h"
 #include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/JudgedRun.h"
@@ -127,7 +128,7 @@ FirstBadClass(const ClassTable & table)
 {
   const double usual = QuantileOf({ table.outliers.begin(), table.outliers.begin() + FlatClasses }, 0.5);
   const auto   isBad = [&](std::size_t c) {
-    return table.excess[c] > std::max(InPixels.classZ * table.error[c], InPixels.leastClassExcess) ||
+    return table.excess[c] > std::max(Significance.oneTest * table.error[c], InPixels.leastClassExcess) ||
            table.outliers[c] > usual + InPixels.leastClassOutliers;
   };
   for (std::size_t c = InPixels.firstJudgedClass; c < Classes; ++c)
