@@ -17,17 +17,14 @@
  *=========================================================================*/
 #include "itkBayerPlaneImageFilter.h"
 #include "itkBayerPlaneImageFilter.hxx"
+#include "sensornoise/base/PixelTypes.h"
 
 namespace itk
 {
-template class BayerPlaneImageFilter<Image<unsigned char, 2>>;
-template class BayerPlaneImageFilter<Image<unsigned short, 2>>;
-template class BayerPlaneImageFilter<Image<short, 2>>;
-template class BayerPlaneImageFilter<Image<float, 2>>;
-template class BayerPlaneImageFilter<Image<double, 2>>;
-template class BayerPlaneImageFilter<Image<unsigned char, 3>>;
-template class BayerPlaneImageFilter<Image<unsigned short, 3>>;
-template class BayerPlaneImageFilter<Image<short, 3>>;
-template class BayerPlaneImageFilter<Image<float, 3>>;
-template class BayerPlaneImageFilter<Image<double, 3>>;
+#define SensorNoise_INSTANTIATE(TPixel) template class BayerPlaneImageFilter<Image<TPixel, 2>>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
+#define SensorNoise_INSTANTIATE(TPixel) template class BayerPlaneImageFilter<Image<TPixel, 3>>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
 } // namespace itk

@@ -20,6 +20,7 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/BayerPattern.h"
+#include "sensornoise/base/PixelTypes.h"
 #include "itkImage.h"
 #include "itkImageToImageFilter.h"
 
@@ -106,16 +107,12 @@ private:
 };
 
 // Instantiated once, in the library.
-extern template class SensorNoise_EXPORT BayerPlaneImageFilter<Image<unsigned char, 2>>;
-extern template class SensorNoise_EXPORT BayerPlaneImageFilter<Image<unsigned short, 2>>;
-extern template class SensorNoise_EXPORT BayerPlaneImageFilter<Image<short, 2>>;
-extern template class SensorNoise_EXPORT BayerPlaneImageFilter<Image<float, 2>>;
-extern template class SensorNoise_EXPORT BayerPlaneImageFilter<Image<double, 2>>;
-extern template class SensorNoise_EXPORT BayerPlaneImageFilter<Image<unsigned char, 3>>;
-extern template class SensorNoise_EXPORT BayerPlaneImageFilter<Image<unsigned short, 3>>;
-extern template class SensorNoise_EXPORT BayerPlaneImageFilter<Image<short, 3>>;
-extern template class SensorNoise_EXPORT BayerPlaneImageFilter<Image<float, 3>>;
-extern template class SensorNoise_EXPORT BayerPlaneImageFilter<Image<double, 3>>;
+#define SensorNoise_EXTERN(TPixel) extern template class SensorNoise_EXPORT BayerPlaneImageFilter<Image<TPixel, 2>>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);
+#undef SensorNoise_EXTERN
+#define SensorNoise_EXTERN(TPixel) extern template class SensorNoise_EXPORT BayerPlaneImageFilter<Image<TPixel, 3>>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);
+#undef SensorNoise_EXTERN
 
 } // namespace itk
 

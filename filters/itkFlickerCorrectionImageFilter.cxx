@@ -17,12 +17,11 @@
  *=========================================================================*/
 #include "itkFlickerCorrectionImageFilter.h"
 #include "itkFlickerCorrectionImageFilter.hxx"
+#include "sensornoise/base/PixelTypes.h"
 
 namespace itk
 {
-template class FlickerCorrectionImageFilter<Image<unsigned char, 3>>;
-template class FlickerCorrectionImageFilter<Image<unsigned short, 3>>;
-template class FlickerCorrectionImageFilter<Image<short, 3>>;
-template class FlickerCorrectionImageFilter<Image<float, 3>>;
-template class FlickerCorrectionImageFilter<Image<double, 3>>;
+#define SensorNoise_INSTANTIATE(TPixel) template class FlickerCorrectionImageFilter<Image<TPixel, 3>>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
 } // namespace itk

@@ -20,6 +20,7 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/FrameGeometry.h"
+#include "sensornoise/base/PixelTypes.h"
 #include "sensornoise/base/RollingShutter.h"
 #include "sensornoise/published/FlickerEstimate.h"
 #include "sensornoise/published/IsoIntensitySet.h"
@@ -241,11 +242,10 @@ private:
 };
 
 // Instantiated once, in the library.
-extern template class SensorNoise_EXPORT FlickerCorrectionImageFilter<Image<unsigned char, 3>>;
-extern template class SensorNoise_EXPORT FlickerCorrectionImageFilter<Image<unsigned short, 3>>;
-extern template class SensorNoise_EXPORT FlickerCorrectionImageFilter<Image<short, 3>>;
-extern template class SensorNoise_EXPORT FlickerCorrectionImageFilter<Image<float, 3>>;
-extern template class SensorNoise_EXPORT FlickerCorrectionImageFilter<Image<double, 3>>;
+#define SensorNoise_EXTERN(TPixel) \
+  extern template class SensorNoise_EXPORT FlickerCorrectionImageFilter<Image<TPixel, 3>>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);
+#undef SensorNoise_EXTERN
 
 } // namespace itk
 

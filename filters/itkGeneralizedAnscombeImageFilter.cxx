@@ -16,27 +16,15 @@
  *
  *=========================================================================*/
 #include "itkGeneralizedAnscombeImageFilter.h"
+#include "sensornoise/base/PixelTypes.h"
 
 namespace itk
 {
-template class GeneralizedAnscombeImageFilter<Image<unsigned char, 2>, Image<float, 2>>;
-template class GeneralizedAnscombeImageFilter<Image<unsigned char, 2>, Image<double, 2>>;
-template class GeneralizedAnscombeImageFilter<Image<unsigned short, 2>, Image<float, 2>>;
-template class GeneralizedAnscombeImageFilter<Image<unsigned short, 2>, Image<double, 2>>;
-template class GeneralizedAnscombeImageFilter<Image<short, 2>, Image<float, 2>>;
-template class GeneralizedAnscombeImageFilter<Image<short, 2>, Image<double, 2>>;
-template class GeneralizedAnscombeImageFilter<Image<float, 2>, Image<float, 2>>;
-template class GeneralizedAnscombeImageFilter<Image<float, 2>, Image<double, 2>>;
-template class GeneralizedAnscombeImageFilter<Image<double, 2>, Image<float, 2>>;
-template class GeneralizedAnscombeImageFilter<Image<double, 2>, Image<double, 2>>;
-template class GeneralizedAnscombeImageFilter<Image<unsigned char, 3>, Image<float, 3>>;
-template class GeneralizedAnscombeImageFilter<Image<unsigned char, 3>, Image<double, 3>>;
-template class GeneralizedAnscombeImageFilter<Image<unsigned short, 3>, Image<float, 3>>;
-template class GeneralizedAnscombeImageFilter<Image<unsigned short, 3>, Image<double, 3>>;
-template class GeneralizedAnscombeImageFilter<Image<short, 3>, Image<float, 3>>;
-template class GeneralizedAnscombeImageFilter<Image<short, 3>, Image<double, 3>>;
-template class GeneralizedAnscombeImageFilter<Image<float, 3>, Image<float, 3>>;
-template class GeneralizedAnscombeImageFilter<Image<float, 3>, Image<double, 3>>;
-template class GeneralizedAnscombeImageFilter<Image<double, 3>, Image<float, 3>>;
-template class GeneralizedAnscombeImageFilter<Image<double, 3>, Image<double, 3>>;
+#define SensorNoise_INSTANTIATE(TPixel)                                              \
+  template class GeneralizedAnscombeImageFilter<Image<TPixel, 2>, Image<float, 2>>;  \
+  template class GeneralizedAnscombeImageFilter<Image<TPixel, 2>, Image<double, 2>>; \
+  template class GeneralizedAnscombeImageFilter<Image<TPixel, 3>, Image<float, 3>>;  \
+  template class GeneralizedAnscombeImageFilter<Image<TPixel, 3>, Image<double, 3>>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
 } // namespace itk

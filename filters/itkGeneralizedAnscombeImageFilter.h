@@ -19,6 +19,7 @@
 #define itkGeneralizedAnscombeImageFilter_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/base/PixelTypes.h"
 #include "sensornoise/report/Report.h"
 #include "itkImage.h"
 #include "itkImageToImageFilter.h"
@@ -124,26 +125,13 @@ private:
 };
 
 // Instantiated once, in the library.
-extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<unsigned char, 2>, Image<float, 2>>;
-extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<unsigned char, 2>, Image<double, 2>>;
-extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<unsigned short, 2>, Image<float, 2>>;
-extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<unsigned short, 2>, Image<double, 2>>;
-extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<short, 2>, Image<float, 2>>;
-extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<short, 2>, Image<double, 2>>;
-extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<float, 2>, Image<float, 2>>;
-extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<float, 2>, Image<double, 2>>;
-extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<double, 2>, Image<float, 2>>;
-extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<double, 2>, Image<double, 2>>;
-extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<unsigned char, 3>, Image<float, 3>>;
-extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<unsigned char, 3>, Image<double, 3>>;
-extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<unsigned short, 3>, Image<float, 3>>;
-extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<unsigned short, 3>, Image<double, 3>>;
-extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<short, 3>, Image<float, 3>>;
-extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<short, 3>, Image<double, 3>>;
-extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<float, 3>, Image<float, 3>>;
-extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<float, 3>, Image<double, 3>>;
-extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<double, 3>, Image<float, 3>>;
-extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<double, 3>, Image<double, 3>>;
+#define SensorNoise_EXTERN(TPixel)                                                                             \
+  extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<TPixel, 2>, Image<float, 2>>;  \
+  extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<TPixel, 2>, Image<double, 2>>; \
+  extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<TPixel, 3>, Image<float, 3>>;  \
+  extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<TPixel, 3>, Image<double, 3>>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);
+#undef SensorNoise_EXTERN
 
 } // namespace itk
 

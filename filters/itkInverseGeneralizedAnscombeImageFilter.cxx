@@ -16,27 +16,15 @@
  *
  *=========================================================================*/
 #include "itkInverseGeneralizedAnscombeImageFilter.h"
+#include "sensornoise/base/PixelTypes.h"
 
 namespace itk
 {
-template class InverseGeneralizedAnscombeImageFilter<Image<float, 2>, Image<unsigned char, 2>>;
-template class InverseGeneralizedAnscombeImageFilter<Image<double, 2>, Image<unsigned char, 2>>;
-template class InverseGeneralizedAnscombeImageFilter<Image<float, 2>, Image<unsigned short, 2>>;
-template class InverseGeneralizedAnscombeImageFilter<Image<double, 2>, Image<unsigned short, 2>>;
-template class InverseGeneralizedAnscombeImageFilter<Image<float, 2>, Image<short, 2>>;
-template class InverseGeneralizedAnscombeImageFilter<Image<double, 2>, Image<short, 2>>;
-template class InverseGeneralizedAnscombeImageFilter<Image<float, 2>, Image<float, 2>>;
-template class InverseGeneralizedAnscombeImageFilter<Image<double, 2>, Image<float, 2>>;
-template class InverseGeneralizedAnscombeImageFilter<Image<float, 2>, Image<double, 2>>;
-template class InverseGeneralizedAnscombeImageFilter<Image<double, 2>, Image<double, 2>>;
-template class InverseGeneralizedAnscombeImageFilter<Image<float, 3>, Image<unsigned char, 3>>;
-template class InverseGeneralizedAnscombeImageFilter<Image<double, 3>, Image<unsigned char, 3>>;
-template class InverseGeneralizedAnscombeImageFilter<Image<float, 3>, Image<unsigned short, 3>>;
-template class InverseGeneralizedAnscombeImageFilter<Image<double, 3>, Image<unsigned short, 3>>;
-template class InverseGeneralizedAnscombeImageFilter<Image<float, 3>, Image<short, 3>>;
-template class InverseGeneralizedAnscombeImageFilter<Image<double, 3>, Image<short, 3>>;
-template class InverseGeneralizedAnscombeImageFilter<Image<float, 3>, Image<float, 3>>;
-template class InverseGeneralizedAnscombeImageFilter<Image<double, 3>, Image<float, 3>>;
-template class InverseGeneralizedAnscombeImageFilter<Image<float, 3>, Image<double, 3>>;
-template class InverseGeneralizedAnscombeImageFilter<Image<double, 3>, Image<double, 3>>;
+#define SensorNoise_INSTANTIATE(TPixel)                                                     \
+  template class InverseGeneralizedAnscombeImageFilter<Image<float, 2>, Image<TPixel, 2>>;  \
+  template class InverseGeneralizedAnscombeImageFilter<Image<double, 2>, Image<TPixel, 2>>; \
+  template class InverseGeneralizedAnscombeImageFilter<Image<float, 3>, Image<TPixel, 3>>;  \
+  template class InverseGeneralizedAnscombeImageFilter<Image<double, 3>, Image<TPixel, 3>>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
 } // namespace itk

@@ -19,6 +19,7 @@
 #define itkInverseGeneralizedAnscombeImageFilter_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/base/PixelTypes.h"
 #include "sensornoise/report/Report.h"
 #include "sensornoise/stabilise/GeneralizedAnscombe.h"
 #include "itkImage.h"
@@ -139,34 +140,13 @@ private:
 };
 
 // Instantiated once, in the library.
-extern template class SensorNoise_EXPORT InverseGeneralizedAnscombeImageFilter<Image<float, 2>,
-                                                                               Image<unsigned char, 2>>;
-extern template class SensorNoise_EXPORT InverseGeneralizedAnscombeImageFilter<Image<double, 2>,
-                                                                               Image<unsigned char, 2>>;
-extern template class SensorNoise_EXPORT InverseGeneralizedAnscombeImageFilter<Image<float, 2>,
-                                                                               Image<unsigned short, 2>>;
-extern template class SensorNoise_EXPORT InverseGeneralizedAnscombeImageFilter<Image<double, 2>,
-                                                                               Image<unsigned short, 2>>;
-extern template class SensorNoise_EXPORT InverseGeneralizedAnscombeImageFilter<Image<float, 2>, Image<short, 2>>;
-extern template class SensorNoise_EXPORT InverseGeneralizedAnscombeImageFilter<Image<double, 2>, Image<short, 2>>;
-extern template class SensorNoise_EXPORT InverseGeneralizedAnscombeImageFilter<Image<float, 2>, Image<float, 2>>;
-extern template class SensorNoise_EXPORT InverseGeneralizedAnscombeImageFilter<Image<double, 2>, Image<float, 2>>;
-extern template class SensorNoise_EXPORT InverseGeneralizedAnscombeImageFilter<Image<float, 2>, Image<double, 2>>;
-extern template class SensorNoise_EXPORT InverseGeneralizedAnscombeImageFilter<Image<double, 2>, Image<double, 2>>;
-extern template class SensorNoise_EXPORT InverseGeneralizedAnscombeImageFilter<Image<float, 3>,
-                                                                               Image<unsigned char, 3>>;
-extern template class SensorNoise_EXPORT InverseGeneralizedAnscombeImageFilter<Image<double, 3>,
-                                                                               Image<unsigned char, 3>>;
-extern template class SensorNoise_EXPORT InverseGeneralizedAnscombeImageFilter<Image<float, 3>,
-                                                                               Image<unsigned short, 3>>;
-extern template class SensorNoise_EXPORT InverseGeneralizedAnscombeImageFilter<Image<double, 3>,
-                                                                               Image<unsigned short, 3>>;
-extern template class SensorNoise_EXPORT InverseGeneralizedAnscombeImageFilter<Image<float, 3>, Image<short, 3>>;
-extern template class SensorNoise_EXPORT InverseGeneralizedAnscombeImageFilter<Image<double, 3>, Image<short, 3>>;
-extern template class SensorNoise_EXPORT InverseGeneralizedAnscombeImageFilter<Image<float, 3>, Image<float, 3>>;
-extern template class SensorNoise_EXPORT InverseGeneralizedAnscombeImageFilter<Image<double, 3>, Image<float, 3>>;
-extern template class SensorNoise_EXPORT InverseGeneralizedAnscombeImageFilter<Image<float, 3>, Image<double, 3>>;
-extern template class SensorNoise_EXPORT InverseGeneralizedAnscombeImageFilter<Image<double, 3>, Image<double, 3>>;
+#define SensorNoise_EXTERN(TPixel)                                                                                    \
+  extern template class SensorNoise_EXPORT InverseGeneralizedAnscombeImageFilter<Image<float, 2>, Image<TPixel, 2>>;  \
+  extern template class SensorNoise_EXPORT InverseGeneralizedAnscombeImageFilter<Image<double, 2>, Image<TPixel, 2>>; \
+  extern template class SensorNoise_EXPORT InverseGeneralizedAnscombeImageFilter<Image<float, 3>, Image<TPixel, 3>>;  \
+  extern template class SensorNoise_EXPORT InverseGeneralizedAnscombeImageFilter<Image<double, 3>, Image<TPixel, 3>>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);
+#undef SensorNoise_EXTERN
 
 } // namespace itk
 

@@ -18,12 +18,11 @@
 #include "itkNoiseCorrelationEstimator.h"
 #include "itkNoiseCorrelationEstimator.hxx"
 #include "itkSensorNoiseStackSink.hxx"
+#include "sensornoise/base/PixelTypes.h"
 
 namespace itk
 {
-template class NoiseCorrelationEstimator<Image<unsigned char, 3>>;
-template class NoiseCorrelationEstimator<Image<unsigned short, 3>>;
-template class NoiseCorrelationEstimator<Image<short, 3>>;
-template class NoiseCorrelationEstimator<Image<float, 3>>;
-template class NoiseCorrelationEstimator<Image<double, 3>>;
+#define SensorNoise_INSTANTIATE(TPixel) template class NoiseCorrelationEstimator<Image<TPixel, 3>>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
 } // namespace itk

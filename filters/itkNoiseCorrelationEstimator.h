@@ -19,6 +19,7 @@
 #define itkNoiseCorrelationEstimator_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/base/PixelTypes.h"
 #include "sensornoise/correlation/CorrelationEstimate.h"
 #include "itkSensorNoiseResult.h"
 #include "itkSensorNoiseStackSink.h"
@@ -226,11 +227,9 @@ private:
 };
 
 // Instantiated once, in the library.
-extern template class SensorNoise_EXPORT NoiseCorrelationEstimator<Image<unsigned char, 3>>;
-extern template class SensorNoise_EXPORT NoiseCorrelationEstimator<Image<unsigned short, 3>>;
-extern template class SensorNoise_EXPORT NoiseCorrelationEstimator<Image<short, 3>>;
-extern template class SensorNoise_EXPORT NoiseCorrelationEstimator<Image<float, 3>>;
-extern template class SensorNoise_EXPORT NoiseCorrelationEstimator<Image<double, 3>>;
+#define SensorNoise_EXTERN(TPixel) extern template class SensorNoise_EXPORT NoiseCorrelationEstimator<Image<TPixel, 3>>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);
+#undef SensorNoise_EXTERN
 
 } // namespace itk
 

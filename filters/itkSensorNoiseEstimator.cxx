@@ -18,12 +18,11 @@
 #include "itkSensorNoiseEstimator.h"
 #include "itkSensorNoiseEstimator.hxx"
 #include "itkSensorNoiseStackSink.hxx"
+#include "sensornoise/base/PixelTypes.h"
 
 namespace itk
 {
-template class SensorNoiseEstimator<Image<unsigned char, 3>>;
-template class SensorNoiseEstimator<Image<unsigned short, 3>>;
-template class SensorNoiseEstimator<Image<short, 3>>;
-template class SensorNoiseEstimator<Image<float, 3>>;
-template class SensorNoiseEstimator<Image<double, 3>>;
+#define SensorNoise_INSTANTIATE(TPixel) template class SensorNoiseEstimator<Image<TPixel, 3>>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
 } // namespace itk

@@ -19,6 +19,7 @@
 #define itkSensorNoiseEstimator_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/base/PixelTypes.h"
 #include "sensornoise/base/RollingShutter.h"
 #include "sensornoise/report/ReportJson.h"
 #include "sensornoise/published/PublishedSettings.h"
@@ -589,11 +590,9 @@ private:
 };
 
 // Instantiated once, in the library.
-extern template class SensorNoise_EXPORT SensorNoiseEstimator<Image<unsigned char, 3>>;
-extern template class SensorNoise_EXPORT SensorNoiseEstimator<Image<unsigned short, 3>>;
-extern template class SensorNoise_EXPORT SensorNoiseEstimator<Image<short, 3>>;
-extern template class SensorNoise_EXPORT SensorNoiseEstimator<Image<float, 3>>;
-extern template class SensorNoise_EXPORT SensorNoiseEstimator<Image<double, 3>>;
+#define SensorNoise_EXTERN(TPixel) extern template class SensorNoise_EXPORT SensorNoiseEstimator<Image<TPixel, 3>>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);
+#undef SensorNoise_EXTERN
 
 } // namespace itk
 

@@ -17,12 +17,11 @@
  *=========================================================================*/
 #include "itkSensorNoiseFrameListSource.h"
 #include "itkSensorNoiseFrameListSource.hxx"
+#include "sensornoise/base/PixelTypes.h"
 
 namespace itk
 {
-template class SensorNoiseFrameListSource<Image<unsigned char, 3>>;
-template class SensorNoiseFrameListSource<Image<unsigned short, 3>>;
-template class SensorNoiseFrameListSource<Image<short, 3>>;
-template class SensorNoiseFrameListSource<Image<float, 3>>;
-template class SensorNoiseFrameListSource<Image<double, 3>>;
+#define SensorNoise_INSTANTIATE(TPixel) template class SensorNoiseFrameListSource<Image<TPixel, 3>>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
 } // namespace itk

@@ -23,6 +23,7 @@
 #include "itkImage.h"
 #include "itkImageIOBase.h"
 #include "itkImageSource.h"
+#include "sensornoise/base/PixelTypes.h"
 
 #include <cstddef>
 #include <ostream>
@@ -169,11 +170,9 @@ private:
 };
 
 // Instantiated once, in the library.
-extern template class SensorNoise_EXPORT SensorNoiseFrameListSource<Image<unsigned char, 3>>;
-extern template class SensorNoise_EXPORT SensorNoiseFrameListSource<Image<unsigned short, 3>>;
-extern template class SensorNoise_EXPORT SensorNoiseFrameListSource<Image<short, 3>>;
-extern template class SensorNoise_EXPORT SensorNoiseFrameListSource<Image<float, 3>>;
-extern template class SensorNoise_EXPORT SensorNoiseFrameListSource<Image<double, 3>>;
+#define SensorNoise_EXTERN(TPixel) extern template class SensorNoise_EXPORT SensorNoiseFrameListSource<Image<TPixel, 3>>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);
+#undef SensorNoise_EXTERN
 
 } // namespace itk
 

@@ -17,12 +17,11 @@
  *=========================================================================*/
 #include "itkSensorNoiseStackSink.h"
 #include "itkSensorNoiseStackSink.hxx"
+#include "sensornoise/base/PixelTypes.h"
 
 namespace itk
 {
-template class SensorNoiseStackSink<Image<unsigned char, 3>>;
-template class SensorNoiseStackSink<Image<unsigned short, 3>>;
-template class SensorNoiseStackSink<Image<short, 3>>;
-template class SensorNoiseStackSink<Image<float, 3>>;
-template class SensorNoiseStackSink<Image<double, 3>>;
+#define SensorNoise_INSTANTIATE(TPixel) template class SensorNoiseStackSink<Image<TPixel, 3>>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
 } // namespace itk

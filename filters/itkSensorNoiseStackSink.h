@@ -20,6 +20,7 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/PixelTypes.h"
 #include "itkImage.h"
 #include "itkImageSink.h"
 #include "itkSensorNoiseChunks.h"
@@ -209,11 +210,9 @@ private:
 };
 
 // Instantiated once, in the library.
-extern template class SensorNoise_EXPORT SensorNoiseStackSink<Image<unsigned char, 3>>;
-extern template class SensorNoise_EXPORT SensorNoiseStackSink<Image<unsigned short, 3>>;
-extern template class SensorNoise_EXPORT SensorNoiseStackSink<Image<short, 3>>;
-extern template class SensorNoise_EXPORT SensorNoiseStackSink<Image<float, 3>>;
-extern template class SensorNoise_EXPORT SensorNoiseStackSink<Image<double, 3>>;
+#define SensorNoise_EXTERN(TPixel) extern template class SensorNoise_EXPORT SensorNoiseStackSink<Image<TPixel, 3>>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);
+#undef SensorNoise_EXTERN
 
 } // namespace itk
 

@@ -17,12 +17,11 @@
  *=========================================================================*/
 #include "itkSensorNoiseStackSource.h"
 #include "itkSensorNoiseStackSource.hxx"
+#include "sensornoise/base/PixelTypes.h"
 
 namespace itk
 {
-template class SensorNoiseStackSource<Image<unsigned char, 3>>;
-template class SensorNoiseStackSource<Image<unsigned short, 3>>;
-template class SensorNoiseStackSource<Image<short, 3>>;
-template class SensorNoiseStackSource<Image<float, 3>>;
-template class SensorNoiseStackSource<Image<double, 3>>;
+#define SensorNoise_INSTANTIATE(TPixel) template class SensorNoiseStackSource<Image<TPixel, 3>>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
 } // namespace itk

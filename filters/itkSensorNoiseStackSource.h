@@ -19,6 +19,7 @@
 #define itkSensorNoiseStackSource_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/base/PixelTypes.h"
 #include "sensornoise/simulation/SensorFlaws.h"
 #include "sensornoise/simulation/SimulationTruth.h"
 #include "sensornoise/simulation/SimulationSettings.h"
@@ -438,11 +439,9 @@ private:
   TimeStamp                                          m_SimulatorTime;
 };
 // Instantiated once, in the library.
-extern template class SensorNoise_EXPORT SensorNoiseStackSource<Image<unsigned char, 3>>;
-extern template class SensorNoise_EXPORT SensorNoiseStackSource<Image<unsigned short, 3>>;
-extern template class SensorNoise_EXPORT SensorNoiseStackSource<Image<short, 3>>;
-extern template class SensorNoise_EXPORT SensorNoiseStackSource<Image<float, 3>>;
-extern template class SensorNoise_EXPORT SensorNoiseStackSource<Image<double, 3>>;
+#define SensorNoise_EXTERN(TPixel) extern template class SensorNoise_EXPORT SensorNoiseStackSource<Image<TPixel, 3>>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);
+#undef SensorNoise_EXTERN
 
 } // namespace itk
 

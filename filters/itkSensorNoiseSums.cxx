@@ -17,12 +17,11 @@
  *=========================================================================*/
 #include "itkSensorNoiseSums.h"
 #include "itkSensorNoiseSums.hxx"
+#include "sensornoise/base/PixelTypes.h"
 
 namespace itk
 {
-template class SensorNoiseSums<Image<unsigned char, 3>>;
-template class SensorNoiseSums<Image<unsigned short, 3>>;
-template class SensorNoiseSums<Image<short, 3>>;
-template class SensorNoiseSums<Image<float, 3>>;
-template class SensorNoiseSums<Image<double, 3>>;
+#define SensorNoise_INSTANTIATE(TPixel) template class SensorNoiseSums<Image<TPixel, 3>>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
 } // namespace itk

@@ -23,6 +23,7 @@
 #include "itkObject.h"
 #include "itkObjectFactory.h"
 #include "itkSensorNoiseEstimator.h"
+#include "sensornoise/base/PixelTypes.h"
 
 #include <ostream>
 #include <string>
@@ -157,11 +158,9 @@ private:
 };
 
 // Instantiated once, in the library.
-extern template class SensorNoise_EXPORT SensorNoiseSums<Image<unsigned char, 3>>;
-extern template class SensorNoise_EXPORT SensorNoiseSums<Image<unsigned short, 3>>;
-extern template class SensorNoise_EXPORT SensorNoiseSums<Image<short, 3>>;
-extern template class SensorNoise_EXPORT SensorNoiseSums<Image<float, 3>>;
-extern template class SensorNoise_EXPORT SensorNoiseSums<Image<double, 3>>;
+#define SensorNoise_EXTERN(TPixel) extern template class SensorNoise_EXPORT SensorNoiseSums<Image<TPixel, 3>>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);
+#undef SensorNoise_EXTERN
 
 } // namespace itk
 

@@ -18,12 +18,11 @@
 #include "itkTemporalStatisticsImageFilter.h"
 #include "itkTemporalStatisticsImageFilter.hxx"
 #include "itkSensorNoiseStackSink.hxx"
+#include "sensornoise/base/PixelTypes.h"
 
 namespace itk
 {
-template class TemporalStatisticsImageFilter<Image<unsigned char, 3>>;
-template class TemporalStatisticsImageFilter<Image<unsigned short, 3>>;
-template class TemporalStatisticsImageFilter<Image<short, 3>>;
-template class TemporalStatisticsImageFilter<Image<float, 3>>;
-template class TemporalStatisticsImageFilter<Image<double, 3>>;
+#define SensorNoise_INSTANTIATE(TPixel) template class TemporalStatisticsImageFilter<Image<TPixel, 3>>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
 } // namespace itk

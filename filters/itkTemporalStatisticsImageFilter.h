@@ -19,6 +19,7 @@
 #define itkTemporalStatisticsImageFilter_h
 
 #include "SensorNoiseExport.h"
+#include "sensornoise/base/PixelTypes.h"
 #include "sensornoise/moments/StackMaps.h"
 #include "sensornoise/moments/TemporalMoments.h"
 #include "itkSensorNoiseStackSink.h"
@@ -206,11 +207,10 @@ private:
 };
 
 // Instantiated once, in the library.
-extern template class SensorNoise_EXPORT TemporalStatisticsImageFilter<Image<unsigned char, 3>>;
-extern template class SensorNoise_EXPORT TemporalStatisticsImageFilter<Image<unsigned short, 3>>;
-extern template class SensorNoise_EXPORT TemporalStatisticsImageFilter<Image<short, 3>>;
-extern template class SensorNoise_EXPORT TemporalStatisticsImageFilter<Image<float, 3>>;
-extern template class SensorNoise_EXPORT TemporalStatisticsImageFilter<Image<double, 3>>;
+#define SensorNoise_EXTERN(TPixel) \
+  extern template class SensorNoise_EXPORT TemporalStatisticsImageFilter<Image<TPixel, 3>>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);
+#undef SensorNoise_EXTERN
 
 } // namespace itk
 

@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/BinaryStream.h"
 #include "sensornoise/base/FirstTouch.h"
+#include "sensornoise/base/PixelTypes.h"
 #include "sensornoise/base/WideVectors.h"
 
 #include <algorithm>
@@ -89,11 +90,7 @@ FrameSample::AddFrames(const TPixel *              frames,
 #define SensorNoise_INSTANTIATE(TPixel)                    \
   template SensorNoise_EXPORT void FrameSample::AddFrames( \
     const TPixel *, std::size_t, std::size_t, const std::vector<double> &, const ParallelFor &)
-SensorNoise_INSTANTIATE(unsigned char);
-SensorNoise_INSTANTIATE(unsigned short);
-SensorNoise_INSTANTIATE(short);
-SensorNoise_INSTANTIATE(float);
-SensorNoise_INSTANTIATE(double);
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
 #undef SensorNoise_INSTANTIATE
 
 void

@@ -3,6 +3,7 @@
 #include "sensornoise/moments/DarkDrift.h"
 
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/PixelTypes.h"
 #include "sensornoise/base/Quantiles.h"
 #include "sensornoise/moments/Constants.h"
 
@@ -150,15 +151,9 @@ DarkDrift::GetVarianceDn2(double pixelVarianceDn2) const
   return std::max(0.0, levels - pixelVarianceDn2 / m_LevelPixels);
 }
 
-template SensorNoise_EXPORT void
-DarkDrift::AddFrames<unsigned char>(const unsigned char *, std::size_t, const ParallelFor &);
-template SensorNoise_EXPORT void
-DarkDrift::AddFrames<unsigned short>(const unsigned short *, std::size_t, const ParallelFor &);
-template SensorNoise_EXPORT void
-DarkDrift::AddFrames<short>(const short *, std::size_t, const ParallelFor &);
-template SensorNoise_EXPORT void
-DarkDrift::AddFrames<float>(const float *, std::size_t, const ParallelFor &);
-template SensorNoise_EXPORT void
-DarkDrift::AddFrames<double>(const double *, std::size_t, const ParallelFor &);
+#define SensorNoise_INSTANTIATE(TPixel) \
+  template SensorNoise_EXPORT void DarkDrift::AddFrames<TPixel>(const TPixel *, std::size_t, const ParallelFor &)
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
 
 } // namespace sensornoise

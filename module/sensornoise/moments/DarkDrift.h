@@ -73,17 +73,6 @@ private:
   double                    m_LevelPixels{ 0.0 };     // that make the first frame's level
 };
 
-extern template SensorNoise_EXPORT void
-DarkDrift::AddFrames<unsigned char>(const unsigned char *, std::size_t, const ParallelFor &);
-extern template SensorNoise_EXPORT void
-DarkDrift::AddFrames<unsigned short>(const unsigned short *, std::size_t, const ParallelFor &);
-extern template SensorNoise_EXPORT void
-DarkDrift::AddFrames<short>(const short *, std::size_t, const ParallelFor &);
-extern template SensorNoise_EXPORT void
-DarkDrift::AddFrames<float>(const float *, std::size_t, const ParallelFor &);
-extern template SensorNoise_EXPORT void
-DarkDrift::AddFrames<double>(const double *, std::size_t, const ParallelFor &);
-
 } // namespace sensornoise
 
 #endif

@@ -3,6 +3,7 @@
 #include "sensornoise/moments/DarkFrames.h"
 
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/PixelTypes.h"
 #include "sensornoise/base/Quantiles.h"
 #include "sensornoise/base/Text.h"
 #include "sensornoise/moments/CodeRange.h"
@@ -220,35 +221,13 @@ MeasureDarkFrames(TemporalMoments<TPixel>           moments,
   return dark;
 }
 
-template SensorNoise_EXPORT KnownOffset
-MeasureDarkFrames<unsigned char>(TemporalMoments<unsigned char>,
-                                 const CodeSettings &,
-                                 const std::vector<std::uint8_t> &,
-                                 const ParallelFor &,
-                                 const DarkDrift &);
-template SensorNoise_EXPORT KnownOffset
-MeasureDarkFrames<unsigned short>(TemporalMoments<unsigned short>,
-                                  const CodeSettings &,
-                                  const std::vector<std::uint8_t> &,
-                                  const ParallelFor &,
-                                  const DarkDrift &);
-template SensorNoise_EXPORT KnownOffset
-MeasureDarkFrames<short>(TemporalMoments<short>,
-                         const CodeSettings &,
-                         const std::vector<std::uint8_t> &,
-                         const ParallelFor &,
-                         const DarkDrift &);
-template SensorNoise_EXPORT KnownOffset
-MeasureDarkFrames<float>(TemporalMoments<float>,
-                         const CodeSettings &,
-                         const std::vector<std::uint8_t> &,
-                         const ParallelFor &,
-                         const DarkDrift &);
-template SensorNoise_EXPORT KnownOffset
-MeasureDarkFrames<double>(TemporalMoments<double>,
-                          const CodeSettings &,
-                          const std::vector<std::uint8_t> &,
-                          const ParallelFor &,
-                          const DarkDrift &);
+#define SensorNoise_INSTANTIATE(TPixel)                                                                \
+  template SensorNoise_EXPORT KnownOffset MeasureDarkFrames<TPixel>(TemporalMoments<TPixel>,           \
+                                                                    const CodeSettings &,              \
+                                                                    const std::vector<std::uint8_t> &, \
+                                                                    const ParallelFor &,               \
+                                                                    const DarkDrift &)
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
 
 } // namespace sensornoise

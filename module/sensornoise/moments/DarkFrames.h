@@ -44,43 +44,12 @@ MeanWithin(const std::vector<double> & values, double low, double high);
  * variances; without it a level that drifts adds to them. \a mask, if given, has a nonzero value at the pixels to be
  * used. Throws std::invalid_argument if fewer than 30 pixels are left, or if the frames are cut off at a clip level. */
 template <typename TPixel>
-KnownOffset
+SensorNoise_EXPORT KnownOffset
 MeasureDarkFrames(TemporalMoments<TPixel>           moments,
                   const CodeSettings &              codes = {},
                   const std::vector<std::uint8_t> & mask = {},
                   const ParallelFor &               parallelFor = SerialFor,
                   const DarkDrift &                 drift = {});
-
-extern template SensorNoise_EXPORT KnownOffset
-MeasureDarkFrames<unsigned char>(TemporalMoments<unsigned char>,
-                                 const CodeSettings &,
-                                 const std::vector<std::uint8_t> &,
-                                 const ParallelFor &,
-                                 const DarkDrift &);
-extern template SensorNoise_EXPORT KnownOffset
-MeasureDarkFrames<unsigned short>(TemporalMoments<unsigned short>,
-                                  const CodeSettings &,
-                                  const std::vector<std::uint8_t> &,
-                                  const ParallelFor &,
-                                  const DarkDrift &);
-extern template SensorNoise_EXPORT KnownOffset
-MeasureDarkFrames<short>(TemporalMoments<short>,
-                         const CodeSettings &,
-                         const std::vector<std::uint8_t> &,
-                         const ParallelFor &,
-                         const DarkDrift &);
-extern template SensorNoise_EXPORT KnownOffset
-MeasureDarkFrames<float>(TemporalMoments<float>,
-                         const CodeSettings &,
-                         const std::vector<std::uint8_t> &,
-                         const ParallelFor &,
-                         const DarkDrift &);
-extern template SensorNoise_EXPORT KnownOffset
-MeasureDarkFrames<double>(TemporalMoments<double>,
-                          const CodeSettings &,
-                          const std::vector<std::uint8_t> &,
-                          const ParallelFor &,
-                          const DarkDrift &);
 
 } // namespace sensornoise
 

@@ -3,6 +3,7 @@
 #include "sensornoise/moments/FrameThumbnails.h"
 
 #include "sensornoise/base/BinaryStream.h"
+#include "sensornoise/base/PixelTypes.h"
 #include "sensornoise/base/Quantiles.h"
 #include "sensornoise/moments/Constants.h"
 #include "sensornoise/moments/FrameFit.h"
@@ -323,11 +324,7 @@ FrameThumbnails::FindIlluminationChange(const std::vector<std::size_t> & frames)
 #define SensorNoise_INSTANTIATE(TPixel)                        \
   template SensorNoise_EXPORT void FrameThumbnails::AddFrames( \
     const TPixel *, const PixelLayout &, std::size_t, std::size_t, const ParallelFor &)
-SensorNoise_INSTANTIATE(unsigned char);
-SensorNoise_INSTANTIATE(unsigned short);
-SensorNoise_INSTANTIATE(short);
-SensorNoise_INSTANTIATE(float);
-SensorNoise_INSTANTIATE(double);
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
 #undef SensorNoise_INSTANTIATE
 
 } // namespace sensornoise

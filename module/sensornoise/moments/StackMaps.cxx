@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/ForAll.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/PixelTypes.h"
 #include "sensornoise/base/Quantiles.h"
 #include "sensornoise/moments/CodeRange.h"
 #include "sensornoise/moments/CodeSettings.h"
@@ -239,32 +240,16 @@ MakeStackMaps(TemporalMoments<TPixel> moments, const CodeSettings & settings, co
   return maps;
 }
 
-template SensorNoise_EXPORT StackSummary
-SummariseStack<unsigned char>(const TemporalMaps<unsigned char> &,
-                              const CodeSettings &,
-                              const ParallelFor &,
-                              std::uint8_t *);
-template SensorNoise_EXPORT StackSummary
-SummariseStack<unsigned short>(const TemporalMaps<unsigned short> &,
-                               const CodeSettings &,
-                               const ParallelFor &,
-                               std::uint8_t *);
-template SensorNoise_EXPORT StackSummary
-SummariseStack<short>(const TemporalMaps<short> &, const CodeSettings &, const ParallelFor &, std::uint8_t *);
-template SensorNoise_EXPORT StackSummary
-SummariseStack<float>(const TemporalMaps<float> &, const CodeSettings &, const ParallelFor &, std::uint8_t *);
-template SensorNoise_EXPORT StackSummary
-SummariseStack<double>(const TemporalMaps<double> &, const CodeSettings &, const ParallelFor &, std::uint8_t *);
+#define SensorNoise_INSTANTIATE(TPixel)                            \
+  template SensorNoise_EXPORT StackSummary SummariseStack<TPixel>( \
+    const TemporalMaps<TPixel> &, const CodeSettings &, const ParallelFor &, std::uint8_t *)
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
 
-template SensorNoise_EXPORT StackMaps
-MakeStackMaps<unsigned char>(TemporalMoments<unsigned char>, const CodeSettings &, const ParallelFor &);
-template SensorNoise_EXPORT StackMaps
-MakeStackMaps<unsigned short>(TemporalMoments<unsigned short>, const CodeSettings &, const ParallelFor &);
-template SensorNoise_EXPORT StackMaps
-MakeStackMaps<short>(TemporalMoments<short>, const CodeSettings &, const ParallelFor &);
-template SensorNoise_EXPORT StackMaps
-MakeStackMaps<float>(TemporalMoments<float>, const CodeSettings &, const ParallelFor &);
-template SensorNoise_EXPORT StackMaps
-MakeStackMaps<double>(TemporalMoments<double>, const CodeSettings &, const ParallelFor &);
+#define SensorNoise_INSTANTIATE(TPixel)                        \
+  template SensorNoise_EXPORT StackMaps MakeStackMaps<TPixel>( \
+    TemporalMoments<TPixel>, const CodeSettings &, const ParallelFor &)
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
 
 } // namespace sensornoise

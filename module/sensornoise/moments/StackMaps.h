@@ -35,7 +35,7 @@ struct SensorNoise_EXPORT StackSummary
  * is finite and never at a clip level, else 0. Codes and clip levels are given or found, see FindCodes() and
  * FindLevels(). Throws std::invalid_argument if the data pass the given bit depth. */
 template <typename TPixel>
-StackSummary
+SensorNoise_EXPORT StackSummary
 SummariseStack(const TemporalMaps<TPixel> & maps,
                const CodeSettings &         settings,
                const ParallelFor &          parallelFor,
@@ -52,36 +52,8 @@ struct StackMaps
 
 /** Of the moments, which are given away: mean and variance take the memory of the sums. */
 template <typename TPixel>
-StackMaps
+SensorNoise_EXPORT StackMaps
 MakeStackMaps(TemporalMoments<TPixel> moments, const CodeSettings & settings, const ParallelFor & parallelFor);
-
-extern template SensorNoise_EXPORT StackSummary
-SummariseStack<unsigned char>(const TemporalMaps<unsigned char> &,
-                              const CodeSettings &,
-                              const ParallelFor &,
-                              std::uint8_t *);
-extern template SensorNoise_EXPORT StackSummary
-SummariseStack<unsigned short>(const TemporalMaps<unsigned short> &,
-                               const CodeSettings &,
-                               const ParallelFor &,
-                               std::uint8_t *);
-extern template SensorNoise_EXPORT StackSummary
-SummariseStack<short>(const TemporalMaps<short> &, const CodeSettings &, const ParallelFor &, std::uint8_t *);
-extern template SensorNoise_EXPORT StackSummary
-SummariseStack<float>(const TemporalMaps<float> &, const CodeSettings &, const ParallelFor &, std::uint8_t *);
-extern template SensorNoise_EXPORT StackSummary
-SummariseStack<double>(const TemporalMaps<double> &, const CodeSettings &, const ParallelFor &, std::uint8_t *);
-
-extern template SensorNoise_EXPORT StackMaps
-MakeStackMaps<unsigned char>(TemporalMoments<unsigned char>, const CodeSettings &, const ParallelFor &);
-extern template SensorNoise_EXPORT StackMaps
-MakeStackMaps<unsigned short>(TemporalMoments<unsigned short>, const CodeSettings &, const ParallelFor &);
-extern template SensorNoise_EXPORT StackMaps
-MakeStackMaps<short>(TemporalMoments<short>, const CodeSettings &, const ParallelFor &);
-extern template SensorNoise_EXPORT StackMaps
-MakeStackMaps<float>(TemporalMoments<float>, const CodeSettings &, const ParallelFor &);
-extern template SensorNoise_EXPORT StackMaps
-MakeStackMaps<double>(TemporalMoments<double>, const CodeSettings &, const ParallelFor &);
 
 } // namespace sensornoise
 

@@ -5,6 +5,7 @@
 #include "sensornoise/base/BinaryStream.h"
 #include "sensornoise/base/BytesFingerprint.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/PixelTypes.h"
 #include "sensornoise/base/WideVectors.h"
 #include "sensornoise/moments/ChosenFrames.h"
 #include "sensornoise/moments/TemporalMoments.h"
@@ -246,10 +247,8 @@ StackMoments<TPixel>::Take()
   return whole;
 }
 
-template class StackMoments<unsigned char>;
-template class StackMoments<unsigned short>;
-template class StackMoments<short>;
-template class StackMoments<float>;
-template class StackMoments<double>;
+#define SensorNoise_INSTANTIATE(TPixel) template class StackMoments<TPixel>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
 
 } // namespace sensornoise

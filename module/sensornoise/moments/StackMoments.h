@@ -5,6 +5,7 @@
 
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/PixelLayout.h"
+#include "sensornoise/base/PixelTypes.h"
 #include "sensornoise/moments/DistinctFrames.h"
 #include "sensornoise/moments/FrameFingerprints.h"
 #include "sensornoise/moments/TemporalMoments.h"
@@ -116,11 +117,9 @@ private:
   std::map<std::size_t, TemporalMoments<TPixel>> m_Others; // by their first frames
 };
 
-extern template class SensorNoise_EXPORT StackMoments<unsigned char>;
-extern template class SensorNoise_EXPORT StackMoments<unsigned short>;
-extern template class SensorNoise_EXPORT StackMoments<short>;
-extern template class SensorNoise_EXPORT StackMoments<float>;
-extern template class SensorNoise_EXPORT StackMoments<double>;
+#define SensorNoise_EXTERN(TPixel) extern template class SensorNoise_EXPORT StackMoments<TPixel>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);
+#undef SensorNoise_EXTERN
 
 } // namespace sensornoise
 

@@ -3,6 +3,7 @@
 #include "sensornoise/moments/StackPasses.h"
 
 #include "sensornoise/base/BinaryStream.h"
+#include "sensornoise/base/PixelTypes.h"
 #include "sensornoise/moments/StackRequirements.h"
 
 #include <algorithm>
@@ -244,10 +245,8 @@ StackPasses<TPixel>::FingerprintOfPass() const
   return *m_Fingerprint;
 }
 
-template class StackPasses<unsigned char>;
-template class StackPasses<unsigned short>;
-template class StackPasses<short>;
-template class StackPasses<float>;
-template class StackPasses<double>;
+#define SensorNoise_INSTANTIATE(TPixel) template class StackPasses<TPixel>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
 
 } // namespace sensornoise

@@ -7,6 +7,7 @@
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/PixelLayout.h"
+#include "sensornoise/base/PixelTypes.h"
 #include "sensornoise/moments/DistinctFrames.h"
 #include "sensornoise/moments/FrameFingerprints.h"
 #include "sensornoise/moments/FrameThumbnails.h"
@@ -285,11 +286,9 @@ private:
   mutable std::optional<std::uint64_t>     m_Fingerprint; // of the pass: takes a while, and is asked for at every merge
 };
 
-extern template class SensorNoise_EXPORT StackPasses<unsigned char>;
-extern template class SensorNoise_EXPORT StackPasses<unsigned short>;
-extern template class SensorNoise_EXPORT StackPasses<short>;
-extern template class SensorNoise_EXPORT StackPasses<float>;
-extern template class SensorNoise_EXPORT StackPasses<double>;
+#define SensorNoise_EXTERN(TPixel) extern template class SensorNoise_EXPORT StackPasses<TPixel>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);
+#undef SensorNoise_EXTERN
 
 } // namespace sensornoise
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/pixels/ProjectedFrames.h"
 
+#include "sensornoise/base/PixelTypes.h"
 #include "sensornoise/base/Prefetch.h"
 #include "sensornoise/series/TemporalBasis.h"
 
@@ -158,10 +159,8 @@ ProjectedFrames<TPixel>::AddOneByOne(double * sums, std::size_t begin, std::size
   }
 }
 
-template class ProjectedFrames<unsigned char>;
-template class ProjectedFrames<unsigned short>;
-template class ProjectedFrames<short>;
-template class ProjectedFrames<float>;
-template class ProjectedFrames<double>;
+#define SensorNoise_INSTANTIATE(TPixel) template class ProjectedFrames<TPixel>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
 
 } // namespace sensornoise

@@ -5,6 +5,7 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/PixelLayout.h"
+#include "sensornoise/base/PixelTypes.h"
 #include "sensornoise/pixels/PairProducts.h"
 
 #include <cstddef>
@@ -65,11 +66,9 @@ private:
   std::vector<std::vector<Weights>> m_Weights; // of frames that are added together, and series
 };
 
-extern template class SensorNoise_EXPORT ProjectedFrames<unsigned char>;
-extern template class SensorNoise_EXPORT ProjectedFrames<unsigned short>;
-extern template class SensorNoise_EXPORT ProjectedFrames<short>;
-extern template class SensorNoise_EXPORT ProjectedFrames<float>;
-extern template class SensorNoise_EXPORT ProjectedFrames<double>;
+#define SensorNoise_EXTERN(TPixel) extern template class SensorNoise_EXPORT ProjectedFrames<TPixel>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);
+#undef SensorNoise_EXTERN
 
 } // namespace sensornoise
 

@@ -5,6 +5,7 @@
 #include "sensornoise/base/BinaryStream.h"
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/PixelTypes.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -68,16 +69,10 @@ ProjectionSums::AddFrames(const ProjectedFrames<TPixel> & frames, std::size_t be
   }
 }
 
-template SensorNoise_EXPORT void
-ProjectionSums::AddFrames(const ProjectedFrames<unsigned char> &, std::size_t, std::size_t);
-template SensorNoise_EXPORT void
-ProjectionSums::AddFrames(const ProjectedFrames<unsigned short> &, std::size_t, std::size_t);
-template SensorNoise_EXPORT void
-ProjectionSums::AddFrames(const ProjectedFrames<short> &, std::size_t, std::size_t);
-template SensorNoise_EXPORT void
-ProjectionSums::AddFrames(const ProjectedFrames<float> &, std::size_t, std::size_t);
-template SensorNoise_EXPORT void
-ProjectionSums::AddFrames(const ProjectedFrames<double> &, std::size_t, std::size_t);
+#define SensorNoise_INSTANTIATE(TPixel) \
+  template SensorNoise_EXPORT void ProjectionSums::AddFrames(const ProjectedFrames<TPixel> &, std::size_t, std::size_t)
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
 
 void
 ProjectionSums::Merge(const ProjectionSums & other)

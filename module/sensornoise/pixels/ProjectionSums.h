@@ -121,17 +121,6 @@ private:
   std::vector<Eigen::ArrayXd> m_Slabs; // unlike std::vector, not filled by one thread
 };
 
-extern template SensorNoise_EXPORT void
-ProjectionSums::AddFrames(const ProjectedFrames<unsigned char> &, std::size_t, std::size_t);
-extern template SensorNoise_EXPORT void
-ProjectionSums::AddFrames(const ProjectedFrames<unsigned short> &, std::size_t, std::size_t);
-extern template SensorNoise_EXPORT void
-ProjectionSums::AddFrames(const ProjectedFrames<short> &, std::size_t, std::size_t);
-extern template SensorNoise_EXPORT void
-ProjectionSums::AddFrames(const ProjectedFrames<float> &, std::size_t, std::size_t);
-extern template SensorNoise_EXPORT void
-ProjectionSums::AddFrames(const ProjectedFrames<double> &, std::size_t, std::size_t);
-
 } // namespace sensornoise
 
 #endif

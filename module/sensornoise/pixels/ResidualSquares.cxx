@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/FirstTouch.h"
+#include "sensornoise/base/PixelTypes.h"
 #include "sensornoise/base/WideVectors.h"
 #include "sensornoise/pixels/ProjectedFrames.h"
 #include "sensornoise/pixels/ProjectionSums.h"
@@ -142,11 +143,7 @@ FillResidualSquares(const ReferenceFrame &          frame,
                                                        std::size_t,                     \
                                                        ResidualSquares &,               \
                                                        ProjectionSums &)
-SensorNoise_INSTANTIATE(unsigned char);
-SensorNoise_INSTANTIATE(unsigned short);
-SensorNoise_INSTANTIATE(short);
-SensorNoise_INSTANTIATE(float);
-SensorNoise_INSTANTIATE(double);
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
 #undef SensorNoise_INSTANTIATE
 
 } // namespace sensornoise

@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/BinaryStream.h"
 #include "sensornoise/base/FirstTouch.h"
+#include "sensornoise/base/PixelTypes.h"
 #include "sensornoise/base/WideVectors.h"
 
 #include <algorithm>
@@ -196,23 +197,10 @@ CorrectedVariance::GetVariance(std::size_t p, double meanDn, double sumOfSquared
   return squares / static_cast<double>(m_Frames - 1);
 }
 
-template SensorNoise_EXPORT void
-CorrectedVariance::AddRow<unsigned char>(const unsigned char *,
-                                         const PixelLayout &,
-                                         std::size_t,
-                                         std::size_t,
-                                         std::size_t);
-template SensorNoise_EXPORT void
-CorrectedVariance::AddRow<unsigned short>(const unsigned short *,
-                                          const PixelLayout &,
-                                          std::size_t,
-                                          std::size_t,
-                                          std::size_t);
-template SensorNoise_EXPORT void
-CorrectedVariance::AddRow<short>(const short *, const PixelLayout &, std::size_t, std::size_t, std::size_t);
-template SensorNoise_EXPORT void
-CorrectedVariance::AddRow<float>(const float *, const PixelLayout &, std::size_t, std::size_t, std::size_t);
-template SensorNoise_EXPORT void
-CorrectedVariance::AddRow<double>(const double *, const PixelLayout &, std::size_t, std::size_t, std::size_t);
+#define SensorNoise_INSTANTIATE(TPixel)                               \
+  template SensorNoise_EXPORT void CorrectedVariance::AddRow<TPixel>( \
+    const TPixel *, const PixelLayout &, std::size_t, std::size_t, std::size_t)
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
 
 } // namespace sensornoise

@@ -76,25 +76,6 @@ private:
   std::vector<std::uint8_t> m_Known;
 };
 
-extern template SensorNoise_EXPORT void
-CorrectedVariance::AddRow<unsigned char>(const unsigned char *,
-                                         const PixelLayout &,
-                                         std::size_t,
-                                         std::size_t,
-                                         std::size_t);
-extern template SensorNoise_EXPORT void
-CorrectedVariance::AddRow<unsigned short>(const unsigned short *,
-                                          const PixelLayout &,
-                                          std::size_t,
-                                          std::size_t,
-                                          std::size_t);
-extern template SensorNoise_EXPORT void
-CorrectedVariance::AddRow<short>(const short *, const PixelLayout &, std::size_t, std::size_t, std::size_t);
-extern template SensorNoise_EXPORT void
-CorrectedVariance::AddRow<float>(const float *, const PixelLayout &, std::size_t, std::size_t, std::size_t);
-extern template SensorNoise_EXPORT void
-CorrectedVariance::AddRow<double>(const double *, const PixelLayout &, std::size_t, std::size_t, std::size_t);
-
 } // namespace sensornoise
 
 #endif

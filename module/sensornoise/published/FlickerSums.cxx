@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/BinaryStream.h"
 #include "sensornoise/base/PixelRuns.h"
+#include "sensornoise/base/PixelTypes.h"
 #include "sensornoise/base/Prefetch.h"
 #include "sensornoise/base/WideVectors.h"
 
@@ -176,15 +177,9 @@ FlickerSums::Merge(std::istream & in)
   }
 }
 
-template SensorNoise_EXPORT void
-FlickerSums::AddFrame<unsigned char>(const unsigned char *, std::size_t);
-template SensorNoise_EXPORT void
-FlickerSums::AddFrame<unsigned short>(const unsigned short *, std::size_t);
-template SensorNoise_EXPORT void
-FlickerSums::AddFrame<short>(const short *, std::size_t);
-template SensorNoise_EXPORT void
-FlickerSums::AddFrame<float>(const float *, std::size_t);
-template SensorNoise_EXPORT void
-FlickerSums::AddFrame<double>(const double *, std::size_t);
+#define SensorNoise_INSTANTIATE(TPixel) \
+  template SensorNoise_EXPORT void FlickerSums::AddFrame<TPixel>(const TPixel *, std::size_t)
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
 
 } // namespace sensornoise

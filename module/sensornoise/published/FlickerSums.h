@@ -165,17 +165,6 @@ private:
   std::vector<std::uint32_t> m_RowOf; // of each pixel of the row set
 };
 
-extern template SensorNoise_EXPORT void
-FlickerSums::AddFrame<unsigned char>(const unsigned char *, std::size_t);
-extern template SensorNoise_EXPORT void
-FlickerSums::AddFrame<unsigned short>(const unsigned short *, std::size_t);
-extern template SensorNoise_EXPORT void
-FlickerSums::AddFrame<short>(const short *, std::size_t);
-extern template SensorNoise_EXPORT void
-FlickerSums::AddFrame<float>(const float *, std::size_t);
-extern template SensorNoise_EXPORT void
-FlickerSums::AddFrame<double>(const double *, std::size_t);
-
 } // namespace sensornoise
 
 #endif

@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/BinaryStream.h"
 #include "sensornoise/base/FirstTouch.h"
+#include "sensornoise/base/PixelTypes.h"
 #include "sensornoise/base/PixelUse.h"
 #include "sensornoise/moments/StackMaps.h"
 #include "sensornoise/report/AllFrames.h"
@@ -171,10 +172,8 @@ PublishedMethod<TPixel>::EndCorrection() const
   return maps;
 }
 
-template class PublishedMethod<unsigned char>;
-template class PublishedMethod<unsigned short>;
-template class PublishedMethod<short>;
-template class PublishedMethod<float>;
-template class PublishedMethod<double>;
+#define SensorNoise_INSTANTIATE(TPixel) template class PublishedMethod<TPixel>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
 
 } // namespace sensornoise

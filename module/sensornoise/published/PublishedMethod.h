@@ -8,6 +8,7 @@
 #include "sensornoise/base/FramesTogether.h"
 #include "sensornoise/base/Parallel.h"
 #include "sensornoise/base/PixelLayout.h"
+#include "sensornoise/base/PixelTypes.h"
 #include "sensornoise/moments/StackPasses.h"
 #include "sensornoise/published/CorrectedVariance.h"
 #include "sensornoise/published/FlickerEstimate.h"
@@ -168,11 +169,9 @@ private:
   bool            m_IsDone{ false };
 };
 
-extern template class SensorNoise_EXPORT PublishedMethod<unsigned char>;
-extern template class SensorNoise_EXPORT PublishedMethod<unsigned short>;
-extern template class SensorNoise_EXPORT PublishedMethod<short>;
-extern template class SensorNoise_EXPORT PublishedMethod<float>;
-extern template class SensorNoise_EXPORT PublishedMethod<double>;
+#define SensorNoise_EXTERN(TPixel) extern template class SensorNoise_EXPORT PublishedMethod<TPixel>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);
+#undef SensorNoise_EXTERN
 
 } // namespace sensornoise
 

@@ -4,6 +4,7 @@
 
 #include "sensornoise/base/FirstTouch.h"
 #include "sensornoise/base/FreeMemory.h"
+#include "sensornoise/base/PixelTypes.h"
 #include "sensornoise/pixels/ProjectedFrames.h"
 #include "sensornoise/refined/MemoryNeed.h"
 #include "sensornoise/scene/ReferenceFrame.h"
@@ -234,11 +235,7 @@ PixelProjections::EndLight(const ReferenceFrame & frame)
 #define SensorNoise_INSTANTIATE(TPixel)                         \
   template SensorNoise_EXPORT void PixelProjections::AddFrames( \
     const std::vector<Plane> &, const TPixel *, std::size_t, const ParallelFor &)
-SensorNoise_INSTANTIATE(unsigned char);
-SensorNoise_INSTANTIATE(unsigned short);
-SensorNoise_INSTANTIATE(short);
-SensorNoise_INSTANTIATE(float);
-SensorNoise_INSTANTIATE(double);
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
 #undef SensorNoise_INSTANTIATE
 
 } // namespace sensornoise

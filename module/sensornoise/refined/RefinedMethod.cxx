@@ -3,6 +3,7 @@
 #include "sensornoise/refined/RefinedMethod.h"
 
 #include "sensornoise/base/BinaryStream.h"
+#include "sensornoise/base/PixelTypes.h"
 #include "sensornoise/moments/Constants.h"
 #include "sensornoise/moments/DarkMaps.h"
 #include "sensornoise/moments/StackMaps.h"
@@ -447,10 +448,8 @@ RefinedMethod<TPixel>::MakeReport()
   ReportAllFrames(m_Report, m_Distinct, this->GetLeftOut());
 }
 
-template class RefinedMethod<unsigned char>;
-template class RefinedMethod<unsigned short>;
-template class RefinedMethod<short>;
-template class RefinedMethod<float>;
-template class RefinedMethod<double>;
+#define SensorNoise_INSTANTIATE(TPixel) template class RefinedMethod<TPixel>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
 
 } // namespace sensornoise

@@ -7,6 +7,7 @@
 #include "sensornoise/base/FrameGeometry.h"
 #include "sensornoise/base/NothingToMeasure.h"
 #include "sensornoise/base/Parallel.h"
+#include "sensornoise/base/PixelTypes.h"
 #include "sensornoise/correlation/NoiseCorrelation.h"
 #include "sensornoise/moments/ExposureFit.h"
 #include "sensornoise/moments/StackMaps.h"
@@ -256,11 +257,9 @@ private:
   Report                                m_Report;
 };
 
-extern template class SensorNoise_EXPORT RefinedMethod<unsigned char>;
-extern template class SensorNoise_EXPORT RefinedMethod<unsigned short>;
-extern template class SensorNoise_EXPORT RefinedMethod<short>;
-extern template class SensorNoise_EXPORT RefinedMethod<float>;
-extern template class SensorNoise_EXPORT RefinedMethod<double>;
+#define SensorNoise_EXTERN(TPixel) extern template class SensorNoise_EXPORT RefinedMethod<TPixel>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);
+#undef SensorNoise_EXTERN
 
 } // namespace sensornoise
 

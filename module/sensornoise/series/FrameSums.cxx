@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/series/FrameSums.h"
 
+#include "sensornoise/base/PixelTypes.h"
 #include "sensornoise/base/WideVectors.h"
 #include "sensornoise/series/FrameBatch.h"
 #include "sensornoise/series/InstrumentRun.h"
@@ -162,11 +163,7 @@ FrameSums::SumInstruments(const ParallelFor & parallelFor)
 #define SensorNoise_INSTANTIATE(TPixel)                  \
   template SensorNoise_EXPORT void FrameSums::AddFrames( \
     const std::vector<Plane> &, const TPixel *, std::size_t, const ParallelFor &)
-SensorNoise_INSTANTIATE(unsigned char);
-SensorNoise_INSTANTIATE(unsigned short);
-SensorNoise_INSTANTIATE(short);
-SensorNoise_INSTANTIATE(float);
-SensorNoise_INSTANTIATE(double);
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
 #undef SensorNoise_INSTANTIATE
 
 } // namespace sensornoise

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/simulation/Simulator.h"
 
+#include "sensornoise/base/PixelTypes.h"
 #include "sensornoise/base/Text.h"
 #include "sensornoise/simulation/Random.h"
 #include "sensornoise/simulation/RandomStreams.h"
@@ -188,26 +189,14 @@ StackSimulator::RenderFrame(std::size_t frame, TPixel * out, const ParallelFor &
   parallelFor(m_Height, [&](std::size_t y) { WriteRow(codesDn.Row(y), out + y * m_Width); });
 }
 
-template SensorNoise_EXPORT void
-StackSimulator::RenderRow<unsigned char>(std::size_t, std::size_t, unsigned char *) const;
-template SensorNoise_EXPORT void
-StackSimulator::RenderRow<unsigned short>(std::size_t, std::size_t, unsigned short *) const;
-template SensorNoise_EXPORT void
-StackSimulator::RenderRow<short>(std::size_t, std::size_t, short *) const;
-template SensorNoise_EXPORT void
-StackSimulator::RenderRow<float>(std::size_t, std::size_t, float *) const;
-template SensorNoise_EXPORT void
-StackSimulator::RenderRow<double>(std::size_t, std::size_t, double *) const;
-template SensorNoise_EXPORT void
-StackSimulator::RenderFrame<unsigned char>(std::size_t, unsigned char *, const ParallelFor &) const;
-template SensorNoise_EXPORT void
-StackSimulator::RenderFrame<unsigned short>(std::size_t, unsigned short *, const ParallelFor &) const;
-template SensorNoise_EXPORT void
-StackSimulator::RenderFrame<short>(std::size_t, short *, const ParallelFor &) const;
-template SensorNoise_EXPORT void
-StackSimulator::RenderFrame<float>(std::size_t, float *, const ParallelFor &) const;
-template SensorNoise_EXPORT void
-StackSimulator::RenderFrame<double>(std::size_t, double *, const ParallelFor &) const;
+#define SensorNoise_INSTANTIATE(TPixel) \
+  template SensorNoise_EXPORT void StackSimulator::RenderRow<TPixel>(std::size_t, std::size_t, TPixel *) const
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
+#define SensorNoise_INSTANTIATE(TPixel) \
+  template SensorNoise_EXPORT void StackSimulator::RenderFrame<TPixel>(std::size_t, TPixel *, const ParallelFor &) const
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
 
 template SensorNoise_EXPORT std::pair<double, double>
 StackSimulator::CodeRange<unsigned char>(const SimulationSettings &);

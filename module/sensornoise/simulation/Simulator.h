@@ -158,37 +158,6 @@ private:
   std::shared_ptr<TemporalFilter> m_TemporalFilter; ///< its memory; copies of a simulator may share it
 };
 
-extern template SensorNoise_EXPORT void
-StackSimulator::RenderRow<unsigned char>(std::size_t, std::size_t, unsigned char *) const;
-extern template SensorNoise_EXPORT void
-StackSimulator::RenderRow<unsigned short>(std::size_t, std::size_t, unsigned short *) const;
-extern template SensorNoise_EXPORT void
-StackSimulator::RenderRow<short>(std::size_t, std::size_t, short *) const;
-extern template SensorNoise_EXPORT void
-StackSimulator::RenderRow<float>(std::size_t, std::size_t, float *) const;
-extern template SensorNoise_EXPORT void
-StackSimulator::RenderRow<double>(std::size_t, std::size_t, double *) const;
-extern template SensorNoise_EXPORT void
-StackSimulator::RenderFrame<unsigned char>(std::size_t, unsigned char *, const ParallelFor &) const;
-extern template SensorNoise_EXPORT void
-StackSimulator::RenderFrame<unsigned short>(std::size_t, unsigned short *, const ParallelFor &) const;
-extern template SensorNoise_EXPORT void
-StackSimulator::RenderFrame<short>(std::size_t, short *, const ParallelFor &) const;
-extern template SensorNoise_EXPORT void
-StackSimulator::RenderFrame<float>(std::size_t, float *, const ParallelFor &) const;
-extern template SensorNoise_EXPORT void
-StackSimulator::RenderFrame<double>(std::size_t, double *, const ParallelFor &) const;
-extern template SensorNoise_EXPORT std::pair<double, double>
-StackSimulator::CodeRange<unsigned char>(const SimulationSettings &);
-extern template SensorNoise_EXPORT std::pair<double, double>
-StackSimulator::CodeRange<unsigned short>(const SimulationSettings &);
-extern template SensorNoise_EXPORT std::pair<double, double>
-StackSimulator::CodeRange<short>(const SimulationSettings &);
-extern template SensorNoise_EXPORT std::pair<double, double>
-StackSimulator::CodeRange<float>(const SimulationSettings &);
-extern template SensorNoise_EXPORT std::pair<double, double>
-StackSimulator::CodeRange<double>(const SimulationSettings &);
-
 } // namespace sensornoise
 
 #endif // sensornoise_simulation_Simulator_h
