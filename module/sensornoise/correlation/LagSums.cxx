@@ -115,6 +115,23 @@ AddProductsOfFrames(const float * here, const float * there, std::size_t size, s
     products[p] = sum;
   }
 }
+
+/** What taking off the rows took from the products of the pixels of a tile with those \a shift places away in their
+ * rows. */
+void
+AddShareOfRows(const NoiseResiduals & residuals, std::size_t tile, int shift, std::vector<float> & products)
+{
+  const auto freedom = static_cast<float>(residuals.GetFreedom());
+  const auto first = static_cast<std::size_t>(std::max(0, -shift));
+  const auto last = products.size() - static_cast<std::size_t>(std::max(0, shift));
+  for (const float * const share : residuals.RowSharesOf(tile))
+  {
+    for (std::size_t p = first; p < last; ++p)
+    {
+      products[p] += freedom * share[p] * share[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(p) + shift)];
+    }
+  }
+}
 } // namespace
 
 std::vector<std::vector<float>>
@@ -148,6 +165,13 @@ SumProducts(const NoiseResiduals & residuals, std::size_t tile, const std::vecto
       }
     }
   });
+  for (std::size_t k = 0; k < lags.size() && residuals.AreRowsTakenOff(); ++k)
+  {
+    if (lags[k].x != 0 && lags[k].y == 0 && lags[k].t == 0)
+    {
+      AddShareOfRows(residuals, tile, lags[k].x, products[k]);
+    }
+  }
   return products;
 }
 

@@ -107,7 +107,6 @@ struct SensorNoise_EXPORT NoiseCorrelation
   std::vector<CovarianceLine> covarianceLines;
   MeasuredNumber              rowsDn2;    ///< variance of the noise of whole rows
   MeasuredNumber              columnsDn2; ///< of whole columns
-  MeasuredNumber              rowLight;   ///< see FindRowLight [1]
   /** Excess kurtosis, see KurtosisSums [1]. */
   std::array<MeasuredNumber, KurtosisSums::Kinds> kurtosis;
 

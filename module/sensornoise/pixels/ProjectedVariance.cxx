@@ -47,6 +47,18 @@ ProjectedVariance::ProjectedVariance(const ReferenceFrame &            frame,
 }
 
 void
+ProjectedVariance::ReplaceSquares(std::size_t p, double squares, double freedom)
+{
+  const double all = static_cast<double>(m_Frame.frames) - 1.0 - static_cast<double>(m_Basis.Size());
+  m_Divisor[p] = static_cast<float>(static_cast<double>(m_Divisor[p]) * freedom / all);
+  m_Variance[p] = squares / static_cast<double>(m_Divisor[p]);
+  if (!m_CodeNoise.restsDn2.empty())
+  {
+    m_Variance[p] -= m_CodeNoise.RestAt(m_Frame.mean[p]);
+  }
+}
+
+void
 ProjectedVariance::SetIllumination(const std::vector<double> & gamma, double offsetDn, bool isShotNoiseKnown)
 {
   m_FrameFreedom = FrameFreedom(m_Basis.GetBasis(), gamma);
@@ -110,6 +122,7 @@ ProjectedVariance::MeasuredVariance() const
 void
 ProjectedVariance::TakeOffRest(const CodeNoise & noise)
 {
+  m_CodeNoise = noise;
   if (noise.restsDn2.empty())
   {
     return;

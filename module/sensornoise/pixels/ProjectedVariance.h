@@ -65,6 +65,11 @@ public:
   void
   TakeOffRest(const CodeNoise & noise);
 
+  /** Other squares of pixel \a p of the mask, whose expectation is \a freedom times its variance: that of a frame's
+   * tiles may be known with what their rows share taken off. Before SetIllumination() and Compute(). */
+  void
+  ReplaceSquares(std::size_t p, double squares, double freedom);
+
   /** Allows for frames of different noise: \a gamma + 1 is the illumination factor of each frame, for which \a offsetDn
    * is the dark offset. The shot noise of the pixels is that of the provisional model, until Compute(line); if it is
    * not \a isShotNoiseKnown, all of their noise, with the least degrees of freedom that these frames allow. */
@@ -185,6 +190,7 @@ private:
   const std::vector<std::uint8_t> & m_Mask;
   ParallelFor                       m_ParallelFor;
   double                            m_Gain{ 0.0 };
+  CodeNoise                         m_CodeNoise; // of which the rest is taken off
   std::vector<double>               m_Variance;
   std::vector<float>                m_Skew; // sum_i S_i sum_j K_ij
   std::vector<float>                m_Divisor;

@@ -130,6 +130,33 @@ CompareFrames(const StaticVariance &  variance,
   }
   return noise;
 }
+
+/** The pixels by which the variance is measured. */
+struct ChosenPixels
+{
+  std::vector<std::uint8_t> & chosen;
+  std::vector<std::uint8_t> & pixelUse;
+};
+
+/** Takes off the illumination that rows have of their own, where it counts, or where the series of the illumination are
+ * more than could be projected out. */
+RowIllumination
+AllowForRows(NoiseResiduals &          residuals,
+             ProjectedVariance &       projected,
+             const StillScene &        scene,
+             const LocalIllumination & local,
+             const ChosenPixels &      pixels,
+             double                    signalDn,
+             const ParallelFor &       parallelFor)
+{
+  RowIllumination rows;
+  rows.found = FindRowLight(residuals, parallelFor);
+  if (EffectOfRowLight(rows.found, signalDn, scene.model.slopeDn) > 0.0 || local.beyond > 1.0)
+  {
+    TakeOffRowIllumination(rows, residuals, projected, pixels.chosen, pixels.pixelUse, parallelFor);
+  }
+  return rows;
+}
 } // namespace
 
 PixelNoise
@@ -145,26 +172,30 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   const double              offsetDn = series->offset + scene.model.centreDn;
   std::vector<std::uint8_t> pixelUse = scene.pixelUse;
   std::vector<std::uint8_t> chosen = PixelsOfVariance(scene, settings, pixelUse);
+  const bool                isTold = settings.offset.has_value() || series->isOffsetTold;
+  const double   zeroDn = isTold ? blackDn : ZeroOfLight(scene.model.darkestDn, scene.model.brightestDn, blackDn);
+  const double   repeated = sample.RepeatedShare(chosen, scene.summary.codes.quantisationStepDn);
+  NoiseResiduals residuals(
+    std::move(sample), series->basis.GetBasis(), { scene.frame.mean, chosen, zeroDn, isTold }, parallelFor);
+  const RowIllumination rows = AllowForRows(
+    residuals, projected, scene, series->local, { chosen, pixelUse }, scene.model.brightestDn - blackDn, parallelFor);
   // Without levels that identify the offset no line of the pixels says how much of the noise is shot noise.
   projected.SetIllumination(series->line.gamma, offsetDn, !scene.changesStrongly || series->isOffsetTold);
   const auto fit = [&](double sharedSquares) {
     return FitStaticVariance(
       projected, chosen, pixelUse, scene.model.slopeDn, offsetDn, blackDn, parallelFor, sharedSquares);
   };
-  PixelNoise noise{ fit(1.0), {}, {} };
+  PixelNoise noise{ fit(1.0), {}, {}, rows };
   if (!noise.variance.line.isDetermined)
   {
     return noise;
   }
-  std::vector<std::uint8_t> used = MaskOfUsed(noise.variance.pixelUse);
-  const bool                isTold = settings.offset.has_value() || series->isOffsetTold;
-  const double   zeroDn = isTold ? blackDn : ZeroOfLight(scene.model.darkestDn, scene.model.brightestDn, blackDn);
-  const double   repeated = sample.RepeatedShare(used, scene.summary.codes.quantisationStepDn);
-  NoiseResiduals residuals(
-    std::move(sample), series->basis.GetBasis(), { scene.frame.mean, used, zeroDn, isTold }, parallelFor);
-  const FrameComparison comparison{
-    residuals, projected, scene, { series->line.gamma, offsetDn, zeroDn }, series->local.series.cols() > 0
-  };
+  residuals.Take(MaskOfUsed(noise.variance.pixelUse), parallelFor);
+  const FrameComparison comparison{ residuals,
+                                    projected,
+                                    scene,
+                                    { series->line.gamma, offsetDn, zeroDn },
+                                    series->local.series.cols() > 0 || rows.isTakenOff };
   const auto compare = [&] { noise.variance.fromFrames = LineOfFrames(noise.variance, comparison, parallelFor); };
   const auto allowForFrames = [&] {
     compare();
@@ -179,8 +210,7 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   if (noise.correlation.IsShared() && sharedSquares > InRefined.leastSharedSquares)
   {
     noise.variance = fit(sharedSquares);
-    used = MaskOfUsed(noise.variance.pixelUse);
-    residuals.Take(used, parallelFor);
+    residuals.Take(MaskOfUsed(noise.variance.pixelUse), parallelFor);
     allowForFrames();
     noise.correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
     // What neighbours share is a mean over both sides of an edge, the line is not.
@@ -198,7 +228,7 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   }
   if (noise.correlation.kind != NoiseKind::NotMeasured)
   {
-    noise.correlation.rowLight = FindRowLight(residuals, parallelFor);
+    noise.rows.left = FindRowLight(residuals, parallelFor);
   }
   // What is left of the motion of whole frames has the slopes of the scene, too.
   if (!noise.correlation.covarianceLines.empty() && IsNearlyStill(comparison))

@@ -5,7 +5,6 @@
 #include "sensornoise/base/ChiSquare.h"
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/RollingShutter.h"
-#include "sensornoise/base/Significance.h"
 #include "sensornoise/base/Text.h"
 #include "sensornoise/pixels/VarianceLine.h"
 #include "sensornoise/correlation/CorrelationRecord.h"
@@ -37,7 +36,15 @@ WarnOfScene(Report & report, const RefinedResults & found)
 {
   const auto total = static_cast<double>(found.scene.frame.geometry.Pixels());
   const auto percent = [total](std::size_t pixels) { return Percent(static_cast<double>(pixels) / total); };
-  if (found.series.local.series.cols() > 0)
+  if (found.rows.isTakenOff)
+  {
+    const double square = std::max(0.0, found.rows.found.value);
+    report.Warn(WarningCode::LocalLight,
+                "the illumination differs from row to row within a frame by " + Percent(std::sqrt(square)) +
+                  " rms: a pulsed lamp under a rolling shutter, or interlaced frames. Gain and intercept are from " +
+                  percent(found.rows.pixels) + " of the pixels, without what each row of a frame shares");
+  }
+  else if (found.series.local.series.cols() > 0)
   {
     const auto count = std::to_string(found.series.local.series.cols());
     if (found.polished.isOffsetDrift)
@@ -53,7 +60,14 @@ WarnOfScene(Report & report, const RefinedResults & found)
                     "): a rolling shutter, several lamps or bleaching, which gain and intercept allow for");
     }
   }
-  if (found.RestOfLight() > 0.0)
+  if (found.RestOfLight() > 0.0 && found.rows.isTakenOff)
+  {
+    report.Warn(WarningCode::LightSeriesLeft,
+                "the illumination changes beside that of whole rows: this adds about " + Percent(found.RestOfLight()) +
+                  " to the variance, and the interval of the gain contains " + Rounded(InRefined.slopeOfRest) +
+                  " times as much. Record more frames, or choose an evenly lit part: --roi");
+  }
+  else if (found.RestOfLight() > 0.0)
   {
     report.Warn(
       WarningCode::LightSeriesLeft,
@@ -202,18 +216,6 @@ SettingsOfSensor(const RefinedResults & found, double codesDn2)
   return settings;
 }
 
-/** What the illumination that rows have of their own adds to the slope of the variance, relative to the gain [1]; 0:
- * nothing beyond chance. A change of the mean square e of it adds e q^2 to the variance of the signal q. */
-double
-EffectOfRowLight(const RefinedResults & found, const GainEstimate & gain)
-{
-  const MeasuredNumber & square = found.correlation.rowLight;
-  const double           signalDn = std::max(0.0, found.scene.model.brightestDn - found.blackDn);
-  const double           effect = square.value * signalDn / gain.line.gain;
-  return square.value > Significance.severalTests * square.standardError && effect > InRefined.largestRowLight ? effect
-                                                                                                               : 0.0;
-}
-
 /** Files no gain, where the frames' rows had light of their own. */
 void
 RefuseRowLight(Report & report, const RefinedResults & found, double effect)
@@ -221,7 +223,7 @@ RefuseRowLight(Report & report, const RefinedResults & found, double effect)
   SetSensorParameters(report, EstimateStatus::Failed);
   report.Warn(WarningCode::Contradicted,
               "the illumination differs from row to row within a frame by " +
-                Percent(std::sqrt(found.correlation.rowLight.value)) + " rms, which adds " +
+                Percent(std::sqrt(found.rows.left.value)) + " rms, which adds " +
                 PercentApart(effect, InRefined.largestRowLight) + " to the slope of the variance (expected at most " +
                 Percent(InRefined.largestRowLight) +
                 "): a pulsed lamp under a rolling shutter, or interlaced frames. Use a lamp on direct current, expose "
@@ -239,7 +241,9 @@ FillSensor(Report & report, const RefinedResults & found, const GainEstimate & g
   FillFlicker(report, found, offsetFromCentre, offset.errorDn, gain.RelativeModelError());
   FillMotion(report, found, offsetFromCentre, offset.errorDn);
   WarnOfMotion(report, found);
-  if (const double effect = EffectOfRowLight(found, gain); effect > 0.0)
+  if (const double effect =
+        EffectOfRowLight(found.rows.left, found.scene.model.brightestDn - found.blackDn, gain.line.gain);
+      effect > 0.0)
   {
     RefuseRowLight(report, found, effect);
     FillFromDarkFrames(report, found.settings, codesDn2);
@@ -339,7 +343,7 @@ MakeRefinedReport(const RefinedResults & found, const ParallelFor & parallelFor)
     const RefinedResults  sensor = { settings,       found.scene,       found.series,
                                      found.variance, found.polished,    found.correctedVariance,
                                      found.blackDn,  found.correlation, found.frameNoise,
-                                     found.exposures };
+                                     found.rows,     found.exposures };
     FillSensor(report, sensor, EstimateGain(sensor, lines), codesDn2);
   }
   else
