@@ -56,7 +56,7 @@ catch (const FileError & error)
 }
 
 void
-RequireOwnDarkFrames(const std::vector<std::string> & dark, const std::vector<std::string> & frames)
+TellOfSharedDarkFrames(const std::vector<std::string> & dark, const std::vector<std::string> & frames)
 {
   const auto placeOf = [](const std::string & name) {
     std::error_code ignored;
@@ -71,9 +71,9 @@ RequireOwnDarkFrames(const std::vector<std::string> & dark, const std::vector<st
   {
     if (places.count(placeOf(name)) != 0)
     {
-      throw std::runtime_error(name +
-                               " is given as a frame and as a dark frame (--dark); expected dark frames that are "
-                               "files of their own");
+      std::cerr << "warning: " << name
+                << " is given as a frame and as a dark frame (--dark). Record dark frames of their own, in the dark\n";
+      return;
     }
   }
 }

@@ -16,9 +16,9 @@ namespace sensornoise::tools
 itk::Image<unsigned char, 2>::Pointer
 ReadMask(const std::string & file, const FrameList & frames);
 
-/** Throws std::runtime_error where a file is a frame and a dark frame. */
+/** Warns on standard error where a file is a frame and a dark frame. */
 void
-RequireOwnDarkFrames(const std::vector<std::string> & dark, const std::vector<std::string> & frames);
+TellOfSharedDarkFrames(const std::vector<std::string> & dark, const std::vector<std::string> & frames);
 
 /** Opens the headers of dark frames, which must have the size and type of the others; \a rawLayout and \a choice as
  * OpenFrames() takes them. Throws std::runtime_error. */

@@ -220,7 +220,7 @@ Run(EstimateOptions & options)
 {
   SetItkThreads(options.threads);
   RequireAbilities(options);
-  RequireOwnDarkFrames(options.dark, options.files);
+  TellOfSharedDarkFrames(options.dark, options.files);
   // whether they can be written is found before the work begins
   std::optional<PendingFile> json;
   if (options.HasReportFile())

@@ -303,7 +303,8 @@ inline constexpr std::array<WarningKind, 49> WarningTable{ {
   { WarningCode::VarianceNotAffine,
     "variance-not-affine",
     Severity::Error,
-    "The variance deviates from its line by more than 12 %, falls with the mean, or bends so that gain and read noise "
+    "The variance deviates from its line by more than 12 %, falls with the mean, or is a curve, so that gain and read "
+    "noise "
     "are not distinguished: not raw, not linear, or saturated. Record raw frames, or give the saturation level "
     "(--clip)." },
   { WarningCode::Contradicted,
