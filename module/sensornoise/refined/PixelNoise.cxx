@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/refined/PixelNoise.h"
 
+#include "sensornoise/base/RollingShutter.h"
 #include "sensornoise/correlation/FrameEnergies.h"
 #include "sensornoise/correlation/LocalMotion.h"
 #include "sensornoise/correlation/NoiseResiduals.h"
@@ -139,19 +140,19 @@ struct ChosenPixels
 };
 
 /** Takes off the illumination that rows have of their own, where it counts, or where the series of the illumination are
- * more than could be projected out. */
+ * more than could be projected out (\a areSeriesLeft). */
 RowIllumination
-AllowForRows(NoiseResiduals &          residuals,
-             ProjectedVariance &       projected,
-             const StillScene &        scene,
-             const LocalIllumination & local,
-             const ChosenPixels &      pixels,
-             double                    signalDn,
-             const ParallelFor &       parallelFor)
+AllowForRows(NoiseResiduals &     residuals,
+             ProjectedVariance &  projected,
+             const StillScene &   scene,
+             const ChosenPixels & pixels,
+             double               signalDn,
+             bool                 areSeriesLeft,
+             const ParallelFor &  parallelFor)
 {
   RowIllumination rows;
   rows.found = FindRowLight(residuals, parallelFor);
-  if (EffectOfRowLight(rows.found, signalDn, scene.model.slopeDn) > 0.0 || local.beyond > 1.0)
+  if (EffectOfRowLight(rows.found, signalDn, scene.model.slopeDn) > 0.0 || areSeriesLeft)
   {
     TakeOffRowIllumination(rows, residuals, projected, pixels.chosen, pixels.pixelUse, parallelFor);
   }
@@ -177,8 +178,17 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   const double   repeated = sample.RepeatedShare(chosen, scene.summary.codes.quantisationStepDn);
   NoiseResiduals residuals(
     std::move(sample), series->basis.GetBasis(), { scene.frame.mean, chosen, zeroDn, isTold }, parallelFor);
-  const RowIllumination rows = AllowForRows(
-    residuals, projected, scene, series->local, { chosen, pixelUse }, scene.model.brightestDn - blackDn, parallelFor);
+  RowIllumination rows;
+  if (settings.rollingShutter != RollingShutter::Off)
+  {
+    rows = AllowForRows(residuals,
+                        projected,
+                        scene,
+                        { chosen, pixelUse },
+                        scene.model.brightestDn - blackDn,
+                        series->local.beyond > 1.0,
+                        parallelFor);
+  }
   // Without levels that identify the offset no line of the pixels says how much of the noise is shot noise.
   projected.SetIllumination(series->line.gamma, offsetDn, !scene.changesStrongly || series->isOffsetTold);
   const auto fit = [&](double sharedSquares) {
