@@ -132,6 +132,28 @@ CompareFrames(const StaticVariance &  variance,
   return noise;
 }
 
+/** Finds what looks like a filter and is none: places that move by themselves, and parts of frames that \a repeat. What
+ * is left of the motion of whole frames has the slopes of the scene, too. */
+void
+NameOtherCauses(NoiseCorrelation &     correlation,
+                const NoiseResiduals & residuals,
+                double                 repeated,
+                bool                   isNearlyStill,
+                const ParallelFor &    parallelFor)
+{
+  if (!correlation.covarianceLines.empty() && isNearlyStill)
+  {
+    correlation.localMotion = FindLocalMotion(residuals, parallelFor);
+    correlation.kind = correlation.HasLocalMotion() ? NoiseKind::NotLinear : correlation.kind;
+  }
+  const bool mayRepeat = correlation.kind == NoiseKind::Temporal || correlation.kind == NoiseKind::Enlarged;
+  if (mayRepeat && repeated > InRefined.largestRepeatedShare)
+  {
+    correlation.kind = NoiseKind::NotLinear; // a filter blends values, and repeats none
+    correlation.repeatedShare = repeated;
+  }
+}
+
 /** The pixels by which the variance is measured. */
 struct ChosenPixels
 {
@@ -240,18 +262,7 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   {
     noise.rows.left = FindRowLight(residuals, parallelFor);
   }
-  // What is left of the motion of whole frames has the slopes of the scene, too.
-  if (!noise.correlation.covarianceLines.empty() && IsNearlyStill(comparison))
-  {
-    noise.correlation.localMotion = FindLocalMotion(residuals, parallelFor);
-    noise.correlation.kind = noise.correlation.HasLocalMotion() ? NoiseKind::NotLinear : noise.correlation.kind;
-  }
-  const bool mayRepeat = noise.correlation.kind == NoiseKind::Temporal || noise.correlation.kind == NoiseKind::Enlarged;
-  if (mayRepeat && repeated > InRefined.largestRepeatedShare)
-  {
-    noise.correlation.kind = NoiseKind::NotLinear; // a filter blends values, and repeats none
-    noise.correlation.repeatedShare = repeated;
-  }
+  NameOtherCauses(noise.correlation, residuals, repeated, IsNearlyStill(comparison), parallelFor);
   return noise;
 }
 
