@@ -48,9 +48,9 @@ struct CorrelationConstants
   /** Coefficient that is worth a word [1]. Set by hand: charge coupling of 0.3 % makes 0.006 of it, the noise of a
    * plain sample 0.0004 to 0.0007. */
   double leastCoefficient{ 0.002 };
-  /** What the nearest four share together that is worth a word, relative to the variance of the bright pixels [1]. Set
-   * by hand: a brighter-fatter effect of 2 % at full well makes 0.02. */
-  double leastEffect{ 0.003 };
+  /** What the nearest four share together that is worth a word, relative to the variance of the bright pixels [1]. Chosen
+   * by the size of the effect, which the gain has, too: a brighter-fatter effect of 2 % at full well makes 0.02. */
+  double leastEffect{ 0.0025 };
   ///@}
 
   /** \name The sum over neighbours */
