@@ -31,13 +31,13 @@ struct CorrelationConstants
   double leastSpread{ 0.05 };
   /** Tiles, at most, that tell the illumination that rows have of their own. Chosen for the time: a thousandth of that
    * of 100 frames of 512 x 512 pixels. */
-  std::size_t mostTilesOfRowLight{ 32 };
-  /** Part of the mean square of a row's light that must be spread for what grows with it to be told from what does not
+  std::size_t mostTilesOfLineLight{ 32 };
+  /** Part of the mean square of a line's light that must be spread for what grows with it to be told from what does not
    * [1]: a guard against rounding, as both are taken off together. */
-  double leastSpreadOfRow{ 1e-4 };
+  double leastSpreadOfLine{ 1e-4 };
   /** Part of a pixel's variance that must be left of it where what its row shares is taken off [1]: a pixel that makes
    * up half of its row tells of the row, not of itself. */
-  double leastLeftOfRow{ 0.5 };
+  double leastLeftOfLine{ 0.5 };
   /** Part of the lines' variance that the series of the scene may take for light [1]. Set by hand: a row noise as large
    * as the read noise loses 3 to 8 %. */
   double lostToSeries{ 0.04 };
@@ -48,8 +48,9 @@ struct CorrelationConstants
   /** Coefficient that is worth a word [1]. Set by hand: charge coupling of 0.3 % makes 0.006 of it, the noise of a
    * plain sample 0.0004 to 0.0007. */
   double leastCoefficient{ 0.002 };
-  /** What the nearest four share together that is worth a word, relative to the variance of the bright pixels [1]. Chosen
-   * by the size of the effect, which the gain has, too: a brighter-fatter effect of 2 % at full well makes 0.02. */
+  /** What the nearest four share together that is worth a word, relative to the variance of the bright pixels [1].
+   * Chosen by the size of the effect, which the gain has, too: a brighter-fatter effect of 2 % at full well makes 0.02.
+   */
   double leastEffect{ 0.0025 };
   ///@}
 

@@ -116,15 +116,15 @@ AddProductsOfFrames(const float * here, const float * there, std::size_t size, s
   }
 }
 
-/** What taking off the rows took from the products of the pixels of a tile with those \a shift places away in their
- * rows. */
+/** What taking off the lines took from the products of the pixels of a tile with those \a shift places away in their
+ * lines. */
 void
-AddShareOfRows(const NoiseResiduals & residuals, std::size_t tile, int shift, std::vector<float> & products)
+AddShareOfLines(const NoiseResiduals & residuals, std::size_t tile, int shift, std::vector<float> & products)
 {
   const auto freedom = static_cast<float>(residuals.GetFreedom());
   const auto first = static_cast<std::size_t>(std::max(0, -shift));
   const auto last = products.size() - static_cast<std::size_t>(std::max(0, shift));
-  for (const float * const share : residuals.RowSharesOf(tile))
+  for (const float * const share : residuals.LineSharesOf(tile))
   {
     for (std::size_t p = first; p < last; ++p)
     {
@@ -165,11 +165,15 @@ SumProducts(const NoiseResiduals & residuals, std::size_t tile, const std::vecto
       }
     }
   });
-  for (std::size_t k = 0; k < lags.size() && residuals.AreRowsTakenOff(); ++k)
+  const auto axis = residuals.GetLinesTakenOff();
+  for (std::size_t k = 0; k < lags.size() && axis; ++k)
   {
-    if (lags[k].x != 0 && lags[k].y == 0 && lags[k].t == 0)
+    const auto [along, across] =
+      *axis == LineAxis::Rows ? std::pair(lags[k].x, lags[k].y) : std::pair(lags[k].y, lags[k].x);
+    if (along != 0 && across == 0 && lags[k].t == 0)
     {
-      AddShareOfRows(residuals, tile, lags[k].x, products[k]);
+      AddShareOfLines(
+        residuals, tile, along * (*axis == LineAxis::Rows ? 1 : static_cast<int>(tiles.side)), products[k]);
     }
   }
   return products;

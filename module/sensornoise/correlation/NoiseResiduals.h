@@ -14,6 +14,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace sensornoise
@@ -64,14 +65,14 @@ public:
   void
   Take(const std::vector<std::uint8_t> & take, const ParallelFor & parallelFor);
 
-  /** Takes off what the pixels of a row share in a frame: of each frame and each row of tiles side by side, the
-   * regression on 1 and the light, by the pixels of \a take. That is all illumination that rows have of their own,
-   * whatever the level without light, and the noise of whole rows. Of a pixel's variance it takes the pixel's leverage
-   * h in that regression, for which all values of the pixel are divided by sqrt(1 - h): its variance stays. Returns
-   * 1 - h of the pixels, tile by tile [1]; 0 where that is small, or the row has no pixel of \a take. Estimator.md,
-   * 3.18. */
+  /** Takes off what the pixels of a line, a row or a column, share in a frame: of each frame and each line of tiles in
+   * a row, the regression on 1 and the light, by the pixels of \a take. That is all illumination that lines have of
+   * their own, whatever the level without light, and the noise of whole lines. Of a pixel's variance it takes the
+   * pixel's leverage h in that regression, for which all values of the pixel are divided by sqrt(1 - h): its variance
+   * stays. Returns 1 - h of the pixels, tile by tile [1]; 0 where that is small, or the line has no pixel of \a take.
+   * Estimator.md, 3.18. */
   std::vector<float>
-  TakeOffRows(const std::vector<std::uint8_t> & take, const ParallelFor & parallelFor);
+  TakeOffLines(LineAxis axis, const std::vector<std::uint8_t> & take, const ParallelFor & parallelFor);
 
   /** Allows for noise that differs from frame to frame; \a frames are all of the stack, of which the sample has the
    * first. Without it all are alike. */
@@ -119,18 +120,18 @@ public:
   {
     return m_Variance.data() + i * this->GetTiles().Pixels();
   }
-  /** Whether TakeOffRows() was called. The residuals of two pixels of a row then have the covariance -(a a' + b b') in
-   * a frame, where the noise is white, with a and b the pixels' \a RowSharesOf() [DN]. */
-  bool
-  AreRowsTakenOff() const
+  /** The axis along which TakeOffLines() was called, if it was. The residuals of two pixels of a line then have the
+   * covariance -(a a' + b b') in a frame, where the noise is white, with a and b the pixels' \a LineSharesOf() [DN]. */
+  const std::optional<LineAxis> &
+  GetLinesTakenOff() const
   {
-    return !m_RowShares[0].empty();
+    return m_LinesTakenOff;
   }
   std::array<const float *, 2>
-  RowSharesOf(std::size_t i) const
+  LineSharesOf(std::size_t i) const
   {
     const std::size_t first = i * this->GetTiles().Pixels();
-    return { m_RowShares[0].data() + first, m_RowShares[1].data() + first };
+    return { m_LineShares[0].data() + first, m_LineShares[1].data() + first };
   }
   /** The bins of the light of the pixels of tile \a i. */
   const std::uint8_t *
@@ -178,10 +179,10 @@ private:
   ProjectTile(std::size_t i);
   void
   SumSquares(std::size_t i);
-  /** TakeOffRows() of the rows \a y of \a tiles side by side, whose values are not yet scaled. Notes the row shares,
+  /** TakeOffLines() of the lines \a line of \a tiles, whose values are not yet scaled. Notes the shares of the line,
    * and what is left of the variance of each pixel in \a left. */
   void
-  RegressRows(const std::vector<std::size_t> & tiles, std::size_t y, std::vector<float> & left);
+  RegressLines(LineAxis axis, const std::vector<std::size_t> & tiles, std::size_t line, std::vector<float> & left);
   /** The variance along the light, and its inverse at every pixel. */
   void
   Weigh(const std::vector<std::uint8_t> & take);
@@ -197,8 +198,9 @@ private:
   bool                      m_IsBlackKnown{ true };
   double                    m_DarkestLight{ 0.0 };
   UnequalFrames             m_Unequal;
-  /** Of the constant, and of what grows with the light; empty: rows keep what they share. */
-  std::array<std::vector<float>, 2> m_RowShares;
+  std::optional<LineAxis>   m_LinesTakenOff;
+  /** Of the constant, and of what grows with the light; empty: lines keep what they share. */
+  std::array<std::vector<float>, 2> m_LineShares;
 };
 
 } // namespace sensornoise

@@ -8,10 +8,18 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace sensornoise
 {
+
+/** The lines of a frame that have something in common: its rows, or its columns. */
+enum class LineAxis : std::uint8_t
+{
+  Rows,
+  Columns
+};
 
 /** \class SampleTiles
  * \brief Where the noise of neighbours is looked at: square tiles, spread evenly over the frame, that do not overlap,
@@ -73,6 +81,12 @@ struct SensorNoise_EXPORT SampleTiles
   PlaceOf(std::size_t i, std::size_t t) const
   {
     return (i * frames + t) * this->Pixels();
+  }
+  /** The number in its tile of pixel \a k of line \a line. */
+  std::size_t
+  InTile(LineAxis axis, std::size_t line, std::size_t k) const
+  {
+    return axis == LineAxis::Rows ? line * side + k : k * side + line;
   }
   /** The pixel of a frame of \a width columns that is pixel \a p of tile \a i. */
   std::size_t

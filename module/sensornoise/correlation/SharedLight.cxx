@@ -209,15 +209,16 @@ SumTile(const NoiseResiduals & residuals, std::size_t i)
     products.AddTo(light, &DistantSums::covariance, factor);
     light.far.lightCovariance += factor * ofLight;
   });
-  if (residuals.AreRowsTakenOff())
+  if (residuals.GetLinesTakenOff())
   {
-    for (const float * const share : residuals.RowSharesOf(i)) // what was taken from the covariance of a row
+    const bool areRows = *residuals.GetLinesTakenOff() == LineAxis::Rows;
+    for (const float * const share : residuals.LineSharesOf(i)) // what was taken from the covariance of a line
     {
       SegmentSums<VSide>  sums{};
       LineProducts<VSide> products;
       sums.Sum([=](std::size_t p) { return static_cast<double>(w[p] * share[p]); });
-      products.Add(sums.rows);
-      light.rows[0].covariance += products.Total(0);
+      products.Add(areRows ? sums.rows : sums.columns);
+      (areRows ? light.rows : light.columns)[0].covariance += products.Total(0);
     }
   }
   return light;

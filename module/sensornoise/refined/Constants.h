@@ -134,7 +134,7 @@ struct RefinedConstants
   ///@{
   /** What the illumination that rows have of their own may add to the slope of the variance, relative to it [1]. Chosen
    * by the size of the effect. */
-  double largestRowLight{ 0.01 };
+  double largestLineLight{ 0.01 };
   ///@}
 
   /** \name What is worth a warning */

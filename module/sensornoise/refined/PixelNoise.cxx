@@ -6,7 +6,7 @@
 #include "sensornoise/correlation/FrameEnergies.h"
 #include "sensornoise/correlation/LocalMotion.h"
 #include "sensornoise/correlation/NoiseResiduals.h"
-#include "sensornoise/correlation/RowLight.h"
+#include "sensornoise/correlation/LineLight.h"
 #include "sensornoise/pixels/FlatPixels.h"
 #include "sensornoise/refined/BeyondChance.h"
 #include "sensornoise/refined/Constants.h"
@@ -161,24 +161,30 @@ struct ChosenPixels
   std::vector<std::uint8_t> & pixelUse;
 };
 
-/** Takes off the illumination that rows have of their own, where it counts, or where the series of the illumination are
- * more than could be projected out (\a areSeriesLeft). */
-RowIllumination
-AllowForRows(NoiseResiduals &     residuals,
-             ProjectedVariance &  projected,
-             const StillScene &   scene,
-             const ChosenPixels & pixels,
-             double               signalDn,
-             bool                 areSeriesLeft,
-             const ParallelFor &  parallelFor)
+/** Takes off the illumination that rows or columns have of their own, where it counts, or where the series of the
+ * illumination are more than could be projected out (\a areSeriesLeft). */
+LineIllumination
+AllowForLines(NoiseResiduals &     residuals,
+              ProjectedVariance &  projected,
+              const StillScene &   scene,
+              const ChosenPixels & pixels,
+              double               signalDn,
+              bool                 areSeriesLeft,
+              const ParallelFor &  parallelFor)
 {
-  RowIllumination rows;
-  rows.found = FindRowLight(residuals, parallelFor);
-  if (EffectOfRowLight(rows.found, signalDn, scene.model.slopeDn) > 0.0 || areSeriesLeft)
+  LineIllumination lines;
+  lines.found = FindLineLight(residuals, LineAxis::Rows, parallelFor);
+  if (const MeasuredNumber ofColumns = FindLineLight(residuals, LineAxis::Columns, parallelFor);
+      ofColumns.value * lines.found.standardError > lines.found.value * ofColumns.standardError)
   {
-    TakeOffRowIllumination(rows, residuals, projected, pixels.chosen, pixels.pixelUse, parallelFor);
+    lines.found = ofColumns;
+    lines.axis = LineAxis::Columns;
   }
-  return rows;
+  if (EffectOfLineLight(lines.found, signalDn, scene.model.slopeDn) > 0.0 || areSeriesLeft)
+  {
+    TakeOffLineIllumination(lines, residuals, projected, pixels.chosen, pixels.pixelUse, parallelFor);
+  }
+  return lines;
 }
 } // namespace
 
@@ -200,16 +206,16 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   const double   repeated = sample.RepeatedShare(chosen, scene.summary.codes.quantisationStepDn);
   NoiseResiduals residuals(
     std::move(sample), series->basis.GetBasis(), { scene.frame.mean, chosen, zeroDn, isTold }, parallelFor);
-  RowIllumination rows;
+  LineIllumination lines;
   if (settings.rollingShutter != RollingShutter::Off)
   {
-    rows = AllowForRows(residuals,
-                        projected,
-                        scene,
-                        { chosen, pixelUse },
-                        scene.model.brightestDn - blackDn,
-                        series->local.beyond > 1.0,
-                        parallelFor);
+    lines = AllowForLines(residuals,
+                          projected,
+                          scene,
+                          { chosen, pixelUse },
+                          scene.model.brightestDn - blackDn,
+                          series->local.beyond > 1.0,
+                          parallelFor);
   }
   // Without levels that identify the offset no line of the pixels says how much of the noise is shot noise.
   projected.SetIllumination(series->line.gamma, offsetDn, !scene.changesStrongly || series->isOffsetTold);
@@ -217,7 +223,7 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
     return FitStaticVariance(
       projected, chosen, pixelUse, scene.model.slopeDn, offsetDn, blackDn, parallelFor, sharedSquares);
   };
-  PixelNoise noise{ fit(1.0), {}, {}, rows };
+  PixelNoise noise{ fit(1.0), {}, {}, lines };
   if (!noise.variance.line.isDetermined)
   {
     return noise;
@@ -227,7 +233,7 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
                                     projected,
                                     scene,
                                     { series->line.gamma, offsetDn, zeroDn },
-                                    series->local.series.cols() > 0 || rows.isTakenOff };
+                                    series->local.series.cols() > 0 || lines.isTakenOff };
   const auto compare = [&] { noise.variance.fromFrames = LineOfFrames(noise.variance, comparison, parallelFor); };
   const auto allowForFrames = [&] {
     compare();
@@ -260,7 +266,7 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
   }
   if (noise.correlation.kind != NoiseKind::NotMeasured)
   {
-    noise.rows.left = FindRowLight(residuals, parallelFor);
+    noise.lines.left = FindLineLight(residuals, lines.axis, parallelFor);
   }
   NameOtherCauses(noise.correlation, residuals, repeated, IsNearlyStill(comparison), parallelFor);
   return noise;

@@ -10,7 +10,7 @@
 #include "sensornoise/pixels/ProjectedVariance.h"
 #include "sensornoise/pixels/StaticVariance.h"
 #include "sensornoise/refined/RefinedSettings.h"
-#include "sensornoise/refined/RowIllumination.h"
+#include "sensornoise/refined/LineIllumination.h"
 #include "sensornoise/refined/UnlikeNoise.h"
 #include "sensornoise/scene/StillScene.h"
 #include "sensornoise/series/SceneSeries.h"
@@ -26,7 +26,7 @@ struct PixelNoise
   StaticVariance   variance;
   NoiseCorrelation correlation;
   FrameNoise       frames; ///< of the frames' places
-  RowIllumination  rows;
+  LineIllumination lines;
 };
 
 /** Fits the variance and measures what is shared. Where neighbours share much, the mean variance of an area scatters

@@ -367,7 +367,7 @@ RefinedMethod<TPixel>::ForgetFindings()
   m_Variance.reset();
   m_Correlation = {};
   m_FrameNoise = {};
-  m_Rows = {};
+  m_Lines = {};
   m_CorrectedVariance.clear();
   m_HasScene = false;
 }
@@ -399,7 +399,7 @@ RefinedMethod<TPixel>::MeasureVariance()
       WarningCode::IntensityRangeTooSmall);
   }
   m_Correlation = std::move(noise.correlation);
-  m_Rows = noise.rows;
+  m_Lines = noise.lines;
   if (m_Thumbnails.FindChange(m_Distinct.Counted()).IsLarge()) // frames of several scenes tell nothing of each other
   {
     m_Variance->fromFrames = {};
@@ -438,7 +438,7 @@ RefinedMethod<TPixel>::MakeReport()
                                               BlackLevel(m_Settings, *m_Scene, m_Series),
                                               m_Correlation,
                                               m_FrameNoise,
-                                              m_Rows,
+                                              m_Lines,
                                               m_ExposureFit ? &*m_ExposureFit : nullptr },
                                             m_ParallelFor);
   ReportLinearity(m_Report, m_ExposureFit);

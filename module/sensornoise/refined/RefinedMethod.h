@@ -17,7 +17,7 @@
 #include "sensornoise/refined/PixelProjections.h"
 #include "sensornoise/refined/PolishedSeries.h"
 #include "sensornoise/refined/RefinedSettings.h"
-#include "sensornoise/refined/RowIllumination.h"
+#include "sensornoise/refined/LineIllumination.h"
 #include "sensornoise/refined/UnlikeNoise.h"
 #include "sensornoise/report/Report.h"
 #include "sensornoise/scene/StillScene.h"
@@ -250,7 +250,7 @@ private:
   std::optional<const PolishedSeries>   m_Polished;
   NoiseCorrelation                      m_Correlation;
   FrameNoise                            m_FrameNoise;
-  RowIllumination                       m_Rows;
+  LineIllumination                      m_Lines;
   std::vector<double>                   m_CorrectedVariance;
   std::optional<const NothingToMeasure> m_Obstacle;
   bool                                  m_HasScene{ false };

@@ -31,18 +31,26 @@ namespace sensornoise
 
 namespace
 {
+std::string
+NameOfLine(LineAxis axis)
+{
+  return axis == LineAxis::Rows ? "row" : "column";
+}
+
 void
 WarnOfScene(Report & report, const RefinedResults & found)
 {
   const auto total = static_cast<double>(found.scene.frame.geometry.Pixels());
   const auto percent = [total](std::size_t pixels) { return Percent(static_cast<double>(pixels) / total); };
-  if (found.rows.isTakenOff)
+  if (found.lines.isTakenOff)
   {
-    const double square = std::max(0.0, found.rows.found.value);
+    const double square = std::max(0.0, found.lines.found.value);
     report.Warn(WarningCode::LocalLight,
-                "the illumination differs from row to row within a frame by " + Percent(std::sqrt(square)) +
+                "the illumination differs from " + NameOfLine(found.lines.axis) + " to " +
+                  NameOfLine(found.lines.axis) + " within a frame by " + Percent(std::sqrt(square)) +
                   " rms: a pulsed lamp under a rolling shutter, or interlaced frames. Gain and intercept are from " +
-                  percent(found.rows.pixels) + " of the pixels, without what each row of a frame shares");
+                  percent(found.lines.pixels) + " of the pixels, without what each " + NameOfLine(found.lines.axis) +
+                  " of a frame shares");
   }
   else if (found.series.local.series.cols() > 0)
   {
@@ -60,10 +68,11 @@ WarnOfScene(Report & report, const RefinedResults & found)
                     "): a rolling shutter, several lamps or bleaching, which gain and intercept allow for");
     }
   }
-  if (found.RestOfLight() > 0.0 && found.rows.isTakenOff)
+  if (found.RestOfLight() > 0.0 && found.lines.isTakenOff)
   {
     report.Warn(WarningCode::LightSeriesLeft,
-                "the illumination changes beside that of whole rows: this adds about " + Percent(found.RestOfLight()) +
+                "the illumination changes beside that of whole " + NameOfLine(found.lines.axis) +
+                  "s: this adds about " + Percent(found.RestOfLight()) +
                   " to the variance, and the interval of the gain contains " + Rounded(InRefined.slopeOfRest) +
                   " times as much. Record more frames, or choose an evenly lit part: --roi");
   }
@@ -218,14 +227,14 @@ SettingsOfSensor(const RefinedResults & found, double codesDn2)
 
 /** Files no gain, where the frames' rows had light of their own. */
 void
-RefuseRowLight(Report & report, const RefinedResults & found, double effect)
+RefuseLineLight(Report & report, const RefinedResults & found, double effect)
 {
   SetSensorParameters(report, EstimateStatus::Failed);
   report.Warn(WarningCode::Contradicted,
-              "the illumination differs from row to row within a frame by " +
-                Percent(std::sqrt(found.rows.left.value)) + " rms, which adds " +
-                PercentApart(effect, InRefined.largestRowLight) + " to the slope of the variance (expected at most " +
-                Percent(InRefined.largestRowLight) +
+              "the illumination differs from " + NameOfLine(found.lines.axis) + " to " + NameOfLine(found.lines.axis) +
+                " within a frame by " + Percent(std::sqrt(found.lines.left.value)) + " rms, which adds " +
+                PercentApart(effect, InRefined.largestLineLight) + " to the slope of the variance (expected at most " +
+                Percent(InRefined.largestLineLight) +
                 "): a pulsed lamp under a rolling shutter, or interlaced frames. Use a lamp on direct current, expose "
                 "for whole periods of the lamp, or give one field of the frames");
 }
@@ -242,10 +251,10 @@ FillSensor(Report & report, const RefinedResults & found, const GainEstimate & g
   FillMotion(report, found, offsetFromCentre, offset.errorDn);
   WarnOfMotion(report, found);
   if (const double effect =
-        EffectOfRowLight(found.rows.left, found.scene.model.brightestDn - found.blackDn, gain.line.gain);
+        EffectOfLineLight(found.lines.left, found.scene.model.brightestDn - found.blackDn, gain.line.gain);
       effect > 0.0)
   {
-    RefuseRowLight(report, found, effect);
+    RefuseLineLight(report, found, effect);
     FillFromDarkFrames(report, found.settings, codesDn2);
     return;
   }
@@ -343,7 +352,7 @@ MakeRefinedReport(const RefinedResults & found, const ParallelFor & parallelFor)
     const RefinedResults  sensor = { settings,       found.scene,       found.series,
                                      found.variance, found.polished,    found.correctedVariance,
                                      found.blackDn,  found.correlation, found.frameNoise,
-                                     found.rows,     found.exposures };
+                                     found.lines,    found.exposures };
     FillSensor(report, sensor, EstimateGain(sensor, lines), codesDn2);
   }
   else

@@ -7,7 +7,7 @@
 #include "sensornoise/moments/ExposureFit.h"
 #include "sensornoise/refined/PolishedSeries.h"
 #include "sensornoise/refined/RefinedSettings.h"
-#include "sensornoise/refined/RowIllumination.h"
+#include "sensornoise/refined/LineIllumination.h"
 #include "sensornoise/refined/UnlikeNoise.h"
 #include "sensornoise/scene/StillScene.h"
 #include "sensornoise/series/Constants.h"
@@ -30,7 +30,7 @@ struct RefinedResults
   double                      blackDn{ 0.0 };    ///< see BlackLevel()
   NoiseCorrelation            correlation{};     ///< of the third pass's sample
   FrameNoise                  frameNoise{};      ///< of the frames as given
-  RowIllumination             rows{};            ///< of the third pass's sample
+  LineIllumination            lines{};           ///< of the third pass's sample
   /** What the frames' exposures tell; null: none were given. */
   const ExposureFit * exposures{ nullptr };
 
@@ -63,9 +63,9 @@ struct RefinedResults
   double
   RestOfLight() const
   {
-    if (rows.isTakenOff)
+    if (lines.isTakenOff)
     {
-      return rows.restOfVariance;
+      return lines.restOfVariance;
     }
     const LocalIllumination & local = series.local;
     if (!(local.beyond > 1.0) || correlation.kind == NoiseKind::Temporal)

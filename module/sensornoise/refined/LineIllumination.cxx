@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/refined/RowIllumination.h"
+#include "sensornoise/refined/LineIllumination.h"
 
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/PixelUse.h"
@@ -79,28 +79,28 @@ RestOfVariance(const NoiseResiduals & residuals, const ParallelFor & parallelFor
   const double perFrame = 1.0 / std::max(1.0, residuals.GetFreedom());
   const double rest = estimate.value(0) * perFrame;
   const double error = estimate.StandardError(0) * perFrame;
-  return rest > Significance.severalTests * error && rest > InRefined.largestRowLight / InRefined.slopeOfRest ? rest
-                                                                                                              : 0.0;
+  return rest > Significance.severalTests * error && rest > InRefined.largestLineLight / InRefined.slopeOfRest ? rest
+                                                                                                               : 0.0;
 }
 } // namespace
 
 double
-EffectOfRowLight(const MeasuredNumber & square, double signalDn, double gain)
+EffectOfLineLight(const MeasuredNumber & square, double signalDn, double gain)
 {
   const double effect = square.value * std::max(0.0, signalDn) / gain;
-  return square.value > Significance.severalTests * square.standardError && effect > InRefined.largestRowLight ? effect
-                                                                                                               : 0.0;
+  return square.value > Significance.severalTests * square.standardError && effect > InRefined.largestLineLight ? effect
+                                                                                                                : 0.0;
 }
 
 void
-TakeOffRowIllumination(RowIllumination &           rows,
-                       NoiseResiduals &            residuals,
-                       ProjectedVariance &         projected,
-                       std::vector<std::uint8_t> & chosen,
-                       std::vector<std::uint8_t> & pixelUse,
-                       const ParallelFor &         parallelFor)
+TakeOffLineIllumination(LineIllumination &          lines,
+                        NoiseResiduals &            residuals,
+                        ProjectedVariance &         projected,
+                        std::vector<std::uint8_t> & chosen,
+                        std::vector<std::uint8_t> & pixelUse,
+                        const ParallelFor &         parallelFor)
 {
-  const std::vector<float>  left = residuals.TakeOffRows(chosen, parallelFor);
+  const std::vector<float>  left = residuals.TakeOffLines(lines.axis, chosen, parallelFor);
   const SampleTiles &       tiles = residuals.GetTiles();
   const std::size_t         width = projected.GetFrame().geometry.width;
   std::vector<std::uint8_t> sampled(chosen.size(), 0);
@@ -124,9 +124,9 @@ TakeOffRowIllumination(RowIllumination &           rows,
     }
   }
   chosen = std::move(sampled);
-  rows.isTakenOff = true;
-  rows.pixels = static_cast<std::size_t>(std::count(chosen.begin(), chosen.end(), std::uint8_t{ 1 }));
-  rows.restOfVariance = RestOfVariance(residuals, parallelFor);
+  lines.isTakenOff = true;
+  lines.pixels = static_cast<std::size_t>(std::count(chosen.begin(), chosen.end(), std::uint8_t{ 1 }));
+  lines.restOfVariance = RestOfVariance(residuals, parallelFor);
 }
 
 } // namespace sensornoise

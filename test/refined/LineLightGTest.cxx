@@ -19,9 +19,10 @@ namespace
 constexpr std::size_t Size = 128;
 constexpr std::size_t Frames = 50;
 
-/** The report of frames whose odd rows have an illumination of their own, of the standard deviation \a sd. */
+/** The report of frames whose odd rows, or columns, have an illumination of their own, of the standard deviation \a sd.
+ */
 Report
-ReportOfInterlaced(double sd)
+ReportOfInterlaced(double sd, bool areColumns = false)
 {
   SimulationSettings settings = FlickeringSettings(Frames);
   settings.seed = 3;
@@ -33,7 +34,7 @@ ReportOfInterlaced(double sd)
     const double factor = 1.0 + normal(random);
     for (std::size_t p = 0; p < Size * Size; ++p)
     {
-      if (p / Size % 2 != 0 && sd > 0.0)
+      if ((areColumns ? p : p / Size) % 2 != 0 && sd > 0.0)
       {
         auto &       value = stack.pixels[t * Size * Size + p];
         const double level = settings.camera.offsetDn + factor * (value - settings.camera.offsetDn);
@@ -46,19 +47,23 @@ ReportOfInterlaced(double sd)
 
 } // namespace
 
-TEST(SensorNoiseRowLight, InterlacedFramesAreMeasuredWithoutWhatRowsShare)
+TEST(SensorNoiseLineLight, InterlacedFramesAreMeasuredWithoutWhatLinesShare)
 {
-  const Report report = ReportOfInterlaced(0.008);
-  ASSERT_TRUE(report.gain.value);
-  EXPECT_NEAR(*report.gain.value, FlickeringSettings(Frames).camera.gain, 4.0 * *report.gain.standardError);
-  const auto note = std::find_if(report.warnings.begin(), report.warnings.end(), [](const Warning & warning) {
-    return warning.code == WarningCode::LocalLight;
-  });
-  ASSERT_NE(note, report.warnings.end());
-  EXPECT_NE(note->message.find("from row to row"), std::string::npos) << note->message;
+  for (const bool areColumns : { false, true })
+  {
+    const Report report = ReportOfInterlaced(0.008, areColumns);
+    ASSERT_TRUE(report.gain.value);
+    EXPECT_NEAR(*report.gain.value, FlickeringSettings(Frames).camera.gainDnPerElectron, 4.0 * *report.gain.standardError);
+    const auto note = std::find_if(report.warnings.begin(), report.warnings.end(), [](const Warning & warning) {
+      return warning.code == WarningCode::LocalLight;
+    });
+    ASSERT_NE(note, report.warnings.end());
+    const char * const expected = areColumns ? "from column to column" : "from row to row";
+    EXPECT_NE(note->message.find(expected), std::string::npos) << note->message;
+  }
 }
 
-TEST(SensorNoiseRowLight, FramesThatFlickerAsAWholeHaveNoLightOfRows)
+TEST(SensorNoiseLineLight, FramesThatFlickerAsAWholeHaveNoLightOfRows)
 {
   const Report report = ReportOfInterlaced(0.0);
   EXPECT_TRUE(report.gain.value);

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <vector>
 
-// What the pixels of a row share in a frame is taken off.
+// What the pixels of a row or a column share in a frame is taken off.
 
 using namespace sensornoise;
 using namespace sensornoise::test;
@@ -53,7 +53,7 @@ NoiseResiduals
 WithoutRows(double sd, std::vector<float> & left, const ParallelFor & parallelFor = SerialFor)
 {
   auto residuals = ResidualsOf(Geometry, Frames, Light(), NoiseUnderRows(sd));
-  left = residuals.TakeOffRows(All, parallelFor);
+  left = residuals.TakeOffLines(LineAxis::Rows, All, parallelFor);
   return residuals;
 }
 
@@ -72,7 +72,7 @@ ForValues(const NoiseResiduals & residuals, TFunction function)
 }
 } // namespace
 
-TEST(SensorNoiseNoiseResidualRows, NothingOfTheLightOfRowsIsLeft)
+TEST(SensorNoiseNoiseResidualLines, NothingOfTheLightOfRowsIsLeft)
 {
   std::vector<float>   left;
   const NoiseResiduals still = WithoutRows(0.0, left);
@@ -88,7 +88,7 @@ TEST(SensorNoiseNoiseResidualRows, NothingOfTheLightOfRowsIsLeft)
   EXPECT_LT(std::sqrt(square / count), 0.01);
 }
 
-TEST(SensorNoiseNoiseResidualRows, VarianceStays)
+TEST(SensorNoiseNoiseResidualLines, VarianceStays)
 {
   std::vector<float>   left;
   const NoiseResiduals residuals = WithoutRows(0.05, left);
@@ -109,26 +109,26 @@ TEST(SensorNoiseNoiseResidualRows, VarianceStays)
   EXPECT_NEAR(variance, 1.0, 4.0 * std::sqrt(2.0 / (residuals.GetFreedom() * count)));
 }
 
-TEST(SensorNoiseNoiseResidualRows, RowsOfOneLevelLoseTheirMeanAlone)
+TEST(SensorNoiseNoiseResidualLines, RowsOfOneLevelLoseTheirMeanAlone)
 {
   std::vector<float> left;
   auto               residuals =
     ResidualsOf(Geometry, Frames, std::vector<double>(Geometry.Pixels(), 100.0), WhiteNoise(Geometry, 6));
-  left = residuals.TakeOffRows(All, SerialFor);
+  left = residuals.TakeOffLines(LineAxis::Rows, All, SerialFor);
   EXPECT_NEAR(left.front(), 1.0 - 1.0 / 128.0, 1e-6);
 }
 
-TEST(SensorNoiseNoiseResidualRows, RowsWithoutPixelsTellNothing)
+TEST(SensorNoiseNoiseResidualLines, RowsWithoutPixelsTellNothing)
 {
   auto                      residuals = ResidualsOf(Geometry, Frames, Light(), NoiseUnderRows(0.05));
   std::vector<std::uint8_t> take = All;
   std::fill_n(take.begin(), Geometry.width, std::uint8_t{ 0 });
-  const std::vector<float> left = residuals.TakeOffRows(take, SerialFor);
+  const std::vector<float> left = residuals.TakeOffLines(LineAxis::Rows, take, SerialFor);
   EXPECT_EQ(left.front(), 0.0F);
   EXPECT_GT(left[residuals.GetTiles().side], 0.9F);
 }
 
-TEST(SensorNoiseNoiseResidualRows, ThreadsGiveTheSameBits)
+TEST(SensorNoiseNoiseResidualLines, ThreadsGiveTheSameBits)
 {
   std::vector<float>   ofOne;
   std::vector<float>   ofThree;
@@ -136,4 +136,43 @@ TEST(SensorNoiseNoiseResidualRows, ThreadsGiveTheSameBits)
   const NoiseResiduals three = WithoutRows(0.05, ofThree, Threads(3));
   EXPECT_EQ(ofOne, ofThree);
   ForValues(one, [&](std::size_t i, std::size_t k) { ASSERT_EQ(one.OfTile(i)[k], three.OfTile(i)[k]); });
+}
+
+TEST(SensorNoiseNoiseResidualLines, ColumnsOfTheTransposedFrameAreItsRows)
+{
+  const auto transposed = [](const std::vector<double> & values) {
+    std::vector<double> other(values.size());
+    for (std::size_t p = 0; p < values.size(); ++p)
+    {
+      other[p % Geometry.width * Geometry.width + p / Geometry.width] = values[p];
+    }
+    return other;
+  };
+  const auto frameOf = NoiseUnderRows(0.05);
+  auto       turned = ResidualsOf(Geometry, Frames, transposed(Light()), [&](std::size_t t) {
+    DoubleFrame frame = frameOf(t);
+    frame.values = transposed(frame.values);
+    return frame;
+  });
+  turned.TakeOffLines(LineAxis::Columns, All, SerialFor);
+  std::vector<float>   left;
+  const NoiseResiduals rows = WithoutRows(0.05, left);
+  const SampleTiles &  tiles = rows.GetTiles();
+  double               largest = 0.0;
+  for (std::size_t i = 0; i < tiles.origins.size(); ++i)
+  {
+    const auto other =
+      static_cast<std::size_t>(std::find_if(tiles.origins.begin(),
+                                            tiles.origins.end(),
+                                            [&](const SampleTiles::Origin & origin) {
+                                              return origin.x == tiles.origins[i].y && origin.y == tiles.origins[i].x;
+                                            }) -
+                               tiles.origins.begin());
+    for (std::size_t p = 0; p < tiles.Pixels(); ++p)
+    {
+      const std::size_t mirrored = p % tiles.side * tiles.side + p / tiles.side;
+      largest = std::max(largest, std::abs(static_cast<double>(rows.OfTile(i)[p] - turned.OfTile(other)[mirrored])));
+    }
+  }
+  EXPECT_LT(largest, 1e-3); // weights are of bins whose pixels are sorted in another order
 }

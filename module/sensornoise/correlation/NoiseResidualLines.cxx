@@ -17,33 +17,36 @@ namespace sensornoise
 
 namespace
 {
-/** The tiles that lie side by side, by the row of their upper border. */
+/** The tiles whose lines continue each other. */
 std::vector<std::vector<std::size_t>>
-TilesSideBySide(const SampleTiles & tiles)
+TilesInLine(const SampleTiles & tiles, LineAxis axis)
 {
-  std::map<std::size_t, std::vector<std::size_t>> rows;
+  std::map<std::size_t, std::vector<std::size_t>> lines;
   for (std::size_t i = 0; i < tiles.origins.size(); ++i)
   {
-    rows[tiles.origins[i].y].push_back(i);
+    lines[axis == LineAxis::Rows ? tiles.origins[i].y : tiles.origins[i].x].push_back(i);
   }
   std::vector<std::vector<std::size_t>> groups;
-  for (auto & row : rows)
+  for (auto & line : lines)
   {
-    groups.push_back(std::move(row.second));
+    groups.push_back(std::move(line.second));
   }
   return groups;
 }
-
 } // namespace
 
 void
-NoiseResiduals::RegressRows(const std::vector<std::size_t> & tiles, std::size_t y, std::vector<float> & left)
+NoiseResiduals::RegressLines(LineAxis                         axis,
+                             const std::vector<std::size_t> & tiles,
+                             std::size_t                      line,
+                             std::vector<float> &             left)
 {
   const std::size_t side = this->GetTiles().side;
   const std::size_t pixels = tiles.size() * side;
-  const auto        placeOf = [&](std::size_t k) { return tiles[k / side] * side * side + y * side + k % side; };
+  const auto        inTile = [&](std::size_t k) { return this->GetTiles().InTile(axis, line, k % side); };
+  const auto        placeOf = [&](std::size_t k) { return tiles[k / side] * side * side + inTile(k); };
   const auto        valueOf = [&](std::size_t t, std::size_t k) -> float & {
-    return m_Sample.OfTile(tiles[k / side])[(t * side + y) * side + k % side];
+    return m_Sample.OfTile(tiles[k / side])[t * side * side + inTile(k)];
   };
   Eigen::ArrayXd w(static_cast<Eigen::Index>(pixels));
   Eigen::ArrayXd z(w.size());
@@ -60,7 +63,7 @@ NoiseResiduals::RegressRows(const std::vector<std::size_t> & tiles, std::size_t 
   const double square = (w * z.square()).sum();
   z -= (w * z).sum() / weight;
   const double spread = (w * z.square()).sum();
-  const bool   hasSlope = spread > InCorrelation.leastSpreadOfRow * square;
+  const bool   hasSlope = spread > InCorrelation.leastSpreadOfLine * square;
   // Orthonormal, with the weights: the constant, and what grows with the light.
   const double         constant = 1.0 / std::sqrt(weight);
   const Eigen::ArrayXd slope = hasSlope ? Eigen::ArrayXd(z / std::sqrt(spread)) : Eigen::ArrayXd::Zero(z.size());
@@ -68,11 +71,11 @@ NoiseResiduals::RegressRows(const std::vector<std::size_t> & tiles, std::size_t 
   {
     const auto   i = static_cast<Eigen::Index>(k);
     const double rest = 1.0 - w(i) * (constant * constant + slope(i) * slope(i));
-    const bool   counts = rest > InCorrelation.leastLeftOfRow;
+    const bool   counts = rest > InCorrelation.leastLeftOfLine;
     const double scale = counts ? 1.0 / std::sqrt(rest) : 0.0;
     left[placeOf(k)] = counts ? static_cast<float>(rest) : 0.0F;
-    m_RowShares[0][placeOf(k)] = static_cast<float>(scale * constant);
-    m_RowShares[1][placeOf(k)] = static_cast<float>(scale * slope(i));
+    m_LineShares[0][placeOf(k)] = static_cast<float>(scale * constant);
+    m_LineShares[1][placeOf(k)] = static_cast<float>(scale * slope(i));
   }
   Eigen::ArrayXd values(w.size());
   for (std::size_t t = 0; t < this->GetTiles().frames; ++t)
@@ -92,20 +95,22 @@ NoiseResiduals::RegressRows(const std::vector<std::size_t> & tiles, std::size_t 
 }
 
 std::vector<float>
-NoiseResiduals::TakeOffRows(const std::vector<std::uint8_t> & take, const ParallelFor & parallelFor)
+NoiseResiduals::TakeOffLines(LineAxis axis, const std::vector<std::uint8_t> & take, const ParallelFor & parallelFor)
 {
   const SampleTiles &                         tiles = this->GetTiles();
-  const std::vector<std::vector<std::size_t>> groups = TilesSideBySide(tiles);
-  std::vector<float>                          left(m_Light.size());
-  for (std::vector<float> & shares : m_RowShares)
+  const std::vector<std::vector<std::size_t>> groups = TilesInLine(tiles, axis);
+  m_LinesTakenOff = axis;
+  std::vector<float> left(m_Light.size());
+  for (std::vector<float> & shares : m_LineShares)
   {
     shares.assign(m_Light.size(), 0.0F);
   }
-  // The weights are better the second time, without what rows shared; the result is that of these weights alone.
+  // The weights are better the second time, without what lines shared; the result is that of these weights alone.
   for (int twice = 0; twice < 2; ++twice)
   {
-    parallelFor(groups.size() * tiles.side,
-                [&](std::size_t row) { this->RegressRows(groups[row / tiles.side], row % tiles.side, left); });
+    parallelFor(groups.size() * tiles.side, [&](std::size_t line) {
+      this->RegressLines(axis, groups[line / tiles.side], line % tiles.side, left);
+    });
     parallelFor(tiles.origins.size(), [&](std::size_t i) {
       this->SumSquares(i);
       for (std::size_t p = i * tiles.Pixels(); p < (i + 1) * tiles.Pixels(); ++p)

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_refined_LineIllumination_h
+#define sensornoise_refined_LineIllumination_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/base/Parallel.h"
+#include "sensornoise/correlation/NoiseCorrelation.h"
+#include "sensornoise/correlation/NoiseResiduals.h"
+#include "sensornoise/pixels/ProjectedVariance.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** The illumination that the rows of a frame have of their own, or its columns where the frame is turned: of a lamp
+ * that pulses under a rolling shutter, of interlaced frames. Estimator.md, 3.18. */
+struct LineIllumination
+{
+  LineAxis axis{ LineAxis::Rows };
+  /** Mean square of its relative changes, see FindLineLight() [1]: before anything was taken off, and what is left. */
+  MeasuredNumber found;
+  MeasuredNumber left;
+  /** Whether it was taken off, and the pixels that were measured so: those of the noise sample. */
+  bool        isTakenOff{ false };
+  std::size_t pixels{ 0 };
+  /** What other illumination adds to the variance of a pixel then, relative to it [1]; 0: nothing beyond chance. */
+  double restOfVariance{ 0.0 };
+};
+
+/** What changes of the mean square \a square add to the slope of the variance, relative to the gain \a gain [1]: they
+ * add their product with q^2 to the variance of the signal q, of which the brightest is \a signalDn. 0: nothing beyond
+ * chance, or less than counts. */
+SensorNoise_EXPORT double
+EffectOfLineLight(const MeasuredNumber & square, double signalDn, double gain);
+
+/** Takes what the \a lines of its axis share off the \a residuals, whose pixels are those of \a chosen, and puts the
+ * variance that is left into \a projected. Pixels outside of the sample leave \a chosen, and are marked in \a pixelUse.
+ */
+SensorNoise_EXPORT void
+TakeOffLineIllumination(LineIllumination &          lines,
+                        NoiseResiduals &            residuals,
+                        ProjectedVariance &         projected,
+                        std::vector<std::uint8_t> & chosen,
+                        std::vector<std::uint8_t> & pixelUse,
+                        const ParallelFor &         parallelFor);
+
+} // namespace sensornoise
+
+#endif
