@@ -46,6 +46,12 @@ def rolling_shutter(random, electrons, strength, period=0.37):
     return burst(expose_each(random, factors[:, :, None] * electrons))
 
 
+def turned(random, electrons, strength):
+    """The frames of rolling_shutter() after a quarter turn, as of a camera that was held upright."""
+    lying = rolling_shutter(random, electrons, strength)
+    return lying._replace(frames=np.ascontiguousarray(lying.frames.transpose(0, 2, 1)))
+
+
 def interlaced(random, electrons, flicker):
     """Even rows are exposed at another moment than odd ones: two fields, each with its own illumination factor."""
     factors = np.empty((FRAMES, SHAPE[0], 1))
@@ -144,6 +150,7 @@ def line(name, make, *given, expected=MEASURED):
 SITUATIONS = (
     *(line(f"rolling-shutter-{strength:.0%}", rolling_shutter, strength) for strength in (0.03, 0.1)),
     line("rolling-shutter-10%-slow", rolling_shutter, 0.1, 1.7),
+    line("rolling-shutter-10%-turned", turned, 0.1),
     *(line(f"interlaced-{flicker:.1%}", interlaced, flicker) for flicker in (0.005, 0.02)),
     *(line(f"interference-{strength:g}", interference, strength) for strength in (0.35, 1.0)),
     *(line(f"eight-bits-{highest:g}", eight_bits, highest) for highest in (5000.0, 10000.0, 20000.0)),
