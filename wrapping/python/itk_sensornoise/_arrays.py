@@ -4,6 +4,7 @@
 
 import numpy as np
 
+from ._errors import InvalidTypeError
 from ._types import ItkObject
 
 # The pixel types of the filters: NumPy's name, ITK's name in Python, ITK's name of a component type of files.
@@ -20,14 +21,14 @@ PIXEL_NAMES = "uint8, uint16, int16, float32 or float64"
 def as_array(values: object, name: str) -> np.ndarray:
     """`values` as an array, shared if it is one; refuses what is none, and masked arrays, whose mask would be lost."""
     if isinstance(values, np.ma.MaskedArray):
-        raise ValueError(f"{name} is a masked array, expected a plain one: give its data, and a mask by mask=")
+        raise InvalidTypeError(f"{name} is a masked array, expected a plain one: give its data, and a mask by mask=")
     if isinstance(values, (list, tuple)) or hasattr(values, "__array__") or hasattr(values, "__array_interface__"):
         try:
             return np.asarray(values)
         except (ValueError, TypeError, RuntimeError) as error:
             # NumPy's of lists of unequal length or of no numbers; tensors' that are elsewhere, or want a gradient.
             raise ValueError(f"{name} cannot be made an array ({error}); expected numbers") from error
-    raise ValueError(f"{name} is of type {type(values).__name__}; expected an array")
+    raise InvalidTypeError(f"{name} is of type {type(values).__name__}; expected an array")
 
 
 def require_pixel_type(array: np.ndarray, name: str) -> str:
@@ -35,7 +36,7 @@ def require_pixel_type(array: np.ndarray, name: str) -> str:
     pixel = array.dtype.newbyteorder("=").name
     if pixel not in PIXEL_TYPES:
         advice = "; convert it with .astype(), if its values allow" if array.dtype.kind in "iufb" else ""
-        raise ValueError(f"{name} has dtype {array.dtype.name}; expected {PIXEL_NAMES}{advice}")
+        raise InvalidTypeError(f"{name} has dtype {array.dtype.name}; expected {PIXEL_NAMES}{advice}")
     return pixel
 
 
@@ -62,7 +63,7 @@ def as_frame(values: object, name: str, dtype: type[np.generic]) -> np.ndarray:
     array = as_array(values, name)
     require_shape(array, name, "y, x")
     if array.dtype.kind not in "iufb":
-        raise ValueError(f"{name} has dtype {array.dtype.name}; expected real numbers")
+        raise InvalidTypeError(f"{name} has dtype {array.dtype.name}; expected real numbers")
     return np.ascontiguousarray(array, dtype=dtype)
 
 
@@ -71,11 +72,23 @@ def as_mask(values: object, name: str) -> np.ndarray:
     array = as_array(values, name)
     require_shape(array, name, "y, x")
     if array.dtype.kind not in "iufb":
-        raise ValueError(f"{name} has dtype {array.dtype.name}; expected real numbers or bool")
+        raise InvalidTypeError(f"{name} has dtype {array.dtype.name}; expected real numbers or bool")
     unknown = int(np.count_nonzero(array != array))
     if unknown:
         raise ValueError(f"{name} has {unknown} pixels that are NaN; expected 0 or another number")
     return np.ascontiguousarray(array != 0, dtype=np.uint8)
+
+
+def image_words(image: ItkObject) -> str:
+    """Words for an image of a type that does not serve, for an error."""
+    import itk
+
+    try:
+        _, (pixel, rank) = itk.template(image)
+    except (KeyError, ValueError):
+        return "no itk.Image"
+    name = getattr(pixel, "name", None) or getattr(pixel, "__name__", str(pixel)).removeprefix("itk")
+    return f"an itk.Image of {rank} dimensions of {name}"
 
 
 def view(array: np.ndarray) -> ItkObject:

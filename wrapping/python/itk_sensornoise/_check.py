@@ -8,9 +8,8 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from . import _options
-from ._arrays import as_mask
 from ._errors import itk_errors
-from ._estimators import _set_parameters
+from ._estimators import mask_of_frames, set_parameters
 from ._frames import frame_image, open_frames
 from ._progress import at_work
 from ._stabilise import noise_model, open_report
@@ -92,10 +91,10 @@ def check_noise_model(frames: Any, report: Any, *, mask: Any = None, **parameter
 
     Raises
     ------
+    TypeError
+        A wrong type, or an unknown parameter.
     ValueError
-        Wrong use, and a report without the two numbers, or with a slope that is not above 0.
-    RuntimeError
-        What ITK threw, in one sentence.
+        A wrong value, and a report without the two numbers, or with a slope that is not above 0.
     """
     import itk
 
@@ -105,9 +104,9 @@ def check_noise_model(frames: Any, report: Any, *, mask: Any = None, **parameter
     if parameters.get("method", "refined") != "refined":
         raise _options.refuse("method", parameters["method"], '"refined", which measures frames of any report')
     estimator = opened.estimator(itk.SensorNoiseEstimator)
-    _set_parameters(estimator, parameters)
+    set_parameters(estimator, parameters, "check_noise_model")
     if mask is not None:
-        mask_array = as_mask(mask, "mask")
+        mask_array = mask_of_frames(mask, opened)
         estimator.SetMask(frame_image(mask_array, opened.image))
     with at_work(estimator, False, opened), itk_errors():
         estimator.Update()

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _options
-from ._arrays import as_frame, as_mask
-from ._errors import itk_errors
+from ._arrays import as_frame
+from ._errors import InvalidTypeError, itk_errors
+from ._estimators import mask_of_frames
 from ._frames import Stack, frame_image, open_frames
 from ._progress import at_work
 from ._record import Record
@@ -136,10 +137,10 @@ def noise_correlation_estimator(
 
     Raises
     ------
+    TypeError
+        A wrong type.
     ValueError
-        Wrong use; says what was found and what was expected.
-    RuntimeError
-        What ITK threw, in one sentence.
+        A wrong value; says what was found and what was expected.
     """
     import itk
 
@@ -149,11 +150,11 @@ def noise_correlation_estimator(
         mean_array = _of_frame(as_frame(mean, "mean", np.float64), "mean", opened)
         estimator.SetMean(frame_image(mean_array, opened.image))
     if mask is not None:
-        mask_array = _of_frame(as_mask(mask, "mask"), "mask", opened)
+        mask_array = mask_of_frames(mask, opened)
         estimator.SetMask(frame_image(mask_array, opened.image))
     for column in _columns(series, opened.size[2]):
         estimator.AddSeries(column)
-    estimator.SetRemoveFrameMeans(bool(remove_frame_means))
+    estimator.SetRemoveFrameMeans(_options.true_or_false("remove_frame_means", remove_frame_means))
     if offset is not None:
         estimator.SetOffset(_options.number("offset", offset))
     if quantisation_step is not None:
@@ -177,7 +178,7 @@ def _columns(series: ArrayLike | None, frames: int) -> Sequence[list[float]]:
     try:
         array = np.asarray(series, dtype=np.float64)
     except (TypeError, ValueError):
-        raise ValueError(f"series is of type {type(series).__name__}; expected {expected}") from None
+        raise InvalidTypeError(f"series is of type {type(series).__name__}; expected {expected}") from None
     if array.ndim not in (1, 2) or len(array) != frames:
         raise ValueError(f"series has shape {array.shape}; expected {expected}")
     if not np.isfinite(array).all():

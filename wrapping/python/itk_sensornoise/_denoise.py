@@ -71,9 +71,11 @@ def denoise_with_noise_model(
 
     Raises
     ------
+    TypeError
+        A wrong type.
     ValueError
-        Wrong use; a report without the two numbers, or with a slope that is not above 0; a pixel that is not finite;
-        levels on another scale than the report's (codes times 16, for one).
+        A wrong value; a report without the two numbers, or with a slope that is not above 0; a pixel that is not
+        finite; levels on another scale than the report's (codes times 16, for one).
     ImportError
         "nlm" without OpenCV.
 

@@ -146,15 +146,16 @@ def estimate_sensor_noise(
     ------
     KeyboardInterrupt
         Ctrl-C, within the time that a chunk of 32 MiB takes; the next call starts afresh.
+    TypeError
+        A wrong type, or an unknown keyword.
     ValueError
-        Wrong use; says what was found and what was expected.
+        A wrong value; says what was found and what was expected. Files that are damaged, or not alike, are one.
+    MemoryError
+        There is not enough memory.
     ImportError
         A raw file of a camera without rawpy. What a reader of lazy frames raises is raised as it is.
-    RuntimeError
-        What ITK threw, in one sentence.
     """
-    if not isinstance(hash, bool):
-        raise _options.refuse("hash", hash, "True or False")
+    hash = _options.true_or_false("hash", hash)
     settings = Settings(
         method=method,
         offset=offset,

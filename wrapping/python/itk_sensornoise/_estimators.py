@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Estimators, whose result is a record, in ITK's functional style: arrays or images in, a mapping out."""
 
+import difflib
+import re
 from typing import Any
 
 import numpy as np
@@ -9,28 +11,53 @@ import numpy as np
 from . import _options
 from ._arrays import as_frame, as_mask, view
 from ._channels import ChannelReports, report_of
-from ._errors import itk_errors
-from ._frames import open_frames
+from ._errors import InvalidTypeError, InvalidValueError, cause_of, itk_errors, python_error_of
+from ._frames import Stack, frame_image, open_frames
 from ._progress import at_work
 from ._report import Report
 from ._types import Frame, Frames, ItkObject
 
 
-def _set_parameters(instance: ItkObject, parameters: dict[str, Any]) -> None:
-    """Sets a filter's parameters by ITK's snake-case names."""
+def set_parameters(instance: ItkObject, parameters: dict[str, Any], function: str) -> None:
+    """Sets a filter's parameters by ITK's snake-case names. Raises TypeError, with the name of the `function` that they
+    were given to, for an unknown one and for a value of a wrong type, ValueError for a wrong value."""
     for name, value in parameters.items():
         setter = getattr(instance, "Set" + "".join(word.capitalize() for word in name.split("_")), None)
         if setter is None:
-            raise ValueError(f"{name} is not a parameter of {type(instance).__name__}; help() of that tells")
-        with itk_errors(f"{name} is {value!r}: ", ValueError):
+            raise InvalidTypeError(f"{name} is not a parameter of {function}(){_similar(name, instance)}")
+        if isinstance(value, np.generic):
+            value = value.item()  # noqa: PLW2901 - SWIG takes Python's numbers alone
+        try:
             setter(value)
+        except (TypeError, OverflowError) as error:  # of SWIG: the value fits no type of C++
+            kind = InvalidTypeError if isinstance(error, TypeError) else InvalidValueError
+            raise kind(f"{name} is {value!r}; {cause_of(error)}") from None
+        except RuntimeError as error:
+            raise python_error_of(error) from None
 
 
-def _frames_of_one_shape(**arrays: np.ndarray | None) -> None:
+def _similar(name: str, instance: ItkObject) -> str:
+    """Advice for a name that is no parameter."""
+    setters = (known.removeprefix("Set") for known in dir(instance) if known.startswith("Set"))
+    names = [re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", setter).lower() for setter in setters]
+    found = difflib.get_close_matches(name, names, 1)
+    return f"; expected another name, perhaps {found[0]}" if found else "; help() of the function names them"
+
+
+def require_one_shape(**arrays: np.ndarray | None) -> None:
+    """Raises ValueError where arrays that belong together have several shapes."""
     shapes = {name: array.shape for name, array in arrays.items() if array is not None}
     if len(set(shapes.values())) > 1:
         found = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
         raise ValueError(f"the shapes are {found}; expected one for all")
+
+
+def mask_of_frames(mask: Frame, stack: Stack) -> np.ndarray:
+    """A mask, which must have the size of the frames."""
+    array = as_mask(mask, "mask")
+    if array.shape != stack.size[1::-1]:
+        raise ValueError(f"mask has shape {array.shape}; expected {stack.size[1::-1]}, the shape of a frame")
+    return array
 
 
 def sensor_noise_estimator(
@@ -41,22 +68,22 @@ def sensor_noise_estimator(
     `stack` as `frames` there; `mask` an array (y, x), or an image, of a frame's size: pixels of value 0 are left out;
     `dark` frames without light, as `stack`. `parameters`: those of itk.SensorNoiseEstimator in snake case, for example
     `method="published", bit_depth=12, rolling_shutter="off"`.
-    Raises ValueError for wrong use, RuntimeError for what ITK threw.
+    Raises TypeError for a wrong type and an unknown parameter, ValueError for a wrong value.
     """
     import itk
 
     opened = open_frames(stack)
     stacks = [opened]
     estimator = opened.estimator(itk.SensorNoiseEstimator)
-    _set_parameters(estimator, parameters)
+    set_parameters(estimator, parameters, "sensor_noise_estimator")
     if mask is not None:
-        mask_array = as_mask(mask, "mask")
-        estimator.SetMask(view(mask_array))
+        mask_array = mask_of_frames(mask, opened)
+        estimator.SetMask(frame_image(mask_array, opened.image))
     if dark is not None:
         dark_stack = open_frames(dark, name="dark")
         stacks.append(dark_stack)
         if dark_stack.pixel != opened.pixel:
-            raise ValueError(f"dark has pixels of type {dark_stack.pixel}; expected {opened.pixel}, as the stack")
+            raise InvalidTypeError(f"dark has pixels of type {dark_stack.pixel}; expected {opened.pixel}, as the stack")
         estimator.SetDark(dark_stack.image)
     with at_work(estimator, False, *stacks), itk_errors():
         estimator.Update()
@@ -70,13 +97,13 @@ def temporal_statistics_image_filter(stack: Frames, **parameters: Any) -> tuple[
     case, for example `bit_depth=12`.
 
     Returns mean [DN], variance [DN^2] and the valid mask (1: finite and never clipped), arrays (y, x); images where the
-    stack is an itk.Image. Raises ValueError for wrong use, RuntimeError for what ITK threw.
+    stack is an itk.Image. Raises TypeError for a wrong type and an unknown parameter, ValueError for a wrong value.
     """
     import itk
 
     opened = open_frames(stack, name="stack")
     statistics = opened.estimator(itk.TemporalStatisticsImageFilter)
-    _set_parameters(statistics, parameters)
+    set_parameters(statistics, parameters, "temporal_statistics_image_filter")
     with at_work(statistics, False, opened), itk_errors():
         statistics.Update()
     images = statistics.GetMean(), statistics.GetVariance(), statistics.GetValidMask()
@@ -95,14 +122,14 @@ def noise_regression_estimator(
     are arrays (y, x) or images of one size. `offset` is mu [DN]; without it, or where it is NaN, offset and read noise
     are not-identifiable. With `number_of_frames`, of which the variance was taken, the fit is judged too.
 
-    Returns the record of estimate_sensor_noise() with these quantities filled. Raises ValueError for wrong use,
-    RuntimeError for what ITK threw.
+    Returns the record of estimate_sensor_noise() with these quantities filled. Raises TypeError for a wrong type,
+    ValueError for a wrong value.
     """
     import itk
 
     mean_array, variance_array = as_frame(mean, "mean", np.float64), as_frame(variance, "variance", np.float64)
     mask_array = as_mask(mask, "mask")
-    _frames_of_one_shape(mean=mean_array, variance=variance_array, mask=mask_array)
+    require_one_shape(mean=mean_array, variance=variance_array, mask=mask_array)
     estimator = itk.NoiseRegressionEstimator[itk.Image[itk.D, 2]].New()
     estimator.SetMean(view(mean_array))
     estimator.SetVariance(view(variance_array))
@@ -124,13 +151,13 @@ def vibration_covariance_estimator(
     are arrays (y, x) or images of one size. `flicker_sd` is sigma_gamma [1] where it is known; default: estimated.
 
     Returns `variance_x`, `variance_y`, `covariance` [pixel^2], `flicker_variance` [1] and `is_determined`, whether the
-    scene has what it takes. Raises ValueError for wrong use, RuntimeError for what ITK threw.
+    scene has what it takes. Raises TypeError for a wrong type, ValueError for a wrong value.
     """
     import itk
 
     mean_array, variance_array = as_frame(mean, "mean", np.float64), as_frame(variance, "variance", np.float64)
     mask_array = None if valid_mask is None else as_mask(valid_mask, "valid_mask")
-    _frames_of_one_shape(mean=mean_array, variance=variance_array, valid_mask=mask_array)
+    require_one_shape(mean=mean_array, variance=variance_array, valid_mask=mask_array)
     estimator = itk.VibrationCovarianceEstimator[itk.Image[itk.D, 2]].New()
     estimator.SetMean(view(mean_array))
     estimator.SetVariance(view(variance_array))

@@ -9,9 +9,19 @@ from typing import Any
 
 import numpy as np
 
-from ._arrays import PIXEL_NAMES, PIXEL_TYPES, as_array, as_itk_order, require_pixel_type, require_shape, view
+from . import _options
+from ._arrays import (
+    PIXEL_NAMES,
+    PIXEL_TYPES,
+    as_array,
+    as_itk_order,
+    image_words,
+    require_pixel_type,
+    require_shape,
+    view,
+)
 from ._bayer import note_pattern
-from ._errors import itk_errors
+from ._errors import InvalidTypeError, itk_errors
 from ._lazy import LazyStack, ListOfFrames, is_lazy, source_of
 from ._names import expand, is_name, refuse_other_formats
 from ._rawpy import RawFiles, is_raw, raw_metadata
@@ -65,7 +75,7 @@ def open_frames(frames: Frames, frame_range: tuple[int, int] | None = None, name
     if is_lazy(frames):
         return _from_lazy(frames, name)  # type: ignore[arg-type]  # told by what it has
     if not hasattr(frames, "__array__"):
-        raise ValueError(f"{name} is of type {type(frames).__name__}; {EXPECTED}")
+        raise InvalidTypeError(f"{name} is of type {type(frames).__name__}; {EXPECTED}")
     array = as_array(frames, name)
     pixel = require_pixel_type(array, name)
     require_shape(array, name, "t, y, x")
@@ -76,11 +86,14 @@ def open_frames(frames: Frames, frame_range: tuple[int, int] | None = None, name
 def open_dumps(frames: object, raw: object, frame_range: tuple[int, int] | None = None, name: str = "frames") -> Stack:
     """The stack on files without a header, which lie as `raw` says. Raises ValueError where `frames` are no names of
     files, with the `name` of the parameter, or `raw` is no layout."""
-    if not isinstance(raw, str) or not raw:
-        raise ValueError(f"raw is {raw!r}; expected a layout, for example '640x480:uint16le'")
+    layout = "a layout, for example '640x480:uint16le'"
+    if not isinstance(raw, str):
+        raise _options.refuse_type("raw", raw, layout)
+    if not raw:
+        raise _options.refuse("raw", raw, layout)
     names = [frames] if is_name(frames) else frames
     if not isinstance(names, (list, tuple)) or not all(map(is_name, names)):
-        raise ValueError(f"raw was given and {name} is of type {type(frames).__name__}; expected names of files")
+        raise InvalidTypeError(f"raw was given and {name} is of type {type(frames).__name__}; expected names of files")
     _require_range(names, frame_range)
     return _from_files(names, frame_range, raw)
 
@@ -130,7 +143,7 @@ def _from_image(image: ItkObject, name: str) -> Stack:
             if 0 in image.GetLargestPossibleRegion().GetSize():
                 raise ValueError(f"{name} is an itk.Image without pixels; expected at least 1 along each axis")
             return Stack(image, pixel, [image])
-    raise ValueError(f"{name} is an {type(image).__name__}; expected an itk.Image of 3 dimensions of {PIXEL_NAMES}")
+    raise InvalidTypeError(f"{name} is {image_words(image)}; expected an itk.Image of 3 dimensions of {PIXEL_NAMES}")
 
 
 def _from_files(names: Sequence[FileName], frame_range: tuple[int, int] | None, raw: str = "") -> Stack:
@@ -165,7 +178,7 @@ def _from_list(frames: Sequence[Any], frame_range: tuple[int, int] | None, name:
     if named == len(frames):
         return _from_files(frames, frame_range)
     if named > 0:
-        raise ValueError(f"{name} holds {named} file names and {len(frames) - named} others; expected one kind")
+        raise InvalidTypeError(f"{name} holds {named} file names and {len(frames) - named} others; expected one kind")
     is_cut = frame_range is not None and len(frames) > 1
     if frame_range is not None and is_cut:
         frames = frames[frame_range[0] : frame_range[1]]

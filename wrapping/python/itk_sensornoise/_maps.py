@@ -35,8 +35,11 @@ class Maps(dict[str, np.ndarray]):
 
 def maps_folder(folder: FileName) -> Path:
     """The folder, which is made if there is none."""
-    if not isinstance(folder, (str, os.PathLike)) or not os.fspath(folder):
-        raise _options.refuse("maps", folder, "True or the name of a folder")
+    expected = "True or the name of a folder"
+    if not isinstance(folder, (str, os.PathLike)):
+        raise _options.refuse_type("maps", folder, expected)
+    if not os.fspath(folder):
+        raise _options.refuse("maps", folder, expected)
     path = Path(os.fsdecode(folder))
     try:
         path.mkdir(parents=True, exist_ok=True)
@@ -87,7 +90,7 @@ def arrays_of(estimator: ItkObject) -> dict[str, np.ndarray]:
 
 
 def write_maps(estimator: ItkObject, folder: Path) -> None:
-    """All of them appear, or none. Raises RuntimeError for what ITK threw."""
+    """All of them appear, or none. Raises RuntimeError where one cannot be written."""
     import itk
 
     written: dict[Path, Path] = {}
@@ -96,7 +99,7 @@ def write_maps(estimator: ItkObject, folder: Path) -> None:
             target = Path(os.path.realpath(folder / f"{name}.mha"))  # of a link, what it leads to
             temporary = target.parent / f".{name}.{os.getpid()}.mha"
             written[temporary] = target
-            with itk_errors(f"{target}: cannot be written; "):
+            with itk_errors(f"{target}: cannot be written; ", RuntimeError):
                 itk.imwrite(image, str(temporary))
         for temporary, target in written.items():
             os.replace(temporary, target)

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator, Set
 from pathlib import Path
 from typing import Any, TypeGuard
 
+from ._errors import InvalidTypeError
 from ._types import FileName
 
 _PATTERN = re.compile(r"[*?\[]")
@@ -101,7 +102,7 @@ def _of_iterator(frames: Iterable[Any], name: str) -> list[FileName]:
     names: list[FileName] = []
     for number, item in enumerate(frames):
         if not is_name(item):
-            raise ValueError(
+            raise InvalidTypeError(
                 f"{name} is of type {type(frames).__name__}, and item {number} of it of type {type(item).__name__}; "
                 "expected file names: frames are read several times over, which arrays from a generator cannot be. "
                 "A list can, or an object with shape, dtype and slices along time"

@@ -1,35 +1,51 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Parameters, checked before a pixel is read, as the tools check theirs. `value` is whatever a user gave."""
+"""Parameters, checked before a pixel is read, as the tools check theirs. `value` is whatever a user gave.
+
+A value of another type is a TypeError, another value a ValueError."""
 
 import math
 import operator
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
+
+from ._errors import InvalidTypeError
+
 
 def refuse(name: str, value: Any, expected: str) -> ValueError:
+    """The error of a wrong value."""
     return ValueError(f"{name} is {value!r}; expected {expected}")
+
+
+def refuse_type(name: str, value: Any, expected: str) -> InvalidTypeError:
+    """The error of a value of a wrong type."""
+    return InvalidTypeError(f"{name} is {value!r}; expected {expected}")
 
 
 def integer(name: str, value: Any, low: int, high: int) -> int:
     """A whole number from `low` to `high`; bool is none."""
     expected = f"a whole number from {low} to {high}"
+    if isinstance(value, (bool, np.bool_)):
+        raise refuse_type(name, value, expected)
     try:
         number = operator.index(value)
     except TypeError:
-        raise refuse(name, value, expected) from None
-    if isinstance(value, bool) or not low <= number <= high:
+        raise refuse_type(name, value, expected) from None
+    if not low <= number <= high:
         raise refuse(name, value, expected)
     return number
 
 
 def number(name: str, value: Any, expected: str = "a finite number", above: float = -math.inf) -> float:
     """A finite number above `above`."""
+    if isinstance(value, (bool, np.bool_, str, bytes)):
+        raise refuse_type(name, value, expected)
     try:
-        result = math.nan if isinstance(value, (bool, str)) else float(value)
+        result = float(value)
     except (TypeError, ValueError):
-        result = math.nan
+        raise refuse_type(name, value, expected) from None
     if not (math.isfinite(result) and result > above):
         raise refuse(name, value, expected)
     return result
@@ -37,10 +53,12 @@ def number(name: str, value: Any, expected: str = "a finite number", above: floa
 
 def items(name: str, value: Any, count: int, expected: str) -> Sequence[Any]:
     """`count` items of a sequence."""
+    if isinstance(value, (str, bytes)):
+        raise refuse_type(name, value, expected)
     try:
-        result = () if isinstance(value, (str, bytes)) else tuple(value)
+        result = tuple(value)
     except TypeError:
-        result = ()
+        raise refuse_type(name, value, expected) from None
     if len(result) != count:
         raise refuse(name, value, expected)
     return result
@@ -56,11 +74,21 @@ def integers(name: str, value: Any, count: int, expected: str) -> list[int]:
     try:
         return [operator.index(item) for item in items(name, value, count, expected)]
     except TypeError:
-        raise refuse(name, value, expected) from None
+        raise refuse_type(name, value, expected) from None
 
 
 def one_of(name: str, value: Any, choices: Sequence[Any]) -> Any:
     """One of the choices."""
-    if isinstance(value, bool) or not any(type(value) is type(choice) and value == choice for choice in choices):
-        raise refuse(name, value, " or ".join(repr(choice) for choice in choices))
+    expected = " or ".join(repr(choice) for choice in choices)
+    if not any(isinstance(value, type(choice)) for choice in choices):
+        raise refuse_type(name, value, expected)
+    if value not in choices:
+        raise refuse(name, value, expected)
     return value
+
+
+def true_or_false(name: str, value: Any) -> bool:
+    """A bool, also one of NumPy's."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise refuse_type(name, value, "True or False")
+    return bool(value)

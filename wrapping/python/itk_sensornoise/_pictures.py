@@ -103,7 +103,7 @@ def _target(path: FileName) -> Path:
     """The file that is to be written; of a link, what it leads to."""
     expected = "the name of a file that ends in .html or .htm"
     if not is_name(path):
-        raise _options.refuse("path", path, expected)
+        raise _options.refuse_type("path", path, expected)
     name = os.fsdecode(path)
     if os.path.isdir(name):
         raise ValueError(f"path is {name!r}, a folder; expected {expected}")

@@ -89,7 +89,7 @@ def at_work(instance: ItkObject, progress: bool = False, *stacks: _Reads) -> Ite
         yield
         if bar is not None and not caught:
             bar.update(100 - int(bar.n))
-    except RuntimeError:  # ITK's "aborted", if _watch() told the filter to stop
+    except (RuntimeError, ValueError):  # ITK's "aborted", if _watch() told the filter to stop
         if not caught and not any(stack.failed for stack in stacks):
             raise
     finally:

@@ -3,7 +3,7 @@
 """The settings of estimate_sensor_noise(), put into an ITK estimator: of a stack that it reads, or of sums."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
@@ -11,6 +11,7 @@ import numpy as np
 from . import _options
 from ._arrays import as_mask
 from ._bayer import set_pattern
+from ._errors import InvalidTypeError
 from ._frames import Stack, crop, frame_image, open_dumps, open_frames
 from ._names import is_name
 from ._source import read_image
@@ -54,6 +55,14 @@ class Settings:
     def span(self) -> tuple[int, int] | None:
         """The frames that are measured: the first and one past the last; None: all."""
         return None if self.frame_range is None else _frame_range(self.frame_range)
+
+
+def require_settings(settings: dict[str, Any]) -> None:
+    """Raises TypeError for a name that is no setting."""
+    known = [each.name for each in fields(Settings)]
+    for name in settings:
+        if name not in known:
+            raise InvalidTypeError(f"{name} is no setting; expected some of {', '.join(known)}")
 
 
 @dataclass
@@ -174,7 +183,7 @@ def _exposures(exposures: Sequence[float], method: str) -> list[float]:
     try:
         count = len(exposures)
     except TypeError:
-        raise _options.refuse("exposures", exposures, expected) from None
+        raise _options.refuse_type("exposures", exposures, expected) from None
     numbers = _options.numbers("exposures", exposures, count, expected)
     if min(numbers, default=-1.0) < 0 or len(set(numbers)) < 3:
         raise _options.refuse("exposures", exposures, expected)

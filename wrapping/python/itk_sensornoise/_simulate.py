@@ -196,8 +196,10 @@ def simulate_sensor_noise(
 
     Raises
     ------
+    TypeError
+        A wrong type, or an unknown keyword.
     ValueError
-        Wrong use; says what was found and what was expected.
+        A wrong value; says what was found and what was expected.
     """
     parameters = dict(locals())
     import itk

@@ -67,7 +67,7 @@ def read_image(file_name: FileName, what: str) -> np.ndarray:
         if frames > 1:
             raise ValueError(f"{os.fsdecode(file_name)}: has {frames} frames; expected one image")
     except ValueError as error:
-        raise ValueError(f"{what} {error}") from error
+        raise ValueError(f"{what} {error}") from None
     with itk_errors(f"{what} "):
         source.Update()
     image: np.ndarray = itk.array_from_image(source.GetOutput())[0]
@@ -84,8 +84,8 @@ def sensor_noise_frame_list_source(
     instance; default: that of the files, and nothing is converted. `raw`: how frames lie in files without a header, as
     estimate_sensor_noise() has it.
 
-    Raises ValueError for files that are not complete, not all alike or not of grey values, RuntimeError where their
-    pixels cannot be read. To read a few frames at a time, use the class, as an input of a filter.
+    Raises ValueError for files that are not complete, not all alike, not of grey values or cannot be read. To read a
+    few frames at a time, use the class, as an input of a filter.
     """
     import itk
 

@@ -11,8 +11,8 @@ from typing import Any, Literal
 import numpy as np
 
 from . import _options
-from ._arrays import PIXEL_NAMES, PIXEL_TYPES, as_array, as_itk_order, require_pixel_type, view
-from ._errors import itk_errors
+from ._arrays import PIXEL_NAMES, PIXEL_TYPES, as_array, as_itk_order, image_words, require_pixel_type, view
+from ._errors import InvalidTypeError, itk_errors
 from ._names import is_name
 
 _SCHEMA = "itk-sensornoise-report/1"
@@ -51,8 +51,10 @@ def generalized_anscombe_image_filter(
 
     Raises
     ------
+    TypeError
+        A wrong type.
     ValueError
-        Wrong use, and a report without the two numbers, or with a slope that is not above 0.
+        A wrong value, and a report without the two numbers, or with a slope that is not above 0.
 
     Warns
     -----
@@ -113,17 +115,17 @@ def inverse_generalized_anscombe_image_filter(
 
     Raises
     ------
+    TypeError
+        A wrong type.
     ValueError
-        Wrong use, and a report without the two numbers, or with a slope that is not above 0.
-    RuntimeError
-        What ITK threw, in one sentence.
+        A wrong value, and a report without the two numbers, or with a slope that is not above 0.
     """
     import itk
 
     slope, intercept = noise_model(report, variance_slope, total_intercept)
     picture = _Picture(image, "image")
     if not picture.pixel.startswith("float"):
-        raise ValueError(f"image has dtype {picture.pixel}; expected stabilised values, float32 or float64")
+        raise InvalidTypeError(f"image has dtype {picture.pixel}; expected stabilised values, float32 or float64")
     _options.one_of("inverse", inverse, ["exact-unbiased", "algebraic", "asymptotic"])
     inverter = picture.filter(
         itk.InverseGeneralizedAnscombeImageFilter, _dtype(dtype, picture.pixel, tuple(PIXEL_TYPES))
@@ -163,7 +165,7 @@ def open_report(report: Any) -> Mapping[str, Any]:
         except ValueError as error:
             raise ValueError(f"{name} is no JSON ({error}); expected {_REPORT}") from error
     if not isinstance(report, Mapping):
-        raise ValueError(f"{name} is of type {type(report).__name__}; expected {_REPORT}")
+        raise InvalidTypeError(f"{name} is of type {type(report).__name__}; expected {_REPORT}")
     if report.get("schema") != _SCHEMA:
         raise ValueError(f'{name} has the schema {report.get("schema")!r}; expected "{_SCHEMA}"')
     if "channels" in report:
@@ -213,7 +215,7 @@ class _Picture:
                             values.UpdateOutputInformation()
                         self.count = int(values.GetLargestPossibleRegion().GetNumberOfPixels())
                         return
-            raise ValueError(f"{name} is an {type(values).__name__}; expected 2 or 3 dimensions of {PIXEL_NAMES}")
+            raise InvalidTypeError(f"{name} is {image_words(values)}; expected 2 or 3 dimensions of {PIXEL_NAMES}")
         array = as_array(values, name)
         self.pixel = require_pixel_type(array, name)
         if array.ndim == 0 or array.size == 0:

@@ -15,7 +15,7 @@ from ._frames import Stack, crop, open_dumps, open_frames
 from ._maps import arrays_of
 from ._names import expand, is_name
 from ._report import Report
-from ._settings import Settings, open_dark, prepare
+from ._settings import Settings, open_dark, prepare, require_settings
 from ._types import Frame, Frames, ItkObject
 
 CHUNK_BYTES = 64 << 20  # of files and lazy frames that are read together
@@ -39,7 +39,7 @@ class SensorNoiseSums:
     of all frames, in every process alike: either all merge what all others have, or one merges all and hands on what it
     has. With integers the report has the bits of estimate_sensor_noise(), whoever reads what and merges when. With
     floating point it is equal to rounding; the same parts, merged in the same order, give the same bits. Frames that
-    are equal bit by bit are counted once: where two processes have counted one each, merge() raises RuntimeError and
+    are equal bit by bit are counted once: where two processes have counted one each, merge() raises ValueError and
     names them; see `fingerprints`.
 
     Bytes of the sums: in pass 1, 20 a pixel (floating point: 32) and 2 kB a frame that is in; in pass 2, 16 kB a frame;
@@ -77,6 +77,7 @@ class SensorNoiseSums:
             **settings,
         )
         self._ended: list[np.ndarray] | None = []
+        require_settings(settings)
         self._settings = Settings(**settings)
         self._settings.check(dark)
         self._start()
@@ -184,7 +185,7 @@ class SensorNoiseSums:
 
     def merge(self, other: "SensorNoiseSums | bytes | np.ndarray") -> bool:
         """Adds the sums of other frames in the same pass: an object, or its to_bytes(). False, and nothing is changed,
-        if all of these frames are in: then they were handed over twice. Raises RuntimeError if only some are in, if a
+        if all of these frames are in: then they were handed over twice. Raises ValueError if only some are in, if a
         frame here and one there are equal, if the sums were made with other settings or of another stack, or by another
         version of the package, which it names, and if the bytes are damaged or not all that to_bytes() returned."""
         sums = _row(other._array() if isinstance(other, SensorNoiseSums) else other)

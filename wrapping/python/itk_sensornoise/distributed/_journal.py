@@ -13,6 +13,7 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
+from .._errors import InvalidTypeError
 from ._table import Entry, Row, rows_of
 
 # Settings with which the same numbers come.
@@ -38,7 +39,7 @@ def _as_json(name: str, value: Any) -> Any:
         return value.item()
     if value is None or isinstance(value, (str, bool, int, float)):
         return value
-    raise ValueError(
+    raise InvalidTypeError(
         f"{name} is of type {type(value).__name__}, which the output cannot tell from another; expected names of files "
         "or a NumPy array"
     )

@@ -10,8 +10,10 @@ from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .._errors import InvalidTypeError
 from .._estimate import estimate_sensor_noise
 from .._names import is_name
+from .._options import refuse, refuse_type
 from .._types import FileName
 from ._journal import Journal, settings_record
 from ._sources import Source, Sources, named
@@ -76,9 +78,11 @@ def estimate_many(
 
     Raises
     ------
+    TypeError
+        A wrong type, or an unknown keyword.
     ValueError
-        Wrong use, and an output that was measured with other settings; says what was found and what was expected. What
-        is wrong with one source is its row's reason.
+        A wrong value, and an output that was measured with other settings; says what was found and what was expected.
+        What is wrong with one source is its row's reason.
     ImportError
         An output that ends in .parquet without PyArrow.
     RuntimeError
@@ -210,14 +214,14 @@ def _require_settings(settings: dict[str, Any]) -> None:
     known = [name for name in inspect.signature(estimate_sensor_noise).parameters if name not in _NOT_OF_MANY]
     for name in settings:
         if name not in known:
-            raise ValueError(f"{name} is no setting of many sources; expected some of {', '.join(known)}")
+            raise InvalidTypeError(f"{name} is no setting of many sources; expected some of {', '.join(known)}")
 
 
 def _require_client(client: Any) -> None:
     if client is None:
         return
     if not (hasattr(client, "submit") and hasattr(client, "nthreads")):
-        raise ValueError(f"client is of type {type(client).__name__}; expected a dask.distributed.Client")
+        raise InvalidTypeError(f"client is of type {type(client).__name__}; expected a dask.distributed.Client")
     if client.asynchronous:
         raise ValueError("client is asynchronous; expected a dask.distributed.Client that waits")
 
@@ -233,4 +237,5 @@ def _files_of(output: FileName | None) -> tuple[Path | None, Path | None]:
         if name.suffix == ".parquet":
             require_parquet()
             return name.with_name(f"{name.name}.jsonl"), name
-    raise ValueError(f"output is {output!r}; expected the name of a file that ends in .jsonl or .parquet")
+    expected = "the name of a file that ends in .jsonl or .parquet"
+    raise (refuse if is_name(output) else refuse_type)("output", output, expected)

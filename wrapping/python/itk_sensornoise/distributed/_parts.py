@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from .._errors import InvalidTypeError
 from .._frames import Stack, crop, open_dumps, open_frames
 from .._lazy import is_lazy
 from .._names import expand, is_name
@@ -97,7 +98,7 @@ def parts_of(frames: Frames, raw: str | None, span: tuple[int, int] | None) -> P
     elif is_lazy(frames) or isinstance(frames, np.ndarray):
         kind, given = "lazy", frames
     else:
-        raise ValueError(
+        raise InvalidTypeError(
             f"frames is of type {type(frames).__name__}; expected a dask array (t, y, x), file names, or an object "
             "with shape, dtype and slices along time that can be pickled"
         )

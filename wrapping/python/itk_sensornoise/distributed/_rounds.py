@@ -13,6 +13,7 @@ import numpy as np
 
 from .. import _options
 from .._channels import ChannelReports
+from .._errors import InvalidTypeError
 from .._progress import Bar, make_bar
 from .._report import Report
 from .._settings import Settings
@@ -82,8 +83,10 @@ def estimate_sensor_noise(
     ------
     ImportError
         Dask's `distributed` is not installed.
+    TypeError
+        A wrong type, or an unknown keyword.
     ValueError
-        Wrong use; no client; a frame that no task brought, by its number.
+        A wrong value; no client; a frame that no task brought, by its number.
     RuntimeError
         What ITK threw; a worker whose memory_limit is below its need; workers that ended again and again over one task,
         or that Dask paused so that nothing goes on for 30 s; a scheduler that went away or was restarted. What reading
@@ -98,8 +101,7 @@ def estimate_sensor_noise(
                 "there is no client of Dask; expected one, dask.distributed.Client(); on one machine "
                 "itk.estimate_sensor_noise() needs none"
             ) from None
-    if not isinstance(maps, bool):
-        raise _options.refuse("maps", maps, "True or False")
+    maps = _options.true_or_false("maps", maps)
     _require_settings(settings)
     checked = Settings(**settings)
     checked.check(dark)
@@ -137,7 +139,7 @@ def _require_settings(settings: dict[str, Any]) -> None:
     known = [each.name for each in fields(Settings)]
     for name in settings:
         if name not in known:
-            raise ValueError(f"{name} is no setting of a cluster; expected some of {', '.join(known)}")
+            raise InvalidTypeError(f"{name} is no setting of a cluster; expected some of {', '.join(known)}")
 
 
 @dataclass

@@ -6,6 +6,7 @@ import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import TypeAlias
 
+from .._errors import InvalidTypeError
 from .._names import is_name
 from .._types import Frames
 
@@ -20,7 +21,9 @@ def named(sources: Sources, needs_names: bool) -> Iterator[tuple[str, Source]]:
     """Each source with its name: as given, or that of its file, or of the first and the last of its files; of other
     frames, "source 0" and so on. Raises ValueError for the latter where it `needs_names`, and for a name twice."""
     if is_name(sources) or hasattr(sources, "shape") or not isinstance(sources, Iterable):
-        raise ValueError(f"sources is of type {type(sources).__name__}; expected {_EXPECTED}; of one source: [source]")
+        raise InvalidTypeError(
+            f"sources is of type {type(sources).__name__}; expected {_EXPECTED}; of one source: [source]"
+        )
     known = set()
     for number, item in enumerate(sources.items() if isinstance(sources, Mapping) else sources):
         is_pair = isinstance(item, tuple) and len(item) == 2 and not isinstance(item[0], os.PathLike)
@@ -33,7 +36,7 @@ def named(sources: Sources, needs_names: bool) -> Iterator[tuple[str, Source]]:
         if name is None:
             name = f"source {number}"
         if not isinstance(name, str):
-            raise ValueError(f"source {number} has the name {name!r}; expected a str")
+            raise InvalidTypeError(f"source {number} has the name {name!r}; expected a str")
         if name in known:
             raise ValueError(f"source {number} has the name {name!r}, as another one has; expected names that differ")
         known.add(name)

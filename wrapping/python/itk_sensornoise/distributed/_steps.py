@@ -49,7 +49,7 @@ def find_steps(values: ArrayLike, standard_errors: ArrayLike, false_alarms: floa
     Raises
     ------
     ValueError
-        Wrong use; says what was found and what was expected.
+        A wrong value; says what was found and what was expected.
 
     The rate holds if the errors do, and are those of independent reports. A slow drift is taken for one step or more.
     """

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .._axes import in_time_order
+from .._errors import InvalidTypeError, InvalidValueError, OutOfMemoryError
 from .._estimate import estimate_sensor_noise
 from .._types import Frames
 from ._memory import memory_of_task
@@ -46,8 +47,8 @@ def measure_pickled(source: bytes, settings: dict[str, Any]) -> Outcome:
 def reason_of(error: BaseException) -> str:
     """An exception as one line; what it is, unless the package raised it for people."""
     text = " ".join(str(error).split())
-    kind = type(error).__name__
-    return text if text and kind in ("ValueError", "RuntimeError") else f"{kind}: {text}".rstrip(": ")
+    is_ours = type(error) in (ValueError, RuntimeError, InvalidTypeError, InvalidValueError, OutOfMemoryError)
+    return text if text and is_ours else f"{type(error).__name__}: {text}".rstrip(": ")
 
 
 class _Here:
