@@ -87,8 +87,8 @@ def one_of(name: str, value: Any, choices: Sequence[Any]) -> Any:
     return value
 
 
-def true_or_false(name: str, value: Any) -> bool:
+def true_or_false(name: str, value: Any, expected: str = "True or False") -> bool:
     """A bool, also one of NumPy's."""
     if not isinstance(value, (bool, np.bool_)):
-        raise refuse_type(name, value, "True or False")
+        raise refuse_type(name, value, expected)
     return bool(value)

@@ -3,11 +3,12 @@
 """ITK filters at work: their progress, for a person, and a person's Ctrl-C."""
 
 import sys
-from collections.abc import Generator, Iterator
+from collections.abc import Callable, Generator, Iterator
 from contextlib import contextmanager
 from typing import Protocol
 
-from ._types import ItkObject
+from . import _options
+from ._types import ItkObject, Progress
 
 
 class Bar(Protocol):
@@ -35,7 +36,28 @@ class _PlainBar:
         sys.stderr.write("\n")
 
 
-def make_bar() -> Bar:
+class _Called:
+    """A function that is called with the fraction of the work that is done, once for each per cent."""
+
+    def __init__(self, function: Callable[[float], object]) -> None:
+        self.n = 0
+        self._function = function
+
+    def update(self, percent: int) -> None:
+        if percent > 0:
+            self.n += percent
+            self._function(self.n / 100)
+
+    def close(self) -> None:
+        """Nothing is left open."""
+
+
+def make_bar(progress: Progress = True) -> Bar | None:
+    """The bar that is asked for; None: none is. Raises TypeError where `progress` is neither a bool nor a function."""
+    if callable(progress):
+        return _Called(progress)
+    if not _options.true_or_false("progress", progress, "True, False or a function of the fraction that is done"):
+        return None
     try:
         from tqdm.auto import tqdm
     except ImportError:
@@ -73,14 +95,15 @@ def _watch(
 
 
 @contextmanager
-def at_work(instance: ItkObject, progress: bool = False, *stacks: _Reads) -> Iterator[None]:
+def at_work(instance: ItkObject, progress: Progress = False, *stacks: _Reads) -> Iterator[None]:
     """While the context lasts, Ctrl-C stops the update of `instance`, a filter that reads a stack, within the time of a
-    chunk and raises KeyboardInterrupt. With `progress` a bar is shown: tqdm's if that is installed. What was raised
-    while the frames of `stacks` were read stops it, too, and is raised again: nothing was measured.
+    chunk and raises KeyboardInterrupt. With `progress` a bar is shown, tqdm's if that is installed, or a function is
+    called. What was raised while the frames of `stacks` were read stops it, too, and is raised again: nothing was
+    measured.
     """
     import itk
 
-    bar = make_bar() if progress else None
+    bar = make_bar(progress)
     caught: list[BaseException] = []
     watch = _watch(instance, bar, caught, stacks)
     next(watch)

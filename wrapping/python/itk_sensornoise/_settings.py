@@ -15,7 +15,7 @@ from ._errors import InvalidTypeError
 from ._frames import Stack, crop, frame_image, open_dumps, open_frames
 from ._names import is_name
 from ._source import read_image
-from ._types import FileName, Frame, Frames, ItkObject
+from ._types import FileName, Frame, Frames, ItkObject, Roi
 
 
 @dataclass(kw_only=True)
@@ -35,7 +35,7 @@ class Settings:
     shutter_axis: str = "y"
     level: float = 0.01
     quantiles: tuple[float, float] = (0.01, 0.99)
-    roi: tuple[int, int, int, int] | None = None
+    roi: Roi | None = None
     mask: Frame | FileName | None = None
     frame_range: tuple[int, int] | None = None
     threads: int | None = None
@@ -197,7 +197,7 @@ def _exposures(exposures: Sequence[float], method: str) -> list[float]:
 
 def _exposures_of(settings: Settings, frames: int, total: int | None) -> list[float]:
     """The exposures of the `frames` that are measured, cut by `frame_range`; `total`: all frames; None: not known."""
-    numbers = _exposures(settings.exposures, settings.method)
+    numbers = _exposures(settings.exposures or (), settings.method)
     least = total or (settings.span[1] if settings.span is not None else frames)
     if len(numbers) < least or len(numbers) > (total or len(numbers)):
         also = "" if settings.span is None else ", also for those that frame_range leaves out"
@@ -223,15 +223,13 @@ def _frame_range(frame_range: tuple[int, int]) -> tuple[int, int]:
     return first, end
 
 
-def _region(
-    stack: Stack, roi: tuple[int, int, int, int] | None, span: tuple[int, int] | None
-) -> tuple[tuple[int, ...], tuple[int, ...]]:
+def _region(stack: Stack, roi: Roi | None, span: tuple[int, int] | None) -> tuple[tuple[int, ...], tuple[int, ...]]:
     """Corner and size (x, y, t) of what roi and frame_range ask for."""
     width, height, frames = stack.size
     expected = f"(x, y, width, height) inside {width} x {height} pixels"
     corner, size = [0, 0, 0], [width, height, frames]
     if roi is not None:
-        x, y, roi_width, roi_height = _options.integers("roi", roi, 4, expected)
+        x, y, roi_width, roi_height = _rectangle(roi, width, height, expected)
         if min(x, y) < 0 or min(roi_width, roi_height) < 1 or x + roi_width > width or y + roi_height > height:
             raise _options.refuse("roi", roi, expected)
         corner[:2], size[:2] = (x, y), (roi_width, roi_height)
@@ -240,6 +238,26 @@ def _region(
             raise ValueError(f"frame_range ends at {span[1]}, but there are {frames} frames")
         corner[2], size[2] = span[0], span[1] - span[0]
     return tuple(corner), tuple(size)
+
+
+def _rectangle(roi: Roi, width: int, height: int, expected: str) -> list[int]:
+    """x, y, width and height of a rectangle; of slices (y, x), those of an array of that size, without a step."""
+    if not (isinstance(roi, tuple) and any(isinstance(part, slice) for part in roi)):
+        return _options.integers("roi", roi, 4, expected)
+    slices = f"{expected}, or two slices (y, x) without a step, np.s_[y:y_end, x:x_end]"
+    if len(roi) != 2 or not all(isinstance(part, slice) for part in roi):
+        raise _options.refuse_type("roi", roi, slices)
+    try:
+        rows, columns = roi[0].indices(height), roi[1].indices(width)
+    except TypeError:
+        raise _options.refuse_type("roi", roi, slices) from None
+    for part, size in zip(roi, (height, width), strict=True):
+        ends = [end for end in (part.start, part.stop) if end is not None]
+        if any(not -size <= end <= size for end in ends) or part.step not in (None, 1):
+            raise _options.refuse("roi", roi, slices)
+    if rows[0] >= rows[1] or columns[0] >= columns[1]:
+        raise _options.refuse("roi", roi, slices)
+    return [columns[0], rows[0], columns[1] - columns[0], rows[1] - rows[0]]
 
 
 def _mask_of(mask: Frame | FileName, size: tuple[int, int]) -> np.ndarray:

@@ -3,7 +3,7 @@
 """The types of what people give, by name: what a checker and a reader of the signatures want to know."""
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from collections.abc import Set as AbstractSet
 from typing import Any, Protocol, TypeAlias
 
@@ -46,6 +46,12 @@ Frames: TypeAlias = (
 
 # A map of a frame's size: an array (y, x), an itk.Image or nested lists of numbers.
 Frame: TypeAlias = ArrayLike
+
+# A rectangle of a frame: (x, y, width, height), or slices (y, x) as numpy.s_ makes them.
+Roi: TypeAlias = tuple[int, int, int, int] | tuple[slice, slice]
+
+# Whether progress is shown, or what is called with the fraction of the work that is done.
+Progress: TypeAlias = bool | Callable[[float], object]
 
 # Filters, images and types of ITK, for which it has no types that a checker could use.
 ItkObject: TypeAlias = Any

@@ -18,7 +18,7 @@ from .._progress import Bar, make_bar
 from .._report import Report
 from .._settings import Settings
 from .._sums import SensorNoiseSums, names_of
-from .._types import Frames
+from .._types import Frames, Progress
 from . import _worker
 from ._dask import require_distributed
 from ._memory import need_of_worker, require_memory
@@ -37,7 +37,7 @@ def estimate_sensor_noise(
     dark: Frames | None = None,
     raw: str | None = None,
     maps: bool = False,
-    progress: bool = False,
+    progress: Progress = False,
     **settings: Any,
 ) -> Report | ChannelReports:
     """Measures as itk.estimate_sensor_noise(), on the workers of a Dask cluster: for frames that lie on several
@@ -72,7 +72,7 @@ def estimate_sensor_noise(
     maps
         True: arrays of what is known of every pixel, as itk.estimate_sensor_noise(maps=True).
     progress
-        Shows the progress: with tqdm if installed, else on standard error.
+        As estimate_sensor_noise() of one machine has it.
     settings
         method, offset, bayer, bit_depth, clip, step, level_range, exposures, excess_noise_factor, rolling_shutter,
         shutter_axis, level, quantiles, roi, mask, frame_range and threads (of a worker; default: those that Dask gave
@@ -121,8 +121,7 @@ def estimate_sensor_noise(
     sums.drop_history()
     run = _Run.of(client, parts, sums, frames_per_task)
     try:
-        if progress:
-            run.bar = make_bar()
+        run.bar = make_bar(progress)
         while not sums.is_done:
             run.go_round()
     except distributed.KilledWorker as error:
