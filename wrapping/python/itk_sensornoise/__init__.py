@@ -2,11 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Measures the noise of a camera from a burst of raw frames of any static scene.
 
-`import itk` sets these functions on `itk`, beside the filters that ITK wraps itself:
+    import itk_sensornoise as sn
+    report = sn.estimate_sensor_noise(frames)
+    print(report.gain)
 
-    import itk
-    report = itk.estimate_sensor_noise(frames)
-    print(report)
+is the way that type checkers and editors know: every function has its types. `import itk` sets the functions that take
+frames on `itk`, too, beside the filters that ITK wraps itself: itk.estimate_sensor_noise() is the same function.
+
+Deprecation: a name, an argument or a member of the JSON that is going to change works for one more release in its old
+form, with a DeprecationWarning that names the new one, and CHANGELOG.md lists it under "Incompatible changes". For as
+long, errors also derive from the class that they had. Names that begin with an underscore may change at any time.
 
 Terms: a frame is one image, a stack (t, y, x) the frames; DN is a grey level. gain g [DN/e-], offset mu [DN], read
 noise sigma [DN], flicker gamma_t [1] and vibration (alpha_t, beta_t) [pixel] are those of F. Sur, M. Grédiac, SIAM J.
@@ -16,6 +21,7 @@ Imaging Sci. 8(1), 2015, https://doi.org/10.1137/140977035.
 from ._catalogue import quantity_list, warning_table
 from ._channels import ChannelReports
 from ._check import NoiseModelCheck, check_noise_model
+from ._compare import Comparison, compare
 from ._correlation import NoiseCorrelation, noise_correlation_estimator
 from ._denoise import denoise_with_noise_model
 from ._estimate import estimate_sensor_noise
@@ -25,20 +31,28 @@ from ._estimators import (
     temporal_statistics_image_filter,
     vibration_covariance_estimator,
 )
+from ._protocol import NoiseReport
+from ._quantity import Quantity
 from ._rawpy import raw_metadata
 from ._report import Report
 from ._simulate import simulate_sensor_noise
 from ._source import sensor_noise_frame_list_source
 from ._stabilise import generalized_anscombe_image_filter, inverse_generalized_anscombe_image_filter
 from ._sums import SensorNoiseSums
+from ._version import __version__
 
 __all__ = [
     "ChannelReports",
+    "Comparison",
     "NoiseCorrelation",
     "NoiseModelCheck",
+    "NoiseReport",
+    "Quantity",
     "Report",
     "SensorNoiseSums",
+    "__version__",
     "check_noise_model",
+    "compare",
     "denoise_with_noise_model",
     "estimate_sensor_noise",
     "generalized_anscombe_image_filter",

@@ -17,11 +17,40 @@ def _catalogue() -> dict[str, list[dict[str, str]]]:
 
 
 def warning_table() -> list[dict[str, str]]:
-    """All that a report can warn of: `code`, `severity` ("note": every number stands, "warning": some number is missing
-    or doubtful, "error": no gain) and `sentence`, what it means and what helps."""
+    """Lists all warnings that a report may have.
+
+    Returns
+    -------
+    list of dict
+        `code`, `severity` ("note": every number stands, "warning": some number is missing or doubtful, "error": no
+        gain) and `sentence`, the meaning and the remedy.
+
+    See Also
+    --------
+    quantity_list : The quantities of a report.
+
+    Examples
+    --------
+    >>> {kind["code"]: kind["sentence"] for kind in itk_sensornoise.warning_table()}["few-frames"]
+    """
     return [dict(kind) for kind in _catalogue()["warnings"]]
 
 
 def quantity_list() -> list[dict[str, str]]:
-    """All quantities of a report: `path` in the record ("vibration.sd_x"), `label` in its table, `unit`, `meaning`."""
+    """Lists all quantities of a report.
+
+    Returns
+    -------
+    list of dict
+        `path` in the record ("vibration.sd_x"), `label` in its table, `unit` and `meaning`.
+
+    See Also
+    --------
+    Report.quantity : One of them, of a report.
+    warning_table : The warnings of a report.
+
+    Examples
+    --------
+    >>> [entry["path"] for entry in itk_sensornoise.quantity_list()]
+    """
     return [dict(entry) for entry in _catalogue()["quantities"]]

@@ -2,17 +2,24 @@
 # SPDX-License-Identifier: Apache-2.0
 """The reports of a mosaic's channels."""
 
-import html
 import json
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ._catalogue import quantity_list
+from ._html import figure, paragraphs, rows_of_text, table
 from ._maps import Maps
 from ._pictures import PagedRecord, Pictures, pack
+from ._read import record_of, text_of
 from ._report import Report
-from ._types import ItkObject
+from ._report_text import text_of_channels
+from ._rounding import with_signs
+from ._types import FileName, ItkObject
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 CHANNELS = ("R", "G1", "G2", "B")
 
@@ -30,8 +37,14 @@ class ChannelReports(PagedRecord):
         reports.to_html("report.html")      one page of all channels
         reports.figure_data["G1"]["mean"]   the numbers of a channel's figures, as Report.figure_data
 
-    print() shows a line a channel, what all have together and the warnings. It is a dict that cannot be changed, as
-    Report.
+    print() shows a line a channel, the joint quantities and the warnings. It is a dict that cannot be changed, as
+    Report. It has the members of NoiseReport: quantities(), plot(), to_html().
+
+    See Also
+    --------
+    estimate_sensor_noise : Measures it.
+    Report : The report of one channel, or of a monochrome sensor.
+    compare : Several reports side by side.
     """
 
     def __init__(
@@ -57,6 +70,61 @@ class ChannelReports(PagedRecord):
         tables = {name: estimator.GetChannelReportAsText(name) for name in CHANNELS}
         page, pictures = pack(estimator.GetReportAsHtml()), Pictures.of_channels(estimator)
         return cls(estimator.GetReportAsJson(), estimator.GetReportAsText(), tables, maps, page, pictures)
+
+    @classmethod
+    def from_json(cls, source: str | FileName) -> "ChannelReports":
+        """Reads the reports of a mosaic that were written as JSON: the same as Report.from_json().
+
+        Parameters
+        ----------
+        source : str or os.PathLike
+            The JSON text, or the name of its file.
+
+        Returns
+        -------
+        ChannelReports
+
+        Raises
+        ------
+        TypeError
+            The source is neither.
+        ValueError
+            The file cannot be read, or holds no whole reports of a mosaic.
+        """
+        text, name = text_of(source)
+        if "channels" not in record_of(text, name):
+            raise ValueError(f"{name} has one report; expected those of a mosaic: Report.from_json()")
+        return cls(text)
+
+    def quantities(self) -> list[dict[str, Any]]:
+        """Returns every quantity of every channel as a row: those of Report.quantities(), with the `channel`."""
+        return [{"channel": name, **row} for name in CHANNELS for row in self.channel(name).quantities()]
+
+    def plot(self) -> "Figure":
+        """Draws the noise curves of the four channels into one new figure of matplotlib.pyplot, as Report.plot().
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+
+        Raises
+        ------
+        ImportError
+            matplotlib is not installed.
+        ValueError
+            Nothing was measured in any channel.
+        """
+        from ._figure import draw, new_grid
+
+        data = self.figure_data
+        if not any(data[name]["mean"] for name in CHANNELS):
+            raise ValueError("the reports have no noise curve: no pixel was used; their warnings say why")
+        drawn, grid = new_grid()
+        for axes, name in zip(grid, CHANNELS, strict=True):
+            axes.set_title(name)
+            if data[name]["mean"]:
+                draw(self.channel(name), data[name], axes, None)
+        return drawn
 
     def channel(self, name: str) -> Report:
         """The report of one channel: "R", "G1", "G2" or "B"."""
@@ -86,7 +154,7 @@ class ChannelReports(PagedRecord):
         )
 
     def __str__(self) -> str:
-        return self._table.rstrip("\n")
+        return (self._table or text_of_channels(self)).rstrip("\n")
 
     def __repr__(self) -> str:
         first = self["channels"][0]
@@ -96,14 +164,27 @@ class ChannelReports(PagedRecord):
         )
 
     def _repr_html_(self) -> str:
-        """The table with its warnings, and the noise curve of every channel that has one."""
-        curves = [(name, self.channel(name)._curve_element(320)) for name in CHANNELS]
-        figures = [
-            f'<figure style="display:inline-block;margin:0.5em"><figcaption>{name}</figcaption>{curve}</figure>'
-            for name, curve in curves
-            if curve
-        ]
-        return f"<pre>{html.escape(str(self))}</pre>{''.join(figures)}"
+        """The quantities of all channels with the warnings, and the noise curves in one figure."""
+        return self._notebook_html()
+
+    def _notebook_html(self) -> str:
+        lines = str(self).split("\n")
+        end = next(number for number, line in enumerate(lines) if line.startswith("B "))
+        columns = {name: {row[0]: row[1:] for row in rows_of_text(str(self.channel(name)))} for name in CHANNELS}
+        rows = []
+        for label in (with_signs(entry["label"]) for entry in quantity_list()):
+            found = [columns[name].get(label) for name in CHANNELS]
+            unit = next((row[1] for row in found if row), None)
+            if unit is not None:
+                cells = [(row[2] if row[0] == "-" else row[0]) if row else "" for row in found]
+                rows.append((label, *cells, unit))
+        curves = "".join(
+            f'<div style="display:inline-block;margin:0.5em">{name}<br>{curve}</div>'
+            for name in CHANNELS
+            if (curve := self.channel(name)._curve_element(320))
+        )
+        head = paragraphs(lines[: lines.index("")])
+        return head + table(("quantity", *CHANNELS, "unit"), rows) + paragraphs(lines[end + 1 :]) + figure(curves)
 
 
 def report_of(estimator: ItkObject, maps: Mapping[str, np.ndarray] | None = None) -> Report | ChannelReports:

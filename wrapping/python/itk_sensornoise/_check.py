@@ -2,21 +2,24 @@
 # SPDX-License-Identifier: Apache-2.0
 """Whether a noise model serves for frames: before one relies on it."""
 
-import json
 import math
-from collections.abc import Iterator, Mapping
+import re
+import sys
 from typing import Any
 
 from . import _options
 from ._errors import itk_errors
 from ._estimators import mask_of_frames, set_parameters
 from ._frames import frame_image, open_frames
+from ._html import figure, paragraphs, table
 from ._progress import at_work
+from ._record import Record
 from ._stabilise import noise_model, open_report
+from ._svg import Plot, Points
 
 
-class NoiseModelCheck(Mapping[str, Any]):
-    """What check_noise_model() found: the record "itk-sensornoise-check/1", the names of its JSON.
+class NoiseModelCheck(Record):
+    """The result of check_noise_model(): the record "itk-sensornoise-check/1", the names of its JSON.
 
         found["verdict"]     "fits", "does-not-fit" or "not-told"
         found["sentence"]    the same for people, with the ranges of levels
@@ -24,29 +27,21 @@ class NoiseModelCheck(Mapping[str, Any]):
                              (None: the model has none there); transform_variance, what the transform makes of the right
                              model [1] (None: in the dark, where the read noise is not known); fits
 
-    True where the model fits all levels. print() shows the table and the sentence. Equal to any mapping with the same
-    content; can be pickled.
+    True where the model fits all levels. print() shows the table and the sentence, a notebook also the ratio of the
+    variances by level. It is a dict that cannot be changed, as a report: json.dumps() writes it, it equals any dict
+    with the same content, and it can be pickled.
     """
 
     def __init__(self, text: str, table: str = "") -> None:
         """`text`: the record as JSON, as C++ writes it. `table`: the same for people."""
-        self._text = text
+        super().__init__(text)
         self._table = table
-        self._record: dict[str, Any] = json.loads(text)
 
     def __bool__(self) -> bool:
-        return self["verdict"] == "fits"
-
-    def __getitem__(self, name: str) -> Any:
-        return self._record[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._record)
-
-    def __len__(self) -> int:
-        return len(self._record)
-
-    __hash__ = None  # type: ignore[assignment]  # what it holds can be changed
+        # json.dumps() with an indent asks "not record" for an empty one, and would write {} of a model that fails.
+        if sys._getframe(1).f_globals.get("__name__") == "json.encoder":
+            return True
+        return bool(self["verdict"] == "fits")
 
     def __reduce__(self) -> tuple[Any, ...]:
         return NoiseModelCheck, (self._text, self._table)
@@ -57,9 +52,20 @@ class NoiseModelCheck(Mapping[str, Any]):
     def __str__(self) -> str:
         return self._table.rstrip("\n")
 
-    def to_json(self) -> str:
-        """The record as C++ writes it."""
-        return self._text
+    def _repr_html_(self) -> str:
+        """The table and the sentence, and the ratio of the variances by level."""
+        lines = str(self).split("\n")
+        cells = [re.split(r"\s{2,}", line.strip()) for line in lines]
+        end = next((number for number, row in enumerate(cells) if len(row) != len(cells[0])), len(cells))
+        bands = [band for band in self["bands"] if band["variance"] is not None]
+        points = Points(
+            [(band["low"] + band["high"]) / 2 for band in bands],
+            [band["variance"] for band in bands],
+            errors=[band["standard_error"] for band in bands],
+        )
+        plot = Plot("level [DN]", "variance / model", [points], level=1.0)
+        drawn = plot.element("variance over the variance of the model, by level") if bands else ""
+        return table(cells[0], cells[1:end]) + paragraphs(lines[end:]) + figure(drawn)
 
 
 def check_noise_model(frames: Any, report: Any, *, mask: Any = None, **parameters: Any) -> NoiseModelCheck:
@@ -95,6 +101,15 @@ def check_noise_model(frames: Any, report: Any, *, mask: Any = None, **parameter
         A wrong type, or an unknown parameter.
     ValueError
         A wrong value, and a report without the two numbers, or with a slope that is not above 0.
+
+    See Also
+    --------
+    denoise_with_noise_model : Uses the model.
+
+    Examples
+    --------
+    >>> if itk.check_noise_model(other_frames, report):
+    ...     clean = itk.denoise_with_noise_model(image, report)
     """
     import itk
 

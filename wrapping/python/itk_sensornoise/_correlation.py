@@ -13,13 +13,16 @@ from ._arrays import as_frame
 from ._errors import InvalidTypeError, itk_errors
 from ._estimators import mask_of_frames
 from ._frames import Stack, frame_image, open_frames
+from ._html import figure, table
 from ._progress import at_work
 from ._record import Record
+from ._rounding import measured, with_signs
+from ._svg import Plot, Points
 from ._types import Frame, Frames
 
 
 class NoiseCorrelation(Record):
-    """What noise_correlation_estimator() measured: the record "itk-sensornoise-correlation/1", the names of its JSON.
+    """The result of noise_correlation_estimator(): the record "itk-sensornoise-correlation/1", the names of its JSON.
 
         found["noise_correlation"]    kind, space, time, covariance_lines, row_noise, column_noise,
                                       excess_kurtosis: as in the report of estimate_sensor_noise()
@@ -67,29 +70,44 @@ class NoiseCorrelation(Record):
         return f"<NoiseCorrelation: {self.kind}, sum over lags {_number(self['sum_over_lags'])}>"
 
     def __str__(self) -> str:
+        return "\n".join(f"{name:22} {value}" for name, value in self._rows())
+
+    def _repr_html_(self) -> str:
+        """The table, and the correlation of pixels and of frames by lag."""
+        lags = self["noise_correlation"]["space"] + self["noise_correlation"]["time"]
+        numbers = list(range(1, len(lags) + 1))
+        values, errors = ([lag[name] for lag in lags] for name in ("value", "standard_error"))
+        plot = Plot(
+            "lag, in the order of the table", "correlation", [Points(numbers, values, errors=errors)], level=0.0
+        )
+        drawn = plot.element("correlation of the noise by lag") if lags else ""
+        return table(("quantity", "value"), self._rows()) + figure(drawn)
+
+    def _rows(self) -> list[tuple[str, str]]:
         correlation = self["noise_correlation"]
         rows = [("kind", self.kind), ("sum over lags", _number(self["sum_over_lags"]))]
         rows += [(f"{light['light']:.4g} DN of light", _light(light)) for light in self["lights"]]
         rows += [(f"{lag['lag'][0]} columns, {lag['lag'][1]} rows", _lag(lag)) for lag in correlation["space"]]
         rows += [(f"{lag['lag']} frames", _lag(lag)) for lag in correlation["time"]]
         rows += [(f"{line} noise", _number(correlation[f"{line}_noise"])) for line in ("row", "column")]
-        return "\n".join(f"{name:22} {value}" for name, value in rows)
+        return rows
 
 
 def _number(quantity: Mapping[str, Any]) -> str:
     if quantity["value"] is None:
         limit = quantity["interval95"]
         return quantity["status"] if limit is None else f"below {limit[1]:.3g} {quantity['unit']}"
-    unit = "" if quantity["unit"] == "1" else f" {quantity['unit']}"
-    return f"{quantity['value']:.5g} +- {quantity['standard_error']:.2g}{unit}"
+    unit = "" if quantity["unit"] == "1" else f" {with_signs(quantity['unit'])}"
+    return f"{measured(quantity['value'], quantity['standard_error'])}{unit}"
 
 
 def _lag(lag: Mapping[str, Any]) -> str:
-    return f"{lag['value']:+.4f} +- {lag['standard_error']:.4f}"
+    rounded = str(measured(lag["value"], lag["standard_error"]))
+    return rounded if rounded.startswith("-") else f"+{rounded}"
 
 
 def _light(light: Mapping[str, Any]) -> str:
-    variance = f"{light['variance']:.5g} +- {light['variance_standard_error']:.2g} DN^2"
+    variance = f"{measured(light['variance'], light['variance_standard_error'])} DN²"
     return f"variance {variance}, sum over lags {_number(light['sum_over_lags'])}"
 
 
@@ -141,6 +159,15 @@ def noise_correlation_estimator(
         A wrong type.
     ValueError
         A wrong value; says what was found and what was expected.
+
+    See Also
+    --------
+    estimate_sensor_noise : Measures it, too, and allows for it.
+
+    Examples
+    --------
+    >>> found = itk.noise_correlation_estimator(flats)
+    >>> found.kind, found.coefficient(1, 0), found.sum_over_lags
     """
     import itk
 

@@ -83,13 +83,23 @@ def denoise_with_noise_model(
     -----
     UserWarning
         The image is far brighter than what was measured, or many of its pixels are below the level of no light.
+
+    See Also
+    --------
+    check_noise_model : Whether the model serves for frames.
+    generalized_anscombe_image_filter : The transform alone.
+
+    Examples
+    --------
+    >>> clean = itk.denoise_with_noise_model(image, report)
+    >>> clean = itk.denoise_with_noise_model(image, "report.json", denoiser=my_function)
     """
     slope, intercept = noise_model(report, variance_slope, total_intercept)
     remove = _denoiser(denoiser, strength)
     levels = _levels(image)
     _require_scale(levels, slope, intercept, {} if report is None else open_report(report))
 
-    model = {"variance_slope": slope, "total_intercept": intercept}
+    model: dict[str, Any] = {"variance_slope": slope, "total_intercept": intercept}
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         stabilised = generalized_anscombe_image_filter(levels, **model, dtype="float32")
@@ -185,9 +195,9 @@ def named_denoiser(denoiser: Any, strength: float) -> Denoiser:
     return _non_local_means(strength) if denoiser == "nlm" else _bilateral(strength)
 
 
-def _checked(frame: Any, shape: tuple[int, ...]) -> np.ndarray:
+def _checked(found: Any, shape: tuple[int, ...]) -> np.ndarray:
     """What a denoiser returned."""
-    frame = as_array(frame, "what the denoiser returned")
+    frame = as_array(found, "the result of the denoiser")
     if frame.shape != shape or frame.dtype.kind not in "fiu":
         raise ValueError(
             f"the denoiser returned an array of shape {frame.shape} and dtype {frame.dtype}; expected numbers of shape "
@@ -230,6 +240,7 @@ def _bilateral(strength: float) -> Denoiser:
         )
         with itk_errors():
             bilateral.Update()
-        return itk.array_from_image(bilateral.GetOutput())
+        clean: np.ndarray = itk.array_from_image(bilateral.GetOutput())
+        return clean
 
     return remove

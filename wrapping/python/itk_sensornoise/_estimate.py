@@ -3,7 +3,7 @@
 """The one-call way from frames to a report."""
 
 from collections.abc import Sequence
-from typing import Literal
+from typing import Literal, TypedDict, Unpack, overload
 
 from . import _options
 from ._channels import ChannelReports, report_of
@@ -15,7 +15,50 @@ from ._names import expand
 from ._progress import at_work
 from ._report import Report
 from ._settings import Settings, open_dark, prepare
-from ._types import FileName, Frame, Frames, ItkObject
+from ._types import FileName, Frame, Frames, ItkObject, Progress, Roi
+
+
+class Options(TypedDict, total=False):
+    """The keywords of estimate_sensor_noise() but `bayer`, which decides what it returns."""
+
+    method: Literal["refined", "published"]
+    offset: float | tuple[float, float] | None
+    dark: Frames | None
+    bit_depth: int | None
+    clip: tuple[float, float] | None
+    step: float | None
+    level_range: tuple[float, float] | None
+    exposures: Sequence[float] | None
+    excess_noise_factor: float
+    rolling_shutter: Literal["auto", "off"] | float
+    shutter_axis: Literal["y", "x"]
+    level: float
+    quantiles: tuple[float, float]
+    roi: Roi | None
+    mask: Frame | FileName | None
+    frame_range: tuple[int, int] | None
+    maps: bool | FileName | None
+    hash: bool
+    raw: str | None
+    memory_limit: int | None
+    threads: int | None
+    progress: Progress
+
+
+@overload
+def estimate_sensor_noise(frames: Frames, *, bayer: Literal["none"], **options: Unpack[Options]) -> Report: ...
+
+
+@overload
+def estimate_sensor_noise(
+    frames: Frames, *, bayer: Literal["RGGB", "GRBG", "GBRG", "BGGR"], **options: Unpack[Options]
+) -> ChannelReports: ...
+
+
+@overload
+def estimate_sensor_noise(
+    frames: Frames, *, bayer: Literal["auto"] = "auto", **options: Unpack[Options]
+) -> Report | ChannelReports: ...
 
 
 def estimate_sensor_noise(
@@ -35,7 +78,7 @@ def estimate_sensor_noise(
     shutter_axis: Literal["y", "x"] = "y",
     level: float = 0.01,
     quantiles: tuple[float, float] = (0.01, 0.99),
-    roi: tuple[int, int, int, int] | None = None,
+    roi: Roi | None = None,
     mask: Frame | FileName | None = None,
     frame_range: tuple[int, int] | None = None,
     maps: bool | FileName | None = None,
@@ -43,7 +86,7 @@ def estimate_sensor_noise(
     raw: str | None = None,
     memory_limit: int | None = None,
     threads: int | None = None,
-    progress: bool = False,
+    progress: Progress = False,
 ) -> Report | ChannelReports:
     """Measures gain, offset and read noise of a camera, flicker and vibration, from frames of a static scene.
 
@@ -102,7 +145,8 @@ def estimate_sensor_noise(
     quantiles
         Quantiles of the mean at which the dark and the bright set lie, 0 to 1. "refined" does without.
     roi
-        (x, y, width, height) [pixel]: only these pixels, of the dark frames too.
+        (x, y, width, height) [pixel], or two slices as an array (y, x) takes them, `np.s_[50:150, 50:200]`: only these
+        pixels, of the dark frames too. Default: all.
     mask
         Only pixels where this is not 0: an array (y, x) of a frame's size, or the name of an image file.
     frame_range
@@ -133,14 +177,17 @@ def estimate_sensor_noise(
     threads
         Number of threads. Default: all. The result is the same bits for any number.
     progress
-        Shows the progress: with tqdm if installed, else on standard error.
+        True: shows the progress, with tqdm if installed, else on standard error. A function: is called with the
+        fraction of the work that is done, from 0 to 1, and at the end with 1; an error of its own stops the work and is
+        raised. Default: False.
 
     Returns
     -------
-    Report, or ChannelReports of a mosaic
-        A dict, the same record as the JSON of `estimate-sensor-noise`; `settings` holds all of the options above that
-        were given and change a number. Data that cannot be measured give quantities that are `failed` or
-        `not-identifiable`, and a warning that says why.
+    Report or ChannelReports
+        ChannelReports of a mosaic: of bayer="RGGB" and the other patterns, and where "auto" finds one; else a Report.
+        Both are a NoiseReport and a dict, the same record as the JSON of `estimate-sensor-noise`; `settings` holds all
+        of the options above that were given and change a number. Data that cannot be measured give quantities that are
+        `failed` or `not-identifiable`, and a warning that says why.
 
     Raises
     ------
@@ -154,6 +201,21 @@ def estimate_sensor_noise(
         There is not enough memory.
     ImportError
         A raw file of a camera without rawpy. What a reader of lazy frames raises is raised as it is.
+
+    See Also
+    --------
+    compare : Several reports side by side.
+    check_noise_model : Whether a report's noise model serves for other frames.
+    denoise_with_noise_model : Images without their noise, by a report.
+    itk_sensornoise.distributed.estimate_sensor_noise : The same by several machines.
+
+    Examples
+    --------
+    >>> import itk_sensornoise as sn
+    >>> frames, truth = sn.simulate_sensor_noise(camera="A", condition=3, frames=50)
+    >>> report = sn.estimate_sensor_noise(frames, bayer="none")
+    >>> report.gain.value, report.gain.standard_error, report.offset.status
+    >>> sn.estimate_sensor_noise("frames/*.tif", dark="dark/*.tif", roi=np.s_[50:150, 50:200])
     """
     hash = _options.true_or_false("hash", hash)
     settings = Settings(

@@ -63,12 +63,38 @@ def mask_of_frames(mask: Frame, stack: Stack) -> np.ndarray:
 def sensor_noise_estimator(
     stack: Frames, *, mask: Frame | None = None, dark: Frames | None = None, **parameters: Any
 ) -> Report | ChannelReports:
-    """itk.SensorNoiseEstimator in functional style; estimate_sensor_noise() checks more and says it in its own words.
+    """Measures noise with itk.SensorNoiseEstimator in functional style; estimate_sensor_noise() checks more.
 
-    `stack` as `frames` there; `mask` an array (y, x), or an image, of a frame's size: pixels of value 0 are left out;
-    `dark` frames without light, as `stack`. `parameters`: those of itk.SensorNoiseEstimator in snake case, for example
-    `method="published", bit_depth=12, rolling_shutter="off"`.
-    Raises TypeError for a wrong type and an unknown parameter, ValueError for a wrong value.
+    Parameters
+    ----------
+    stack : frames
+        As `frames` of estimate_sensor_noise(), or a filter of ITK whose output is a stack.
+    mask : array_like (y, x) or itk.Image, optional
+        Pixels of value 0 are left out. Default: all pixels count.
+    dark : frames, optional
+        Frames without illumination, as `stack`.
+    **parameters
+        The parameters of itk.SensorNoiseEstimator in snake case, for example `method="published", bit_depth=12,
+        rolling_shutter="off"`.
+
+    Returns
+    -------
+    Report or ChannelReports
+
+    Raises
+    ------
+    TypeError
+        A wrong type, or an unknown keyword.
+    ValueError
+        A wrong value; says what was found and what was expected.
+
+    See Also
+    --------
+    estimate_sensor_noise : The same with regions, maps, hashes and files without a header.
+
+    Examples
+    --------
+    >>> itk.sensor_noise_estimator(frames, bit_depth=12).gain
     """
     import itk
 
@@ -91,13 +117,35 @@ def sensor_noise_estimator(
 
 
 def temporal_statistics_image_filter(stack: Frames, **parameters: Any) -> tuple[Any, Any, Any]:
-    """Mean and unbiased variance over time of every pixel of a stack, and the mask of valid pixels.
+    """Computes mean and unbiased variance over time of every pixel, and the mask of valid pixels.
 
-    `stack` as `frames` of estimate_sensor_noise(). `parameters`: those of itk.TemporalStatisticsImageFilter in snake
-    case, for example `bit_depth=12`.
+    Parameters
+    ----------
+    stack : frames
+        As `frames` of estimate_sensor_noise(), or a filter of ITK whose output is a stack.
+    **parameters
+        The parameters of itk.TemporalStatisticsImageFilter in snake case, for example `bit_depth=12`.
 
-    Returns mean [DN], variance [DN^2] and the valid mask (1: finite and never clipped), arrays (y, x); images where the
-    stack is an itk.Image. Raises TypeError for a wrong type and an unknown parameter, ValueError for a wrong value.
+    Returns
+    -------
+    mean, variance, valid : tuple
+        Mean [DN], variance [DN^2], and 1 where a pixel is finite and never clipped, else 0: arrays (y, x); images where
+        the stack is an itk.Image or a filter; xarray.DataArray where it is one.
+
+    Raises
+    ------
+    TypeError
+        A wrong type, or an unknown keyword.
+    ValueError
+        A wrong value; says what was found and what was expected.
+
+    See Also
+    --------
+    noise_regression_estimator : Gain and read noise from mean and variance.
+
+    Examples
+    --------
+    >>> mean, variance, valid = itk.temporal_statistics_image_filter(frames)
     """
     import itk
 
@@ -116,14 +164,40 @@ def temporal_statistics_image_filter(stack: Frames, **parameters: Any) -> tuple[
 def noise_regression_estimator(
     mean: Frame, variance: Frame, mask: Frame, *, offset: float | None = None, number_of_frames: int = 0
 ) -> Report:
-    """Gain, intercept and read noise from the line through temporal variance against mean.
+    """Fits a line to the temporal variance against the mean: gain, intercept and read noise.
 
-    `mean` [DN] of the stack, `variance` [DN^2] of the flicker-corrected stack (NaN: left out) and `mask` (0: left out)
-    are arrays (y, x) or images of one size. `offset` is mu [DN]; without it, or where it is NaN, offset and read noise
-    are not-identifiable. With `number_of_frames`, of which the variance was taken, the fit is judged too.
+    Parameters
+    ----------
+    mean : array_like (y, x), itk.Image or filter
+        Mean of the stack [DN].
+    variance : array_like (y, x), itk.Image or filter
+        Variance of the flicker-corrected stack [DN^2]. Pixels that are NaN are left out.
+    mask : array_like (y, x), itk.Image or filter
+        Pixels of value 0 are left out.
+    offset : float, optional
+        Dark offset mu [DN]. Without it, or where it is NaN, offset and read noise are not identifiable.
+    number_of_frames : int, optional
+        Frames that the variance was taken of: the fit is then tested, too. Default: 0, not known.
 
-    Returns the record of estimate_sensor_noise() with these quantities filled. Raises TypeError for a wrong type,
-    ValueError for a wrong value.
+    Returns
+    -------
+    Report
+        The record of estimate_sensor_noise() with these quantities filled.
+
+    Raises
+    ------
+    TypeError
+        A wrong type, or an unknown keyword.
+    ValueError
+        A wrong value; says what was found and what was expected.
+
+    See Also
+    --------
+    temporal_statistics_image_filter : Mean and variance of a stack.
+
+    Examples
+    --------
+    >>> itk.noise_regression_estimator(mean, variance, valid, offset=100.0).gain
     """
     import itk
 
@@ -145,13 +219,39 @@ def noise_regression_estimator(
 def vibration_covariance_estimator(
     mean: Frame, variance: Frame, *, valid_mask: Frame | None = None, flicker_sd: float | None = None
 ) -> dict[str, float | bool]:
-    """Covariance of the vibration (alpha_t, beta_t) from temporal variance and mean, by multiple regression.
+    """Estimates the covariance of the vibration (alpha_t, beta_t) by multiple regression of the variance.
 
-    `mean` [DN] and `variance` [DN^2] of the stack as it is and `valid_mask` (0: left out; default: all finite pixels)
-    are arrays (y, x) or images of one size. `flicker_sd` is sigma_gamma [1] where it is known; default: estimated.
+    Parameters
+    ----------
+    mean : array_like (y, x), itk.Image or filter
+        Mean of the stack [DN].
+    variance : array_like (y, x), itk.Image or filter
+        Variance of the stack as it is [DN^2].
+    valid_mask : array_like (y, x), itk.Image or filter, optional
+        Pixels of value 0 are left out. Default: all finite pixels count.
+    flicker_sd : float, optional
+        Standard deviation sigma_gamma of the illumination [1]. Default: estimated.
 
-    Returns `variance_x`, `variance_y`, `covariance` [pixel^2], `flicker_variance` [1] and `is_determined`, whether the
-    scene has what it takes. Raises TypeError for a wrong type, ValueError for a wrong value.
+    Returns
+    -------
+    dict
+        `variance_x`, `variance_y`, `covariance` [pixel^2], `flicker_variance` [1] and `is_determined`, whether the
+        scene determines them.
+
+    Raises
+    ------
+    TypeError
+        A wrong type, or an unknown keyword.
+    ValueError
+        A wrong value; says what was found and what was expected.
+
+    See Also
+    --------
+    temporal_statistics_image_filter : Mean and variance of a stack.
+
+    Examples
+    --------
+    >>> itk.vibration_covariance_estimator(mean, variance)["variance_x"]
     """
     import itk
 

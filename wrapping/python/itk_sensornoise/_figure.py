@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The noise curve, drawn with matplotlib, which is imported only when it is used. Every number in it is of C++."""
 
-from collections.abc import Mapping
+import functools
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -19,13 +20,37 @@ BEFORE, AFTER, LINE = "#b85c00", "#0072b2", "#00795a"
 def new_axes(data: Mapping[str, Any]) -> "tuple[Axes, Axes | None]":
     """Axes of the noise curve, and below them those of the residuals where there are any, in a new figure, which a
     notebook or plt.show() shows."""
+    if not data["residual"]:
+        return _new_figure().subplots(), None
+    curve, residuals = _new_figure(figsize=(6.4, 6)).subplots(2, sharex=True, height_ratios=[3, 1])
+    return curve, residuals
+
+
+def new_grid() -> "tuple[Figure, Sequence[Axes]]":
+    """A new figure with axes for four channels."""
+    figure = _new_figure(figsize=(9.6, 7.2))
+    return figure, list(figure.subplots(2, 2).flat)
+
+
+def _new_figure(**options: Any) -> "Figure":
+    """A figure of matplotlib.pyplot. Notebooks show such a figure at the end of the cell: as the value of the cell's
+    last line it is not shown a second time."""
     import matplotlib.pyplot as plt
 
-    if not data["residual"]:
-        return plt.subplots(layout="constrained")[1], None
-    heights = {"height_ratios": [3, 1]}
-    curve, residuals = plt.subplots(2, sharex=True, figsize=(6.4, 6), layout="constrained", gridspec_kw=heights)[1]
-    return curve, residuals
+    figure: Figure = plt.figure(layout="constrained", **options)
+    vars(figure)["_ipython_display_"] = functools.partial(_display_once, figure)
+    return figure
+
+
+def _display_once(figure: "Figure") -> None:
+    """Closes a figure that IPython is about to show, where it would be shown again at the end of the cell. By
+    NotImplementedError, IPython shows it as it does others."""
+    import matplotlib
+    import matplotlib.pyplot as plt
+
+    if "inline" in matplotlib.get_backend().lower():
+        plt.close(figure)
+    raise NotImplementedError
 
 
 def draw(report: Mapping[str, Any], data: Mapping[str, Any], axes: "Axes", residuals: "Axes | None") -> "Figure":

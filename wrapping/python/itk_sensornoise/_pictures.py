@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, overload
 
 from . import _options
+from ._html import page, with_title
 from ._names import is_name
 from ._record import Record
 from ._types import FileName, ItkObject
@@ -73,30 +74,57 @@ class PagedRecord(Record):
         self._page = page
 
     @overload
-    def to_html(self, path: FileName) -> None: ...
+    def to_html(self, path: FileName, *, title: str | None = None) -> None: ...
 
     @overload
-    def to_html(self, path: None = None) -> str: ...
+    def to_html(self, path: None = None, *, title: str | None = None) -> str: ...
 
-    def to_html(self, path: FileName | None = None) -> str | None:
-        """The page that `estimate-sensor-noise --plot report.html` writes: what was measured in a sentence, a table and
-        figures, the maps of the pixels, what the warnings mean and would help. It needs no other file, no network and
-        no matplotlib.
+    def to_html(self, path: FileName | None = None, *, title: str | None = None) -> str | None:
+        """Makes the page that `estimate-sensor-noise --plot report.html` writes: the verdict in a sentence, a table and
+        figures, the maps of the pixels, the meaning of the warnings and their remedies. It needs no other file, no
+        network and no matplotlib. The page of a report that was read from JSON has the table, the warnings and the
+        noise curve alone.
 
-        path: the name of a file, ending in .html or .htm, which has the whole page or is left as it was; its folder has
-        to exist. Default: the text of the page is returned. Raises ValueError for another name, OSError if the file
-        cannot be written.
+        Parameters
+        ----------
+        path : str or os.PathLike, optional
+            Name of a file that ends in .html or .htm. It has the whole page, or is left as it was; its folder has to
+            exist. Default: the text of the page is returned.
+        title : str, optional
+            Title and first heading of the page. Default: the kind of the sensor.
+
+        Returns
+        -------
+        str or None
+            The text of the page; None where it was written to a file.
+
+        Raises
+        ------
+        TypeError
+            The path is no name, or the title no str.
+        ValueError
+            The path is another name.
+        OSError
+            The file cannot be written.
         """
-        if path is None:
-            return self._page_text()
-        target = _target(path)
-        _write(target, self._page_text())
-        return None
+        return write_page(self._page_text(), path, title)
 
     def _page_text(self) -> str:
-        if self._page is None:
-            raise ValueError("the record was made of its text alone and has no page; expected one of an estimator")
-        return unpack(self._page)
+        return page("Noise of an image sensor", self._notebook_html()) if self._page is None else unpack(self._page)
+
+    def _notebook_html(self) -> str:
+        raise NotImplementedError
+
+
+def write_page(text: str, path: FileName | None, title: str | None) -> str | None:
+    """Writes a page to a file, or returns it; with another title, if one is given."""
+    if title is not None and not isinstance(title, str):
+        raise _options.refuse_type("title", title, "a str")
+    text = with_title(text, title)
+    if path is None:
+        return text
+    _write(_target(path), text)
+    return None
 
 
 def _target(path: FileName) -> Path:

@@ -37,14 +37,38 @@ def read_codes(name: FileName, is_new: bool = True) -> np.ndarray:
 
 
 def raw_metadata(name: FileName) -> dict[str, Any]:
-    """What a raw file says of its codes: the keys
+    """Reads what a raw file of a camera says of its codes.
 
-        bayer             "RGGB", "GRBG", "GBRG" or "BGGR", at the first pixel of the active area; None: other filters
-        black_level       level without light [DN], the mean over the four channels, whose own are in black_levels
-        white_level       highest level of the converter, as the file says [DN]
-        iso_speed, exposure_seconds, camera
+    Parameters
+    ----------
+    name : str or os.PathLike
+        Name of the file.
 
-    None where the file, or rawpy, does not say. Raises ValueError for what is no raw file, ImportError without rawpy.
+    Returns
+    -------
+    dict
+        None stands where the file, or rawpy, does not say.
+
+            bayer             "RGGB", "GRBG", "GBRG" or "BGGR", at the first pixel of the active area; None: other
+                              filters
+            black_level       dark offset [DN], the mean over the four channels, whose own are in black_levels
+            white_level       highest level of the converter, as the file says [DN]
+            iso_speed, exposure_seconds, camera
+
+    Raises
+    ------
+    ValueError
+        The file is no raw file.
+    ImportError
+        rawpy is not installed.
+
+    See Also
+    --------
+    estimate_sensor_noise : Reads such files as frames.
+
+    Examples
+    --------
+    >>> itk_sensornoise.raw_metadata("frame.dng")["bayer"]
     """
     with _open(name) as raw:
         other = getattr(raw, "other", None)

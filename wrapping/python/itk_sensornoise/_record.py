@@ -1,14 +1,36 @@
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""A record of a measurement: a dict that cannot be changed.
+"""A record of a measurement: a mapping that cannot be changed.
 
 Beside its members a record has a JSON text and a table, which C++ made; a value that was changed would be in none of
 them, and be lost without a word when the record is printed, drawn, written or pickled. So changing is an error, and
 copies are plain: to_dict(), dict() of it, and copy.copy() or copy.deepcopy() of a member.
+
+It is a dict, as json.dumps() takes no other mapping. To type checkers, and to editors that complete names, it is a
+Mapping: the methods of a dict that change it are not among its names.
 """
 
 import json
-from typing import Any, NoReturn
+from collections.abc import Iterable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any, NoReturn
+
+if TYPE_CHECKING:
+
+    class _Dict(Mapping[str, Any]):
+        """A dict as a checker shall see it."""
+
+        def __init__(self, items: Iterable[tuple[str, Any]] | Mapping[str, Any] = ...) -> None: ...
+
+        def __getitem__(self, name: str) -> Any: ...
+
+        def __iter__(self) -> Iterator[str]: ...
+
+        def __len__(self) -> int: ...
+
+        def __or__(self, other: Mapping[str, Any]) -> dict[str, Any]: ...
+
+else:
+    _Dict = dict
 
 
 def _refuse(self: Any, *_arguments: Any, **_others: Any) -> NoReturn:
@@ -17,10 +39,14 @@ def _refuse(self: Any, *_arguments: Any, **_others: Any) -> NoReturn:
     )
 
 
-class _FixedDict(dict[str, Any]):
+class _FixedDict(_Dict):
     """A dict that cannot be changed; what is made of it by copying or pickling is a dict."""
 
-    __setitem__ = __delitem__ = clear = pop = popitem = setdefault = update = __ior__ = _refuse
+    if not TYPE_CHECKING:
+        __setitem__ = __delitem__ = clear = pop = popitem = setdefault = update = __ior__ = _refuse
+
+    def __dir__(self) -> Iterable[str]:
+        return [name for name in super().__dir__() if getattr(type(self), name, None) is not _refuse]
 
     def __reduce__(self) -> tuple[Any, ...]:
         return dict, (dict(self),)
@@ -31,6 +57,9 @@ class _FixedList(list[Any]):
 
     __setitem__ = __delitem__ = append = clear = extend = insert = pop = remove = reverse = sort = _refuse
     __iadd__ = __imul__ = _refuse
+
+    def __dir__(self) -> Iterable[str]:
+        return [name for name in super().__dir__() if getattr(type(self), name, None) is not _refuse]
 
     def __reduce__(self) -> tuple[Any, ...]:
         return list, (list(self),)
@@ -45,7 +74,8 @@ def _fixed(value: Any) -> Any:
 
 
 class Record(_FixedDict):
-    """What C++ measured, as a dict of what its JSON says. A change is a TypeError; to_dict() is a copy to change."""
+    """A measurement of C++, as a mapping with the names of its JSON. A change is a TypeError; to_dict() is a copy to
+    change."""
 
     def __init__(self, text: str) -> None:
         """`text`: the record as JSON, as C++ writes it."""
@@ -56,10 +86,10 @@ class Record(_FixedDict):
         return type(self), (self._text,)
 
     def to_json(self) -> str:
-        """The record as C++ writes it, for a file; json.dumps() of it works, too, and says the same."""
+        """Returns the record as C++ writes it, for a file; json.dumps() of the record works, too, and says the same."""
         return self._text
 
     def to_dict(self) -> dict[str, Any]:
-        """The record as dicts and lists that can be changed. Nothing leads back: what it says is no report any more."""
+        """Returns the record as dicts and lists that can be changed. Nothing leads back: a dict is no report."""
         record: dict[str, Any] = json.loads(self._text)
         return record

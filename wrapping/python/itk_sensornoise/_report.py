@@ -2,26 +2,91 @@
 # SPDX-License-Identifier: Apache-2.0
 """The report of an estimate: a mapping that prints, draws and travels."""
 
-import html
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ._catalogue import quantity_list
+from ._figure_data import figure_data_of
+from ._html import figure, table_of_text
 from ._maps import Maps
 from ._pictures import PagedRecord, Pictures
-from ._types import ItkObject
+from ._quantity import Quantity
+from ._read import record_of, text_of
+from ._report_text import member, text_of_report
+from ._svg import Plot, Points
+from ._types import FileName, ItkObject
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 
-class Report(PagedRecord):
+class QuantityAttributes:
+    """The quantities of a report's first level as attributes, and all of them by their paths."""
+
+    def quantity(self, path: str) -> Quantity:
+        """Returns the quantity at a path of quantity_list(), for example "vibration.sd_x".
+
+        Raises KeyError for another path, and where the report has nothing of it.
+        """
+        found = member(self, path)  # type: ignore[arg-type]  # a Report is a mapping
+        if path not in {entry["path"] for entry in quantity_list()} or found is None:
+            raise KeyError(f"{path!r} is no quantity of the report; itk_sensornoise.quantity_list() names them")
+        return Quantity.of(found)
+
+    @property
+    def gain(self) -> Quantity:
+        """System gain g [DN/e-]."""
+        return self.quantity("gain")
+
+    @property
+    def offset(self) -> Quantity:
+        """Dark offset mu [DN]."""
+        return self.quantity("offset")
+
+    @property
+    def read_noise(self) -> Quantity:
+        """Read noise sigma [DN], rms over all pixels, without quantization noise."""
+        return self.quantity("read_noise")
+
+    @property
+    def read_noise_median(self) -> Quantity:
+        """Read noise of the median pixel [DN], which only dark frames determine."""
+        return self.quantity("read_noise_median")
+
+    @property
+    def read_noise_electrons(self) -> Quantity:
+        """Read noise over gain [e-]."""
+        return self.quantity("read_noise_electrons")
+
+    @property
+    def intercept(self) -> Quantity:
+        """Intercept of the photon transfer line, sigma^2 - g mu, without quantization noise [DN^2]."""
+        return self.quantity("intercept")
+
+    @property
+    def variance_slope(self) -> Quantity:
+        """Slope of a pixel's variance against its level, in the frames as they are, for a denoiser [DN/e-]."""
+        return self.quantity("variance_slope")
+
+    @property
+    def total_intercept(self) -> Quantity:
+        """Intercept of a pixel's variance, in the frames as they are, for a denoiser [DN^2]."""
+        return self.quantity("total_intercept")
+
+    @property
+    def flicker_sd(self) -> Quantity:
+        """Standard deviation of the illumination factor [1]."""
+        return self.quantity("flicker_sd")
+
+
+class Report(QuantityAttributes, PagedRecord):
     """All that was measured from one stack: the record "itk-sensornoise-report/1", the same names as in its JSON.
 
-        report["gain"]["value"], report["gain"]["unit"], report["gain"]["status"]
+        report.gain.value, report.gain.standard_error, report.gain.interval95, report.gain.status
+        report["gain"]["value"]       the same, by the names of the JSON
         report["warnings"]
         report.maps["mean"]           arrays (y, x), where estimate_sensor_noise() was asked for them by maps=True
         report.to_html("report.html") one page with tables, figures and maps, to look at and to file
@@ -30,7 +95,14 @@ class Report(PagedRecord):
     A value that is not identified is None. print() shows the table of `estimate-sensor-noise` and the warnings, a
     notebook also the noise curve, plot() draws that with matplotlib. It is a dict: json.dumps() writes it, and it
     equals any dict with the same content (maps and pictures are not part of that). It cannot be changed, which would be
-    a TypeError: to_dict() gives a copy that can, and that is no report. It can be pickled, with its maps and pictures.
+    a TypeError: to_dict() gives a copy that can, and that is no report. It can be pickled, with its maps and pictures;
+    from_json() reads its JSON again.
+
+    See Also
+    --------
+    estimate_sensor_noise : Measures it.
+    ChannelReports : The reports of a mosaic's channels.
+    compare : Several reports side by side.
     """
 
     def __init__(
@@ -51,9 +123,48 @@ class Report(PagedRecord):
         """The report of an ITK estimator that is up to date."""
         return cls(estimator.GetReportAsJson(), estimator.GetReportAsText(), maps, Pictures.of(estimator))
 
+    @classmethod
+    def from_json(cls, source: str | FileName) -> "Report":
+        """Reads a report that was written as JSON: by to_json(), json.dump() or `estimate-sensor-noise --json`.
+
+        The table, plot(), quantities() and compare() say the same as before. The maps are not in the JSON: asking for
+        one is a KeyError, and the page has none.
+
+        Parameters
+        ----------
+        source : str or os.PathLike
+            The JSON text, or the name of its file.
+
+        Returns
+        -------
+        Report
+
+        Raises
+        ------
+        TypeError
+            The source is neither.
+        ValueError
+            The file cannot be read, or holds no whole report of one channel.
+
+        Examples
+        --------
+        >>> with open("report.json", "w") as file:
+        ...     json.dump(report, file)
+        >>> itk_sensornoise.Report.from_json("report.json") == report
+        True
+
+        See Also
+        --------
+        ChannelReports.from_json : The same of a mosaic.
+        """
+        text, name = text_of(source)
+        if "channels" in record_of(text, name):
+            raise ValueError(f"{name} has the channels of a mosaic; expected one report: ChannelReports.from_json()")
+        return cls(text)
+
     @property
     def maps(self) -> "Maps":
-        """What is known of every pixel, arrays (y, x) by the names of the files that `--maps` writes; empty unless
+        """Maps of every pixel, arrays (y, x) by the names of the files that `--maps` writes; empty unless
         estimate_sensor_noise() was called with maps=True."""
         return self._maps
 
@@ -71,15 +182,13 @@ class Report(PagedRecord):
         A list is empty where there is nothing of it. `is_indicative`, a bool: there is a line, but no gain.
         `residual_spread`, a number: how much further residuals scatter at most, as neighbours share their noise [1].
         """
-        if self._pictures is None:
-            raise ValueError("the report was made of its text alone and has no figures; expected one of an estimator")
-        return self._pictures.figure_data()
+        return figure_data_of(self) if self._pictures is None else self._pictures.figure_data()
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (self._text, self._table, dict(self._maps), self._pictures)
 
     def __str__(self) -> str:
-        return self._table.rstrip("\n")
+        return (self._table or text_of_report(self)).rstrip("\n")
 
     def __repr__(self) -> str:
         gain = self["gain"]
@@ -87,26 +196,47 @@ class Report(PagedRecord):
         return f"<Report: {self['frames']} frames of {self['width']} x {self['height']} pixels, gain {found}>"
 
     def quantities(self) -> list[dict[str, Any]]:
-        """Every quantity as a row: `path`, `label` and `meaning` of quantity_list(), then what the report has of it:
-        `value`, `standard_error`, `interval95`, `status`, `unit`, `bracket`. For a table: pandas.DataFrame() of it.
-        What was not looked at, as the noise's correlation by the published method, has no row."""
+        """Returns every quantity as a row: `path`, `label` and `meaning` of quantity_list(), then `value`,
+        `standard_error`, `interval95`, `status`, `unit`, `bracket` of the report. A quantity that was not looked at, as
+        the correlation of the noise by the published method, has no row.
+
+        Examples
+        --------
+        >>> pandas.DataFrame(report.quantities())
+        """
         rows = []
         for entry in quantity_list():
-            found: Any = self
-            for name in entry["path"].split("."):
-                found = found[name] if found is not None else None
+            found = member(self, entry["path"])
             if found is not None:
                 rows.append({**entry, **found})
         return rows
 
     def plot(self, ax: "Axes | None" = None) -> "Figure":
-        """Draws the temporal variance, as it is and without flicker and motion, against the mean, and the line through
-        the latter with its 95 % band, as the paper's Figure 4: the noise curve of the camera. Where the gain is not
-        identified, the line is dashed and indicative; where the response bends, the legend says how much.
+        """Draws the noise curve of the camera, as Figure 4 of the paper: the temporal variance, as it is and without
+        flicker and motion, against the mean, and the line through the latter with its 95 % band. Where the gain is not
+        identified, the line is dashed and indicative; where the response is not linear, the legend says how much.
 
-        ax: matplotlib's axes to draw into; default: those of a new figure of matplotlib.pyplot, which has the residuals
-        below. Returns their figure, whose `axes` are all of its axes. Raises ImportError if matplotlib is not
-        installed, ValueError if nothing was measured.
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw into. Default: those of a new figure of matplotlib.pyplot, which has the residuals below.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure; its `axes` are all of its axes. A new one is shown by plt.show() in a program and at the end of
+            its cell in a notebook, once, also where the call is the last line of the cell.
+
+        Raises
+        ------
+        ImportError
+            matplotlib is not installed.
+        ValueError
+            Nothing was measured.
+
+        Examples
+        --------
+        >>> report.plot().savefig("curve.png")
         """
         from ._figure import draw, new_axes
 
@@ -117,10 +247,21 @@ class Report(PagedRecord):
 
     def _repr_html_(self) -> str:
         """The table with its warnings and, where there is one, the noise curve."""
-        return f"<pre>{html.escape(str(self))}</pre>{self._curve_element(480)}"
+        return self._notebook_html()
+
+    def _notebook_html(self) -> str:
+        return table_of_text(str(self)) + figure(self._curve_element(480))
 
     def _curve_element(self, width: int) -> str:
         """The noise curve as an HTML element; "" where there is none."""
-        if self._pictures is None or not self.figure_data["mean"]:
+        data = self.figure_data
+        if not data["mean"]:
             return ""
-        return self._pictures.curve_element(width)
+        if self._pictures is not None:
+            return self._pictures.curve_element(width)
+        known = [(x, y) for x, y in zip(data["mean"], data["variance"], strict=True) if y is not None]
+        before = Points([x for x, _ in known], [y for _, y in known], "before")
+        after = Points(data["mean"], data["corrected_variance"])
+        lines = [(data["line_mean"], data["line_variance"])] if data["line_mean"] else []
+        curve = Plot("mean [DN]", "variance [DN²]", [before, after], lines, data["is_indicative"])
+        return curve.element("noise curve", width)

@@ -200,6 +200,15 @@ def simulate_sensor_noise(
         A wrong type, or an unknown keyword.
     ValueError
         A wrong value; says what was found and what was expected.
+
+    See Also
+    --------
+    estimate_sensor_noise : Measures what was simulated.
+
+    Examples
+    --------
+    >>> stack, truth = itk.simulate_sensor_noise(camera="A", condition=3, frames=50, size=(256, 256))
+    >>> truth["gain"]
     """
     parameters = dict(locals())
     import itk

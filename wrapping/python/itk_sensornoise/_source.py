@@ -77,15 +77,37 @@ def read_image(file_name: FileName, what: str) -> np.ndarray:
 def sensor_noise_frame_list_source(
     file_names: FileName | Sequence[FileName], *, ttype: ItkObject = None, raw: str = ""
 ) -> ItkObject:
-    """itk.SensorNoiseFrameListSource in functional style: frames on files as an itk.Image (x, y, t), all read.
+    """Reads frames on files as one itk.Image (x, y, t): itk.SensorNoiseFrameListSource in functional style.
 
-    `file_names`: 2-D images in time order, of the formats that README.md names, or the name of one stack; a pattern of
-    names or a folder, as `frames` of estimate_sensor_noise(). `ttype`: the type of the image, itk.Image[itk.US, 3] for
-    instance; default: that of the files, and nothing is converted. `raw`: how frames lie in files without a header, as
-    estimate_sensor_noise() has it.
+    Parameters
+    ----------
+    file_names : str, os.PathLike or sequence of them
+        2-D images in time order, of the formats that README.md names, or the name of one stack; a pattern of names or a
+        folder, as `frames` of estimate_sensor_noise().
+    ttype : type, optional
+        Type of the image, for instance itk.Image[itk.US, 3]. Default: the type of the files. Nothing is converted.
+    raw : str, optional
+        Layout of files without a header, as estimate_sensor_noise() has it.
 
-    Raises ValueError for files that are not complete, not all alike, not of grey values or cannot be read. To read a
-    few frames at a time, use the class, as an input of a filter.
+    Returns
+    -------
+    itk.Image
+        All frames, read. To read a few at a time, use the class, as an input of a filter.
+
+    Raises
+    ------
+    TypeError
+        A wrong type.
+    ValueError
+        Files that are not complete, not all alike, not of grey values or cannot be read.
+
+    See Also
+    --------
+    estimate_sensor_noise : Reads files a few frames at a time.
+
+    Examples
+    --------
+    >>> image = itk.sensor_noise_frame_list_source("frames/*.tif")
     """
     import itk
 

@@ -60,6 +60,15 @@ def generalized_anscombe_image_filter(
     -----
     UserWarning
         Some pixels lie so far below the model's zero level that the root's argument is negative: they become 0.
+
+    See Also
+    --------
+    inverse_generalized_anscombe_image_filter : Leads back to levels.
+    denoise_with_noise_model : Both with a denoiser between them.
+
+    Examples
+    --------
+    >>> stabilised = itk.generalized_anscombe_image_filter(image, report)
     """
     import itk
 
@@ -119,6 +128,14 @@ def inverse_generalized_anscombe_image_filter(
         A wrong type.
     ValueError
         A wrong value, and a report without the two numbers, or with a slope that is not above 0.
+
+    See Also
+    --------
+    generalized_anscombe_image_filter : The transform.
+
+    Examples
+    --------
+    >>> clean = itk.inverse_generalized_anscombe_image_filter(denoised, report, dtype="uint16")
     """
     import itk
 
@@ -183,14 +200,14 @@ def _value(record: Mapping[str, Any], name: str) -> float:
             f"the report's {name} has no value (it is {str(status).replace('-', ' ')}); expected a report that has "
             "variance_slope and total_intercept"
         )
-    return quantity["value"]
+    return float(quantity["value"])
 
 
 def _dtype(dtype: Any, default: str, choices: tuple[str, ...]) -> str:
     if dtype is None:
         return default
     try:
-        name = np.dtype(dtype).name
+        name: str = np.dtype(dtype).name
     except TypeError:
         name = ""
     if name not in choices:

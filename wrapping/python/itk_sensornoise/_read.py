@@ -1,0 +1,57 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Records that were written as JSON, read again."""
+
+import json
+import os
+from collections.abc import Mapping
+from typing import Any
+
+from ._errors import InvalidTypeError
+from ._names import is_name
+from ._types import FileName
+
+SCHEMA = "itk-sensornoise-report/1"
+# Members that the table and the figures of a report need.
+_MEMBERS = (
+    *("method", "frames", "frames_distinct", "frames_left_out", "width", "height", "bit_depth", "quantisation_step"),
+    *("clip_low", "clip_high", "pixels", "gain", "offset", "read_noise", "variance_slope", "total_intercept"),
+    *("flicker", "motion", "scatter", "fit", "linearity", "warnings"),
+)
+_EXPECTED = "the JSON of a report, or the name of its file"
+
+
+def text_of(source: str | FileName) -> tuple[str, str]:
+    """The JSON text that is given, or stands in a file, and what to call it in an error. Raises TypeError for what is
+    neither, ValueError for a file that cannot be read."""
+    if isinstance(source, str) and source.lstrip().startswith("{"):
+        return source, "the text"
+    if not is_name(source):
+        raise InvalidTypeError(f"the report is of type {type(source).__name__}; expected {_EXPECTED}")
+    name = os.fsdecode(source)
+    try:
+        with open(name, encoding="utf-8") as file:
+            return file.read(), name
+    except OSError as error:
+        raise ValueError(f"{name} cannot be read ({error.strerror}); expected {_EXPECTED}") from None
+    except UnicodeDecodeError:
+        raise ValueError(f"{name} is not UTF-8; expected {_EXPECTED}") from None
+
+
+def record_of(text: str, name: str) -> dict[str, Any]:
+    """The record in a text. Raises ValueError where it is no report."""
+    try:
+        record = json.loads(text)
+    except ValueError as error:
+        raise ValueError(f"{name} is no JSON ({error}); expected {_EXPECTED}") from None
+    if not isinstance(record, dict) or record.get("schema") != SCHEMA:
+        found = f"the schema {record['schema']!r}" if isinstance(record, dict) and "schema" in record else "no schema"
+        raise ValueError(f'{name} has {found}; expected "{SCHEMA}", a report of estimate_sensor_noise()')
+    channels = record.get("channels", [record])
+    if not isinstance(channels, list) or not all(isinstance(channel, Mapping) for channel in channels):
+        raise ValueError(f"{name} has channels that are no reports; expected the JSON as it was written")
+    for channel in channels:
+        missing = [member for member in _MEMBERS if member not in channel]
+        if missing:
+            raise ValueError(f"{name} lacks {', '.join(missing)}; expected the whole JSON of a report")
+    return record
