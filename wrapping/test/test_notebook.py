@@ -12,7 +12,7 @@ import itk_sensornoise as sn
 import numpy as np
 import pytest
 
-HEADERS = {"table", "thead", "tbody", "tr", "th", "td", "p", "figure", "img", "div", "br"}
+HEADERS = {"table", "thead", "tbody", "tr", "th", "td", "p", "figure", "img", "div", "br", "span"}
 
 
 def simulated(**options):

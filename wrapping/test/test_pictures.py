@@ -144,7 +144,7 @@ def test_a_channel_has_its_own_pictures():
         assert channel.figure_data == data
         assert data["mean"] == channel["scatter"]["mean"] and data["flicker"] == channel["flicker"]
         assert channel.to_html().startswith("<!DOCTYPE html>")
-    pictures = re.findall(r"<figcaption>(\w+)</figcaption><img [^>]*base64,([^\"]+)", reports._repr_html_())
+    pictures = re.findall(r"<span>(\w+)</span><img [^>]*base64,([^\"]+)", reports._repr_html_())
     assert [name for name, _ in pictures] == list(reports.figure_data)
     assert len({base64.b64decode(curve) for _, curve in pictures}) == 4
 

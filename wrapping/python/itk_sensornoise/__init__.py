@@ -18,6 +18,8 @@ noise sigma [DN], flicker gamma_t [1] and vibration (alpha_t, beta_t) [pixel] ar
 Imaging Sci. 8(1), 2015, https://doi.org/10.1137/140977035.
 """
 
+from typing import TYPE_CHECKING, Any
+
 from ._catalogue import quantity_list, warning_table
 from ._channels import ChannelReports
 from ._check import NoiseModelCheck, check_noise_model
@@ -39,7 +41,6 @@ from ._simulate import simulate_sensor_noise
 from ._source import sensor_noise_frame_list_source
 from ._stabilise import generalized_anscombe_image_filter, inverse_generalized_anscombe_image_filter
 from ._sums import SensorNoiseSums
-from ._version import __version__
 
 __all__ = [
     "ChannelReports",
@@ -68,3 +69,15 @@ __all__ = [
     "vibration_covariance_estimator",
     "warning_table",
 ]
+
+if TYPE_CHECKING:
+    __version__: str
+
+
+def __getattr__(name: str) -> Any:
+    """The version of the installed package, which is looked up when it is asked for."""
+    if name != "__version__":
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from ._version import version_of_package
+
+    return version_of_package()

@@ -179,7 +179,7 @@ class ChannelReports(PagedRecord):
                 cells = [(row[2] if row[0] == "-" else row[0]) if row else "" for row in found]
                 rows.append((label, *cells, unit))
         curves = "".join(
-            f'<div style="display:inline-block;margin:0.5em">{name}<br>{curve}</div>'
+            f'<div style="display:inline-block;margin:0.5em"><span>{name}</span>{curve}</div>'
             for name in CHANNELS
             if (curve := self.channel(name)._curve_element(320))
         )

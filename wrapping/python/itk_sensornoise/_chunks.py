@@ -21,6 +21,14 @@ def frames_of_chunk(frames: Any) -> int:
         return 1
 
 
+def arrays_of_graph(frames: Any) -> list[Any]:
+    """The arrays in a graph of dask that does no more than slice them; empty where it computes, or is none."""
+    graph = getattr(frames, "dask", None)
+    if len(getattr(graph, "layers", {}).values()) not in (1, 2):
+        return []
+    return list(_of_graph(graph))
+
+
 def is_closed(frames: Any) -> bool:
     """Whether it is a dataset of h5py's whose file was closed: it has not even a shape."""
     return type(frames).__module__.startswith("h5py.") and not frames

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Estimators, whose result is a record, in ITK's functional style: arrays or images in, a mapping out."""
 
-import difflib
 import re
 from typing import Any
 
@@ -38,6 +37,8 @@ def set_parameters(instance: ItkObject, parameters: dict[str, Any], function: st
 
 def _similar(name: str, instance: ItkObject) -> str:
     """Advice for a name that is no parameter."""
+    import difflib
+
     setters = (known.removeprefix("Set") for known in dir(instance) if known.startswith("Set"))
     names = [re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", setter).lower() for setter in setters]
     found = difflib.get_close_matches(name, names, 1)
@@ -117,7 +118,7 @@ def sensor_noise_estimator(
 
 
 def temporal_statistics_image_filter(stack: Frames, **parameters: Any) -> tuple[Any, Any, Any]:
-    """Computes mean and unbiased variance over time of every pixel, and the mask of valid pixels.
+    """Mean and unbiased variance over time of every pixel of a stack, and the mask of valid pixels.
 
     Parameters
     ----------

@@ -10,7 +10,7 @@ import numpy as np
 
 from ._arrays import PIXEL_TYPES, require_pixel_type, require_shape
 from ._axes import in_time_order
-from ._chunks import frames_of_chunk, is_closed, require_chunks
+from ._chunks import arrays_of_graph, frames_of_chunk, is_closed, require_chunks
 from ._types import ItkObject
 
 # Bytes that are asked for at a time, beside the chunk of 32 MiB that ITK asks for; more where what is stored has larger
@@ -76,10 +76,13 @@ class LazyStack:
         require_shape(like, name, "t, y, x")
         require_chunks(frames, name)
         self.shape = like.shape
-        self._piece = self._frames_of_piece(like.dtype.itemsize)
-        self._map = mapping_of(self._frames)
+        # Of a graph of dask that slices arrays of NumPy, no chunk is read as a whole.
+        arrays = [array for array in arrays_of_graph(self._frames) if isinstance(array, np.ndarray)]
+        mapped = [array for array in [self._frames, *arrays] if mapping_of(array) is not None]
+        self._piece = self._frames_of_piece(like.dtype.itemsize, 1 if arrays else frames_of_chunk(self._frames))
         # What was changed in a private map is there alone.
-        self._can_forget = self._map is not None and _is_of_file(self._frames)
+        maps = [mapping_of(array) for array in mapped if _is_of_file(array)]
+        self._forgettable = [each for number, each in enumerate(maps) if each is not None and each not in maps[:number]]
 
     def read(self, first: int, end: int, take: Callable[[int, np.ndarray], None]) -> None:
         """Hands the frames first ... end - 1 to `take`, with the number of the first of each piece. Raises ValueError
@@ -95,13 +98,13 @@ class LazyStack:
                 )
             take(first, piece)
             del piece
-            if self._map is not None and self._can_forget:
-                self._map.madvise(mmap.MADV_DONTNEED)
+            for mapping in self._forgettable:
+                mapping.madvise(mmap.MADV_DONTNEED)
             first = stop
 
-    def _frames_of_piece(self, item_bytes: int) -> int:
+    def _frames_of_piece(self, item_bytes: int, stored: int) -> int:
+        """The number of frames that are read together; `stored` lie in a chunk."""
         frame_bytes = item_bytes * int(self.shape[1]) * int(self.shape[2])
-        stored = frames_of_chunk(self._frames)
         wanted = max(_PIECE_BYTES // frame_bytes, 1)
         return max(1, min(-(-wanted // stored) * stored, max(_LARGEST // frame_bytes, 1)))
 

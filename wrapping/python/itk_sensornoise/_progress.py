@@ -52,12 +52,16 @@ class _Called:
         """Nothing is left open."""
 
 
-def make_bar(progress: Progress = True) -> Bar | None:
+def bar_of(progress: Progress) -> Bar | None:
     """The bar that is asked for; None: none is. Raises TypeError where `progress` is neither a bool nor a function."""
     if callable(progress):
         return _Called(progress)
-    if not _options.true_or_false("progress", progress, "True, False or a function of the fraction that is done"):
-        return None
+    expected = "True, False or a function of the fraction that is done"
+    return make_bar() if _options.true_or_false("progress", progress, expected) else None
+
+
+def make_bar() -> Bar:
+    """A bar of tqdm if that is installed, else a line on standard error."""
     try:
         from tqdm.auto import tqdm
     except ImportError:
@@ -103,7 +107,7 @@ def at_work(instance: ItkObject, progress: Progress = False, *stacks: _Reads) ->
     """
     import itk
 
-    bar = make_bar(progress)
+    bar = bar_of(progress)
     caught: list[BaseException] = []
     watch = _watch(instance, bar, caught, stacks)
     next(watch)

@@ -2,9 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """The version of the installed package."""
 
+import functools
 from importlib.metadata import PackageNotFoundError, version
 
-try:
-    __version__ = version("itk-sensornoise")
-except PackageNotFoundError:  # the folder was copied and not installed
-    __version__ = "unknown"
+
+@functools.cache
+def version_of_package() -> str:
+    """The version of the distribution; "unknown" where the folder was copied and not installed."""
+    try:
+        return version("itk-sensornoise")
+    except PackageNotFoundError:
+        return "unknown"

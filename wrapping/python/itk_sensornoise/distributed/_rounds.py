@@ -14,7 +14,7 @@ import numpy as np
 from .. import _options
 from .._channels import ChannelReports
 from .._errors import InvalidTypeError
-from .._progress import Bar, make_bar
+from .._progress import Bar, bar_of
 from .._report import Report
 from .._settings import Settings
 from .._sums import SensorNoiseSums, names_of
@@ -121,7 +121,7 @@ def estimate_sensor_noise(
     sums.drop_history()
     run = _Run.of(client, parts, sums, frames_per_task)
     try:
-        run.bar = make_bar(progress)
+        run.bar = bar_of(progress)
         while not sums.is_done:
             run.go_round()
     except distributed.KilledWorker as error:
