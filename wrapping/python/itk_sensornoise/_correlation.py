@@ -14,6 +14,7 @@ from ._errors import InvalidTypeError, itk_errors
 from ._estimators import mask_of_frames
 from ._frames import Stack, frame_image, open_frames
 from ._html import figure, table
+from ._nan_frames import warn_of_nan_frames
 from ._progress import at_work
 from ._record import Record
 from ._rounding import measured, with_signs
@@ -189,7 +190,10 @@ def noise_correlation_estimator(
         estimator.SetQuantisationStep(_options.number("quantisation_step", quantisation_step, expected, above=0.0))
     with at_work(estimator, False, opened), itk_errors():
         estimator.Update()
-    return NoiseCorrelation(estimator.GetResultAsJson())
+    found = NoiseCorrelation(estimator.GetResultAsJson())
+    if found.kind == "not-measured":
+        warn_of_nan_frames(opened, "stack")
+    return found
 
 
 def _of_frame(array: np.ndarray, name: str, stack: Stack) -> np.ndarray:

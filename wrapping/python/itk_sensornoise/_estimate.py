@@ -12,6 +12,7 @@ from ._frames import Stack, open_dumps, open_frames
 from ._hash import FramesHash
 from ._maps import arrays_of, maps_folder, require_apart, write_maps
 from ._names import expand
+from ._nan_frames import warn_of_nan_frames
 from ._progress import at_work
 from ._report import Report
 from ._settings import Settings, open_dark, prepare
@@ -202,6 +203,12 @@ def estimate_sensor_noise(
     ImportError
         A raw file of a camera without rawpy. What a reader of lazy frames raises is raised as it is.
 
+    Warns
+    -----
+    UserWarning
+        Frames of floating point that are NaN in every pixel, by their indices, where nothing could be measured for them.
+        Where a few are, `frames_left_out` of the report names them.
+
     See Also
     --------
     compare : Several reports side by side.
@@ -251,13 +258,19 @@ def estimate_sensor_noise(
     hashes = []
     if hash:
         hashes = _set_hashes(estimator, stack, dark_stack)
+    if dark_stack is not None:
+        warn_of_nan_frames(dark_stack, "dark")
     with at_work(estimator, progress, *filter(None, (prepared.stack, prepared.dark))), itk_errors():
         estimator.Update()
     for each in hashes:
         each.require_unchanged()
     if folder is not None:
         write_maps(estimator, folder)
-    return report_of(estimator, arrays_of(estimator) if maps is True else None)
+    report = report_of(estimator, arrays_of(estimator) if maps is True else None)
+    # Where a few frames are NaN, the report names them as frames that are left out.
+    if all(record["pixels"]["used"] == 0 for record in report.get("channels", [report])):
+        warn_of_nan_frames(stack, "frames")
+    return report
 
 
 def _set_hashes(estimator: ItkObject, frames: Stack, dark: Stack | None) -> list[FramesHash]:

@@ -12,6 +12,7 @@ from ._arrays import as_frame, as_mask, view
 from ._channels import ChannelReports, report_of
 from ._errors import InvalidTypeError, InvalidValueError, cause_of, itk_errors, python_error_of
 from ._frames import Stack, frame_image, open_frames
+from ._nan_frames import warn_of_nan_frames
 from ._progress import at_work
 from ._report import Report
 from ._types import Frame, Frames, ItkObject
@@ -155,6 +156,8 @@ def temporal_statistics_image_filter(stack: Frames, **parameters: Any) -> tuple[
     set_parameters(statistics, parameters, "temporal_statistics_image_filter")
     with at_work(statistics, False, opened), itk_errors():
         statistics.Update()
+    if statistics.GetNumberOfNotFinitePixels() == opened.size[0] * opened.size[1]:
+        warn_of_nan_frames(opened, "stack")
     images = statistics.GetMean(), statistics.GetVariance(), statistics.GetValidMask()
     if hasattr(stack, "GetLargestPossibleRegion"):
         return images
