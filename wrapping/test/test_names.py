@@ -89,10 +89,8 @@ OTHERS = {
     "a.h5": "h5py.File(",
     "a.HDF5": "h5py.File(",
     "a.zarr": "zarr.open_array(",
-    "a.fits": "astropy.io.fits.open(",
     "a.fits.gz": "astropy.io.fits.open(",
     "a.nc": "xarray.open_dataset(",
-    "a.npy": "numpy.load(",
     "a.mp4": "cv2.VideoCapture",
 }
 

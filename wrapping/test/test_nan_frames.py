@@ -26,7 +26,9 @@ def with_nan(burst, numbers):
 def test_they_are_named_where_nothing_is_measured(burst, name, make):
     measure, role = MEASURE[name]
     stack = with_nan(burst, np.arange(5, 59))
-    with pytest.warns(UserWarning, match=rf"^54 frames of {role} \(5, 6, 7, 8, 9, 10, 11, 12, 13, 14, ...\) are NaN in"):
+    with pytest.warns(
+        UserWarning, match=rf"^54 frames of {role} \(5, 6, 7, 8, 9, 10, 11, 12, 13, 14, ...\) are NaN in"
+    ):
         measure(make(stack))
 
 

@@ -206,8 +206,8 @@ def estimate_sensor_noise(
     Warns
     -----
     UserWarning
-        Frames of floating point that are NaN in every pixel, by their indices, where nothing could be measured for them.
-        Where a few are, `frames_left_out` of the report names them.
+        Frames of floating point that are NaN in every pixel, by their indices, where nothing could be measured for
+        them. Where a few are, `frames_left_out` of the report names them.
 
     See Also
     --------

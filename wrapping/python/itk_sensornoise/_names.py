@@ -19,9 +19,8 @@ _PATTERN = re.compile(r"[*?\[]")
 _LIBRARIES = {
     (".h5", ".hdf5", ".hdf", ".he5"): ("HDF5", "h5py.File({})['name of the dataset']"),
     (".zarr",): ("Zarr", "zarr.open_array({})"),
-    (".fits", ".fit", ".fts", ".fits.gz", ".fits.fz"): ("FITS", "astropy.io.fits.open({}, memmap=False)[0].section"),
+    (".fits.gz", ".fits.fz"): ("FITS", "astropy.io.fits.open({}, memmap=False)[0].section"),
     (".nc", ".nc4"): ("NetCDF", "xarray.open_dataset({})['name of the variable']"),
-    (".npy",): ("NumPy's", "numpy.load({}, mmap_mode='r')"),
     (".npz",): ("NumPy's", "numpy.load({})['name of the array']"),
 }
 _VIDEOS = (".avi", ".mp4", ".mov", ".mkv", ".m4v", ".wmv", ".mpg", ".mpeg", ".webm")

@@ -4,7 +4,8 @@
 
 import os
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 
 import numpy as np
 
@@ -12,6 +13,13 @@ from ._arrays import PIXEL_TYPES
 from ._errors import itk_errors
 from ._names import expand
 from ._types import FileName, ItkObject
+
+# Of a file with several channels or planes: an option of the tool, and the way of Python.
+_CHOICE = ": choose --"
+_ADVICE = (
+    "Give the frames of one channel and one plane as an array (t, y, x), "
+    "of a TIFF (T, C, Y, X) for instance tifffile.imread(name)[:, 0]"
+)
 
 
 def _names_of(file_names: FileName | Sequence[FileName]) -> list[str]:
@@ -25,6 +33,19 @@ def _names_of(file_names: FileName | Sequence[FileName]) -> list[str]:
         except UnicodeEncodeError:
             raise ValueError(f"{name!a}: a name that is not UTF-8; expected one that is") from None
     return names
+
+
+@contextmanager
+def _file_errors() -> Iterator[None]:
+    """Raises what ITK finds of files as ValueError; where that names an option of the tool, with what Python has."""
+    try:
+        with itk_errors(kind=ValueError):
+            yield
+    except ValueError as error:
+        words, found, _ = str(error).partition(_CHOICE)
+        if not found:
+            raise
+        raise ValueError(f"{words}. {_ADVICE}") from None
 
 
 def _new(pixel: str) -> ItkObject:
@@ -43,7 +64,7 @@ def open_files(file_names: Sequence[FileName], raw: str = "") -> tuple[ItkObject
     asked = _new("uint16")
     asked.SetFileNames(_names_of(file_names))
     asked.SetRawLayout(raw)
-    with itk_errors(kind=ValueError):
+    with _file_errors():
         component = asked.GetComponentType()
     if asked.GetWarning():
         warnings.warn(asked.GetWarning(), stacklevel=2)
@@ -52,7 +73,7 @@ def open_files(file_names: Sequence[FileName], raw: str = "") -> tuple[ItkObject
     )
     source = _new(pixel)
     source.SetFrameList(asked.GetFrameList())
-    with itk_errors(kind=ValueError):
+    with _file_errors():
         source.UpdateOutputInformation()
     return source, pixel
 
@@ -118,7 +139,7 @@ def sensor_noise_frame_list_source(
         source = itk.SensorNoiseFrameListSource[ttype].New()
         source.SetFileNames(_names_of(file_names))
         source.SetRawLayout(raw)
-        with itk_errors(kind=ValueError):
+        with _file_errors():
             source.UpdateOutputInformation()
     with itk_errors():
         source.Update()
