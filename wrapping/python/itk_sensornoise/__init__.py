@@ -21,6 +21,7 @@ Imaging Sci. 8(1), 2015, https://doi.org/10.1137/140977035.
 from typing import TYPE_CHECKING, Any
 
 from ._catalogue import quantity_list, warning_table
+from ._chain import flicker_correction_image_filter, vibration_mask_image_filter
 from ._channels import ChannelReports
 from ._check import NoiseModelCheck, check_noise_model
 from ._compare import Comparison, compare
@@ -56,6 +57,7 @@ __all__ = [
     "compare",
     "denoise_with_noise_model",
     "estimate_sensor_noise",
+    "flicker_correction_image_filter",
     "generalized_anscombe_image_filter",
     "inverse_generalized_anscombe_image_filter",
     "noise_correlation_estimator",
@@ -67,6 +69,7 @@ __all__ = [
     "simulate_sensor_noise",
     "temporal_statistics_image_filter",
     "vibration_covariance_estimator",
+    "vibration_mask_image_filter",
     "warning_table",
 ]
 

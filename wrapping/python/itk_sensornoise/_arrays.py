@@ -5,6 +5,7 @@
 import numpy as np
 
 from ._errors import InvalidTypeError
+from ._like import updated
 from ._types import ItkObject
 
 # The pixel types of the filters: NumPy's name, ITK's name in Python, ITK's name of a component type of files.
@@ -20,6 +21,7 @@ PIXEL_NAMES = "uint8, uint16, int16, float32 or float64"
 
 def as_array(values: object, name: str) -> np.ndarray:
     """`values` as an array, shared if it is one; refuses what is none, and masked arrays, whose mask would be lost."""
+    values = updated(values)
     if isinstance(values, np.ma.MaskedArray):
         raise InvalidTypeError(f"{name} is a masked array, expected a plain one: give its data, and a mask by mask=")
     if isinstance(values, (list, tuple)) or hasattr(values, "__array__") or hasattr(values, "__array_interface__"):

@@ -11,6 +11,7 @@ import numpy as np
 from . import _options
 from ._arrays import as_array, require_pixel_type
 from ._errors import itk_errors
+from ._like import is_image, is_labelled, output_of, updated
 from ._stabilise import (
     generalized_anscombe_image_filter,
     inverse_generalized_anscombe_image_filter,
@@ -118,9 +119,8 @@ def _levels(image: Any) -> np.ndarray:
     """The levels as an array of 2 or 3 dimensions, without a copy."""
     import itk
 
-    if hasattr(image, "GetLargestPossibleRegion"):
-        with itk_errors():
-            image.Update()
+    image = updated(image)
+    if is_image(image):
         image = itk.array_view_from_image(image)
     levels = as_array(image, "image")
     require_pixel_type(levels, "image")
@@ -136,8 +136,9 @@ def _like(result: np.ndarray, image: Any) -> Any:
     """A result as what it was made of: an image at the same place, or an array."""
     import itk
 
-    if not hasattr(image, "GetLargestPossibleRegion"):
-        return result
+    image = output_of(image)
+    if not is_image(image):
+        return image.copy(data=result) if is_labelled(image) else result
     made = itk.image_from_array(result)
     made.CopyInformation(image)
     return made

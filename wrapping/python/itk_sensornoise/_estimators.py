@@ -12,6 +12,7 @@ from ._arrays import as_frame, as_mask, view
 from ._channels import ChannelReports, report_of
 from ._errors import InvalidTypeError, InvalidValueError, cause_of, itk_errors, python_error_of
 from ._frames import Stack, frame_image, open_frames
+from ._like import frame_like
 from ._nan_frames import warn_of_nan_frames
 from ._progress import at_work
 from ._report import Report
@@ -158,11 +159,11 @@ def temporal_statistics_image_filter(stack: Frames, **parameters: Any) -> tuple[
         statistics.Update()
     if statistics.GetNumberOfNotFinitePixels() == opened.size[0] * opened.size[1]:
         warn_of_nan_frames(opened, "stack")
-    images = statistics.GetMean(), statistics.GetVariance(), statistics.GetValidMask()
-    if hasattr(stack, "GetLargestPossibleRegion"):
-        return images
-    mean, variance, valid = map(itk.array_from_image, images)
-    return mean, variance, valid
+    return (
+        frame_like(stack, statistics.GetMean(), "mean"),
+        frame_like(stack, statistics.GetVariance(), "variance"),
+        frame_like(stack, statistics.GetValidMask(), "valid"),
+    )
 
 
 def noise_regression_estimator(

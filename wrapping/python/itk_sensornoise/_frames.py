@@ -23,6 +23,7 @@ from ._arrays import (
 from ._bayer import note_pattern
 from ._errors import InvalidTypeError, itk_errors
 from ._lazy import LazyStack, ListOfFrames, is_lazy, source_of
+from ._like import output_of
 from ._names import expand, is_name, refuse_other_formats
 from ._rawpy import RawFiles, is_raw, raw_metadata
 from ._source import open_files
@@ -65,7 +66,7 @@ def open_frames(frames: Frames, frame_range: tuple[int, int] | None = None, name
     `frame_range` (first, one past the last) are not opened; a stack is left whole. Raises ValueError, with the `name`
     of the parameter, for anything else.
     """
-    frames = expand(frames, name)
+    frames = output_of(expand(frames, name))
     if is_name(frames):
         return _from_files([frames], None)
     if isinstance(frames, (list, tuple)):

@@ -10,6 +10,7 @@ _NEW = ("check_noise_model", "denoise_with_noise_model", "estimate_sensor_noise"
 # ITK generates functions of these names too; what they return holds a C++ struct that Python cannot open, or they must
 # be told the pixel type, or know no report.
 _REPLACED = (
+    "flicker_correction_image_filter",
     "generalized_anscombe_image_filter",
     "inverse_generalized_anscombe_image_filter",
     "noise_correlation_estimator",
@@ -18,8 +19,33 @@ _REPLACED = (
     "sensor_noise_frame_list_source",
     "temporal_statistics_image_filter",
     "vibration_covariance_estimator",
+    "vibration_mask_image_filter",
 )
 _MODULE = "SensorNoise"
+
+# Methods whose result is an enumeration of C++, which Python cannot open and SWIG warns of when it goes, and those that
+# return its name.
+_NAMED = {
+    "GetInverse": "GetInverseName",
+    "GetMethod": "GetMethodName",
+    "GetRollingShutter": "GetRollingShutterName",
+}
+# Methods whose result is a struct of C++, which Python cannot open; the same is in methods that end in AsJson, or in
+# numbers and vectors that have a method each.
+_CLOSED = (
+    *("GetBrightSet", "GetChannelReports", "GetDarkSet", "GetFlicker", "GetNoiseCorrelation", "GetReport"),
+    *("GetResult", "GetSource", "GetSummary", "GetTruth"),
+)
+
+
+def _open(cls: type) -> None:
+    """Gives a class the methods that Python can use in place of those that it cannot."""
+    for name in _CLOSED:
+        if isinstance(vars(cls).get(name), FunctionType):
+            delattr(cls, name)
+    for name, readable in _NAMED.items():
+        if isinstance(vars(cls).get(name), FunctionType) and readable in vars(cls):
+            setattr(cls, name, vars(cls)[readable])
 
 
 def _document(cls: type, text: str, methods: dict[str, str]) -> None:
@@ -51,6 +77,8 @@ def _replace_generated() -> None:
     for feature in itk_base_global_module_data[_MODULE].get_all_template_features():
         cls = getattr(generated, feature.get_swig_class_name(), None)
         docs = CLASS_DOCS.get(feature.get_python_class_name())
+        if cls is not None:
+            _open(cls)
         if cls is not None and docs is not None:
             _document(cls, *docs)
             itkTemplate(feature.get_cpp_class_name()).__doc__ = docs[0]

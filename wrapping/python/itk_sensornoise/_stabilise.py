@@ -13,6 +13,7 @@ import numpy as np
 from . import _options
 from ._arrays import PIXEL_NAMES, PIXEL_TYPES, as_array, as_itk_order, image_words, require_pixel_type, view
 from ._errors import InvalidTypeError, itk_errors
+from ._like import is_image, is_labelled, output_of
 from ._names import is_name
 
 _SCHEMA = "itk-sensornoise-report/1"
@@ -223,7 +224,8 @@ class _Picture:
         import itk
 
         self._shape: tuple[int, ...] | None = None
-        if hasattr(values, "GetLargestPossibleRegion"):
+        self._given, values = values, output_of(values)
+        if is_image(values):
             self.image = values
             for self.pixel, (component, _) in PIXEL_TYPES.items():
                 for self._dimension in (2, 3):
@@ -258,4 +260,7 @@ class _Picture:
         """A filter's output as what it was made of: an image, or an array of that shape."""
         import itk
 
-        return output if self._shape is None else itk.array_from_image(output).reshape(self._shape)
+        if self._shape is None:
+            return output
+        array = itk.array_from_image(output).reshape(self._shape)
+        return self._given.copy(data=array) if is_labelled(self._given) else array
