@@ -112,7 +112,7 @@ def test_wrong_use_of_the_steps_is_refused(burst):
 
 
 def test_methods_can_be_opened_or_are_not_there(fresh):
-    """What SWIG cannot open is a SwigPyObject; of an enumeration it also warns when that goes."""
+    """SWIG gives a SwigPyObject for a struct, and warns of an enumeration when that goes."""
     code = (
         "import itk, numpy as np\n"
         "image = itk.image_view_from_array(np.random.default_rng(1).integers(9, 90, (8, 48, 64), dtype=np.uint16))\n"

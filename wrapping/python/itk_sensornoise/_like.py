@@ -41,8 +41,8 @@ def is_labelled(values: Any) -> bool:
 
 
 def frame_like(stack: Any, image: Any, name: str) -> Any:
-    """A filter's output of a frame's size in the type of the stack: an image of an image or a filter, an array of xarray
-    of one, else an array (y, x)."""
+    """Gives a filter's output of a frame's size the type of the stack: an image of an image or a filter, of xarray an
+    array of xarray, else an array (y, x)."""
     import itk
 
     if is_image(stack) or is_process(stack):
@@ -54,7 +54,7 @@ def frame_like(stack: Any, image: Any, name: str) -> Any:
 
 
 def stack_like(stack: Any, image: Any, name: str) -> Any:
-    """The same for a filter's output of the size of the stack."""
+    """Does the same for a filter's output of the size of the stack."""
     import itk
 
     if is_image(stack) or is_process(stack):
@@ -64,7 +64,7 @@ def stack_like(stack: Any, image: Any, name: str) -> Any:
 
 
 def picture_like(picture: Any, image: Any, name: str) -> Any:
-    """The same for a filter of frames: the output has the axes of the picture."""
+    """Does the same for a filter of frames, whose output has the axes of the picture."""
     import itk
 
     if is_image(picture) or is_process(picture):
