@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Options in the forms that Python has for them: slices for a region, a function for the progress."""
 
+from collections import deque
+
 import itk
 import numpy as np
 import pytest
@@ -68,3 +70,52 @@ def test_an_error_of_the_function_stops_the_work(burst):
 def test_progress_of_another_type_is_refused(burst):
     with pytest.raises(TypeError, match="^progress is 'yes'; expected True, False or a function of the fraction"):
         itk.estimate_sensor_noise(burst, progress="yes")
+
+
+class Tensor:
+    """A tensor of another library, which NumPy knows by DLPack alone."""
+
+    def __init__(self, array):
+        self.array = array
+
+    def __dlpack__(self, **options):
+        return self.array.__dlpack__(**options)
+
+    def __dlpack_device__(self):
+        return self.array.__dlpack_device__()
+
+
+class FarTensor(Tensor):
+    def __dlpack__(self, **options):
+        raise BufferError("it is on a GPU")
+
+
+@pytest.mark.parametrize(
+    "make", [deque, Tensor, lambda burst: list(map(Tensor, burst)), lambda burst: np.ma.masked_array(burst, mask=False)]
+)
+def test_frames_of_other_containers_are_frames(burst, make):
+    assert itk.estimate_sensor_noise(make(burst)) == itk.estimate_sensor_noise(burst)
+
+
+def test_a_tensor_elsewhere_is_refused(burst):
+    with pytest.raises(ValueError, match="^frames cannot be made an array .it is on a GPU.; expected a tensor in main"):
+        itk.estimate_sensor_noise(FarTensor(burst))
+
+
+def test_masked_pixels_are_refused(burst):
+    with pytest.raises(TypeError, match="^frames is a masked array, expected a plain one"):
+        itk.estimate_sensor_noise(np.ma.masked_greater(burst, 3000))
+
+
+def test_a_slice_is_a_range_of_frames(burst):
+    expected = itk.estimate_sensor_noise(burst, frame_range=(5, 50))
+    assert itk.estimate_sensor_noise(burst, frame_range=slice(5, 50)) == expected
+    for wrong in (slice(5, 50, 2), slice(5, None), slice(50, 5)):
+        with pytest.raises(ValueError, match="^frame_range is .*; expected .first, end. with 0 <= first < end"):
+            itk.estimate_sensor_noise(burst, frame_range=wrong)
+
+
+@pytest.mark.parametrize("make", [np.asarray, list, lambda numbers: pytest.importorskip("pandas").Series(numbers)])
+def test_exposures_are_any_numbers(burst, make):
+    numbers = [1.0, 2.0, 3.0, 4.0] * 15
+    assert itk.estimate_sensor_noise(burst, exposures=make(numbers))["linearity"]["levels"]

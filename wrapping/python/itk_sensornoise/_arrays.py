@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """NumPy arrays that ITK can look at without a copy."""
 
+from typing import Any
+
 import numpy as np
 
 from ._errors import InvalidTypeError
@@ -23,7 +25,11 @@ def as_array(values: object, name: str) -> np.ndarray:
     """`values` as an array, shared if it is one; refuses what is none, and masked arrays, whose mask would be lost."""
     values = updated(values)
     if isinstance(values, np.ma.MaskedArray):
+        if not np.ma.is_masked(values):
+            return np.asarray(values.data)  # all of it counts
         raise InvalidTypeError(f"{name} is a masked array, expected a plain one: give its data, and a mask by mask=")
+    if hasattr(values, "__dlpack__") and not hasattr(values, "__array__"):
+        return from_dlpack(values, name)
     if isinstance(values, (list, tuple)) or hasattr(values, "__array__") or hasattr(values, "__array_interface__"):
         try:
             return np.asarray(values)
@@ -31,6 +37,14 @@ def as_array(values: object, name: str) -> np.ndarray:
             # NumPy's of lists of unequal length or of no numbers; tensors' that are elsewhere, or want a gradient.
             raise ValueError(f"{name} cannot be made an array ({error}); expected numbers") from error
     raise InvalidTypeError(f"{name} is of type {type(values).__name__}; expected an array")
+
+
+def from_dlpack(values: Any, name: str) -> np.ndarray:
+    """A tensor of another library as an array, shared. Raises ValueError where it is on another device."""
+    try:
+        return np.from_dlpack(values)
+    except (BufferError, RuntimeError, TypeError, ValueError) as error:
+        raise ValueError(f"{name} cannot be made an array ({error}); expected a tensor in main memory") from None
 
 
 def require_pixel_type(array: np.ndarray, name: str) -> str:

@@ -37,7 +37,7 @@ class Options(TypedDict, total=False):
     quantiles: tuple[float, float]
     roi: Roi | None
     mask: Frame | FileName | None
-    frame_range: tuple[int, int] | None
+    frame_range: tuple[int, int] | slice | None
     maps: bool | FileName | None
     hash: bool
     raw: str | None
@@ -81,7 +81,7 @@ def estimate_sensor_noise(
     quantiles: tuple[float, float] = (0.01, 0.99),
     roi: Roi | None = None,
     mask: Frame | FileName | None = None,
-    frame_range: tuple[int, int] | None = None,
+    frame_range: tuple[int, int] | slice | None = None,
     maps: bool | FileName | None = None,
     hash: bool = False,
     raw: str | None = None,
@@ -151,7 +151,7 @@ def estimate_sensor_noise(
     mask
         Only pixels where this is not 0: an array (y, x) of a frame's size, or the name of an image file.
     frame_range
-        (first, end): only the frames first, first + 1, ... end - 1, counted from 0.
+        (first, end), or slice(first, end): only the frames first, first + 1, ... end - 1, counted from 0.
     maps
         What is known of every pixel: mean, variance, corrected_variance [DN, DN^2] and pixel_use (0: used; the other
         values are README.md's); with two dark frames or more also the camera calibration: pixel_offset and

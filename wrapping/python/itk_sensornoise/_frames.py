@@ -15,6 +15,7 @@ from ._arrays import (
     PIXEL_TYPES,
     as_array,
     as_itk_order,
+    from_dlpack,
     image_words,
     require_pixel_type,
     require_shape,
@@ -69,8 +70,10 @@ def open_frames(frames: Frames, frame_range: tuple[int, int] | None = None, name
     frames = output_of(expand(frames, name))
     if is_name(frames):
         return _from_files([frames], None)
-    if isinstance(frames, (list, tuple)):
-        return _from_list(frames, frame_range, name)
+    if isinstance(frames, Sequence) and not isinstance(frames, (str, bytes, range)) and not hasattr(frames, "dtype"):
+        return _from_list(frames if isinstance(frames, (list, tuple)) else list(frames), frame_range, name)
+    if hasattr(frames, "__dlpack__") and not hasattr(frames, "__array__"):
+        frames = from_dlpack(frames, name)
     if hasattr(frames, "GetLargestPossibleRegion"):
         return _from_image(frames, name)
     if is_lazy(frames):

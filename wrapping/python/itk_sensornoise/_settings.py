@@ -37,7 +37,7 @@ class Settings:
     quantiles: tuple[float, float] = (0.01, 0.99)
     roi: Roi | None = None
     mask: Frame | FileName | None = None
-    frame_range: tuple[int, int] | None = None
+    frame_range: tuple[int, int] | slice | None = None
     threads: int | None = None
 
     def check(self, dark: object) -> None:
@@ -197,7 +197,7 @@ def _exposures(exposures: Sequence[float], method: str) -> list[float]:
 
 def _exposures_of(settings: Settings, frames: int, total: int | None) -> list[float]:
     """The exposures of the `frames` that are measured, cut by `frame_range`; `total`: all frames; None: not known."""
-    numbers = _exposures(settings.exposures or (), settings.method)
+    numbers = _exposures(() if settings.exposures is None else settings.exposures, settings.method)
     least = total or (settings.span[1] if settings.span is not None else frames)
     if len(numbers) < least or len(numbers) > (total or len(numbers)):
         also = "" if settings.span is None else ", also for those that frame_range leaves out"
@@ -215,8 +215,12 @@ def _cut_dark(opened: Stack, stack: Stack, corner: tuple[int, ...], size: tuple[
     return opened if size == opened.size else crop(opened, corner, size)
 
 
-def _frame_range(frame_range: tuple[int, int]) -> tuple[int, int]:
+def _frame_range(frame_range: tuple[int, int] | slice) -> tuple[int, int]:
     expected = "(first, end) with 0 <= first < end"
+    if isinstance(frame_range, slice):
+        if frame_range.step not in (None, 1) or frame_range.stop is None:
+            raise _options.refuse("frame_range", frame_range, f"{expected}, or slice(first, end)")
+        frame_range = (frame_range.start or 0, frame_range.stop)
     first, end = _options.integers("frame_range", frame_range, 2, expected)
     if not 0 <= first < end:
         raise _options.refuse("frame_range", frame_range, expected)
