@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Options in the forms that Python has for them: slices for a region, a function for the progress."""
 
+import json
 from collections import deque
 
 import itk
 import numpy as np
 import pytest
+from itk_sensornoise.distributed._journal import settings_record
 
 
 @pytest.mark.parametrize(
@@ -70,6 +72,12 @@ def test_an_error_of_the_function_stops_the_work(burst):
 def test_progress_of_another_type_is_refused(burst):
     with pytest.raises(TypeError, match="^progress is 'yes'; expected True, False or a function of the fraction"):
         itk.estimate_sensor_noise(burst, progress="yes")
+
+
+def test_slices_are_settings_of_many_bursts():
+    settings = {"roi": np.s_[10:60, np.int64(20) : 100], "frame_range": slice(5, 50)}
+    record = settings_record(settings, {"roi": None, "frame_range": None})
+    assert json.loads(json.dumps(record)) == {"roi": [[10, 60, None], [20, 100, None]], "frame_range": [5, 50, None]}
 
 
 class Tensor:

@@ -18,10 +18,9 @@ from ._types import Frame, Frames
 def vibration_mask_image_filter(
     mean: Frame, *, variance: Frame, valid_mask: Frame | None = None, **parameters: Any
 ) -> Any:
-    """Finds the pixels that vibrations do not move: itk.VibrationMaskImageFilter in functional style.
+    """Mask of the pixels whose gradient noise alone explains, so that vibrations leave their variance alone.
 
-    The gradient of the mean of such a pixel is small beside its temporal variance: vibrations change its level by no
-    more than noise.
+    itk.VibrationMaskImageFilter in functional style.
 
     Parameters
     ----------

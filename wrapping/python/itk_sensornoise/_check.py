@@ -14,6 +14,7 @@ from ._frames import frame_image, open_frames
 from ._html import figure, paragraphs, table
 from ._progress import at_work
 from ._record import Record
+from ._rounding import with_signs
 from ._stabilise import noise_model, open_report
 from ._svg import Plot, Points
 
@@ -47,7 +48,7 @@ class NoiseModelCheck(Record):
         return NoiseModelCheck, (self._text, self._table)
 
     def __repr__(self) -> str:
-        return f"<NoiseModelCheck: {self['sentence']}>"
+        return f"<NoiseModelCheck: {with_signs(self['sentence'])}>"
 
     def __str__(self) -> str:
         return self._table.rstrip("\n")

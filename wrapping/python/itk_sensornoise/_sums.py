@@ -232,11 +232,13 @@ class SensorNoiseSums:
 
     def _array(self) -> np.ndarray:
         with itk_errors():
-            return _array(self._sums.GetSums())[0]
+            sums: np.ndarray = _array(self._sums.GetSums())[0]
+        return sums
 
     def _flags(self) -> np.ndarray:
         with itk_errors():
-            return _array(self._sums.GetFrames())[0]
+            flags: np.ndarray = _array(self._sums.GetFrames())[0]
+        return flags
 
     def _opened(self, frames: Any, name: str, frame_range: tuple[int, int] | None = None) -> Stack:
         return self._fitting(open_frames(frames, frame_range, name), name)
@@ -314,7 +316,7 @@ def _row(sums: Any) -> np.ndarray:
     return np.ascontiguousarray(row, dtype=np.uint8).reshape(1, -1)
 
 
-def _array(image: ItkObject) -> np.ndarray:
+def _array(image: ItkObject) -> Any:
     """An image as an array. A copy: NumPy forgets the owner of what ITK's views look at, once they are cut."""
     import itk
 

@@ -33,6 +33,8 @@ def _as_json(name: str, value: Any) -> Any:
         return {"sha256": digest, "shape": list(value.shape), "dtype": value.dtype.name}
     if isinstance(value, (list, tuple)):
         return [_as_json(name, item) for item in value]
+    if isinstance(value, slice):
+        return [_as_json(name, part) for part in (value.start, value.stop, value.step)]
     if isinstance(value, os.PathLike):
         return os.fsdecode(value)
     if isinstance(value, np.generic):
