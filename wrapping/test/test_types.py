@@ -93,6 +93,9 @@ def test_public_names_are_documented(name):
         for section in sections:
             assert f"\n{section}\n{'-' * len(section)}\n" in text, section
         assert documented.__annotations__["return"] is not None
+        described = text.partition("\nParameters\n----------\n")[2].partition("\nReturns\n")[0]
+        names = [line for line in described.split("\n") if line and not line.startswith(" ")]
+        assert all(" : " in line or line.startswith("**") for line in names), names
 
 
 USE = """

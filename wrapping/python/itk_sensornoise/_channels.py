@@ -14,7 +14,6 @@ from ._maps import Maps
 from ._pictures import PagedRecord, Pictures, pack
 from ._read import record_of, text_of
 from ._report import Report
-from ._report_text import text_of_channels
 from ._rounding import with_signs
 from ._types import FileName, ItkObject
 
@@ -154,7 +153,11 @@ class ChannelReports(PagedRecord):
         )
 
     def __str__(self) -> str:
-        return (self._table or text_of_channels(self)).rstrip("\n")
+        if not self._table:
+            from ._report_text import text_of_channels
+
+            return text_of_channels(self).rstrip("\n")
+        return self._table.rstrip("\n")
 
     def __repr__(self) -> str:
         first = self["channels"][0]

@@ -16,7 +16,6 @@ from ._progress import at_work
 from ._record import Record
 from ._rounding import with_signs
 from ._stabilise import noise_model, open_report
-from ._svg import Plot, Points
 
 
 class NoiseModelCheck(Record):
@@ -55,6 +54,8 @@ class NoiseModelCheck(Record):
 
     def _repr_html_(self) -> str:
         """The table and the sentence, and the ratio of the variances by level."""
+        from ._svg import Plot, Points
+
         lines = str(self).split("\n")
         cells = [re.split(r"\s{2,}", line.strip()) for line in lines]
         end = next((number for number, row in enumerate(cells) if len(row) != len(cells[0])), len(cells))
@@ -79,14 +80,14 @@ def check_noise_model(frames: Any, report: Any, *, mask: Any = None, **parameter
 
     Parameters
     ----------
-    frames
+    frames : frames
         As `frames` of estimate_sensor_noise(), of the report's camera and setting: others than it was made from, or the
         same ones, which shows whether the line fits.
-    report
+    report : Report, mapping, str or os.PathLike
         A report of estimate_sensor_noise(), a mapping like it, or the name of its JSON file.
-    mask
+    mask : array_like (y, x) or itk.Image, optional
         Only pixels where this is not 0: an array (y, x), or an image, of a frame's size.
-    parameters
+    **parameters
         Those of itk.SensorNoiseEstimator in snake case, for example `bit_depth=12`. Not the method: the frames are
         measured by the refined one, whatever method the report is of.
 

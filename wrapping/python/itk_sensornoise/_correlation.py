@@ -18,7 +18,6 @@ from ._nan_frames import warn_of_nan_frames
 from ._progress import at_work
 from ._record import Record
 from ._rounding import measured, with_signs
-from ._svg import Plot, Points
 from ._types import Frame, Frames
 
 
@@ -75,6 +74,8 @@ class NoiseCorrelation(Record):
 
     def _repr_html_(self) -> str:
         """The table, and the correlation of pixels and of frames by lag."""
+        from ._svg import Plot, Points
+
         lags = self["noise_correlation"]["space"] + self["noise_correlation"]["time"]
         numbers = list(range(1, len(lags) + 1))
         values, errors = ([lag[name] for lag in lags] for name in ("value", "standard_error"))
@@ -130,22 +131,22 @@ def noise_correlation_estimator(
 
     Parameters
     ----------
-    stack
+    stack : frames
         Frames of a scene that stands still, flat fields for instance, as `frames` of estimate_sensor_noise().
-    mean
+    mean : array_like (y, x) or itk.Image, optional
         The stack's mean [DN], an array (y, x) or an image; NaN: the pixel is left out. Default: found.
-    mask
+    mask : array_like (y, x) or itk.Image, optional
         Pixels of value 0 are left out, an array (y, x) or an image. Default: all that are finite and never clipped.
         With `mean` and `mask` the stack is read once, else twice.
-    series
+    series : array_like (frames,) or (frames, k), optional
         What changes from frame to frame (flicker, motion), of any unit: an array (frames,) or (frames, k). What is in
         proportion to it is taken out of every pixel, each by its own factor. Default: none.
-    remove_frame_means
+    remove_frame_means : bool, default True
         Takes out the means of the frames, too, plain and weighted with the light: flicker and a drifting offset.
         Without, a fluctuating light is seen as noise that is shared.
-    offset
+    offset : float, optional
         The level without light [DN]. Default: the darkest level if that is below 0.3 of the brightest, else 0.
-    quantisation_step
+    quantisation_step : float, optional
         Spacing of the codes [DN]. Default: found; with `mean` and `mask`, 1 for integers.
 
     Returns

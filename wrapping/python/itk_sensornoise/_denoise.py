@@ -48,22 +48,22 @@ def denoise_with_noise_model(
 
     Parameters
     ----------
-    image
+    image : array_like, itk.Image or filter
         Levels [DN]: an array (y, x), or (t, y, x) frame by frame, or an itk.Image of 2 or 3 dimensions; uint8, uint16,
         int16, float32 or float64. Finite.
-    report
+    report : Report, mapping, str or os.PathLike, optional
         The noise model: a report of estimate_sensor_noise(), a mapping like it, or the name of its JSON file. Only its
         variance_slope and total_intercept are needed: a report without offset serves.
-    denoiser
+    denoiser : {"nlm", "itk"} or callable, default "nlm"
         What removes white Gaussian noise of variance 1: a function that takes an array (y, x) of float32 and returns
         one of the same shape; "nlm", OpenCV's non-local means, which needs cv2 (pip install
         itk-sensornoise[denoise]); or "itk", ITK's bilateral filter.
-    variance_slope, total_intercept
+    variance_slope, total_intercept : float, optional
         The model by its numbers [DN/e-], above 0, and [DN^2], in place of a report. Nothing then tells on which scale
         the levels are.
-    strength
+    strength : float, default 1
         Of "nlm" and "itk", relative to what is best for the noise; above 0, at most 10.
-    dtype
+    dtype : dtype, optional
         The type of the result; integers are rounded and kept in range. Default: that of `image`.
 
     Returns

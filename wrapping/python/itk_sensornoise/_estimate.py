@@ -93,7 +93,7 @@ def estimate_sensor_noise(
 
     Parameters
     ----------
-    frames
+    frames : frames
         Raw frames in time order, at least 5 of at least 3 x 3 pixels: a NumPy array (t, y, x); an itk.Image of 3
         dimensions (x, y, t); a list of file names or of 2-D arrays (y, x), or of what has `__array__`; the name of one
         stack file; a pattern of names ("frames/*.png"), a folder of files of one kind, a set or a generator of names,
@@ -105,59 +105,59 @@ def estimate_sensor_noise(
         missing are an error, as far as h5py and zarr say so. Raw files of cameras (.dng, .cr2, .nef, ...) are read by
         rawpy, if installed: unprocessed codes. Arrays are shared; one that is not C-contiguous or not in the machine's
         byte order is copied once.
-    method
+    method : {"refined", "published"}, default "refined"
         "refined": all pixels of a still scene, textured or not; what is `identified` has a standard error and a 95 %
         interval. "published": Figure 2 of Sur & Grédiac 2015, even areas only, without errors.
-    offset
+    offset : float or (float, float), optional
         The offset [DN] if it is known, or (offset, standard error): offset and read noise then need no flicker, and
         steady light is told from the offset. Default: found. "refined" only.
-    dark
+    dark : frames, optional
         Frames without light, as `frames`, of the same size and type and at the same exposure, gain and temperature:
         they give the offset and, from two frames on, the read noise. Not together with `offset`. "refined" only.
-    bayer
+    bayer : {"auto", "none", "RGGB", "GRBG", "GBRG", "BGGR"}, default "auto"
         Colour filters in front of the pixels. "none": a monochrome sensor. "RGGB", "GRBG", "GBRG" or "BGGR", the
         colours of the upper left pixels: each of the four planes is measured by itself. "auto": as the file says, if
         it does, else as the levels of the first frame tell, which cannot tell red from blue.
-    bit_depth
+    bit_depth : int, optional
         Bits of the sensor's codes, 1 to 16. Default: found.
-    clip
+    clip : (float, float), optional
         Lowest and highest level that the sensor attains [DN]. Default: found.
-    step
+    step : float, optional
         Spacing of the codes [DN]. Default: found.
-    level_range
+    level_range : (float, float), optional
         (low, high): levels between which the variance is fitted [DN], for sensors whose response is straight in a part
         of its range. The level of a pixel is the mean of its neighbours. Default: all. "refined" only.
-    exposures
+    exposures : sequence of float, optional
         Exposure of each frame, in the order of the frames and in any unit: exposure times, or irradiations; 0: a dark
         frame. Finite, 0 or more, with at least 3 different values. The record's `linearity` then has the linearity
         error of EMVA 1288, and offset and responsivity of a line through the levels. One for each of `frames`, also for
         those that `frame_range` leaves out. Default: not given. "refined" only.
-    excess_noise_factor
+    excess_noise_factor : float, default 1
         F, 1 or more, of a sensor that multiplies electrons at random, 2 for an EMCCD: the frames cannot tell it. `gain`
         is the slope of the variance divided by F; `variance_slope` and everything in DN stay as they are. Default: 1.
-    rolling_shutter
+    rolling_shutter : {"auto", "off"} or float, default "auto"
         Whether the flicker may differ from line to line: "auto" (found out), "off", or the width sigma_y of a line's
         neighbourhood [lines]. "refined" looks for any light that changes in some places in another way than in others,
         unless "off", and needs no width.
-    shutter_axis
+    shutter_axis : {"y", "x"}, default "y"
         Axis along which the shutter travels: "y" (lines are rows) or "x". "refined" does without.
-    level
+    level : float, default 0.01
         Level of the test that finds pixels moved by vibrations, a probability. "refined" does without.
-    quantiles
+    quantiles : (float, float), default (0.01, 0.99)
         Quantiles of the mean at which the dark and the bright set lie, 0 to 1. "refined" does without.
-    roi
+    roi : (int, int, int, int) or (slice, slice), optional
         (x, y, width, height) [pixel], or two slices as an array (y, x) takes them, `np.s_[50:150, 50:200]`: only these
         pixels, of the dark frames too. Default: all.
-    mask
+    mask : array_like (y, x), itk.Image, str or os.PathLike, optional
         Only pixels where this is not 0: an array (y, x) of a frame's size, or the name of an image file.
-    frame_range
+    frame_range : (int, int) or slice, optional
         (first, end), or slice(first, end): only the frames first, first + 1, ... end - 1, counted from 0.
-    maps
+    maps : bool, str or os.PathLike, optional
         What is known of every pixel: mean, variance, corrected_variance [DN, DN^2] and pixel_use (0: used; the other
         values are README.md's); with two dark frames or more also the camera calibration: pixel_offset and
         pixel_read_noise [DN], and the ends of their 95 % intervals, _low and _high. True: arrays by these names, the
         report's `maps`. A folder: an image (.mha) each, written there. Default: none.
-    hash
+    hash : bool, default False
         Whether record, table and page have the SHA-256 of the frames, and of the dark ones, as `input`, by which they
         are filed. Of names: as the tool's --hash, of the bytes of all files in their order, behind a header those of
         its pixels; a file that changes meanwhile is an error. Of all else: of the bytes of all pixels, least
@@ -165,19 +165,19 @@ def estimate_sensor_noise(
         hashlib.sha256(array.astype(array.dtype.newbyteorder("<")).tobytes()). `roi` and `mask` change nothing of it,
         and `frame_range` only that of a list, which has the frames in the range. All is read once more: lazy frames,
         too. "of" says which it is, "files" or "pixels".
-    raw
+    raw : str, optional
         How frames lie in files without a header, those of `frames` and of `dark`:
         "WxH:TYPE[:SKIP[:ROW[:GAP[:END]]]]", for example
         "640x480:uint16le", or "1920x1080:Mono12p:64" behind 64 other bytes; the types are README.md's. Default: the
         files say so.
-    memory_limit
+    memory_limit : int, optional
         Most memory that the estimate takes beside the frames [bytes], for example 4 * 10**9: frames that are read a few
         at a time are read more often where it would need more, with the same result. "refined" needs 56 bytes a pixel
         of a frame and 8 more for each series of light and motion that it finds, "published" 40. Less than 64 bytes a
         pixel (40), 20 kB a frame and 32 MiB is refused. Default: no limit.
-    threads
+    threads : int, optional
         Number of threads. Default: all. The result is the same bits for any number.
-    progress
+    progress : bool or callable, default False
         True: shows the progress, with tqdm if installed, else on standard error. A function: is called with the
         fraction of the work that is done, from 0 to 1, and at the end with 1; an error of its own stops the work and is
         raised. Default: False.

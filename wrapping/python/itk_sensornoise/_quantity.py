@@ -8,6 +8,15 @@ from typing import Any, Literal, TypeAlias
 
 from ._rounding import rounded_quantity, with_signs
 
+
+def member(record: Mapping[str, Any], path: str) -> Any:
+    """The member at a path as "vibration.sd_x"; None where there is none."""
+    found: Any = record
+    for name in path.split("."):
+        found = found.get(name) if found is not None else None
+    return found
+
+
 Status: TypeAlias = Literal["identified", "not-identifiable", "upper-limit", "failed"]
 
 

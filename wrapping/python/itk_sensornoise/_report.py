@@ -8,14 +8,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ._catalogue import quantity_list
-from ._figure_data import figure_data_of
 from ._html import figure, table_of_text
 from ._maps import Maps
 from ._pictures import PagedRecord, Pictures
-from ._quantity import Quantity
+from ._quantity import Quantity, member
 from ._read import record_of, text_of
-from ._report_text import member, text_of_report
-from ._svg import Plot, Points
 from ._types import FileName, ItkObject
 
 if TYPE_CHECKING:
@@ -182,13 +179,21 @@ class Report(QuantityAttributes, PagedRecord):
         A list is empty where there is nothing of it. `is_indicative`, a bool: there is a line, but no gain.
         `residual_spread`, a number: how much further residuals scatter at most, as neighbours share their noise [1].
         """
-        return figure_data_of(self) if self._pictures is None else self._pictures.figure_data()
+        if self._pictures is not None:
+            return self._pictures.figure_data()
+        from ._figure_data import figure_data_of
+
+        return figure_data_of(self)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (self._text, self._table, dict(self._maps), self._pictures)
 
     def __str__(self) -> str:
-        return (self._table or text_of_report(self)).rstrip("\n")
+        if not self._table:
+            from ._report_text import text_of_report
+
+            return text_of_report(self).rstrip("\n")
+        return self._table.rstrip("\n")
 
     def __repr__(self) -> str:
         gain = self["gain"]
@@ -259,6 +264,8 @@ class Report(QuantityAttributes, PagedRecord):
             return ""
         if self._pictures is not None:
             return self._pictures.curve_element(width)
+        from ._svg import Plot, Points
+
         known = [(x, y) for x, y in zip(data["mean"], data["variance"], strict=True) if y is not None]
         before = Points([x for x, _ in known], [y for _, y in known], "before")
         after = Points(data["mean"], data["corrected_variance"])

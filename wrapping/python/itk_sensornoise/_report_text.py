@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from ._catalogue import quantity_list
+from ._quantity import member
 from ._rounding import end_of_interval, limits_of, measured, rounded_quantity, shortened, with_signs
 
 # Quantities that the table has only where they say something; all others stand in every table.
@@ -22,14 +23,6 @@ _COLUMNS = (
     ("Cov(alpha, beta)", "vibration.covariance"),
     ("sigma_gamma", "flicker_sd"),
 )
-
-
-def member(record: Mapping[str, Any], path: str) -> Any:
-    """The member at a path as "vibration.sd_x"; None where there is none."""
-    found: Any = record
-    for name in path.split("."):
-        found = found.get(name) if found is not None else None
-    return found
 
 
 def text_of_report(record: Mapping[str, Any]) -> str:

@@ -112,80 +112,80 @@ def simulate_sensor_noise(
 
     Parameters
     ----------
-    camera, condition
+    camera, condition : {"A", "B", "C"}, {1, 2, 3}
         Camera, light and floor of Table 1 of Sur & Grédiac 2015; each of their numbers can be replaced below.
-    frames
+    frames : int, default 100
         Number of frames T, at least 1.
-    size
+    size : (int, int), optional
         (width, height) of the scene [pixel]. Default (512, 512); a reference that is an array has its own.
-    reference
+    reference : {"target", "bars", "texture", "flat"} or array_like (y, x)
         The scene: "target", "bars", "texture", "flat", or an array (y, x) of any range.
-    seed
+    seed : int, default 1
         Seed of the noise, 0 or more: the same seed gives the same bits. The scene stays the same.
-    dtype
+    dtype : dtype, default uint16
         uint8, uint16, int16, float32 or float64; floating point is neither rounded nor clipped to codes.
-    gain, offset, read_noise, electrons
+    gain, offset, read_noise, electrons : float, optional
         Gain [DN/e-], offset [DN], read noise [DN], electrons of the brightest pixel [e-]. Default: the camera's.
-    illumination
+    illumination : str or sequence of float, default "steady"
         Illumination factor of the frames [1]: one number a frame, or the name of a shape with its lowest factor L and
         its period P [frames]: "pulses:L:P" (1 in every P-th frame, else L), "ramp:L" (L to 1), "decay:L"
         (exponential, 1 to L), "sine:L:P", "uniform:L" (random, L to 1), "exponential:L" (random, mean 1).
-    flicker_sd, vibration_sd
+    flicker_sd, vibration_sd : float, (float, float), optional
         Standard deviations of the flicker [1] and of the shifts (x, y) [pixel]. Default: the condition's.
-    optical_blur
+    optical_blur : float, default 0.5
         Standard deviation of a Gaussian blur of the scene's light, before the photons are counted [pixel].
-    rolling_shutter
+    rolling_shutter : float, default 0
         Period of a pulsing lamp in rows of a rolling shutter; 0: the whole frame flickers.
-    bit_depth
+    bit_depth : int, optional
         Bits of the converter, at most 16; 0: no clipping below the pixel type's range. Default 12, or 8 for uint8.
-    clip
+    clip : (float, float), optional
         Levels (low, high) between which the sensor itself is limited [DN]. Default: none.
-    bayer, transmission
+    bayer, transmission : str, (float, float, float), optional
         Mosaic of colour filters by its pattern, and what its filters (R, G, B) let through of the scene's electrons
         [1]. Default: no filters; (0.6, 1, 0.5).
-    prnu, dsnu
+    prnu, dsnu : float, default 0
         Standard deviations of the pixels' efficiency, relative [1], and of their offset [DN].
-    hot_pixels
+    hot_pixels : (float, float), optional
         (fraction, factor): so many pixels with so many times the read noise. Default: none.
-    gain_pattern, column_gain_pattern
+    gain_pattern, column_gain_pattern : float, default 0
         Relative standard deviations of the gain, from pixel to pixel and from column to column [1], below 0.2.
-    column_efficiency_pattern, column_offset_pattern
+    column_efficiency_pattern, column_offset_pattern : float, default 0
         Standard deviations of the columns' efficiency, relative [1], and of their offset [DN].
-    brighter_fatter
+    brighter_fatter : float, default 0
         Shift of the border between two pixels for each electron of difference [1/e-], for example 1e-6.
-    coupling
+    coupling : float, default 0
         Fraction of its charge that a pixel gives to each of its four neighbours [1], 0 to 0.2.
-    read_noise_spread
+    read_noise_spread : float, default 0
         Standard deviation of the logarithm of the pixels' read noise [1]; `read_noise` is their median.
-    read_noise_tail
+    read_noise_tail : (float, float), optional
         (fraction, spread): in so many pixels that logarithm is greater by |normal| times spread. Default: none.
-    response
+    response : (str, float), optional
         (shape, size): ("quadratic", "wave" or "shoulder", departure of the local gain), ("gamma", exponent) or
         ("s-curve", weight). Default: straight.
-    row_noise, column_noise
+    row_noise, column_noise : float, default 0
         Standard deviations of what the pixels of a row or of a column share in a frame [DN].
-    banding
+    banding : (float, float), optional
         (amplitude, period) of a sine along y with a phase of its own in each frame [DN], [row]. Default: none.
-    dark
+    dark : bool, default False
         The shutter is closed: frames of the same sensor, with the same fixed patterns and other noise.
-    defect_correction
+    defect_correction : float, default 0
         In the camera: a pixel so many standard deviations of its neighbours off becomes their median; 0: none.
-    temporal_filter
+    temporal_filter : float, default 0
         In the camera: weight of the last frame in each frame [1], 0 to 0.99.
-    median
+    median : int, default 0
         In the camera: radius of a median filter [pixel], 1: 3 x 3, at most 10; 0: none.
-    smoothing
+    smoothing : float, default 0
         In the camera: standard deviation of a Gaussian filter [pixel].
-    binning, binning_interpolation
+    binning, binning_interpolation : int, {"nearest", "linear"}
         In the camera: means of squares of so many pixels, 1 to 64, made the old size again by "nearest" or "linear"
         interpolation; 1: none.
-    resampling, resampling_interpolation
+    resampling, resampling_interpolation : (float, float), {"linear", "cubic"}
         In the camera: shift (x, y) by "linear" or "cubic" interpolation [pixel]. Default: none.
-    block_quality
+    block_quality : int, default 0
         In the camera: JPEG-like quantisation of 8 x 8 pixels, libjpeg's quality from 1 to 100; 0: none.
-    companding
+    companding : int, default 0
         In the camera: bits of square-root codes that are expanded again, 2 to 16; 0: none.
-    repeat, repeat_period
+    repeat, repeat_period : int, default 1
         How often each exposure, or the last one of each `repeat_period` exposures, is written, 1 or more.
 
     Returns

@@ -34,15 +34,15 @@ def generalized_anscombe_image_filter(
 
     Parameters
     ----------
-    image
+    image : array_like, itk.Image or filter
         Levels [DN]: an array of any dimension, or an itk.Image of 2 or 3 dimensions. uint8, uint16, int16, float32 or
         float64. NaN stays NaN.
-    report
+    report : Report, mapping, str or os.PathLike, optional
         The noise model: a report of estimate_sensor_noise(), a mapping like it, or the name of its JSON file. Only its
         variance_slope and total_intercept are asked for: it may lack offset, gain and read noise.
-    variance_slope, total_intercept
+    variance_slope, total_intercept : float, optional
         The model by its numbers [DN/e-], above 0, and [DN^2], in place of a report.
-    dtype
+    dtype : dtype, optional
         "float32" or "float64". Default: float64 of float64, else float32.
 
     Returns
@@ -106,16 +106,16 @@ def inverse_generalized_anscombe_image_filter(
 
     Parameters
     ----------
-    image
+    image : array_like, itk.Image or filter
         Stabilised values: an array of any dimension, or an itk.Image of 2 or 3 dimensions; float32 or float64. Negative
         ones count as 0. NaN stays NaN, and is an error where integers are wanted.
-    report, variance_slope, total_intercept
+    report, variance_slope, total_intercept : optional
         As those of generalized_anscombe_image_filter().
-    inverse
+    inverse : {"exact-unbiased", "algebraic", "asymptotic"}, default "exact-unbiased"
         "exact-unbiased": for what was denoised or averaged, the closed form of Mäkitalo & Foi 2013; off by at most 0.05
         e- in the dark, 0.02 e- from 3 e- on. "algebraic": f^-1, for single values; a mean comes out 1/4 e- too low.
         "asymptotic": off by up to 1/4 e- in the dark of a sensor without read noise, below 0.01 e- from 10 e- on.
-    dtype
+    dtype : dtype, optional
         The type of the levels: uint8, uint16, int16 (rounded to the nearest, half up, and kept in range), float32 or
         float64. Default: that of `image`.
 
