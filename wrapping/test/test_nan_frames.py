@@ -27,7 +27,8 @@ def test_they_are_named_where_nothing_is_measured(burst, name, make):
     measure, role = MEASURE[name]
     stack = with_nan(burst, np.arange(5, 59))
     with pytest.warns(
-        UserWarning, match=rf"^54 frames of {role} \(5, 6, 7, 8, 9, 10, 11, 12, 13, 14, ...\) are NaN in"
+        UserWarning,
+        match=rf"^{role}: frames 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, ... \(54 in all\) are NaN in every pixel",
     ):
         measure(make(stack))
 
@@ -41,7 +42,7 @@ def test_a_few_are_named_by_the_report(burst):
 
 
 def test_one_of_the_dark_frames_is_named(burst, dark):
-    with pytest.warns(UserWarning, match=r"^frame 2 of dark is NaN in every pixel"), pytest.raises(ValueError):
+    with pytest.warns(UserWarning, match=r"^dark: frame 2 is NaN in every pixel"), pytest.raises(ValueError):
         itk.estimate_sensor_noise(burst.astype(np.float32), dark=with_nan(dark, [2]))
 
 

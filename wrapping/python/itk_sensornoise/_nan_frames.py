@@ -20,9 +20,10 @@ def warn_of_nan_frames(stack: Stack, name: str, stacklevel: int = 3) -> None:
         return
     found = [number for number, frame in enumerate(_frames_of(stack)) if _is_nan(frame)]
     if found:
-        named = ", ".join(map(str, found[:_NAMED])) + (", ..." if len(found) > _NAMED else "")
-        which = f"frame {named} of {name} is" if len(found) == 1 else f"{len(found)} frames of {name} ({named}) are"
-        warnings.warn(f"{which} NaN in every pixel; leave them out, or read them again", stacklevel=stacklevel)
+        named = ", ".join(map(str, found[:_NAMED])) + (f", ... ({len(found)} in all)" if len(found) > _NAMED else "")
+        which = f"frame {named} is" if len(found) == 1 else f"frames {named} are"
+        advice = "leave them out, or read them again"
+        warnings.warn(f"{name}: {which} NaN in every pixel; {advice}", stacklevel=stacklevel)
 
 
 def _is_nan(frame: np.ndarray) -> bool:

@@ -92,3 +92,23 @@ def true_or_false(name: str, value: Any, expected: str = "True or False") -> boo
     if not isinstance(value, (bool, np.bool_)):
         raise refuse_type(name, value, expected)
     return bool(value)
+
+
+def rectangle(name: str, value: Any, width: int, height: int, expected: str) -> list[int]:
+    """x, y, width and height of a rectangle; of slices (y, x), those of an array of that size, without a step."""
+    if not (isinstance(value, tuple) and any(isinstance(part, slice) for part in value)):
+        return integers(name, value, 4, expected)
+    slices = f"{expected}, or two slices (y, x) without a step, np.s_[y:y_end, x:x_end]"
+    if len(value) != 2 or not all(isinstance(part, slice) for part in value):
+        raise refuse_type(name, value, slices)
+    try:
+        rows, columns = value[0].indices(height), value[1].indices(width)
+    except TypeError:
+        raise refuse_type(name, value, slices) from None
+    for part, size in zip(value, (height, width), strict=True):
+        ends = [end for end in (part.start, part.stop) if end is not None]
+        if any(not -size <= end <= size for end in ends) or part.step not in (None, 1):
+            raise refuse(name, value, slices)
+    if rows[0] >= rows[1] or columns[0] >= columns[1]:
+        raise refuse(name, value, slices)
+    return [columns[0], rows[0], columns[1] - columns[0], rows[1] - rows[0]]

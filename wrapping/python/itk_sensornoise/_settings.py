@@ -233,7 +233,7 @@ def _region(stack: Stack, roi: Roi | None, span: tuple[int, int] | None) -> tupl
     expected = f"(x, y, width, height) inside {width} x {height} pixels"
     corner, size = [0, 0, 0], [width, height, frames]
     if roi is not None:
-        x, y, roi_width, roi_height = _rectangle(roi, width, height, expected)
+        x, y, roi_width, roi_height = _options.rectangle("roi", roi, width, height, expected)
         if min(x, y) < 0 or min(roi_width, roi_height) < 1 or x + roi_width > width or y + roi_height > height:
             raise _options.refuse("roi", roi, expected)
         corner[:2], size[:2] = (x, y), (roi_width, roi_height)
@@ -242,26 +242,6 @@ def _region(stack: Stack, roi: Roi | None, span: tuple[int, int] | None) -> tupl
             raise ValueError(f"frame_range ends at {span[1]}, but there are {frames} frames")
         corner[2], size[2] = span[0], span[1] - span[0]
     return tuple(corner), tuple(size)
-
-
-def _rectangle(roi: Roi, width: int, height: int, expected: str) -> list[int]:
-    """x, y, width and height of a rectangle; of slices (y, x), those of an array of that size, without a step."""
-    if not (isinstance(roi, tuple) and any(isinstance(part, slice) for part in roi)):
-        return _options.integers("roi", roi, 4, expected)
-    slices = f"{expected}, or two slices (y, x) without a step, np.s_[y:y_end, x:x_end]"
-    if len(roi) != 2 or not all(isinstance(part, slice) for part in roi):
-        raise _options.refuse_type("roi", roi, slices)
-    try:
-        rows, columns = roi[0].indices(height), roi[1].indices(width)
-    except TypeError:
-        raise _options.refuse_type("roi", roi, slices) from None
-    for part, size in zip(roi, (height, width), strict=True):
-        ends = [end for end in (part.start, part.stop) if end is not None]
-        if any(not -size <= end <= size for end in ends) or part.step not in (None, 1):
-            raise _options.refuse("roi", roi, slices)
-    if rows[0] >= rows[1] or columns[0] >= columns[1]:
-        raise _options.refuse("roi", roi, slices)
-    return [columns[0], rows[0], columns[1] - columns[0], rows[1] - rows[0]]
 
 
 def _mask_of(mask: Frame | FileName, size: tuple[int, int]) -> np.ndarray:
