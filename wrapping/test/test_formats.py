@@ -115,6 +115,6 @@ def test_hyperstack_is_refused_with_the_way_of_python(burst, expected, tmp_path)
         assert text.startswith(
             f"{tmp_path}/hyper.tif: has 2 channels and 60 times; expected frames that differ in time"
         )
-        assert "--" not in text and text.endswith("tifffile.imread(name)[:, 0] of a TIFF (T, C, Y, X)")
+        assert "--" not in text and text.endswith("tifffile.imread(name)[:, 0]")
     # The way that is named, with an array (T, C, Y, X).
     assert itk.estimate_sensor_noise(both.reshape(len(burst), 2, *burst.shape[1:])[:, 0]) == expected
