@@ -177,3 +177,22 @@ TEST(SensorNoiseNoiseResiduals, PixelsThatAreNotTakenHaveNoWeight)
   residuals.Take(std::vector<std::uint8_t>(Geometry.Pixels(), 0), SerialFor);
   EXPECT_EQ(residuals.GetNumberOfPixels(), 0U);
 }
+
+TEST(SensorNoiseNoiseResiduals, WithoutTheFirstFramesTheyAreThoseOfTheRest)
+{
+  constexpr std::size_t dropped = 7;
+  const auto            light = Ramp(Geometry, 0.0, 200.0);
+  const auto            noise = WhiteNoise(Geometry, 3);
+  auto                  residuals = ResidualsOf(Geometry, Frames, light, noise, Series());
+  residuals.DropFirst(dropped, Threads(3));
+  const auto rest = ResidualsOf(
+    Geometry, Frames - dropped, light, [&](std::size_t t) { return noise(t + dropped); }, Series().bottomRows(23));
+  ASSERT_EQ(residuals.GetFreedom(), rest.GetFreedom());
+  for (std::size_t i = 0; i < rest.GetTiles().origins.size(); ++i)
+  {
+    for (std::size_t k = 0; k < ValuesOf(rest); ++k)
+    {
+      ASSERT_NEAR(residuals.OfTile(i)[k], rest.OfTile(i)[k], 1e-5);
+    }
+  }
+}

@@ -145,7 +145,7 @@ TEST(SensorNoiseStaticPixels, SingleNoisyPixelsAreNotTheirSurroundings)
   EXPECT_EQ(std::count(misfit.begin(), misfit.end(), std::uint8_t{ 1 }), 0);
 }
 
-TEST(SensorNoiseStaticPixels, FarOffIsFourAndAHalfStandardDeviations)
+TEST(SensorNoiseStaticPixels, FarOffIsFiveStandardDeviations)
 {
   for (const double freedom : { 10.0, 30.0, 100.0 })
   {
@@ -156,10 +156,10 @@ TEST(SensorNoiseStaticPixels, FarOffIsFourAndAHalfStandardDeviations)
     const auto below = [&](double z) {
       return ChiSquareQuantile(0.5 * std::erfc(z / std::sqrt(2.0)), freedom) / freedom;
     };
-    EXPECT_TRUE(IsFarAbove(above(4.7), freedom) && IsFarOff(above(4.7), freedom)) << freedom;
-    EXPECT_FALSE(IsFarAbove(above(4.3), freedom) || IsFarOff(above(4.3), freedom)) << freedom;
-    EXPECT_FALSE(IsFarAbove(below(6.0), freedom)) << freedom;
-    EXPECT_FALSE(IsFarOff(below(3.8), freedom)) << freedom;
+    EXPECT_TRUE(IsFarAbove(above(5.2), freedom) && IsFarOff(above(5.2), freedom)) << freedom;
+    EXPECT_FALSE(IsFarAbove(above(4.8), freedom) || IsFarOff(above(4.8), freedom)) << freedom;
+    EXPECT_FALSE(IsFarAbove(below(6.5), freedom)) << freedom;
+    EXPECT_FALSE(IsFarOff(below(4.3), freedom)) << freedom;
     EXPECT_TRUE(IsFarOff(below(5.2), freedom)) << freedom;
   }
 }

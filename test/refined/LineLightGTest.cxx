@@ -53,7 +53,8 @@ TEST(SensorNoiseLineLight, InterlacedFramesAreMeasuredWithoutWhatLinesShare)
   {
     const Report report = ReportOfInterlaced(0.008, areColumns);
     ASSERT_TRUE(report.gain.value);
-    EXPECT_NEAR(*report.gain.value, FlickeringSettings(Frames).camera.gainDnPerElectron, 4.0 * *report.gain.standardError);
+    EXPECT_NEAR(
+      *report.gain.value, FlickeringSettings(Frames).camera.gainDnPerElectron, 4.0 * *report.gain.standardError);
     const auto note = std::find_if(report.warnings.begin(), report.warnings.end(), [](const Warning & warning) {
       return warning.code == WarningCode::LocalLight;
     });

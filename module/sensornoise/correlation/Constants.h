@@ -126,6 +126,10 @@ struct CorrelationConstants
    * quarters of the last frame are forgotten after 20. */
   double smallTimeCoefficient{ 0.005 };
   int    mostTimeLags{ 24 };
+  /** Frames after which a recursive filter has forgotten how it began, for its first frame is not filtered; and at most
+   * one in so many of all. Set by hand. */
+  std::size_t firstFrames{ 8 };
+  std::size_t firstFramesOneIn{ 5 };
   ///@}
 };
 

@@ -224,14 +224,15 @@ EstimateCorrelation(NoiseSample                       sample,
   const double                   blackDn = LevelWithoutLight(settings, mean, taken);
   const std::vector<std::size_t> distinct = DistinctOf(sample);
   sample.KeepFrames(distinct);
-  const Eigen::MatrixXd  means = settings.frameMeans ? FrameMeansOf(sample, mean, taken, blackDn, parallelFor)
-                                                     : Eigen::MatrixXd(static_cast<Eigen::Index>(distinct.size()), 0);
-  const double           codesDn2 = settings.quantisationStepDn * settings.quantisationStepDn / 12.0;
-  NoiseResiduals         residuals(std::move(sample),
+  const Eigen::MatrixXd means = settings.frameMeans ? FrameMeansOf(sample, mean, taken, blackDn, parallelFor)
+                                                    : Eigen::MatrixXd(static_cast<Eigen::Index>(distinct.size()), 0);
+  const double          codesDn2 = settings.quantisationStepDn * settings.quantisationStepDn / 12.0;
+  NoiseResiduals        residuals(std::move(sample),
                            SeriesOf(settings, distinct, means),
-                                   { mean, taken, blackDn, !std::isnan(settings.offsetDn) },
+                                  { mean, taken, blackDn, !std::isnan(settings.offsetDn) },
                            parallelFor);
-  const NoiseCorrelation correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
+  NoiseCorrelation      correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
+  MeasureSettledFrames(correlation, residuals, codesDn2, parallelFor);
 
   estimate.framesUsed = residuals.GetTiles().frames;
   estimate.pixelsUsed = residuals.GetNumberOfPixels();

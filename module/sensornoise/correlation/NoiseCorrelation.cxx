@@ -253,4 +253,18 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const
   return found;
 }
 
+void
+MeasureSettledFrames(NoiseCorrelation &  correlation,
+                     NoiseResiduals &    residuals,
+                     double              codesDn2,
+                     const ParallelFor & parallelFor)
+{
+  if (correlation.kind == NoiseKind::Temporal)
+  {
+    residuals.DropFirst(
+      std::min(InCorrelation.firstFrames, residuals.GetTiles().frames / InCorrelation.firstFramesOneIn), parallelFor);
+    correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
+  }
+}
+
 } // namespace sensornoise

@@ -162,6 +162,13 @@ struct SensorNoise_EXPORT NoiseCorrelation
 SensorNoise_EXPORT NoiseCorrelation
 MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const ParallelFor & parallelFor);
 
+/** Where frames were mixed, measures it again without the first frames, in which a recursive filter has not settled. */
+SensorNoise_EXPORT void
+MeasureSettledFrames(NoiseCorrelation &  correlation,
+                     NoiseResiduals &    residuals,
+                     double              codesDn2,
+                     const ParallelFor & parallelFor);
+
 } // namespace sensornoise
 
 #endif

@@ -5,6 +5,7 @@
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/correlation/Constants.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -108,6 +109,7 @@ NoiseResiduals::TakeOffLines(LineAxis axis, const std::vector<std::uint8_t> & ta
   // The weights are better the second time, without what lines shared; the result is that of these weights alone.
   for (int twice = 0; twice < 2; ++twice)
   {
+    std::fill(left.begin(), left.end(), 0.0F);
     parallelFor(groups.size() * tiles.side, [&](std::size_t line) {
       this->RegressLines(axis, groups[line / tiles.side], line % tiles.side, left);
     });

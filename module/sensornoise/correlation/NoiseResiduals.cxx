@@ -178,6 +178,15 @@ NoiseResiduals::SetUnequalFrames(UnequalFrames frames)
 }
 
 void
+NoiseResiduals::DropFirst(std::size_t frames, const ParallelFor & parallelFor)
+{
+  m_Sample.DropFirst(frames);
+  m_Unequal.KeepLast(static_cast<Eigen::Index>(this->GetTiles().frames));
+  m_Basis = BasisOf(m_Basis.bottomRows(m_Basis.rows() - static_cast<Eigen::Index>(frames)), this->GetTiles().frames);
+  parallelFor(this->GetTiles().origins.size(), [this](std::size_t i) { this->ProjectTile(i); });
+}
+
+void
 NoiseResiduals::ProjectTile(std::size_t i)
 {
   const std::size_t  size = this->GetTiles().Pixels();

@@ -84,6 +84,11 @@ public:
     return m_Unequal;
   }
 
+  /** Leaves out the first frames, which may be other than the rest: a recursive filter begins with a frame that it has
+   * not filtered. The typical variance stays that of all frames. */
+  void
+  DropFirst(std::size_t frames, const ParallelFor & parallelFor);
+
   const SampleTiles &
   GetTiles() const
   {

@@ -4,9 +4,18 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 
 namespace sensornoise
 {
+
+void
+NoiseSample::DropFirst(std::size_t frames)
+{
+  std::vector<std::size_t> left(m_Tiles.frames - frames);
+  std::iota(left.begin(), left.end(), frames);
+  this->KeepFrames(left);
+}
 
 void
 NoiseSample::KeepFrames(const std::vector<std::size_t> & frames)

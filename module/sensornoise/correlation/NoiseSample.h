@@ -29,6 +29,10 @@ public:
     , m_Values(std::move(values))
   {}
 
+  /** Leaves out the first frames. */
+  void
+  DropFirst(std::size_t frames);
+
   /** Leaves out all frames but these, which grow. */
   void
   KeepFrames(const std::vector<std::size_t> & frames);

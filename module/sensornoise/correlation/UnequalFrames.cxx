@@ -16,6 +16,12 @@ UnequalFrames::UnequalFrames(const std::vector<double> & gamma, double gain, dou
 {}
 
 void
+UnequalFrames::KeepLast(Eigen::Index frames)
+{
+  m_Gamma = Eigen::VectorXd(m_Gamma.tail(std::min(frames, m_Gamma.size())));
+}
+
+void
 UnequalFrames::KeepFirst(Eigen::Index frames)
 {
   m_Gamma = Eigen::VectorXd(m_Gamma.head(std::min(frames, m_Gamma.size())));

@@ -48,6 +48,9 @@ public:
   {
     return m_OffsetDn;
   }
+  /** Leaves out all but the last frames. */
+  void
+  KeepLast(Eigen::Index frames);
   /** Leaves out all but the first frames. */
   void
   KeepFirst(Eigen::Index frames);

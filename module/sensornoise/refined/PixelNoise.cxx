@@ -264,6 +264,7 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
     noise.variance.parts.frames =
       CompareFrameParts(MakeFrameParts(energies, comparison.levels, { BetterLine(noise.variance), blackDn, shared }));
   }
+  MeasureSettledFrames(noise.correlation, residuals, codesDn2, parallelFor);
   if (noise.correlation.kind != NoiseKind::NotMeasured)
   {
     noise.lines.left = FindLineLight(residuals, lines.axis, parallelFor);
