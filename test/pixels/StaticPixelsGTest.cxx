@@ -160,7 +160,7 @@ TEST(SensorNoiseStaticPixels, FarOffIsFiveStandardDeviations)
     EXPECT_FALSE(IsFarAbove(above(4.8), freedom) || IsFarOff(above(4.8), freedom)) << freedom;
     EXPECT_FALSE(IsFarAbove(below(6.5), freedom)) << freedom;
     EXPECT_FALSE(IsFarOff(below(4.3), freedom)) << freedom;
-    EXPECT_TRUE(IsFarOff(below(5.2), freedom)) << freedom;
+    EXPECT_TRUE(IsFarOff(below(6.0), freedom)) << freedom;
   }
 }
 

@@ -116,6 +116,31 @@ FindCoefficients(const CorrelationSums & sums, NoiseCorrelation & found)
   }
 }
 
+/** The kurtosis of a series is relative to its own variance, whose scatter depends on what its frames share: of normal
+ * noise of the covariance S = P R P, E[sum r^4] = 3 sum_t S_tt^2 and E[(sum r^2)^2] = (tr S)^2 + 2 tr S^2. */
+void
+AllowForSharedFrames(const Eigen::MatrixXd & basis, NoiseCorrelation & found)
+{
+  const Eigen::Index frames = basis.rows();
+  Eigen::MatrixXd    shared = Eigen::MatrixXd::Identity(frames, frames);
+  for (const LagCoefficient & lag : found.time)
+  {
+    shared.diagonal(lag.lag.t).setConstant(lag.coefficient.value);
+    shared.diagonal(-lag.lag.t).setConstant(lag.coefficient.value);
+  }
+  const Eigen::MatrixXd projection = Eigen::MatrixXd::Identity(frames, frames) - basis * basis.transpose();
+  const auto            kurtosisOf = [](const Eigen::MatrixXd & covariance) {
+    const double trace = covariance.trace();
+    return covariance.diagonal().squaredNorm() / (trace * trace + 2.0 * covariance.squaredNorm());
+  };
+  const double factor = kurtosisOf(projection) / kurtosisOf(projection * shared * projection);
+  for (MeasuredNumber & kurtosis : found.kurtosis)
+  {
+    kurtosis.value = factor * (kurtosis.value + 3.0) - 3.0;
+    kurtosis.standardError *= factor;
+  }
+}
+
 /** Whether the distribution is that of normal noise, or of few electrons, after a linear filter. */
 bool
 IsLinear(const CorrelationSums & sums, const NoiseCorrelation & found)
@@ -240,6 +265,10 @@ MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const
   if (inTime || inSpace)
   {
     FindCoefficients(sums, found); // at all lags that were added
+  }
+  if (inTime)
+  {
+    AllowForSharedFrames(residuals.GetBasis(), found);
   }
   if (!IsLinear(sums, found))
   {
