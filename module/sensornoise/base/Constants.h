@@ -16,8 +16,8 @@ struct CommonConstants
   double darkestQuantile{ 0.002 };
   double brightestQuantile{ 0.998 };
 
-  /** Relative error beyond which a number says no more than its order of magnitude, and is not given [1]. Set by hand.
-   * The order of magnitude is not the number that came out: nothing is told because it came out large. */
+  /** Largest relative error of a number that is given [1]: with more it is an order of magnitude. Set by hand. The
+   * error is relative to the expected size, not to the estimate: no number is given because it came out large. */
   double largestRelativeError{ 0.25 };
 
   /** Part of the light of the brightest levels above the offset up to which a level is dark [1]: at levels of 20 to 80

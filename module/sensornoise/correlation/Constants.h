@@ -32,11 +32,11 @@ struct CorrelationConstants
   /** Tiles, at most, that tell the illumination that rows have of their own. Chosen for the time: a thousandth of that
    * of 100 frames of 512 x 512 pixels. */
   std::size_t mostTilesOfLineLight{ 32 };
-  /** Part of the mean square of a line's light that must be spread for what grows with it to be told from what does not
-   * [1]: a guard against rounding, as both are taken off together. */
+  /** Smallest spread of the signal along a line, relative to its mean square, for a regression on the signal beside the
+   * constant [1]: a guard against rounding, as both are taken off together. */
   double leastSpreadOfLine{ 1e-4 };
-  /** Part of a pixel's variance that must be left of it where what its row shares is taken off [1]: a pixel that makes
-   * up half of its row tells of the row, not of itself. */
+  /** Smallest part of a pixel's variance that taking off its line may leave [1]: a pixel that makes up half of its line
+   * determines the line, and not its own noise. */
   double leastLeftOfLine{ 0.5 };
   /** Part of the lines' variance that the series of the scene may take for light [1]. Set by hand: a row noise as large
    * as the read noise loses 3 to 8 %. */

@@ -116,8 +116,8 @@ AddProductsOfFrames(const float * here, const float * there, std::size_t size, s
   }
 }
 
-/** What taking off the lines took from the products of the pixels of a tile with those \a shift places away in their
- * lines. */
+/** Adds to the products of the pixels of a tile with those \a shift places away the covariance that taking off their
+ * lines removed. */
 void
 AddShareOfLines(const NoiseResiduals & residuals, std::size_t tile, int shift, std::vector<float> & products)
 {

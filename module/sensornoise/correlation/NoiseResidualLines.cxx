@@ -106,7 +106,7 @@ NoiseResiduals::TakeOffLines(LineAxis axis, const std::vector<std::uint8_t> & ta
   {
     shares.assign(m_Light.size(), 0.0F);
   }
-  // The weights are better the second time, without what lines shared; the result is that of these weights alone.
+  // The second weights are free of what the lines shared, and the second regression replaces the first.
   for (int twice = 0; twice < 2; ++twice)
   {
     std::fill(left.begin(), left.end(), 0.0F);

@@ -204,7 +204,7 @@ private:
   double                    m_DarkestLight{ 0.0 };
   UnequalFrames             m_Unequal;
   std::optional<LineAxis>   m_LinesTakenOff;
-  /** Of the constant, and of what grows with the light; empty: lines keep what they share. */
+  /** LineSharesOf() of all tiles; empty: no lines were taken off. */
   std::array<std::vector<float>, 2> m_LineShares;
 };
 

@@ -16,7 +16,7 @@ namespace sensornoise
 
 namespace
 {
-/** What the light of a tile adds to the variance of its pixels. */
+/** Sums by which the illumination of a tile, and the variance that it adds to the pixels, are found. */
 struct TileLight
 {
   double frames{ 0.0 };

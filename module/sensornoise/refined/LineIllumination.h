@@ -27,7 +27,8 @@ struct LineIllumination
   /** Whether it was taken off, and the pixels that were measured so: those of the noise sample. */
   bool        isTakenOff{ false };
   std::size_t pixels{ 0 };
-  /** What other illumination adds to the variance of a pixel then, relative to it [1]; 0: nothing beyond chance. */
+  /** Variance that other changes of the illumination still add to that of a pixel, relative to it [1]; 0: none beyond
+   * chance. */
   double restOfVariance{ 0.0 };
 };
 
