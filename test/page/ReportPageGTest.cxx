@@ -152,6 +152,18 @@ TEST(SensorNoiseReportPage, SaysHowWellItFits)
   EXPECT_FALSE(Contains(ToHtml(MakeGoodReport(20)), "times as far"));
 }
 
+TEST(SensorNoiseReportPage, PartsOfUnlikeGainHaveATable)
+{
+  Report report = MakeGoodReport(20);
+  EXPECT_FALSE(Contains(ToHtml(report), "Gain of the parts"));
+  report.gainByParts = { { "halves-x", { { "left half", 0.49, 0.002, 0.5 }, { "right half", 0.51, 0.002, 0.4 } } } };
+  const std::string page = ToHtml(report);
+  for (const char * const part : { "Gain of the parts", "left half", "halves-x", "0.5100 \u00B1 0.0020", "40 %" })
+  {
+    EXPECT_TRUE(Contains(page, part)) << part;
+  }
+}
+
 TEST(SensorNoiseReportPage, WhatIsNotANumberIsNotDrawn)
 {
   Report report = MakeGoodReport(50);

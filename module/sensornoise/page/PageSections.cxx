@@ -10,6 +10,7 @@
 #include "sensornoise/report/QuantityList.h"
 #include "sensornoise/report/ReportJson.h"
 #include "sensornoise/report/ReportTable.h"
+#include "sensornoise/report/Signs.h"
 #include "sensornoise/report/Version.h"
 
 #include <algorithm>
@@ -243,6 +244,25 @@ LinearityTable(const Report & report)
                       : "<table><thead><tr><th scope=\"col\">Exposure</th><th scope=\"col\">Frames</th><th "
                         "scope=\"col\">Level [DN]</th><th scope=\"col\">Deviation from the line "
                         "[%]</th></tr></thead><tbody>\n" +
+                          rows + "</tbody></table>\n";
+}
+
+std::string
+PartsTable(const Report & report)
+{
+  std::string rows;
+  for (const GainByPartsRecord & partition : report.gainByParts)
+  {
+    for (const GainByPartsRecord::Part & part : partition.parts)
+    {
+      rows += "<tr><th scope=\"row\">" + Escaped(part.name) + "</th><td>" + Escaped(partition.pattern) + "</td><td>" +
+              Escaped(WithSigns(Measured(part.gain, part.standardError))) + "</td><td>" + Percent(part.pixelFraction) +
+              "</td></tr>\n";
+    }
+  }
+  return rows.empty() ? ""
+                      : "<table><thead><tr><th scope=\"col\">Part</th><th scope=\"col\">Partition</th><th "
+                        "scope=\"col\">Gain [DN/e\u207B]</th><th scope=\"col\">Pixels</th></tr></thead><tbody>\n" +
                           rows + "</tbody></table>\n";
 }
 

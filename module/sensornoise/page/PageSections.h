@@ -41,6 +41,10 @@ EmvaTable(const Report & report);
 std::string
 LinearityTable(const Report & report);
 
+/** The gain of each part of the frame or of the burst, by partition; "" where the gain is uniform. */
+std::string
+PartsTable(const Report & report);
+
 /** The frames that were measured: their files' number, size and hash, and how it is computed by hand. "" where there is
  * no \a input. */
 std::string

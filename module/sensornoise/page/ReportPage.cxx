@@ -162,12 +162,18 @@ LinearitySection(const Report & report, const char * heading)
 }
 
 std::string
+PartsSection(const Report & report, const char * heading)
+{
+  return report.gainByParts.empty() ? "" : Heading(heading, "Gain of the parts") + PartsTable(report);
+}
+
+std::string
 ChannelSection(const Report & report)
 {
   return Heading("h2", "Channel " + report.channel) + VerdictBox(VerdictOf(report)) +
          "<details><summary>Everything of channel " + Escaped(report.channel) + "</summary>\n" + StackSentence(report) +
-         QuantityTable(report) + FitSentences(report) + SeriesAndNoise(report, "h3") + LinearitySection(report, "h3") +
-         Heading("h3", "EMVA 1288") + EmvaTable(report) + "</details>\n";
+         QuantityTable(report) + PartsSection(report, "h3") + FitSentences(report) + SeriesAndNoise(report, "h3") +
+         LinearitySection(report, "h3") + Heading("h3", "EMVA 1288") + EmvaTable(report) + "</details>\n";
 }
 
 /** Four columns, one a channel. */
@@ -207,9 +213,9 @@ ToHtml(const Report & report, const PageMaps & maps)
   return Page("Noise of an image sensor",
               VerdictBox(VerdictOf(report)) + StackSentence(report) +
                 (report.gain.value ? table + warnings : warnings + Heading("h2", "Quantities") + table) +
-                CurveSection(report) + SeriesAndNoise(report, "h2") + LinearitySection(report, "h2") +
-                MapsSection(maps) + Heading("h2", "EMVA 1288") + EmvaTable(report) + InputSection(report.input) +
-                Heading("h2", "Settings") + SettingsTable(report));
+                PartsSection(report, "h2") + CurveSection(report) + SeriesAndNoise(report, "h2") +
+                LinearitySection(report, "h2") + MapsSection(maps) + Heading("h2", "EMVA 1288") + EmvaTable(report) +
+                InputSection(report.input) + Heading("h2", "Settings") + SettingsTable(report));
 }
 
 std::string
