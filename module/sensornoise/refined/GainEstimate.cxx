@@ -130,7 +130,7 @@ HoldSlopesBesideStep(GainEstimate & estimate)
 void
 HoldRestOfLight(GainEstimate & estimate, const RefinedResults & found)
 {
-  const double rest = found.RestOfLight();
+  const double rest = found.lines.restOfVariance;
   if (rest > 0.0)
   {
     const double ofVariance = (1.0 - InRefined.slopeOfRest * rest) * found.variance.line.gain;

@@ -72,7 +72,7 @@ FindContradiction(const RefinedResults & found, const GainEstimate & gain)
            "--frames";
   }
   const double correction = gain.line.gain / std::max(1e-9, found.variance.line.gain);
-  if (found.RestOfLight() > 0.0 &&
+  if (found.lines.restOfVariance > 0.0 &&
       std::abs(std::log(std::max(1e-9, correction))) > std::log(InRefined.largestCorrection))
   {
     return "the spatial noise correlation changes the gain by a factor of " +

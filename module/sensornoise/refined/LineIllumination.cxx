@@ -5,6 +5,7 @@
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/PixelUse.h"
 #include "sensornoise/base/Significance.h"
+#include "sensornoise/correlation/Constants.h"
 #include "sensornoise/correlation/Jackknife.h"
 #include "sensornoise/refined/Constants.h"
 #include "sensornoise/scene/ReferenceFrame.h"
@@ -66,9 +67,18 @@ LightOfTile(const NoiseResiduals & residuals, std::size_t i)
   light.frames = residuals.GetFreedom();
   return light;
 }
+} // namespace
 
 double
-RestOfVariance(const NoiseResiduals & residuals, const ParallelFor & parallelFor)
+EffectOfLineLight(const MeasuredNumber & square, double signalDn, double gain)
+{
+  const double effect = square.value * std::max(0.0, signalDn) / gain;
+  return square.value > Significance.severalTests * square.standardError && effect > InRefined.largestLineLight ? effect
+                                                                                                                : 0.0;
+}
+
+double
+RestOfIllumination(const NoiseResiduals & residuals, const ParallelFor & parallelFor)
 {
   std::vector<TileLight> tiles(residuals.GetTiles().origins.size());
   parallelFor(tiles.size(), [&](std::size_t i) { tiles[i] = LightOfTile(residuals, i); });
@@ -82,14 +92,12 @@ RestOfVariance(const NoiseResiduals & residuals, const ParallelFor & parallelFor
   return rest > Significance.severalTests * error && rest > InRefined.largestLineLight / InRefined.slopeOfRest ? rest
                                                                                                                : 0.0;
 }
-} // namespace
 
-double
-EffectOfLineLight(const MeasuredNumber & square, double signalDn, double gain)
+bool
+CanTakeOffLines(const NoiseResiduals & residuals)
 {
-  const double effect = square.value * std::max(0.0, signalDn) / gain;
-  return square.value > Significance.severalTests * square.standardError && effect > InRefined.largestLineLight ? effect
-                                                                                                                : 0.0;
+  return residuals.GetTiles().origins.size() >= InCorrelation.leastTiles &&
+         residuals.GetNumberOfPixels() >= InCorrelation.leastPixels;
 }
 
 void
@@ -126,7 +134,6 @@ TakeOffLineIllumination(LineIllumination &          lines,
   chosen = std::move(sampled);
   lines.isTakenOff = true;
   lines.pixels = static_cast<std::size_t>(std::count(chosen.begin(), chosen.end(), std::uint8_t{ 1 }));
-  lines.restOfVariance = RestOfVariance(residuals, parallelFor);
 }
 
 } // namespace sensornoise

@@ -38,6 +38,15 @@ struct LineIllumination
 SensorNoise_EXPORT double
 EffectOfLineLight(const MeasuredNumber & square, double signalDn, double gain);
 
+/** Whether the sample has enough pixels for that. */
+SensorNoise_EXPORT bool
+CanTakeOffLines(const NoiseResiduals & residuals);
+
+/** Returns what the illumination of places adds to the variance of a pixel, relative to it [1]; 0: nothing beyond
+ * chance, or less than counts. */
+SensorNoise_EXPORT double
+RestOfIllumination(const NoiseResiduals & residuals, const ParallelFor & parallelFor);
+
 /** Takes what the \a lines of its axis share off the \a residuals, whose pixels are those of \a chosen, and puts the
  * variance that is left into \a projected. Pixels outside of the sample leave \a chosen, and are marked in \a pixelUse.
  */

@@ -182,7 +182,11 @@ AllowForLines(NoiseResiduals &     residuals,
   }
   if (EffectOfLineLight(lines.found, signalDn, scene.model.slopeDn) > 0.0 || areSeriesLeft)
   {
-    TakeOffLineIllumination(lines, residuals, projected, pixels.chosen, pixels.pixelUse, parallelFor);
+    if (CanTakeOffLines(residuals))
+    {
+      TakeOffLineIllumination(lines, residuals, projected, pixels.chosen, pixels.pixelUse, parallelFor);
+    }
+    lines.restOfVariance = RestOfIllumination(residuals, parallelFor);
   }
   return lines;
 }

@@ -68,23 +68,14 @@ WarnOfScene(Report & report, const RefinedResults & found)
                     "): a rolling shutter, several lamps or bleaching, which gain and intercept allow for");
     }
   }
-  if (found.RestOfLight() > 0.0 && found.lines.isTakenOff)
+  if (found.lines.restOfVariance > 0.0)
   {
     report.Warn(WarningCode::LightSeriesLeft,
-                "the illumination changes beside that of whole " + NameOfLine(found.lines.axis) +
-                  "s: this adds about " + Percent(found.RestOfLight()) +
-                  " to the variance, and the interval of the gain contains " + Rounded(InRefined.slopeOfRest) +
+                "the illumination changes in more ways than " + std::to_string(found.scene.frame.frames) +
+                  " frames allow to remove, also beside that of whole rows and columns: this adds about " +
+                  Percent(found.lines.restOfVariance) + " to the variance, and the interval of the gain contains " +
+                  Rounded(InRefined.slopeOfRest) +
                   " times as much. Record more frames, or choose an evenly lit part: --roi");
-  }
-  else if (found.RestOfLight() > 0.0)
-  {
-    report.Warn(
-      WarningCode::LightSeriesLeft,
-      "the illumination has more temporal components than the " + std::to_string(found.series.local.series.cols()) +
-        " that " + std::to_string(found.scene.frame.frames) + " frames allow (the next is " +
-        RoundedApart(found.series.local.beyond, 1.0) + " times chance): they add about " +
-        Percent(found.RestOfLight()) + " to the variance, and the interval of the gain contains " +
-        Rounded(InRefined.slopeOfRest) + " times as much. Record more frames, or choose an evenly lit part: --roi");
   }
   if (static_cast<double>(found.variance.notStatic) > InRefined.reportedShare * total)
   {

@@ -57,24 +57,6 @@ struct RefinedResults
   {
     return scene.changesStrongly && !(series.line.contrast > InSeries.leastContrast);
   }
-  /** What the illumination that could not be projected out adds to the variance, relative to it [1]. 0: none is left,
-   * or something else explains it: frames that a filter blends, or the noise of whole rows and columns, which a cell
-   * has less of than a pixel by the number of its rows. */
-  double
-  RestOfLight() const
-  {
-    if (lines.isTakenOff)
-    {
-      return lines.restOfVariance;
-    }
-    const LocalIllumination & local = series.local;
-    if (!(local.beyond > 1.0) || correlation.kind == NoiseKind::Temporal)
-    {
-      return 0.0;
-    }
-    const double ofLines = correlation.LineNoise().value / variance.line.At(variance.line.pivotDn) / local.sideOfCell;
-    return ofLines > local.restOfVariance ? 0.0 : local.restOfVariance;
-  }
   /** Whether the light changes in some places in another way than in others. */
   bool
   HasLocalLight() const

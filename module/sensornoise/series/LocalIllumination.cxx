@@ -114,26 +114,6 @@ ScaleCells(Eigen::MatrixXd & rest, Eigen::MatrixXd & whole)
   }
 }
 
-/** Notes the factors above the edge that are left after the first \a taken. The squares of a cell's light over its
- * error, summed over the frames, are the sum over its pixels of the relative variance that the light adds. */
-void
-NoteRest(LocalIllumination &         found,
-         const std::vector<double> & values,
-         std::size_t                 taken,
-         double                      edge,
-         double                      noise,
-         double                      pixelFrames)
-{
-  if (taken < values.size() && values[taken] > edge)
-  {
-    found.beyond = values[taken] / edge;
-    for (std::size_t k = taken; k < values.size() && values[k] > edge; ++k)
-    {
-      found.restOfVariance += values[k] / (noise * pixelFrames);
-    }
-  }
-}
-
 /** The eigenvalues of the products of the cells' series, the largest first, and the edge of those of noise (Marchenko
  * and Pastur), by their median. */
 struct Eigenvalues
@@ -187,14 +167,9 @@ DoFramesShareFactors(Eigen::MatrixXd rest, Eigen::Index freedom)
   return found.values.front() > found.edge;
 }
 
-/** The factors of \a rest above the noise's edge, at most \a most; \a freedom is its number of free frames, \a
- * pixelFrames that of frames times the pixels of all cells. */
+/** The factors of \a rest above the noise's edge, at most \a most; \a freedom is its number of free frames. */
 LocalIllumination
-FindFactors(const Eigen::MatrixXd & rest,
-            const Eigen::MatrixXd & whole,
-            Eigen::Index            freedom,
-            std::size_t             most,
-            double                  pixelFrames)
+FindFactors(const Eigen::MatrixXd & rest, const Eigen::MatrixXd & whole, Eigen::Index freedom, std::size_t most)
 {
   const Eigen::Index                                   frames = rest.rows();
   const bool                                           isTall = frames > rest.cols();
@@ -214,9 +189,10 @@ FindFactors(const Eigen::MatrixXd & rest,
   {
     factors = 0;
   }
-  else
+  else if (static_cast<std::size_t>(factors) < values.size())
   {
-    NoteRest(found, values, static_cast<std::size_t>(factors), edge, noise, pixelFrames);
+    const double next = values[static_cast<std::size_t>(factors)] / edge;
+    found.beyond = next > 1.0 ? next : 0.0;
   }
   found.series.resize(frames, factors);
   for (Eigen::Index j = 0; j < factors; ++j)
@@ -236,8 +212,7 @@ FindFactorsOfUnequalFrames(const Eigen::MatrixXd & whole,
                            const Eigen::MatrixXd & basis,
                            const Eigen::VectorXd & gamma,
                            const Eigen::VectorXd & signal,
-                           std::size_t             most,
-                           double                  pixelFrames)
+                           std::size_t             most)
 {
   const Eigen::Index frames = whole.rows();
   const Eigen::Index largest = frames - 1 - InSeries.leastFreedomOfCells;
@@ -251,9 +226,8 @@ FindFactorsOfUnequalFrames(const Eigen::MatrixXd & whole,
     Eigen::MatrixXd rest =
       WhitenedResiduals(whole, columns, gamma, EstimateShotFractions(whole, columns, gamma, signal));
     ScaleCells(rest, scaled);
-    const LocalIllumination next = FindFactors(rest, scaled, frames - 1 - columns.cols(), isLast ? 0 : 1, pixelFrames);
+    const LocalIllumination next = FindFactors(rest, scaled, frames - 1 - columns.cols(), isLast ? 0 : 1);
     found.beyond = isLast ? next.beyond : 0.0;
-    found.restOfVariance = isLast ? next.restOfVariance : 0.0;
     found.excess = std::max(found.excess, next.excess);
     if (isLast || next.series.cols() == 0)
     {
@@ -341,26 +315,15 @@ FindLocalIllumination(const FrameSums &           sums,
     return none;
   }
   const Eigen::Map<const Eigen::VectorXd> illumination(gamma.data(), frames);
-  double                                  pixels = 0.0;
-  for (const std::size_t c : used.cells)
-  {
-    pixels += static_cast<double>(sums.GetCells()[c].pixels);
-  }
-  const double pixelFrames = pixels * static_cast<double>(frames);
-  const double side = std::sqrt(pixels / static_cast<double>(used.Count()));
   if (illumination.cwiseAbs().maxCoeff() > InSeries.equalFrameNoise)
   {
     const Eigen::Map<const Eigen::VectorXd> signal(used.signal.data(), used.Count());
-    LocalIllumination found = FindFactorsOfUnequalFrames(whole, basis, illumination, signal, most, pixelFrames);
-    found.sideOfCell = side;
-    return found;
+    return FindFactorsOfUnequalFrames(whole, basis, illumination, signal, most);
   }
   Eigen::MatrixXd rest = whole.rowwise() - whole.colwise().mean();
   rest -= basis * (basis.transpose() * rest);
   ScaleCells(rest, whole);
-  LocalIllumination found = FindFactors(rest, whole, freedom, most, pixelFrames);
-  found.sideOfCell = side;
-  return found;
+  return FindFactors(rest, whole, freedom, most);
 }
 
 } // namespace sensornoise

@@ -35,10 +35,6 @@ struct LocalIllumination
   /** Where as many series as may be were found: the largest eigenvalue that is left over the edge; 0: fewer were found,
    * or none is left. */
   double beyond{ 0.0 };
-  /** Mean over the pixels of what the series above the edge that are left add to the variance, relative to it [1]. */
-  double restOfVariance{ 0.0 };
-  /** Side of a square of as many pixels as a cell has, on average [pixels]. */
-  double sideOfCell{ 1.0 };
 };
 
 /** Finds the temporal series of local light.
