@@ -13,8 +13,8 @@ from types import SimpleNamespace
 import itk
 import numpy as np
 import pytest
-from itk_sensornoise import SensorNoiseSums
-from itk_sensornoise.distributed import _memory, _rounds, _task, _watch, _worker, estimate_many, estimate_sensor_noise
+from itk_sensornoise import SensorNoiseSums, _progress
+from itk_sensornoise.distributed import _memory, _task, _watch, _worker, estimate_many, estimate_sensor_noise
 
 distributed = pytest.importorskip(
     "distributed", reason="dask.distributed is not installed: itk-sensornoise[distributed]"
@@ -232,7 +232,7 @@ def test_progress_goes_to_100_percent(stack, monkeypatch):
             self.steps.append("closed")
 
     bar = Bar()
-    monkeypatch.setattr(_rounds, "make_bar", lambda: bar)
+    monkeypatch.setattr(_progress, "make_bar", lambda: bar)
     with cluster_of(memory_limit=0) as cluster, client_of(cluster) as client:
         estimate_sensor_noise(stack, client, bayer="none", frames_per_task=5, progress=True)
     assert bar.n == 100 and bar.steps.pop() == "closed" and min(bar.steps) >= 0

@@ -52,7 +52,8 @@ def test_what_is_no_stack_is_refused(case):
 def test_too_few_frames_are_a_wrong_value(count, make):
     with pytest.raises(ValueError) as error:
         itk.estimate_sensor_noise(make(STACK[:count]))
-    assert str(error.value) == f"the stack has {count} frames; expected at least 5"
+    frames = "1 frame" if count == 1 else f"{count} frames"
+    assert str(error.value).startswith(f"the stack has {frames}; expected at least 5. Give all frames of the burst")
     assert error.value.__cause__ is None and error.value.__suppress_context__
 
 
