@@ -70,11 +70,10 @@ LightOfTile(const NoiseResiduals & residuals, std::size_t i)
 } // namespace
 
 double
-EffectOfLineLight(const MeasuredNumber & square, double signalDn, double gain)
+EffectOfLineLight(const MeasuredNumber & square, double signalDn, double gain, double least)
 {
   const double effect = square.value * std::max(0.0, signalDn) / gain;
-  return square.value > Significance.severalTests * square.standardError && effect > InRefined.largestLineLight ? effect
-                                                                                                                : 0.0;
+  return square.value > Significance.severalTests * square.standardError && effect > least ? effect : 0.0;
 }
 
 double

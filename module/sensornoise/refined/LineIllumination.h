@@ -34,9 +34,9 @@ struct LineIllumination
 
 /** What changes of the mean square \a square add to the slope of the variance, relative to the gain \a gain [1]: they
  * add their product with q^2 to the variance of the signal q, of which the brightest is \a signalDn. 0: nothing beyond
- * chance, or less than counts. */
+ * chance, or less than \a least. */
 SensorNoise_EXPORT double
-EffectOfLineLight(const MeasuredNumber & square, double signalDn, double gain);
+EffectOfLineLight(const MeasuredNumber & square, double signalDn, double gain, double least);
 
 /** Whether the sample has enough pixels for that. */
 SensorNoise_EXPORT bool

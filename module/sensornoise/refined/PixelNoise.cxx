@@ -180,7 +180,7 @@ AllowForLines(NoiseResiduals &     residuals,
     lines.found = ofColumns;
     lines.axis = LineAxis::Columns;
   }
-  if (EffectOfLineLight(lines.found, signalDn, scene.model.slopeDn) > 0.0 || areSeriesLeft)
+  if (EffectOfLineLight(lines.found, signalDn, scene.model.slopeDn, InRefined.leastLineLight) > 0.0 || areSeriesLeft)
   {
     if (CanTakeOffLines(residuals))
     {

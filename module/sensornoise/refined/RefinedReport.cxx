@@ -241,8 +241,8 @@ FillSensor(Report & report, const RefinedResults & found, const GainEstimate & g
   FillFlicker(report, found, offsetFromCentre, offset.errorDn, gain.RelativeModelError());
   FillMotion(report, found, offsetFromCentre, offset.errorDn);
   WarnOfMotion(report, found);
-  if (const double effect =
-        EffectOfLineLight(found.lines.left, found.scene.model.brightestDn - found.blackDn, gain.line.gain);
+  if (const double effect = EffectOfLineLight(
+        found.lines.left, found.scene.model.brightestDn - found.blackDn, gain.line.gain, InRefined.largestLineLight);
       effect > 0.0)
   {
     RefuseLineLight(report, found, effect);
