@@ -28,6 +28,7 @@ TilesInLine(const SampleTiles & tiles, LineAxis axis)
     lines[axis == LineAxis::Rows ? tiles.origins[i].y : tiles.origins[i].x].push_back(i);
   }
   std::vector<std::vector<std::size_t>> groups;
+  groups.reserve(lines.size());
   for (auto & line : lines)
   {
     groups.push_back(std::move(line.second));

@@ -266,6 +266,77 @@ TextOfOtherOffsets(const FrameOffsets & others, Eigen::Index frames)
          " frames differs by " + Rounded(others.stepDn) + " DN from the dark offset of the others" + Ask("");
 }
 
+/** Ends of an interval of the offset, minus the centre of the levels [DN]. */
+struct OffsetEnds
+{
+  double low;
+  double high;
+};
+
+/** Why the illumination does not determine the offset \a estimate; "" if it does. */
+std::string
+ObstacleOf(const RefinedResults & found,
+           const GainEstimate &   gain,
+           const OffsetLimits &   limits,
+           const OffsetEstimate & estimate,
+           const OffsetEnds &     interval)
+{
+  const ProvisionalModel &           model = found.scene.model;
+  const OffsetLine &                 line = found.polished.line;
+  const std::optional<LocalOffset> & local = found.polished.localOffset;
+  const double                       rangeDn = model.brightestDn - model.darkestDn;
+  const bool                         isLocal = found.HasLocalLight();
+  const std::string                  moreFlicker = ", or record more flicker or more frames";
+  const double                       slackDn = Significance.oneTest * estimate.standardErrorDn;
+  const double                       slackBelowDn =
+    slackDn + Significance.hint * std::sqrt(gain.covariance(1, 1)) / std::max(1e-9, gain.line.gain);
+  const FrameOffsets & others = found.series.frameOffsets;
+  if (!others.unlike.empty()) // too many to be left out
+  {
+    return TextOfOtherOffsets(others, line.response.rows());
+  }
+  if (!(line.contrast > InSeries.leastContrast))
+  {
+    return "the scene has one intensity" + Ask(", or include dark and bright areas in the scene");
+  }
+  if (line.isLevelMotion && !isLocal)
+  {
+    return "the scene is a ramp, along which motion changes every level alike, as an offset does" + Ask("");
+  }
+  if (!(line.flickerZ > Significance.everyPixel) && !isLocal)
+  {
+    return TextOfFaintFlicker(line.flickerZ) + Ask(moreFlicker);
+  }
+  if (isLocal && !local)
+  {
+    return "the illumination changes differently over the frame, and no part of it determines the offset" + Ask("");
+  }
+  if (!std::isfinite(interval.low) || !std::isfinite(interval.high))
+  {
+    return "the flicker leaves the offset without bounds" + Ask(moreFlicker);
+  }
+  if (interval.high - interval.low > LargestOffsetInterval * rangeDn)
+  {
+    return "the interval of the offset, " + Rounded(interval.low + model.centreDn) + " to " +
+           Rounded(interval.high + model.centreDn) + " DN, is wider than a quarter of the range of the scene, " +
+           Rounded(rangeDn) + " DN" + Ask(moreFlicker);
+  }
+  if ((limits.lowestDn && estimate.valueDn < *limits.lowestDn - slackBelowDn) ||
+      estimate.valueDn > limits.highestDn + slackDn)
+  {
+    return "the level that does not flicker, " + Rounded(estimate.valueDn) +
+           " DN, is above the darkest level or makes the squared read noise negative: parts of the "
+           "illumination flicker differently" +
+           Ask("");
+  }
+  if (isLocal && local->phi > InRefined.largestLocalDispersion)
+  {
+    return "the lamps do not agree on one offset (dispersion " + RoundedApart(local->phi, 1.0) + ", expected 1)" +
+           Ask("");
+  }
+  return {};
+}
+
 /** The offset as the illumination tells it. */
 OffsetEstimate
 OffsetByIllumination(const RefinedResults & found, const GainEstimate & gain, const OffsetLimits & limits)
@@ -273,7 +344,6 @@ OffsetByIllumination(const RefinedResults & found, const GainEstimate & gain, co
   const ProvisionalModel &           model = found.scene.model;
   const OffsetLine &                 line = found.polished.line;
   const std::optional<LocalOffset> & local = found.polished.localOffset;
-  const double                       rangeDn = model.brightestDn - model.darkestDn;
   OffsetEstimate                     estimate;
   double                             low = line.low;
   double                             high = line.high;
@@ -302,56 +372,7 @@ OffsetByIllumination(const RefinedResults & found, const GainEstimate & gain, co
     high += 1.96 * fromPatternDn;
     estimate.interval = Interval{ low + model.centreDn, high + model.centreDn };
   }
-  const std::string moreFlicker = ", or record more flicker or more frames";
-  const double      slackDn = Significance.oneTest * estimate.standardErrorDn;
-  const double      slackBelowDn =
-    slackDn + Significance.hint * std::sqrt(gain.covariance(1, 1)) / std::max(1e-9, gain.line.gain);
-  const FrameOffsets & others = found.series.frameOffsets;
-  if (!others.unlike.empty()) // too many to be left out
-  {
-    estimate.obstacle = TextOfOtherOffsets(others, line.response.rows());
-  }
-  else if (!(line.contrast > InSeries.leastContrast))
-  {
-    estimate.obstacle = "the scene has one intensity" + Ask(", or include dark and bright areas in the scene");
-  }
-  else if (line.isLevelMotion && !isLocal)
-  {
-    estimate.obstacle =
-      "the scene is a ramp, along which motion changes every level alike, as an offset does" + Ask("");
-  }
-  else if (!(line.flickerZ > Significance.everyPixel) && !isLocal)
-  {
-    estimate.obstacle = TextOfFaintFlicker(line.flickerZ) + Ask(moreFlicker);
-  }
-  else if (isLocal && !local)
-  {
-    estimate.obstacle =
-      "the illumination changes differently over the frame, and no part of it determines the offset" + Ask("");
-  }
-  else if (!std::isfinite(low) || !std::isfinite(high))
-  {
-    estimate.obstacle = "the flicker leaves the offset without bounds" + Ask(moreFlicker);
-  }
-  else if (high - low > LargestOffsetInterval * rangeDn)
-  {
-    estimate.obstacle = "the interval of the offset, " + Rounded(low + model.centreDn) + " to " +
-                        Rounded(high + model.centreDn) + " DN, is wider than a quarter of the range of the scene, " +
-                        Rounded(rangeDn) + " DN" + Ask(moreFlicker);
-  }
-  else if ((limits.lowestDn && estimate.valueDn < *limits.lowestDn - slackBelowDn) ||
-           estimate.valueDn > limits.highestDn + slackDn)
-  {
-    estimate.obstacle = "the level that does not flicker, " + Rounded(estimate.valueDn) +
-                        " DN, is above the darkest level or makes the squared read noise negative: parts of the "
-                        "illumination flicker differently" +
-                        Ask("");
-  }
-  else if (isLocal && local->phi > InRefined.largestLocalDispersion)
-  {
-    estimate.obstacle =
-      "the lamps do not agree on one offset (dispersion " + RoundedApart(local->phi, 1.0) + ", expected 1)" + Ask("");
-  }
+  estimate.obstacle = ObstacleOf(found, gain, limits, estimate, { low, high });
   return estimate;
 }
 } // namespace

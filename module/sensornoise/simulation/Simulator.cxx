@@ -189,12 +189,14 @@ StackSimulator::RenderFrame(std::size_t frame, TPixel * out, const ParallelFor &
   parallelFor(m_Height, [&](std::size_t y) { WriteRow(codesDn.Row(y), out + y * m_Width); });
 }
 
-#define SensorNoise_INSTANTIATE(TPixel) \
-  template SensorNoise_EXPORT void StackSimulator::RenderRow<TPixel>(std::size_t, std::size_t, TPixel *) const
+#define SensorNoise_INSTANTIATE(TPixel)                               \
+  template SensorNoise_EXPORT void StackSimulator::RenderRow<TPixel>( \
+    std::size_t, std::size_t, std::add_pointer_t<TPixel>) const
 SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
 #undef SensorNoise_INSTANTIATE
-#define SensorNoise_INSTANTIATE(TPixel) \
-  template SensorNoise_EXPORT void StackSimulator::RenderFrame<TPixel>(std::size_t, TPixel *, const ParallelFor &) const
+#define SensorNoise_INSTANTIATE(TPixel)                                 \
+  template SensorNoise_EXPORT void StackSimulator::RenderFrame<TPixel>( \
+    std::size_t, std::add_pointer_t<TPixel>, const ParallelFor &) const
 SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
 #undef SensorNoise_INSTANTIATE
 
