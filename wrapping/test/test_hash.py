@@ -75,7 +75,7 @@ def test_files_have_the_hash_of_the_tool(tool, folder):
 
 
 def test_whatever_holds_the_pixels_they_have_one_hash(burst, monkeypatch):
-    monkeypatch.setattr("itk_sensornoise._hash._CHUNK_BYTES", 7 * burst[0].nbytes)  # the last chunk is shorter
+    monkeypatch.setattr("itk_sensornoise._frames._PIECE_BYTES", 7 * burst[0].nbytes)  # the last piece is shorter
     expected = of_pixels(burst)
     for frames in (
         burst,

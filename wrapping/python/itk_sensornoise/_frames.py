@@ -3,7 +3,7 @@
 """Whatever a user has as frames, as one ITK stack (x, y, time) without a second copy of it."""
 
 import os
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -35,6 +35,8 @@ EXPECTED = (
     "list of file names or of 2-D arrays, or a file name, a pattern of names or a folder"
 )
 
+_PIECE_BYTES = 32 << 20  # of pixels that are read together
+
 
 @dataclass
 class Stack:
@@ -52,6 +54,27 @@ class Stack:
         """Width [pixel], height [pixel], number of frames."""
         width, height, frames = self.image.GetLargestPossibleRegion().GetSize()
         return int(width), int(height), int(frames)
+
+    def pieces(self) -> Iterator[np.ndarray]:
+        """All pixels, in order, as arrays (t, y, x) of a few frames each, which hold until the next is asked for. Ends
+        where lazy frames cannot be read, with the reason in `failed`."""
+        import itk
+
+        width, height, frames = self.size
+        region = self.image.GetLargestPossibleRegion()
+        start, size = list(region.GetIndex()), list(region.GetSize())
+        step = max(_PIECE_BYTES // (width * height * np.dtype(self.pixel).itemsize), 1)
+        for first in range(0, frames, step):
+            count = min(step, frames - first)
+            region.SetIndex([*start[:2], start[2] + first])
+            region.SetSize([*size[:2], count])
+            self.image.SetRequestedRegion(region)
+            self.image.Update()
+            if self.failed:
+                break
+            at = start[2] + first - self.image.GetBufferedRegion().GetIndex()[2]
+            yield itk.array_view_from_image(self.image)[at : at + count]
+        self.image.SetRequestedRegionToLargestPossibleRegion()
 
     def estimator(self, template: ItkObject) -> ItkObject:
         """A new filter of this stack's type with the stack as input."""

@@ -11,7 +11,6 @@ import numpy as np
 from ._frames import Stack
 
 _FILE_PIECE = 1 << 20
-_CHUNK_BYTES = 64 << 20
 
 
 class FramesHash:
@@ -52,24 +51,10 @@ class FramesHash:
             raise ValueError(f"{name}: cannot be read for its hash ({error.strerror})") from error
 
     def _add_pixels(self, stack: Stack) -> None:
-        import itk
-
-        image, (width, height, frames) = stack.image, stack.size
-        region = image.GetLargestPossibleRegion()
-        start, size = list(region.GetIndex()), list(region.GetSize())
-        step = max(_CHUNK_BYTES // (width * height * np.dtype(stack.pixel).itemsize), 1)
-        for first in range(0, frames, step):
-            count = min(step, frames - first)
-            region.SetIndex([*start[:2], start[2] + first])
-            region.SetSize([*size[:2], count])
-            image.SetRequestedRegion(region)
-            image.Update()
-            for error in stack.failed:
-                raise error
-            at = start[2] + first - image.GetBufferedRegion().GetIndex()[2]
-            pixels = itk.array_view_from_image(image)[at : at + count]
+        for pixels in stack.pieces():
             self._add(np.ascontiguousarray(pixels, pixels.dtype.newbyteorder("<")).data.cast("B"))
-        image.SetRequestedRegionToLargestPossibleRegion()
+        for error in stack.failed:
+            raise error
 
     def _add(self, piece: bytes | memoryview) -> None:
         self._digest.update(piece)
