@@ -29,8 +29,8 @@ struct CorrelationConstants
   /** Part of the square of the products of the lights that is their spread, from which levels tell what grows with the
    * light from what does not [1]: below, the error of both would be seven times that of their sum. Set by hand. */
   double leastSpread{ 0.05 };
-  /** Tiles, at most, that tell the illumination that rows have of their own. Chosen for the time: a thousandth of that
-   * of 100 frames of 512 x 512 pixels. */
+  /** Tiles whose lines determine the illumination of rows, at most; of more tiles, every n-th line is taken. Chosen for
+   * the time: a thousandth of that of 100 frames of 512 x 512 pixels. */
   std::size_t mostTilesOfLineLight{ 32 };
   /** Smallest spread of the signal along a line, relative to its mean square, for a regression on the signal beside the
    * constant [1]: a guard against rounding, as both are taken off together. */

@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/correlation/LineLight.h"
 
-#include "sensornoise/base/WideVectors.h"
 #include "sensornoise/correlation/Constants.h"
 #include "sensornoise/correlation/Jackknife.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -17,8 +16,10 @@ namespace sensornoise
 
 namespace
 {
-/** Parts of a line of a tile; those that are not neighbours share no noise of neighbours. */
-constexpr std::size_t PartsOfLine = 4;
+/** Parts of the line of a tile; those that are not neighbours share no noise of neighbours. */
+constexpr std::size_t PartsOfTile = 4;
+/** Blocks of lines, about, for the jackknife. */
+constexpr std::size_t Blocks = 24;
 
 /** Products of sums over two parts of a line, with y a residual, w = 1 / V, and z the light. */
 struct LineLightProducts
@@ -51,70 +52,101 @@ struct LineLightProducts
   }
 };
 
-using Parts = std::array<double, PartsOfLine>;
-
-/** Of all pairs of parts that are no neighbours. */
+/** The sum over all pairs of parts that are no neighbours. */
 double
-ProductOfParts(const Parts & sums)
+ProductOfParts(const std::vector<double> & sums)
 {
-  return sums[0] * (sums[2] + sums[3]) + sums[1] * sums[3];
+  double product = 0.0;
+  double before = 0.0; // of all parts but the last
+  for (std::size_t s = 2; s < sums.size(); ++s)
+  {
+    before += sums[s - 2];
+    product += sums[s] * before;
+  }
+  return product;
 }
 
-template <typename TFunction>
-Parts
-SumParts(std::size_t length, TFunction valueOf)
+/** The pixels of one line of the tiles of a group, in the order of the frame. */
+class LineOfTiles
 {
-  Parts sums{};
-  for (std::size_t s = 0; s < PartsOfLine; ++s)
-  {
-    for (std::size_t x = s * length; x < (s + 1) * length; ++x)
-    {
-      sums[s] += valueOf(x);
-    }
-  }
-  return sums;
-}
+public:
+  LineOfTiles(const NoiseResiduals & residuals, const std::vector<std::size_t> & tiles, LineAxis axis, std::size_t line)
+    : m_Residuals(residuals)
+    , m_Tiles(tiles)
+    , m_Axis(axis)
+    , m_Line(line)
+  {}
 
-LineLightProducts
-ProductsOfTile(const NoiseResiduals & residuals, std::size_t tile, LineAxis axis)
-{
-  const SampleTiles & tiles = residuals.GetTiles();
-  const std::size_t   length = tiles.side / PartsOfLine;
-  const float * const w = residuals.WeightOf(tile);
-  const float * const z = residuals.LightOf(tile);
-  LineLightProducts   products;
-  for (std::size_t line = 0; line < tiles.side; ++line)
+  /** The sums of valueOf(tile, place in the tile) over each part. */
+  template <typename TFunction>
+  std::vector<double>
+  SumParts(TFunction valueOf) const
   {
-    const auto place = [=, &tiles](std::size_t k) { return tiles.InTile(axis, line, k); };
-    products.constant += ProductOfParts(SumParts(length, [=](std::size_t k) { return w[place(k)]; }));
-    products.mixed += ProductOfParts(SumParts(length, [=](std::size_t k) { return w[place(k)] * z[place(k)]; }));
-    products.square += ProductOfParts(
-      SumParts(length, [=](std::size_t k) { return static_cast<double>(w[place(k)]) * z[place(k)] * z[place(k)]; }));
-    for (std::size_t t = 0; t < tiles.frames; ++t)
+    const SampleTiles & tiles = m_Residuals.GetTiles();
+    const std::size_t   length = tiles.side / PartsOfTile;
+    std::vector<double> sums(PartsOfTile * m_Tiles.size(), 0.0);
+    for (std::size_t s = 0; s < sums.size(); ++s)
     {
-      const float * const values = residuals.OfTile(tile) + t * tiles.Pixels();
-      const auto          noise = SumParts(length, [=](std::size_t k) { return w[place(k)] * values[place(k)]; });
-      const auto light = SumParts(length, [=](std::size_t k) { return w[place(k)] * z[place(k)] * values[place(k)]; });
-      products.noise += ProductOfParts(noise) / residuals.GetFreedom();
-      products.lightNoise += ProductOfParts(light) / residuals.GetFreedom();
+      const std::size_t tile = m_Tiles[s / PartsOfTile];
+      for (std::size_t k = s % PartsOfTile * length; k < (s % PartsOfTile + 1) * length; ++k)
+      {
+        sums[s] += valueOf(tile, tiles.InTile(m_Axis, m_Line, k));
+      }
     }
+    return sums;
   }
-  return products;
-}
+
+  LineLightProducts
+  Products() const
+  {
+    const auto w = [this](std::size_t i, std::size_t p) { return static_cast<double>(m_Residuals.WeightOf(i)[p]); };
+    const auto z = [this](std::size_t i, std::size_t p) { return static_cast<double>(m_Residuals.LightOf(i)[p]); };
+    LineLightProducts products;
+    products.constant = ProductOfParts(this->SumParts(w));
+    products.mixed = ProductOfParts(this->SumParts([&](std::size_t i, std::size_t p) { return w(i, p) * z(i, p); }));
+    products.square =
+      ProductOfParts(this->SumParts([&](std::size_t i, std::size_t p) { return w(i, p) * z(i, p) * z(i, p); }));
+    for (std::size_t t = 0; t < m_Residuals.GetTiles().frames; ++t)
+    {
+      const auto weighed = [&](std::size_t i, std::size_t p) {
+        return w(i, p) * static_cast<double>(m_Residuals.OfTile(i)[t * m_Residuals.GetTiles().Pixels() + p]);
+      };
+      const auto light = [&](std::size_t i, std::size_t p) { return weighed(i, p) * z(i, p); };
+      products.noise += ProductOfParts(this->SumParts(weighed)) / m_Residuals.GetFreedom();
+      products.lightNoise += ProductOfParts(this->SumParts(light)) / m_Residuals.GetFreedom();
+    }
+    return products;
+  }
+
+private:
+  const NoiseResiduals &           m_Residuals;
+  const std::vector<std::size_t> & m_Tiles;
+  LineAxis                         m_Axis;
+  std::size_t                      m_Line;
+};
 } // namespace
 
 MeasuredNumber
 FindLineLight(const NoiseResiduals & residuals, LineAxis axis, const ParallelFor & parallelFor)
 {
-  // Every n-th tile: the tiles are all over the frame, and some tell enough.
-  const std::size_t tiles = residuals.GetTiles().origins.size();
-  const std::size_t step = (tiles + InCorrelation.mostTilesOfLineLight - 1) / InCorrelation.mostTilesOfLineLight;
-  std::vector<LineLightProducts> products((tiles + step - 1) / step);
-  parallelFor(products.size(), [&](std::size_t i) {
-    WithWideVectors([&] { products[i] = ProductsOfTile(residuals, i * step, axis); });
+  // Every n-th line: the lines are all over the frame, and some tell enough.
+  const SampleTiles & tiles = residuals.GetTiles();
+  const auto          groups = TilesInLine(tiles, axis);
+  const std::size_t   lines = groups.size() * tiles.side;
+  const std::size_t   step =
+    (tiles.origins.size() + InCorrelation.mostTilesOfLineLight - 1) / InCorrelation.mostTilesOfLineLight;
+  std::vector<LineLightProducts> ofLines(lines > 0 ? (lines + step - 1) / step : 0);
+  parallelFor(ofLines.size(), [&](std::size_t i) {
+    const std::size_t line = i * step;
+    ofLines[i] = LineOfTiles(residuals, groups[line / tiles.side], axis, line % tiles.side).Products();
   });
+  std::vector<LineLightProducts> blocks(std::min(Blocks, ofLines.size()));
+  for (std::size_t i = 0; i < ofLines.size(); ++i)
+  {
+    blocks[i * blocks.size() / ofLines.size()] += ofLines[i];
+  }
   const JackknifeEstimate estimate =
-    Jackknife(products, [](const LineLightProducts & sum) { return Eigen::VectorXd::Constant(1, sum.OfLight()); });
+    Jackknife(blocks, [](const LineLightProducts & sum) { return Eigen::VectorXd::Constant(1, sum.OfLight()); });
   const MeasuredNumber square{ estimate.value(0), estimate.StandardError(0) };
   return std::isfinite(square.value) && std::isfinite(square.standardError)
            ? square

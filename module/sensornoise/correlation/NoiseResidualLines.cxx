@@ -9,33 +9,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <utility>
 #include <vector>
 
 namespace sensornoise
 {
-
-namespace
-{
-/** The tiles whose lines continue each other. */
-std::vector<std::vector<std::size_t>>
-TilesInLine(const SampleTiles & tiles, LineAxis axis)
-{
-  std::map<std::size_t, std::vector<std::size_t>> lines;
-  for (std::size_t i = 0; i < tiles.origins.size(); ++i)
-  {
-    lines[axis == LineAxis::Rows ? tiles.origins[i].y : tiles.origins[i].x].push_back(i);
-  }
-  std::vector<std::vector<std::size_t>> groups;
-  groups.reserve(lines.size());
-  for (auto & line : lines)
-  {
-    groups.push_back(std::move(line.second));
-  }
-  return groups;
-}
-} // namespace
 
 void
 NoiseResiduals::RegressLines(LineAxis                         axis,

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
+#include <utility>
+#include <vector>
 
 namespace sensornoise
 {
@@ -45,6 +48,23 @@ MakeSampleTiles(const FrameGeometry & geometry, std::size_t frames)
     }
   }
   return tiles;
+}
+
+std::vector<std::vector<std::size_t>>
+TilesInLine(const SampleTiles & tiles, LineAxis axis)
+{
+  std::map<std::size_t, std::vector<std::size_t>> lines;
+  for (std::size_t i = 0; i < tiles.origins.size(); ++i)
+  {
+    lines[axis == LineAxis::Rows ? tiles.origins[i].y : tiles.origins[i].x].push_back(i);
+  }
+  std::vector<std::vector<std::size_t>> groups;
+  groups.reserve(lines.size());
+  for (auto & line : lines)
+  {
+    groups.push_back(std::move(line.second));
+  }
+  return groups;
 }
 
 } // namespace sensornoise

@@ -100,6 +100,10 @@ struct SensorNoise_EXPORT SampleTiles
 SensorNoise_EXPORT SampleTiles
 MakeSampleTiles(const FrameGeometry & geometry, std::size_t frames);
 
+/** The tiles whose lines continue each other, group by group. */
+SensorNoise_EXPORT std::vector<std::vector<std::size_t>>
+TilesInLine(const SampleTiles & tiles, LineAxis axis);
+
 } // namespace sensornoise
 
 #endif
