@@ -242,8 +242,7 @@ SharedSquares(const std::vector<LagCoefficient> & lags)
 NoiseCorrelation
 MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const ParallelFor & parallelFor)
 {
-  if (residuals.GetTiles().origins.size() < InCorrelation.leastTiles ||
-      residuals.GetNumberOfPixels() < InCorrelation.leastPixels || residuals.GetFreedom() < InCorrelation.leastFreedom)
+  if (!residuals.HasEnoughPixels() || residuals.GetFreedom() < InCorrelation.leastFreedom)
   {
     return {};
   }

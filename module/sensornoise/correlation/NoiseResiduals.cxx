@@ -222,6 +222,12 @@ NoiseResiduals::ProjectTile(std::size_t i)
   }
 }
 
+bool
+NoiseResiduals::HasEnoughPixels() const
+{
+  return this->GetTiles().origins.size() >= InCorrelation.leastTiles && m_Pixels >= InCorrelation.leastPixels;
+}
+
 void
 NoiseResiduals::SumSquares(std::size_t i)
 {

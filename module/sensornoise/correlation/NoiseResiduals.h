@@ -174,6 +174,9 @@ public:
   {
     return m_Pixels;
   }
+  /** Whether tiles and pixels are enough to measure what the noise of pixels has in common. */
+  bool
+  HasEnoughPixels() const;
 
 private:
   /** \a fillTile(i) sees to it that the values of a tile are there. */

@@ -5,7 +5,6 @@
 #include "sensornoise/base/Eigen.h"
 #include "sensornoise/base/PixelUse.h"
 #include "sensornoise/base/Significance.h"
-#include "sensornoise/correlation/Constants.h"
 #include "sensornoise/correlation/Jackknife.h"
 #include "sensornoise/refined/Constants.h"
 #include "sensornoise/scene/ReferenceFrame.h"
@@ -90,13 +89,6 @@ RestOfIllumination(const NoiseResiduals & residuals, const ParallelFor & paralle
   const double error = estimate.StandardError(0) * perFrame;
   return rest > Significance.severalTests * error && rest > InRefined.largestLineLight / InRefined.slopeOfRest ? rest
                                                                                                                : 0.0;
-}
-
-bool
-CanTakeOffLines(const NoiseResiduals & residuals)
-{
-  return residuals.GetTiles().origins.size() >= InCorrelation.leastTiles &&
-         residuals.GetNumberOfPixels() >= InCorrelation.leastPixels;
 }
 
 void

@@ -38,10 +38,6 @@ struct LineIllumination
 SensorNoise_EXPORT double
 EffectOfLineLight(const MeasuredNumber & square, double signalDn, double gain, double least);
 
-/** Whether the sample has enough pixels for that. */
-SensorNoise_EXPORT bool
-CanTakeOffLines(const NoiseResiduals & residuals);
-
 /** Returns what the illumination of places adds to the variance of a pixel, relative to it [1]; 0: nothing beyond
  * chance, or less than counts. */
 SensorNoise_EXPORT double

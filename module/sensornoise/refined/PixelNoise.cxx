@@ -182,7 +182,7 @@ AllowForLines(NoiseResiduals &     residuals,
   }
   if (EffectOfLineLight(lines.found, signalDn, scene.model.slopeDn, InRefined.leastLineLight) > 0.0 || areSeriesLeft)
   {
-    if (CanTakeOffLines(residuals))
+    if (residuals.HasEnoughPixels())
     {
       TakeOffLineIllumination(lines, residuals, projected, pixels.chosen, pixels.pixelUse, parallelFor);
     }
