@@ -7,9 +7,11 @@
 #include "sensornoise/simulation/Simulator.h"
 #include "helpers/SensorTestHelper.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <gtest/gtest.h>
+#include <string>
 #include <vector>
 
 // Dark frames are a point of the line.
@@ -129,6 +131,34 @@ TEST(SensorNoiseDarkPoint, DarkFramesOfAnotherCameraAreNoticed)
     EXPECT_EQ(report.readNoise.status, EstimateStatus::Failed);
     EXPECT_EQ(report.readNoiseElectrons.status, EstimateStatus::Failed);
   }
+}
+
+TEST(SensorNoiseDarkPoint, DarkFramesThatHoldSignalAreNoticed)
+{
+  // A shutter that is not closed: the scene, at a fraction of its signal. Offsets and gains of the pixels differ.
+  SimulationSettings settings = StillCamera(40);
+  settings.dsnuSdDn = 10.0;
+  settings.prnuSd = 0.01;
+  const Stack<Codes> stack = Simulate<Codes>(settings, Size, Size);
+  const Report       own = Measure(stack, WithDarkFrames(DarkFramesOf(settings, Size))).GetReport();
+  EXPECT_FALSE(HasWarning(own, WarningCode::DarkFramesDiffer));
+  ExpectHolds(own.offset, 100.0);
+  SimulationSettings dim = settings;
+  dim.seed = 22;
+  dim.camera.electrons *= 0.05;
+  const Report report = Measure(stack, WithDarkFrames(Simulate<Codes>(dim, Size, Size))).GetReport();
+  const auto   warning = std::find_if(report.warnings.begin(), report.warnings.end(), [](const Warning & w) {
+    return w.code == WarningCode::DarkFramesDiffer;
+  });
+  ASSERT_NE(warning, report.warnings.end());
+  // The mean of the illumination of 40 frames is known to 0.3 %, in either stack.
+  const std::string words = "the dark frames hold ";
+  ASSERT_EQ(warning->message.rfind(words, 0), 0U) << warning->message;
+  EXPECT_NEAR(std::stod(warning->message.substr(words.size())), 5.0, 4.0 * 0.0045 * 5.0);
+  EXPECT_EQ(report.offset.status, EstimateStatus::Failed);
+  EXPECT_EQ(report.readNoise.status, EstimateStatus::Failed);
+  EXPECT_EQ(report.gain.status, EstimateStatus::Identified);
+  ExpectHolds(report.gain, 1.0);
 }
 
 TEST(SensorNoiseDarkPoint, NarrowRangeIsTiedToTheDarkFrames)

@@ -234,8 +234,9 @@ inline constexpr std::array<WarningKind, 49> WarningTable{ {
   { WarningCode::DarkFramesDiffer,
     "dark-frames-differ",
     Severity::Warning,
-    "The noise of the dark frames differs from the noise of the frames at the offset, so the gain is measured without "
-    "them. Record dark frames with the black level, exposure, gain and temperature of the frames." },
+    "The dark frames hold signal of the scene, or their noise differs from the noise of the frames at the offset, so "
+    "the gain is measured without them. Record dark frames in the dark, with the black level, exposure, gain and "
+    "temperature of the frames." },
   { WarningCode::OffsetAboveDarkest,
     "offset-above-darkest",
     Severity::Warning,

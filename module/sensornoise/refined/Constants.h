@@ -130,6 +130,16 @@ struct RefinedConstants
   double largestShareOfOtherAxis{ 0.1 };
   ///@}
 
+  /** \name Signal in the dark frames */
+  ///@{
+  /** Contrast of a tile, rms, below which the fixed pattern of the pixels may be what it has [1]: the response of the
+   * pixels of cameras differs by 0.3 to 2 % rms (EMVA 1288 reports). */
+  double leastContrastOfTile{ 0.03 };
+  /** Fraction of the signal of the frames in the dark frames, from which on it counts [1]. Chosen by the size of the
+   * effect: it moves the offset by that fraction of the mean signal. */
+  double leastSignalOfDark{ 0.01 };
+  ///@}
+
   /** \name The illumination of rows */
   ///@{
   /** Part of the slope of the variance that the illumination of rows or columns may add for it not to be taken off, and

@@ -12,6 +12,7 @@
 #include "sensornoise/refined/BeyondChance.h"
 #include "sensornoise/refined/Constants.h"
 #include "sensornoise/refined/DarkPoint.h"
+#include "sensornoise/refined/DarkSignal.h"
 
 #include <algorithm>
 #include <cmath>
@@ -301,7 +302,12 @@ EstimateGain(const RefinedResults & found, const SensorLines & lines)
   UseFrames(estimate, lines, found.blackDn, variance.sharedSquares);
   if (found.settings.offset && found.settings.offset->variance)
   {
-    UseDarkPoint(estimate, found);
+    estimate.darkSignal = FindDarkSignal(found);
+    estimate.isDarkRejected = estimate.darkSignal.has_value();
+    if (!estimate.isDarkRejected)
+    {
+      UseDarkPoint(estimate, found);
+    }
   }
   return estimate;
 }

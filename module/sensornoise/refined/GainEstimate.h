@@ -5,6 +5,7 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/base/Eigen.h"
+#include "sensornoise/correlation/NoiseCorrelation.h"
 #include "sensornoise/moments/KnownOffset.h"
 #include "sensornoise/pixels/VarianceLine.h"
 #include "sensornoise/pixels/VarianceCurve.h"
@@ -49,7 +50,9 @@ struct GainEstimate
    * bend of the response may part them from the line. */
   std::optional<DarkVariance> atOffset;
 
-  /** Whether the dark frames contradict the line of the bright frames, and are not in the gain. */
+  /** The fraction of the signal that the dark frames hold, see FindDarkSignal() [1]; null: none. */
+  std::optional<MeasuredNumber> darkSignal;
+  /** Whether the dark frames contradict the line of the bright frames, or hold signal, and are not in the gain. */
   bool isDarkRejected{ false };
   /** Whether the line of the bright frames alone is precise enough for dark frames to test the linearity of the
    * response: not for levels of one height. */

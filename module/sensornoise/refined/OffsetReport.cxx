@@ -25,7 +25,8 @@ namespace sensornoise
 
 namespace
 {
-/** Warns if the dark frames are noisier or quieter than the line is at the offset, see UseDarkPoint(). */
+/** Warns if the dark frames hold signal, or are noisier or quieter than the line is at the offset, see UseDarkPoint().
+ */
 void
 CompareDarkVariance(Report &             report,
                     const GainEstimate & gain,
@@ -33,7 +34,15 @@ CompareDarkVariance(Report &             report,
                     double               errorDn2,
                     double               quantisationDn2)
 {
-  if (gain.isDarkRejected)
+  if (gain.darkSignal)
+  {
+    report.Warn(
+      WarningCode::DarkFramesDiffer,
+      "the dark frames hold " + Measured(100.0 * gain.darkSignal->value, 100.0 * gain.darkSignal->standardError) +
+        " % of the signal of the frames (expected less than " + Percent(InRefined.leastSignalOfDark) +
+        "), so the gain is measured without them. Close the shutter, or cover the lens, and record them again");
+  }
+  else if (gain.isDarkRejected)
   {
     report.Warn(
       WarningCode::DarkFramesDiffer,
