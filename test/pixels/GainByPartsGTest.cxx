@@ -91,6 +91,21 @@ TEST(SensorNoiseGainByParts, FindsEachPartition)
   }
 }
 
+TEST(SensorNoiseGainByParts, UnlikeReadNoiseIsNoGain)
+{
+  // Halves of one gain. At these levels the read noise is a tenth of the variance and less.
+  const auto excess = [](const TileExcess & tile) { return (1.0 - tile.shotFraction) * (tile.x < 0.5 ? -0.4 : 0.4); };
+  const GainByParts found = CompareParts(TilesOf(excess));
+  ASSERT_TRUE(found.places);
+  EXPECT_EQ(found.places->partition, Partition::LeftRight);
+  EXPECT_EQ(found.places->size, 0.0);
+  EXPECT_FALSE(found.places->Differ());
+  EXPECT_TRUE(found.places->DifferInTheDark());
+  EXPECT_TRUE(found.places->DifferMuch());
+  // 128 tiles a half with an error of 0.01 each determine 0.06 h to 0.001.
+  EXPECT_NEAR(found.places->dark[1] - found.places->dark[0], 0.8, 0.8 * 0.1);
+}
+
 TEST(SensorNoiseGainByParts, NamesOfPartsDiffer)
 {
   for (const PartitionKind & kind : PartitionTable)

@@ -3,12 +3,14 @@
 #include "sensornoise/pixels/GainByParts.h"
 
 #include "sensornoise/base/Constants.h"
+#include "sensornoise/base/Quantiles.h"
 #include "sensornoise/base/Significance.h"
 #include "sensornoise/pixels/Constants.h"
 #include "sensornoise/pixels/PartRegression.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -68,8 +70,11 @@ FillGains(PartGains & gains, const PartRegression & fit, const std::vector<TileE
     square += share(k) * (gains.excess.back() * gains.excess.back() - covariance(k, k));
   }
   gains.size = std::sqrt(std::max(0.0, square));
-  gains.z = fit.IsSmooth() ? SignificanceOf(fit, 1, fit.gains - 1, false) : SignificanceOf(fit, 0, parts, true);
-  if (!fit.IsSmooth())
+  if (fit.gains > 1)
+  {
+    gains.z = fit.IsSmooth() ? SignificanceOf(fit, 1, fit.gains - 1, false) : SignificanceOf(fit, 0, parts, true);
+  }
+  if (fit.darks > 1)
   {
     const Eigen::VectorXd dark = fit.theta.segment(fit.gains, parts);
     const Eigen::VectorXd beyond =
@@ -94,6 +99,55 @@ GainsOf(const PartRegression & fit, const std::vector<TileExcess> & tiles)
   return gains;
 }
 
+/** Whether one part with a step at some level describes the tiles clearly better than \a criterion. Where the scene is
+ * a ramp, a step between two amplifiers looks like parts. */
+bool
+IsStepBetter(const std::vector<TileExcess> & tiles, double scale, double criterion)
+{
+  std::vector<double> levels;
+  std::transform(
+    tiles.begin(), tiles.end(), std::back_inserter(levels), [](const TileExcess & tile) { return tile.levelDn; });
+  std::sort(levels.begin(), levels.end());
+  for (std::size_t k = 1; k < InParts.levelsOfStep; ++k)
+  {
+    const double fraction = static_cast<double>(k) / static_cast<double>(InParts.levelsOfStep);
+    const double own = FitUniform(tiles, SortedQuantile(levels, fraction)).Criterion(tiles, scale);
+    if (own < criterion - InParts.strongEvidence)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool
+DiffersInAll(const PartRegression & fit)
+{
+  return fit.IsSmooth() || (fit.gains > 1 && fit.darks > 1);
+}
+
+/** The fit of the lowest criterion of those that \a isMeant takes; null: none is below \a limit. */
+template <typename TFunction>
+const PartRegression *
+FindLowest(const std::vector<PartRegression> & fits,
+           const std::vector<TileExcess> &     tiles,
+           double                              scale,
+           double                              limit,
+           TFunction                           isMeant)
+{
+  const PartRegression * lowest = nullptr;
+  for (const PartRegression & fit : fits)
+  {
+    const double criterion = fit.Criterion(tiles, scale);
+    if (fit.isDetermined && isMeant(fit) && criterion < limit)
+    {
+      limit = criterion;
+      lowest = &fit;
+    }
+  }
+  return lowest;
+}
+
 /** The partition of what is \a divided that describes the tiles best; null: none is better than one part, or the parts
  * do not differ. */
 std::optional<PartGains>
@@ -109,21 +163,25 @@ FindBest(const std::vector<TileExcess> & tiles, Divided divided)
   {
     if (kind.divided == divided)
     {
-      fits.push_back(FitParts(kind.partition, tiles));
-      scale = std::min(scale, fits.back().scale);
+      fits.push_back(FitParts(kind.partition, PartsDiffer::InGain, tiles));
+      if (!fits.back().IsSmooth())
+      {
+        fits.push_back(FitParts(kind.partition, PartsDiffer::InTheDark, tiles));
+        fits.push_back(FitParts(kind.partition, PartsDiffer::InBoth, tiles));
+      }
     }
   }
-  const PartRegression   uniform = FitUniform(tiles);
-  double                 best = uniform.Criterion(tiles, scale);
-  const PartRegression * chosen = nullptr;
   for (const PartRegression & fit : fits)
   {
-    const double criterion = fit.Criterion(tiles, scale);
-    if (fit.isDetermined && criterion < best)
-    {
-      best = criterion;
-      chosen = &fit;
-    }
+    scale = std::min(scale, fit.scale);
+  }
+  const double           limit = FitUniform(tiles).Criterion(tiles, scale);
+  const auto             any = [](const PartRegression &) { return true; };
+  const PartRegression * chosen = FindLowest(fits, tiles, scale, limit, any);
+  if (chosen != nullptr && divided == Divided::Places && !DiffersInAll(*chosen) &&
+      IsStepBetter(tiles, scale, chosen->Criterion(tiles, scale)))
+  {
+    chosen = FindLowest(fits, tiles, scale, limit, DiffersInAll);
   }
   if (chosen == nullptr)
   {
@@ -159,7 +217,7 @@ PartGains::Differ() const
 bool
 PartGains::DifferInTheDark() const
 {
-  return darkSize > InCommon.leastDarkDifference && darkZ > Significance.manyTests;
+  return darkSize > InCommon.leastDarkDifference && darkZ > Significance.severalTests;
 }
 
 bool

@@ -64,11 +64,12 @@ ResidualsOf(const std::vector<TileExcess> &            tiles,
 Eigen::VectorXd
 PriorPrecision(const PartRegression & fit)
 {
-  const auto      knots = static_cast<Eigen::Index>(fit.knotsDn.size());
-  Eigen::VectorXd precision(fit.gains + fit.darks + knots);
+  const auto         knots = static_cast<Eigen::Index>(fit.knotsDn.size());
+  const Eigen::Index step = fit.stepDn ? 1 : 0;
+  Eigen::VectorXd    precision(fit.gains + fit.darks + knots + step);
   precision.head(fit.gains).setConstant(std::pow(InParts.priorOfGain, -2));
   precision.segment(fit.gains, fit.darks).setConstant(std::pow(InParts.priorOfDark, -2));
-  precision.tail(knots).setConstant(std::pow(InParts.priorOfCurve, -2));
+  precision.tail(knots + step).setConstant(std::pow(InParts.priorOfCurve, -2));
   return precision;
 }
 
@@ -167,6 +168,11 @@ PartRegression::ToParts(const std::vector<TileExcess> & tiles) const
 {
   const auto      parts = static_cast<Eigen::Index>(KindOf(partition).parts);
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(parts, theta.size());
+  if (gains == 1)
+  {
+    matrix.col(0).setOnes();
+    return matrix;
+  }
   if (!this->IsSmooth())
   {
     matrix.leftCols(parts).setIdentity();
@@ -192,7 +198,8 @@ PartRegression::Criterion(const std::vector<TileExcess> & tiles, double common) 
     const double left = std::max(0.0, 1.0 - residual * residual / (common * common * limit));
     loss += limit / 3.0 * (1.0 - left * left * left);
   }
-  return loss + std::log(static_cast<double>(tiles.size())) * static_cast<double>(gains + darks);
+  const Eigen::Index ofStep = stepDn ? 2 : 0; // its height and its level
+  return loss + std::log(static_cast<double>(tiles.size())) * static_cast<double>(gains + darks + ofStep);
 }
 
 void
@@ -210,9 +217,13 @@ PartRegression::FillTerms(const TileExcess & tile, Terms & terms) const
   }
   else
   {
-    const std::size_t part = gains == 1 ? 0 : PartOf(partition, tile.x, tile.y, tile.phase);
-    terms.emplace_back(static_cast<Eigen::Index>(part), tile.shotFraction);
-    terms.emplace_back(gains + static_cast<Eigen::Index>(part), 1.0 - tile.shotFraction);
+    const auto part = static_cast<Eigen::Index>(PartOf(partition, tile.x, tile.y, tile.phase));
+    terms.emplace_back(gains == 1 ? 0 : part, tile.shotFraction);
+    terms.emplace_back(gains + (darks == 1 ? 0 : part), 1.0 - tile.shotFraction);
+  }
+  if (stepDn && tile.levelDn > *stepDn)
+  {
+    terms.emplace_back(gains + darks + static_cast<Eigen::Index>(knotsDn.size()), 1.0);
   }
   // The curve is linear between its knots.
   const std::size_t last = knotsDn.size() - 1;
@@ -233,22 +244,25 @@ PartRegression::FillTerms(const TileExcess & tile, Terms & terms) const
 }
 
 PartRegression
-FitParts(Partition partition, const std::vector<TileExcess> & tiles)
+FitParts(Partition partition, PartsDiffer differ, const std::vector<TileExcess> & tiles)
 {
   PartRegression fit;
   fit.partition = partition;
   const bool isSmooth = partition == Partition::SmoothField;
-  fit.gains = isSmooth ? PartRegression::FieldAt(0.0, 0.0).size() : static_cast<Eigen::Index>(KindOf(partition).parts);
-  fit.darks = isSmooth ? 1 : fit.gains;
+  const auto parts =
+    isSmooth ? PartRegression::FieldAt(0.0, 0.0).size() : static_cast<Eigen::Index>(KindOf(partition).parts);
+  fit.gains = differ == PartsDiffer::InTheDark ? 1 : parts;
+  fit.darks = isSmooth || differ == PartsDiffer::InGain ? 1 : parts;
   FitRobustly(tiles, fit);
   return fit;
 }
 
 PartRegression
-FitUniform(const std::vector<TileExcess> & tiles)
+FitUniform(const std::vector<TileExcess> & tiles, std::optional<double> stepDn)
 {
   PartRegression fit;
   fit.gains = fit.darks = 1;
+  fit.stepDn = stepDn;
   FitRobustly(tiles, fit);
   return fit;
 }

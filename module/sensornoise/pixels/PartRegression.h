@@ -8,6 +8,8 @@
 #include "sensornoise/pixels/PartTiles.h"
 #include "sensornoise/pixels/Partition.h"
 
+#include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -22,14 +24,15 @@ namespace sensornoise
  * have in common at a level. Estimator.md, 3.15. */
 struct SensorNoise_EXPORT PartRegression
 {
-  Partition           partition{ Partition::LeftRight };
-  Eigen::Index        gains{ 0 }; ///< the first coefficients are d
-  Eigen::Index        darks{ 0 }; ///< the next ones h
-  std::vector<double> knotsDn;    ///< levels of the curve's coefficients, which are the last
-  Eigen::VectorXd     theta;
-  Eigen::MatrixXd     covariance; ///< of theta, with the scatter of the tiles
-  double              scale{ 1.0 };
-  bool                isDetermined{ false };
+  Partition             partition{ Partition::LeftRight };
+  Eigen::Index          gains{ 0 }; ///< the first coefficients are d
+  Eigen::Index          darks{ 0 }; ///< the next ones h
+  std::vector<double>   knotsDn;    ///< levels of the curve's coefficients, which are the next
+  std::optional<double> stepDn;     ///< level at which the curve has a step, the last coefficient; null: it has none
+  Eigen::VectorXd       theta;
+  Eigen::MatrixXd       covariance; ///< of theta, with the scatter of the tiles
+  double                scale{ 1.0 };
+  bool                  isDetermined{ false };
 
   bool
   IsSmooth() const
@@ -56,13 +59,22 @@ struct SensorNoise_EXPORT PartRegression
   FillTerms(const TileExcess & tile, Terms & terms) const;
 };
 
-/** The regression on the parts of \a partition. */
-SensorNoise_EXPORT PartRegression
-FitParts(Partition partition, const std::vector<TileExcess> & tiles);
+/** What the parts have of their own. */
+enum class PartsDiffer : std::uint8_t
+{
+  InBoth,
+  InGain,
+  InTheDark ///< in the variance without signal, as by their read noise
+};
 
-/** The same of one part, all pixels. */
+/** Fits the parts of \a partition. A smooth field differs in its gain. */
 SensorNoise_EXPORT PartRegression
-FitUniform(const std::vector<TileExcess> & tiles);
+FitParts(Partition partition, PartsDiffer differ, const std::vector<TileExcess> & tiles);
+
+/** Fits one part, all pixels. With \a stepDn the curve has a step at that level, as between two amplifiers that read
+ * every pixel. */
+SensorNoise_EXPORT PartRegression
+FitUniform(const std::vector<TileExcess> & tiles, std::optional<double> stepDn = std::nullopt);
 
 } // namespace sensornoise
 
