@@ -7,8 +7,8 @@
 // This is Figure 2 of F. Sur, M. Gredi'ac, SIAM J. Imaging Sci. 8(1), 2015. SensorNoiseEstimator gives the same numbers
 // in fewer passes over the stack.
 
-#include "sensornoise/report/QuantityList.h"
-#include "sensornoise/report/Report.h"
+#include "report/QuantityList.h"
+#include "sensornoise/Report.h"
 #include "itkFlickerCorrectionImageFilter.h"
 #include "itkNoiseRegressionEstimator.h"
 #include "itkSensorNoiseFrameListSource.h"

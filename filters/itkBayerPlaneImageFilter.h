@@ -19,8 +19,8 @@
 #define itkBayerPlaneImageFilter_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/base/BayerPattern.h"
-#include "sensornoise/base/PixelTypes.h"
+#include "base/BayerPattern.h"
+#include "sensornoise/PixelTypes.h"
 #include "itkImage.h"
 #include "itkImageToImageFilter.h"
 

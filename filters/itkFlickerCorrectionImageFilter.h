@@ -19,11 +19,11 @@
 #define itkFlickerCorrectionImageFilter_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/base/FrameGeometry.h"
-#include "sensornoise/base/PixelTypes.h"
-#include "sensornoise/base/RollingShutter.h"
-#include "sensornoise/published/FlickerEstimate.h"
-#include "sensornoise/published/IsoIntensitySet.h"
+#include "sensornoise/FrameGeometry.h"
+#include "sensornoise/PixelTypes.h"
+#include "base/RollingShutter.h"
+#include "published/FlickerEstimate.h"
+#include "published/IsoIntensitySet.h"
 #include "itkImage.h"
 #include "itkImageToImageFilter.h"
 #include "itkSimpleDataObjectDecorator.h"

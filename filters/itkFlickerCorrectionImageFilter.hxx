@@ -20,13 +20,13 @@
 
 #include "itkSensorNoiseChunks.h"
 #include "itkSensorNoiseErrors.h"
-#include "sensornoise/base/FrameGeometry.h"
-#include "sensornoise/base/RollingShutter.h"
-#include "sensornoise/base/Significance.h"
-#include "sensornoise/published/FlickerEstimate.h"
-#include "sensornoise/published/FlickerSums.h"
-#include "sensornoise/published/IsoIntensitySet.h"
-#include "sensornoise/published/PublishedSettings.h"
+#include "sensornoise/FrameGeometry.h"
+#include "base/RollingShutter.h"
+#include "base/Significance.h"
+#include "published/FlickerEstimate.h"
+#include "published/FlickerSums.h"
+#include "published/IsoIntensitySet.h"
+#include "published/PublishedSettings.h"
 #include "itkImageScanlineIterator.h"
 
 #include <algorithm>

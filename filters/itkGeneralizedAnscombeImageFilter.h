@@ -19,8 +19,8 @@
 #define itkGeneralizedAnscombeImageFilter_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/base/PixelTypes.h"
-#include "sensornoise/report/Report.h"
+#include "sensornoise/PixelTypes.h"
+#include "sensornoise/Report.h"
 #include "itkImage.h"
 #include "itkImageToImageFilter.h"
 #include "itkSensorNoiseResult.h"

@@ -19,9 +19,9 @@
 #define itkInverseGeneralizedAnscombeImageFilter_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/base/PixelTypes.h"
-#include "sensornoise/report/Report.h"
-#include "sensornoise/stabilise/GeneralizedAnscombe.h"
+#include "sensornoise/PixelTypes.h"
+#include "sensornoise/Report.h"
+#include "stabilise/GeneralizedAnscombe.h"
 #include "itkImage.h"
 #include "itkImageToImageFilter.h"
 #include "itkSensorNoiseResult.h"

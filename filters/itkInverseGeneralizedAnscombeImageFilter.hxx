@@ -19,8 +19,8 @@
 #define itkInverseGeneralizedAnscombeImageFilter_hxx
 
 #include "itkSensorNoiseErrors.h"
-#include "sensornoise/stabilise/GeneralizedAnscombe.h"
-#include "sensornoise/stabilise/NoiseModel.h"
+#include "stabilise/GeneralizedAnscombe.h"
+#include "sensornoise/NoiseModel.h"
 #include "itkImageScanlineIterator.h"
 
 #include <cstddef>

@@ -19,8 +19,8 @@
 #define itkNoiseCorrelationEstimator_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/base/PixelTypes.h"
-#include "sensornoise/correlation/CorrelationEstimate.h"
+#include "sensornoise/PixelTypes.h"
+#include "correlation/CorrelationEstimate.h"
 #include "itkSensorNoiseResult.h"
 #include "itkSensorNoiseStackSink.h"
 

@@ -19,12 +19,12 @@
 #define itkNoiseCorrelationEstimator_hxx
 
 #include "itkSensorNoiseErrors.h"
-#include "sensornoise/base/FrameGeometry.h"
-#include "sensornoise/base/Parallel.h"
-#include "sensornoise/correlation/FrameSample.h"
-#include "sensornoise/moments/CodeSettings.h"
-#include "sensornoise/moments/StackMaps.h"
-#include "sensornoise/moments/TemporalMoments.h"
+#include "sensornoise/FrameGeometry.h"
+#include "sensornoise/Parallel.h"
+#include "correlation/FrameSample.h"
+#include "moments/CodeSettings.h"
+#include "moments/StackMaps.h"
+#include "moments/TemporalMoments.h"
 
 #include <cmath>
 #include <cstddef>

@@ -19,10 +19,10 @@
 #define itkNoiseRegressionEstimator_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/published/FlickerEstimate.h"
-#include "sensornoise/report/ReportJson.h"
-#include "sensornoise/report/Report.h"
-#include "sensornoise/report/ReportTable.h"
+#include "published/FlickerEstimate.h"
+#include "report/ReportJson.h"
+#include "sensornoise/Report.h"
+#include "report/ReportTable.h"
 #include "itkImage.h"
 #include "itkProcessObject.h"
 #include "itkSensorNoiseResult.h"

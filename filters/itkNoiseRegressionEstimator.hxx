@@ -19,11 +19,11 @@
 #define itkNoiseRegressionEstimator_hxx
 
 #include "itkSensorNoiseErrors.h"
-#include "sensornoise/base/PolynomialFit.h"
-#include "sensornoise/page/FigureJson.h"
-#include "sensornoise/page/ReportPage.h"
-#include "sensornoise/published/NoiseParameters.h"
-#include "sensornoise/report/Report.h"
+#include "base/PolynomialFit.h"
+#include "page/FigureJson.h"
+#include "sensornoise/ReportPage.h"
+#include "published/NoiseParameters.h"
+#include "sensornoise/Report.h"
 
 #include <cmath>
 #include <optional>

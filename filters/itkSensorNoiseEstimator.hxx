@@ -22,9 +22,9 @@
 #include "itkSensorNoiseErrors.h"
 #include "itkSensorNoiseEstimation.h"
 #include "itkSensorNoiseEstimator.h"
-#include "sensornoise/base/FrameGeometry.h"
-#include "sensornoise/moments/KnownOffset.h"
-#include "sensornoise/moments/MosaicLevels.h"
+#include "sensornoise/FrameGeometry.h"
+#include "moments/KnownOffset.h"
+#include "moments/MosaicLevels.h"
 
 #include <algorithm>
 #include <cmath>

@@ -23,9 +23,9 @@
 #include "itkSensorNoiseEstimator.h"
 #include "itkSensorNoiseMapContainer.h"
 #include "itkSensorNoisePageMaps.h"
-#include "sensornoise/base/PixelUse.h"
-#include "sensornoise/page/FigureJson.h"
-#include "sensornoise/page/ReportPage.h"
+#include "base/PixelUse.h"
+#include "page/FigureJson.h"
+#include "sensornoise/ReportPage.h"
 
 #include <algorithm>
 #include <cmath>

@@ -21,12 +21,12 @@
 #include "itkSensorNoiseErrors.h"
 #include "itkSensorNoiseEstimator.h"
 #include "itkSensorNoiseMetaData.h"
-#include "sensornoise/base/FreeMemory.h"
-#include "sensornoise/base/RollingShutter.h"
-#include "sensornoise/moments/Exposures.h"
-#include "sensornoise/published/PublishedSettings.h"
-#include "sensornoise/refined/RefinedSettings.h"
-#include "sensornoise/report/StackSettings.h"
+#include "base/FreeMemory.h"
+#include "base/RollingShutter.h"
+#include "moments/Exposures.h"
+#include "published/PublishedSettings.h"
+#include "sensornoise/Settings.h"
+#include "report/StackSettings.h"
 
 #include <cmath>
 #include <optional>

@@ -19,8 +19,8 @@
 #define itkSensorNoiseFrameFiles_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/files/FrameChoice.h"
-#include "sensornoise/files/FrameFile.h"
+#include "files/FrameChoice.h"
+#include "sensornoise/FrameFile.h"
 
 #include <array>
 #include <cstddef>

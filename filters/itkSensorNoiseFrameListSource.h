@@ -23,7 +23,7 @@
 #include "itkImage.h"
 #include "itkImageIOBase.h"
 #include "itkImageSource.h"
-#include "sensornoise/base/PixelTypes.h"
+#include "sensornoise/PixelTypes.h"
 
 #include <cstddef>
 #include <ostream>

@@ -21,8 +21,8 @@
 #include "itkSensorNoiseFrameListSource.h"
 #include "itkSensorNoiseFileErrors.h"
 #include "itkSensorNoiseMetaData.h"
-#include "sensornoise/base/ForAll.h"
-#include "sensornoise/base/Parallel.h"
+#include "base/ForAll.h"
+#include "sensornoise/Parallel.h"
 
 #include <algorithm>
 #include <cstddef>

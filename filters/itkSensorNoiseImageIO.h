@@ -19,7 +19,7 @@
 #define itkSensorNoiseImageIO_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/files/FrameFile.h"
+#include "sensornoise/FrameFile.h"
 #include "itkImageIOBase.h"
 
 #include <ostream>

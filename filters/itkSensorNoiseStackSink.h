@@ -19,8 +19,8 @@
 #define itkSensorNoiseStackSink_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/base/Parallel.h"
-#include "sensornoise/base/PixelTypes.h"
+#include "sensornoise/Parallel.h"
+#include "sensornoise/PixelTypes.h"
 #include "itkImage.h"
 #include "itkImageSink.h"
 #include "itkSensorNoiseChunks.h"

@@ -20,7 +20,7 @@
 
 #include "itkSensorNoiseChunks.h"
 #include "itkSensorNoiseErrors.h"
-#include "sensornoise/base/Parallel.h"
+#include "sensornoise/Parallel.h"
 
 #include <algorithm>
 #include <atomic>

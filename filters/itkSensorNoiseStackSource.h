@@ -19,12 +19,12 @@
 #define itkSensorNoiseStackSource_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/base/PixelTypes.h"
-#include "sensornoise/simulation/SensorFlaws.h"
-#include "sensornoise/simulation/SimulationTruth.h"
-#include "sensornoise/simulation/SimulationSettings.h"
-#include "sensornoise/simulation/TruthJson.h"
-#include "sensornoise/simulation/Simulator.h"
+#include "sensornoise/PixelTypes.h"
+#include "simulation/SensorFlaws.h"
+#include "simulation/SimulationTruth.h"
+#include "sensornoise/SimulationSettings.h"
+#include "simulation/TruthJson.h"
+#include "sensornoise/Simulator.h"
 #include "itkImage.h"
 #include "itkImageSource.h"
 #include "itkNumericTraits.h"

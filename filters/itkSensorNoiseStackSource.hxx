@@ -19,11 +19,11 @@
 #define itkSensorNoiseStackSource_hxx
 
 #include "itkSensorNoiseErrors.h"
-#include "sensornoise/base/FreeMemory.h"
-#include "sensornoise/moments/Codes.h"
-#include "sensornoise/simulation/SimulationTruth.h"
-#include "sensornoise/simulation/SimulationSettings.h"
-#include "sensornoise/simulation/Simulator.h"
+#include "base/FreeMemory.h"
+#include "moments/Codes.h"
+#include "simulation/SimulationTruth.h"
+#include "sensornoise/SimulationSettings.h"
+#include "sensornoise/Simulator.h"
 #include "itkSensorNoiseStackSource.h"
 #include "itkImageRegionConstIterator.h"
 

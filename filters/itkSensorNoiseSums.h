@@ -23,7 +23,7 @@
 #include "itkObject.h"
 #include "itkObjectFactory.h"
 #include "itkSensorNoiseEstimator.h"
-#include "sensornoise/base/PixelTypes.h"
+#include "sensornoise/PixelTypes.h"
 
 #include <ostream>
 #include <string>

@@ -20,10 +20,10 @@
 
 #include "itkSensorNoiseErrors.h"
 #include "itkSensorNoiseEstimator.hxx"
-#include "sensornoise/base/BinaryStream.h"
-#include "sensornoise/base/ZeroRuns.h"
-#include "sensornoise/moments/MosaicLevels.h"
-#include "sensornoise/report/Version.h"
+#include "base/BinaryStream.h"
+#include "base/ZeroRuns.h"
+#include "moments/MosaicLevels.h"
+#include "sensornoise/Version.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -19,9 +19,9 @@
 #define itkTemporalStatisticsImageFilter_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/base/PixelTypes.h"
-#include "sensornoise/moments/StackMaps.h"
-#include "sensornoise/moments/TemporalMoments.h"
+#include "sensornoise/PixelTypes.h"
+#include "moments/StackMaps.h"
+#include "moments/TemporalMoments.h"
 #include "itkSensorNoiseStackSink.h"
 
 #include <limits>

@@ -18,10 +18,10 @@
 #ifndef itkTemporalStatisticsImageFilter_hxx
 #define itkTemporalStatisticsImageFilter_hxx
 
-#include "sensornoise/moments/CodeSettings.h"
-#include "sensornoise/moments/Codes.h"
-#include "sensornoise/moments/StackMaps.h"
-#include "sensornoise/moments/TemporalMoments.h"
+#include "moments/CodeSettings.h"
+#include "moments/Codes.h"
+#include "moments/StackMaps.h"
+#include "moments/TemporalMoments.h"
 #include "itkSensorNoiseMapContainer.h"
 
 #include <cstddef>

@@ -19,8 +19,8 @@
 #define itkVibrationCovarianceEstimator_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/published/FlickerEstimate.h"
-#include "sensornoise/published/VibrationCovariance.h"
+#include "published/FlickerEstimate.h"
+#include "published/VibrationCovariance.h"
 #include "itkImage.h"
 #include "itkProcessObject.h"
 #include "itkSensorNoiseResult.h"

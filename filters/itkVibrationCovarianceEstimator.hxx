@@ -19,7 +19,7 @@
 #define itkVibrationCovarianceEstimator_hxx
 
 #include "itkSensorNoiseErrors.h"
-#include "sensornoise/published/VibrationCovariance.h"
+#include "published/VibrationCovariance.h"
 
 #include <ostream>
 

@@ -19,7 +19,7 @@
 #define itkVibrationMaskImageFilter_hxx
 
 #include "itkSensorNoiseErrors.h"
-#include "sensornoise/published/VibrationMask.h"
+#include "published/VibrationMask.h"
 
 #include <algorithm>
 #include <cstddef>

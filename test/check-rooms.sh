@@ -1,23 +1,31 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-# Checks that a room of the module includes only rooms that stand above it in the table of module/README.md. Prints the
-# arrows between the rooms, with the number of includes, and how many of the module's headers the headers pull in.
+# Checks that a room of the module includes only rooms that stand above it in the table of module/README.md. A public
+# header belongs to the room that has the source of the same name; every room may include one without such a source.
+# Prints the includes from room to room, and how many of the module's headers a header pulls in.
 set -euo pipefail
-cd "$(dirname "$0")/../module/sensornoise"
+cd "$(dirname "$0")/../module/src"
 python3 - <<'PY'
 import collections, pathlib, re, statistics, sys
 
-files = sorted(p for p in pathlib.Path(".").glob("*/*") if p.suffix in (".h", ".cxx"))
-includes = {str(p): re.findall(r'#include "sensornoise/([^"]+)"', p.read_text()) for p in files}
+private = sorted(p for p in pathlib.Path(".").glob("*/*") if p.suffix in (".h", ".cxx"))
+public = sorted(pathlib.Path("../include/sensornoise").glob("*.h"))
+room_of = {p.as_posix(): p.parts[0] for p in private}
+for header in public:
+    room_of[f"sensornoise/{header.name}"] = next((p.parts[0] for p in private if p.name == f"{header.stem}.cxx"), None)
+pattern = r'#include "(\w+/\w+\.h)"'
+includes = {p.as_posix(): re.findall(pattern, p.read_text()) for p in private}
+includes |= {f"sensornoise/{p.name}": re.findall(pattern, p.read_text()) for p in public}
 arrows = collections.Counter(
-    (name.split("/")[0], other.split("/")[0]) for name, others in includes.items() for other in others)
+    (room_of[name], room_of[other]) for name, others in includes.items() for other in others
+    if room_of[name] and room_of[other])
 rooms = {}
 for (a, b), count in sorted(arrows.items()):
     if a != b:
         rooms.setdefault(a, {})[b] = count
 order = re.findall(r"^\| `(\w+)` \|", pathlib.Path("../README.md").read_text(), re.M)
-for room in sorted({p.parts[0] for p in files}, key=order.index):
+for room in sorted({p.parts[0] for p in private}, key=order.index):
     used = ", ".join(f"{other} {count}" for other, count in rooms.get(room, {}).items())
     print(f"{room:11} -> {used or 'nothing'}")
 

@@ -3,7 +3,7 @@
 #ifndef EfficiencyOptions_h
 #define EfficiencyOptions_h
 
-#include "sensornoise/simulation/Scenes.h"
+#include "sensornoise/Scenes.h"
 
 #include <algorithm>
 #include <cstddef>

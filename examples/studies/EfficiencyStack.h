@@ -3,7 +3,7 @@
 #ifndef EfficiencyStack_h
 #define EfficiencyStack_h
 
-#include "sensornoise/simulation/SimulationSettings.h"
+#include "sensornoise/SimulationSettings.h"
 #include "studies/EfficiencyStatistics.h"
 
 #include <cstddef>

@@ -3,7 +3,7 @@
 #ifndef EfficiencyStatistics_h
 #define EfficiencyStatistics_h
 
-#include "sensornoise/report/Report.h"
+#include "sensornoise/Report.h"
 
 #include <array>
 #include <cstddef>

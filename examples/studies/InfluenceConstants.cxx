@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studies/InfluenceConstants.h"
 
-#include "sensornoise/base/Significance.h"
-#include "sensornoise/correlation/Constants.h"
-#include "sensornoise/moments/Constants.h"
-#include "sensornoise/pixels/Constants.h"
-#include "sensornoise/refined/Constants.h"
-#include "sensornoise/series/Constants.h"
+#include "base/Significance.h"
+#include "correlation/Constants.h"
+#include "moments/Constants.h"
+#include "pixels/Constants.h"
+#include "refined/Constants.h"
+#include "series/Constants.h"
 
 namespace sensornoise::tools
 {

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studies/InfluenceRun.h"
 
-#include "sensornoise/base/ForAll.h"
-#include "sensornoise/refined/RefinedMethod.h"
-#include "sensornoise/report/ReportJson.h"
+#include "base/ForAll.h"
+#include "sensornoise/RefinedMethod.h"
+#include "report/ReportJson.h"
 #include "studies/RobustnessEstimate.h"
 
 #include <algorithm>

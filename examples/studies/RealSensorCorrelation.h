@@ -3,7 +3,7 @@
 #ifndef RealSensorCorrelation_h
 #define RealSensorCorrelation_h
 
-#include "sensornoise/report/Report.h"
+#include "sensornoise/Report.h"
 
 #include <string>
 

@@ -3,7 +3,7 @@
 #ifndef RealSensorJudged_h
 #define RealSensorJudged_h
 
-#include "sensornoise/report/Report.h"
+#include "sensornoise/Report.h"
 
 #include <cstddef>
 #include <optional>

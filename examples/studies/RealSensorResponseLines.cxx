@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studies/RealSensorLines.h"
 
-#include "sensornoise/simulation/ResponseCurve.h"
+#include "simulation/ResponseCurve.h"
 
 #include <array>
 #include <string>

@@ -3,7 +3,7 @@
 #ifndef RealSensorSetting_h
 #define RealSensorSetting_h
 
-#include "sensornoise/simulation/SimulationSettings.h"
+#include "sensornoise/SimulationSettings.h"
 
 #include <cstddef>
 #include <string>

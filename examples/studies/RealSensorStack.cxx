@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studies/RealSensorStack.h"
 
-#include "sensornoise/simulation/Random.h"
-#include "sensornoise/simulation/Scenes.h"
-#include "sensornoise/simulation/SimulationTruth.h"
+#include "simulation/Random.h"
+#include "sensornoise/Scenes.h"
+#include "simulation/SimulationTruth.h"
 
 #include <algorithm>
 #include <cmath>

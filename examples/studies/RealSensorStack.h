@@ -3,7 +3,7 @@
 #ifndef RealSensorStack_h
 #define RealSensorStack_h
 
-#include "sensornoise/simulation/Simulator.h"
+#include "sensornoise/Simulator.h"
 #include "studies/RealSensorSetting.h"
 
 #include <cstddef>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studies/RealSensorStatistics.h"
 
-#include "sensornoise/simulation/Random.h"
+#include "simulation/Random.h"
 #include "studies/EfficiencyStatistics.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studies/RealSensorTable.h"
 
-#include "sensornoise/report/ReportJson.h"
+#include "report/ReportJson.h"
 #include "studies/RealSensorFormat.h"
 #include "studies/RealSensorStatistics.h"
 

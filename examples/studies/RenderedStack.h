@@ -3,7 +3,7 @@
 #ifndef RenderedStack_h
 #define RenderedStack_h
 
-#include "sensornoise/simulation/Simulator.h"
+#include "sensornoise/Simulator.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -3,9 +3,9 @@
 #ifndef RobustnessEstimate_h
 #define RobustnessEstimate_h
 
-#include "sensornoise/base/FrameGeometry.h"
-#include "sensornoise/base/PixelUse.h"
-#include "sensornoise/report/Report.h"
+#include "sensornoise/FrameGeometry.h"
+#include "base/PixelUse.h"
+#include "sensornoise/Report.h"
 #include "studies/RobustnessRun.h"
 #include "studies/StressStacks.h"
 

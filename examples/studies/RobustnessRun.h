@@ -3,7 +3,7 @@
 #ifndef RobustnessRun_h
 #define RobustnessRun_h
 
-#include "sensornoise/report/Report.h"
+#include "sensornoise/Report.h"
 #include "studies/StressStacks.h"
 
 #include <cstdint>

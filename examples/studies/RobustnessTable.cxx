@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studies/RobustnessTable.h"
 
-#include "sensornoise/report/Report.h"
-#include "sensornoise/report/ReportJson.h"
+#include "sensornoise/Report.h"
+#include "report/ReportJson.h"
 
 #include <cmath>
 #include <cstdio>

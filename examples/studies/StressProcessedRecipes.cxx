@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/simulation/SensorFlaws.h"
+#include "simulation/SensorFlaws.h"
 #include "studies/StressRecipe.h"
 
 #include <vector>

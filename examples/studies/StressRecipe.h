@@ -3,8 +3,8 @@
 #ifndef StressRecipe_h
 #define StressRecipe_h
 
-#include "sensornoise/simulation/SimulationSettings.h"
-#include "sensornoise/simulation/SimulationTruth.h"
+#include "sensornoise/SimulationSettings.h"
+#include "simulation/SimulationTruth.h"
 #include "studies/StressStacks.h"
 
 #include <cstddef>

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/simulation/Illumination.h"
-#include "sensornoise/simulation/Random.h"
-#include "sensornoise/simulation/Scenes.h"
-#include "sensornoise/simulation/SimulationTruth.h"
-#include "sensornoise/simulation/SimulationSettings.h"
+#include "simulation/Illumination.h"
+#include "simulation/Random.h"
+#include "sensornoise/Scenes.h"
+#include "simulation/SimulationTruth.h"
+#include "sensornoise/SimulationSettings.h"
 #include "studies/StressRecipe.h"
 
 #include <algorithm>

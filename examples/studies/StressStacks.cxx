@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studies/StressStacks.h"
 
-#include "sensornoise/simulation/Random.h"
-#include "sensornoise/simulation/Scenes.h"
-#include "sensornoise/simulation/SimulationSettings.h"
-#include "sensornoise/simulation/Simulator.h"
+#include "simulation/Random.h"
+#include "sensornoise/Scenes.h"
+#include "sensornoise/SimulationSettings.h"
+#include "sensornoise/Simulator.h"
 #include "studies/StressRecipe.h"
 
 #include <algorithm>

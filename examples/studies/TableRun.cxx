@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studies/TableRun.h"
 
-#include "sensornoise/published/PublishedMethod.h"
-#include "sensornoise/report/Report.h"
-#include "sensornoise/simulation/Scenes.h"
-#include "sensornoise/simulation/SimulationSettings.h"
-#include "sensornoise/simulation/Simulator.h"
+#include "sensornoise/PublishedMethod.h"
+#include "sensornoise/Report.h"
+#include "sensornoise/Scenes.h"
+#include "sensornoise/SimulationSettings.h"
+#include "sensornoise/Simulator.h"
 #include "studies/RenderedStack.h"
 
 #include <atomic>

@@ -3,12 +3,12 @@
 // How often the check of a noise model is right: a report is held against another burst of the same camera, as it is,
 // and with a slope that is 5 % too steep. The first should fit, the second should not. See --help.
 
-#include "sensornoise/refined/RefinedMethod.h"
-#include "sensornoise/report/Report.h"
-#include "sensornoise/simulation/Scenes.h"
-#include "sensornoise/simulation/SimulationSettings.h"
-#include "sensornoise/simulation/Simulator.h"
-#include "sensornoise/stabilise/NoiseModelCheck.h"
+#include "sensornoise/RefinedMethod.h"
+#include "sensornoise/Report.h"
+#include "sensornoise/Scenes.h"
+#include "sensornoise/SimulationSettings.h"
+#include "sensornoise/Simulator.h"
+#include "stabilise/NoiseModelCheck.h"
 #include "studies/RenderedStack.h"
 #include "studies/RobustnessEstimate.h"
 

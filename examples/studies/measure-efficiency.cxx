@@ -3,8 +3,8 @@
 // Measures how close the estimates come to the Cramer-Rao bound: simulates stacks of the cameras and conditions of
 // Table 1 of Sur & Gredi'ac 2015 and compares estimates and 95 % intervals with the truth. See --help.
 
-#include "sensornoise/simulation/Scenes.h"
-#include "sensornoise/simulation/SimulationSettings.h"
+#include "sensornoise/Scenes.h"
+#include "sensornoise/SimulationSettings.h"
 #include "studies/EfficiencyOptions.h"
 #include "studies/EfficiencyStack.h"
 #include "studies/EfficiencyStatistics.h"

@@ -3,8 +3,8 @@
 // Simulates bursts with what goes wrong in real life, estimates each and prints the errors, the errors in units of the
 // reported standard errors, and a verdict. See --help and --list.
 
-#include "sensornoise/published/PublishedMethod.h"
-#include "sensornoise/refined/RefinedMethod.h"
+#include "sensornoise/PublishedMethod.h"
+#include "sensornoise/RefinedMethod.h"
 #include "studies/RobustnessEstimate.h"
 #include "studies/RobustnessRun.h"
 #include "studies/RobustnessTable.h"

@@ -6,8 +6,8 @@
 //
 //   measure-stabilisation
 
-#include "sensornoise/stabilise/GeneralizedAnscombe.h"
-#include "sensornoise/stabilise/PoissonGaussianLaw.h"
+#include "stabilise/GeneralizedAnscombe.h"
+#include "stabilise/PoissonGaussianLaw.h"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 // Runs the simulations of Tables 2 and 3 and Figures 6 to 8 of Sur & Gredi'ac 2015 and prints the estimates' mean and
 // twice their standard deviation beside the truth and the paper's own figures. See --help.
 
-#include "sensornoise/published/FlickerEstimate.h"
+#include "published/FlickerEstimate.h"
 #include "studies/PaperTables.h"
 #include "studies/TableRun.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/CompanionFiles.h"
 
-#include "sensornoise/files/FileError.h"
+#include "files/FileError.h"
 #include "tools/ImageOnFile.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/ComparedFiles.h"
 
-#include "sensornoise/report/ReportJson.h"
+#include "report/ReportJson.h"
 #include "tools/ReportFile.h"
 
 #include <algorithm>

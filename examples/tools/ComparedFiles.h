@@ -3,7 +3,7 @@
 #ifndef ComparedFiles_h
 #define ComparedFiles_h
 
-#include "sensornoise/page/Comparison.h"
+#include "page/Comparison.h"
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/DenoiseOptions.h"
 
-#include "sensornoise/report/Version.h"
+#include "sensornoise/Version.h"
 #include "tools/HelpText.h"
 #include "tools/LowerCase.h"
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/DenoisedFile.h"
 
-#include "sensornoise/base/FreeMemory.h"
-#include "sensornoise/stabilise/GeneralizedAnscombe.h"
+#include "base/FreeMemory.h"
+#include "stabilise/GeneralizedAnscombe.h"
 #include "tools/ImageScale.h"
 #include "tools/LowerCase.h"
 #include "tools/PendingFile.h"

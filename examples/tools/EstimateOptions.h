@@ -3,8 +3,8 @@
 #ifndef EstimateOptions_h
 #define EstimateOptions_h
 
-#include "sensornoise/base/RollingShutter.h"
-#include "sensornoise/files/FrameChoice.h"
+#include "base/RollingShutter.h"
+#include "files/FrameChoice.h"
 
 #include <array>
 #include <cstddef>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/FileNames.h"
 
-#include "sensornoise/files/FrameFormats.h"
+#include "files/FrameFormats.h"
 #include "tools/LowerCase.h"
 
 #include <algorithm>

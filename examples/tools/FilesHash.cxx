@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/FilesHash.h"
 
-#include "sensornoise/files/FileError.h"
+#include "files/FileError.h"
 #include "itkSensorNoiseFrameFiles.h"
 
 #ifdef SENSORNOISE_OPENSSL

@@ -3,7 +3,7 @@
 #ifndef FilesHash_h
 #define FilesHash_h
 
-#include "sensornoise/report/Report.h"
+#include "sensornoise/Report.h"
 
 namespace sensornoise
 {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/ImageScale.h"
 
-#include "sensornoise/base/Text.h"
+#include "base/Text.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/ModelCheck.h"
 
-#include "sensornoise/report/ChannelRecord.h"
-#include "sensornoise/report/JsonWriter.h"
-#include "sensornoise/report/ReportJson.h"
-#include "sensornoise/report/ReportTable.h"
-#include "sensornoise/stabilise/NoiseModel.h"
+#include "report/ChannelRecord.h"
+#include "report/JsonWriter.h"
+#include "report/ReportJson.h"
+#include "report/ReportTable.h"
+#include "sensornoise/NoiseModel.h"
 #include "tools/CompanionFiles.h"
 #include "tools/EstimateOptions.h"
 #include "itkSensorNoiseFrameFiles.h"

@@ -3,7 +3,7 @@
 #ifndef ModelCheck_h
 #define ModelCheck_h
 
-#include "sensornoise/stabilise/NoiseModelCheck.h"
+#include "stabilise/NoiseModelCheck.h"
 #include "tools/StackEstimate.h"
 
 #include <optional>

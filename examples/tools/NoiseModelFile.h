@@ -3,7 +3,7 @@
 #ifndef NoiseModelFile_h
 #define NoiseModelFile_h
 
-#include "sensornoise/stabilise/NoiseModel.h"
+#include "sensornoise/NoiseModel.h"
 
 #include <optional>
 #include <string>

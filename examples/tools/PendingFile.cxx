@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/PendingFile.h"
 
-#include "sensornoise/base/FreeMemory.h"
+#include "base/FreeMemory.h"
 
 #include <array>
 #include <cerrno>

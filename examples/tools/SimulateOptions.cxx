@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/SimulateOptions.h"
 
-#include "sensornoise/report/Version.h"
+#include "sensornoise/Version.h"
 #include "tools/HelpText.h"
 
 #include <CLI/CLI.hpp>

@@ -3,8 +3,8 @@
 #ifndef StackEstimate_h
 #define StackEstimate_h
 
-#include "sensornoise/report/ChannelReports.h"
-#include "sensornoise/report/Report.h"
+#include "sensornoise/ChannelReports.h"
+#include "sensornoise/Report.h"
 
 #include <string>
 #include <variant>

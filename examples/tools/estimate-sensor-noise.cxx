@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures the noise of a camera from a burst of raw frames on files. See --help, and README.md.
 
-#include "sensornoise/report/ChannelRecord.h"
-#include "sensornoise/report/Report.h"
-#include "sensornoise/report/ReportTable.h"
-#include "sensornoise/page/ComparisonPage.h"
+#include "report/ChannelRecord.h"
+#include "sensornoise/Report.h"
+#include "report/ReportTable.h"
+#include "page/ComparisonPage.h"
 #include "tools/ErrorSentence.h"
 #include "tools/CompanionFiles.h"
 #include "tools/ComparedFiles.h"

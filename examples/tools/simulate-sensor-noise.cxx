@@ -3,10 +3,10 @@
 // Simulates a burst of raw frames with known noise, and writes what an estimator should find beside it:
 //   simulate-sensor-noise --output stack.mha --truth truth.json --reference target --camera B --condition 3
 
-#include "sensornoise/base/FreeMemory.h"
-#include "sensornoise/simulation/Illumination.h"
-#include "sensornoise/simulation/SimulationSettings.h"
-#include "sensornoise/files/FileError.h"
+#include "base/FreeMemory.h"
+#include "simulation/Illumination.h"
+#include "sensornoise/SimulationSettings.h"
+#include "files/FileError.h"
 #include "tools/ErrorSentence.h"
 #include "tools/FilesInUse.h"
 #include "tools/ImageOnFile.h"

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/base/BinaryStream.h"
-#include "sensornoise/moments/FloatingMoments.h"
-#include "sensornoise/moments/IntegerMoments.h"
-#include "sensornoise/pixels/ProjectionSums.h"
-#include "sensornoise/series/FrameProducts.h"
+#include "base/BinaryStream.h"
+#include "moments/FloatingMoments.h"
+#include "moments/IntegerMoments.h"
+#include "pixels/ProjectionSums.h"
+#include "series/FrameProducts.h"
 
 #include <cmath>
 #include <cstddef>

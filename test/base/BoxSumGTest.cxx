@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/base/BoxSum.h"
-#include "sensornoise/base/Parallel.h"
+#include "base/BoxSum.h"
+#include "sensornoise/Parallel.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/base/BytesFingerprint.h"
-#include "sensornoise/base/MixBits.h"
+#include "base/BytesFingerprint.h"
+#include "base/MixBits.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/base/IntensityIndex.h"
-#include "sensornoise/base/Quantiles.h"
+#include "base/IntensityIndex.h"
+#include "base/Quantiles.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/base/Parallel.h"
+#include "sensornoise/Parallel.h"
 
 #include "helpers/StackTestHelper.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/base/PixelLayout.h"
+#include "base/PixelLayout.h"
 
 #include <cstddef>
 #include <gtest/gtest.h>

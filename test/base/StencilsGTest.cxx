@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/base/Stencils.h"
+#include "base/Stencils.h"
 
 #include <gtest/gtest.h>
 

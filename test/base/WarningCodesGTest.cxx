@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/base/WarningCodes.h"
+#include "sensornoise/WarningCodes.h"
 #include "helpers/SentencesTestHelper.h"
 
 #include <gtest/gtest.h>

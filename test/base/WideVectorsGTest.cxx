@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/base/WideVectors.h"
-#include "sensornoise/simulation/Random.h"
+#include "base/WideVectors.h"
+#include "simulation/Random.h"
 
 #include <cmath>
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/base/ZeroRuns.h"
+#include "base/ZeroRuns.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "benchmark/BenchmarkStack.h"
 
-#include "sensornoise/simulation/Scenes.h"
+#include "sensornoise/Scenes.h"
 #include "itkMultiThreaderBase.h"
 #include "itkSensorNoiseStackSource.h"
 

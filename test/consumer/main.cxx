@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "itkSensorNoiseEstimator.h"
-#include "sensornoise/base/FrameGeometry.h"
-#include "sensornoise/base/NothingToMeasure.h"
-#include "sensornoise/refined/RefinedMethod.h"
-#include "sensornoise/refined/RefinedSettings.h"
-#include "sensornoise/report/Report.h"
-#include "sensornoise/report/Version.h"
-#include "sensornoise/scene/ProvisionalModel.h"
-#include "sensornoise/scene/ReferenceFrame.h"
-#include "sensornoise/simulation/Scenes.h"
-#include "sensornoise/simulation/SimulationSettings.h"
-#include "sensornoise/simulation/Simulator.h"
+#include "sensornoise/FrameGeometry.h"
+#include "base/NothingToMeasure.h"
+#include "sensornoise/RefinedMethod.h"
+#include "sensornoise/Settings.h"
+#include "sensornoise/Report.h"
+#include "sensornoise/Version.h"
+#include "scene/ProvisionalModel.h"
+#include "scene/ReferenceFrame.h"
+#include "sensornoise/Scenes.h"
+#include "sensornoise/SimulationSettings.h"
+#include "sensornoise/Simulator.h"
 
 #include "itkImage.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/correlation/BlockPhases.h"
-#include "sensornoise/correlation/NoiseCorrelation.h"
+#include "correlation/BlockPhases.h"
+#include "correlation/NoiseCorrelation.h"
 #include "helpers/CorrelationTestHelper.h"
 
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/correlation/CommonNoise.h"
-#include "sensornoise/correlation/SharedLight.h"
-#include "sensornoise/simulation/Random.h"
+#include "correlation/CommonNoise.h"
+#include "correlation/SharedLight.h"
+#include "simulation/Random.h"
 #include "helpers/CorrelationTestHelper.h"
 #include "helpers/StackTestHelper.h"
 

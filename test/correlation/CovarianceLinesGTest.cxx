@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/correlation/CovarianceLines.h"
-#include "sensornoise/correlation/NoiseCorrelation.h"
+#include "correlation/CovarianceLines.h"
+#include "correlation/NoiseCorrelation.h"
 #include "helpers/CorrelationTestHelper.h"
 
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/correlation/FrameSample.h"
-#include "sensornoise/base/Eigen.h"
-#include "sensornoise/correlation/NoiseResiduals.h"
-#include "sensornoise/simulation/Random.h"
+#include "correlation/FrameSample.h"
+#include "base/Eigen.h"
+#include "correlation/NoiseResiduals.h"
+#include "simulation/Random.h"
 #include "helpers/StackTestHelper.h"
 
 #include <algorithm>

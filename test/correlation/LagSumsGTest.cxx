@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/correlation/LagSums.h"
-#include "sensornoise/correlation/TemporalMixing.h"
+#include "correlation/LagSums.h"
+#include "correlation/TemporalMixing.h"
 #include "helpers/CorrelationTestHelper.h"
 #include "helpers/StackTestHelper.h"
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/correlation/LocalMotion.h"
+#include "correlation/LocalMotion.h"
 #include "helpers/CorrelationTestHelper.h"
 #include "helpers/StackTestHelper.h"
-#include "sensornoise/simulation/Random.h"
+#include "simulation/Random.h"
 
 #include <cmath>
 #include <cstddef>

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/correlation/NoiseCorrelation.h"
-#include "sensornoise/correlation/NoiseResiduals.h"
-#include "sensornoise/correlation/FrameSample.h"
-#include "sensornoise/simulation/Scenes.h"
-#include "sensornoise/simulation/SimulationSettings.h"
-#include "sensornoise/simulation/Simulator.h"
+#include "correlation/NoiseCorrelation.h"
+#include "correlation/NoiseResiduals.h"
+#include "correlation/FrameSample.h"
+#include "sensornoise/Scenes.h"
+#include "sensornoise/SimulationSettings.h"
+#include "sensornoise/Simulator.h"
 #include "helpers/SimulatorTestHelper.h"
 #include "helpers/StackTestHelper.h"
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/correlation/NoiseKurtosis.h"
-#include "sensornoise/correlation/MixtureKurtosis.h"
-#include "sensornoise/simulation/Random.h"
+#include "correlation/NoiseKurtosis.h"
+#include "correlation/MixtureKurtosis.h"
+#include "simulation/Random.h"
 #include "helpers/CorrelationTestHelper.h"
 #include "helpers/StackTestHelper.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/correlation/FrameSample.h"
+#include "correlation/FrameSample.h"
 
 #include <cmath>
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/correlation/SampleTiles.h"
+#include "correlation/SampleTiles.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/correlation/TemporalMixing.h"
-#include "sensornoise/base/Eigen.h"
-#include "sensornoise/simulation/Random.h"
+#include "correlation/TemporalMixing.h"
+#include "base/Eigen.h"
+#include "simulation/Random.h"
 
 #include <cmath>
 #include <cstddef>

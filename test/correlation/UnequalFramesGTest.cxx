@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/correlation/UnequalFrames.h"
-#include "sensornoise/base/Eigen.h"
-#include "sensornoise/correlation/MixtureKurtosis.h"
-#include "sensornoise/correlation/NoiseCorrelation.h"
-#include "sensornoise/correlation/NoiseKurtosis.h"
-#include "sensornoise/simulation/Random.h"
+#include "correlation/UnequalFrames.h"
+#include "base/Eigen.h"
+#include "correlation/MixtureKurtosis.h"
+#include "correlation/NoiseCorrelation.h"
+#include "correlation/NoiseKurtosis.h"
+#include "simulation/Random.h"
 #include "helpers/CorrelationTestHelper.h"
 
 #include <cmath>

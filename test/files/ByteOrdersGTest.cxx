@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/files/ByteOrders.h"
-#include "sensornoise/files/RawLayout.h"
+#include "files/ByteOrders.h"
+#include "files/RawLayout.h"
 #include "helpers/FrameFileTestHelper.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/files/FileError.h"
+#include "files/FileError.h"
 
 #include <gtest/gtest.h>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/files/RawLayout.h"
+#include "files/RawLayout.h"
 #include "helpers/BurstFilesTestHelper.h"
 #include "helpers/FrameFileTestHelper.h"
 

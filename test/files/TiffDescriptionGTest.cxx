@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "helpers/FrameFileTestHelper.h"
 #include "helpers/TiffTestHelper.h"
-#include "sensornoise/files/FrameChoice.h"
+#include "files/FrameChoice.h"
 
 #include <string>
 #include <vector>

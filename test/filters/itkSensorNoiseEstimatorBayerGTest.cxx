@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/report/ReportJson.h"
-#include "sensornoise/simulation/Scenes.h"
-#include "sensornoise/simulation/Simulator.h"
+#include "report/ReportJson.h"
+#include "sensornoise/Scenes.h"
+#include "sensornoise/Simulator.h"
 #include "itkBayerPlaneImageFilter.h"
 #include "itkImage.h"
 #include "itkSensorNoiseEstimator.h"

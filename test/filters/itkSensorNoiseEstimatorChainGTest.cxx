@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/base/RollingShutter.h"
-#include "sensornoise/report/Report.h"
-#include "sensornoise/simulation/Scenes.h"
+#include "base/RollingShutter.h"
+#include "sensornoise/Report.h"
+#include "sensornoise/Scenes.h"
 #include "itkSensorNoiseEstimator.h"
 #include "helpers/PipelineTestHelper.h"
 #include "helpers/SensorNoiseEstimatorTestHelper.h"

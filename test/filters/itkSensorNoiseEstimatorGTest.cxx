@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/base/PixelUse.h"
-#include "sensornoise/report/Report.h"
+#include "base/PixelUse.h"
+#include "sensornoise/Report.h"
 #include "itkSensorNoiseEstimator.h"
 #include "helpers/PipelineTestHelper.h"
 #include "helpers/SensorNoiseEstimatorTestHelper.h"

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "itkSensorNoiseEstimator.h"
-#include "sensornoise/base/FreeMemory.h"
-#include "sensornoise/pixels/ProjectionSums.h"
-#include "sensornoise/refined/MemoryNeed.h"
+#include "base/FreeMemory.h"
+#include "pixels/ProjectionSums.h"
+#include "refined/MemoryNeed.h"
 #include "helpers/PipelineTestHelper.h"
 #include "helpers/SensorNoiseEstimatorTestHelper.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/report/Report.h"
+#include "sensornoise/Report.h"
 #include "itkNoiseCorrelationEstimator.h"
 #include "itkNoiseRegressionEstimator.h"
 #include "itkSensorNoiseEstimator.h"

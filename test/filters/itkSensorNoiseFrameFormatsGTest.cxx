@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/files/FrameFormats.h"
+#include "files/FrameFormats.h"
 
 #include "itkImageIOBase.h"
 #include "itkObjectFactoryBase.h"

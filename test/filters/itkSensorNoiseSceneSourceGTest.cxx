@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/simulation/Scenes.h"
+#include "sensornoise/Scenes.h"
 #include "itkSensorNoiseSceneSource.h"
 
 #include <gtest/gtest.h>

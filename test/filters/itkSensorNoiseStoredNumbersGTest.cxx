@@ -3,7 +3,7 @@
 #include "helpers/BurstFilesTestHelper.h"
 #include "helpers/FrameFilesTestHelper.h"
 #include "helpers/TiffTestHelper.h"
-#include "sensornoise/files/FileError.h"
+#include "files/FileError.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -3,7 +3,7 @@
 #include "itkSensorNoiseSums.h"
 #include "helpers/SensorNoiseEstimatorTestHelper.h"
 
-#include "sensornoise/report/ReportJson.h"
+#include "report/ReportJson.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>

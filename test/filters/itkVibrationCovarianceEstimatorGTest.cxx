@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/published/VibrationCovariance.h"
-#include "sensornoise/published/VibrationMask.h"
-#include "sensornoise/simulation/Scenes.h"
+#include "published/VibrationCovariance.h"
+#include "published/VibrationMask.h"
+#include "sensornoise/Scenes.h"
 #include "itkVibrationCovarianceEstimator.h"
 #include "helpers/PipelineTestHelper.h"
 #include "itkTemporalStatisticsImageFilter.h"

@@ -3,13 +3,13 @@
 #ifndef sensornoise_test_CorrelationTestHelper_h
 #define sensornoise_test_CorrelationTestHelper_h
 
-#include "sensornoise/base/Eigen.h"
-#include "sensornoise/base/FrameGeometry.h"
-#include "sensornoise/base/Parallel.h"
-#include "sensornoise/correlation/Jackknife.h"
-#include "sensornoise/correlation/NoiseResiduals.h"
-#include "sensornoise/correlation/FrameSample.h"
-#include "sensornoise/simulation/DoubleFrame.h"
+#include "base/Eigen.h"
+#include "sensornoise/FrameGeometry.h"
+#include "sensornoise/Parallel.h"
+#include "correlation/Jackknife.h"
+#include "correlation/NoiseResiduals.h"
+#include "correlation/FrameSample.h"
+#include "simulation/DoubleFrame.h"
 #include "helpers/FrameNoiseTestHelper.h"
 
 #include <cmath>

@@ -3,13 +3,13 @@
 #ifndef sensornoise_test_DarkPixelsTestHelper_h
 #define sensornoise_test_DarkPixelsTestHelper_h
 
-#include "sensornoise/base/Parallel.h"
-#include "sensornoise/moments/CodeSettings.h"
-#include "sensornoise/moments/DarkDrift.h"
-#include "sensornoise/moments/DarkFrames.h"
-#include "sensornoise/moments/KnownOffset.h"
-#include "sensornoise/moments/TemporalMoments.h"
-#include "sensornoise/simulation/Random.h"
+#include "sensornoise/Parallel.h"
+#include "moments/CodeSettings.h"
+#include "moments/DarkDrift.h"
+#include "moments/DarkFrames.h"
+#include "moments/KnownOffset.h"
+#include "moments/TemporalMoments.h"
+#include "simulation/Random.h"
 #include "helpers/StackTestHelper.h"
 
 #include <algorithm>

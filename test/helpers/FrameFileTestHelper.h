@@ -3,9 +3,9 @@
 #ifndef sensornoise_test_FrameFileTestHelper_h
 #define sensornoise_test_FrameFileTestHelper_h
 
-#include "sensornoise/files/FileError.h"
-#include "sensornoise/files/FrameFile.h"
-#include "sensornoise/files/FrameFormats.h"
+#include "files/FileError.h"
+#include "sensornoise/FrameFile.h"
+#include "files/FrameFormats.h"
 #include "helpers/FolderTestHelper.h"
 
 #include <cstddef>

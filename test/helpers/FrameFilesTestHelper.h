@@ -5,7 +5,7 @@
 
 #include "itkSensorNoiseFrameFiles.h"
 #include "itkSensorNoiseFrameListSource.h"
-#include "sensornoise/files/FileError.h"
+#include "files/FileError.h"
 #include "helpers/FolderTestHelper.h"
 #include "itkImage.h"
 #include "itkImageFileWriter.h"

@@ -3,8 +3,8 @@
 #ifndef sensornoise_test_FrameNoiseTestHelper_h
 #define sensornoise_test_FrameNoiseTestHelper_h
 
-#include "sensornoise/simulation/DoubleFrame.h"
-#include "sensornoise/simulation/Random.h"
+#include "simulation/DoubleFrame.h"
+#include "simulation/Random.h"
 
 #include <algorithm>
 #include <cstddef>

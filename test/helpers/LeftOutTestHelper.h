@@ -3,9 +3,9 @@
 #ifndef sensornoise_test_LeftOutTestHelper_h
 #define sensornoise_test_LeftOutTestHelper_h
 
-#include "sensornoise/moments/UnlikeFrames.h"
-#include "sensornoise/report/Report.h"
-#include "sensornoise/report/ReportJson.h"
+#include "moments/UnlikeFrames.h"
+#include "sensornoise/Report.h"
+#include "report/ReportJson.h"
 #include "helpers/ReportTestHelper.h"
 #include "helpers/StackTestHelper.h"
 

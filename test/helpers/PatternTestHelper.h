@@ -3,8 +3,8 @@
 #ifndef sensornoise_test_PatternTestHelper_h
 #define sensornoise_test_PatternTestHelper_h
 
-#include "sensornoise/pixels/VarianceLine.h"
-#include "sensornoise/scene/ReferenceFrame.h"
+#include "pixels/VarianceLine.h"
+#include "scene/ReferenceFrame.h"
 
 #include <cmath>
 #include <cstddef>

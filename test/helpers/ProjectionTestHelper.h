@@ -3,16 +3,16 @@
 #ifndef sensornoise_test_ProjectionTestHelper_h
 #define sensornoise_test_ProjectionTestHelper_h
 
-#include "sensornoise/base/Eigen.h"
-#include "sensornoise/base/Parallel.h"
-#include "sensornoise/pixels/PixelCoordinates.h"
-#include "sensornoise/pixels/ResidualSquares.h"
-#include "sensornoise/pixels/ProjectedVariance.h"
-#include "sensornoise/pixels/ProjectionSums.h"
-#include "sensornoise/scene/ProvisionalModel.h"
-#include "sensornoise/scene/ReferenceFrame.h"
-#include "sensornoise/series/MotionSeries.h"
-#include "sensornoise/series/TemporalBasis.h"
+#include "base/Eigen.h"
+#include "sensornoise/Parallel.h"
+#include "pixels/PixelCoordinates.h"
+#include "pixels/ResidualSquares.h"
+#include "pixels/ProjectedVariance.h"
+#include "pixels/ProjectionSums.h"
+#include "scene/ProvisionalModel.h"
+#include "scene/ReferenceFrame.h"
+#include "series/MotionSeries.h"
+#include "series/TemporalBasis.h"
 #include "helpers/FrameTestHelper.h"
 
 #include <cmath>

@@ -3,14 +3,14 @@
 #ifndef sensornoise_test_PublishedTestHelper_h
 #define sensornoise_test_PublishedTestHelper_h
 
-#include "sensornoise/base/FrameGeometry.h"
-#include "sensornoise/base/Parallel.h"
-#include "sensornoise/base/RollingShutter.h"
-#include "sensornoise/published/PublishedMethod.h"
-#include "sensornoise/published/PublishedSettings.h"
-#include "sensornoise/report/Report.h"
-#include "sensornoise/report/ReportJson.h"
-#include "sensornoise/simulation/SimulationSettings.h"
+#include "sensornoise/FrameGeometry.h"
+#include "sensornoise/Parallel.h"
+#include "base/RollingShutter.h"
+#include "sensornoise/PublishedMethod.h"
+#include "published/PublishedSettings.h"
+#include "sensornoise/Report.h"
+#include "report/ReportJson.h"
+#include "sensornoise/SimulationSettings.h"
 #include "helpers/ReportTestHelper.h"
 #include "helpers/StackTestHelper.h"
 

@@ -3,10 +3,10 @@
 #ifndef sensornoise_test_RefinedResultsTestHelper_h
 #define sensornoise_test_RefinedResultsTestHelper_h
 
-#include "sensornoise/base/PixelUse.h"
-#include "sensornoise/refined/GainEstimate.h"
-#include "sensornoise/refined/OffsetReport.h"
-#include "sensornoise/refined/RefinedResults.h"
+#include "base/PixelUse.h"
+#include "refined/GainEstimate.h"
+#include "refined/OffsetReport.h"
+#include "refined/RefinedResults.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -3,12 +3,12 @@
 #ifndef sensornoise_test_RefinedTestHelper_h
 #define sensornoise_test_RefinedTestHelper_h
 
-#include "sensornoise/base/FrameGeometry.h"
-#include "sensornoise/base/Parallel.h"
-#include "sensornoise/moments/Codes.h"
-#include "sensornoise/refined/RefinedMethod.h"
-#include "sensornoise/refined/RefinedSettings.h"
-#include "sensornoise/report/Report.h"
+#include "sensornoise/FrameGeometry.h"
+#include "sensornoise/Parallel.h"
+#include "moments/Codes.h"
+#include "sensornoise/RefinedMethod.h"
+#include "sensornoise/Settings.h"
+#include "sensornoise/Report.h"
 #include "helpers/ReportTestHelper.h"
 #include "helpers/StackTestHelper.h"
 

@@ -3,7 +3,7 @@
 #ifndef sensornoise_test_ReportTestHelper_h
 #define sensornoise_test_ReportTestHelper_h
 
-#include "sensornoise/report/Report.h"
+#include "sensornoise/Report.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 #ifndef sensornoise_test_SensorNoiseEstimatorTestHelper_h
 #define sensornoise_test_SensorNoiseEstimatorTestHelper_h
 
-#include "sensornoise/report/Report.h"
-#include "sensornoise/report/ReportJson.h"
+#include "sensornoise/Report.h"
+#include "report/ReportJson.h"
 #include "itkImage.h"
 #include "itkSensorNoiseEstimator.h"
 #include "helpers/PipelineTestHelper.h"

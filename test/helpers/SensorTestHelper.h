@@ -3,11 +3,11 @@
 #ifndef sensornoise_test_SensorTestHelper_h
 #define sensornoise_test_SensorTestHelper_h
 
-#include "sensornoise/moments/KnownOffset.h"
-#include "sensornoise/refined/RefinedSettings.h"
-#include "sensornoise/report/Report.h"
-#include "sensornoise/simulation/SimulationSettings.h"
-#include "sensornoise/simulation/Simulator.h"
+#include "moments/KnownOffset.h"
+#include "sensornoise/Settings.h"
+#include "sensornoise/Report.h"
+#include "sensornoise/SimulationSettings.h"
+#include "sensornoise/Simulator.h"
 #include "helpers/DarkPixelsTestHelper.h"
 #include "helpers/RefinedTestHelper.h"
 #include "helpers/ReportTestHelper.h"

@@ -3,8 +3,8 @@
 #ifndef sensornoise_test_SimulatorTestHelper_h
 #define sensornoise_test_SimulatorTestHelper_h
 
-#include "sensornoise/simulation/SimulationSettings.h"
-#include "sensornoise/simulation/Simulator.h"
+#include "sensornoise/SimulationSettings.h"
+#include "sensornoise/Simulator.h"
 
 #include <cstddef>
 #include <vector>

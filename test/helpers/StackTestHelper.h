@@ -3,10 +3,10 @@
 #ifndef sensornoise_test_StackTestHelper_h
 #define sensornoise_test_StackTestHelper_h
 
-#include "sensornoise/base/Parallel.h"
-#include "sensornoise/simulation/Scenes.h"
-#include "sensornoise/simulation/SimulationSettings.h"
-#include "sensornoise/simulation/Simulator.h"
+#include "sensornoise/Parallel.h"
+#include "sensornoise/Scenes.h"
+#include "sensornoise/SimulationSettings.h"
+#include "sensornoise/Simulator.h"
 
 #include <algorithm>
 #include <cstddef>

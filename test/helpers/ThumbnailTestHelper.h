@@ -3,7 +3,7 @@
 #ifndef sensornoise_test_ThumbnailTestHelper_h
 #define sensornoise_test_ThumbnailTestHelper_h
 
-#include "sensornoise/moments/FrameThumbnails.h"
+#include "moments/FrameThumbnails.h"
 
 #include <cstddef>
 #include <numeric>

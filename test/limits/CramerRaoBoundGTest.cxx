@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/limits/CramerRaoBound.h"
-#include "sensornoise/base/Eigen.h"
-#include "sensornoise/base/Parallel.h"
-#include "sensornoise/limits/CramerRaoInput.h"
-#include "sensornoise/limits/PrecisionLimit.h"
-#include "sensornoise/simulation/Scenes.h"
-#include "sensornoise/simulation/SimulationSettings.h"
-#include "sensornoise/simulation/SimulationTruth.h"
+#include "limits/CramerRaoBound.h"
+#include "base/Eigen.h"
+#include "sensornoise/Parallel.h"
+#include "limits/CramerRaoInput.h"
+#include "limits/PrecisionLimit.h"
+#include "sensornoise/Scenes.h"
+#include "sensornoise/SimulationSettings.h"
+#include "simulation/SimulationTruth.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/moments/CodeSteps.h"
-#include "sensornoise/moments/Codes.h"
+#include "moments/CodeSteps.h"
+#include "moments/Codes.h"
 
 #include <cmath>
 #include <cstddef>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/moments/Codes.h"
-#include "sensornoise/moments/CodeRange.h"
-#include "sensornoise/moments/CodeSettings.h"
+#include "moments/Codes.h"
+#include "moments/CodeRange.h"
+#include "moments/CodeSettings.h"
 
 #include <cmath>
 #include <cstddef>

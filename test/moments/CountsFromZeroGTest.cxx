@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/moments/CountsFromZero.h"
-#include "sensornoise/moments/TemporalMaps.h"
+#include "moments/CountsFromZero.h"
+#include "moments/TemporalMaps.h"
 
 #include <cstddef>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/moments/DarkDrift.h"
-#include "sensornoise/base/Parallel.h"
-#include "sensornoise/moments/KnownOffset.h"
-#include "sensornoise/simulation/Random.h"
+#include "moments/DarkDrift.h"
+#include "sensornoise/Parallel.h"
+#include "moments/KnownOffset.h"
+#include "simulation/Random.h"
 #include "helpers/DarkPixelsTestHelper.h"
 
 #include <cmath>

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/moments/DarkFrames.h"
-#include "sensornoise/base/Parallel.h"
-#include "sensornoise/moments/CodeSettings.h"
-#include "sensornoise/moments/KnownOffset.h"
-#include "sensornoise/moments/TemporalMoments.h"
-#include "sensornoise/simulation/SimulationSettings.h"
+#include "moments/DarkFrames.h"
+#include "sensornoise/Parallel.h"
+#include "moments/CodeSettings.h"
+#include "moments/KnownOffset.h"
+#include "moments/TemporalMoments.h"
+#include "sensornoise/SimulationSettings.h"
 #include "helpers/StackTestHelper.h"
 
 #include <algorithm>

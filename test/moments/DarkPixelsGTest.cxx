@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/base/ChiSquare.h"
-#include "sensornoise/moments/DarkFrames.h"
-#include "sensornoise/moments/DefectivePixels.h"
-#include "sensornoise/moments/KnownOffset.h"
+#include "base/ChiSquare.h"
+#include "moments/DarkFrames.h"
+#include "moments/DefectivePixels.h"
+#include "moments/KnownOffset.h"
 #include "helpers/DarkPixelsTestHelper.h"
 
 #include <algorithm>

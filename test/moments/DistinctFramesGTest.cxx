@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/moments/DistinctFrames.h"
+#include "moments/DistinctFrames.h"
 #include "helpers/StackTestHelper.h"
 
 #include <algorithm>

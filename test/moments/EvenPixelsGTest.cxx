@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/moments/EvenPixels.h"
-#include "sensornoise/base/Parallel.h"
-#include "sensornoise/moments/FrameThumbnails.h"
-#include "sensornoise/moments/StackMaps.h"
+#include "moments/EvenPixels.h"
+#include "sensornoise/Parallel.h"
+#include "moments/FrameThumbnails.h"
+#include "moments/StackMaps.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/moments/ExposureFit.h"
-#include "sensornoise/base/ChiSquare.h"
-#include "sensornoise/simulation/Random.h"
+#include "moments/ExposureFit.h"
+#include "base/ChiSquare.h"
+#include "simulation/Random.h"
 
 #include <cmath>
 #include <cstddef>

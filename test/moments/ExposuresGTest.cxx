@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/moments/Exposures.h"
-#include "sensornoise/base/Parallel.h"
-#include "sensornoise/moments/FrameThumbnails.h"
-#include "sensornoise/simulation/Random.h"
+#include "moments/Exposures.h"
+#include "sensornoise/Parallel.h"
+#include "moments/FrameThumbnails.h"
+#include "simulation/Random.h"
 
 #include <cmath>
 #include <cstddef>

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/moments/FloatingLevels.h"
-#include "sensornoise/moments/CodeRange.h"
-#include "sensornoise/moments/CodeSettings.h"
-#include "sensornoise/moments/Codes.h"
-#include "sensornoise/moments/OutermostLevels.h"
+#include "moments/FloatingLevels.h"
+#include "moments/CodeRange.h"
+#include "moments/CodeSettings.h"
+#include "moments/Codes.h"
+#include "moments/OutermostLevels.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/moments/FloatingMoments.h"
+#include "moments/FloatingMoments.h"
 #include "helpers/StackTestHelper.h"
-#include "sensornoise/base/Parallel.h"
+#include "sensornoise/Parallel.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/moments/FrameThumbnails.h"
+#include "moments/FrameThumbnails.h"
 #include "helpers/ThumbnailTestHelper.h"
-#include "sensornoise/simulation/Random.h"
+#include "simulation/Random.h"
 
 #include <cmath>
 #include <cstddef>

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/moments/IlluminationChange.h"
-#include "sensornoise/moments/Constants.h"
-#include "sensornoise/moments/FrameThumbnails.h"
+#include "moments/IlluminationChange.h"
+#include "moments/Constants.h"
+#include "moments/FrameThumbnails.h"
 #include "helpers/ThumbnailTestHelper.h"
-#include "sensornoise/simulation/Random.h"
+#include "simulation/Random.h"
 
 #include <cmath>
 #include <cstddef>

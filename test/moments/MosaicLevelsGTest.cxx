@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/moments/MosaicLevels.h"
+#include "moments/MosaicLevels.h"
 
-#include "sensornoise/simulation/Scenes.h"
-#include "sensornoise/simulation/Simulator.h"
+#include "sensornoise/Scenes.h"
+#include "sensornoise/Simulator.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/moments/NoiseMedian.h"
-#include "sensornoise/moments/KnownOffset.h"
-#include "sensornoise/simulation/Random.h"
+#include "moments/NoiseMedian.h"
+#include "moments/KnownOffset.h"
+#include "simulation/Random.h"
 #include "helpers/DarkPixelsTestHelper.h"
 
 #include <cmath>

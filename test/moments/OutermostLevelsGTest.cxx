@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/moments/OutermostLevels.h"
+#include "moments/OutermostLevels.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/moments/PassFrames.h"
+#include "moments/PassFrames.h"
 
 #include <cstddef>
 #include <cstdint>

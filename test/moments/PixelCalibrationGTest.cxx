@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/moments/PixelCalibration.h"
-#include "sensornoise/base/ChiSquare.h"
-#include "sensornoise/moments/DarkMaps.h"
-#include "sensornoise/moments/KnownOffset.h"
+#include "moments/PixelCalibration.h"
+#include "base/ChiSquare.h"
+#include "moments/DarkMaps.h"
+#include "moments/KnownOffset.h"
 #include "helpers/DarkPixelsTestHelper.h"
 
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/moments/StackMaps.h"
-#include "sensornoise/base/Parallel.h"
-#include "sensornoise/moments/CodeSettings.h"
-#include "sensornoise/moments/StackMoments.h"
+#include "moments/StackMaps.h"
+#include "sensornoise/Parallel.h"
+#include "moments/CodeSettings.h"
+#include "moments/StackMoments.h"
 #include "helpers/StackTestHelper.h"
 
 #include <algorithm>

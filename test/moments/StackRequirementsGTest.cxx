@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/moments/StackRequirements.h"
-#include "sensornoise/base/FrameGeometry.h"
+#include "moments/StackRequirements.h"
+#include "sensornoise/FrameGeometry.h"
 
 #include <gtest/gtest.h>
 #include <stdexcept>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/moments/UnlikeFrames.h"
-#include "sensornoise/moments/FrameThumbnails.h"
-#include "sensornoise/simulation/Random.h"
+#include "moments/UnlikeFrames.h"
+#include "moments/FrameThumbnails.h"
+#include "simulation/Random.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/mosaic/MosaicMethod.h"
+#include "sensornoise/MosaicMethod.h"
 
-#include "sensornoise/base/PixelUse.h"
-#include "sensornoise/published/PublishedMethod.h"
-#include "sensornoise/refined/RefinedMethod.h"
-#include "sensornoise/report/ReportJson.h"
+#include "base/PixelUse.h"
+#include "sensornoise/PublishedMethod.h"
+#include "sensornoise/RefinedMethod.h"
+#include "report/ReportJson.h"
 #include "helpers/StackTestHelper.h"
 
 #include <algorithm>

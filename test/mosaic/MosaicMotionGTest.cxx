@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/mosaic/MosaicMethod.h"
-#include "sensornoise/refined/RefinedMethod.h"
-#include "sensornoise/report/ChannelReports.h"
-#include "sensornoise/simulation/Scenes.h"
-#include "sensornoise/simulation/Simulator.h"
+#include "sensornoise/MosaicMethod.h"
+#include "sensornoise/RefinedMethod.h"
+#include "sensornoise/ChannelReports.h"
+#include "sensornoise/Scenes.h"
+#include "sensornoise/Simulator.h"
 #include "helpers/StackTestHelper.h"
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/mosaic/PlaneWork.h"
+#include "mosaic/PlaneWork.h"
 #include "helpers/StackTestHelper.h"
 
 #include <array>

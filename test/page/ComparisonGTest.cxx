@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/page/Comparison.h"
+#include "page/Comparison.h"
 #include "helpers/PageTestHelper.h"
-#include "sensornoise/page/ComparisonPage.h"
+#include "page/ComparisonPage.h"
 
 #include <algorithm>
 #include <cmath>

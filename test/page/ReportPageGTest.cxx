@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/page/ReportPage.h"
+#include "sensornoise/ReportPage.h"
 #include "helpers/PageTestHelper.h"
-#include "sensornoise/base/WarningCodes.h"
-#include "sensornoise/report/ChannelReports.h"
-#include "sensornoise/report/Report.h"
+#include "sensornoise/WarningCodes.h"
+#include "sensornoise/ChannelReports.h"
+#include "sensornoise/Report.h"
 
 #include <array>
 #include <cmath>

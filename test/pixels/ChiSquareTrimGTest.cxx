@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/pixels/ChiSquareTrim.h"
+#include "pixels/ChiSquareTrim.h"
 
-#include "sensornoise/pixels/Constants.h"
+#include "pixels/Constants.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/pixels/FrameFreedom.h"
-#include "sensornoise/base/Eigen.h"
-#include "sensornoise/base/Parallel.h"
-#include "sensornoise/pixels/ProjectedVariance.h"
-#include "sensornoise/series/LocalIllumination.h"
-#include "sensornoise/series/TemporalBasis.h"
-#include "sensornoise/simulation/Random.h"
+#include "pixels/FrameFreedom.h"
+#include "base/Eigen.h"
+#include "sensornoise/Parallel.h"
+#include "pixels/ProjectedVariance.h"
+#include "series/LocalIllumination.h"
+#include "series/TemporalBasis.h"
+#include "simulation/Random.h"
 #include "helpers/ProjectionTestHelper.h"
 
 #include <cmath>

@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/pixels/JudgingLine.h"
-#include "sensornoise/base/Eigen.h"
-#include "sensornoise/base/Parallel.h"
-#include "sensornoise/pixels/Constants.h"
-#include "sensornoise/pixels/ProjectedVariance.h"
-#include "sensornoise/pixels/ProjectionSums.h"
-#include "sensornoise/pixels/StaticPixels.h"
-#include "sensornoise/scene/ProvisionalModel.h"
-#include "sensornoise/scene/ReferenceFrame.h"
-#include "sensornoise/series/MotionSeries.h"
-#include "sensornoise/series/TemporalBasis.h"
+#include "pixels/JudgingLine.h"
+#include "base/Eigen.h"
+#include "sensornoise/Parallel.h"
+#include "pixels/Constants.h"
+#include "pixels/ProjectedVariance.h"
+#include "pixels/ProjectionSums.h"
+#include "pixels/StaticPixels.h"
+#include "scene/ProvisionalModel.h"
+#include "scene/ReferenceFrame.h"
+#include "series/MotionSeries.h"
+#include "series/TemporalBasis.h"
 #include "helpers/StackTestHelper.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/pixels/LevelPattern.h"
-#include "sensornoise/base/Parallel.h"
-#include "sensornoise/pixels/VarianceLine.h"
+#include "pixels/LevelPattern.h"
+#include "sensornoise/Parallel.h"
+#include "pixels/VarianceLine.h"
 #include "helpers/PatternTestHelper.h"
 #include "helpers/StackTestHelper.h"
 

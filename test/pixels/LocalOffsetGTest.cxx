@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/pixels/LocalOffset.h"
-#include "sensornoise/base/Eigen.h"
-#include "sensornoise/pixels/OffsetDrift.h"
-#include "sensornoise/pixels/PixelLight.h"
-#include "sensornoise/pixels/ProjectedVariance.h"
-#include "sensornoise/pixels/VarianceLine.h"
+#include "pixels/LocalOffset.h"
+#include "base/Eigen.h"
+#include "pixels/OffsetDrift.h"
+#include "pixels/PixelLight.h"
+#include "pixels/ProjectedVariance.h"
+#include "pixels/VarianceLine.h"
 #include "helpers/ProjectionTestHelper.h"
 
 #include <cstddef>

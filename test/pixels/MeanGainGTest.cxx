@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/pixels/MeanGain.h"
-#include "sensornoise/pixels/VarianceCurve.h"
-#include "sensornoise/pixels/VarianceLine.h"
+#include "pixels/MeanGain.h"
+#include "pixels/VarianceCurve.h"
+#include "pixels/VarianceLine.h"
 
 #include <cmath>
 #include <cstddef>

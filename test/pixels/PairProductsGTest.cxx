@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/pixels/PairProducts.h"
-#include "sensornoise/simulation/Random.h"
+#include "pixels/PairProducts.h"
+#include "simulation/Random.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/pixels/ProjectedVariance.h"
-#include "sensornoise/base/Eigen.h"
-#include "sensornoise/base/Stencils.h"
+#include "pixels/ProjectedVariance.h"
+#include "base/Eigen.h"
+#include "base/Stencils.h"
 #include "helpers/ProjectionTestHelper.h"
 #include "helpers/StackTestHelper.h"
 

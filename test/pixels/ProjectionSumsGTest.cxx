@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/pixels/ProjectionSums.h"
-#include "sensornoise/base/Eigen.h"
-#include "sensornoise/moments/IntegerMoments.h"
-#include "sensornoise/moments/TemporalMoments.h"
-#include "sensornoise/pixels/ResidualSquares.h"
-#include "sensornoise/scene/ReferenceFrame.h"
-#include "sensornoise/series/TemporalBasis.h"
+#include "pixels/ProjectionSums.h"
+#include "base/Eigen.h"
+#include "moments/IntegerMoments.h"
+#include "moments/TemporalMoments.h"
+#include "pixels/ResidualSquares.h"
+#include "scene/ReferenceFrame.h"
+#include "series/TemporalBasis.h"
 
 #include <algorithm>
 #include <cmath>

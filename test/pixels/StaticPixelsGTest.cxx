@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/pixels/StaticPixels.h"
-#include "sensornoise/base/ChiSquare.h"
-#include "sensornoise/base/Eigen.h"
-#include "sensornoise/base/Parallel.h"
-#include "sensornoise/base/PixelRuns.h"
-#include "sensornoise/pixels/FarVariance.h"
-#include "sensornoise/pixels/JudgedRun.h"
-#include "sensornoise/pixels/JudgingLine.h"
-#include "sensornoise/pixels/ProjectedVariance.h"
+#include "pixels/StaticPixels.h"
+#include "base/ChiSquare.h"
+#include "base/Eigen.h"
+#include "sensornoise/Parallel.h"
+#include "base/PixelRuns.h"
+#include "pixels/FarVariance.h"
+#include "pixels/JudgedRun.h"
+#include "pixels/JudgingLine.h"
+#include "pixels/ProjectedVariance.h"
 #include "helpers/ProjectionTestHelper.h"
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/pixels/StaticVariance.h"
-#include "sensornoise/base/Eigen.h"
-#include "sensornoise/base/Parallel.h"
-#include "sensornoise/base/PixelUse.h"
-#include "sensornoise/pixels/ProjectedVariance.h"
+#include "pixels/StaticVariance.h"
+#include "base/Eigen.h"
+#include "sensornoise/Parallel.h"
+#include "base/PixelUse.h"
+#include "pixels/ProjectedVariance.h"
 #include "helpers/ProjectionTestHelper.h"
 
 #include <cmath>

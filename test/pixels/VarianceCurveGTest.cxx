@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/pixels/VarianceCurve.h"
-#include "sensornoise/base/Parallel.h"
-#include "sensornoise/pixels/VarianceFit.h"
-#include "sensornoise/pixels/VarianceLine.h"
+#include "pixels/VarianceCurve.h"
+#include "sensornoise/Parallel.h"
+#include "pixels/VarianceFit.h"
+#include "pixels/VarianceLine.h"
 
 #include <cmath>
 #include <cstddef>

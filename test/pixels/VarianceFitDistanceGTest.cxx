@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/pixels/VarianceFit.h"
-#include "sensornoise/base/Eigen.h"
-#include "sensornoise/base/Parallel.h"
-#include "sensornoise/moments/Constants.h"
-#include "sensornoise/moments/DefectivePixels.h"
-#include "sensornoise/pixels/VarianceLine.h"
+#include "pixels/VarianceFit.h"
+#include "base/Eigen.h"
+#include "sensornoise/Parallel.h"
+#include "moments/Constants.h"
+#include "moments/DefectivePixels.h"
+#include "pixels/VarianceLine.h"
 #include "helpers/StackTestHelper.h"
 
 #include <algorithm>

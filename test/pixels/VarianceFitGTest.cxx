@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/pixels/VarianceFit.h"
-#include "sensornoise/base/Eigen.h"
-#include "sensornoise/base/Parallel.h"
-#include "sensornoise/pixels/ChiSquareTrim.h"
-#include "sensornoise/pixels/VarianceLine.h"
+#include "pixels/VarianceFit.h"
+#include "base/Eigen.h"
+#include "sensornoise/Parallel.h"
+#include "pixels/ChiSquareTrim.h"
+#include "pixels/VarianceLine.h"
 #include "helpers/StackTestHelper.h"
 
 #include <algorithm>

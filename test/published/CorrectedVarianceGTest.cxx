@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/published/CorrectedVariance.h"
-#include "sensornoise/base/FrameGeometry.h"
-#include "sensornoise/base/PixelLayout.h"
-#include "sensornoise/published/FlickerEstimate.h"
+#include "published/CorrectedVariance.h"
+#include "sensornoise/FrameGeometry.h"
+#include "base/PixelLayout.h"
+#include "published/FlickerEstimate.h"
 
 #include <algorithm>
 #include <cmath>

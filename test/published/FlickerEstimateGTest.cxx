@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/base/Significance.h"
-#include "sensornoise/published/FlickerEstimate.h"
-#include "sensornoise/base/RollingShutter.h"
-#include "sensornoise/published/FlickerSums.h"
-#include "sensornoise/published/IsoIntensitySet.h"
+#include "base/Significance.h"
+#include "published/FlickerEstimate.h"
+#include "base/RollingShutter.h"
+#include "published/FlickerSums.h"
+#include "published/IsoIntensitySet.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/published/IsoIntensitySet.h"
-#include "sensornoise/base/NothingToMeasure.h"
+#include "published/IsoIntensitySet.h"
+#include "base/NothingToMeasure.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/published/NoiseParameters.h"
-#include "sensornoise/base/PolynomialFit.h"
-#include "sensornoise/report/Quantities.h"
-#include "sensornoise/report/Report.h"
+#include "published/NoiseParameters.h"
+#include "base/PolynomialFit.h"
+#include "report/Quantities.h"
+#include "sensornoise/Report.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

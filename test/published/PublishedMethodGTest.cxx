@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/published/PublishedMethod.h"
-#include "sensornoise/base/FrameGeometry.h"
-#include "sensornoise/base/PixelUse.h"
-#include "sensornoise/published/PublishedSettings.h"
-#include "sensornoise/report/Report.h"
-#include "sensornoise/simulation/Random.h"
-#include "sensornoise/simulation/SimulationSettings.h"
-#include "sensornoise/simulation/SimulationTruth.h"
+#include "sensornoise/PublishedMethod.h"
+#include "sensornoise/FrameGeometry.h"
+#include "base/PixelUse.h"
+#include "published/PublishedSettings.h"
+#include "sensornoise/Report.h"
+#include "simulation/Random.h"
+#include "sensornoise/SimulationSettings.h"
+#include "simulation/SimulationTruth.h"
 #include "helpers/PublishedTestHelper.h"
 
 #include <algorithm>

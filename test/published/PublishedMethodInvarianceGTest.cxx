@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/published/PublishedMethod.h"
-#include "sensornoise/moments/CodeSettings.h"
-#include "sensornoise/published/PublishedSettings.h"
-#include "sensornoise/report/Report.h"
-#include "sensornoise/report/ReportJson.h"
-#include "sensornoise/simulation/SimulationSettings.h"
+#include "sensornoise/PublishedMethod.h"
+#include "moments/CodeSettings.h"
+#include "published/PublishedSettings.h"
+#include "sensornoise/Report.h"
+#include "report/ReportJson.h"
+#include "sensornoise/SimulationSettings.h"
 #include "helpers/PublishedTestHelper.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/published/NoiseParameters.h"
-#include "sensornoise/report/ReportTable.h"
-#include "sensornoise/simulation/Scenes.h"
+#include "published/NoiseParameters.h"
+#include "report/ReportTable.h"
+#include "sensornoise/Scenes.h"
 #include "helpers/PublishedTestHelper.h"
 
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/published/RowFlicker.h"
-#include "sensornoise/published/FlickerSums.h"
-#include "sensornoise/published/IsoIntensitySet.h"
+#include "published/RowFlicker.h"
+#include "published/FlickerSums.h"
+#include "published/IsoIntensitySet.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/base/PixelUse.h"
-#include "sensornoise/refined/RefinedMethod.h"
-#include "sensornoise/report/Report.h"
-#include "sensornoise/report/ReportJson.h"
-#include "sensornoise/simulation/Scenes.h"
-#include "sensornoise/simulation/SimulationSettings.h"
+#include "base/PixelUse.h"
+#include "sensornoise/RefinedMethod.h"
+#include "sensornoise/Report.h"
+#include "report/ReportJson.h"
+#include "sensornoise/Scenes.h"
+#include "sensornoise/SimulationSettings.h"
 #include "helpers/RefinedTestHelper.h"
 #include "helpers/ReportTestHelper.h"
 #include "helpers/SensorTestHelper.h"

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/correlation/CorrelationRecord.h"
-#include "sensornoise/refined/CorrelationReport.h"
-#include "sensornoise/report/Quantities.h"
+#include "correlation/CorrelationRecord.h"
+#include "refined/CorrelationReport.h"
+#include "report/Quantities.h"
 #include "helpers/ReportTestHelper.h"
 #include "helpers/SentencesTestHelper.h"
 

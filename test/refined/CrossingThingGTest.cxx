@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/base/PixelUse.h"
-#include "sensornoise/refined/RefinedMethod.h"
-#include "sensornoise/simulation/Random.h"
-#include "sensornoise/simulation/Scenes.h"
-#include "sensornoise/simulation/SimulationSettings.h"
-#include "sensornoise/simulation/Simulator.h"
+#include "base/PixelUse.h"
+#include "sensornoise/RefinedMethod.h"
+#include "simulation/Random.h"
+#include "sensornoise/Scenes.h"
+#include "sensornoise/SimulationSettings.h"
+#include "sensornoise/Simulator.h"
 #include "helpers/RefinedTestHelper.h"
 #include "helpers/StackTestHelper.h"
 

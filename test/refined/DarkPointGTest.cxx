@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/refined/DarkPoint.h"
-#include "sensornoise/moments/KnownOffset.h"
-#include "sensornoise/report/Report.h"
-#include "sensornoise/simulation/SimulationSettings.h"
-#include "sensornoise/simulation/Simulator.h"
+#include "refined/DarkPoint.h"
+#include "moments/KnownOffset.h"
+#include "sensornoise/Report.h"
+#include "sensornoise/SimulationSettings.h"
+#include "sensornoise/Simulator.h"
 #include "helpers/SensorTestHelper.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/refined/FrameParts.h"
-#include "sensornoise/pixels/GainByParts.h"
-#include "sensornoise/simulation/Random.h"
+#include "refined/FrameParts.h"
+#include "pixels/GainByParts.h"
+#include "simulation/Random.h"
 
 #include <cmath>
 #include <cstddef>

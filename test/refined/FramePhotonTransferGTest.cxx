@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/refined/FramePhotonTransfer.h"
-#include "sensornoise/refined/Constants.h"
-#include "sensornoise/refined/UnlikeNoise.h"
-#include "sensornoise/simulation/Random.h"
+#include "refined/FramePhotonTransfer.h"
+#include "refined/Constants.h"
+#include "refined/UnlikeNoise.h"
+#include "simulation/Random.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/refined/GainEstimate.h"
-#include "sensornoise/base/Eigen.h"
-#include "sensornoise/moments/KnownOffset.h"
-#include "sensornoise/pixels/MeanGain.h"
-#include "sensornoise/pixels/VarianceCurve.h"
-#include "sensornoise/pixels/VarianceLine.h"
-#include "sensornoise/refined/RefinedResults.h"
+#include "refined/GainEstimate.h"
+#include "base/Eigen.h"
+#include "moments/KnownOffset.h"
+#include "pixels/MeanGain.h"
+#include "pixels/VarianceCurve.h"
+#include "pixels/VarianceLine.h"
+#include "refined/RefinedResults.h"
 
 #include <cmath>
 #include <cstddef>

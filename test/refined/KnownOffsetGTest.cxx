@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/moments/KnownOffset.h"
-#include "sensornoise/refined/RefinedSettings.h"
-#include "sensornoise/report/Quantities.h"
-#include "sensornoise/report/Report.h"
-#include "sensornoise/report/ReportTable.h"
-#include "sensornoise/simulation/Random.h"
-#include "sensornoise/simulation/Scenes.h"
-#include "sensornoise/simulation/SimulationSettings.h"
-#include "sensornoise/simulation/Simulator.h"
+#include "moments/KnownOffset.h"
+#include "sensornoise/Settings.h"
+#include "report/Quantities.h"
+#include "sensornoise/Report.h"
+#include "report/ReportTable.h"
+#include "simulation/Random.h"
+#include "sensornoise/Scenes.h"
+#include "sensornoise/SimulationSettings.h"
+#include "sensornoise/Simulator.h"
 #include "helpers/RefinedTestHelper.h"
 
 #include <algorithm>

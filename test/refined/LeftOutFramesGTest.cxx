@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/mosaic/MosaicMethod.h"
-#include "sensornoise/published/PublishedMethod.h"
-#include "sensornoise/refined/RefinedMethod.h"
+#include "sensornoise/MosaicMethod.h"
+#include "sensornoise/PublishedMethod.h"
+#include "sensornoise/RefinedMethod.h"
 #include "helpers/LeftOutTestHelper.h"
 #include "helpers/MergeTestHelper.h"
 #include "helpers/RepeatedTestHelper.h"

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/refined/LevelProjection.h"
-#include "sensornoise/base/PixelLayout.h"
-#include "sensornoise/simulation/Random.h"
+#include "refined/LevelProjection.h"
+#include "base/PixelLayout.h"
+#include "simulation/Random.h"
 
 #include <cmath>
 #include <cstddef>

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/base/PixelUse.h"
-#include "sensornoise/refined/RefinedMethod.h"
-#include "sensornoise/refined/RefinedSettings.h"
-#include "sensornoise/report/Report.h"
-#include "sensornoise/simulation/SimulationSettings.h"
+#include "base/PixelUse.h"
+#include "sensornoise/RefinedMethod.h"
+#include "sensornoise/Settings.h"
+#include "sensornoise/Report.h"
+#include "sensornoise/SimulationSettings.h"
 #include "helpers/SensorTestHelper.h"
 
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/refined/RefinedReport.h"
-#include "sensornoise/report/ReportJson.h"
-#include "sensornoise/report/ReportTable.h"
+#include "refined/RefinedReport.h"
+#include "report/ReportJson.h"
+#include "report/ReportTable.h"
 #include "helpers/RefinedResultsTestHelper.h"
 #include "helpers/ReportTestHelper.h"
 

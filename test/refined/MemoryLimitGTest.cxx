@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/pixels/ProjectionSums.h"
-#include "sensornoise/refined/MemoryNeed.h"
-#include "sensornoise/refined/RefinedMethod.h"
-#include "sensornoise/report/ReportJson.h"
+#include "pixels/ProjectionSums.h"
+#include "refined/MemoryNeed.h"
+#include "sensornoise/RefinedMethod.h"
+#include "report/ReportJson.h"
 #include "helpers/RefinedTestHelper.h"
 #include "helpers/ReportTestHelper.h"
 #include "helpers/StackTestHelper.h"

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/refined/MotionReport.h"
-#include "sensornoise/report/Report.h"
-#include "sensornoise/simulation/SimulationSettings.h"
-#include "sensornoise/simulation/SimulationTruth.h"
+#include "refined/MotionReport.h"
+#include "sensornoise/Report.h"
+#include "sensornoise/SimulationSettings.h"
+#include "simulation/SimulationTruth.h"
 #include "helpers/RefinedTestHelper.h"
 
 #include <cmath>

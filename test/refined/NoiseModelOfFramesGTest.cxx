@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 // A report's noise model held against frames that it was not made from.
-#include "sensornoise/report/Report.h"
-#include "sensornoise/report/ReportJson.h"
-#include "sensornoise/simulation/Scenes.h"
-#include "sensornoise/simulation/SimulationSettings.h"
-#include "sensornoise/stabilise/GeneralizedAnscombe.h"
-#include "sensornoise/stabilise/NoiseModel.h"
-#include "sensornoise/stabilise/NoiseModelCheck.h"
+#include "sensornoise/Report.h"
+#include "report/ReportJson.h"
+#include "sensornoise/Scenes.h"
+#include "sensornoise/SimulationSettings.h"
+#include "stabilise/GeneralizedAnscombe.h"
+#include "sensornoise/NoiseModel.h"
+#include "stabilise/NoiseModelCheck.h"
 #include "helpers/RefinedTestHelper.h"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/refined/GainEstimate.h"
-#include "sensornoise/refined/OffsetReport.h"
+#include "refined/GainEstimate.h"
+#include "refined/OffsetReport.h"
 #include "helpers/RefinedResultsTestHelper.h"
 
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/refined/OffsetReport.h"
-#include "sensornoise/report/Report.h"
-#include "sensornoise/simulation/SimulationSettings.h"
+#include "refined/OffsetReport.h"
+#include "sensornoise/Report.h"
+#include "sensornoise/SimulationSettings.h"
 #include "helpers/SensorTestHelper.h"
 
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/base/PixelUse.h"
-#include "sensornoise/refined/PixelsOfVariance.h"
-#include "sensornoise/refined/RefinedMethod.h"
+#include "base/PixelUse.h"
+#include "refined/PixelsOfVariance.h"
+#include "sensornoise/RefinedMethod.h"
 #include "helpers/SensorTestHelper.h"
 
 #include <algorithm>

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/base/FrameGeometry.h"
-#include "sensornoise/base/Parallel.h"
-#include "sensornoise/base/PixelUse.h"
-#include "sensornoise/refined/RefinedMethod.h"
-#include "sensornoise/refined/RefinedSettings.h"
-#include "sensornoise/report/Report.h"
-#include "sensornoise/report/ReportJson.h"
-#include "sensornoise/simulation/Scenes.h"
-#include "sensornoise/simulation/SimulationTruth.h"
-#include "sensornoise/simulation/SimulationSettings.h"
+#include "sensornoise/FrameGeometry.h"
+#include "sensornoise/Parallel.h"
+#include "base/PixelUse.h"
+#include "sensornoise/RefinedMethod.h"
+#include "sensornoise/Settings.h"
+#include "sensornoise/Report.h"
+#include "report/ReportJson.h"
+#include "sensornoise/Scenes.h"
+#include "simulation/SimulationTruth.h"
+#include "sensornoise/SimulationSettings.h"
 #include "helpers/RefinedTestHelper.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/report/Report.h"
-#include "sensornoise/simulation/Scenes.h"
-#include "sensornoise/simulation/SimulationSettings.h"
+#include "sensornoise/Report.h"
+#include "sensornoise/Scenes.h"
+#include "sensornoise/SimulationSettings.h"
 #include "helpers/RefinedTestHelper.h"
 
 #include <algorithm>

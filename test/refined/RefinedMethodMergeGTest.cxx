@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/report/ReportJson.h"
-#include "sensornoise/refined/RefinedMethod.h"
-#include "sensornoise/report/Report.h"
+#include "report/ReportJson.h"
+#include "sensornoise/RefinedMethod.h"
+#include "sensornoise/Report.h"
 #include "helpers/MergeTestHelper.h"
 
 #include <cmath>

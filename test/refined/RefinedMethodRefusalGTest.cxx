@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/refined/RefinedMethod.h"
+#include "sensornoise/RefinedMethod.h"
 #include "helpers/MergeTestHelper.h"
 
 #include <cstddef>

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/refined/RefinedReport.h"
-#include "sensornoise/report/Report.h"
-#include "sensornoise/report/ReportJson.h"
-#include "sensornoise/simulation/Scenes.h"
-#include "sensornoise/simulation/SimulationSettings.h"
-#include "sensornoise/simulation/Simulator.h"
+#include "refined/RefinedReport.h"
+#include "sensornoise/Report.h"
+#include "report/ReportJson.h"
+#include "sensornoise/Scenes.h"
+#include "sensornoise/SimulationSettings.h"
+#include "sensornoise/Simulator.h"
 #include "helpers/SensorTestHelper.h"
 
 #include <cmath>

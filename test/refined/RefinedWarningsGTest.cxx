@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/base/PixelUse.h"
-#include "sensornoise/report/Report.h"
-#include "sensornoise/report/ReportTable.h"
-#include "sensornoise/simulation/Random.h"
-#include "sensornoise/simulation/Scenes.h"
-#include "sensornoise/simulation/SimulationSettings.h"
+#include "base/PixelUse.h"
+#include "sensornoise/Report.h"
+#include "report/ReportTable.h"
+#include "simulation/Random.h"
+#include "sensornoise/Scenes.h"
+#include "sensornoise/SimulationSettings.h"
 #include "helpers/SensorTestHelper.h"
 #include "helpers/SentencesTestHelper.h"
 

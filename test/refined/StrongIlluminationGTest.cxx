@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/mosaic/MosaicMethod.h"
-#include "sensornoise/refined/RefinedMethod.h"
-#include "sensornoise/report/ReportJson.h"
-#include "sensornoise/report/ReportTable.h"
+#include "sensornoise/MosaicMethod.h"
+#include "sensornoise/RefinedMethod.h"
+#include "report/ReportJson.h"
+#include "report/ReportTable.h"
 #include "helpers/RefinedTestHelper.h"
 #include "helpers/ReportTestHelper.h"
 

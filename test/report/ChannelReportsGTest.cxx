@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/report/ChannelReports.h"
+#include "sensornoise/ChannelReports.h"
 
-#include "sensornoise/report/ChannelRecord.h"
-#include "sensornoise/report/Quantities.h"
-#include "sensornoise/report/ReportJson.h"
+#include "report/ChannelRecord.h"
+#include "report/Quantities.h"
+#include "report/ReportJson.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/report/ExcessNoise.h"
-#include "sensornoise/report/Quantities.h"
+#include "report/ExcessNoise.h"
+#include "report/Quantities.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

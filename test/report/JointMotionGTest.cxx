@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/report/JointMotion.h"
+#include "report/JointMotion.h"
 
-#include "sensornoise/base/BayerPattern.h"
-#include "sensornoise/report/Quantities.h"
+#include "base/BayerPattern.h"
+#include "report/Quantities.h"
 
 #include <array>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/report/LinearityReport.h"
-#include "sensornoise/page/ReportPage.h"
-#include "sensornoise/report/ReportJson.h"
-#include "sensornoise/report/ReportTable.h"
+#include "report/LinearityReport.h"
+#include "sensornoise/ReportPage.h"
+#include "report/ReportJson.h"
+#include "report/ReportTable.h"
 
 #include <gtest/gtest.h>
 #include <string>

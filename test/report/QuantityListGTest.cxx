@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/report/QuantityList.h"
-#include "sensornoise/report/Quantities.h"
-#include "sensornoise/report/ReportJson.h"
-#include "sensornoise/report/ReportTable.h"
-#include "sensornoise/report/Signs.h"
+#include "report/QuantityList.h"
+#include "report/Quantities.h"
+#include "report/ReportJson.h"
+#include "report/ReportTable.h"
+#include "report/Signs.h"
 
 #include <gtest/gtest.h>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/report/ReportJson.h"
-#include "sensornoise/report/Report.h"
-#include "sensornoise/report/Version.h"
+#include "report/ReportJson.h"
+#include "sensornoise/Report.h"
+#include "sensornoise/Version.h"
 
 #include <cctype>
 #include <cmath>

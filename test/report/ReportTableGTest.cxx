@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/report/ReportTable.h"
-#include "sensornoise/report/Report.h"
+#include "report/ReportTable.h"
+#include "sensornoise/Report.h"
 
 #include <cstddef>
 #include <gtest/gtest.h>

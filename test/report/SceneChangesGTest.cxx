@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/published/PublishedMethod.h"
-#include "sensornoise/refined/RefinedMethod.h"
-#include "sensornoise/report/ReportTable.h"
-#include "sensornoise/simulation/Scenes.h"
+#include "sensornoise/PublishedMethod.h"
+#include "sensornoise/RefinedMethod.h"
+#include "report/ReportTable.h"
+#include "sensornoise/Scenes.h"
 #include "helpers/ReportTestHelper.h"
 #include "helpers/StackTestHelper.h"
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/report/Signs.h"
-#include "sensornoise/report/Report.h"
-#include "sensornoise/report/ReportTable.h"
+#include "report/Signs.h"
+#include "sensornoise/Report.h"
+#include "report/ReportTable.h"
 
 #include <gtest/gtest.h>
 #include <string>

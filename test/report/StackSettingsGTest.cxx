@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/report/StackSettings.h"
+#include "report/StackSettings.h"
 
-#include "sensornoise/base/FrameGeometry.h"
-#include "sensornoise/moments/CodeSettings.h"
-#include "sensornoise/report/Report.h"
+#include "sensornoise/FrameGeometry.h"
+#include "moments/CodeSettings.h"
+#include "sensornoise/Report.h"
 
 #include <cstdint>
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/report/Statuses.h"
-#include "sensornoise/report/Quantities.h"
+#include "report/Statuses.h"
+#include "report/Quantities.h"
 #include "helpers/ReportTestHelper.h"
 
-#include "sensornoise/report/QuantityList.h"
+#include "report/QuantityList.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

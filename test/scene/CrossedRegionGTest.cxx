@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/scene/CrossedRegion.h"
-#include "sensornoise/base/Stencils.h"
-#include "sensornoise/scene/ProvisionalModel.h"
-#include "sensornoise/scene/ReferenceFrame.h"
+#include "scene/CrossedRegion.h"
+#include "base/Stencils.h"
+#include "scene/ProvisionalModel.h"
+#include "scene/ReferenceFrame.h"
 #include "helpers/FrameTestHelper.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/scene/GuardBand.h"
-#include "sensornoise/base/Parallel.h"
-#include "sensornoise/moments/CodeRange.h"
+#include "scene/GuardBand.h"
+#include "sensornoise/Parallel.h"
+#include "moments/CodeRange.h"
 #include "helpers/FrameTestHelper.h"
 
 #include <algorithm>

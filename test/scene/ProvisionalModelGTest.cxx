@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/scene/ProvisionalModel.h"
-#include "sensornoise/base/NothingToMeasure.h"
-#include "sensornoise/base/Quantiles.h"
-#include "sensornoise/base/Stencils.h"
-#include "sensornoise/scene/ReferenceFrame.h"
+#include "scene/ProvisionalModel.h"
+#include "base/NothingToMeasure.h"
+#include "base/Quantiles.h"
+#include "base/Stencils.h"
+#include "scene/ReferenceFrame.h"
 #include "helpers/FrameTestHelper.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/scene/UnexplainedPixels.h"
-#include "sensornoise/base/Parallel.h"
+#include "scene/UnexplainedPixels.h"
+#include "sensornoise/Parallel.h"
 #include "helpers/FrameTestHelper.h"
 
 #include <algorithm>

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/scene/UsablePixels.h"
-#include "sensornoise/base/NothingToMeasure.h"
-#include "sensornoise/base/Parallel.h"
-#include "sensornoise/base/PixelUse.h"
-#include "sensornoise/moments/CodeRange.h"
-#include "sensornoise/scene/ReferenceFrame.h"
+#include "scene/UsablePixels.h"
+#include "base/NothingToMeasure.h"
+#include "sensornoise/Parallel.h"
+#include "base/PixelUse.h"
+#include "moments/CodeRange.h"
+#include "scene/ReferenceFrame.h"
 #include "helpers/FrameTestHelper.h"
 
 #include <cstddef>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/scene/VarianceCells.h"
-#include "sensornoise/base/ChiSquare.h"
-#include "sensornoise/scene/VarianceSample.h"
+#include "scene/VarianceCells.h"
+#include "base/ChiSquare.h"
+#include "scene/VarianceSample.h"
 
 #include <cstddef>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/series/CellNoise.h"
-#include "sensornoise/base/Eigen.h"
-#include "sensornoise/series/LocalIllumination.h"
+#include "series/CellNoise.h"
+#include "base/Eigen.h"
+#include "series/LocalIllumination.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/series/FrameEquations.h"
-#include "sensornoise/base/Eigen.h"
-#include "sensornoise/base/Parallel.h"
-#include "sensornoise/base/Stencils.h"
-#include "sensornoise/scene/ProvisionalModel.h"
-#include "sensornoise/scene/ReferenceFrame.h"
-#include "sensornoise/series/FrameProducts.h"
-#include "sensornoise/series/FrameRegressors.h"
-#include "sensornoise/series/FrameSums.h"
-#include "sensornoise/series/ShiftInstruments.h"
+#include "series/FrameEquations.h"
+#include "base/Eigen.h"
+#include "sensornoise/Parallel.h"
+#include "base/Stencils.h"
+#include "scene/ProvisionalModel.h"
+#include "scene/ReferenceFrame.h"
+#include "series/FrameProducts.h"
+#include "series/FrameRegressors.h"
+#include "series/FrameSums.h"
+#include "series/ShiftInstruments.h"
 #include "helpers/FrameTestHelper.h"
 
 #include <algorithm>

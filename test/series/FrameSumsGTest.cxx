@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/series/FrameSums.h"
-#include "sensornoise/base/Eigen.h"
-#include "sensornoise/base/Parallel.h"
-#include "sensornoise/series/FrameProducts.h"
-#include "sensornoise/series/FrameRegressors.h"
+#include "series/FrameSums.h"
+#include "base/Eigen.h"
+#include "sensornoise/Parallel.h"
+#include "series/FrameProducts.h"
+#include "series/FrameRegressors.h"
 #include "helpers/FrameTestHelper.h"
 #include "helpers/StackTestHelper.h"
 

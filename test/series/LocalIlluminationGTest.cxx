@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/series/LocalIllumination.h"
-#include "sensornoise/base/Eigen.h"
-#include "sensornoise/series/FrameEquations.h"
-#include "sensornoise/series/FrameProducts.h"
-#include "sensornoise/series/FrameSums.h"
-#include "sensornoise/series/MotionSeries.h"
+#include "series/LocalIllumination.h"
+#include "base/Eigen.h"
+#include "series/FrameEquations.h"
+#include "series/FrameProducts.h"
+#include "series/FrameSums.h"
+#include "series/MotionSeries.h"
 #include "helpers/FrameTestHelper.h"
 
 #include <cmath>

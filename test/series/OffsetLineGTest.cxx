@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/series/OffsetLine.h"
-#include "sensornoise/base/ChiSquare.h"
-#include "sensornoise/base/Eigen.h"
-#include "sensornoise/series/FrameEquations.h"
-#include "sensornoise/series/FrameProducts.h"
-#include "sensornoise/series/FrameSums.h"
+#include "series/OffsetLine.h"
+#include "base/ChiSquare.h"
+#include "base/Eigen.h"
+#include "series/FrameEquations.h"
+#include "series/FrameProducts.h"
+#include "series/FrameSums.h"
 #include "helpers/FrameTestHelper.h"
 
 #include <cmath>

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/series/RegressorBand.h"
-#include "sensornoise/base/Parallel.h"
-#include "sensornoise/base/Stencils.h"
-#include "sensornoise/series/Constants.h"
-#include "sensornoise/series/FrameRegressors.h"
-#include "sensornoise/series/FrameSums.h"
+#include "series/RegressorBand.h"
+#include "sensornoise/Parallel.h"
+#include "base/Stencils.h"
+#include "series/Constants.h"
+#include "series/FrameRegressors.h"
+#include "series/FrameSums.h"
 #include "helpers/FrameTestHelper.h"
 
 #include <cmath>

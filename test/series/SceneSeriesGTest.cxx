@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/series/SceneSeries.h"
-#include "sensornoise/base/NothingToMeasure.h"
-#include "sensornoise/base/Parallel.h"
-#include "sensornoise/base/RollingShutter.h"
-#include "sensornoise/series/FrameEquations.h"
-#include "sensornoise/series/FrameProducts.h"
-#include "sensornoise/series/FrameRegressors.h"
-#include "sensornoise/series/FrameSums.h"
+#include "series/SceneSeries.h"
+#include "base/NothingToMeasure.h"
+#include "sensornoise/Parallel.h"
+#include "base/RollingShutter.h"
+#include "series/FrameEquations.h"
+#include "series/FrameProducts.h"
+#include "series/FrameRegressors.h"
+#include "series/FrameSums.h"
 #include "helpers/FrameTestHelper.h"
 
 #include <algorithm>

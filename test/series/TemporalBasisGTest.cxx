@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/series/TemporalBasis.h"
-#include "sensornoise/base/Eigen.h"
-#include "sensornoise/series/MotionSeries.h"
+#include "series/TemporalBasis.h"
+#include "base/Eigen.h"
+#include "series/MotionSeries.h"
 
 #include <cmath>
 #include <cstddef>

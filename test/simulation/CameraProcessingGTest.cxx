@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/simulation/Companding.h"
-#include "sensornoise/simulation/DefectCorrection.h"
-#include "sensornoise/simulation/FrameResampling.h"
-#include "sensornoise/simulation/FrameSmoothing.h"
+#include "simulation/Companding.h"
+#include "simulation/DefectCorrection.h"
+#include "simulation/FrameResampling.h"
+#include "simulation/FrameSmoothing.h"
 #include "helpers/FrameNoiseTestHelper.h"
 #include "helpers/StackTestHelper.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/simulation/ChargeCoupling.h"
-#include "sensornoise/simulation/Random.h"
+#include "simulation/ChargeCoupling.h"
+#include "simulation/Random.h"
 #include "helpers/FrameNoiseTestHelper.h"
 #include "helpers/StackTestHelper.h"
 

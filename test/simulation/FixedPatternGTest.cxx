@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/simulation/FixedPattern.h"
-#include "sensornoise/simulation/GainPattern.h"
-#include "sensornoise/simulation/ReadNoisePattern.h"
+#include "simulation/FixedPattern.h"
+#include "simulation/GainPattern.h"
+#include "simulation/ReadNoisePattern.h"
 #include "helpers/SimulatorTestHelper.h"
 
 #include <cstddef>

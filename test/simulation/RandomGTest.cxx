@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/simulation/Random.h"
+#include "simulation/Random.h"
 
 #include <cmath>
 #include <cstddef>

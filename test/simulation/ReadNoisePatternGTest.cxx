@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/simulation/ReadNoisePattern.h"
-#include "sensornoise/base/Quantiles.h"
+#include "simulation/ReadNoisePattern.h"
+#include "base/Quantiles.h"
 #include "helpers/SimulatorTestHelper.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/simulation/ReadOut.h"
-#include "sensornoise/simulation/FixedPattern.h"
-#include "sensornoise/simulation/GainPattern.h"
+#include "simulation/ReadOut.h"
+#include "simulation/FixedPattern.h"
+#include "simulation/GainPattern.h"
 #include "helpers/SimulatorTestHelper.h"
 
 #include <algorithm>

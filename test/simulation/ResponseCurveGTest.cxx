@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/simulation/ResponseCurve.h"
-#include "sensornoise/simulation/Random.h"
+#include "simulation/ResponseCurve.h"
+#include "simulation/Random.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/simulation/Scenes.h"
-#include "sensornoise/simulation/Random.h"
-#include "sensornoise/simulation/SimulationSettings.h"
+#include "sensornoise/Scenes.h"
+#include "simulation/Random.h"
+#include "sensornoise/SimulationSettings.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/simulation/Simulator.h"
-#include "sensornoise/simulation/Scenes.h"
-#include "sensornoise/simulation/SimulationSettings.h"
-#include "sensornoise/simulation/SimulationTruth.h"
+#include "sensornoise/Simulator.h"
+#include "sensornoise/Scenes.h"
+#include "sensornoise/SimulationSettings.h"
+#include "simulation/SimulationTruth.h"
 #include "helpers/SimulatorTestHelper.h"
 
 #include <cmath>

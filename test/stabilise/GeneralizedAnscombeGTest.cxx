@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/stabilise/GeneralizedAnscombe.h"
+#include "stabilise/GeneralizedAnscombe.h"
 
-#include "sensornoise/stabilise/PoissonGaussianLaw.h"
+#include "stabilise/PoissonGaussianLaw.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/stabilise/NoiseModel.h"
+#include "sensornoise/NoiseModel.h"
 
 #include <gtest/gtest.h>
 #include <limits>

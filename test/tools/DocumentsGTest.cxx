@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/base/WarningCodes.h"
-#include "sensornoise/report/QuantityList.h"
+#include "sensornoise/WarningCodes.h"
+#include "report/QuantityList.h"
 #include "helpers/CheckoutTestHelper.h"
 
 #include <filesystem>
@@ -87,7 +87,7 @@ TEST(SensorNoiseDocuments, EveryWarningOccursInATest)
       }
     }
   }
-  const std::string table = TextOfFile(SourceFolder() + "/module/sensornoise/base/WarningCodes.h");
+  const std::string table = TextOfFile(SourceFolder() + "/module/include/sensornoise/WarningCodes.h");
   const std::regex  line("(WarningCode::[A-Za-z]+),\\s*(\"[a-z-]+\")");
   std::size_t       codes = 0;
   for (std::sregex_iterator match(table.begin(), table.end(), line), end; match != end; ++match)

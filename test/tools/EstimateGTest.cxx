@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "helpers/EstimateToolTestHelper.h"
-#include "sensornoise/base/Text.h"
-#include "sensornoise/report/Signs.h"
-#include "sensornoise/report/QuantityList.h"
+#include "base/Text.h"
+#include "report/Signs.h"
+#include "report/QuantityList.h"
 
 #include <cmath>
 #include <cstdio>

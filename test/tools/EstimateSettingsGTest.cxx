@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/report/Report.h"
-#include "sensornoise/base/PixelUse.h"
+#include "sensornoise/Report.h"
+#include "base/PixelUse.h"
 #include "helpers/EstimateToolTestHelper.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "helpers/EstimateToolTestHelper.h"
-#include "sensornoise/report/Version.h"
+#include "sensornoise/Version.h"
 
 #include <string>
 

@@ -121,7 +121,7 @@ def test_page_is_whole_and_readable(chrome, pages, situation, screen, scheme, sc
 
 def every_warning() -> list[tuple[str, str]]:
     """Code and sentence of each, as the library has them."""
-    header = Path(__file__).resolve().parents[2] / "module/sensornoise/base/WarningCodes.h"
+    header = Path(__file__).resolve().parents[2] / "module/include/sensornoise/WarningCodes.h"
     kinds = re.findall(r'"([a-z-]+)",\s*Severity::\w+,((?:\s*"[^"]*")+) }', header.read_text())
     return [(code, "".join(re.findall(r'"([^"]*)"', parts))) for code, parts in kinds]
 

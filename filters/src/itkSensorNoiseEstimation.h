@@ -1,0 +1,297 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef itkSensorNoiseEstimation_h
+#define itkSensorNoiseEstimation_h
+
+#include "sensornoise/FrameGeometry.h"
+#include "sensornoise/Parallel.h"
+#include "moments/DarkMaps.h"
+#include "moments/KnownOffset.h"
+#include "moments/PixelCalibration.h"
+#include "sensornoise/MosaicMethod.h"
+#include "sensornoise/PublishedMethod.h"
+#include "published/PublishedSettings.h"
+#include "refined/MemoryNeed.h"
+#include "sensornoise/RefinedMethod.h"
+#include "sensornoise/Settings.h"
+#include "sensornoise/ChannelReports.h"
+#include "report/StackSettings.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <istream>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace itk
+{
+
+/** The mosaic that a stack is, and how that is known. */
+struct SensorNoiseMosaic
+{
+  sensornoise::MosaicGeometry geometry;
+  sensornoise::BayerSource    source{ sensornoise::BayerSource::Given };
+};
+
+/** What SensorNoiseEstimator measures, and what it knows beforehand. */
+struct SensorNoiseStack
+{
+  sensornoise::FrameGeometry                           frame;
+  std::size_t                                          frames{ 0 };
+  std::vector<std::uint8_t>                            mask;    ///< nonzero: to be used; empty: all pixels are
+  std::optional<SensorNoiseMosaic>                     mosaic;  ///< none: not a mosaic
+  std::vector<std::optional<sensornoise::KnownOffset>> offsets; ///< of each plane, or of the only one
+};
+
+/** The method at work in SensorNoiseEstimator, on a frame or on the planes of a mosaic: all have one interface. */
+template <typename TPixel>
+struct SensorNoiseEstimation
+{
+  using Refined = sensornoise::RefinedMethod<TPixel>;
+  using Published = sensornoise::PublishedMethod<TPixel>;
+  using MosaicRefined = sensornoise::MosaicMethod<TPixel, Refined>;
+  using MosaicPublished = sensornoise::MosaicMethod<TPixel, Published>;
+  using DarkMapsPointer = std::shared_ptr<const sensornoise::DarkMaps>;
+  using Settings = std::variant<sensornoise::RefinedSettings, sensornoise::PublishedSettings>;
+  template <typename T>
+  static constexpr bool IsOfWholeFrame = std::is_same_v<T, const Refined &> || std::is_same_v<T, const Published &>;
+
+  std::variant<Refined, Published, MosaicRefined, MosaicPublished> method;
+  std::optional<SensorNoiseMosaic>                                 mosaic{};
+  std::vector<DarkMapsPointer> dark{}; ///< of each plane; null: fewer than two frames
+
+  /** The method that has the \a settings, before its first pass. A memory limit is that of all planes. \a parallelFor
+   * has \a threads threads. \a sumsStay: no sums are saved or merged, which needs less memory. */
+  static SensorNoiseEstimation
+  Start(const Settings &                 settings,
+        const SensorNoiseStack &         stack,
+        const sensornoise::ParallelFor & parallelFor,
+        std::size_t                      threads,
+        bool                             sumsStay)
+  {
+    const auto start = [&](const auto & ofStack) -> decltype(method) {
+      constexpr bool isRefined = std::is_same_v<decltype(ofStack), const sensornoise::RefinedSettings &>;
+      using OfFrame = std::conditional_t<isRefined, Refined, Published>;
+      const auto make =
+        [&]([[maybe_unused]] std::size_t part, const auto & frame, const auto & mask, const auto & spread) {
+          auto ofPart = ofStack;
+          if constexpr (std::is_same_v<OfFrame, Refined>)
+          {
+            ofPart.offset = stack.offsets[part];
+            ofPart.memoryLimitBytes /= static_cast<double>(stack.offsets.size());
+          }
+          return OfFrame(ofPart, frame, stack.frames, mask, spread);
+        };
+      if (!stack.mosaic)
+      {
+        OfFrame ofFrame = make(0, stack.frame, stack.mask, parallelFor);
+        if constexpr (isRefined)
+        {
+          if (sumsStay)
+          {
+            ofFrame.LetSumsStay();
+          }
+        }
+        return ofFrame;
+      }
+      const sensornoise::MosaicGeometry & planes = stack.mosaic->geometry;
+      if constexpr (isRefined)
+      {
+        sensornoise::RequireMemoryLimit(ofStack.memoryLimitBytes, planes.Plane(), stack.frames, stack.offsets.size());
+      }
+      const auto makeOfPlane = [&](sensornoise::BayerPlane plane, const sensornoise::ParallelFor & spread) {
+        return make(static_cast<std::size_t>(plane), planes.Plane(), planes.Take(stack.mask, plane), spread);
+      };
+      sensornoise::MosaicMethod<TPixel, OfFrame> ofMosaic(planes, makeOfPlane, parallelFor, threads);
+      if constexpr (isRefined)
+      {
+        if (sumsStay)
+        {
+          using ManySums = typename MosaicRefined::ManySums;
+          ofMosaic.LetSumsStay(std::isinf(ofStack.memoryLimitBytes) ? std::optional(ManySums{}) : std::nullopt);
+        }
+      }
+      return ofMosaic;
+    };
+    SensorNoiseEstimation started{ std::visit(start, settings), stack.mosaic };
+    for (const auto & offset : stack.offsets)
+    {
+      started.dark.push_back(offset ? offset->maps : nullptr);
+    }
+    return started;
+  }
+
+  bool
+  IsDone() const
+  {
+    return std::visit([](const auto & atWork) { return atWork.IsDone(); }, method);
+  }
+
+  /** Calls function(method) for the method of the frame, or those of the four planes. */
+  template <typename TFunction>
+  void
+  ForEach(TFunction function)
+  {
+    std::visit(
+      [&](auto & atWork) {
+        if constexpr (IsOfWholeFrame<const std::remove_reference_t<decltype(atWork)> &>)
+        {
+          function(atWork);
+        }
+        else
+        {
+          for (auto & ofPlane : atWork.GetMethods())
+          {
+            function(ofPlane);
+          }
+        }
+      },
+      method);
+  }
+
+  std::size_t
+  GetNumberOfParts() const
+  {
+    return mosaic ? sensornoise::BayerPlanes.size() : 1;
+  }
+
+  /** For every frame, 1 if it is in the current pass. */
+  const std::vector<std::uint8_t> &
+  GetHas() const
+  {
+    return std::visit([](const auto & atWork) -> const auto & { return atWork.GetHas(); }, method);
+  }
+
+  /** The fingerprints of the frames that are in, of each part. */
+  std::vector<const std::map<std::size_t, sensornoise::BytesFingerprint> *>
+  GetFingerprints()
+  {
+    std::vector<const std::map<std::size_t, sensornoise::BytesFingerprint> *> all;
+    this->ForEach([&all](const auto & part) { all.push_back(&part.GetFingerprints().GetAll()); });
+    return all;
+  }
+
+  /** \a flags holds \a frames values for each part, one part after the other. */
+  void
+  SetCountedElsewhere(const unsigned char * flags, std::size_t frames)
+  {
+    this->ForEach([&](auto & part) {
+      part.SetCountedElsewhere({ flags, flags + frames });
+      flags += frames;
+    });
+  }
+
+  void
+  MergeSums(std::istream & in)
+  {
+    std::visit([&in](auto & atWork) { atWork.MergeSums(in); }, method);
+    this->ForEach([](auto & part) { part.FoldSums(); });
+  }
+
+  /** Of the stack, or of each of its channels; \a selection, and what is known of the \a camera, are noted in each. */
+  std::variant<sensornoise::Report, sensornoise::ChannelReports>
+  GetReport(const sensornoise::StackSelection & selection, const sensornoise::CameraSettings & camera) const
+  {
+    using Result = std::variant<sensornoise::Report, sensornoise::ChannelReports>;
+    return std::visit(
+      [&](const auto & atWork) -> Result {
+        if constexpr (IsOfWholeFrame<decltype(atWork)>)
+        {
+          sensornoise::Report report = atWork.GetReport();
+          sensornoise::NoteSelection(report, selection);
+          report.camera = camera;
+          return report;
+        }
+        else
+        {
+          std::array<sensornoise::Report, 4> reports = atWork.GetReports();
+          for (sensornoise::Report & report : reports)
+          {
+            sensornoise::NoteSelection(report, selection);
+            report.camera = camera;
+          }
+          return sensornoise::MakeChannelReports(mosaic->geometry.pattern, mosaic->source, std::move(reports));
+        }
+      },
+      method);
+  }
+
+  /** A map of the method's, of \a pixels pixels, which it gives away: mapOf(method) is one of its Take...(). \a missing
+   * where there is none. */
+  template <typename T, typename TFunction>
+  std::vector<T>
+  TakeMap(TFunction mapOf, T missing, std::size_t pixels)
+  {
+    return std::visit(
+      [&](auto & atWork) {
+        if constexpr (IsOfWholeFrame<decltype(std::as_const(atWork))>)
+        {
+          std::vector<T> map = mapOf(atWork);
+          map.resize(pixels, missing);
+          return map;
+        }
+        else
+        {
+          return atWork.JoinMaps(mapOf, missing);
+        }
+      },
+      method);
+  }
+
+  /** What every pixel's own dark frames tell; none where there are fewer than two. */
+  std::optional<sensornoise::PixelCalibration>
+  MakeCalibration(const sensornoise::ParallelFor & parallelFor) const
+  {
+    if (dark.empty() || !dark.front())
+    {
+      return std::nullopt;
+    }
+    if (!mosaic)
+    {
+      return sensornoise::MakePixelCalibration(*dark.front(), parallelFor);
+    }
+    const sensornoise::MosaicGeometry & geometry = mosaic->geometry;
+    const std::vector<double>           nothing(geometry.frame.Pixels(), std::numeric_limits<double>::quiet_NaN());
+    sensornoise::PixelCalibration       joined{ { nothing, nothing, nothing }, { nothing, nothing, nothing } };
+    for (std::size_t k = 0; k < dark.size(); ++k)
+    {
+      const auto plane = sensornoise::BayerPlanes[k];
+      const auto pixels = sensornoise::MakePixelCalibration(*dark[k], parallelFor);
+      geometry.Put(pixels.offset.value, plane, joined.offset.value.data());
+      geometry.Put(pixels.offset.low, plane, joined.offset.low.data());
+      geometry.Put(pixels.offset.high, plane, joined.offset.high.data());
+      geometry.Put(pixels.readNoise.value, plane, joined.readNoise.value.data());
+      geometry.Put(pixels.readNoise.low, plane, joined.readNoise.low.data());
+      geometry.Put(pixels.readNoise.high, plane, joined.readNoise.high.data());
+    }
+    return joined;
+  }
+};
+
+} // namespace itk
+
+#endif

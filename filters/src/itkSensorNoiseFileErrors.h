@@ -1,0 +1,71 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#ifndef itkSensorNoiseFileErrors_h
+#define itkSensorNoiseFileErrors_h
+
+#include "sensornoise/FrameFile.h"
+#include "itkImageIOBase.h"
+#include "itkMacro.h"
+
+#include <exception>
+
+namespace itk
+{
+
+/** Calls \a function for its value; an error about files becomes ITK's, with the same sentence and nothing before it.
+ */
+template <typename TFunction>
+auto
+WithFileErrors(TFunction function) -> decltype(function())
+{
+  try
+  {
+    return function();
+  }
+  catch (const ExceptionObject &)
+  {
+    throw;
+  }
+  catch (const std::exception & error)
+  {
+    throw ExceptionObject(__FILE__, __LINE__, error.what(), ITK_LOCATION);
+  }
+}
+
+/** The type of a frame's pixels, as ITK calls it. */
+inline IOComponentEnum
+ComponentTypeOf(sensornoise::FramePixel pixel)
+{
+  switch (pixel)
+  {
+    case sensornoise::FramePixel::UnsignedChar:
+      return IOComponentEnum::UCHAR;
+    case sensornoise::FramePixel::UnsignedShort:
+      return IOComponentEnum::USHORT;
+    case sensornoise::FramePixel::Short:
+      return IOComponentEnum::SHORT;
+    case sensornoise::FramePixel::Float:
+      return IOComponentEnum::FLOAT;
+    default:
+      return IOComponentEnum::DOUBLE;
+  }
+}
+
+} // namespace itk
+
+#endif

@@ -1,0 +1,342 @@
+/*=========================================================================
+ *
+ *  Copyright the ITKSensorNoise contributors
+ *
+ *  Licensed under the Apache License, Version 2.0 (the "License");
+ *  you may not use this file except in compliance with the License.
+ *  You may obtain a copy of the License at
+ *
+ *         https://www.apache.org/licenses/LICENSE-2.0.txt
+ *
+ *  Unless required by applicable law or agreed to in writing, software
+ *  distributed under the License is distributed on an "AS IS" BASIS,
+ *  WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+ *  See the License for the specific language governing permissions and
+ *  limitations under the License.
+ *
+ *=========================================================================*/
+#include "itkSensorNoiseFrameFiles.h"
+
+#include "itkSensorNoiseOpenImageIO.h"
+#include "base/FreeMemory.h"
+#include "files/FileError.h"
+#include "files/FrameFormats.h"
+#include "files/RawLayout.h"
+#include "files/StoredNumber.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <exception>
+#include <iterator>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace sensornoise
+{
+namespace
+{
+void
+RequireAlike(const FrameFile & found, const FrameFile & first)
+{
+  if (found.width != first.width || found.height != first.height)
+  {
+    const auto size = [](const FrameFile & file) {
+      return std::to_string(file.width) + " x " + std::to_string(file.height);
+    };
+    throw FileError(
+      found.name,
+      size(found) + " pixels, but " + first.name + " has " + size(first) +
+        "; all frames must have the same size. Leave the file out, or name the frames by a pattern, 'frame_*.tif'");
+  }
+  if (found.pixel != first.pixel)
+  {
+    throw FileError(found.name,
+                    "component type " + NameOf(found.pixel) + ", but " + first.name + " has " + NameOf(first.pixel) +
+                      "; all frames must have the same component type");
+  }
+}
+
+/** A stack that does not stream is held in memory, with those before it. */
+void
+RequireMemoryFor(const FrameFile & stack, std::uint64_t bytesBefore)
+{
+  RequireMemory(static_cast<double>(stack.bytes) + static_cast<double>(bytesBefore),
+                stack.name + " cannot be read in parts: all of it");
+}
+
+double
+DeterminantOf(const std::array<std::array<double, 3>, 3> & m)
+{
+  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+         m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+}
+
+/** As ImageFileReader does, but what an image cannot have is left as it is by default. */
+FrameListGeometry
+GeometryOf(const itk::ImageIOBase & io)
+{
+  FrameListGeometry  geometry;
+  FrameListGeometry  found;
+  const unsigned int axes = std::min(io.GetNumberOfDimensions(), 3u);
+  for (unsigned int axis = 0; axis < axes; ++axis)
+  {
+    const double              spacing = io.GetSpacing(axis);
+    const std::vector<double> cosines = io.GetDirection(axis);
+    if (std::isfinite(spacing) && spacing != 0.0)
+    {
+      geometry.spacing[axis] = std::abs(spacing);
+    }
+    if (std::isfinite(io.GetOrigin(axis)))
+    {
+      geometry.origin[axis] = io.GetOrigin(axis);
+    }
+    for (unsigned int row = 0; row < axes && row < cosines.size(); ++row)
+    {
+      found.direction[row][axis] = spacing < 0.0 ? -cosines[row] : cosines[row];
+    }
+  }
+  const double determinant = DeterminantOf(found.direction);
+  if (std::isfinite(determinant) && determinant != 0.0)
+  {
+    geometry.direction = found.direction;
+  }
+  return geometry;
+}
+
+FrameListGeometry
+GeometryOf(const FrameFile & file)
+{
+  FrameListGeometry geometry;
+  geometry.spacing[0] = file.spacing[0];
+  geometry.spacing[1] = file.spacing[1];
+  return geometry;
+}
+
+/** Of one slice: what it says of x and y. */
+FrameListGeometry
+WithoutTime(FrameListGeometry geometry)
+{
+  geometry.spacing[2] = 1.0;
+  geometry.origin[2] = 0.0;
+  return geometry;
+}
+
+itk::ImageIORegion
+RegionOf(const itk::ImageIOBase & io, std::size_t first, std::size_t count)
+{
+  itk::ImageIORegion region(io.GetNumberOfDimensions());
+  for (unsigned int axis = 0; axis < io.GetNumberOfDimensions(); ++axis)
+  {
+    // a fourth axis, where there is one, has one element
+    const bool isTime = axis == 2 && io.GetDimensions(axis) > 1;
+    region.SetSize(axis, isTime ? count : io.GetDimensions(axis));
+    region.SetIndex(axis, isTime ? static_cast<itk::ImageIORegion::IndexValueType>(first) : 0);
+  }
+  return region;
+}
+
+template <typename TPixel>
+void
+ShiftUp(void * buffer, std::size_t count, unsigned int bits)
+{
+  auto * const pixels = static_cast<TPixel *>(buffer);
+  std::transform(pixels, pixels + count, pixels, [bits](TPixel pixel) { return static_cast<TPixel>(pixel << bits); });
+}
+
+/** Codes as they stand in the file: ITK shifts those of a PNG down by the bits that are not significant. */
+void
+RestoreCodes(const FrameFile & file, void * buffer, std::size_t count)
+{
+  if (file.significantBits == 0)
+  {
+    return;
+  }
+  const auto bits = static_cast<unsigned int>(8 * SizeOf(file.pixel)) - file.significantBits;
+  if (file.pixel == FramePixel::UnsignedChar)
+  {
+    ShiftUp<unsigned char>(buffer, count, bits);
+  }
+  else
+  {
+    ShiftUp<unsigned short>(buffer, count, bits);
+  }
+}
+
+/** By the reader that came with the inspection, or by that of ITK. */
+void
+ReadPixels(const FrameFile & file, itk::ImageIOBase * io, std::size_t first, std::size_t count, void * buffer)
+{
+  if (file.reader)
+  {
+    file.reader->Read(file, first, count, buffer);
+    return;
+  }
+  io->SetUseStreamedReading(count < file.frames);
+  io->SetIORegion(RegionOf(*io, first, count));
+  io->Read(buffer);
+  ConvertStored(file.stored, file.width * file.height * count, buffer);
+}
+
+void
+ReadFile(const FrameFile & file, std::size_t first, std::size_t count, void * buffer)
+{
+  itk::ImageIOBase::Pointer io;
+  if (file.reader)
+  {
+    RequireUnchanged(file);
+  }
+  else
+  {
+    io = OpenImageIO(file);
+  }
+  try
+  {
+    ReadPixels(file, io, first, count, buffer);
+  }
+  catch (const FileError &)
+  {
+    RequireUnchanged(file);
+    throw;
+  }
+  catch (const std::exception & error)
+  {
+    RequireUnchanged(file); // that would be the better reason
+    throw PixelErrorOf(file.name, error);
+  }
+  RequireUnchanged(file);
+  RestoreCodes(file, buffer, file.width * file.height * count);
+}
+} // namespace
+
+std::vector<std::string>
+FrameList::Names() const
+{
+  std::vector<std::string> names;
+  std::transform(
+    files.begin(), files.end(), std::back_inserter(names), [](const FrameFile & file) { return file.name; });
+  return names;
+}
+
+FrameList
+OpenFrames(const std::vector<std::string> & names,
+           const BeforeInflating &          beforeInflating,
+           const std::string &              rawLayout,
+           const FrameChoice &              choice)
+{
+  if (names.empty())
+  {
+    throw std::invalid_argument("no file was given; expected image files in time order, or one stack");
+  }
+  std::optional<RawLayout> layout;
+  if (!rawLayout.empty())
+  {
+    layout = ReadRawLayout(rawLayout);
+  }
+  FrameList list;
+  list.files.reserve(names.size());
+  for (const std::string & name : names)
+  {
+    const auto requireFitting = [&](const FrameFile & file) {
+      if (!list.files.empty())
+      {
+        RequireAlike(file, list.files.front());
+      }
+    };
+    const auto beforeWork = [&](const FrameFile & known) {
+      requireFitting(known);
+      if (known.frames > 1 && known.format->imageIO != nullptr)
+      {
+        RequireMemoryFor(known, list.bytes); // ITK reads no compressed stack in parts
+      }
+      if (beforeInflating)
+      {
+        beforeInflating(known);
+      }
+    };
+    FrameFile file = layout ? InspectRawFile(name, *layout) : InspectFrameFile(name, beforeWork);
+    ChooseFrames(file, choice);
+    if (file.frames > 1 && !list.files.empty() && !list.isStack)
+    {
+      throw FileError(name,
+                      "has " + std::to_string(file.frames) + " frames, but " + list.files.front().name +
+                        " has one; expected stacks alone, or one frame a file");
+    }
+    requireFitting(file);
+    // ITK's reader has to say the same as the file
+    const itk::ImageIOBase::Pointer io = file.reader ? nullptr : OpenImageIO(file);
+    if (list.files.empty())
+    {
+      list.isStack = file.frames > 1;
+      list.pixel = file.pixel;
+      list.width = file.width;
+      list.height = file.height;
+      list.camera = file.camera;
+      list.geometry = file.reader ? GeometryOf(file) : GeometryOf(*io);
+      list.geometry = list.isStack ? list.geometry : WithoutTime(list.geometry);
+    }
+    const bool streams = file.frames == 1 || file.reader || io->CanStreamRead();
+    list.streams = streams && (list.files.empty() || list.streams);
+    if (!streams)
+    {
+      RequireMemoryFor(file, list.bytes);
+    }
+    list.bytes += file.bytes;
+    list.frames += file.frames;
+    list.files.push_back(file);
+  }
+  return list;
+}
+
+void
+ReadFrames(const FrameList & list, std::size_t first, std::size_t count, void * buffer)
+{
+  const std::size_t frameBytes = list.bytes / list.frames;
+  const bool        isList = list.files.size() == list.frames;
+  std::size_t       index = isList ? first : 0;
+  for (std::size_t begin = index; begin < first + count; ++index)
+  {
+    const FrameFile & file = list.files.at(index);
+    const std::size_t end = begin + file.frames;
+    const std::size_t from = std::max(first, begin);
+    const std::size_t to = std::min(first + count, end);
+    if (from < to)
+    {
+      ReadFile(file, from - begin, to - from, static_cast<char *>(buffer) + (from - first) * frameBytes);
+    }
+    begin = end;
+  }
+}
+
+std::string
+WarningOf(const FrameList & list)
+{
+  std::vector<const FileIdentity *> sorted;
+  for (const FrameFile & file : list.files)
+  {
+    sorted.push_back(&file.identities.front());
+  }
+  const auto place = [](const FileIdentity * file) { return std::tie(file->device, file->inode); };
+  std::stable_sort(sorted.begin(), sorted.end(), [&](const auto * a, const auto * b) { return place(a) < place(b); });
+  const auto twice = std::adjacent_find(
+    sorted.begin(), sorted.end(), [&](const auto * a, const auto * b) { return place(a) == place(b); });
+  if (twice != sorted.end())
+  {
+    return (*twice)->name + ": is given twice, the second time as " + (*(twice + 1))->name +
+           "; expected each frame once";
+  }
+  const auto odd =
+    std::find_if(list.files.begin(), list.files.end(), [](const FrameFile & file) { return !file.warning.empty(); });
+  return odd == list.files.end() ? "" : odd->name + ": " + odd->warning;
+}
+
+std::string
+DescribeFrame(const FrameList & list)
+{
+  return std::to_string(list.width) + " x " + std::to_string(list.height) + " pixels of type " + NameOf(list.pixel);
+}
+
+} // namespace sensornoise

@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_Parallel_h
+#define sensornoise_Parallel_h
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** Calls a function for 0 ... count-1, in any order and possibly at the same time. */
+using ParallelFor = std::function<void(std::size_t count, const std::function<void(std::size_t)> & function)>;
+
+/** The ParallelFor of one thread. */
+inline void
+SerialFor(std::size_t count, const std::function<void(std::size_t)> & function)
+{
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    function(i);
+  }
+}
+
+/** Pixels of a block: the unit in which maps are computed and sums are folded. */
+inline constexpr std::size_t PixelsPerBlock = 8192;
+
+/** Calls function(begin, end) for blocks of \a count pixels, in any order and possibly at the same time. */
+template <typename TFunction>
+void
+ForBlocks(std::size_t count, const ParallelFor & parallelFor, TFunction function)
+{
+  parallelFor((count + PixelsPerBlock - 1) / PixelsPerBlock,
+              [&](std::size_t b) { function(b * PixelsPerBlock, std::min(count, (b + 1) * PixelsPerBlock)); });
+}
+
+/** Calls function(pixel) for \a count pixels, block by block, in any order and possibly at the same time. */
+template <typename TFunction>
+void
+ForPixels(std::size_t count, const ParallelFor & parallelFor, TFunction function)
+{
+  ForBlocks(count, parallelFor, [&function](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p)
+    {
+      function(p);
+    }
+  });
+}
+
+/** What function(begin, end, part) makes of each block of \a count pixels, in their order. */
+template <typename TPart, typename TFunction>
+std::vector<TPart>
+PartsOfBlocks(std::size_t count, const ParallelFor & parallelFor, TFunction function)
+{
+  std::vector<TPart> parts((count + PixelsPerBlock - 1) / PixelsPerBlock);
+  ForBlocks(count, parallelFor, [&](std::size_t begin, std::size_t end) {
+    TPart part{};
+    function(begin, end, part);
+    parts[begin / PixelsPerBlock] = part;
+  });
+  return parts;
+}
+
+/** Sums over \a count pixels: function(begin, end, sums) adds the share of a block of them to \a sums. Each block is
+ * summed on its own and the blocks are folded in order, so that the result has the same bits for any number of threads.
+ */
+template <std::size_t VSums, typename TFunction>
+std::array<double, VSums>
+SumBlocks(std::size_t count, const ParallelFor & parallelFor, TFunction function)
+{
+  std::array<double, VSums> total{};
+  for (const auto & part : PartsOfBlocks<std::array<double, VSums>>(count, parallelFor, function))
+  {
+    for (std::size_t k = 0; k < VSums; ++k)
+    {
+      total[k] += part[k];
+    }
+  }
+  return total;
+}
+
+/** The same, pixel by pixel: function(pixel, sums). */
+template <std::size_t VSums, typename TFunction>
+std::array<double, VSums>
+SumOverBlocks(std::size_t count, const ParallelFor & parallelFor, TFunction function)
+{
+  return SumBlocks<VSums>(count, parallelFor, [&](std::size_t begin, std::size_t end, auto & sums) {
+    for (std::size_t p = begin; p < end; ++p)
+    {
+      function(p, sums);
+    }
+  });
+}
+
+/** SumBlocks() of sums whose number is known at run time: function(begin, end, double * sums). */
+template <typename TFunction>
+std::vector<double>
+SumBlocks(std::size_t count, const ParallelFor & parallelFor, std::size_t size, TFunction function)
+{
+  std::vector<std::vector<double>> parts((count + PixelsPerBlock - 1) / PixelsPerBlock);
+  ForBlocks(count, parallelFor, [&](std::size_t begin, std::size_t end) {
+    std::vector<double> sums(size, 0.0);
+    function(begin, end, sums.data());
+    parts[begin / PixelsPerBlock] = std::move(sums);
+  });
+  std::vector<double> total(size, 0.0);
+  for (const auto & part : parts)
+  {
+    for (std::size_t k = 0; k < size; ++k)
+    {
+      total[k] += part[k];
+    }
+  }
+  return total;
+}
+
+/** The same, pixel by pixel: function(pixel, double * sums). */
+template <typename TFunction>
+std::vector<double>
+SumOverBlocks(std::size_t count, const ParallelFor & parallelFor, std::size_t size, TFunction function)
+{
+  return SumBlocks(count, parallelFor, size, [&](std::size_t begin, std::size_t end, double * sums) {
+    for (std::size_t p = begin; p < end; ++p)
+    {
+      function(p, sums);
+    }
+  });
+}
+
+} // namespace sensornoise
+
+#endif

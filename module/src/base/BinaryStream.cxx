@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "base/BinaryStream.h"
+
+#include "base/BytesFingerprint.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <istream>
+#include <ostream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace sensornoise
+{
+
+void
+WriteCount(std::ostream & out, std::uint64_t count)
+{
+  WriteNumbers(out, &count, 1);
+}
+
+std::uint64_t
+ReadCount(std::istream & in)
+{
+  std::uint64_t count = 0;
+  ReadNumbers(in, &count, 1);
+  return count;
+}
+
+void
+RequireCount(const char * what, std::uint64_t found, std::uint64_t expected)
+{
+  if (found != expected)
+  {
+    throw std::runtime_error("the sums of a stream do not fit: found " + std::to_string(found) + " " + what +
+                             ", expected " + std::to_string(expected));
+  }
+}
+
+void
+RequireSameStart(std::uint64_t found, std::uint64_t expected)
+{
+  if (found != expected)
+  {
+    throw std::runtime_error("sums cannot be merged: they are made with other settings, another mask or other sums of "
+                             "the passes before");
+  }
+}
+
+void
+WriteSumsHeader(std::ostream & out, const std::string & name, std::uint64_t pixels, std::uint64_t frames)
+{
+  std::array<char, 32> word{};
+  std::copy_n(name.begin(), std::min(name.size(), word.size()), word.begin());
+  WriteNumbers(out, word.data(), word.size());
+  WriteNumbers(out, &SumsVersion, 1);
+  WriteCount(out, pixels);
+  WriteCount(out, frames);
+}
+
+std::uint64_t
+ReadSumsHeader(std::istream & in, const std::string & name, std::uint64_t pixels)
+{
+  std::array<char, 32> word{};
+  ReadNumbers(in, word.data(), word.size());
+  std::string found(word.data(), std::find(word.begin(), word.end(), '\0'));
+  if (found != name)
+  {
+    std::replace_if(found.begin(), found.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    throw std::runtime_error("a stream holds other sums: found \"" + found + "\", expected \"" + name + "\"");
+  }
+  std::uint32_t version = 0;
+  ReadNumbers(in, &version, 1);
+  if (version != SumsVersion)
+  {
+    throw std::runtime_error("a stream holds another version of \"" + name + "\": found " + std::to_string(version) +
+                             ", expected " + std::to_string(SumsVersion));
+  }
+  RequireCount("pixels", ReadCount(in), pixels);
+  return ReadCount(in);
+}
+
+namespace
+{
+/** Mark and version of a seal, in the bytes that they have. */
+constexpr char        SealMark[] = "SensorNoise sums";
+constexpr std::size_t SealMarkBytes = 16;
+constexpr std::size_t SealVersionBytes = 32;
+
+BytesFingerprint
+FingerprintOf(const unsigned char * bytes, std::size_t size)
+{
+  std::vector<BytesFingerprint> blocks(NumberOfFingerprintBlocks(size));
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+  {
+    const std::size_t begin = i * FingerprintBlockBytes;
+    blocks[i] = FingerprintOfBlock(bytes + begin, std::min(FingerprintBlockBytes, size - begin));
+  }
+  return FingerprintOfBlocks(blocks.data(), blocks.data() + blocks.size());
+}
+
+/** "5 of module 1.2.3": the two versions of sums. */
+std::string
+NameOfVersions(std::uint32_t ofSums, const std::string & ofModule)
+{
+  return std::to_string(ofSums) + " of module " + ofModule;
+}
+} // namespace
+
+std::vector<unsigned char>
+SealSums(const unsigned char * bytes, std::size_t size, const std::string & version)
+{
+  std::ostringstream out;
+  out.write(SealMark, SealMarkBytes);
+  std::array<char, SealVersionBytes> word{};
+  std::copy_n(version.begin(), std::min(version.size(), word.size()), word.begin());
+  WriteNumbers(out, word.data(), word.size());
+  WriteCount(out, SumsVersion);
+  WriteCount(out, size);
+  const BytesFingerprint fingerprint = FingerprintOf(bytes, size);
+  WriteNumbers(out, fingerprint.data(), fingerprint.size());
+  const std::string seal = out.str();
+  return { seal.begin(), seal.end() };
+}
+
+UnsealedSums
+UnsealSums(const unsigned char * bytes, std::size_t size, const std::string & version)
+{
+  if (size < SumsSealBytes || std::memcmp(bytes, SealMark, SealMarkBytes) != 0)
+  {
+    throw std::runtime_error(std::to_string(size) +
+                             " bytes were given that do not begin as sums do; expected all that to_bytes() or "
+                             "GetSums() returned, of version " +
+                             NameOfVersions(SumsVersion, version));
+  }
+  std::istringstream                 in(std::string(bytes + SealMarkBytes, bytes + SumsSealBytes));
+  std::array<char, SealVersionBytes> word{};
+  ReadNumbers(in, word.data(), word.size());
+  std::string         found(word.data(), std::find(word.begin(), word.end(), '\0'));
+  const std::uint64_t ofSums = ReadCount(in);
+  if (ofSums != SumsVersion || found != version)
+  {
+    std::replace_if(found.begin(), found.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    throw std::runtime_error("the sums are of version " + NameOfVersions(static_cast<std::uint32_t>(ofSums), found) +
+                             ", expected version " + NameOfVersions(SumsVersion, version) +
+                             ": all processes need the same one");
+  }
+  const std::uint64_t expected = ReadCount(in);
+  const UnsealedSums  sums{ bytes + SumsSealBytes, size - SumsSealBytes };
+  if (sums.size != expected)
+  {
+    throw std::runtime_error("the sums are " + std::string(sums.size < expected ? "incomplete" : "too long") +
+                             ": found " + std::to_string(sums.size) + " bytes, expected " + std::to_string(expected));
+  }
+  BytesFingerprint fingerprint{};
+  ReadNumbers(in, fingerprint.data(), fingerprint.size());
+  if (fingerprint != FingerprintOf(sums.bytes, sums.size))
+  {
+    throw std::runtime_error("the sums are damaged: the checksum of their " + std::to_string(sums.size) +
+                             " bytes is not the one that was written with them; hand them over again");
+  }
+  return sums;
+}
+
+} // namespace sensornoise

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_base_PixelLayout_h
+#define sensornoise_base_PixelLayout_h
+
+#include "sensornoise/FrameGeometry.h"
+#include "base/Prefetch.h"
+#include "base/WideVectors.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace sensornoise
+{
+
+/** Where the pixels of frames stand in memory: one after the other, or every second one, as a plane of a mosaic. */
+struct PixelLayout
+{
+  std::size_t first{ 0 }; ///< place of the first pixel
+  std::size_t step{ 1 };  ///< from a pixel to the next one of its row: 1 or 2
+  std::size_t row{ 0 };   ///< from a row to the next one
+  std::size_t frame{ 0 }; ///< from a frame to the next one
+  std::size_t width{ 0 }; ///< pixels of a row
+
+  /** Frames of \a pixels pixels side by side, \a stride from one to the next. */
+  static PixelLayout
+  OfPixels(std::size_t pixels, std::size_t stride)
+  {
+    return { 0, 1, pixels, stride, pixels };
+  }
+  /** Frames one after the other. */
+  static PixelLayout
+  OfFrames(const FrameGeometry & geometry)
+  {
+    return { 0, 1, geometry.width, geometry.Pixels(), geometry.width };
+  }
+
+  /** Place of a pixel of the first frame. */
+  std::size_t
+  At(std::size_t x, std::size_t y) const
+  {
+    return first + y * row + x * step;
+  }
+  /** Of pixel \a p, counted row by row. */
+  std::size_t
+  At(std::size_t p) const
+  {
+    return this->At(p % width, p / width);
+  }
+
+  /** Whether a frame's pixels stand side by side, all of them. */
+  bool
+  AreSideBySide() const
+  {
+    return step == 1 && row == width;
+  }
+
+  /** Calls function(p, place, count) for the runs of the pixels [begin, end), counted row by row, that stand at equal
+   * distances: the first one of each, its place in a frame, and how many they are. */
+  template <typename TFunction>
+  void
+  ForRuns(std::size_t begin, std::size_t end, TFunction function) const
+  {
+    for (std::size_t p = begin; p < end;)
+    {
+      const std::size_t count = this->AreSideBySide() ? end - p : std::min(end - p, width - p % width);
+      function(p, this->At(p), count);
+      p += count;
+    }
+  }
+
+  /** Asks for the memory of the pixels [begin, end) of the frame that begins at \a start, which will be needed soon. */
+  template <typename TPixel>
+  void
+  Prefetch(const TPixel * start, std::size_t begin, std::size_t end) const
+  {
+    this->ForRuns(begin, end, [&](std::size_t, std::size_t place, std::size_t count) {
+      PrefetchValues(start + place, step * count);
+    });
+  }
+
+  /** The pixels [begin, end) of the frame that begins at \a start: side by side, where they stand or copied to
+   * \a room, which has room for them. */
+  template <typename TPixel>
+  const TPixel *
+  SideBySide(const TPixel * start, std::size_t begin, std::size_t end, TPixel * room) const
+  {
+    if (this->AreSideBySide())
+    {
+      return start + first + begin;
+    }
+    this->ForRuns(begin, end, [&](std::size_t p, std::size_t place, std::size_t count) {
+      const TPixel * const from = start + place;
+      TPixel * const       to = room + (p - begin);
+      WithWideVectors([&] { step == 2 ? CopyEvery<2>(from, count, to) : CopyEvery<1>(from, count, to); });
+    });
+    return room;
+  }
+
+private:
+  /** The step is a constant, so that vectors are sorted in the processor. */
+  template <std::size_t VStep, typename TPixel>
+  static void
+  CopyEvery(const TPixel * from, std::size_t count, TPixel * to)
+  {
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      to[i] = from[VStep * i];
+    }
+  }
+};
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_base_PolynomialFit_h
+#define sensornoise_base_PolynomialFit_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/Parallel.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace sensornoise
+{
+
+/** Frame-sized maps of a regression: variance [DN^2] against mean [DN] over the pixels of the mask. */
+struct RegressionData
+{
+  const double *       mean;
+  const double *       variance;
+  const std::uint8_t * mask;
+  std::size_t          pixels;
+
+  /** A pixel takes part if it is in the mask and its variance is known (not NaN). */
+  bool
+  Has(std::size_t p) const
+  {
+    return mask[p] != 0 && std::isfinite(variance[p]);
+  }
+};
+
+/** variance = intercept + slope mean + curvature mean^2. */
+struct PolynomialFit
+{
+  double intercept{ 0.0 };       ///< [DN^2]
+  double slope{ 0.0 };           ///< [DN]
+  double curvature{ 0.0 };       ///< [1]; 0 for a line
+  double curvatureUnitSd{ 0.0 }; ///< standard error of the curvature if the residuals, times root weight, have sd 1
+  std::size_t pixels{ 0 };
+  bool        isDetermined{ false }; ///< false: too few pixels or one intensity only
+};
+
+/** Ordinary regression of the variance on the mean, with the same bits for any number of threads: the slope is the gain
+ * g and the intercept sigma^2 - g mu, (3.24) of Sur & Gredi\'ac 2015 (https://doi.org/10.1137/140977035). */
+SensorNoise_EXPORT PolynomialFit
+FitLine(const RegressionData & data, const ParallelFor & parallelFor = SerialFor);
+
+/** Ordinary quadratic regression: (2.21), whose curvature is sigma_gamma^2 where the variance is not corrected. */
+SensorNoise_EXPORT PolynomialFit
+FitParabola(const RegressionData & data, const ParallelFor & parallelFor = SerialFor);
+
+/** Both, in one walk over the maps. */
+struct LineAndParabola
+{
+  PolynomialFit line;
+  PolynomialFit parabola;
+};
+SensorNoise_EXPORT LineAndParabola
+FitLineAndParabola(const RegressionData & data, const ParallelFor & parallelFor = SerialFor);
+
+/** How well a line describes the corrected variance. */
+struct FitQuality
+{
+  double reducedChi2{ 1.0 }; ///< mean of (v - V)^2 / (2 V^2 / (T-1)); 1 if only the sampling noise is left
+  double curvature{ 0.0 };   ///< quadratic coefficient, weights 1/V^2 [1]
+  double curvatureZ{ 0.0 };  ///< the same over its standard error, widened by the root of reducedChi2 if that is > 1
+};
+
+/** Judges \a line. A sample variance of T frames has the variance 2 V^2 / (T-1), with V the line's value. */
+SensorNoise_EXPORT FitQuality
+JudgeLine(const RegressionData & data,
+          const PolynomialFit &  line,
+          std::size_t            frames,
+          const ParallelFor &    parallelFor = SerialFor);
+
+} // namespace sensornoise
+
+#endif

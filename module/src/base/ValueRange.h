@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_base_ValueRange_h
+#define sensornoise_base_ValueRange_h
+
+#include "sensornoise/Parallel.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+
+namespace sensornoise
+{
+
+/** The lowest and the highest of some values, and how many there are. */
+struct ValueRange
+{
+  double      lowest{ std::numeric_limits<double>::infinity() };
+  double      highest{ -std::numeric_limits<double>::infinity() };
+  std::size_t values{ 0 };
+
+  void
+  Add(double value)
+  {
+    this->Add(ValueRange{ value, value, 1 });
+  }
+  void
+  Add(const ValueRange & other)
+  {
+    lowest = std::min(lowest, other.lowest);
+    highest = std::max(highest, other.highest);
+    values += other.values;
+  }
+};
+
+/** The range of value(pixel) over those of \a count pixels that has(pixel) takes. */
+template <typename THas, typename TValue>
+ValueRange
+RangeOverPixels(std::size_t count, const ParallelFor & parallelFor, THas has, TValue value)
+{
+  ValueRange range;
+  for (const ValueRange & part :
+       PartsOfBlocks<ValueRange>(count, parallelFor, [&](std::size_t begin, std::size_t end, ValueRange & own) {
+         for (std::size_t p = begin; p < end; ++p)
+         {
+           if (has(p))
+           {
+             own.Add(value(p));
+           }
+         }
+       }))
+  {
+    range.Add(part);
+  }
+  return range;
+}
+
+} // namespace sensornoise
+
+#endif

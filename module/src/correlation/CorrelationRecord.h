@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_correlation_CorrelationRecord_h
+#define sensornoise_correlation_CorrelationRecord_h
+
+#include "SensorNoiseExport.h"
+#include "correlation/NoiseCorrelation.h"
+#include "sensornoise/Report.h"
+
+namespace sensornoise
+{
+
+/** The record of what neighbours and frames share. Where it was not measured, the kind alone is filled. */
+SensorNoise_EXPORT NoiseCorrelationRecord
+RecordOf(const NoiseCorrelation & correlation);
+
+} // namespace sensornoise
+
+#endif

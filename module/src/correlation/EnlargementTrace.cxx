@@ -1,0 +1,270 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "correlation/EnlargementTrace.h"
+
+#include "base/Quantiles.h"
+#include "correlation/Constants.h"
+#include "correlation/LagSums.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** Pixels and their neighbours at one place of an axis, in one bin of the light. */
+struct PlaceSums
+{
+  double pairs{ 0.0 };
+  double product{ 0.0 };    // of both
+  double square{ 0.0 };     // of the pixels
+  double neighbours{ 0.0 }; // of their neighbours
+
+  PlaceSums &
+  operator+=(const PlaceSums & other)
+  {
+    pairs += other.pairs;
+    product += other.product;
+    square += other.square;
+    neighbours += other.neighbours;
+    return *this;
+  }
+  /** What the product would be if both were equal. */
+  double
+  Scale() const
+  {
+    return std::sqrt(square * neighbours);
+  }
+};
+using PlaceBins = std::array<PlaceSums, NoiseResiduals::LightBins>;
+
+void
+AddBins(const PlaceBins & bins, PlaceBins & sum)
+{
+  for (std::size_t b = 0; b < sum.size(); ++b)
+  {
+    sum[b] += bins[b];
+  }
+}
+
+/** By the parity of the line, then by the place along the axis. */
+using AxisSums = std::array<std::vector<PlaceBins>, 2>;
+
+constexpr int LargestLag = 2;
+
+/** The sums along both axes, at each lag: the place in a tile. */
+struct TraceSums
+{
+  std::array<AxisSums, 2 * LargestLag> axes;
+};
+
+/** \a axis 0: along x. */
+std::size_t
+IndexOf(int lag, std::size_t axis)
+{
+  return 2 * static_cast<std::size_t>(lag - 1) + axis;
+}
+
+/** The sums of a tile along one axis; \a squares are of its pixels, \a products of those with their neighbours. */
+AxisSums
+SumAxis(const NoiseResiduals &     residuals,
+        std::size_t                tile,
+        std::size_t                axis,
+        std::size_t                apart,
+        const std::vector<float> & squares,
+        const std::vector<float> & products)
+{
+  const std::size_t    side = residuals.GetTiles().side;
+  const auto &         origin = residuals.GetTiles().origins[tile];
+  const std::size_t    firstLine = axis == 0 ? origin.y : origin.x;
+  const float *        weight = residuals.WeightOf(tile);
+  const std::uint8_t * bin = residuals.BinOf(tile);
+  AxisSums             sums;
+  sums.fill(std::vector<PlaceBins>(side));
+  for (std::size_t line = 0; line < side; ++line)
+  {
+    for (std::size_t place = 0; place + apart < side; ++place)
+    {
+      const std::size_t p = axis == 0 ? line * side + place : place * side + line;
+      const std::size_t q = p + apart * (axis == 0 ? 1 : side);
+      const double      w = static_cast<double>(weight[p]) * weight[q];
+      if (w > 0.0)
+      {
+        sums[(firstLine + line) % 2][place][bin[p]] += { 1.0,
+                                                         products[p] * std::sqrt(w),
+                                                         static_cast<double>(squares[p]) * weight[p],
+                                                         static_cast<double>(squares[q]) * weight[q] };
+      }
+    }
+  }
+  return sums;
+}
+
+TraceSums
+SumTraces(const NoiseResiduals & residuals, std::size_t tile)
+{
+  std::vector<Lag> lags{ {} };
+  for (int lag = 1; lag <= LargestLag; ++lag)
+  {
+    lags.push_back({ lag, 0, 0 });
+    lags.push_back({ 0, lag, 0 });
+  }
+  const auto products = SumProducts(residuals, tile, lags);
+  TraceSums  sums;
+  for (std::size_t index = 0; index < sums.axes.size(); ++index)
+  {
+    const Lag & lag = lags[1 + index];
+    const auto  apart = static_cast<std::size_t>(lag.x + lag.y);
+    sums.axes[index] = SumAxis(residuals, tile, index % 2, apart, products[0], products[1 + index]);
+  }
+  return sums;
+}
+
+/** The sums at every place of the frame. */
+AxisSums
+SumsOfFrame(const NoiseResiduals & residuals, const std::vector<TraceSums> & tiles, std::size_t index)
+{
+  const SampleTiles & places = residuals.GetTiles();
+  const bool          isAlongX = index % 2 == 0;
+  std::size_t         extent = 0;
+  for (const SampleTiles::Origin & origin : places.origins)
+  {
+    extent = std::max(extent, (isAlongX ? origin.x : origin.y) + places.side);
+  }
+  AxisSums frame;
+  frame.fill(std::vector<PlaceBins>(extent));
+  for (std::size_t i = 0; i < tiles.size(); ++i)
+  {
+    const std::size_t first = isAlongX ? places.origins[i].x : places.origins[i].y;
+    for (std::size_t parity = 0; parity < 2; ++parity)
+    {
+      for (std::size_t place = 0; place < places.side; ++place)
+      {
+        AddBins(tiles[i].axes[index][parity][place], frame[parity][first + place]);
+      }
+    }
+  }
+  return frame;
+}
+
+/** A coefficient by its place, without what it is at the light there, and how many pairs tell it. */
+struct PlaceCoefficients
+{
+  std::vector<double> excess;
+  std::vector<double> pairs;
+};
+
+/** The coefficients in lines of one parity. */
+PlaceCoefficients
+CoefficientsOf(const std::vector<PlaceBins> & sums)
+{
+  PlaceBins all{};
+  for (const PlaceBins & place : sums)
+  {
+    AddBins(place, all);
+  }
+  PlaceCoefficients found;
+  for (const PlaceBins & place : sums)
+  {
+    double product = 0.0;
+    double scale = 0.0;
+    double pairs = 0.0;
+    for (std::size_t b = 0; b < all.size(); ++b)
+    {
+      const double typical = all[b].Scale() > 0.0 ? all[b].product / all[b].Scale() : 0.0;
+      product += place[b].product - typical * place[b].Scale();
+      scale += place[b].Scale();
+      pairs += place[b].pairs;
+    }
+    found.excess.push_back(scale > 0.0 ? product / scale : 0.0);
+    found.pairs.push_back(scale > 0.0 ? pairs : 0.0);
+  }
+  return found;
+}
+
+/** The largest of the oscillations of k / (2 extent) cycles a pixel, if it stands out. */
+std::optional<EnlargementTrace>
+LargestOscillation(const std::vector<double> & values, const std::vector<double> & pairs)
+{
+  const std::size_t extent = values.size();
+  double            total = 0.0;
+  for (const double count : pairs)
+  {
+    total += count;
+  }
+  if (!(total > 0.0))
+  {
+    return std::nullopt;
+  }
+  const auto   first = static_cast<std::size_t>(2.0 * InCorrelation.leastCyclesPerPixel * static_cast<double>(extent));
+  const double pi = std::acos(-1.0);
+  std::vector<double> squares;
+  for (std::size_t k = first; k <= extent; ++k)
+  {
+    const std::complex<double> step = std::polar(1.0, pi * static_cast<double>(k) / static_cast<double>(extent));
+    std::complex<double>       phase = 1.0;
+    std::complex<double>       sum = 0.0;
+    for (std::size_t x = 0; x < extent; ++x)
+    {
+      sum += pairs[x] * values[x] * phase;
+      phase *= step;
+    }
+    squares.push_back(std::norm(sum / total));
+  }
+  const auto   largest = std::max_element(squares.begin(), squares.end());
+  const double peak = *largest;
+  const auto   k = first + static_cast<std::size_t>(largest - squares.begin());
+  // The squares of chance are exponentially distributed.
+  const double     chance = Quantile(squares, 0.5) / std::log(2.0);
+  EnlargementTrace trace;
+  trace.cyclesPerPixel = 0.5 * static_cast<double>(k) / static_cast<double>(extent);
+  trace.amplitude = (k == extent ? 1.0 : 2.0) * std::sqrt(peak);
+  const bool isSeen =
+    trace.amplitude > InCorrelation.leastOscillation && peak > InCorrelation.oscillationRatio * chance;
+  return isSeen ? std::optional(trace) : std::nullopt;
+}
+} // namespace
+
+std::optional<EnlargementTrace>
+FindEnlargementTrace(const NoiseResiduals & residuals, const ParallelFor & parallelFor)
+{
+  std::vector<TraceSums> tiles(residuals.GetTiles().origins.size());
+  parallelFor(tiles.size(), [&](std::size_t i) { tiles[i] = SumTraces(residuals, i); });
+  std::optional<EnlargementTrace> largest;
+  for (int lag = 1; lag <= LargestLag; ++lag)
+  {
+    for (std::size_t axis = 0; axis < 2; ++axis)
+    {
+      const AxisSums          sums = SumsOfFrame(residuals, tiles, IndexOf(lag, axis));
+      const PlaceCoefficients even = CoefficientsOf(sums[0]);
+      const PlaceCoefficients odd = CoefficientsOf(sums[1]);
+      for (const bool isAlternating : { false, true })
+      {
+        std::vector<double> values;
+        std::vector<double> pairs;
+        for (std::size_t x = 0; x < even.excess.size(); ++x)
+        {
+          values.push_back(0.5 * (even.excess[x] + (isAlternating ? -1.0 : 1.0) * odd.excess[x]));
+          pairs.push_back(std::min(even.pairs[x], odd.pairs[x]));
+        }
+        auto trace = LargestOscillation(values, pairs);
+        if (trace && (!largest || trace->amplitude > largest->amplitude))
+        {
+          trace->lag = lag;
+          trace->isAlongX = axis == 0;
+          trace->isAlternating = isAlternating;
+          largest = trace;
+        }
+      }
+    }
+  }
+  return largest;
+}
+
+} // namespace sensornoise

@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "correlation/FrameSample.h"
+
+#include "base/BinaryStream.h"
+#include "base/FirstTouch.h"
+#include "sensornoise/PixelTypes.h"
+#include "base/WideVectors.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+constexpr const char * SampleName = "FrameSample";
+
+/** The value above the mean, or 0 where that is not finite. */
+float
+AboveMean(double value, double mean)
+{
+  const double above = value - mean;
+  return static_cast<float>(above - above == 0.0 ? above : 0.0); // a vector instruction, unlike std::isfinite()
+}
+} // namespace
+
+FrameSample::FrameSample(const FrameGeometry & geometry,
+                         std::size_t           frames,
+                         bool                  isInteger,
+                         double                lowest,
+                         const ParallelFor &   parallelFor)
+  : m_Tiles(MakeSampleTiles(geometry, frames))
+  , m_Width(geometry.width)
+  , m_FramePixels(geometry.Pixels())
+  , m_Layout(PixelLayout::OfFrames(geometry))
+  , m_Lowest(lowest)
+  , m_Codes(MakeMap<std::uint16_t>(isInteger ? m_Tiles.Values() : 0, parallelFor))
+  , m_Values(Eigen::ArrayXf::Zero(isInteger ? 0 : static_cast<Eigen::Index>(m_Tiles.Values())))
+{}
+
+template <typename TPixel>
+void
+FrameSample::AddFrames(const TPixel *              frames,
+                       std::size_t                 firstFrame,
+                       std::size_t                 count,
+                       const std::vector<double> & mean,
+                       const ParallelFor &         parallelFor)
+{
+  const std::size_t last = std::min(firstFrame + count, m_Tiles.frames);
+  if (firstFrame >= last)
+  {
+    return;
+  }
+  parallelFor(m_Tiles.origins.size(), [&](std::size_t i) {
+    std::vector<TPixel> room(m_Tiles.side);
+    for (std::size_t t = firstFrame; t < last; ++t)
+    {
+      for (std::size_t row = 0; row < m_Tiles.side; ++row)
+      {
+        const std::size_t pixel = m_Tiles.PixelOf(i, row * m_Tiles.side, m_Width);
+        const std::size_t place = m_Tiles.PlaceOf(i, t) + row * m_Tiles.side;
+        const TPixel *    values =
+          m_Layout.SideBySide(frames + (t - firstFrame) * m_Layout.frame, pixel, pixel + m_Tiles.side, room.data());
+        if constexpr (std::is_integral_v<TPixel>)
+        {
+          std::transform(values, values + m_Tiles.side, m_Codes.data() + place, [](TPixel value) {
+            return static_cast<std::uint16_t>(value - std::numeric_limits<TPixel>::lowest());
+          });
+        }
+        else
+        {
+          std::transform(values, values + m_Tiles.side, mean.data() + pixel, m_Values.data() + place, AboveMean);
+        }
+      }
+    }
+  });
+}
+
+#define SensorNoise_INSTANTIATE(TPixel)                    \
+  template SensorNoise_EXPORT void FrameSample::AddFrames( \
+    const TPixel *, std::size_t, std::size_t, const std::vector<double> &, const ParallelFor &)
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
+
+void
+FrameSample::Clear()
+{
+  std::fill(m_Codes.begin(), m_Codes.end(), std::uint16_t{ 0 });
+  m_Values.setZero();
+}
+
+void
+FrameSample::Merge(const FrameSample & other)
+{
+  if (other.m_Codes.size() != m_Codes.size() || other.m_Values.size() != m_Values.size() ||
+      other.m_FramePixels != m_FramePixels)
+  {
+    throw std::invalid_argument("samples of different stacks cannot be merged");
+  }
+  // What is not here is 0, so that no sum is rounded.
+  std::transform(
+    other.m_Codes.begin(), other.m_Codes.end(), m_Codes.begin(), m_Codes.begin(), [](std::uint16_t a, std::uint16_t b) {
+      return static_cast<std::uint16_t>(a + b);
+    });
+  m_Values += other.m_Values;
+}
+
+void
+FrameSample::Save(std::ostream & out) const
+{
+  WriteSumsHeader(out, SampleName, m_FramePixels, m_Tiles.frames);
+  WriteCount(out, m_Width);
+  WriteNumbers(out, m_Codes);
+  WriteNumbers(out, m_Values.data(), static_cast<std::size_t>(m_Values.size()));
+}
+
+void
+FrameSample::Restore(std::istream & in)
+{
+  FrameSample read = *this;
+  RequireCount("sampled frames", ReadSumsHeader(in, SampleName, m_FramePixels), m_Tiles.frames);
+  RequireCount("columns", ReadCount(in), m_Width);
+  ReadNumbers(in, read.m_Codes);
+  ReadNumbers(in, read.m_Values.data(), static_cast<std::size_t>(read.m_Values.size()));
+  *this = std::move(read);
+}
+
+double
+FrameSample::RepeatedShare(const std::vector<std::uint8_t> & mask, double stepDn) const
+{
+  const auto step = static_cast<int>(std::max(1.0, std::round(stepDn)));
+  if (m_Codes.empty())
+  {
+    return 0.0;
+  }
+  std::array<double, 3> count{}; // of differences of 0, 1 and 2 steps
+  double                pairs = 0.0;
+  const std::size_t     pixels = m_Tiles.Pixels();
+  const std::size_t     every = std::max<std::size_t>(1, m_Tiles.origins.size() / SampleTiles::EnoughTiles);
+  for (std::size_t i = 0; i < m_Tiles.origins.size(); i += every)
+  {
+    for (std::size_t t = 1; t < m_Tiles.frames; ++t)
+    {
+      const std::uint16_t * const before = m_Codes.data() + m_Tiles.PlaceOf(i, t - 1);
+      const std::uint16_t * const now = before + pixels;
+      for (std::size_t p = 0; p < pixels; ++p)
+      {
+        if (mask[m_Tiles.PixelOf(i, p, m_Width)] != 0)
+        {
+          const int difference = std::abs(static_cast<int>(now[p]) - static_cast<int>(before[p]));
+          pairs += 1.0;
+          count[0] += difference == 0 ? 1.0 : 0.0;
+          count[1] += difference == step ? 0.5 : 0.0; // of either sign
+          count[2] += difference == 2 * step ? 0.5 : 0.0;
+        }
+      }
+    }
+  }
+  const double byNoise = count[1] * count[1] / std::max(1.0, count[2]);
+  return pairs > 0.0 ? std::max(0.0, count[0] - byNoise) / pairs : 0.0;
+}
+
+NoiseSample
+FrameSample::TakeNoise(const std::vector<double> & mean, const ParallelFor & parallelFor)
+{
+  NoiseSample noise = this->StartNoise();
+  parallelFor(m_Tiles.origins.size(), [&](std::size_t i) { this->FillNoise(i, mean, noise); });
+  *this = FrameSample();
+  return noise;
+}
+
+NoiseSample
+FrameSample::StartNoise()
+{
+  if (m_Codes.empty())
+  {
+    return { m_Tiles, m_Width, std::exchange(m_Values, {}) };
+  }
+  Eigen::ArrayXf values(static_cast<Eigen::Index>(m_Codes.size())); // each thread touches its tiles first
+  return { m_Tiles, m_Width, std::move(values) };
+}
+
+void
+FrameSample::FillNoise(std::size_t i, const std::vector<double> & mean, NoiseSample & noise) const
+{
+  if (m_Codes.empty())
+  {
+    return; // the values were above the mean already
+  }
+  std::vector<double> ofTile(m_Tiles.Pixels());
+  std::vector<double> factors(m_Tiles.Pixels()); // 0: the pixel has no mean
+  for (std::size_t p = 0; p < ofTile.size(); ++p)
+  {
+    const double own = mean[m_Tiles.PixelOf(i, p, m_Width)];
+    factors[p] = std::isfinite(own) ? 1.0 : 0.0;
+    ofTile[p] = std::isfinite(own) ? own : 0.0;
+  }
+  WithWideVectors([&] {
+    for (std::size_t t = 0; t < m_Tiles.frames; ++t)
+    {
+      const std::uint16_t * const codes = m_Codes.data() + m_Tiles.PlaceOf(i, t);
+      float * const               values = noise.OfTile(i) + t * ofTile.size();
+      for (std::size_t p = 0; p < ofTile.size(); ++p)
+      {
+        values[p] = static_cast<float>(factors[p] * (m_Lowest + codes[p] - ofTile[p]));
+      }
+    }
+  });
+}
+
+} // namespace sensornoise

@@ -1,0 +1,277 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "correlation/LagSums.h"
+
+#include "base/WideVectors.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <utility>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** Weights of \a count places in a row that fall off at both ends, so that places two, three or four apart sum up
+ * alike wherever one begins: noise of binned or doubled pixels has such a period. */
+std::vector<double>
+PeriodlessWeights(std::size_t count)
+{
+  std::vector<double> weights{ 1.0 };
+  const auto          blur = [&weights](std::size_t length) {
+    std::vector<double> wider(weights.size() + length - 1, 0.0);
+    for (std::size_t k = 0; k < weights.size() * length; ++k)
+    {
+      wider[k / length + k % length] += weights[k / length] / static_cast<double>(length);
+    }
+    weights = std::move(wider);
+  };
+  for (const std::size_t period : { 2U, 3U, 4U })
+  {
+    if (weights.size() + period <= count)
+    {
+      blur(period);
+    }
+  }
+  blur(count + 1 - weights.size());
+  const double top = *std::max_element(weights.begin(), weights.end());
+  std::transform(weights.begin(), weights.end(), weights.begin(), [top](double weight) { return weight / top; });
+  return weights;
+}
+
+/** What the pairs of a row of a tile add to the sums. */
+struct PairTerms
+{
+  using OfRow = std::array<double, SampleTiles::Side>;
+  OfRow pairs;
+  OfRow covariance;
+  OfRow constant;
+  OfRow light;
+  OfRow square;
+
+  void
+  AddTo(PairSums & sums, std::size_t k) const
+  {
+    sums.pairs += pairs[k];
+    sums.covariance += covariance[k];
+    sums.constant += constant[k];
+    sums.light += light[k];
+    sums.square += square[k];
+  }
+};
+
+/** One end of the pairs of a row. */
+struct RowOfPixels
+{
+  const double * root; // of the weight
+  const float *  light;
+};
+
+/** \a shares: of the places in the row; \a products: over time, of the first end. */
+PairTerms
+MakeTerms(const RowOfPixels &         here,
+          const RowOfPixels &         there,
+          const float *               products,
+          const std::vector<double> & shares,
+          double                      ofRow,
+          double                      inverseFreedom)
+{
+  PairTerms terms{};
+  for (std::size_t k = 0; k < shares.size(); ++k)
+  {
+    const double share = ofRow * shares[k];
+    const double root = here.root[k] * there.root[k];
+    const double inverse = share * root;
+    const double z = 0.5 * (static_cast<double>(here.light[k]) + there.light[k]);
+    terms.pairs[k] = root > 0.0 ? share : 0.0;
+    terms.covariance[k] = inverseFreedom * products[k] * inverse;
+    terms.constant[k] = inverse;
+    terms.light[k] = z * inverse;
+    terms.square[k] = z * z * inverse;
+  }
+  return terms;
+}
+
+/** Adds products of \a VTogether frames. \a there is \a shift values from \a here, and both have \a size a frame. */
+template <std::size_t VTogether>
+void
+AddProductsOfFrames(const float * here, const float * there, std::size_t size, std::ptrdiff_t shift, float * products)
+{
+  const std::size_t first = shift < 0 ? static_cast<std::size_t>(-shift) : 0;
+  const std::size_t last = shift < 0 ? size : size - static_cast<std::size_t>(shift);
+  for (std::size_t p = first; p < last; ++p)
+  {
+    float sum = products[p];
+    for (std::size_t k = 0; k < VTogether; ++k)
+    {
+      sum += here[p + k * size] * there[p + k * size];
+    }
+    products[p] = sum;
+  }
+}
+
+/** Adds to the products of the pixels of a tile with those \a shift places away the covariance that taking off their
+ * lines removed. */
+void
+AddShareOfLines(const NoiseResiduals & residuals, std::size_t tile, int shift, std::vector<float> & products)
+{
+  const auto freedom = static_cast<float>(residuals.GetFreedom());
+  const auto first = static_cast<std::size_t>(std::max(0, -shift));
+  const auto last = products.size() - static_cast<std::size_t>(std::max(0, shift));
+  for (const float * const share : residuals.LineSharesOf(tile))
+  {
+    for (std::size_t p = first; p < last; ++p)
+    {
+      products[p] += freedom * share[p] * share[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(p) + shift)];
+    }
+  }
+}
+} // namespace
+
+std::vector<std::vector<float>>
+SumProducts(const NoiseResiduals & residuals, std::size_t tile, const std::vector<Lag> & lags)
+{
+  const SampleTiles &             tiles = residuals.GetTiles();
+  const std::size_t               size = tiles.Pixels();
+  constexpr std::size_t           together = 4; // frames: the sums are loaded and stored a quarter as often
+  std::vector<std::vector<float>> products(lags.size(), std::vector<float>(size, 0.0F));
+  WithWideVectors([&] {
+    // All lags of a few frames, which stay in the first-level cache, and then the next.
+    for (std::size_t first = 0; first < tiles.frames; first += together)
+    {
+      const float * here = residuals.OfTile(tile) + first * size;
+      for (std::size_t k = 0; k < lags.size(); ++k)
+      {
+        const auto           later = static_cast<std::size_t>(lags[k].t);
+        const std::ptrdiff_t shift =
+          static_cast<std::ptrdiff_t>(lags[k].y) * static_cast<std::ptrdiff_t>(tiles.side) + lags[k].x;
+        const float * there = here + later * size + shift;
+        const auto    frames = tiles.frames - std::min(tiles.frames, first + later);
+        if (frames >= together)
+        {
+          AddProductsOfFrames<together>(here, there, size, shift, products[k].data());
+          continue;
+        }
+        for (std::size_t t = 0; t < frames; ++t)
+        {
+          AddProductsOfFrames<1>(here + t * size, there + t * size, size, shift, products[k].data());
+        }
+      }
+    }
+  });
+  const auto axis = residuals.GetLinesTakenOff();
+  for (std::size_t k = 0; k < lags.size() && axis; ++k)
+  {
+    const auto [along, across] =
+      *axis == LineAxis::Rows ? std::pair(lags[k].x, lags[k].y) : std::pair(lags[k].y, lags[k].x);
+    if (along != 0 && across == 0 && lags[k].t == 0)
+    {
+      AddShareOfLines(
+        residuals, tile, along * (*axis == LineAxis::Rows ? 1 : static_cast<int>(tiles.side)), products[k]);
+    }
+  }
+  return products;
+}
+
+LagSummation::LagSummation(const NoiseResiduals & residuals, std::vector<Lag> lags)
+  : m_Residuals(residuals)
+  , m_Lags(std::move(lags))
+{
+  const auto side = static_cast<int>(residuals.GetTiles().side);
+  for (const Lag & lag : m_Lags)
+  {
+    m_Weights.push_back({ PeriodlessWeights(static_cast<std::size_t>(side - std::abs(lag.x))),
+                          PeriodlessWeights(static_cast<std::size_t>(side - std::abs(lag.y))) });
+  }
+}
+
+std::vector<LagSums>
+LagSummation::OfTile(std::size_t tile) const
+{
+  const std::vector<std::vector<float>> products = SumProducts(m_Residuals, tile, m_Lags);
+  const std::size_t                     side = m_Residuals.GetTiles().side;
+  const float *                         light = m_Residuals.LightOf(tile);
+  const float *                         weight = m_Residuals.WeightOf(tile);
+  const std::uint8_t *                  bin = m_Residuals.BinOf(tile);
+  const double                          inverseFreedom = 1.0 / m_Residuals.GetFreedom();
+  std::vector<double>                   roots(side * side);
+  std::transform(weight, weight + side * side, roots.begin(), [](double w) { return std::sqrt(w); });
+  std::vector<LagSums> sums(m_Lags.size());
+  WithWideVectors([&] {
+    for (std::size_t k = 0; k < m_Lags.size(); ++k)
+    {
+      const PlaceWeights & weights = m_Weights[k];
+      const auto           x = static_cast<std::size_t>(std::max(0, -m_Lags[k].x));
+      const auto           firstY = static_cast<std::size_t>(std::max(0, -m_Lags[k].y));
+      LagSums              odd; // two sums side by side, so that not every addition waits for the one before
+      for (std::size_t y = 0; y < weights.rows.size(); ++y)
+      {
+        const std::size_t p = (firstY + y) * side + x;
+        const std::size_t q = static_cast<std::size_t>(
+          static_cast<std::ptrdiff_t>(p) +
+          static_cast<std::ptrdiff_t>(m_Lags[k].y) * static_cast<std::ptrdiff_t>(side) + m_Lags[k].x);
+        const PairTerms terms = MakeTerms({ roots.data() + p, light + p },
+                                          { roots.data() + q, light + q },
+                                          products[k].data() + p,
+                                          weights.columns,
+                                          weights.rows[y],
+                                          inverseFreedom);
+        for (std::size_t i = 0; i < weights.columns.size(); ++i)
+        {
+          terms.AddTo((i % 2 == 0 ? sums[k] : odd).bins[bin[p + i]], i);
+        }
+      }
+      sums[k] += odd;
+    }
+  });
+  return sums;
+}
+
+PairSums &
+PairSums::operator+=(const PairSums & other)
+{
+  pairs += other.pairs;
+  covariance += other.covariance;
+  constant += other.constant;
+  light += other.light;
+  square += other.square;
+  return *this;
+}
+
+LagSums &
+LagSums::operator+=(const LagSums & other)
+{
+  for (std::size_t b = 0; b < bins.size(); ++b)
+  {
+    bins[b] += other.bins[b];
+  }
+  return *this;
+}
+
+PairSums
+LagSums::Total() const
+{
+  PairSums total;
+  for (const PairSums & bin : bins)
+  {
+    total += bin;
+  }
+  return total;
+}
+
+std::vector<std::vector<LagSums>>
+SumLags(const NoiseResiduals & residuals, const std::vector<Lag> & lags, const ParallelFor & parallelFor)
+{
+  const LagSummation                summation(residuals, lags);
+  std::vector<std::vector<LagSums>> sums(residuals.GetTiles().origins.size());
+  parallelFor(sums.size(), [&](std::size_t i) { sums[i] = summation.OfTile(i); });
+  return sums;
+}
+
+} // namespace sensornoise

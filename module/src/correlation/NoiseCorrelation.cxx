@@ -1,0 +1,298 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "correlation/NoiseCorrelation.h"
+
+#include "base/Eigen.h"
+#include "base/Significance.h"
+#include "correlation/Constants.h"
+#include "correlation/CorrelationSums.h"
+#include "correlation/CovarianceLines.h"
+#include "correlation/SpaceCorrelation.h"
+#include "correlation/TemporalMixing.h"
+#include "correlation/TimeCorrelation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** Distance [pixels] and frames that are looked at in any case. */
+constexpr int FirstRings = 2;
+constexpr int FirstTimeLags = 3;
+/** Rings that there may be at most [pixels]. */
+constexpr int AllRings = 16;
+
+/** The variance of lines, with what the jackknife does not see: tiles side by side have the same \a lines. */
+MeasuredNumber
+LineVariance(const MeasuredNumber & ofTiles, double lines, double freedom)
+{
+  const double chance = ofTiles.value * std::sqrt(2.0 / std::max(1.0, lines * freedom));
+  return { ofTiles.value, std::hypot(ofTiles.standardError, chance, InCorrelation.lostToSeries * ofTiles.value) };
+}
+
+/** How many rows and columns of the frame the tiles cover. */
+std::pair<double, double>
+LinesOf(const SampleTiles & tiles)
+{
+  std::set<std::size_t> rows;
+  std::set<std::size_t> columns;
+  for (const SampleTiles::Origin & origin : tiles.origins)
+  {
+    rows.insert(origin.y);
+    columns.insert(origin.x);
+  }
+  const auto side = static_cast<double>(tiles.side);
+  return { side * static_cast<double>(rows.size()), side * static_cast<double>(columns.size()) };
+}
+
+/** Fills in coefficients, lines and kurtosis, with their errors. */
+void
+FindCoefficients(const CorrelationSums & sums, NoiseCorrelation & found)
+{
+  const CorrelationSums::Lags space = sums.Ring(1, AllRings);
+  const CorrelationSums::Lags within = sums.Ring(1, found.reach);
+  const CorrelationSums::Lags time = sums.TimeLags();
+  const Eigen::MatrixXd       mixing = TemporalMixing(sums.GetResiduals().GetBasis(), time.size());
+  const JackknifeEstimate     estimate = Jackknife(sums.GetTiles(), [&](const TileSums & tiles) {
+    const CommonNoise   common = FindCommonNoise(tiles.shared);
+    std::vector<double> figures{ common.rows[0], common.columns[0] };
+    for (std::size_t k = 0; k < KurtosisSums::Kinds; ++k)
+    {
+      figures.push_back(tiles.kurtosis.Excess(k));
+    }
+    double total = 1.0;
+    for (const std::size_t k : within)
+    {
+      total += 2.0 * sums.CoefficientOf(tiles, common, k);
+    }
+    figures.push_back(total);
+    const Eigen::VectorXd inBins = sums.SharedInBins(tiles, within);
+    figures.insert(figures.end(), inBins.data(), inBins.data() + inBins.size());
+    for (const std::size_t k : space)
+    {
+      figures.push_back(sums.CoefficientOf(tiles, common, k));
+    }
+    const Eigen::VectorXd covariance = sums.Autocovariance(tiles, mixing);
+    for (Eigen::Index j = 1; j < covariance.size(); ++j)
+    {
+      figures.push_back(covariance(j) / covariance(0));
+    }
+    return Eigen::VectorXd(Eigen::Map<Eigen::VectorXd>(figures.data(), static_cast<Eigen::Index>(figures.size())));
+  });
+  Eigen::Index                k = 0;
+  const auto                  next = [&] {
+    const MeasuredNumber number{ estimate.value(k), estimate.StandardError(k) };
+    ++k;
+    return number;
+  };
+  const NoiseResiduals & residuals = sums.GetResiduals();
+  const auto [rows, columns] = LinesOf(residuals.GetTiles());
+  found.rowsDn2 = LineVariance(next(), rows, residuals.GetFreedom());
+  found.columnsDn2 = LineVariance(next(), columns, residuals.GetFreedom());
+  std::generate(found.kurtosis.begin(), found.kurtosis.end(), next);
+  found.spaceFactor = next();
+  for (MeasuredNumber & factor : found.spaceFactorOfBins)
+  {
+    factor = next();
+    factor.value += 1.0;
+  }
+  found.space.clear();
+  found.time.clear();
+  for (const std::size_t lag : space)
+  {
+    found.space.push_back({ sums.GetLag(lag), next() });
+  }
+  for (const std::size_t lag : time)
+  {
+    found.time.push_back({ sums.GetLag(lag), next() });
+  }
+}
+
+/** The kurtosis of a series is relative to its own variance, whose scatter depends on what its frames share: of normal
+ * noise of the covariance S = P R P, E[sum r^4] = 3 sum_t S_tt^2 and E[(sum r^2)^2] = (tr S)^2 + 2 tr S^2. */
+void
+AllowForSharedFrames(const Eigen::MatrixXd & basis, NoiseCorrelation & found)
+{
+  const Eigen::Index frames = basis.rows();
+  Eigen::MatrixXd    shared = Eigen::MatrixXd::Identity(frames, frames);
+  for (const LagCoefficient & lag : found.time)
+  {
+    shared.diagonal(lag.lag.t).setConstant(lag.coefficient.value);
+    shared.diagonal(-lag.lag.t).setConstant(lag.coefficient.value);
+  }
+  const Eigen::MatrixXd projection = Eigen::MatrixXd::Identity(frames, frames) - basis * basis.transpose();
+  const auto            kurtosisOf = [](const Eigen::MatrixXd & covariance) {
+    const double trace = covariance.trace();
+    return covariance.diagonal().squaredNorm() / (trace * trace + 2.0 * covariance.squaredNorm());
+  };
+  const double factor = kurtosisOf(projection) / kurtosisOf(projection * shared * projection);
+  for (MeasuredNumber & kurtosis : found.kurtosis)
+  {
+    kurtosis.value = factor * (kurtosis.value + 3.0) - 3.0;
+    kurtosis.standardError *= factor;
+  }
+}
+
+/** Whether the distribution is that of normal noise, or of few electrons, after a linear filter. */
+bool
+IsLinear(const CorrelationSums & sums, const NoiseCorrelation & found)
+{
+  // Rounded numbers have a negative excess, a twelfth of the step's square as variance: -1.2 of its square.
+  const TileSums all = sums.Total();
+  double         square = 0.0;
+  for (const PairSums & bin : all.lags[0].bins)
+  {
+    const double inverse = bin.pairs > 0.0 ? bin.constant / bin.pairs : 0.0;
+    square += inverse * inverse / static_cast<double>(NoiseResiduals::LightBins);
+  }
+  MeasuredNumber own = found.kurtosis[0];
+  own.value += 1.2 * sums.GetCodesDn2() * sums.GetCodesDn2() * square;
+  if (own.value < 0.0 && own.Exceeds(InCorrelation.largestExcess, Significance.severalTests))
+  {
+    return false;
+  }
+  return std::none_of(found.kurtosis.begin() + 1, found.kurtosis.end(), [&](MeasuredNumber more) {
+    // The fewer electrons or the more the light changes, the larger both are, and that of one value the more so.
+    more.value -= std::max(0.0, own.value);
+    return more.value > 0.0 && more.Exceeds(InCorrelation.largestExcess, Significance.severalTests);
+  });
+}
+} // namespace
+
+const char *
+NameOf(NoiseKind kind)
+{
+  switch (kind)
+  {
+    case NoiseKind::White:
+      return "white";
+    case NoiseKind::Crosstalk:
+      return "crosstalk";
+    case NoiseKind::Filtered:
+      return "filtered";
+    case NoiseKind::Temporal:
+      return "temporal";
+    case NoiseKind::Enlarged:
+      return "enlarged";
+    case NoiseKind::BrighterFatter:
+      return "brighter-fatter";
+    case NoiseKind::NotLinear:
+      return "not-linear";
+    case NoiseKind::NotMeasured:
+      break;
+  }
+  return "not-measured";
+}
+
+bool
+MeasuredNumber::Exceeds(double least, double z) const
+{
+  return std::abs(value) > least + z * standardError;
+}
+
+MeasuredNumber
+NoiseCorrelation::LineNoise() const
+{
+  MeasuredNumber sum;
+  for (const MeasuredNumber & lines : { rowsDn2, columnsDn2 })
+  {
+    if (lines.value > Significance.severalTests * lines.standardError)
+    {
+      sum.value += lines.value;
+      sum.standardError = std::hypot(sum.standardError, lines.standardError);
+    }
+  }
+  return sum;
+}
+
+bool
+NoiseCorrelation::HasLocalMotion() const
+{
+  return localMotion.value > 0.0 && localMotion.Exceeds(InCorrelation.leastLocalMotion, Significance.severalTests);
+}
+
+double
+NoiseCorrelation::ProbabilityOfLateNoise() const
+{
+  const auto half = shapes.begin() + static_cast<std::size_t>(ShapeOfShared::FirstPart) + PartsAfterFilter / 2 - 1;
+  return std::accumulate(
+    half, shapes.end(), 0.0, [](double sum, const SharedShape & shape) { return sum + shape.probability; });
+}
+
+double
+SharedSquares(const std::vector<LagCoefficient> & lags)
+{
+  double sum = 1.0;
+  for (const LagCoefficient & lag : lags)
+  {
+    const double chance = lag.coefficient.standardError * lag.coefficient.standardError;
+    sum += 2.0 * std::max(0.0, lag.coefficient.value * lag.coefficient.value - chance);
+  }
+  return sum;
+}
+
+NoiseCorrelation
+MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const ParallelFor & parallelFor)
+{
+  if (!residuals.HasEnoughPixels() || residuals.GetFreedom() < InCorrelation.leastFreedom)
+  {
+    return {};
+  }
+  CorrelationSums  sums(residuals, codesDn2, FirstRings, FirstTimeLags, parallelFor);
+  NoiseCorrelation found;
+  found.kind = NoiseKind::White;
+  FindCoefficients(sums, found);
+  const bool inTime = SharesInTime(found.time);
+  const bool inSpace = SharesInSpace(sums, found.space);
+  if (inTime)
+  {
+    SumOverTime(sums, found);
+  }
+  if (inSpace)
+  {
+    SumOverSpace(sums, found);
+    found.covarianceLines = FitCovarianceLines(sums, sums.Ring(1, found.reach));
+  }
+  if (inTime || inSpace)
+  {
+    FindCoefficients(sums, found); // at all lags that were added
+  }
+  if (inTime)
+  {
+    AllowForSharedFrames(residuals.GetBasis(), found);
+  }
+  if (!IsLinear(sums, found))
+  {
+    found.kind = NoiseKind::NotLinear;
+  }
+  if (inSpace && found.kind != NoiseKind::NotLinear)
+  {
+    found.enlargement = FindEnlargementTrace(residuals, parallelFor);
+    found.kind = found.enlargement ? NoiseKind::Enlarged : found.kind;
+  }
+  return found;
+}
+
+void
+MeasureSettledFrames(NoiseCorrelation &  correlation,
+                     NoiseResiduals &    residuals,
+                     double              codesDn2,
+                     const ParallelFor & parallelFor)
+{
+  if (correlation.kind == NoiseKind::Temporal)
+  {
+    residuals.DropFirst(
+      std::min(InCorrelation.firstFrames, residuals.GetTiles().frames / InCorrelation.firstFramesOneIn), parallelFor);
+    correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
+  }
+}
+
+} // namespace sensornoise

@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "correlation/NoiseKurtosis.h"
+
+#include "base/WideVectors.h"
+#include "correlation/Constants.h"
+#include "correlation/MixtureKurtosis.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** How many pixels a kind of series has, along x and y: they are summed in turn. */
+struct KindOfSeries
+{
+  std::size_t columns;
+  std::size_t rows;
+};
+constexpr std::array<KindOfSeries, KurtosisSums::Kinds> KindsOfSeries{
+  { { 1, 1 }, { 2, 1 }, { 1, 2 }, { 2, 2 }, { 8, 1 }, { 1, 8 } }
+};
+
+/** Of every pixel of a tile: sums over time of the squares and fourth powers of each kind of series that begins there.
+ * Where these run over the end of a row or of the tile they mean nothing. */
+struct PowerSums
+{
+  /** A cache line more than a tile: sums a power of two apart would compete for the same places in the cache. */
+  using OfPixels = std::array<float, SampleTiles::Side * SampleTiles::Side + 16>;
+  std::array<OfPixels, KurtosisSums::Kinds> squares;
+  std::array<OfPixels, KurtosisSums::Kinds> fourths;
+};
+
+/** The alternating sums of all kinds that begin at \a v, a pixel of a tile of \a VSide columns. */
+template <std::size_t VSide>
+std::array<float, KurtosisSums::Kinds>
+AlternatingSums(const float * v)
+{
+  const float right = v[0] - v[1];
+  const float below = v[0] - v[VSide];
+  const float square = right - v[VSide] + v[VSide + 1];
+  const float row = right + v[2] - v[3] + v[4] - v[5] + v[6] - v[7];
+  const float column = below + v[2 * VSide] - v[3 * VSide] + v[4 * VSide] - v[5 * VSide] + v[6 * VSide] - v[7 * VSide];
+  return { v[0], right, below, square, row, column };
+}
+
+template <std::size_t VSide>
+void
+SumPowers(const NoiseResiduals & residuals, std::size_t i, PowerSums & sums)
+{
+  constexpr std::size_t size = VSide * VSide;
+  constexpr std::size_t padded = size + 8 * VSide; // series may begin at the last pixel
+  constexpr std::size_t together = 4;              // frames: the sums are loaded and stored a quarter as often
+  const std::size_t     frames = residuals.GetTiles().frames;
+  std::vector<float>    values(together * padded, 0.0F);
+  WithWideVectors([&] {
+    PowerSums own{}; // no pointer can point into it: the loop over pixels becomes vector instructions
+    for (std::size_t first = 0; first < frames; first += together)
+    {
+      const std::size_t count = std::min(together, frames - first);
+      for (std::size_t k = 0; k < together; ++k)
+      {
+        const float * frame = residuals.OfTile(i) + (first + k) * size;
+        k < count ? std::copy(frame, frame + size, values.data() + k * padded)
+                  : std::fill_n(values.data() + k * padded, size, 0.0F);
+      }
+      const float * const begin = values.data();
+      for (std::size_t p = 0; p < size; ++p)
+      {
+        for (std::size_t k = 0; k < together; ++k)
+        {
+          const auto series = AlternatingSums<VSide>(begin + k * padded + p);
+          for (std::size_t kind = 0; kind < series.size(); ++kind)
+          {
+            const float square = series[kind] * series[kind];
+            own.squares[kind][p] += square;
+            own.fourths[kind][p] += square * square;
+          }
+        }
+      }
+    }
+    sums = own;
+  });
+}
+
+/** How many pixels of a tile are taken, one after the other from each of them on: along x, and along y. */
+struct TakenRuns
+{
+  std::vector<std::size_t> right;
+  std::vector<std::size_t> down;
+
+  TakenRuns(const float * weight, std::size_t side)
+    : right(side * side, 0)
+    , down(side * side, 0)
+  {
+    for (std::size_t p = side * side; p-- > 0;)
+    {
+      if (weight[p] > 0.0F)
+      {
+        right[p] = 1 + ((p + 1) % side != 0 ? right[p + 1] : 0);
+        down[p] = 1 + (p + side < down.size() ? down[p + side] : 0);
+      }
+    }
+  }
+
+  /** Whether a series that begins at pixel \a p is whole. */
+  bool
+  Hold(std::size_t p, const KindOfSeries & kind, std::size_t side) const
+  {
+    bool all = down[p] >= kind.rows;
+    for (std::size_t y = 0; all && y < kind.rows; ++y)
+    {
+      all = right[p + y * side] >= kind.columns;
+    }
+    return all;
+  }
+};
+} // namespace
+
+KurtosisSums &
+KurtosisSums::operator+=(const KurtosisSums & other)
+{
+  for (std::size_t k = 0; k < Kinds; ++k)
+  {
+    series[k] += other.series[k];
+    ratio[k] += other.ratio[k];
+  }
+  return *this;
+}
+
+double
+NormalKurtosis(const NoiseResiduals & residuals)
+{
+  const double         freedom = residuals.GetFreedom();
+  const Eigen::ArrayXd kept = 1.0 - residuals.GetBasis().array().square().rowwise().sum();
+  return 3.0 * kept.square().sum() / (freedom * (freedom + 2.0));
+}
+
+KurtosisSums
+KurtosisOfTile(const NoiseResiduals & residuals, std::size_t i, const MixtureKurtosis & normal)
+{
+  const std::size_t side = residuals.GetTiles().side;
+  const float *     weight = residuals.WeightOf(i);
+  const float *     light = residuals.LightOf(i);
+  const auto        least = InCorrelation.leastNoise * static_cast<float>(residuals.GetFreedom());
+  const TakenRuns   taken(weight, side);
+  PowerSums         powers{};
+  side == SampleTiles::Side ? SumPowers<SampleTiles::Side>(residuals, i, powers)
+                                    : SumPowers<SampleTiles::SmallSide>(residuals, i, powers);
+  KurtosisSums sums;
+  for (std::size_t kind = 0; kind < KurtosisSums::Kinds; ++kind)
+  {
+    for (std::size_t p = 0; p < side * side; ++p)
+    {
+      // Of pixels that are copies of each other nothing is left but rounding.
+      if (powers.squares[kind][p] * weight[p] > least && taken.Hold(p, KindsOfSeries[kind], side))
+      {
+        const double square = powers.squares[kind][p];
+        sums.series[kind] += 1.0;
+        sums.ratio[kind] += powers.fourths[kind][p] / (square * square * normal.At(light[p], weight[p]));
+      }
+    }
+  }
+  return sums;
+}
+
+} // namespace sensornoise

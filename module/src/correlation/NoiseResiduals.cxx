@@ -1,0 +1,284 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "correlation/NoiseResiduals.h"
+
+#include "base/Constants.h"
+#include "base/WideVectors.h"
+#include "correlation/Constants.h"
+#include "correlation/PixelsByLight.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** An orthonormal basis of the constant and what the series add to it. */
+Eigen::MatrixXd
+BasisOf(const Eigen::MatrixXd & series, std::size_t frames)
+{
+  const auto      rows = static_cast<Eigen::Index>(frames);
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Constant(rows, 1, 1.0 / std::sqrt(static_cast<double>(frames)));
+  for (Eigen::Index j = 0; j < series.cols(); ++j)
+  {
+    Eigen::VectorXd column = series.col(j).head(rows);
+    const double    size = column.norm();
+    for (int twice = 0; twice < 2; ++twice)
+    {
+      column -= basis * (basis.transpose() * column);
+    }
+    if (column.norm() > 1e-6 * size)
+    {
+      basis.conservativeResize(rows, basis.cols() + 1);
+      basis.rightCols(1) = column.normalized();
+    }
+  }
+  return basis;
+}
+
+/** Rows of values that are added while a sum is in a register. */
+constexpr std::size_t Together = 4;
+using Weights = std::array<float, Together>;
+
+template <std::size_t VCount>
+void
+AddRows(const float * rows, const Weights & weights, std::size_t size, float * sum)
+{
+  for (std::size_t p = 0; p < size; ++p)
+  {
+    float own = sum[p];
+    for (std::size_t k = 0; k < VCount; ++k)
+    {
+      own += weights[k] * rows[k * size + p];
+    }
+    sum[p] = own;
+  }
+}
+
+/** Adds the first \a count of Together rows of \a size values, times their weights, to \a sum, one after the other. */
+void
+AddWeighed(const float * rows, const Weights & weights, std::size_t count, std::size_t size, float * sum)
+{
+  static_assert(Together == 4);
+  WithWideVectors([=, &weights] {
+    switch (count)
+    {
+      case 1:
+        return AddRows<1>(rows, weights, size, sum);
+      case 2:
+        return AddRows<2>(rows, weights, size, sum);
+      case 3:
+        return AddRows<3>(rows, weights, size, sum);
+      default:
+        return AddRows<Together>(rows, weights, size, sum);
+    }
+  });
+}
+
+/** A curve through points of growing x, which is asked for at growing x. */
+class NoiseCurve
+{
+public:
+  void
+  Add(double x, double y)
+  {
+    m_Points.emplace_back(x, y);
+  }
+  double
+  AtNext(double x)
+  {
+    while (m_Above < m_Points.size() && !(x < m_Points[m_Above].first))
+    {
+      ++m_Above;
+    }
+    if (m_Above == 0 || m_Above == m_Points.size())
+    {
+      return m_Above == 0 ? m_Points.front().second : m_Points.back().second;
+    }
+    const auto & a = m_Points[m_Above - 1];
+    const auto & b = m_Points[m_Above];
+    return a.second + (b.second - a.second) * (x - a.first) / (b.first - a.first);
+  }
+
+private:
+  std::vector<std::pair<double, double>> m_Points;
+  std::size_t                            m_Above{ 0 }; // the point above the last x
+};
+} // namespace
+
+NoiseResiduals::NoiseResiduals(NoiseSample             sample,
+                               const Eigen::MatrixXd & series,
+                               const SampledPixels &   pixels,
+                               const ParallelFor &     parallelFor)
+  : m_Sample(std::move(sample))
+  , m_Basis(BasisOf(series, m_Sample.GetTiles().frames))
+{
+  this->Project(pixels, parallelFor, [](std::size_t) {});
+}
+
+NoiseResiduals::NoiseResiduals(FrameSample             sample,
+                               const Eigen::MatrixXd & series,
+                               const SampledPixels &   pixels,
+                               const ParallelFor &     parallelFor)
+  : m_Sample(sample.StartNoise())
+  , m_Basis(BasisOf(series, m_Sample.GetTiles().frames))
+{
+  this->Project(pixels, parallelFor, [&](std::size_t i) { sample.FillNoise(i, pixels.mean, m_Sample); });
+}
+
+template <typename TFillTile>
+void
+NoiseResiduals::Project(const SampledPixels & pixels, const ParallelFor & parallelFor, TFillTile fillTile)
+{
+  const SampleTiles & tiles = m_Sample.GetTiles();
+  const std::size_t   size = tiles.Pixels();
+  m_Light.resize(tiles.origins.size() * size);
+  m_Variance.resize(m_Light.size());
+  m_BlackDn = pixels.blackDn;
+  m_IsBlackKnown = pixels.isBlackKnown;
+  parallelFor(tiles.origins.size(), [&](std::size_t i) {
+    for (std::size_t p = 0; p < size; ++p)
+    {
+      const double light = pixels.mean[m_Sample.PixelOf(i, p)] - pixels.blackDn;
+      m_Light[i * size + p] = std::isfinite(light) ? static_cast<float>(light) : 0.0F;
+    }
+    fillTile(i);
+    this->ProjectTile(i);
+    this->SumSquares(i);
+  });
+  this->Take(pixels.take, parallelFor);
+}
+
+void
+NoiseResiduals::Take(const std::vector<std::uint8_t> & take, const ParallelFor & parallelFor)
+{
+  const std::size_t         size = this->GetTiles().Pixels();
+  std::vector<std::uint8_t> ofSample(m_Light.size());
+  parallelFor(this->GetTiles().origins.size(), [&](std::size_t i) {
+    for (std::size_t p = 0; p < size; ++p)
+    {
+      ofSample[i * size + p] = take[m_Sample.PixelOf(i, p)];
+    }
+  });
+  this->Weigh(ofSample);
+}
+
+void
+NoiseResiduals::SetUnequalFrames(UnequalFrames frames)
+{
+  m_Unequal = std::move(frames);
+  m_Unequal.KeepFirst(m_Basis.rows());
+}
+
+void
+NoiseResiduals::DropFirst(std::size_t frames, const ParallelFor & parallelFor)
+{
+  m_Sample.DropFirst(frames);
+  m_Unequal.KeepLast(static_cast<Eigen::Index>(this->GetTiles().frames));
+  m_Basis = BasisOf(m_Basis.bottomRows(m_Basis.rows() - static_cast<Eigen::Index>(frames)), this->GetTiles().frames);
+  parallelFor(this->GetTiles().origins.size(), [this](std::size_t i) { this->ProjectTile(i); });
+}
+
+void
+NoiseResiduals::ProjectTile(std::size_t i)
+{
+  const std::size_t  size = this->GetTiles().Pixels();
+  const std::size_t  frames = this->GetTiles().frames;
+  float *            values = m_Sample.OfTile(i);
+  const auto         series = static_cast<std::size_t>(m_Basis.cols());
+  std::vector<float> coordinates(series * size, 0.0F);
+  for (std::size_t t = 0; t < frames; t += Together)
+  {
+    const std::size_t together = std::min(Together, frames - t);
+    for (std::size_t j = 0; j < series; ++j)
+    {
+      Weights weights;
+      for (std::size_t k = 0; k < together; ++k)
+      {
+        weights[k] = static_cast<float>(m_Basis(static_cast<Eigen::Index>(t + k), static_cast<Eigen::Index>(j)));
+      }
+      AddWeighed(values + t * size, weights, together, size, coordinates.data() + j * size);
+    }
+  }
+  for (std::size_t t = 0; t < frames; ++t)
+  {
+    for (std::size_t j = 0; j < series; j += Together)
+    {
+      const std::size_t together = std::min(Together, series - j);
+      Weights           weights;
+      for (std::size_t k = 0; k < together; ++k)
+      {
+        weights[k] = -static_cast<float>(m_Basis(static_cast<Eigen::Index>(t), static_cast<Eigen::Index>(j + k)));
+      }
+      AddWeighed(coordinates.data() + j * size, weights, together, size, values + t * size);
+    }
+  }
+}
+
+bool
+NoiseResiduals::HasEnoughPixels() const
+{
+  return this->GetTiles().origins.size() >= InCorrelation.leastTiles && m_Pixels >= InCorrelation.leastPixels;
+}
+
+void
+NoiseResiduals::SumSquares(std::size_t i)
+{
+  const std::size_t size = this->GetTiles().Pixels();
+  WithWideVectors([this, i, size] {
+    std::array<float, SampleTiles::Side * SampleTiles::Side> sums{}; // no pointer can point into them
+    for (std::size_t t = 0; t < this->GetTiles().frames; ++t)
+    {
+      const float * values = this->OfTile(i) + t * size;
+      for (std::size_t p = 0; p < size; ++p)
+      {
+        sums[p] += values[p] * values[p];
+      }
+    }
+    std::copy_n(sums.begin(), size, m_Variance.data() + i * size);
+  });
+}
+
+void
+NoiseResiduals::Weigh(const std::vector<std::uint8_t> & take)
+{
+  m_Weight.assign(take.size(), 0.0F);
+  m_Bin.assign(take.size(), 0);
+  const std::vector<std::uint32_t> order = PixelsByLight(m_Light, take);
+  m_Pixels = order.size();
+  const auto darkest = static_cast<std::size_t>(InCommon.darkestQuantile * static_cast<double>(m_Pixels));
+  m_DarkestLight = m_Pixels > 0 ? m_Light[order[darkest]] : 0.0;
+  const std::size_t bins =
+    std::clamp<std::size_t>(order.size() / InCorrelation.leastPixelsOfBin, 1, InCorrelation.noiseBins);
+  NoiseCurve curve;
+  for (std::size_t b = 0; b < bins; ++b)
+  {
+    const std::size_t first = b * order.size() / bins;
+    const std::size_t last = (b + 1) * order.size() / bins;
+    double            light = 0.0;
+    double            sum = 0.0;
+    for (std::size_t k = first; k < last; ++k)
+    {
+      light += m_Light[order[k]];
+      sum += m_Variance[order[k]];
+    }
+    const auto count = static_cast<double>(std::max<std::size_t>(1, last - first));
+    curve.Add(light / count, sum / count / std::max(1.0, this->GetFreedom()));
+  }
+  for (std::size_t rank = 0; rank < order.size(); ++rank)
+  {
+    const std::uint32_t pixel = order[rank];
+    const double        typical = curve.AtNext(m_Light[pixel]);
+    m_Weight[pixel] = typical > 0.0 ? static_cast<float>(1.0 / typical) : 0.0F;
+    m_Bin[pixel] = static_cast<std::uint8_t>(rank * LightBins / order.size());
+  }
+}
+
+} // namespace sensornoise

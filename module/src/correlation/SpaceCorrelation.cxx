@@ -1,0 +1,266 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "correlation/SpaceCorrelation.h"
+
+#include "base/Eigen.h"
+#include "base/Significance.h"
+#include "correlation/BlockPhases.h"
+#include "correlation/Constants.h"
+#include "correlation/SharedShapes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+namespace sensornoise
+{
+
+namespace
+{
+MeasuredNumber
+NumberAt(const JackknifeEstimate & estimate, std::size_t k)
+{
+  const auto index = static_cast<Eigen::Index>(k);
+  return { estimate.value(index), estimate.StandardError(index) };
+}
+
+/** Twice the sum of the coefficients of some lags. */
+MeasuredNumber
+SumOfCoefficients(const CorrelationSums & sums, const CorrelationSums::Lags & lags)
+{
+  return NumberAt(Jackknife(sums.GetTiles(),
+                            [&](const TileSums & tiles) {
+                              const CommonNoise common = FindCommonNoise(tiles.shared);
+                              double            sum = 0.0;
+                              for (const std::size_t k : lags)
+                              {
+                                sum += 2.0 * sums.CoefficientOf(tiles, common, k);
+                              }
+                              return Eigen::VectorXd(Eigen::VectorXd::Constant(1, sum));
+                            }),
+                  0);
+}
+
+/** \a sums holds two rings. */
+int
+FindReach(CorrelationSums & sums, double & beyond)
+{
+  for (int reach = 1;; ++reach)
+  {
+    if (reach > 1)
+    {
+      sums.AddRing(reach + 1);
+    }
+    const MeasuredNumber next = SumOfCoefficients(sums, sums.Ring(reach + 1, reach + 1));
+    const double         inside = 1.0 + SumOfCoefficients(sums, sums.Ring(1, reach)).value;
+    const double         size = std::abs(next.value);
+    const bool           isLast = size < InCorrelation.leastRing * std::abs(inside) || size < next.standardError;
+    if (isLast || reach == InCorrelation.largestReach)
+    {
+      beyond = std::max((isLast ? 1.0 : InCorrelation.ringsBeyondReach) * size,
+                        InCorrelation.unseenErrors * next.standardError);
+      return reach;
+    }
+  }
+}
+
+/** Chi-square of \a variance, of the bins and relative to its typical value, about a line of the light. */
+double
+Chi2OfLine(const Eigen::MatrixXd & shapes, const Eigen::VectorXd & variance, const Eigen::VectorXd & errors)
+{
+  Eigen::MatrixXd design(variance.size(), 2);
+  design.col(0) = shapes.col(static_cast<Eigen::Index>(ShapeOfShared::Light));
+  design.col(1) = shapes.col(static_cast<Eigen::Index>(ShapeOfShared::Constant));
+  const Eigen::VectorXd weights = errors.unaryExpr([](double error) { return error > 0.0 ? 1.0 / error : 0.0; });
+  const Eigen::MatrixXd weighted = weights.asDiagonal() * design;
+  const Eigen::VectorXd values = weights.cwiseProduct(variance);
+  return (values - weighted * weighted.colPivHouseholderQr().solve(values)).squaredNorm();
+}
+
+/** What each shape leaves of the variance's departure from a line of the light, as a chi-square: charge that repels
+ * charge bends the variance of a pixel and not its sum over all neighbours. */
+Eigen::VectorXd
+Chi2OfSums(const CorrelationSums & sums, const TileSums & all, const Eigen::VectorXd & coefficients)
+{
+  const CorrelationSums::Lags itself{ 0 };
+  const Eigen::MatrixXd       shapes = sums.ShapesOf(all, sums.GetCodesDn2()).InBins();
+  const Eigen::VectorXd       own = 0.5 * sums.SharedInBins(all, itself);
+  const Eigen::VectorXd       errors = 0.5 * sums.ErrorsInBins(itself);
+  const double                straight = Chi2OfLine(shapes, own, errors);
+  Eigen::VectorXd             chi2 = Eigen::VectorXd::Constant(NumberOfShapes, straight);
+  const auto                  square = static_cast<Eigen::Index>(ShapeOfShared::Square);
+  const double                left = Chi2OfLine(shapes, own + coefficients(square) * shapes.col(square), errors);
+  chi2(square) = left < InCorrelation.largestShareOfBend * straight ? left : straight; // else the response bends
+  return chi2.cwiseMin(chi2.minCoeff() + InCorrelation.mostEvidenceOfBend);
+}
+
+/** Coefficients of the shapes, then their chi-squares; \a unfilteredDn2 of the variance is that of codes and lines. */
+JackknifeEstimate
+FitAllShapes(const CorrelationSums & sums, const CorrelationSums::Lags & lags, double unfilteredDn2)
+{
+  const Eigen::VectorXd errors = sums.ErrorsInBins(lags);
+  return Jackknife(sums.GetTiles(), [&](const TileSums & tiles) {
+    const ShapesOfShared predicted = sums.ShapesOf(tiles, unfilteredDn2);
+    const auto           shapes = FitShapes(predicted.InBins(), sums.SharedInBins(tiles, lags), errors);
+    Eigen::VectorXd      figures(2 * NumberOfShapes);
+    for (std::size_t k = 0; k < NumberOfShapes; ++k)
+    {
+      figures(static_cast<Eigen::Index>(k)) = shapes[k].coefficient;
+      figures(static_cast<Eigen::Index>(NumberOfShapes + k)) = shapes[k].chi2;
+    }
+    return figures;
+  });
+}
+
+/** What a shape's chi-square must be smaller by than that of the likeliest ones; none of a shape that cannot be. Charge
+ * is coupled weakly and not far; stronger filters may lie before the read-out, or between two parts of its noise. */
+std::optional<double>
+EvidenceFor(ShapeOfShared shape, bool mayBeCharge)
+{
+  switch (shape)
+  {
+    case ShapeOfShared::Variance:
+      return 0.0;
+    case ShapeOfShared::Light:
+    case ShapeOfShared::Square:
+      return mayBeCharge ? std::optional(0.0) : std::nullopt;
+    case ShapeOfShared::Constant:
+      return InCorrelation.evidenceOfConstant;
+    default:
+      return mayBeCharge ? std::nullopt : std::optional(InCorrelation.evidenceOfPart);
+  }
+}
+
+/** Probabilities of the shapes, by their chi-squares. */
+std::array<double, NumberOfShapes>
+ProbabilitiesOf(const Eigen::VectorXd & chi2, bool mayBeCharge)
+{
+  std::array<double, NumberOfShapes> probabilities{};
+  double                             sum = 0.0;
+  for (std::size_t k = 0; k < NumberOfShapes; ++k)
+  {
+    if (const auto evidence = EvidenceFor(static_cast<ShapeOfShared>(k), mayBeCharge))
+    {
+      probabilities[k] = std::exp(-0.5 * (chi2(static_cast<Eigen::Index>(k)) + *evidence - chi2.minCoeff()));
+      sum += probabilities[k];
+    }
+  }
+  for (double & probability : probabilities)
+  {
+    probability /= std::max(1e-300, sum);
+  }
+  return probabilities;
+}
+/** Whether the variance bends as charge that repels charge bends it, and what the nearest share straightens it. Either
+ * alone would be chance, or the response. */
+bool
+StraightensVariance(const CorrelationSums & sums, const Eigen::VectorXd & errors, const MeasuredNumber & effect)
+{
+  if (effect.value < InCorrelation.leastEffect || !effect.Exceeds(0.0, Significance.hint))
+  {
+    return false;
+  }
+  const TileSums        all = sums.Total();
+  const Eigen::MatrixXd shapes = sums.ShapesOf(all, sums.GetCodesDn2()).InBins();
+  const auto            fits = FitShapes(shapes, sums.SharedInBins(all, sums.Nearest()), errors);
+  Eigen::VectorXd       coefficients(NumberOfShapes);
+  std::transform(
+    fits.begin(), fits.end(), coefficients.data(), [](const FittedShape & fit) { return fit.coefficient; });
+  const Eigen::VectorXd chi2 = Chi2OfSums(sums, all, coefficients);
+  return chi2(static_cast<Eigen::Index>(ShapeOfShared::Variance)) -
+           chi2(static_cast<Eigen::Index>(ShapeOfShared::Square)) >
+         Significance.oneTest * Significance.oneTest;
+}
+} // namespace
+
+bool
+SharesInSpace(const CorrelationSums & sums, const std::vector<LagCoefficient> & coefficients)
+{
+  const CorrelationSums::Lags nearest = sums.Nearest();
+  const Eigen::VectorXd       errors = sums.ErrorsInBins(nearest);
+  const JackknifeEstimate     atTheTop = Jackknife(sums.GetTiles(), [&](const TileSums & tiles) {
+    const Eigen::MatrixXd shapes = sums.ShapesOf(tiles, sums.GetCodesDn2()).InBins();
+    const auto            fits = FitShapes(shapes, sums.SharedInBins(tiles, nearest), errors);
+    Eigen::Vector3d       effects;
+    for (Eigen::Index k = 0; k < effects.size(); ++k) // not of the constant
+    {
+      effects(k) = fits[static_cast<std::size_t>(k)].coefficient * shapes(shapes.rows() - 1, k);
+    }
+    return Eigen::VectorXd(effects);
+  });
+  for (std::size_t k = 0; k < static_cast<std::size_t>(atTheTop.value.size()); ++k)
+  {
+    if (NumberAt(atTheTop, k).Exceeds(InCorrelation.leastEffect, Significance.oneTest))
+    {
+      return true;
+    }
+  }
+  if (StraightensVariance(sums, errors, NumberAt(atTheTop, static_cast<std::size_t>(ShapeOfShared::Square))))
+  {
+    return true;
+  }
+  return std::any_of(coefficients.begin(), coefficients.end(), [](const LagCoefficient & lag) {
+    return lag.coefficient.Exceeds(InCorrelation.leastCoefficient, Significance.severalTests);
+  });
+}
+
+void
+SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
+{
+  found.reach = FindReach(sums, found.beyondReach);
+  const TileSums    all = sums.Total();
+  const CommonNoise common = FindCommonNoise(all.shared);
+  double            largest = 0.0;
+  for (const std::size_t k : sums.Ring(1, found.reach))
+  {
+    largest = std::max(largest, std::abs(sums.CoefficientOf(all, common, k)));
+  }
+  const MeasuredNumber far = SumOfCoefficients(sums, sums.Ring(InCorrelation.reachOfCharge + 1, found.reach));
+  const bool           mayBeCharge =
+    largest < InCorrelation.largestCrosstalk && !far.Exceeds(InCorrelation.smallRing, Significance.oneTest);
+  if (mayBeCharge && found.reach > InCorrelation.reachOfCharge)
+  {
+    found.reach = InCorrelation.reachOfCharge; // the rest was chance
+    found.beyondReach = std::max(std::abs(far.value), InCorrelation.unseenErrorsOfCharge * far.standardError);
+  }
+  const CorrelationSums::Lags lags = sums.Ring(1, found.reach);
+  const JackknifeEstimate     fits = FitAllShapes(sums, lags, sums.GetCodesDn2() + found.LineNoise().value);
+  const Eigen::VectorXd       chi2 = fits.value.tail(NumberOfShapes);
+  const Eigen::VectorXd       withBend = chi2 + Chi2OfSums(sums, all, fits.value.head(NumberOfShapes));
+  const auto                  probabilities = ProbabilitiesOf(withBend, mayBeCharge);
+  const ShapesOfShared        predicted = sums.ShapesOf(all, sums.GetCodesDn2() + found.LineNoise().value);
+  for (std::size_t k = 0; k < NumberOfShapes; ++k)
+  {
+    found.shapes[k] = predicted.UnitOf(k);
+    found.shapes[k].coefficient = NumberAt(fits, k);
+    found.shapes[k].probability = probabilities[k];
+  }
+  // A filter that sharpens takes in proportion to the variance, and alike everywhere; what blocks of pixels are rounded
+  // to does not.
+  const double constant = probabilities[static_cast<std::size_t>(ShapeOfShared::Constant)];
+  const auto & shared = found.Shape(ShapeOfShared::Variance).coefficient;
+  const bool   isUnlikeFilter =
+    constant > InCorrelation.roundingProbability || chi2.minCoeff() > InCorrelation.largestChi2;
+  const bool isRounding =
+    (shared.value < -Significance.hint * shared.standardError && isUnlikeFilter) ||
+    (shared.value < 0.0 && SpreadOfPhases(sums.SumPhases()) > InCorrelation.largestSpreadOfPhases);
+  if (isRounding)
+  {
+    found.kind = NoiseKind::NotLinear;
+  }
+  else if (found.kind != NoiseKind::Temporal)
+  {
+    const bool isNear =
+      !SumOfCoefficients(sums, sums.Ring(2, found.reach)).Exceeds(InCorrelation.smallRing, Significance.oneTest);
+    const auto probabilityOf = [&](ShapeOfShared shape) { return found.Shape(shape).probability; };
+    const bool isCharge =
+      mayBeCharge && (isNear || probabilityOf(ShapeOfShared::Light) > probabilityOf(ShapeOfShared::Variance));
+    found.kind = probabilityOf(ShapeOfShared::Square) > 0.5 ? NoiseKind::BrighterFatter
+                 : isCharge                                 ? NoiseKind::Crosstalk
+                                                            : NoiseKind::Filtered;
+  }
+}
+
+} // namespace sensornoise

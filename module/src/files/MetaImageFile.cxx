@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "files/MetaImageFile.h"
+
+#include "files/DataFile.h"
+#include "files/FileError.h"
+#include "files/FrameFormats.h"
+#include "files/FrameSizes.h"
+#include "files/MetaImageHeader.h"
+#include "files/MetaImagePlaces.h"
+#include "files/StoredNumber.h"
+#include "files/TextHeader.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sensornoise
+{
+namespace
+{
+void
+SetPixelOfMetaImage(FrameFile & file, const std::string & type)
+{
+  struct KnownType
+  {
+    const char * name;
+    FramePixel   pixel;
+    StoredNumber stored;
+  };
+  constexpr StoredNumber              same = StoredNumber::SameAsPixel;
+  static const std::vector<KnownType> types{ { "MET_UCHAR", FramePixel::UnsignedChar, same },
+                                             { "MET_USHORT", FramePixel::UnsignedShort, same },
+                                             { "MET_SHORT", FramePixel::Short, same },
+                                             { "MET_UINT", FramePixel::Double, StoredNumber::UnsignedInt },
+                                             { "MET_INT", FramePixel::Double, StoredNumber::Int },
+                                             { "MET_FLOAT", FramePixel::Float, same },
+                                             { "MET_DOUBLE", FramePixel::Double, same } };
+  for (const KnownType & known : types)
+  {
+    if (type == known.name)
+    {
+      file.pixel = known.pixel;
+      file.stored = known.stored;
+      return;
+    }
+  }
+  static const std::vector<std::pair<std::string, std::string>> others{ { "MET_CHAR", "char" },
+                                                                        { "MET_LONG", "long" },
+                                                                        { "MET_ULONG", "unsigned long" },
+                                                                        { "MET_LONG_LONG", "long long" },
+                                                                        { "MET_ULONG_LONG", "unsigned long long" } };
+  for (const auto & [name, component] : others)
+  {
+    if (type == name)
+    {
+      throw FileError(file.name, UnsupportedPixel(component));
+    }
+  }
+  throw FileError(file.name, UnsupportedPixel(type));
+}
+
+bool
+IsTrue(const std::string & value)
+{
+  return !value.empty() && std::string("Tt1").find(value[0]) != std::string::npos;
+}
+
+/** The number of compressed bytes, 0 where the pixels are not compressed. */
+std::uint64_t
+CompressedBytesOf(const std::string & file, const MetaImageHeader & header)
+{
+  if (!IsTrue(header.Field("CompressedData")))
+  {
+    return 0;
+  }
+  if (header.Field("HeaderSize") == "-1" || !header.list.empty())
+  {
+    throw FileError(file, "compressed with a HeaderSize of -1 or in a list of data files; expected neither");
+  }
+  const std::string                  text = header.Field("CompressedDataSize");
+  const std::optional<std::uint64_t> size = WholeNumber(text);
+  if (text.empty() || !size || *size == 0)
+  {
+    throw FileError(
+      file,
+      "compressed " + (text.empty() ? "without a CompressedDataSize" : "with a CompressedDataSize of " + text) +
+        " in the header; expected the number of compressed bytes, without which nobody can tell if they are "
+        "all there");
+  }
+  return *size;
+}
+
+/** Throws unless the rest of the header means a binary image of one component. */
+void
+CheckMetaImageMeaning(const std::string & file, const MetaImageHeader & header)
+{
+  const std::string channels = header.Field("ElementNumberOfChannels");
+  if (!channels.empty() && channels != "1")
+  {
+    const std::optional<std::uint64_t> number = WholeNumber(channels);
+    throw FileError(file,
+                    number ? SeveralComponents(*number) : "ElementNumberOfChannels is " + channels + "; expected 1");
+  }
+  const std::string binary = header.Field("BinaryData");
+  if (!binary.empty() && !IsTrue(binary))
+  {
+    throw FileError(file, "BinaryData is False, and pixels written as text cannot be checked; expected binary pixels");
+  }
+  const std::string order = header.Field("BinaryDataByteOrderMSB");
+  const std::string sameOrder = header.Field("ElementByteOrderMSB");
+  if (!order.empty() && !sameOrder.empty() && IsTrue(order) != IsTrue(sameOrder))
+  {
+    throw FileError(file,
+                    "BinaryDataByteOrderMSB is " + order + " and ElementByteOrderMSB " + sameOrder +
+                      "; expected the same of both");
+  }
+}
+
+} // namespace
+
+bool
+IsHeadOfMetaImage(const std::string & head, const std::string & name)
+{
+  return HasEnding(name, { ".mha", ".mhd" }) && head.find_first_of("=:") != std::string::npos &&
+         head.rfind("NRRD", 0) != 0;
+}
+
+void
+InspectMetaImage(FileBytes & bytes, FrameFile & file, const BeforeInflating & beforeInflating)
+{
+  const MetaImageHeader header = ReadMetaImageHeader(file.name, bytes);
+  CheckMetaImageMeaning(file.name, header);
+  SetPixelOfMetaImage(file, header.Field("ElementType"));
+  std::vector<std::uint64_t> sizes;
+  for (const std::string & word : WordsOf(header.Field("DimSize")))
+  {
+    const std::optional<std::uint64_t> number = WholeNumber(word);
+    if (!number)
+    {
+      throw FileError(file.name, "DimSize is " + header.Field("DimSize") + "; expected whole numbers");
+    }
+    sizes.push_back(*number);
+  }
+  SetFrameSizes(file, sizes);
+  const std::uint64_t          bytesInFile = StoredBytesOf(file);
+  const std::uint64_t          compressed = CompressedBytesOf(file.name, header);
+  const std::vector<DataPlace> places = PlacesOfMetaImage(file, header, bytes.Size());
+  if (compressed > 0 && beforeInflating)
+  {
+    beforeInflating(file);
+  }
+  for (const DataPlace & place : places)
+  {
+    if (!place.attached)
+    {
+      AddDataFile(file.name, place.path, file.identities);
+    }
+    if (compressed > 0)
+    {
+      RequireInflates(file.name, place, compressed, bytesInFile, true);
+    }
+    else
+    {
+      RequireExactly(file.name, place, bytesInFile / places.size(), bytesInFile / file.frames);
+    }
+  }
+}
+
+} // namespace sensornoise

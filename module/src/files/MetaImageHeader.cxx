@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "files/MetaImageHeader.h"
+
+#include "files/FileError.h"
+#include "files/TextHeader.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+
+namespace sensornoise
+{
+namespace
+{
+// MetaIO copies values into char[255] without asking how long they are.
+constexpr std::size_t MaximumValueCharacters = 254;
+constexpr std::size_t MaximumNameCharacters = 100;
+// Names of data files: MetaIO's buffer is 1024, and its own path comes before.
+constexpr std::size_t MaximumLineCharacters = 500;
+// MetaIO takes a file for a MetaImage if it finds NDims here.
+constexpr std::uint64_t BytesThatHoldNDims = 8000;
+
+/** How many numbers a field has: so many for each dimension, or a fixed number. */
+struct NumberField
+{
+  const char * name;
+  std::size_t  fixed;
+  std::size_t  power; // of the number of dimensions
+};
+
+constexpr std::array<NumberField, 20> NumberFields{ { { "ID", 1, 0 },
+                                                      { "ParentID", 1, 0 },
+                                                      { "Color", 4, 0 },
+                                                      { "Position", 0, 1 },
+                                                      { "Origin", 0, 1 },
+                                                      { "Offset", 0, 1 },
+                                                      { "TransformMatrix", 0, 2 },
+                                                      { "Rotation", 0, 2 },
+                                                      { "Orientation", 0, 2 },
+                                                      { "CenterOfRotation", 0, 1 },
+                                                      { "ElementSpacing", 0, 1 },
+                                                      { "ElementSize", 0, 1 },
+                                                      { "DimSize", 0, 1 },
+                                                      { "ImagePosition", 0, 1 },
+                                                      { "SequenceID", 0, 1 },
+                                                      { "ElementMin", 1, 0 },
+                                                      { "ElementMax", 1, 0 },
+                                                      { "ElementNBits", 1, 0 },
+                                                      { "ElementToIntensityFunctionSlope", 1, 0 },
+                                                      { "ElementToIntensityFunctionOffset", 1, 0 } } };
+
+void
+RequireNumbers(const std::string &     file,
+               const MetaImageHeader & header,
+               const std::string &     key,
+               const std::string &     value)
+{
+  for (const NumberField & field : NumberFields)
+  {
+    if (key != field.name)
+    {
+      continue;
+    }
+    std::size_t count = field.fixed;
+    if (field.power > 0)
+    {
+      const std::string dimensions = header.Field("NDims");
+      if (dimensions.empty())
+      {
+        throw FileError(file, key + " stands before NDims in its header; expected NDims first");
+      }
+      const std::size_t n = static_cast<std::size_t>(*WholeNumber(dimensions));
+      count = field.power == 1 ? n : n * n;
+    }
+    if (!AreNumbers(value, count))
+    {
+      throw FileError(file, key + " is \"" + value + "\"; expected finite numbers: " + std::to_string(count));
+    }
+  }
+}
+
+/** MetaIO looks at the first letter alone. */
+bool
+IsTrueOrFalse(const std::string & value)
+{
+  static const std::array<std::string, 12> words{ "True",  "true",  "TRUE",  "T", "t", "1",
+                                                  "False", "false", "FALSE", "F", "f", "0" };
+  return std::find(words.begin(), words.end(), value) != words.end();
+}
+
+/** Throws unless MetaIO understands the value as it is meant. */
+void
+CheckMetaImageField(const std::string &     file,
+                    const MetaImageHeader & header,
+                    const std::string &     key,
+                    const std::string &     value)
+{
+  if (key == "NDims" && value != "2" && value != "3")
+  {
+    throw FileError(file, "NDims is " + value + "; expected 2 (a frame) or 3 (a stack)");
+  }
+  if (key == "ObjectType" && value != "Image")
+  {
+    throw FileError(file, "ObjectType is " + value + "; expected Image");
+  }
+  if ((key == "BinaryData" || key == "CompressedData" || key == "BinaryDataByteOrderMSB" ||
+       key == "ElementByteOrderMSB") &&
+      !IsTrueOrFalse(value))
+  {
+    throw FileError(file, key + " is " + value + "; expected True or False");
+  }
+  RequireNumbers(file, header, key, value);
+}
+
+/** Parts a line. Throws FileError. */
+void
+AddMetaImageField(const std::string & file, const TextHeader & text, const std::string & line, MetaImageHeader & header)
+{
+  const std::string place = "line " + std::to_string(text.LineNumber()) + " of its header ";
+  const std::size_t separator = line.find_first_of("=:");
+  const std::string key = WithoutBlanks(line.substr(0, separator));
+  if (separator == std::string::npos || key.empty() || key.size() > MaximumNameCharacters)
+  {
+    throw FileError(file, place + "is not the name of a field, \"=\" and a value; expected a MetaImage");
+  }
+  const std::size_t first = line.find_first_not_of("=: \t", separator);
+  const std::string value = first == std::string::npos ? "" : WithoutBlanks(line.substr(first));
+  if (value.empty() || value.size() > MaximumValueCharacters)
+  {
+    throw FileError(file,
+                    place + "gives " + key + " a value of " + std::to_string(value.size()) +
+                      " characters; expected 1 to " + std::to_string(MaximumValueCharacters));
+  }
+  CheckMetaImageField(file, header, key, value);
+  if (!header.fields.emplace(key, value).second)
+  {
+    throw FileError(file, place + "gives " + key + " a second time; expected each field once");
+  }
+}
+} // namespace
+
+std::string
+MetaImageHeader::Field(const std::string & key) const
+{
+  const auto found = fields.find(key);
+  return found == fields.end() ? "" : found->second;
+}
+
+MetaImageHeader
+ReadMetaImageHeader(const std::string & file, FileBytes & bytes)
+{
+  MetaImageHeader            header;
+  TextHeader                 text(file, bytes, MaximumLineCharacters);
+  std::optional<std::string> line;
+  while (header.Field("ElementDataFile").empty() && (line = text.Next()))
+  {
+    if (!WithoutBlanks(*line).empty())
+    {
+      const bool hadNDims = header.fields.count("NDims") != 0;
+      AddMetaImageField(file, text, *line, header);
+      if (!hadNDims && header.fields.count("NDims") != 0 && text.Offset() > BytesThatHoldNDims)
+      {
+        throw FileError(file, "NDims is not among the first 8000 bytes of its header; expected a MetaImage");
+      }
+    }
+  }
+  header.end = text.Offset();
+  for (const char * const required : { "NDims", "DimSize", "ElementType", "ElementDataFile" })
+  {
+    if (header.Field(required).empty())
+    {
+      throw FileError(file, "has no " + std::string(required) + " in its header; expected a MetaImage that is whole");
+    }
+  }
+  if (header.Field("ElementDataFile").rfind("LIST", 0) == 0)
+  {
+    bool isBlankBefore = false;
+    while ((line = text.Next()))
+    {
+      const bool isBlank = WithoutBlanks(*line).empty();
+      if (isBlankBefore && !isBlank)
+      {
+        throw FileError(file, "has an empty line in its list of data files; expected a name in each"); // MetaIO crashes
+      }
+      isBlankBefore = isBlank;
+      // MetaIO drops a last line without an end
+      if (text.LineWasEnded() && !isBlank)
+      {
+        header.list.push_back(*line);
+      }
+    }
+  }
+  return header;
+}
+
+} // namespace sensornoise

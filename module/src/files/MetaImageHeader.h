@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_files_MetaImageHeader_h
+#define sensornoise_files_MetaImageHeader_h
+
+#include "files/FileBytes.h"
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** The fields of a MetaImage's header. */
+struct MetaImageHeader
+{
+  std::map<std::string, std::string> fields{};
+  std::vector<std::string>           list{};   // the names behind "ElementDataFile = LIST"
+  std::uint64_t                      end{ 0 }; // where the pixels begin if they are in the same file
+
+  /** The value of a field, empty where there is none. */
+  std::string
+  Field(const std::string & key) const;
+};
+
+/** Reads the header so that MetaIO, which reads words across lines, and into fields of fixed length, can but read the
+ * same: each line is a name, a separator and a value that is neither empty nor too long; known fields have the values
+ * that they must have; none comes twice. Throws FileError. */
+MetaImageHeader
+ReadMetaImageHeader(const std::string & file, FileBytes & bytes);
+
+} // namespace sensornoise
+
+#endif

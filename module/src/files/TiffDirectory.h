@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_files_TiffDirectory_h
+#define sensornoise_files_TiffDirectory_h
+
+#include "files/FileBytes.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** One entry of a TIFF's directory: where its values are, and what. */
+struct TiffEntry
+{
+  unsigned      tag{ 0 };
+  unsigned      type{ 0 };
+  std::uint64_t count{ 0 };
+  std::uint64_t offset{ 0 };     // of its first value, in the file
+  bool          inside{ false }; // the values are in the directory itself
+};
+
+/** The directory of a page. */
+struct TiffDirectory
+{
+  std::uint64_t          offset{ 0 };
+  std::uint64_t          bytes{ 0 }; // with the number of entries and the offset of the next directory
+  std::uint64_t          next{ 0 };  // where the next one is; 0: this is the last
+  std::vector<TiffEntry> entries{};
+
+  /** The entry of that tag; nothing where there is none. */
+  const TiffEntry *
+  Find(unsigned tag) const;
+};
+
+/** The size of a value of that type; 0 where TIFF has no such type. [bytes] */
+std::size_t
+SizeOfTiffType(unsigned type);
+
+/** Reads a TIFF in its own byte order, classic or big. */
+class TiffBytes
+{
+public:
+  /** Of a file that begins like a TIFF: IsTiff(). Throws FileError where it ends, or is damaged, right after that. */
+  TiffBytes(const std::string & file, FileBytes & bytes);
+
+  /** Whether the file begins like a TIFF, of any byte order and size. */
+  static bool
+  IsTiff(const unsigned char * head, std::size_t count);
+
+  /** Where the directory of the first page is. */
+  std::uint64_t
+  FirstDirectory() const
+  {
+    return m_First;
+  }
+
+  /** Of the file's head. */
+  std::uint64_t
+  HeadBytes() const
+  {
+    return m_IsBig ? 16 : 8;
+  }
+
+  /** Reads a directory; \a page begins the errors. Throws FileError where a part of it, or a value of its entries, is
+   * not in the file. */
+  TiffDirectory
+  ReadDirectory(const std::string & page, std::uint64_t offset);
+
+  /** The only value of an entry; nothing where there is no such entry. Throws FileError unless it is a whole number and
+   * the only one. */
+  std::optional<std::uint64_t>
+  Number(const std::string & page, const TiffDirectory & directory, unsigned tag, const char * name);
+
+  /** Whether what could be the entry of a directory, of a whole number, is among these bytes. */
+  bool
+  HasEntry(std::uint64_t begin, std::uint64_t end, unsigned tag, std::uint64_t value);
+
+  /** The only value of an entry that is a quotient of two whole numbers; 0 where there is none, or no such one. */
+  double
+  Quotient(const TiffDirectory & directory, unsigned tag);
+
+  bool
+  IsBigEndian() const
+  {
+    return m_IsBigEndian;
+  }
+
+  FileBytes &
+  File()
+  {
+    return m_Bytes;
+  }
+
+  /** Reads the values of an entry, one after the other. */
+  class Numbers
+  {
+  public:
+    Numbers(TiffBytes & tiff, const TiffEntry & entry);
+
+    std::uint64_t
+    Next();
+
+  private:
+    ByteReader  m_Reader;
+    std::size_t m_Width;
+    bool        m_IsBigEndian;
+  };
+
+private:
+  std::uint64_t
+  At(const unsigned char * bytes, std::size_t width) const;
+
+  void
+  CheckEntry(const std::string & page, const TiffEntry & entry) const;
+
+  FileBytes &   m_Bytes;
+  bool          m_IsBig{ false };
+  bool          m_IsBigEndian{ false };
+  std::uint64_t m_First{ 0 };
+};
+
+} // namespace sensornoise
+
+#endif

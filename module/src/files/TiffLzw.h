@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_files_TiffLzw_h
+#define sensornoise_files_TiffLzw_h
+
+#include "files/FileBytes.h"
+
+#include <cstdint>
+#include <string>
+
+namespace sensornoise
+{
+
+/** How many bytes the codes of a strip that is compressed by LZW stand for. LZW has no checksum that would tell whether
+ * they are the right ones. */
+struct LzwLength
+{
+  std::uint64_t bytes{ 0 };
+  std::string   error{}; // empty where all codes have a meaning
+};
+
+/** Follows the codes in the bytes [offset, offset + count) until they stand for \a expected bytes, or, where a writer
+ * has filled the strip up, for \a whole, or end. The first \a expected of these bytes go to \a out, where there is one.
+ */
+LzwLength
+LengthOfLzw(FileBytes &     bytes,
+            std::uint64_t   offset,
+            std::uint64_t   count,
+            std::uint64_t   expected,
+            std::uint64_t   whole,
+            unsigned char * out = nullptr);
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,221 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "files/TiffPage.h"
+
+#include "files/FrameSizes.h"
+#include "files/StoredNumber.h"
+#include "files/TiffTags.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace sensornoise
+{
+namespace
+{
+void
+RequireGrey(const TiffTags & tags)
+{
+  const std::uint64_t samples = tags.Number(277, "SamplesPerPixel", 1);
+  const std::uint64_t photometric = tags.Number(262, "PhotometricInterpretation", 65536);
+  if (photometric == 3)
+  {
+    tags.Refuse("1 component a pixel with a palette of colours; expected 1 grey value");
+  }
+  if (samples != 1)
+  {
+    tags.Refuse(SeveralComponents(samples));
+  }
+  if (photometric > 1)
+  {
+    tags.Refuse(photometric == 65536
+                  ? "has no tag 262 (PhotometricInterpretation); expected grey values, 0 or 1"
+                  : "the photometric interpretation " + std::to_string(photometric) + "; expected grey values, 0 or 1");
+  }
+}
+
+/** Throws for pixels that lie in another order than row by row. */
+void
+RequirePlainStrips(const TiffTags & tags)
+{
+  if (tags.Has(322) || tags.Has(323) || tags.Has(324) || tags.Has(325))
+  {
+    tags.Refuse("a TIFF of tiles; expected strips: tiffcp -s FILE OTHER.tif");
+  }
+  if (const std::uint64_t order = tags.Number(266, "FillOrder", 1); order != 1)
+  {
+    tags.Refuse("FillOrder is " + std::to_string(order) + "; expected 1");
+  }
+  if (const std::uint64_t depth = tags.Number(32997, "ImageDepth", 1); depth != 1)
+  {
+    tags.Refuse("ImageDepth is " + std::to_string(depth) + "; expected 1, and a page for each frame");
+  }
+}
+
+void
+ReadPixelType(const TiffTags & tags, TiffPage & page)
+{
+  const std::uint64_t bits = tags.Number(258, "BitsPerSample", 1);
+  const std::uint64_t format = tags.Number(339, "SampleFormat", 1);
+  struct KnownType
+  {
+    std::uint64_t bits;
+    std::uint64_t format;
+    FramePixel    pixel;
+    StoredNumber  stored;
+  };
+  constexpr StoredNumber                    same = StoredNumber::SameAsPixel;
+  static constexpr std::array<KnownType, 7> types{ { { 8, 1, FramePixel::UnsignedChar, same },
+                                                     { 16, 1, FramePixel::UnsignedShort, same },
+                                                     { 16, 2, FramePixel::Short, same },
+                                                     { 32, 1, FramePixel::Double, StoredNumber::UnsignedInt },
+                                                     { 32, 2, FramePixel::Double, StoredNumber::Int },
+                                                     { 32, 3, FramePixel::Float, same },
+                                                     { 64, 3, FramePixel::Double, same } } };
+  for (const KnownType & known : types)
+  {
+    if (bits == known.bits && format == known.format)
+    {
+      page.pixel = known.pixel;
+      page.stored = known.stored;
+      return;
+    }
+  }
+  const std::string kind = format == 1   ? "unsigned"
+                           : format == 2 ? "signed"
+                           : format == 3 ? "floating-point"
+                                         : "format " + std::to_string(format);
+  tags.Refuse(
+    std::to_string(bits) + "-bit " + kind +
+    " samples, which are not supported; expected 8-bit unsigned, 16-bit or 32-bit integers, or 32-bit or 64-bit "
+    "floating-point samples, the same on all pages");
+}
+
+TiffCompression
+CompressionOf(const TiffTags & tags)
+{
+  const std::uint64_t compression = tags.Number(259, "Compression", 1);
+  std::string         name;
+  switch (compression)
+  {
+    case 1:
+      return TiffCompression::None;
+    case 5:
+      return TiffCompression::Lzw;
+    case 8:
+    case 32946:
+      return TiffCompression::Deflate;
+    case 32773:
+      return TiffCompression::PackBits;
+    case 6:
+    case 7:
+      name = "JPEG, which changes the noise";
+      break;
+    case 50001:
+      name = "WebP, which cannot be checked";
+      break;
+    case 34712:
+      name = "JPEG 2000, which cannot be checked";
+      break;
+    case 34925:
+      name = "LZMA, which cannot be checked";
+      break;
+    case 50000:
+      name = "Zstandard, which cannot be checked";
+      break;
+    default:
+      name = "method " + std::to_string(compression) + ", which cannot be checked";
+  }
+  tags.Refuse("compressed by " + name + "; expected no compression, deflate, LZW or PackBits");
+}
+
+void
+ReadPredictor(const TiffTags & tags, TiffPage & page)
+{
+  const std::uint64_t predictor = tags.Number(317, "Predictor", 1);
+  const bool          isUsed = page.compression == TiffCompression::Lzw || page.compression == TiffCompression::Deflate;
+  const bool          isFloat =
+    page.stored == StoredNumber::SameAsPixel && (page.pixel == FramePixel::Float || page.pixel == FramePixel::Double);
+  if (isUsed && predictor != 1 && predictor != (isFloat ? 3U : 2U) && !(isFloat && predictor == 2))
+  {
+    tags.Refuse("Predictor is " + std::to_string(predictor) + "; expected 1 or " + (isFloat ? "3" : "2"));
+  }
+  page.predictor = isUsed ? predictor : 1;
+}
+
+void
+ReadSubfileType(const TiffTags & tags, TiffPage & page)
+{
+  const std::uint64_t type = tags.Number(254, "NewSubfileType", 0);
+  const std::uint64_t oldType = tags.Number(255, "SubfileType", 1);
+  page.isReduced = (type & 5) != 0 || oldType == 2;
+}
+
+/** As ITK's reader has it, which takes a resolution for pixels an inch or a centimetre, if the unit is said. */
+std::array<double, 2>
+SpacingOf(const TiffTags & tags, TiffBytes & tiff, const TiffDirectory & directory)
+{
+  const std::uint64_t unit = tags.Number(296, "ResolutionUnit", 1);
+  const double        millimetres = unit == 2 ? 25.4 : unit == 3 ? 10.0 : 0.0;
+  // libtiff hands them on as float
+  const std::array<float, 2> resolution{ { static_cast<float>(tiff.Quotient(directory, 282)),
+                                           static_cast<float>(tiff.Quotient(directory, 283)) } };
+  if (millimetres == 0.0 || !(resolution[0] > 0.0F) || !(resolution[1] > 0.0F))
+  {
+    return { { 1.0, 1.0 } };
+  }
+  return { { millimetres / static_cast<double>(resolution[0]), millimetres / static_cast<double>(resolution[1]) } };
+}
+} // namespace
+
+std::string
+SamplesOf(const TiffPage & page)
+{
+  const bool isSame = page.stored == StoredNumber::SameAsPixel;
+  const bool isFloat = isSame && (page.pixel == FramePixel::Float || page.pixel == FramePixel::Double);
+  const bool isSigned = page.pixel == FramePixel::Short || page.stored == StoredNumber::Int;
+  return std::to_string(8 * SizeOf(page.pixel, page.stored)) + "-bit " +
+         (isFloat    ? "floating-point"
+          : isSigned ? "signed"
+                     : "unsigned");
+}
+
+TiffPage
+ReadTiffPage(const std::string & page, TiffBytes & tiff, const TiffDirectory & directory)
+{
+  const TiffTags tags(page, tiff, directory);
+  tags.RequireEachOnce();
+  RequireGrey(tags);
+  RequirePlainStrips(tags);
+  TiffPage found;
+  found.width = tags.Required(256, "ImageWidth");
+  found.height = tags.Required(257, "ImageLength");
+  ReadPixelType(tags, found);
+  found.compression = CompressionOf(tags);
+  ReadPredictor(tags, found);
+  ReadSubfileType(tags, found);
+  found.spacing = SpacingOf(tags, tiff, directory);
+  found.orientation = tags.Number(274, "Orientation", 1);
+  if (found.orientation != 1 && found.orientation != 4)
+  {
+    tags.Refuse("Orientation is " + std::to_string(found.orientation) +
+                ", a frame that is turned or mirrored; expected 1 (or 4, upside down)");
+  }
+  FrameFile sizes;
+  sizes.name = page;
+  sizes.pixel = found.pixel;
+  SetFrameSizes(sizes, { found.width, found.height });
+  const std::uint64_t rows = tags.Number(278, "RowsPerStrip", UINT32_MAX);
+  if (rows == 0)
+  {
+    tags.Refuse("damaged: RowsPerStrip is 0; expected at least 1");
+  }
+  found.rowsPerStrip = std::min(rows, found.height);
+  const std::uint64_t strips = (found.height - 1) / found.rowsPerStrip + 1;
+  found.offsets = tags.OfStrips(273, "StripOffsets", strips);
+  found.byteCounts = tags.OfStrips(279, "StripByteCounts", strips);
+  return found;
+}
+
+} // namespace sensornoise

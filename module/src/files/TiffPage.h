@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_files_TiffPage_h
+#define sensornoise_files_TiffPage_h
+
+#include "sensornoise/FrameFile.h"
+#include "files/TiffDirectory.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace sensornoise
+{
+
+/** How the pixels of a TIFF's strips are compressed. */
+enum class TiffCompression
+{
+  None,
+  Lzw,
+  Deflate,
+  PackBits
+};
+
+/** What the directory of a page says of its pixels. */
+struct TiffPage
+{
+  std::uint64_t         width{ 0 };
+  std::uint64_t         height{ 0 };
+  FramePixel            pixel{ FramePixel::UnsignedChar };
+  StoredNumber          stored{ StoredNumber::SameAsPixel };
+  TiffCompression       compression{ TiffCompression::None };
+  std::uint64_t         predictor{ 1 };
+  std::uint64_t         rowsPerStrip{ 0 }; // at most the height
+  std::uint64_t         orientation{ 1 };
+  bool                  isReduced{ false };      // a thumbnail or a mask, by NewSubfileType
+  std::array<double, 2> spacing{ { 1.0, 1.0 } }; // along x and y [mm], 1 where it is not said
+  TiffEntry             offsets{};               // of its strips
+  TiffEntry             byteCounts{};
+};
+
+/** Reads what a directory says, with the defaults of TIFF 6.0 for tags that it lacks. \a page begins the errors. Throws
+ * FileError unless the page consists of strips of one grey value a pixel, of a type that a pixel holds exactly, and
+ * whose compression can be checked. */
+TiffPage
+ReadTiffPage(const std::string & page, TiffBytes & tiff, const TiffDirectory & directory);
+
+/** Describes the samples: "16-bit unsigned". */
+std::string
+SamplesOf(const TiffPage & page);
+
+} // namespace sensornoise
+
+#endif

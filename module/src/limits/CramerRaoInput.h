@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_limits_CramerRaoInput_h
+#define sensornoise_limits_CramerRaoInput_h
+
+#include "SensorNoiseExport.h"
+#include "simulation/SimulationTruth.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace sensornoise
+{
+
+/** What the Cram\'er-Rao bound of a simulated stack depends on. */
+struct SensorNoise_EXPORT CramerRaoInput
+{
+  const double *          electrons;                 ///< p: the scene at rest, blurred by the optics [e-]
+  const std::uint8_t *    mask;                      ///< nonzero where the pixel is used; null: everywhere
+  std::size_t             width;                     ///< columns
+  std::size_t             height;                    ///< rows
+  const SimulationTruth * truth;                     ///< camera, flicker and shifts of the stack
+  double                  quantisationStepDn{ 1.0 }; ///< distance of the codes; 0: grey levels are not rounded [DN]
+
+  /** sigma^2 + step^2 / 12 [DN^2]. */
+  double
+  TotalReadVarianceDn2() const;
+
+  /** g times the mean of 1 + gamma: the mean flux of a pixel per electron of the scene [DN]. */
+  double
+  MeanFluxPerElectronDn() const;
+};
+
+} // namespace sensornoise
+
+#endif

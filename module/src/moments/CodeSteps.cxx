@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "moments/CodeSteps.h"
+
+#include "moments/Constants.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** Local steps of the table, about; they overlap by three quarters. */
+constexpr std::size_t StepsInTable = 256;
+
+/** Two neighbouring codes. */
+struct CodeDistance
+{
+  double levelDn; ///< halfway between them
+  double stepDn;
+};
+
+std::vector<CodeDistance>
+DistancesOf(const std::vector<SeenCode> & codes)
+{
+  std::vector<CodeDistance> distances;
+  for (std::size_t i = 1; i < codes.size(); ++i)
+  {
+    if (std::min(codes[i - 1].pixels, codes[i].pixels) >= InMoments.leastPixelsOfCode)
+    {
+      distances.push_back(
+        { 0.5 * (codes[i - 1].code + codes[i].code), static_cast<double>(codes[i].code - codes[i - 1].code) });
+    }
+  }
+  return distances;
+}
+
+/** What all distances are multiples of [DN]. */
+double
+UnitOf(const std::vector<CodeDistance> & distances)
+{
+  std::int32_t unit = 0;
+  for (const CodeDistance & distance : distances)
+  {
+    unit = std::gcd(unit, static_cast<std::int32_t>(distance.stepDn));
+  }
+  return unit;
+}
+
+/** Steps along the level, of some neighbouring distances. */
+struct Stretch
+{
+  CodeSteps::Local middle{};
+  double           slope{ 0.0 };    ///< of the step [1]
+  double           addedDn2{ 0.0 }; ///< by rounding to the unit after the codes were expanded
+
+  CodeSteps::Local
+  At(double levelDn) const
+  {
+    const double stepDn = std::max(0.0, middle.stepDn + slope * (levelDn - middle.levelDn));
+    return { levelDn, stepDn, stepDn * stepDn / 12.0 + addedDn2 };
+  }
+};
+
+/** Of \a count distances. Where they differ, the codes were rounded to the unit after they were expanded, which adds
+ * its own noise. */
+Stretch
+StretchOf(const CodeDistance * first, std::size_t count, double unitDn)
+{
+  std::vector<double> steps(count);
+  std::transform(first, first + count, steps.begin(), [](const CodeDistance & distance) { return distance.stepDn; });
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(count / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  const double median = *middle;
+  const double reach = std::max(unitDn, InMoments.largestRelativeDifference * median);
+  double       kept = 0.0, level = 0.0, step = 0.0, squares = 0.0, products = 0.0;
+  bool         isRounded = false;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (std::abs(first[i].stepDn - median) <= reach)
+    {
+      const double x = first[i].levelDn - first->levelDn;
+      kept += 1.0;
+      level += x;
+      step += first[i].stepDn;
+      squares += x * x;
+      products += x * first[i].stepDn;
+      isRounded = isRounded || first[i].stepDn != median;
+    }
+  }
+  Stretch      stretch;
+  const double spread = squares - level * level / kept;
+  stretch.slope = spread > 0.0 ? (products - level * step / kept) / spread : 0.0;
+  stretch.addedDn2 = isRounded ? unitDn * unitDn / 12.0 : 0.0;
+  stretch.middle.stepDn = step / kept;
+  stretch.middle.levelDn = first->levelDn + level / kept;
+  stretch.middle = stretch.At(stretch.middle.levelDn);
+  return stretch;
+}
+
+/** Whether the steps differ by more than rounding makes of steps that are the same everywhere. Few at either end of
+ * the sizes may be anything. */
+bool
+Differ(const std::vector<CodeSteps::Local> & table, double unitDn)
+{
+  std::vector<double> steps(table.size());
+  std::transform(table.begin(), table.end(), steps.begin(), [](const auto & local) { return local.stepDn; });
+  std::sort(steps.begin(), steps.end());
+  const std::size_t odd = steps.size() / InMoments.oddStepsOneIn;
+  const double      smallest = steps[odd];
+  const double      largest = steps[steps.size() - 1 - odd];
+  return largest > InMoments.leastRatioOfSteps * smallest &&
+         largest - smallest >
+           InMoments.leastDifferenceOfSteps * unitDn / static_cast<double>(InMoments.distancesPerStep);
+}
+} // namespace
+
+CodeSteps::CodeSteps(std::vector<Local> table, double unitDn)
+  : m_Table(std::move(table))
+  , m_UnitDn(unitDn)
+{}
+
+double
+CodeSteps::Interpolate(double levelDn, double Local::* value) const
+{
+  if (m_Table.empty())
+  {
+    return 0.0;
+  }
+  const auto above = std::upper_bound(
+    m_Table.begin(), m_Table.end(), levelDn, [](double level, const Local & local) { return level < local.levelDn; });
+  if (above == m_Table.begin() || above == m_Table.end())
+  {
+    return (above == m_Table.begin() ? m_Table.front() : m_Table.back()).*value;
+  }
+  const Local & low = *(above - 1);
+  const Local & high = *above;
+  const double  share = (levelDn - low.levelDn) / (high.levelDn - low.levelDn);
+  return low.*value + share * (high.*value - low.*value);
+}
+
+CodeSteps
+FindCodeSteps(const std::vector<SeenCode> & codes)
+{
+  const std::vector<CodeDistance> distances = DistancesOf(codes);
+  const double                    unit = UnitOf(distances);
+  const std::size_t               count = std::max(InMoments.distancesPerStep, 4 * distances.size() / StepsInTable);
+  std::vector<CodeSteps::Local>   table;
+  std::vector<Stretch>            ends;
+  for (std::size_t first = 0; first + count <= distances.size(); first += count / 4)
+  {
+    const Stretch stretch = StretchOf(distances.data() + first, count, unit);
+    if (table.empty() || stretch.middle.levelDn > table.back().levelDn)
+    {
+      table.push_back(stretch.middle);
+      ends.resize(2, stretch);
+      ends.back() = stretch;
+    }
+  }
+  if (table.empty() || !Differ(table, unit))
+  {
+    return CodeSteps();
+  }
+  table.insert(table.begin(), ends.front().At(std::min(distances.front().levelDn, table.front().levelDn - unit)));
+  table.push_back(ends.back().At(std::max(distances.back().levelDn, table.back().levelDn + unit)));
+  return CodeSteps(std::move(table), unit);
+}
+
+} // namespace sensornoise

@@ -1,0 +1,317 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "moments/Codes.h"
+
+#include "base/Text.h"
+#include "moments/CodeRange.h"
+#include "moments/CodeSettings.h"
+#include "moments/CodeSteps.h"
+#include "moments/Constants.h"
+#include "moments/PileUp.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <iterator>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace sensornoise
+{
+
+CodeHistogram::CodeHistogram()
+  : m_Counts(LowestCode + 65536, 0)
+{}
+
+std::vector<std::int32_t>
+CodeHistogram::Occupied() const
+{
+  std::vector<std::int32_t> codes;
+  for (std::size_t i = 0; i < m_Counts.size(); ++i)
+  {
+    if (m_Counts[i] > 0)
+    {
+      codes.push_back(static_cast<std::int32_t>(i) - LowestCode);
+    }
+  }
+  return codes;
+}
+
+double
+FindQuantisationStep(const std::vector<std::int32_t> & codes, bool & regular)
+{
+  regular = true;
+  std::map<std::int32_t, std::size_t> spacings;
+  for (std::size_t i = 1; i < codes.size(); ++i)
+  {
+    ++spacings[codes[i] - codes[i - 1]];
+  }
+  const auto majority = std::max_element(
+    spacings.begin(), spacings.end(), [](const auto & a, const auto & b) { return a.second < b.second; });
+  if (majority == spacings.end())
+  {
+    return 1.0;
+  }
+  std::int32_t step = majority->first;
+  if (2 * majority->second < codes.size())
+  {
+    // No majority: few codes, far apart. What all spacings are multiples of is a step.
+    step = 0;
+    for (const auto & spacing : spacings)
+    {
+      step = std::gcd(step, spacing.first);
+    }
+  }
+  std::map<std::int32_t, std::size_t> remainders;
+  for (const std::int32_t code : codes)
+  {
+    ++remainders[((code % step) + step) % step];
+  }
+  std::size_t onGrid = 0;
+  for (const auto & remainder : remainders)
+  {
+    onGrid = std::max(onGrid, remainder.second);
+  }
+  regular = static_cast<double>(codes.size() - onGrid) <=
+            InMoments.largestOffGridShare * static_cast<double>(codes.size()) + InMoments.offGridCodes;
+  return step;
+}
+
+namespace
+{
+
+/** Whether the extreme code \a end is a pile-up; \a inwards is -step at the upper end and +step at the lower. */
+bool
+CodePilesUp(const CodeHistogram & extremes, std::int32_t end, std::int32_t inwards)
+{
+  std::uint32_t inside = 0;
+  for (std::int32_t k = 1; k <= InMoments.levelsInsidePileUp; ++k)
+  {
+    inside = std::max(inside, extremes.Count(end + k * inwards));
+  }
+  return IsPileUp(extremes.Count(end), inside);
+}
+
+/** The same of companded codes, which are not evenly spaced: compared with the next \a occupied codes inside. */
+bool
+CompandedPileUp(const CodeHistogram &             extremes,
+                const std::vector<std::int32_t> & occupied,
+                std::int32_t                      end,
+                bool                              isHigh)
+{
+  std::uint32_t inside = 0;
+  auto          code = std::lower_bound(occupied.begin(), occupied.end(), end);
+  for (int k = 1; k <= InMoments.levelsInsidePileUp; ++k)
+  {
+    if (isHigh ? code == occupied.begin() : std::next(code) == occupied.end())
+    {
+      break;
+    }
+    code += isHigh ? -1 : 1;
+    inside = std::max(inside, extremes.Count(*code));
+  }
+  return IsPileUp(extremes.Count(end), inside);
+}
+
+/** The codes that are an extreme of a pixel, ascending. */
+std::vector<std::int32_t>
+OccupiedCodes(const CodeHistogram & minima, const CodeHistogram & maxima)
+{
+  std::vector<std::int32_t>       codes = minima.Occupied();
+  const std::vector<std::int32_t> upper = maxima.Occupied();
+  codes.insert(codes.end(), upper.begin(), upper.end());
+  std::sort(codes.begin(), codes.end());
+  codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
+  return codes;
+}
+
+std::vector<SeenCode>
+WithCounts(const std::vector<std::int32_t> & codes, const CodeHistogram & minima, const CodeHistogram & maxima)
+{
+  std::vector<SeenCode> seen(codes.size());
+  std::transform(codes.begin(), codes.end(), seen.begin(), [&](std::int32_t code) {
+    return SeenCode{ code, minima.Count(code) + maxima.Count(code) };
+  });
+  return seen;
+}
+
+/** What all distances between the codes are multiples of [DN]. */
+double
+CommonDivisor(const std::vector<std::int32_t> & codes)
+{
+  std::int32_t divisor = 0;
+  for (const std::int32_t code : codes)
+  {
+    divisor = std::gcd(divisor, code - codes.front());
+  }
+  return std::max(divisor, 1);
+}
+
+/** Sets the bit depth, given or found, and returns where the codes end [DN]. */
+double
+SetBitDepth(std::int32_t highest, double step, const CodeSettings & settings, CodeRange & range)
+{
+  range.bitDepthSource = settings.bitDepth ? "given" : "data";
+  range.bitDepth = settings.bitDepth.value_or(16);
+  for (const int bits : { 8, 10, 12, 14 })
+  {
+    if (!settings.bitDepth && range.bitDepth == 16 && highest <= (std::exp2(bits) - 1.0) * step)
+    {
+      range.bitDepth = bits;
+    }
+  }
+  const double top = (std::exp2(*range.bitDepth) - 1.0) * step;
+  if (highest > top)
+  {
+    throw std::invalid_argument("the data hold the level " + std::to_string(highest) + " DN, but " +
+                                std::to_string(*range.bitDepth) + " bits with a code step of " + Text(step) +
+                                " DN end at " + Text(top) + " DN; give a larger bit depth");
+  }
+  return top;
+}
+
+} // namespace
+
+std::int32_t
+FindEndOfCodes(const CodeHistogram & extremes, bool isHigh, double step)
+{
+  std::vector<std::int32_t> codes = extremes.Occupied();
+  const auto                stride = std::max<std::int32_t>(1, static_cast<std::int32_t>(step));
+  if (isHigh)
+  {
+    std::reverse(codes.begin(), codes.end());
+  }
+  const std::int32_t inwards = isHigh ? -stride : stride;
+  std::int32_t       end = codes.front();
+  double             beyond = extremes.Count(end);
+  for (std::size_t i = 1; i < codes.size(); ++i)
+  {
+    const auto pixels = static_cast<double>(extremes.Count(codes[i]));
+    const bool isApart = std::abs(codes[i] - codes[i - 1]) > InMoments.levelsOutsidePileUp * stride;
+    if (isApart && beyond <= InMoments.largestStrayShare * pixels && CodePilesUp(extremes, codes[i], inwards))
+    {
+      end = codes[i];
+    }
+    beyond += pixels;
+  }
+  return end;
+}
+
+namespace
+{
+/** The extremes of the pixels, and what tells whether they may be trusted, see FindCodes(). */
+struct Extremes
+{
+  const CodeHistogram &     minima;
+  const CodeHistogram &     maxima;
+  std::vector<std::int32_t> codes; ///< that occur, ascending
+  std::int32_t              low;   ///< their ends, see FindEndOfCodes()
+  std::int32_t              high;
+  double                    typicalVarianceDn2;
+  const ExtremeDepths &     depths;
+};
+
+/** Whether an end of the codes, of spacing \a step and ending at \a top, is a pile-up. */
+bool
+EndPilesUp(const Extremes & extremes, bool isHigh, double step, const CodeSteps & steps)
+{
+  const CodeHistogram & histogram = isHigh ? extremes.maxima : extremes.minima;
+  const std::int32_t    end = isHigh ? extremes.high : extremes.low;
+  const double          depth = isHigh ? extremes.depths.high : extremes.depths.low;
+  if (steps.IsCompanded())
+  {
+    return CanTellPileUp(extremes.typicalVarianceDn2, steps.StepAt(end), depth) &&
+           CompandedPileUp(histogram, extremes.codes, end, isHigh);
+  }
+  const auto stride = static_cast<std::int32_t>(step);
+  return CanTellPileUp(extremes.typicalVarianceDn2, step, depth) &&
+         CodePilesUp(histogram, end, isHigh ? -stride : stride);
+}
+
+/** Sets the clip levels, given or found; the codes end at \a top. */
+void
+SetClipLevels(const Extremes & extremes, double step, double top, const CodeSettings & settings, CodeRange & range)
+{
+  const std::int32_t lowest = extremes.low;
+  const std::int32_t highest = extremes.high;
+  std::string        lowSource = "given";
+  std::string        highSource = "given";
+  range.clipLowDn = settings.clipLowDn;
+  range.clipHighDn = settings.clipHighDn;
+  if (!range.clipLowDn)
+  {
+    const bool found = lowest < highest && lowest != 0 && EndPilesUp(extremes, false, step, range.steps);
+    // Codes below 0 end where their type does, which is no level of the sensor.
+    const bool isSigned = extremes.codes.front() < 0;
+    range.clipLowDn = found ? std::optional<double>(lowest) : isSigned ? std::nullopt : std::optional<double>(0.0);
+    lowSource = found ? "pile-up" : isSigned ? "none" : "code range";
+  }
+  if (!range.clipHighDn)
+  {
+    const bool found = lowest < highest && highest < top && EndPilesUp(extremes, true, step, range.steps);
+    range.clipHighDn = found ? highest : top;
+    highSource = found ? "pile-up" : "code range";
+  }
+  range.SetClipSources(lowSource, highSource);
+}
+
+} // namespace
+
+CodeRange
+FindCodes(const CodeHistogram & minima,
+          const CodeHistogram & maxima,
+          double                typicalVarianceDn2,
+          const CodeSettings &  settings,
+          const ExtremeDepths & depths)
+{
+  const std::vector<std::int32_t> codes = OccupiedCodes(minima, maxima);
+  if (codes.empty())
+  {
+    throw std::invalid_argument("the stack holds no pixel");
+  }
+  CodeRange range;
+  range.quantisationStepDn = FindQuantisationStep(codes, range.isRegular);
+  if (settings.quantisationStepDn)
+  {
+    range.quantisationStepDn = *settings.quantisationStepDn;
+  }
+  else
+  {
+    range.steps = FindCodeSteps(WithCounts(codes, minima, maxima));
+  }
+  double step = range.quantisationStepDn > 0.0 ? range.quantisationStepDn : 1.0;
+  if (range.steps.IsCompanded())
+  {
+    step = CommonDivisor(codes);
+    range.isRegular = true;
+    range.quantisationStepDn = range.steps.GetTable().front().stepDn;
+  }
+  const double   top = SetBitDepth(codes.back(), step, settings, range);
+  const Extremes extremes{
+    minima, maxima, codes, FindEndOfCodes(minima, false, step), FindEndOfCodes(maxima, true, step), typicalVarianceDn2,
+    depths
+  };
+  SetClipLevels(extremes, step, top, settings, range);
+  return range;
+}
+
+CodeRange
+GivenCodes(const CodeSettings & settings)
+{
+  CodeRange range;
+  range.bitDepth = settings.bitDepth;
+  range.bitDepthSource = settings.bitDepth ? "given" : "none";
+  range.quantisationStepDn = settings.quantisationStepDn.value_or(0.0);
+  range.clipLowDn = settings.clipLowDn;
+  range.clipHighDn = settings.clipHighDn;
+  range.clipSource = settings.clipLowDn || settings.clipHighDn ? "given" : "none";
+  return range;
+}
+
+} // namespace sensornoise

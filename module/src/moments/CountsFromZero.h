@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_moments_CountsFromZero_h
+#define sensornoise_moments_CountsFromZero_h
+
+#include "moments/Constants.h"
+#include "moments/TemporalMaps.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace sensornoise
+{
+
+/** Returns whether the values of a stack are counts: 0 is not the level at which a sensor is clipped, but nothing.
+ *
+ * The variance of counts is in proportion to their mean, down to a fraction of one. A sensor whose offset is near 0 has
+ * the noise of its read-out there, and of rounding, less what 0 cuts off: its variance over its mean changes. The ratio
+ * is compared between pixels of a mean below one step, of 1 to 3, of 3 to 10, and above; \a stepDn is the step of the
+ * values [DN]. */
+template <typename TPixel>
+bool
+AreCountsFromZero(const TemporalMaps<TPixel> & maps, double stepDn)
+{
+  constexpr std::size_t      groups = 4;
+  std::array<double, groups> mean{};
+  std::array<double, groups> variance{};
+  std::array<double, groups> squares{}; // of the variances
+  std::array<double, groups> pixels{};
+  const std::size_t          stride = std::max<std::size_t>(1, maps.GetNumberOfPixels() / InMoments.pixelsOfCounts);
+  for (std::size_t p = 0; p < maps.GetNumberOfPixels(); p += stride)
+  {
+    const double steps = maps.mean[p] / stepDn;
+    if (maps.IsFinite(p) && maps.GetMinimum(p) >= 0.0 && steps > InMoments.leastCount && steps < InMoments.largestCount)
+    {
+      const std::size_t group = steps < 1.0 ? 0 : steps < 3.0 ? 1 : steps < 10.0 ? 2 : 3;
+      mean[group] += steps;
+      const double ofSteps = maps.variance[p] / (stepDn * stepDn);
+      variance[group] += ofSteps;
+      squares[group] += ofSteps * ofSteps;
+      pixels[group] += 1.0;
+    }
+  }
+  // The error of a group's mean variance is sqrt(spread) over the pixels.
+  double      least = 0.0;
+  double      largest = 0.0;
+  std::size_t told = 0;
+  for (std::size_t k = 0; k < groups; ++k)
+  {
+    const double spread = squares[k] - variance[k] * variance[k] / std::max(1.0, pixels[k]);
+    if (variance[k] > 0.0 && std::sqrt(std::max(0.0, spread)) < InMoments.errorOfCountRatio * variance[k])
+    {
+      const double ratio = variance[k] / mean[k];
+      least = told == 0 ? ratio : std::min(least, ratio);
+      largest = told == 0 ? ratio : std::max(largest, ratio);
+      ++told;
+    }
+  }
+  return told >= 2 && largest < (1.0 + InMoments.largestCountRatio) * least;
+}
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_moments_IntegerMoments_h
+#define sensornoise_moments_IntegerMoments_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/Parallel.h"
+#include "base/PixelLayout.h"
+#include "moments/TemporalMaps.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <istream>
+#include <ostream>
+#include <type_traits>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** \class IntegerMoments
+ * \brief Exact sums over time of every pixel of a stack of 8- or 16-bit frames: mean, variance, minimum, maximum.
+ *
+ * Each value u [DN] is held as s = u - centre, which fits a signed 16-bit number, and the sums S = sum s and
+ * Q = sum s^2 are exact: doubles hold integers up to 2^53, and the maps of mean and variance can take their memory. So
+ * frames may be added, and parts merged, in any order and in any number of threads: the result has the same bits. The
+ * variance is unbiased (section 2.3.1 of Sur & Gredi\'ac 2015, https://doi.org/10.1137/140977035) and what is
+ * subtracted for it is exact, too.
+ *
+ * Usage: for each run of frames, call AddFrames() for ranges of pixels that cover the frame once (ranges may be added
+ * at the same time by different threads), then AdvanceFrames() once.
+ *
+ * Memory: 20 bytes a pixel, whatever the number of frames, of which there may be MostFrames.
+ *
+ * \tparam TPixel unsigned char, signed char, unsigned short or short.
+ */
+template <typename TPixel>
+class IntegerMoments
+{
+  static_assert(std::is_integral_v<TPixel> && sizeof(TPixel) <= 2, "IntegerMoments holds 8- and 16-bit pixels");
+
+public:
+  /** With them S^2 / n and Q are at most 2^52, and so are the terms of which the variance is the difference. */
+  static constexpr std::size_t MostFrames = std::size_t{ 1 } << 22;
+
+  explicit IntegerMoments(std::size_t pixels = 0, const ParallelFor & parallelFor = SerialFor);
+
+  /** Adds \a frames frames for the pixels [begin, end). \a firstFrame points at pixel 0 of the first frame, and each
+   * next frame begins \a stride pixels later. */
+  void
+  AddFrames(const TPixel * firstFrame, std::size_t stride, std::size_t frames, std::size_t begin, std::size_t end)
+  {
+    this->AddFrames(firstFrame, PixelLayout::OfPixels(m_Sum.size(), stride), frames, begin, end);
+  }
+  /** The same for frames whose pixels stand as \a layout says. */
+  void
+  AddFrames(const TPixel *      firstFrame,
+            const PixelLayout & layout,
+            std::size_t         frames,
+            std::size_t         begin,
+            std::size_t         end);
+
+  /** Tells that \a frames frames have been added for every pixel. Throws std::invalid_argument if there are more than
+   * MostFrames. */
+  void
+  AdvanceFrames(std::size_t frames);
+
+  /** Adds the sums of other frames of the same pixels: exact, in any order. Throws std::invalid_argument if these have
+   * another number of pixels, or both together more than MostFrames. */
+  void
+  Merge(const IntegerMoments & other);
+
+  /** Writes the sums, see BinaryStream. */
+  void
+  Save(std::ostream & out) const;
+
+  /** Replaces the sums by those of a stream. Throws std::runtime_error, and changes nothing, if it holds other sums, or
+   * those of another type or number of pixels, or ends early. */
+  void
+  Restore(std::istream & in);
+
+  /** Mean, variance and extremes as maps, in the memory of the sums, which are given away. */
+  TemporalMaps<TPixel>
+  TakeMaps(const ParallelFor & parallelFor = SerialFor);
+
+  std::size_t
+  GetNumberOfPixels() const
+  {
+    return m_Sum.size();
+  }
+  std::size_t
+  GetNumberOfFrames() const
+  {
+    return m_Frames;
+  }
+
+  /** Integers are always finite. */
+  bool
+  IsFinite(std::size_t) const
+  {
+    return true;
+  }
+
+  /** Mean of pixel \a p over time [DN]. */
+  double
+  GetMean(std::size_t p) const
+  {
+    return m_Sum[p] / static_cast<double>(m_Frames) + Centre;
+  }
+
+  /** Sum of the squared deviations of pixel \a p from its mean [DN^2].
+   *
+   * With S = q n + r, the sum about the integer q is A = Q - q (S + r), exact; about the mean it is A - r^2/n. S / n is
+   * no integer by rounding: |S| <= 2^37 is further from the next multiple of n <= 2^22 than 2^-53 of it. */
+  double
+  GetSumOfSquaredDeviations(std::size_t p) const
+  {
+    const auto   n = static_cast<double>(m_Frames);
+    const double q = static_cast<std::int32_t>(m_Sum[p] / n);
+    const double r = m_Sum[p] - q * n;
+    const double aboutQ = m_SumOfSquares[p] - q * (m_Sum[p] + r);
+    return aboutQ - r * r / n;
+  }
+
+  /** Unbiased variance of pixel \a p over time [DN^2]; needs two frames. */
+  double
+  GetVariance(std::size_t p) const
+  {
+    return this->GetSumOfSquaredDeviations(p) / static_cast<double>(m_Frames - 1);
+  }
+
+  /** Lowest and highest value of pixel \a p over time [DN]. */
+  double
+  GetMinimum(std::size_t p) const
+  {
+    return m_Minimum[p] + Centre;
+  }
+  double
+  GetMaximum(std::size_t p) const
+  {
+    return m_Maximum[p] + Centre;
+  }
+
+private:
+  static constexpr std::int32_t Centre = TemporalMaps<TPixel>::Centre;
+
+  void
+  AddBlock(const TPixel *      firstFrame,
+           const PixelLayout & layout,
+           std::size_t         frames,
+           std::size_t         begin,
+           std::size_t         size);
+
+  std::size_t               m_Frames{ 0 };
+  std::vector<double>       m_Sum;          // integers
+  std::vector<double>       m_SumOfSquares; // integers
+  std::vector<std::int16_t> m_Minimum;
+  std::vector<std::int16_t> m_Maximum;
+};
+
+extern template class SensorNoise_EXPORT IntegerMoments<unsigned char>;
+extern template class SensorNoise_EXPORT IntegerMoments<signed char>;
+extern template class SensorNoise_EXPORT IntegerMoments<unsigned short>;
+extern template class SensorNoise_EXPORT IntegerMoments<short>;
+
+} // namespace sensornoise
+
+#endif

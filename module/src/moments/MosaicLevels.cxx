@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "moments/MosaicLevels.h"
+
+#include "moments/Constants.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace sensornoise
+{
+
+namespace
+{
+constexpr std::size_t BlockSize = 32; // [pixel]
+
+/** Weights that fall to 0 at both ends, Hann's: patterns of the scene leave nothing at the borders of a block. */
+std::vector<double>
+MakeWindow(std::size_t size)
+{
+  std::vector<double> window(size);
+  for (std::size_t k = 0; k < size; ++k)
+  {
+    const double angle = 2.0 * std::acos(-1.0) * (static_cast<double>(k) + 0.5) / static_cast<double>(size);
+    window[k] = 0.5 - 0.5 * std::cos(angle);
+  }
+  return window;
+}
+
+/** Weighted means over the pixels of a block that have a finite neighbourhood. */
+struct BlockLevels
+{
+  double rough{ 0.0 };       ///< of a pixel to the mean of its four neighbours, without sign [DN]
+  double main{ 0.0 };        ///< upper left less lower right pixel of the 2 x 2 [DN]
+  double anti{ 0.0 };        ///< upper right less lower left pixel [DN]
+  double ofDiagonals{ 0.0 }; ///< main diagonal less the other [DN]
+  bool   isKnown{ false };
+};
+
+BlockLevels
+LevelsOfBlock(const std::vector<double> & frame,
+              std::size_t                 width,
+              std::size_t                 left,
+              std::size_t                 top,
+              const std::vector<double> & window)
+{
+  const std::size_t size = window.size();
+  // by phase, 2 * (y % 2) + x % 2: how much more than the mean of the four neighbours aslant, and beside
+  std::array<double, 4> aslant{};
+  std::array<double, 4> beside{};
+  std::array<double, 4> weight{};
+  double                rough = 0.0;
+  for (std::size_t y = top; y < top + size; ++y)
+  {
+    for (std::size_t x = left; x < left + size; ++x)
+    {
+      const double *    pixel = frame.data() + y * width + x;
+      const auto        row = static_cast<std::ptrdiff_t>(width);
+      const double      diagonal = 0.25 * (pixel[-row - 1] + pixel[-row + 1] + pixel[row - 1] + pixel[row + 1]);
+      const double      cross = 0.25 * (pixel[-row] + pixel[row] + pixel[-1] + pixel[1]);
+      const std::size_t phase = 2 * (y % 2) + x % 2;
+      if (std::isfinite(*pixel + diagonal + cross))
+      {
+        const double share = window[x - left] * window[y - top];
+        aslant.at(phase) += share * (*pixel - diagonal);
+        beside.at(phase) += share * (*pixel - cross);
+        rough += share * std::abs(*pixel - cross);
+        weight.at(phase) += share;
+      }
+    }
+  }
+  BlockLevels  block;
+  const double all = weight[0] + weight[1] + weight[2] + weight[3];
+  block.isKnown = *std::min_element(weight.begin(), weight.end()) > 0.0;
+  if (block.isKnown)
+  {
+    const auto mean = [&weight](const std::array<double, 4> & sums, std::size_t phase) {
+      return sums.at(phase) / weight.at(phase);
+    };
+    block.rough = rough / all;
+    block.main = 0.5 * (mean(aslant, 0) - mean(aslant, 3));
+    block.anti = 0.5 * (mean(aslant, 1) - mean(aslant, 2));
+    block.ofDiagonals = 0.25 * (mean(beside, 0) + mean(beside, 3) - mean(beside, 1) - mean(beside, 2));
+  }
+  return block;
+}
+
+/** All blocks that lie in the frame with their neighbours; one smaller one where the frame has no room for more. */
+std::vector<BlockLevels>
+LevelsOfBlocks(const std::vector<double> & frame,
+               std::size_t                 width,
+               std::size_t                 height,
+               const ParallelFor &         parallelFor)
+{
+  std::vector<BlockLevels> blocks;
+  const std::size_t        room = std::min(width, height);
+  if (room < 4)
+  {
+    return blocks;
+  }
+  const std::size_t size = std::min(BlockSize, (room - 2) / 2 * 2);
+  const std::size_t columns = (width - 2) / size;
+  const std::size_t rows = (height - 2) / size;
+  blocks.resize(columns * rows);
+  const std::vector<double> window = MakeWindow(size);
+  parallelFor(rows, [&](std::size_t row) {
+    for (std::size_t column = 0; column < columns; ++column)
+    {
+      blocks[row * columns + column] = LevelsOfBlock(frame, width, 1 + column * size, 1 + row * size, window);
+    }
+  });
+  blocks.erase(std::remove_if(blocks.begin(), blocks.end(), [](const BlockLevels & block) { return !block.isKnown; }),
+               blocks.end());
+  return blocks;
+}
+
+} // namespace
+
+std::optional<BayerPattern>
+RecogniseMosaic(const std::vector<double> & frameDn,
+                std::size_t                 width,
+                std::size_t                 height,
+                const ParallelFor &         parallelFor)
+{
+  const std::vector<BlockLevels> blocks = LevelsOfBlocks(frameDn, width, height, parallelFor);
+  if (blocks.empty())
+  {
+    return std::nullopt;
+  }
+  double main = 0.0;
+  double anti = 0.0;
+  for (const BlockLevels & block : blocks)
+  {
+    main += std::abs(block.main);
+    anti += std::abs(block.anti);
+  }
+  const bool isGreenMain = main < anti;
+  double     contrast = 0.0; // of green to the mean of the others
+  double     rough = 0.0;
+  double     sumOfOne = 0.0; // of green to the colour beside the main diagonal's pixel, and to the other one
+  double     sumOfOther = 0.0;
+  double     oneLessOther = 0.0;
+  for (const BlockLevels & block : blocks)
+  {
+    const double green = isGreenMain ? block.ofDiagonals : -block.ofDiagonals;
+    const double colours = isGreenMain ? block.anti : block.main; // one less the other
+    contrast += std::abs(green);
+    rough += block.rough;
+    sumOfOne += std::abs(green - 0.5 * colours);
+    sumOfOther += std::abs(green + 0.5 * colours);
+    oneLessOther += colours;
+  }
+  // The greens differ by what noise leaves: a colour is another one if it differs by more than that, too.
+  const double greens = std::min(main, anti);
+  const double least = std::max(InMoments.leastColourDifference * contrast, InMoments.leastColourOverNoise * greens);
+  const bool   isMosaic = contrast > 0.0 && contrast >= InMoments.leastMosaicContrast * rough &&
+                        greens <= InMoments.largestGreenDifference * contrast &&
+                        std::min({ std::max(main, anti), sumOfOne, sumOfOther }) >= least;
+  if (!isMosaic)
+  {
+    return std::nullopt;
+  }
+  // One is the upper right pixel where green is on the main diagonal, else the upper left.
+  if (isGreenMain)
+  {
+    return oneLessOther > 0.0 ? BayerPattern::GRBG : BayerPattern::GBRG;
+  }
+  return oneLessOther > 0.0 ? BayerPattern::RGGB : BayerPattern::BGGR;
+}
+
+} // namespace sensornoise

@@ -1,0 +1,255 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "moments/StackMaps.h"
+
+#include "base/ForAll.h"
+#include "sensornoise/Parallel.h"
+#include "sensornoise/PixelTypes.h"
+#include "base/Quantiles.h"
+#include "moments/CodeRange.h"
+#include "moments/CodeSettings.h"
+#include "moments/Codes.h"
+#include "moments/Constants.h"
+#include "moments/CountsFromZero.h"
+#include "moments/FloatingLevels.h"
+#include "moments/OutermostLevels.h"
+#include "moments/PileUp.h"
+#include "moments/StackEnds.h"
+#include "moments/TemporalMaps.h"
+#include "moments/TemporalMoments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+
+/** The median temporal variance [DN^2] of the pixels that vary: some thousand, evenly spread, tell the typical noise.
+ * Pixels that a clip level holds fast do not vary, and may be most of them. */
+template <typename TPixel>
+double
+TypicalVariance(const TemporalMaps<TPixel> & maps)
+{
+  const std::size_t   pixels = maps.GetNumberOfPixels();
+  std::vector<double> variances;
+  for (std::size_t p = 0; p < pixels; p += std::max<std::size_t>(1, pixels / 8192))
+  {
+    if (maps.IsFinite(p) && maps.variance[p] > 0.0)
+    {
+      variances.push_back(maps.variance[p]);
+    }
+  }
+  return variances.empty() ? 0.0 : Quantile(variances, 0.5);
+}
+
+/** The codes of a stack of whole numbers, from every finite pixel's extremes. */
+template <typename TPixel>
+CodeRange
+FindCodesOfWhole(const TemporalMaps<TPixel> & maps, const CodeSettings & settings, const ParallelFor & parallelFor)
+{
+  CodeHistogram minima;
+  CodeHistogram maxima;
+  ExtremeDepths depths;
+  ForAll(2, parallelFor, [&](std::size_t isHigh) {
+    CodeHistogram & extremes = isHigh == 1 ? maxima : minima;
+    for (std::size_t p = 0; p < maps.GetNumberOfPixels(); ++p)
+    {
+      if (maps.IsFinite(p))
+      {
+        extremes.Add(isHigh == 1 ? maps.GetMaximum(p) : maps.GetMinimum(p));
+      }
+    }
+    const auto   end = isHigh == 1 ? OutermostLevels::End::High : OutermostLevels::End::Low;
+    bool         isRegular = true;
+    const double step = settings.quantisationStepDn.value_or(FindQuantisationStep(extremes.Occupied(), isRegular));
+    const double level = FindEndOfCodes(extremes, isHigh == 1, step);
+    (isHigh == 1 ? depths.high : depths.low) = MedianDepth(maps, end, { isHigh == 1 ? level : -level, 0 });
+  });
+  CodeRange codes = FindCodes(minima, maxima, TypicalVariance(maps), settings, depths);
+  if (!settings.clipLowDn && codes.clipLowDn == 0.0 && minima.Count(0) > 0 &&
+      AreCountsFromZero(maps, std::max(1.0, codes.quantisationStepDn)))
+  {
+    // Nothing is below 0, so that nothing is cut off there, and counts are not rounded.
+    codes.clipLowDn.reset();
+    codes.SetClipSources("none", codes.clipSource == "code range" ? "code range" : "pile-up");
+    codes.quantisationStepDn = settings.quantisationStepDn.value_or(0.0);
+  }
+  // A signed 16-bit number ends at 32767, whatever 16 bits would hold.
+  const double largest = std::numeric_limits<TPixel>::max();
+  codes.clipHighDn = std::min(codes.clipHighDn.value_or(largest), largest);
+  return codes;
+}
+
+/** The spacing of the levels of a floating-point stack, of codes that were multiplied by one number; 0: they have none.
+ * All of some thousand pixels' minima lie on one grid then. A grid that is not much wider than the type's own digits is
+ * no other than theirs. */
+template <typename TPixel>
+double
+FindStepOfFloating(const TemporalMaps<TPixel> & maps)
+{
+  const std::size_t   pixels = maps.GetNumberOfPixels();
+  std::vector<double> levels;
+  for (std::size_t p = 0; p < pixels; p += std::max<std::size_t>(1, pixels / 8192))
+  {
+    if (maps.IsFinite(p))
+    {
+      levels.push_back(maps.GetMinimum(p));
+    }
+  }
+  std::sort(levels.begin(), levels.end());
+  levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
+  if (levels.size() < InMoments.fewestLevelsOfGrid)
+  {
+    return 0.0;
+  }
+  const double digits = std::numeric_limits<TPixel>::epsilon() * std::max(std::abs(levels.front()), levels.back());
+  const double range = levels.back() - levels.front();
+  double       least = range;
+  for (std::size_t i = 1; i < levels.size(); ++i)
+  {
+    const double spacing = levels[i] - levels[i - 1];
+    least = spacing > InMoments.leastStepInDigits * digits ? std::min(least, spacing) : least;
+  }
+  double steps = 0.0; // counted from level to level: the digits round the least spacing
+  for (std::size_t i = 1; i < levels.size(); ++i)
+  {
+    steps += std::round((levels[i] - levels[i - 1]) / least);
+  }
+  const double step = range / steps;
+  const bool   isGrid = std::all_of(levels.begin(), levels.end(), [&](double level) {
+    const double places = (level - levels.front()) / step;
+    return std::abs(places - std::round(places)) < InMoments.largestOffGrid;
+  });
+  return isGrid ? step : 0.0;
+}
+
+/** The clip levels of a floating-point stack, from every finite pixel's extremes. */
+template <typename TPixel>
+CodeRange
+FindLevelsOfFloating(const TemporalMaps<TPixel> & maps, const CodeSettings & settings, const ParallelFor & parallelFor)
+{
+  const double    stepDn = settings.quantisationStepDn.value_or(FindStepOfFloating(maps));
+  OutermostLevels minima(OutermostLevels::End::Low);
+  OutermostLevels maxima(OutermostLevels::End::High);
+  ExtremeDepths   depths;
+  parallelFor(2, [&](std::size_t isHigh) {
+    const auto        end = isHigh == 1 ? OutermostLevels::End::High : OutermostLevels::End::Low;
+    OutermostLevels & levels = isHigh == 1 ? maxima : minima;
+    levels = LevelsAt(end, maps);
+    levels.LeaveOutStray(stepDn > 0.0 ? stepDn : levels.Step());
+    if (levels.Pixels() >= InMoments.fewestPixelsOfPileUp)
+    {
+      const double outwards = isHigh == 1 ? levels.Level() : -levels.Level();
+      (isHigh == 1 ? depths.high : depths.low) = MedianDepth(maps, end, { outwards, levels.Pixels() });
+    }
+  });
+  CodeRange range = FindLevels(minima, maxima, TypicalVariance(maps), settings, depths);
+  range.quantisationStepDn = stepDn;
+  return range;
+}
+
+template <typename TPixel>
+StackEnds
+FindEnds(const TemporalMaps<TPixel> & maps, const ParallelFor & parallelFor)
+{
+  const std::size_t      pixels = maps.GetNumberOfPixels();
+  std::vector<StackEnds> blocks((pixels + PixelsPerBlock - 1) / PixelsPerBlock);
+  ForBlocks(pixels, parallelFor, [&](std::size_t begin, std::size_t end) {
+    StackEnds block;
+    block.AddPixels(maps, begin, end);
+    blocks[begin / PixelsPerBlock] = block;
+  });
+  StackEnds ends;
+  for (const StackEnds & block : blocks)
+  {
+    ends.Add(block);
+  }
+  return ends;
+}
+
+} // namespace
+
+CodeRange
+StackSummary::AttainedCodes() const
+{
+  CodeRange attained = codes;
+  attained.clipLowDn = clippedLow > 0 ? codes.clipLowDn : std::nullopt;
+  attained.clipHighDn = clippedHigh > 0 ? codes.clipHighDn : std::nullopt;
+  return attained;
+}
+
+template <typename TPixel>
+StackSummary
+SummariseStack(const TemporalMaps<TPixel> & maps,
+               const CodeSettings &         settings,
+               const ParallelFor &          parallelFor,
+               std::uint8_t *               valid)
+{
+  const std::size_t pixels = maps.GetNumberOfPixels();
+  const StackEnds   ends = FindEnds(maps, parallelFor);
+  StackSummary      summary;
+  // Whole numbers are codes, whatever the type that they are stored in.
+  const bool areCodes = std::is_integral_v<TPixel> || (ends.high.pixels > 0 && ends.areWhole);
+  summary.codes =
+    areCodes ? FindCodesOfWhole(maps, settings, parallelFor) : FindLevelsOfFloating(maps, settings, parallelFor);
+
+  std::vector<StackSummary> counts((pixels + PixelsPerBlock - 1) / PixelsPerBlock);
+  ForBlocks(pixels, parallelFor, [&](std::size_t begin, std::size_t end) {
+    StackSummary & count = counts[begin / PixelsPerBlock];
+    for (std::size_t p = begin; p < end; ++p)
+    {
+      const bool finite = maps.IsFinite(p);
+      const bool isLow = finite && summary.codes.IsClippedLow(maps.GetMinimum(p));
+      const bool isHigh = finite && summary.codes.IsClippedHigh(maps.GetMaximum(p));
+      valid[p] = finite && !isLow && !isHigh ? 1 : 0;
+      count.clipped += isLow || isHigh ? 1 : 0;
+      count.clippedLow += isLow ? 1 : 0;
+      count.clippedHigh += isHigh ? 1 : 0;
+      count.notFinite += finite ? 0 : 1;
+    }
+  });
+  for (const StackSummary & count : counts)
+  {
+    summary.clipped += count.clipped;
+    summary.clippedLow += count.clippedLow;
+    summary.clippedHigh += count.clippedHigh;
+    summary.notFinite += count.notFinite;
+  }
+  return summary;
+}
+
+template <typename TPixel>
+StackMaps
+MakeStackMaps(TemporalMoments<TPixel> moments, const CodeSettings & settings, const ParallelFor & parallelFor)
+{
+  TemporalMaps<TPixel> ofStack = moments.TakeMaps(parallelFor);
+  StackMaps            maps;
+  maps.valid.resize(ofStack.GetNumberOfPixels());
+  maps.summary = SummariseStack(ofStack, settings, parallelFor, maps.valid.data());
+  maps.mean = std::move(ofStack.mean);
+  maps.variance = std::move(ofStack.variance);
+  return maps;
+}
+
+#define SensorNoise_INSTANTIATE(TPixel)                            \
+  template SensorNoise_EXPORT StackSummary SummariseStack<TPixel>( \
+    const TemporalMaps<TPixel> &, const CodeSettings &, const ParallelFor &, std::uint8_t *)
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
+
+#define SensorNoise_INSTANTIATE(TPixel)                        \
+  template SensorNoise_EXPORT StackMaps MakeStackMaps<TPixel>( \
+    TemporalMoments<TPixel>, const CodeSettings &, const ParallelFor &)
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
+
+} // namespace sensornoise

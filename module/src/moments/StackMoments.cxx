@@ -1,0 +1,254 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "moments/StackMoments.h"
+
+#include "base/BinaryStream.h"
+#include "base/BytesFingerprint.h"
+#include "sensornoise/Parallel.h"
+#include "sensornoise/PixelTypes.h"
+#include "base/WideVectors.h"
+#include "moments/ChosenFrames.h"
+#include "moments/TemporalMoments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <istream>
+#include <map>
+#include <numeric>
+#include <ostream>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+
+/** Sum of the finite ones of \a count pixels, at most those of a block of fingerprints: 32 bits hold that of integers.
+ */
+template <typename TPixel>
+double
+SumOfPixels(const TPixel * pixels, std::size_t count)
+{
+  if constexpr (std::is_integral_v<TPixel>)
+  {
+    static_assert(FingerprintBlockBytes <= 32768 && sizeof(TPixel) <= 2);
+    std::int32_t sum = 0;
+    WithWideVectors([&] {
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        sum += pixels[i];
+      }
+    });
+    return sum;
+  }
+  else
+  {
+    return std::accumulate(pixels, pixels + count, 0.0, [](double sum, TPixel value) {
+      return std::isfinite(value) ? sum + static_cast<double>(value) : sum;
+    });
+  }
+}
+
+/** Of a frame of a plane. */
+struct MeanAndFingerprint
+{
+  double           mean;
+  BytesFingerprint fingerprint;
+};
+
+/** Of every frame, frame by frame of each of the planes: their pixels pass the cache once. */
+template <typename TPixel>
+std::vector<MeanAndFingerprint>
+FindMeansAndFingerprints(const std::vector<PixelLayout> & planes,
+                         std::size_t                      pixels,
+                         const TPixel *                   frames,
+                         std::size_t                      count,
+                         const ParallelFor &              parallelFor)
+{
+  constexpr std::size_t         blockPixels = FingerprintBlockBytes / sizeof(TPixel);
+  const std::size_t             blocks = NumberOfFingerprintBlocks(pixels * sizeof(TPixel));
+  std::vector<double>           sums(planes.size() * count * blocks);
+  std::vector<BytesFingerprint> fingerprints(sums.size());
+  parallelFor(count * blocks, [&](std::size_t i) {
+    std::vector<TPixel> room(planes.front().AreSideBySide() ? 0 : blockPixels);
+    const std::size_t   begin = i % blocks * blockPixels;
+    const std::size_t   end = std::min(pixels, begin + blockPixels);
+    for (std::size_t plane = 0; plane < planes.size(); ++plane)
+    {
+      const PixelLayout &  layout = planes[plane];
+      const TPixel * const block = layout.SideBySide(frames + i / blocks * layout.frame, begin, end, room.data());
+      fingerprints[plane * count * blocks + i] = FingerprintOfBlock(block, (end - begin) * sizeof(TPixel));
+      sums[plane * count * blocks + i] = SumOfPixels(block, end - begin);
+    }
+  });
+  std::vector<MeanAndFingerprint> found;
+  for (std::size_t i = 0; i < sums.size(); i += blocks)
+  {
+    const double * const           sum = sums.data() + i;
+    const BytesFingerprint * const block = fingerprints.data() + i;
+    found.push_back({ std::accumulate(sum, sum + blocks, 0.0) / static_cast<double>(pixels),
+                      FingerprintOfBlocks(block, block + blocks) });
+  }
+  return found;
+}
+
+} // namespace
+
+template <typename TPixel>
+StackMoments<TPixel>::StackMoments(std::size_t pixels, std::size_t frames, const ParallelFor & parallelFor)
+  : m_Pixels(pixels)
+  , m_FrameMeans(frames, 0.0)
+  , m_Fingerprints(frames)
+  , m_Own(pixels, parallelFor)
+{}
+
+template <typename TPixel>
+void
+StackMoments<TPixel>::AddFrames(const std::vector<Plane> & planes,
+                                const TPixel *             frames,
+                                std::size_t                first,
+                                std::size_t                count,
+                                const ParallelFor &        parallelFor)
+{
+  std::vector<PixelLayout> layouts;
+  layouts.reserve(planes.size());
+  for (const Plane & plane : planes)
+  {
+    layouts.push_back(plane.layout);
+  }
+  const std::size_t  pixels = planes.front().moments->m_Pixels;
+  const auto         found = FindMeansAndFingerprints(layouts, pixels, frames, count, parallelFor);
+  std::vector<Plane> together;
+  for (std::size_t i = 0; i < planes.size(); ++i)
+  {
+    StackMoments &                own = *planes[i].moments;
+    std::vector<BytesFingerprint> fingerprints;
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      own.m_FrameMeans[first + k] = found[i * count + k].mean;
+      fingerprints.push_back(found[i * count + k].fingerprint);
+    }
+    own.m_First = std::min(own.m_First, first);
+    const std::vector<std::uint8_t> isNew = own.m_Fingerprints.Add(first, fingerprints);
+    if (std::find(isNew.begin(), isNew.end(), std::uint8_t{ 0 }) == isNew.end())
+    {
+      together.push_back(planes[i]);
+      continue;
+    }
+    ForChosenFrames(frames, planes[i].layout.frame, isNew, parallelFor, [&](const TPixel * chosen, std::size_t number) {
+      AddDistinct({ planes[i] }, chosen, number, parallelFor);
+    });
+  }
+  AddDistinct(together, frames, count, parallelFor);
+}
+
+template <typename TPixel>
+void
+StackMoments<TPixel>::AddDistinct(const std::vector<Plane> & planes,
+                                  const TPixel *             frames,
+                                  std::size_t                count,
+                                  const ParallelFor &        parallelFor)
+{
+  const std::size_t pixels = planes.empty() ? 0 : planes.front().moments->m_Pixels;
+  ForBlocks(pixels, parallelFor, [&](std::size_t begin, std::size_t end) {
+    for (const Plane & plane : planes)
+    {
+      plane.moments->m_Own.AddFrames(frames, plane.layout, count, begin, end);
+    }
+  });
+  for (const Plane & plane : planes)
+  {
+    plane.moments->m_Own.AdvanceFrames(count);
+  }
+}
+
+template <typename TPixel>
+void
+StackMoments<TPixel>::Save(std::ostream & out) const
+{
+  WriteNumbers(out, m_FrameMeans);
+  m_Fingerprints.Save(out);
+  WriteCount(out, m_Others.size() + 1);
+  WriteCount(out, m_First);
+  m_Own.Save(out);
+  for (const auto & [first, moments] : m_Others)
+  {
+    WriteCount(out, first);
+    moments.Save(out);
+  }
+}
+
+template <typename TPixel>
+void
+StackMoments<TPixel>::Merge(std::istream & in)
+{
+  std::vector<double> frameMeans(m_FrameMeans.size());
+  ReadNumbers(in, frameMeans);
+  const FrameFingerprints                        fingerprints = m_Fingerprints.ReadOther(in);
+  std::map<std::size_t, TemporalMoments<TPixel>> parts;
+  for (std::uint64_t count = ReadCount(in); count > 0; --count)
+  {
+    const std::size_t first = ReadCount(in);
+    parts.try_emplace(first, m_Pixels).first->second.Restore(in);
+  }
+  m_Fingerprints.RequireApart(fingerprints);
+  m_Fingerprints.Merge(fingerprints);
+  for (auto & [first, moments] : parts)
+  {
+    if constexpr (std::is_integral_v<TPixel>)
+    {
+      m_Own.Merge(moments);
+      m_First = std::min(m_First, first);
+    }
+    else if (moments.GetNumberOfFrames() > 0)
+    {
+      m_Others.emplace(first, std::move(moments));
+    }
+  }
+  std::transform(frameMeans.begin(), frameMeans.end(), m_FrameMeans.begin(), m_FrameMeans.begin(), std::plus<double>());
+}
+
+template <typename TPixel>
+void
+StackMoments<TPixel>::Fold()
+{
+  if (!m_Others.empty())
+  {
+    const std::size_t first = std::min(m_First, m_Others.begin()->first);
+    m_Own = this->Take();
+    m_First = first;
+  }
+}
+
+template <typename TPixel>
+TemporalMoments<TPixel>
+StackMoments<TPixel>::Take()
+{
+  if (m_Others.empty())
+  {
+    return std::exchange(m_Own, TemporalMoments<TPixel>(0));
+  }
+  if (m_Own.GetNumberOfFrames() > 0)
+  {
+    m_Others.emplace(m_First, std::exchange(m_Own, TemporalMoments<TPixel>(0)));
+  }
+  TemporalMoments<TPixel> whole(m_Pixels);
+  for (const auto & part : m_Others)
+  {
+    whole.Merge(part.second);
+  }
+  m_Others.clear();
+  return whole;
+}
+
+#define SensorNoise_INSTANTIATE(TPixel) template class StackMoments<TPixel>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
+
+} // namespace sensornoise

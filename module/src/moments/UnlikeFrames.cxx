@@ -1,0 +1,306 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "moments/UnlikeFrames.h"
+
+#include "base/Quantiles.h"
+#include "moments/Constants.h"
+#include "moments/FrameFit.h"
+#include "moments/FrameThumbnails.h"
+#include "moments/StackRequirements.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <numeric>
+
+namespace sensornoise
+{
+
+namespace
+{
+using Indices = std::vector<std::size_t>;
+
+/** Those of \a cells that hold finite pixels in all of the frames \a kept. */
+Indices
+FiniteCells(const FrameThumbnails & thumbnails, const Indices & cells, const Indices & kept)
+{
+  Indices finite;
+  std::copy_if(cells.begin(), cells.end(), std::back_inserter(finite), [&](std::size_t cell) {
+    return std::all_of(
+      kept.begin(), kept.end(), [&](std::size_t t) { return std::isfinite(thumbnails.MeanOf(t, cell)); });
+  });
+  return finite;
+}
+
+/** The cells that hold finite pixels in most frames. */
+Indices
+CellsThatTell(const FrameThumbnails & thumbnails)
+{
+  Indices cells;
+  for (std::size_t cell = 0; cell < thumbnails.NumberOfCells(); ++cell)
+  {
+    std::size_t finite = 0;
+    for (std::size_t t = 0; t < thumbnails.NumberOfFrames(); ++t)
+    {
+      finite += std::isfinite(thumbnails.MeanOf(t, cell)) ? 1 : 0;
+    }
+    if (2 * finite > thumbnails.NumberOfFrames())
+    {
+      cells.push_back(cell);
+    }
+  }
+  return cells;
+}
+
+using Faults = std::map<std::size_t, FrameFault>; // of the frames that are left out
+
+bool
+IsEmpty(FrameFault fault)
+{
+  return fault == FrameFault::NotFinite || fault == FrameFault::NoNoise;
+}
+
+/** Whether so few of so many frames are left out that the others are the burst. Empty frames are no burst, however many
+ * they are; of the others at most \a share may be left out [1]. */
+bool
+AreFew(const Faults & faults, std::size_t frames, double share)
+{
+  const auto empty = static_cast<std::size_t>(
+    std::count_if(faults.begin(), faults.end(), [](const auto & fault) { return IsEmpty(fault.second); }));
+  const auto full = static_cast<double>(frames - std::min(frames, empty));
+  return static_cast<double>(faults.size() - empty) <= share * full && faults.size() + MinimumFrames <= frames;
+}
+
+/** In their order; none if they are too many of so many frames. */
+std::vector<LeftOutFrame>
+AsList(const Faults & faults, std::size_t frames, double share = InMoments.largestLeftOutShare)
+{
+  std::vector<LeftOutFrame> leftOut;
+  if (AreFew(faults, frames, share))
+  {
+    for (const auto & [frame, fault] : faults)
+    {
+      leftOut.push_back({ frame, fault });
+    }
+  }
+  return leftOut;
+}
+
+/** The frames with nothing in most of their cells, where the others have something. */
+Faults
+FindEmptyFrames(const FrameThumbnails & thumbnails, const Indices & cells)
+{
+  std::vector<double> evenShares;
+  for (std::size_t t = 0; t < thumbnails.NumberOfFrames(); ++t)
+  {
+    evenShares.push_back(thumbnails.EvenShareOf(t));
+  }
+  const bool areOthersEven = QuantileOf(evenShares, 0.5) > InMoments.largestEmptyShare;
+  Faults     faults;
+  for (std::size_t t = 0; t < thumbnails.NumberOfFrames(); ++t)
+  {
+    const auto lost = std::count_if(
+      cells.begin(), cells.end(), [&](std::size_t cell) { return !std::isfinite(thumbnails.MeanOf(t, cell)); });
+    if (static_cast<double>(lost) > InMoments.largestEmptyShare * static_cast<double>(cells.size()))
+    {
+      faults.emplace(t, FrameFault::NotFinite);
+    }
+    else if (!areOthersEven && evenShares[t] > InMoments.largestEmptyShare)
+    {
+      faults.emplace(t, FrameFault::NoNoise);
+    }
+  }
+  return faults;
+}
+
+/** The mean of the frames \a chosen over the \a cells. */
+std::vector<double>
+MeanOfFrames(const FrameThumbnails & thumbnails, const Indices & cells, const Indices & chosen)
+{
+  std::vector<double> mean(cells.size(), 0.0);
+  for (const std::size_t t : chosen)
+  {
+    for (std::size_t i = 0; i < cells.size(); ++i)
+    {
+      mean[i] += thumbnails.MeanOf(t, cells[i]) / static_cast<double>(chosen.size());
+    }
+  }
+  return mean;
+}
+
+/** Misfits of frames [DN^2], also in two units in which the frames of one scene have similar ones: vibration and local
+ * light change a frame in proportion to its light; noise is there without light, too. */
+struct Misfits
+{
+  std::vector<double> all;
+  std::vector<double> ofLight;
+  std::vector<double> ofBoth;
+};
+
+/** How the frames \a kept are not as \a mean. */
+Misfits
+FindMisfits(const FrameThumbnails &     thumbnails,
+            const Indices &             cells,
+            const Indices &             kept,
+            const std::vector<double> & mean)
+{
+  Misfits misfits;
+  for (const std::size_t t : kept)
+  {
+    const FrameFit fit = FitMostCells(mean, thumbnails.MeansOf(t, cells));
+    const double   light = fit.factor * fit.factor;
+    misfits.all.push_back(fit.misfit);
+    misfits.ofLight.push_back(light > 0.0 ? fit.misfit / light : std::numeric_limits<double>::max());
+    misfits.ofBoth.push_back(fit.misfit / std::max(1.0, light));
+  }
+  return misfits;
+}
+
+/** How far each of \a values is above their median, in units of their spread [1]: of the median deviation, or of what
+ * chance makes of a mean square over so many cells. */
+std::vector<double>
+HowFar(const std::vector<double> & values, std::size_t cells)
+{
+  const auto [median, sd] = CentreOf(values);
+  const double spread =
+    std::max({ sd, median * std::sqrt(2.0 / static_cast<double>(cells)), std::numeric_limits<double>::min() });
+  std::vector<double> far;
+  far.reserve(values.size());
+  for (const double value : values)
+  {
+    far.push_back((value - median) / spread);
+  }
+  return far;
+}
+
+/** How far the frames are from the others in both units [1]. */
+std::vector<double>
+HowUnlike(const Misfits & misfits, std::size_t cells)
+{
+  std::vector<double>       far = HowFar(misfits.ofLight, cells);
+  const std::vector<double> ofBoth = HowFar(misfits.ofBoth, cells);
+  std::transform(
+    far.begin(), far.end(), ofBoth.begin(), far.begin(), [](double a, double b) { return std::min(a, b); });
+  return far;
+}
+
+/** Finds the frames among \a kept whose shape is not that of the mean of the others. */
+Indices
+FindOtherShapes(const FrameThumbnails & thumbnails, const Indices & cells, const Indices & kept)
+{
+  std::vector<double> mean = MeanOfFrames(thumbnails, cells, kept);
+  Misfits             misfits = FindMisfits(thumbnails, cells, kept, mean);
+  std::vector<double> unlike = HowUnlike(misfits, cells.size());
+  for (int round = 0; round < InMoments.roundsOfUnlikeFrames; ++round)
+  {
+    // The mean of those that are most alike: as many as could be others do not count in it.
+    const double edge = QuantileOf(unlike, 1.0 - InMoments.largestLeftOutShare);
+    Indices      alike;
+    for (std::size_t k = 0; k < kept.size(); ++k)
+    {
+      if (unlike[k] <= edge)
+      {
+        alike.push_back(kept[k]);
+      }
+    }
+    mean = MeanOfFrames(thumbnails, cells, alike);
+    misfits = FindMisfits(thumbnails, cells, kept, mean);
+    unlike = HowUnlike(misfits, cells.size());
+  }
+  std::vector<double> noise;
+  for (const std::size_t t : kept)
+  {
+    noise.push_back(thumbnails.NoiseOf(t));
+  }
+  // Both are upper bounds of the noise of a cell's mean: texture adds to the first, vibration to the second.
+  const double cellVariance = std::min(QuantileOf(noise, 0.5), QuantileOf(misfits.ofBoth, 0.5));
+  const double pixelVariance = thumbnails.PixelsOfCell() * cellVariance;
+  const double least = InMoments.leastUnlikeEffect * pixelVariance * static_cast<double>(kept.size());
+  Indices      found;
+  for (std::size_t k = 0; k < kept.size(); ++k)
+  {
+    if (unlike[k] > InMoments.unlikeZ && misfits.all[k] > least)
+    {
+      found.push_back(kept[k]);
+    }
+  }
+  return found;
+}
+
+Indices
+FramesWithout(const Faults & faults, std::size_t frames)
+{
+  Indices kept = AllBelow(frames);
+  kept.erase(std::remove_if(kept.begin(), kept.end(), [&](std::size_t t) { return faults.count(t) > 0; }), kept.end());
+  return kept;
+}
+} // namespace
+
+const char *
+NameOf(FrameFault fault)
+{
+  switch (fault)
+  {
+    case FrameFault::NotFinite:
+      return "not-finite";
+    case FrameFault::NoNoise:
+      return "no-noise";
+    case FrameFault::OtherShape:
+      return "other-shape";
+    case FrameFault::OtherOffset:
+      return "other-offset";
+    case FrameFault::OtherNoise:
+      break;
+  }
+  return "other-noise";
+}
+
+std::vector<LeftOutFrame>
+FindUnlikeFrames(const FrameThumbnails & thumbnails)
+{
+  const std::size_t frames = thumbnails.NumberOfFrames();
+  const Indices     cells = CellsThatTell(thumbnails);
+  if (frames <= MinimumFrames || cells.size() < InMoments.fewestThumbnailCells)
+  {
+    return {};
+  }
+  Faults faults = FindEmptyFrames(thumbnails, cells);
+  if (AreFew(faults, frames, InMoments.largestLeftOutShare))
+  {
+    const Indices kept = FramesWithout(faults, frames);
+    const Indices finite = FiniteCells(thumbnails, cells, kept);
+    const bool    canTell = finite.size() >= InMoments.fewestThumbnailCells;
+    for (const std::size_t t : canTell ? FindOtherShapes(thumbnails, finite, kept) : Indices())
+    {
+      faults.emplace(t, FrameFault::OtherShape);
+    }
+  }
+  return AsList(faults, frames);
+}
+
+std::vector<LeftOutFrame>
+JoinUnlikeFrames(const std::vector<std::vector<LeftOutFrame>> & ofParts, std::size_t frames, double largestShare)
+{
+  Faults faults;
+  for (const std::vector<LeftOutFrame> & part : ofParts)
+  {
+    for (const auto & [frame, fault] : part)
+    {
+      faults.emplace(frame, fault);
+    }
+  }
+  return AsList(faults, frames, largestShare);
+}
+
+std::vector<std::size_t>
+NumbersOf(const std::vector<LeftOutFrame> & frames)
+{
+  std::vector<std::size_t> numbers;
+  std::transform(
+    frames.begin(), frames.end(), std::back_inserter(numbers), [](const LeftOutFrame & each) { return each.frame; });
+  return numbers;
+}
+
+} // namespace sensornoise

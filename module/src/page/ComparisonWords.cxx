@@ -1,0 +1,261 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "page/ComparisonWords.h"
+
+#include "base/Text.h"
+#include "page/ComparisonFigure.h"
+#include "page/HtmlText.h"
+#include "report/ReportJson.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+namespace sensornoise
+{
+namespace
+{
+std::string
+Signed(const std::string & number)
+{
+  return number.rfind("\u2212", 0) == 0 ? number : "+" + number;
+}
+
+/** A share as "4.43 %", which no line ends in. */
+std::string
+PercentText(double share)
+{
+  return Rounded(100.0 * share) + "\u00A0%";
+}
+
+std::string
+SignedPercent(double share)
+{
+  return (share < 0.0 ? "\u2212" : "+") + PercentText(std::abs(share));
+}
+
+bool
+IsOfReadNoise(const ComparedQuantity & quantity)
+{
+  return std::string(quantity.entry->path) == "offset";
+}
+
+/** "gain g in 2 reports (by up to 12 %)"; "" where none is of that \a kind. */
+std::string
+ChangesOf(const ComparedQuantity & quantity, ChangeKind kind)
+{
+  std::size_t count = 0;
+  double      largest = 0.0;
+  for (const Change & change : quantity.changes)
+  {
+    count += change.kind == kind ? 1 : 0;
+    largest = std::max(largest, change.kind == kind ? std::abs(change.share.value_or(0.0)) : 0.0);
+  }
+  if (count == 0)
+  {
+    return "";
+  }
+  const std::string size = PercentText(largest) + (IsOfReadNoise(quantity) ? " of the read noise" : "");
+  return LabelText(quantity.entry->label) + " in " + (count == 1 ? "one report" : std::to_string(count) + " reports") +
+         (largest > 0.0 ? " (by up to " + size + ")" : "");
+}
+
+std::string
+AllChangesOf(const Comparison & comparison, ChangeKind kind)
+{
+  std::string text;
+  for (const ComparedQuantity & quantity : comparison.quantities)
+  {
+    const std::string one = ChangesOf(quantity, kind);
+    text += (text.empty() || one.empty() ? "" : ", ") + one;
+  }
+  return text;
+}
+
+std::size_t
+NumberOf(const Comparison & comparison, bool (*isCounted)(const Change &))
+{
+  std::size_t count = 0;
+  for (const ComparedQuantity & quantity : comparison.quantities)
+  {
+    count += static_cast<std::size_t>(std::count_if(quantity.changes.begin(), quantity.changes.end(), isCounted));
+  }
+  return count;
+}
+
+/** " Without a gain: 2, 6."; "" where all have one. */
+std::string
+WithoutGain(const Comparison & comparison)
+{
+  std::string text;
+  for (std::size_t row = 0; row < comparison.rows.size(); ++row)
+  {
+    if (!comparison.rows[row].report.gain.value)
+    {
+      text += (text.empty() ? " Without a gain: " : ", ") + std::to_string(row + 1);
+    }
+  }
+  return text.empty() ? "" : text + ".";
+}
+
+/** Why there is no difference. */
+std::string
+WhyNoValue(const ComparedQuantity & quantity, const Comparison & comparison, std::size_t row)
+{
+  const Quantity & now = quantity.Of(comparison.rows[row]);
+  const Quantity & first = quantity.Of(comparison.rows[quantity.changes[row].first]);
+  return now.value ? "not compared: the first has no value (" + std::string(NameOf(first.status)) + ")"
+                   : "not compared: no value (" + std::string(NameOf(now.status)) + ")";
+}
+
+/** Whether a row and the first it is compared with are of the same frames, as their hash tells. */
+bool
+IsOfSameFrames(const Comparison & comparison, const Change & change, std::size_t row)
+{
+  const auto & first = comparison.rows[change.first].report.input;
+  const auto & now = comparison.rows[row].report.input;
+  return first && now && !now->frames.sha256.empty() && now->frames.sha256 == first->frames.sha256;
+}
+} // namespace
+
+Verdict
+VerdictOf(const Comparison & comparison)
+{
+  const std::string changed = AllChangesOf(comparison, ChangeKind::Changed);
+  const std::string small = AllChangesOf(comparison, ChangeKind::Small);
+  const std::string rest =
+    (small.empty() ? "" : " By more than its errors, but little: " + small + ".") + WithoutGain(comparison);
+  if (!changed.empty())
+  {
+    return { Severity::Warning, "By more than the errors, against the first report: " + changed + "." + rest };
+  }
+  if (NumberOf(comparison, [](const Change & change) { return change.standardError.has_value(); }) > 0)
+  {
+    return { Severity::Note,
+             (small.empty() ? "Nothing differs from the first report by more than its errors."
+                            : "Nothing differs from the first report by much.") +
+               rest };
+  }
+  const bool hasValues = NumberOf(comparison, [](const Change & change) { return change.difference.has_value(); }) > 0;
+  return { Severity::Error,
+           hasValues ? "The differences cannot be judged: of no quantity do two reports have errors."
+                     : "Nothing can be compared: of no quantity do two reports have a value." };
+}
+
+std::string
+DifferenceText(const ComparedQuantity & quantity, std::size_t row)
+{
+  const Change & change = quantity.changes[row];
+  if (!change.difference)
+  {
+    return "";
+  }
+  Quantity difference = Quantity::Identified(*change.difference);
+  difference.standardError = change.standardError;
+  const std::string unit = UnitText(quantity.entry->unit);
+  const std::string number = change.standardError       ? Signed(ValueText(difference))
+                             : *change.difference < 0.0 ? "\u2212" + Rounded(-*change.difference)
+                                                        : "+" + Rounded(*change.difference);
+  return number + (unit.empty() ? "" : " " + unit);
+}
+
+std::string
+ShareText(const ComparedQuantity & quantity, std::size_t row)
+{
+  const auto & share = quantity.changes[row].share;
+  return share ? SignedPercent(*share) + (IsOfReadNoise(quantity) ? " of the read noise" : " of the first") : "";
+}
+
+std::string
+JudgementText(const Comparison & comparison, const ComparedQuantity & quantity, std::size_t row)
+{
+  const Change &    change = quantity.changes[row];
+  const std::string errors =
+    change.standardError ? Rounded(std::abs(*change.difference) / *change.standardError) + " standard errors" : "";
+  const std::string same = IsOfSameFrames(comparison, change, row) ? "; of the same frames: the errors do not add" : "";
+  switch (change.kind)
+  {
+    case ChangeKind::First:
+      return "the first";
+    case ChangeKind::NoValue:
+      return WhyNoValue(quantity, comparison, row);
+    case ChangeKind::NoErrors:
+      return "not judged: there are no errors" + same;
+    case ChangeKind::Within:
+      return "within its errors: " + errors + same;
+    case ChangeKind::Small:
+      return "more than its errors, but small: " + errors + same;
+    case ChangeKind::Changed:
+      break;
+  }
+  return "changed by more than its errors: " + errors + same;
+}
+
+std::string
+MeanSentence(const ComparedQuantity & quantity, const CommonMean & common)
+{
+  const bool        isChance = common.probability >= ChanceProbability;
+  const std::string unit = UnitText(quantity.entry->unit);
+  const std::string ofUnit = unit.empty() ? "" : " " + unit;
+  Quantity          mean = Quantity::Identified(common.mean);
+  mean.standardError = isChance ? common.standardError : std::hypot(common.standardError, common.excess);
+  const std::string value = isChance ? ValueText(mean) : ValueText(mean).substr(0, ValueText(mean).find(' '));
+  const std::string channel = common.channel == "mono" ? "" : " of " + common.channel;
+  const std::string law = "\u03C7\u00B2 " + Rounded(common.chiSquare) + " with " + std::to_string(common.count - 1) +
+                          " degrees of freedom, probability " +
+                          (common.probability < 1e-6 ? "below 0.000001" : Rounded(common.probability));
+  std::string text = "All " + std::to_string(common.count) + channel + ": mean, weighed by the errors, " + value +
+                     ofUnit + "; they scatter ";
+  if (isChance)
+  {
+    return text + "as their errors say (" + law + ").";
+  }
+  const bool hasShare = !IsOfReadNoise(quantity) && std::abs(common.mean) > 2.0 * common.standardError;
+  return text + "by " + Rounded(common.excess) + ofUnit +
+         (hasShare ? " (" + PercentText(common.excess / std::abs(common.mean)) + ")" : "") + " beyond their errors (" +
+         law + ").";
+}
+
+std::string
+StackText(const ComparedReport & row)
+{
+  const Report &         report = row.report;
+  const CameraSettings & camera = report.camera;
+  std::string            text = camera.camera;
+  const auto             add = [&text](const std::string & words) { text += (text.empty() ? "" : ", ") + words; };
+  if (std::isfinite(camera.isoSpeed))
+  {
+    add("ISO " + Text(camera.isoSpeed));
+  }
+  if (std::isfinite(camera.exposureSeconds))
+  {
+    add(Text(camera.exposureSeconds) + " s");
+  }
+  add(std::to_string(report.frames) + " frames of " + std::to_string(report.width) + " \u00D7 " +
+      std::to_string(report.height) + " pixels");
+  if (report.bitDepth)
+  {
+    add(std::to_string(*report.bitDepth) + " bits");
+  }
+  add("method " + report.method);
+  return text;
+}
+
+std::string
+RuleText(const Comparison & comparison)
+{
+  const std::size_t judged =
+    NumberOf(comparison, [](const Change & change) { return change.standardError.has_value(); });
+  return "Each report is compared with the first, of a mosaic channel by channel. The standard error of a difference "
+         "is "
+         "the root of both errors' squares, as for independent reports: those that share frames, dark frames or a "
+         "given "
+         "offset differ by less. Beyond " +
+         Text(ChanceErrors) + " standard errors chance is not taken for the cause; it gives one in 370, and here are " +
+         std::to_string(judged) +
+         ". How large a change is stands beside it, whatever the number of pixels: small is less than " +
+         PercentText(SmallShare) + ", of the offset less than " + PercentText(SmallOffsetShare) + " of the read noise.";
+}
+
+} // namespace sensornoise

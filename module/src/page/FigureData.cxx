@@ -1,0 +1,187 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "page/FigureData.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace sensornoise
+{
+namespace
+{
+constexpr double TwoSided95 = 1.959963984540054;
+constexpr int    LinePieces = 32;
+
+double
+ElementOrNaN(const std::vector<double> & values, std::size_t i)
+{
+  return i < values.size() ? values[i] : std::numeric_limits<double>::quiet_NaN();
+}
+
+/** The line that the report tells of, if it has one: what was identified comes before what is indicative. */
+std::optional<Report::Baseline>
+LineOf(const Report & report)
+{
+  std::optional<Report::Baseline> line = report.fit.line;
+  if (report.varianceSlope.value && report.totalIntercept.value)
+  {
+    line = Report::Baseline{ 0.0, *report.varianceSlope.value, *report.totalIntercept.value };
+  }
+  return line && std::isfinite(line->gain) && std::isfinite(line->intercept) ? line : std::nullopt;
+}
+
+/** What the variance of a sample variance is multiplied by where its values share noise: 1 + 2 sum rho^2 over one of
+ * the two directions of each lag, less what chance adds to the squares. */
+double
+FactorOfLags(const std::vector<NoiseCorrelationRecord::Lag> & lags)
+{
+  double sum = 0.0;
+  for (const NoiseCorrelationRecord::Lag & lag : lags)
+  {
+    const double square = lag.value * lag.value - lag.standardError * lag.standardError;
+    sum += std::isfinite(square) ? std::max(square, 0.0) : 0.0;
+  }
+  return 1.0 + 2.0 * sum;
+}
+
+/** Relative standard error of a variance that is the mean over \a count pixels [1]: Var(s^2) / sigma^4 is 2 / (T - 1)
+ * of normal noise, more where frames share theirs, and the excess kurtosis over T more. */
+double
+RelativeErrorOfBin(const Report & report, std::size_t count)
+{
+  if (report.framesDistinct < 2 || count == 0)
+  {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  const auto   frames = static_cast<double>(report.framesDistinct);
+  const double kurtosis = report.noiseCorrelation ? report.noiseCorrelation->excessKurtosis.value.value_or(0.0) : 0.0;
+  const double shared = report.noiseCorrelation ? FactorOfLags(report.noiseCorrelation->time) : 1.0;
+  const double ofPixel = std::max(2.0 / (frames - 1.0) * shared + kurtosis / frames, 0.0);
+  return std::sqrt(ofPixel / static_cast<double>(count));
+}
+
+/** What a point's mean may be off by because pixels are put into bins by means that have noise themselves [DN]: that of
+ * one. Photons' noise is skew, so that where a mean is too high its variance is too, along the line: what is left is
+ * the share of the noise without light. */
+double
+ErrorOfLevel(const Report & report, double expected, double dark)
+{
+  return std::sqrt(expected / static_cast<double>(report.framesDistinct)) * std::clamp(dark / expected, 0.0, 1.0);
+}
+
+/** The line's variance without light, or of the darkest level where the offset is not known [DN^2]. */
+double
+DarkVariance(const Report & report, const Report::Baseline & line)
+{
+  double level = report.offset.value.value_or(std::numeric_limits<double>::infinity());
+  for (const double mean : report.scatter.mean)
+  {
+    level = report.offset.value || !std::isfinite(mean) ? level : std::min(level, mean);
+  }
+  return line.gain * level + line.intercept;
+}
+
+void
+AddCurve(FigureData & data, const Report & report)
+{
+  const Report::Scatter & scatter = report.scatter;
+  const auto              line = LineOf(report);
+  const double            dark = line ? DarkVariance(report, *line) : 0.0;
+  for (std::size_t i = 0; i < scatter.mean.size(); ++i)
+  {
+    const double mean = scatter.mean[i];
+    const double corrected = ElementOrNaN(scatter.correctedVariance, i);
+    if (!std::isfinite(mean) || !std::isfinite(corrected))
+    {
+      continue;
+    }
+    data.mean.push_back(mean);
+    data.variance.push_back(ElementOrNaN(scatter.variance, i));
+    data.corrected.push_back(corrected);
+    if (!line || i >= scatter.count.size())
+    {
+      continue;
+    }
+    const double expected = line->gain * mean + line->intercept;
+    const double ofVariance = std::abs(expected) * RelativeErrorOfBin(report, scatter.count[i]);
+    const double error = std::hypot(ofVariance, line->gain * ErrorOfLevel(report, std::abs(expected), dark));
+    if (ofVariance > 0.0 && std::isfinite(error))
+    {
+      data.meanResiduals.push_back(mean);
+      data.residuals.push_back((corrected - expected) / error);
+    }
+  }
+}
+
+/** Half the width of the 95 % interval of the line at a level; none where an error is not known. Slope and intercept of
+ * the frames are taken to be as correlated as the sensor's. */
+std::optional<double>
+HalfWidthAt(const Report & report, double mean)
+{
+  const std::optional<double> slopeError = report.varianceSlope.standardError;
+  const std::optional<double> interceptError = report.totalIntercept.standardError;
+  if (!report.covariance || !slopeError || !interceptError)
+  {
+    return std::nullopt;
+  }
+  const auto & matrix = *report.covariance;
+  const double correlation = matrix[0][1] / std::sqrt(matrix[0][0] * matrix[1][1]);
+  const double ofSlope = mean * *slopeError;
+  const double variance =
+    ofSlope * ofSlope + *interceptError * *interceptError + 2.0 * correlation * ofSlope * *interceptError;
+  return std::isfinite(variance) ? std::optional<double>(TwoSided95 * std::sqrt(std::max(variance, 0.0)))
+                                 : std::nullopt;
+}
+
+void
+AddLine(FigureData & data, const Report & report)
+{
+  const auto line = LineOf(report);
+  if (!line || data.mean.empty())
+  {
+    return;
+  }
+  data.isIndicative = !report.gain.value;
+  const auto [darkest, brightest] = std::minmax_element(data.mean.begin(), data.mean.end());
+  for (int i = 0; i <= LinePieces; ++i)
+  {
+    const double mean = *darkest + (*brightest - *darkest) * i / LinePieces;
+    const double variance = line->gain * mean + line->intercept;
+    data.lineMean.push_back(mean);
+    data.lineVariance.push_back(variance);
+    const std::optional<double> half = data.isIndicative ? std::nullopt : HalfWidthAt(report, mean);
+    if (half)
+    {
+      data.bandLow.push_back(variance - *half);
+      data.bandHigh.push_back(variance + *half);
+    }
+  }
+}
+} // namespace
+
+FigureData
+MakeFigureData(const Report & report)
+{
+  FigureData data;
+  AddCurve(data, report);
+  AddLine(data, report);
+  data.flicker = report.flicker;
+  for (const auto & shift : report.motion)
+  {
+    data.motionX.push_back(shift[0]);
+    data.motionY.push_back(shift[1]);
+  }
+  if (report.noiseCorrelation)
+  {
+    data.residualSpread = std::sqrt(FactorOfLags(report.noiseCorrelation->space));
+    data.lags = report.noiseCorrelation->space;
+    data.lags.insert(data.lags.end(), report.noiseCorrelation->time.begin(), report.noiseCorrelation->time.end());
+  }
+  return data;
+}
+
+} // namespace sensornoise

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "pixels/GainFeedback.h"
+
+#include "base/Eigen.h"
+#include "pixels/Constants.h"
+#include "pixels/ProjectedVariance.h"
+#include "scene/ReferenceFrame.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace sensornoise
+{
+
+GainFeedback::GainFeedback(const ProjectedVariance &         projected,
+                           const VarianceLine &              line,
+                           const std::vector<std::uint8_t> & mask,
+                           const ParallelFor &               parallelFor)
+{
+  // Sums of the weight, times powers of x, the mean above the pivot, and times k.
+  enum : std::size_t
+  {
+    W,
+    WX,
+    WXX,
+    WK,
+    WXK,
+    Sums
+  };
+  const ReferenceFrame & frame = projected.GetFrame();
+  const float * const    skew = projected.GetSkew().data();
+  const float * const    divisor = projected.GetDivisor().data();
+  const float * const    freedom = projected.GetFreedom().data();
+  const auto   s = SumBlocks<Sums>(mask.size(), parallelFor, [&](std::size_t begin, std::size_t end, auto & sums) {
+    for (std::size_t p = begin; p < end; ++p)
+    {
+      if (mask[p] != 0)
+      {
+        const double expected = line.At(frame.neighbourMean[p]);
+        const double half = 0.5 * static_cast<double>(freedom[p]);
+        const double w = half / (expected * expected + half * line.noiseSpreadDn4);
+        const double x = frame.mean[p] - line.pivotDn;
+        const double k = static_cast<double>(skew[p]) / static_cast<double>(divisor[p]);
+        sums[W] += w;
+        sums[WX] += w * x;
+        sums[WXX] += w * x * x;
+        sums[WK] += w * k;
+        sums[WXK] += w * x * k;
+      }
+    }
+  });
+  const double determinant = s[W] * s[WXX] - s[WX] * s[WX];
+  if (determinant > InPixels.leastDeterminant * s[W] * s[WXX])
+  {
+    m_OfGain = (s[W] * s[WXK] - s[WX] * s[WK]) / determinant;
+    m_OfIntercept = (s[WK] - m_OfGain * (s[WX] + line.pivotDn * s[W])) / s[W];
+  }
+}
+
+bool
+GainFeedback::IsLarge() const
+{
+  return std::abs(m_OfGain) > InPixels.leastFeedback;
+}
+
+VarianceLine
+GainFeedback::Settle(const VarianceLine & fitted, double gainPutIn) const
+{
+  VarianceLine settled = fitted;
+  if (!this->IsLarge() || !fitted.isDetermined)
+  {
+    return settled;
+  }
+  if (m_OfGain > InPixels.largestFeedback)
+  {
+    // As large as a slope that takes all of the variance within the scatter of the levels: whatever slope came out.
+    const double          error = fitted.At(fitted.pivotDn) * std::sqrt(fitted.weightSum / fitted.spreadDn2);
+    const Eigen::Vector2d direction(1.0, -fitted.pivotDn);
+    settled.covariance += error * error * direction * direction.transpose();
+    return settled;
+  }
+  settled.gain = (fitted.gain - m_OfGain * gainPutIn) / (1.0 - m_OfGain);
+  settled.intercept += m_OfIntercept * (settled.gain - gainPutIn);
+  Eigen::Matrix2d factor;
+  factor << 1.0 / (1.0 - m_OfGain), 0.0, m_OfIntercept / (1.0 - m_OfGain), 1.0;
+  settled.covariance = factor * fitted.covariance * factor.transpose();
+  return settled;
+}
+
+} // namespace sensornoise

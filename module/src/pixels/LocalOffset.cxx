@@ -1,0 +1,230 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "pixels/LocalOffset.h"
+
+#include "base/ChiSquare.h"
+#include "sensornoise/Parallel.h"
+#include "pixels/Constants.h"
+#include "pixels/PixelLight.h"
+#include "pixels/VarianceLine.h"
+#include "scene/ReferenceFrame.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** Sums over a tile: the Gram matrix of 1 and I, the mean minus the centre, freed of the noise of the means, and per
+ * response r1 = sum w z and r2 = sum w I z. */
+struct TileSums
+{
+  double              n{ 0.0 };
+  double              g11{ 0.0 };
+  double              g12{ 0.0 };
+  double              g22{ 0.0 };
+  std::vector<double> r1;
+  std::vector<double> r2;
+
+  double
+  Determinant() const
+  {
+    return g11 * g22 - g12 * g12;
+  }
+  /** Of a line's slope if it crosses zero at \a m. */
+  double
+  Precision(double m) const
+  {
+    return g22 - 2.0 * m * g12 + m * m * g11;
+  }
+};
+
+/** What lines through zero at \a m explain of the responses. */
+double
+Explained(const std::vector<TileSums> & tiles, double m)
+{
+  double sum = 0.0;
+  for (const TileSums & s : tiles)
+  {
+    for (std::size_t j = 0; j < s.r1.size(); ++j)
+    {
+      sum += std::pow(s.r2[j] - m * s.r1[j], 2) / s.Precision(m);
+    }
+  }
+  return sum;
+}
+
+/** The zero that explains most. */
+double
+FindCommonZero(const std::vector<TileSums> & tiles, double start, double range)
+{
+  double        best = start;
+  double        highest = -1.0;
+  constexpr int steps = 60;
+  const double  step = 2.0 * range / steps;
+  for (int i = 0; i <= steps; ++i)
+  {
+    const double m = start - 1.5 * range + i * step;
+    const double value = Explained(tiles, m);
+    if (value > highest)
+    {
+      highest = value;
+      best = m;
+    }
+  }
+  // Golden section between the neighbours of the best of the grid.
+  constexpr double ratio = 0.6180339887498949;
+  double           low = best - step;
+  double           high = best + step;
+  for (int i = 0; i < 60; ++i)
+  {
+    const double a = high - ratio * (high - low);
+    const double b = low + ratio * (high - low);
+    const bool   isLeft = Explained(tiles, a) > Explained(tiles, b);
+    (isLeft ? high : low) = isLeft ? b : a;
+  }
+  return 0.5 * (low + high);
+}
+
+/** What is known of a common zero. */
+struct ZeroErrors
+{
+  double full{ 0.0 };        // what lines that are free explain of the responses
+  double information{ 0.0 }; // about the zero
+  double number{ 0.0 };      // of lines
+};
+
+ZeroErrors
+SumErrors(const std::vector<TileSums> & tiles, double zero)
+{
+  ZeroErrors sums;
+  for (const TileSums & s : tiles)
+  {
+    const double precision = s.Precision(zero);
+    const double across = s.g12 - zero * s.g11;
+    for (std::size_t j = 0; j < s.r1.size(); ++j)
+    {
+      const double r = s.r2[j] - zero * s.r1[j];
+      sums.full +=
+        (s.g22 * s.r1[j] * s.r1[j] - 2.0 * s.g12 * s.r1[j] * s.r2[j] + s.g11 * s.r2[j] * s.r2[j]) / s.Determinant();
+      sums.information += (r * r / (precision * precision) - 1.0 / precision) * (s.g11 - across * across / precision);
+      sums.number += 1.0;
+    }
+  }
+  return sums;
+}
+
+std::optional<LocalOffset>
+FitTiles(const std::vector<TileSums> & tiles, const PixelLight & data)
+{
+  const double start = data.darkestDn - data.centreDn;
+  LocalOffset  result;
+  result.offset = FindCommonZero(tiles, start, data.rangeDn);
+  result.tiles = tiles.size();
+  const ZeroErrors errors = SumErrors(tiles, result.offset);
+  const double     top = Explained(tiles, result.offset);
+  result.phi = errors.number > 1.0 ? (errors.full - top) / (errors.number - 1.0) : 1.0;
+  const double widening = std::max(1.0, result.phi);
+  if (!(errors.information > 0.0))
+  {
+    return std::nullopt;
+  }
+  result.standardError = std::sqrt(widening / errors.information);
+  const double far =
+    std::max(Explained(tiles, start - 20.0 * data.rangeDn), Explained(tiles, start + 20.0 * data.rangeDn));
+  const double student = StudentQuantile(0.975, std::max(1.0, errors.number - 1.0));
+  if (far < top - student * student * widening)
+  {
+    result.low = result.offset - student * result.standardError;
+    result.high = result.offset + student * result.standardError;
+  }
+  return result;
+}
+
+/** The sums of the tiles that tell a line: enough pixels, and means that differ by more than their noise. */
+std::vector<TileSums>
+SumTiles(const PixelLight &                       data,
+         const std::vector<std::vector<double>> & responses,
+         std::size_t                              tileHeight,
+         std::size_t                              tileWidth)
+{
+  const ReferenceFrame & frame = data.frame;
+  const std::size_t      width = frame.geometry.width;
+  const std::size_t      light = responses.size();
+  const auto             frames = static_cast<double>(frame.frames);
+  const Tiles            tiles{ tileHeight, tileWidth, (width + tileWidth - 1) / tileWidth };
+  std::vector<TileSums>  sums(tiles.across * ((frame.geometry.height + tileHeight - 1) / tileHeight));
+  for (TileSums & s : sums)
+  {
+    s.r1.assign(light, 0.0);
+    s.r2.assign(light, 0.0);
+  }
+  for (std::size_t p = 0; p < data.mask.size(); ++p)
+  {
+    if (data.mask[p] != 0)
+    {
+      const double noise = data.line.At(frame.neighbourMean[p]);
+      const double w = 1.0 / noise;
+      const double centred = frame.mean[p] - data.centreDn;
+      TileSums &   s = sums[tiles.Of(p, width)];
+      s.n += 1.0;
+      s.g11 += w;
+      s.g12 += w * centred;
+      s.g22 += w * (centred * centred - noise / frames);
+      for (std::size_t j = 0; j < light; ++j)
+      {
+        s.r1[j] += w * responses[j][p];
+        s.r2[j] += w * (centred - data.line.gain / frames) * responses[j][p];
+      }
+    }
+  }
+  std::vector<TileSums> good;
+  for (const TileSums & s : sums)
+  {
+    const double determinant = s.Determinant();
+    if (s.n > InPattern.leastTilePixels && determinant > InPattern.leastTileContrast * s.g11 * s.n / frames &&
+        determinant > 1e-6 * s.g11 * std::abs(s.g22))
+    {
+      good.push_back(s);
+    }
+  }
+  return good;
+}
+} // namespace
+
+std::optional<LocalOffset>
+FindLocalOffset(const PixelLight & data, const ParallelFor & parallelFor)
+{
+  const std::size_t                                    width = data.frame.geometry.width;
+  const auto                                           responses = ResponsesWithoutMotion(data, parallelFor);
+  constexpr std::size_t                                trials = 6;
+  const std::array<std::array<std::size_t, 2>, trials> sizes{
+    { { 64, 64 }, { 32, 32 }, { 16, 16 }, { 8, 8 }, { 4, width }, { 16, width } }
+  };
+  std::array<std::optional<LocalOffset>, trials> fits;
+  parallelFor(trials, [&](std::size_t trial) {
+    const auto [tileHeight, tileWidth] = sizes[trial];
+    const std::vector<TileSums> tiles = SumTiles(data, responses, tileHeight, tileWidth);
+    if (!tiles.empty())
+    {
+      fits[trial] = FitTiles(tiles, data);
+    }
+  });
+  std::optional<LocalOffset> best;
+  for (const std::optional<LocalOffset> & fit : fits)
+  {
+    if (fit && (!best || fit->standardError < best->standardError))
+    {
+      best = fit;
+    }
+  }
+  return best;
+}
+
+} // namespace sensornoise

@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "pixels/PartTiles.h"
+
+#include "base/Constants.h"
+#include "pixels/Constants.h"
+#include "pixels/Partition.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace sensornoise
+{
+
+namespace
+{
+constexpr std::size_t Phases = LargestPeriod * LargestPeriod;
+
+/** The side of a tile, a multiple of the largest period [pixels]. */
+std::size_t
+SideOfTile(const FrameGeometry & geometry)
+{
+  const std::size_t side =
+    geometry.Pixels() < InPattern.largeFramePixels ? InPattern.smallSquareSide : InPattern.squareSide;
+  const std::size_t longest = std::max(geometry.width, geometry.height);
+  return side * std::max<std::size_t>(1, (longest + InParts.mostTiles * side - 1) / (InParts.mostTiles * side));
+}
+
+void
+SumTile(const VarianceData &           data,
+        const FrameGeometry &          geometry,
+        const PartReference &          reference,
+        std::size_t                    left,
+        std::size_t                    top,
+        std::size_t                    side,
+        std::array<PartSums, Phases> & sums)
+{
+  const VarianceLine & line = reference.line;
+  for (std::size_t y = top; y < std::min(top + side, geometry.height); ++y)
+  {
+    for (std::size_t x = left; x < std::min(left + side, geometry.width); ++x)
+    {
+      const std::size_t p = y * geometry.width + x;
+      const double      expected = line.At(data.mean[p]);
+      if (data.mask[p] != 0 && data.variance[p] < InParts.largestRatio * expected)
+      {
+        PartSums & own = sums[LargestPeriod * (y % LargestPeriod) + x % LargestPeriod];
+        own.pixels += 1.0;
+        own.level += data.mean[p];
+        own.variance += data.variance[p];
+        own.expected += expected;
+        own.shot += std::clamp(line.gain * (data.mean[p] - reference.blackDn), 0.0, expected);
+        own.chance += line.SamplingVariance(data.freedom[p], expected) + line.noiseSpreadDn4;
+      }
+    }
+  }
+}
+
+/** The phases of larger tiles: several tiles of \a side pixels together, \a across of which lie side by side. Phases do
+ * not differ from place to place, and each tile has 16 of them. */
+std::vector<TileExcess>
+PhasesOf(const std::vector<std::array<PartSums, Phases>> & sums,
+         std::size_t                                       across,
+         std::size_t                                       side,
+         const FrameGeometry &                             geometry,
+         double                                            sharedSquares)
+{
+  const std::size_t down = sums.size() / across;
+  const std::size_t together = (std::max(across, down) + InParts.mostPhaseTiles - 1) / InParts.mostPhaseTiles;
+  const std::size_t largeAcross = (across + together - 1) / together;
+  const std::size_t largeDown = (down + together - 1) / together;
+  std::vector<std::array<PartSums, Phases>> large(largeAcross * largeDown);
+  for (std::size_t i = 0; i < sums.size(); ++i)
+  {
+    auto & own = large[i / across / together * largeAcross + i % across / together];
+    for (std::size_t phase = 0; phase < Phases; ++phase)
+    {
+      own[phase] += sums[i][phase];
+    }
+  }
+  const auto              largeSide = static_cast<double>(side * together);
+  std::vector<TileExcess> phases;
+  for (std::size_t i = 0; i < large.size(); ++i)
+  {
+    for (std::size_t phase = 0; phase < Phases; ++phase)
+    {
+      if (large[i][phase].pixels >= 1.0)
+      {
+        phases.push_back(large[i][phase].Excess(sharedSquares));
+        const double left = static_cast<double>(i % largeAcross) + 0.5;
+        const double top = static_cast<double>(i / largeAcross) + 0.5;
+        phases.back().x = std::min(1.0, left * largeSide / static_cast<double>(geometry.width));
+        phases.back().y = std::min(1.0, top * largeSide / static_cast<double>(geometry.height));
+        phases.back().phase = phase;
+      }
+    }
+  }
+  return phases;
+}
+} // namespace
+
+PartSums &
+PartSums::operator+=(const PartSums & other)
+{
+  pixels += other.pixels;
+  level += other.level;
+  variance += other.variance;
+  expected += other.expected;
+  shot += other.shot;
+  chance += other.chance;
+  return *this;
+}
+
+TileExcess
+PartSums::Excess(double sharedSquares) const
+{
+  TileExcess tile;
+  tile.pixels = pixels;
+  tile.levelDn = level / pixels;
+  tile.shotFraction = shot / expected;
+  tile.excess = variance / expected - 1.0;
+  tile.error = std::sqrt(sharedSquares * chance) / expected;
+  return tile;
+}
+
+PartTiles
+MakePartTiles(const VarianceData &  data,
+              const FrameGeometry & geometry,
+              const PartReference & reference,
+              const ParallelFor &   parallelFor)
+{
+  const std::size_t                         side = SideOfTile(geometry);
+  const std::size_t                         across = (geometry.width + side - 1) / side;
+  const std::size_t                         down = (geometry.height + side - 1) / side;
+  std::vector<std::array<PartSums, Phases>> sums(across * down);
+  parallelFor(down, [&](std::size_t row) {
+    for (std::size_t column = 0; column < across; ++column)
+    {
+      SumTile(data, geometry, reference, column * side, row * side, side, sums[row * across + column]);
+    }
+  });
+  PartTiles tiles;
+  tiles.phases = PhasesOf(sums, across, side, geometry, reference.sharedSquares);
+  for (std::size_t i = 0; i < sums.size(); ++i)
+  {
+    const double x = (static_cast<double>((i % across) * side) + 0.5 * static_cast<double>(side)) /
+                     static_cast<double>(geometry.width);
+    const double y = (static_cast<double>((i / across) * side) + 0.5 * static_cast<double>(side)) /
+                     static_cast<double>(geometry.height);
+    PartSums all;
+    for (const PartSums & phase : sums[i])
+    {
+      all += phase;
+    }
+    if (all.pixels >= InCommon.leastCoveredShare * static_cast<double>(side * side))
+    {
+      tiles.places.push_back(all.Excess(reference.sharedSquares));
+      tiles.places.back().x = std::min(1.0, x);
+      tiles.places.back().y = std::min(1.0, y);
+    }
+  }
+  return tiles;
+}
+
+} // namespace sensornoise

@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "pixels/ProjectedFrames.h"
+
+#include "sensornoise/PixelTypes.h"
+#include "base/Prefetch.h"
+#include "series/TemporalBasis.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** Frames of integers that are added together. */
+constexpr std::size_t MostTogether = 2 * FramePairs::MostPairs;
+
+/** What is taken off a value, so that 16 bits with a sign hold it. */
+template <typename TPixel>
+constexpr int Middle = std::is_same_v<TPixel, unsigned short> ? 32768 : 0;
+
+/** Takes the values of the pixels [begin, end) of \a count frames; where that is odd, the last is its own partner. */
+template <typename TPixel>
+void
+TakePairs(const TPixel *      frames,
+          const PixelLayout & layout,
+          std::size_t         count,
+          std::size_t         begin,
+          std::size_t         end,
+          FramePairs &        pairs)
+{
+  const std::size_t pixels = end - begin;
+  for (std::size_t k = 0; 2 * k < count; ++k)
+  {
+    TPixel         rooms[2][FramePairs::MostPixels];
+    const TPixel * frame = frames + 2 * k * layout.frame;
+    const TPixel * first = layout.SideBySide(frame, begin, end, rooms[0]);
+    const TPixel * second = 2 * k + 1 < count ? layout.SideBySide(frame + layout.frame, begin, end, rooms[1]) : first;
+    std::int16_t * pair = pairs.values[k];
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      pair[2 * i] = static_cast<std::int16_t>(first[i] - Middle<TPixel>);
+      pair[2 * i + 1] = static_cast<std::int16_t>(second[i] - Middle<TPixel>);
+    }
+    std::fill(pair + 2 * pixels, pair + 2 * FramePairs::Padded(pixels), std::int16_t{ 0 });
+  }
+}
+} // namespace
+
+template <typename TPixel>
+ProjectedFrames<TPixel>::ProjectedFrames(const TemporalBasis & basis,
+                                         const TPixel *        frames,
+                                         const PixelLayout &   layout,
+                                         std::size_t           firstFrame,
+                                         std::size_t           count)
+  : m_Basis(&basis)
+  , m_Frames(frames)
+  , m_Layout(layout)
+  , m_First(firstFrame)
+  , m_Count(count)
+{
+  for (std::size_t t = 0; std::is_integral_v<TPixel> && t < count; t += MostTogether)
+  {
+    std::vector<Weights> & weights = m_Weights.emplace_back();
+    for (std::size_t j = 0; j < basis.Size(); ++j)
+    {
+      weights.push_back(this->WeightsOf(j, firstFrame + t, std::min(MostTogether, count - t)));
+    }
+  }
+}
+
+template <typename TPixel>
+auto
+ProjectedFrames<TPixel>::WeightsOf(std::size_t series, std::size_t first, std::size_t count) const -> Weights
+{
+  Weights weights;
+  for (std::size_t t = 0; t < count; t += 2)
+  {
+    const double own = m_Basis->Rounded(first + t, series);
+    const double partner = t + 1 < count ? m_Basis->Rounded(first + t + 1, series) : 0.0;
+    weights.pairs.emplace_back(own, partner);
+    weights.ofMiddle += Middle<TPixel> * (own + partner);
+  }
+  return weights;
+}
+
+template <typename TPixel>
+void
+ProjectedFrames<TPixel>::AddTo(double *       sums,
+                               std::size_t    begin,
+                               std::size_t    end,
+                               std::size_t    ahead,
+                               const double * next) const
+{
+  if constexpr (std::is_integral_v<TPixel>)
+  {
+    this->AddTogether(sums, begin, end, ahead, next);
+  }
+  else
+  {
+    this->AddOneByOne(sums, begin, end);
+  }
+}
+
+template <typename TPixel>
+void
+ProjectedFrames<TPixel>::AddTogether(double *       sums,
+                                     std::size_t    begin,
+                                     std::size_t    end,
+                                     std::size_t    ahead,
+                                     const double * next) const
+{
+  const std::size_t series = m_Basis->Size();
+  FramePairs        values{};
+  for (std::size_t n = 0; n < m_Weights.size(); ++n)
+  {
+    const TPixel * const frames = m_Frames + n * MostTogether * m_Layout.frame;
+    const std::size_t    count = std::min(MostTogether, m_Count - n * MostTogether);
+    TakePairs(frames, m_Layout, count, begin, end, values);
+    for (std::size_t j = 0; j < series; ++j)
+    {
+      for (std::size_t t = j; t < count; t += series)
+      {
+        m_Layout.Prefetch(frames + t * m_Layout.frame, end, ahead);
+      }
+      if (n == 0 && next != nullptr)
+      {
+        PrefetchValues(next + j * BlockPixels, BlockPixels);
+      }
+      const Weights & weights = m_Weights[n][j];
+      AddPairProducts(values, weights.pairs, weights.ofMiddle, end - begin, sums + j * BlockPixels);
+    }
+  }
+}
+
+template <typename TPixel>
+void
+ProjectedFrames<TPixel>::AddOneByOne(double * sums, std::size_t begin, std::size_t end) const
+{
+  for (std::size_t t = 0; t < m_Count; ++t)
+  {
+    TPixel               room[BlockPixels];
+    const TPixel * const frame = m_Layout.SideBySide(m_Frames + t * m_Layout.frame, begin, end, room);
+    double               values[BlockPixels];
+    std::copy(frame, frame + (end - begin), values);
+    for (std::size_t j = 0; j < m_Basis->Size(); ++j)
+    {
+      const double   weight = m_Basis->Rounded(m_First + t, j);
+      double * const sum = sums + j * BlockPixels;
+      for (std::size_t i = 0; i < end - begin; ++i)
+      {
+        sum[i] += weight * values[i];
+      }
+    }
+  }
+}
+
+#define SensorNoise_INSTANTIATE(TPixel) template class ProjectedFrames<TPixel>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
+
+} // namespace sensornoise

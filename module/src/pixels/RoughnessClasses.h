@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_pixels_RoughnessClasses_h
+#define sensornoise_pixels_RoughnessClasses_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/Parallel.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace sensornoise
+{
+
+struct ProvisionalModel;
+struct ReferenceFrame;
+
+/** Classes into which pixels are sorted by the roughness of their surroundings: the energy of the derivatives in a
+ * neighbourhood that is as wide as the motion, over the noise. */
+inline constexpr std::size_t RoughnessClasses = 24;
+
+/** The class of every pixel, from 0, flat, to RoughnessClasses - 1; their edges are quantiles of the mask's pixels. */
+SensorNoise_EXPORT std::vector<std::uint8_t>
+ClassifyRoughness(const ReferenceFrame &            frame,
+                  const ProvisionalModel &          model,
+                  const std::vector<std::uint8_t> & mask,
+                  const ParallelFor &               parallelFor);
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,309 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "pixels/StaticVariance.h"
+
+#include "sensornoise/Parallel.h"
+#include "base/PixelUse.h"
+#include "pixels/Constants.h"
+#include "pixels/FlatPixels.h"
+#include "pixels/GainByParts.h"
+#include "pixels/GainFeedback.h"
+#include "pixels/JudgingLine.h"
+#include "pixels/LevelPattern.h"
+#include "pixels/LightLine.h"
+#include "pixels/ProjectedVariance.h"
+#include "pixels/SampledVariance.h"
+#include "pixels/StaticPixels.h"
+#include "pixels/VarianceFit.h"
+#include "pixels/VarianceLine.h"
+#include "scene/ReferenceFrame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** A line without errors, good enough to judge pixels by. */
+VarianceLine
+DrawLine(const VarianceData & data, const std::optional<VarianceLine> & start, const ParallelFor & parallelFor)
+{
+  const SampledVariance sample(data, InPixels.pixelsOfRoughLine, parallelFor);
+  VarianceFit           fit(sample.GetData(), parallelFor, start);
+  fit.Iterate(3);
+  return fit.GetLine();
+}
+
+/** What the line of the pixels of \a mask owes to the gain that was put in; nothing where frames are about equal. */
+GainFeedback
+FeedbackOf(const ProjectedVariance &         projected,
+           const VarianceLine &              line,
+           const std::vector<std::uint8_t> & mask,
+           const ParallelFor &               parallelFor)
+{
+  return projected.HasUnequalFrames() && line.isDetermined ? GainFeedback(projected, line, mask, parallelFor)
+                                                           : GainFeedback();
+}
+
+/** DrawLine() by the pixels of \a mask, again until the gain that corrects the variances is that of the line. */
+VarianceLine
+DrawSettledLine(ProjectedVariance &                 projected,
+                const std::vector<std::uint8_t> &   mask,
+                const std::optional<VarianceLine> & start,
+                const ParallelFor &                 parallelFor)
+{
+  VarianceLine line = DrawLine(projected.GetData(mask), start, parallelFor);
+  for (int round = 0; round < InPixels.settlingRounds; ++round)
+  {
+    const GainFeedback feedback = FeedbackOf(projected, line, mask, parallelFor);
+    const VarianceLine settled = feedback.Settle(line, projected.GetGain());
+    if (!feedback.IsLarge() ||
+        std::abs(settled.gain - projected.GetGain()) < InPixels.settledChange * std::abs(settled.gain))
+    {
+      break;
+    }
+    projected.Compute(settled);
+    line = DrawLine(projected.GetData(mask), settled, parallelFor);
+  }
+  return line;
+}
+
+/** The line of the \a mask of flat pixels. If a scene is flat in its dark parts alone, brighter pixels join the mask,
+ * provided that their variance is on one line with that of the dark pixels. */
+VarianceLine
+DrawFirstLine(ProjectedVariance &               projected,
+              const std::vector<std::uint8_t> & usable,
+              std::vector<std::uint8_t> &       mask,
+              const ParallelFor &               parallelFor)
+{
+  if (const std::optional<BrighterPixels> brighter = FindBrighterPixels(projected, usable, mask, parallelFor))
+  {
+    VarianceLine line = DrawSettledLine(projected, brighter->mask, brighter->through, parallelFor);
+    if (line.isDetermined && FollowsLine(projected, brighter->beyond, line) && FollowsLine(projected, mask, line))
+    {
+      mask = brighter->mask;
+      return line;
+    }
+  }
+  return DrawSettledLine(projected, mask, std::nullopt, parallelFor);
+}
+
+/** The line of all pixels of the data, with its errors. */
+VarianceFit
+FitAllPixels(const VarianceData & data, const VarianceLine & start, double blackDn, const ParallelFor & parallelFor)
+{
+  const SampledVariance sample(data, InPixels.pixelsOfRoughLine, parallelFor);
+  VarianceFit           rough(sample.GetData(), parallelFor, start, TrimRule::Distance, blackDn);
+  rough.Iterate(8);
+  VarianceFit fit(data, rough);
+  fit.Iterate(InPixels.stepsFromRoughLine);
+  fit.FillErrors();
+  return fit;
+}
+
+/** Files classes, mask and use of the pixels as \a line tells; returns the number of pixels that do not fit. */
+std::size_t
+SelectPixels(const ProjectedVariance &         projected,
+             const JudgingLine &               line,
+             const std::vector<std::uint8_t> & usable,
+             StaticVariance &                  found,
+             const ParallelFor &               parallelFor)
+{
+  const std::vector<std::uint8_t> misfit = FindLocalMisfit(projected, line, usable, parallelFor);
+  ForPixels(
+    misfit.size(), parallelFor, [&](std::size_t p) { found.mask[p] = usable[p] != 0 && misfit[p] == 0 ? 1 : 0; });
+  found.classes = JudgeClasses(projected, line, found.mask, parallelFor);
+  ForPixels(misfit.size(),
+            parallelFor,
+            [usable = usable.data(),
+             misfit = misfit.data(),
+             classOf = projected.GetClasses().data(),
+             firstBad = found.classes.firstBad,
+             use = found.pixelUse.data(),
+             mask = found.mask.data()](std::size_t p) {
+              const bool isRough = classOf[p] >= firstBad;
+              const auto own = static_cast<std::uint8_t>(misfit[p] != 0 ? PixelUse::NotStatic
+                                                         : isRough      ? PixelUse::Vibration
+                                                                        : PixelUse::Used);
+              use[p] = usable[p] != 0 ? own : use[p];
+              mask[p] = isRough ? 0 : mask[p];
+            });
+  return static_cast<std::size_t>(std::count(misfit.begin(), misfit.end(), std::uint8_t{ 1 }));
+}
+
+/** Compares the parts by the measured variance of the pixels of \a mask. */
+GainByParts
+ComparePartsOf(const ProjectedVariance &         projected,
+               const PartReference &             reference,
+               const std::vector<std::uint8_t> & mask,
+               const ParallelFor &               parallelFor)
+{
+  VarianceData        data = projected.GetData(mask);
+  std::vector<double> measured;
+  if (projected.HasRatios())
+  {
+    measured = projected.MeasuredVariance();
+    data.variance = measured.data();
+  }
+  return CompareParts(MakePartTiles(data, projected.GetFrame().geometry, reference, parallelFor));
+}
+
+/** Divides the variance by the ratios of parts whose gains differ much, before pixels are rejected for it, and draws
+ * the line \a drawn anew. Leaves all as it is unless most pixels then follow the line: what else makes parts differ,
+ * such as a response that is not linear, is left to the fit. */
+void
+AllowForParts(ProjectedVariance &               projected,
+              const PartReference &             reference,
+              const std::vector<std::uint8_t> & mask,
+              VarianceLine &                    drawn,
+              const ParallelFor &               parallelFor)
+{
+  GainByParts parts = ComparePartsOf(projected, reference, mask, parallelFor);
+  for (auto * const own : { &parts.places, &parts.phases })
+  {
+    if (*own && !(*own)->DifferMuch())
+    {
+      own->reset();
+    }
+  }
+  if (parts.Larger() == nullptr)
+  {
+    return;
+  }
+  const ReferenceFrame & frame = projected.GetFrame();
+  projected.SetRatios(MapOfRatios(parts, frame.mean, frame.geometry, reference, parallelFor));
+  const VarianceLine line = DrawSettledLine(projected, mask, drawn, parallelFor);
+  if (!line.isDetermined || !FollowsLine(projected, mask, line))
+  {
+    projected.SetRatios({});
+    return;
+  }
+  drawn = line;
+}
+
+/** The mean has noise of its own, and it is correlated with the variance as the noise is skewed. Both together bias
+ * the slope's equation by -g sigma^2 / T a unit of weight. Estimator.md, 3.6. */
+void
+CorrectForNoisyMeans(VarianceLine & line, double offsetDn, std::size_t frames)
+{
+  const double readVariance = std::max(0.0, line.intercept + line.gain * offsetDn);
+  const double bias = -line.gain * readVariance / static_cast<double>(frames) * line.weightSum / line.spreadDn2;
+  line.gain -= bias;
+  line.intercept += bias * line.pivotDn;
+}
+/** What FitStaticVariance() is told of the levels and the noise. */
+struct FitPremises
+{
+  double slopeDn;
+  double offsetDn;
+  double blackDn;
+  double sharedSquares;
+};
+
+/** FitStaticVariance(), once. \a mayDivide: the variance may be divided by the ratios of parts. */
+StaticVariance
+FitOnce(ProjectedVariance &               projected,
+        const std::vector<std::uint8_t> & usable,
+        std::vector<std::uint8_t>         pixelUse,
+        const FitPremises &               premises,
+        bool                              mayDivide,
+        const ParallelFor &               parallelFor)
+{
+  const auto [slopeDn, offsetDn, blackDn, sharedSquares] = premises;
+  StaticVariance found;
+  found.sharedSquares = sharedSquares;
+  found.pixelUse = std::move(pixelUse);
+  // The line of the flat classes tells which neighbourhoods fit, and among these, which classes do.
+  projected.SetRatios({});
+  projected.Compute(slopeDn);
+  found.mask = MaskOfFlatClasses(projected, usable, parallelFor);
+  VarianceLine drawn = DrawFirstLine(projected, usable, found.mask, parallelFor);
+  if (mayDivide && drawn.isDetermined)
+  {
+    AllowForParts(projected, { drawn, blackDn, sharedSquares }, found.mask, drawn, parallelFor);
+  }
+  bool isJudged = false;
+  for (int round = 0; round < 2 && drawn.isDetermined && !isJudged; ++round)
+  {
+    JudgingLine judge = MakeJudgingLine(drawn, projected, found.mask, blackDn, parallelFor);
+    judge.sharedSquares = sharedSquares;
+    projected.Compute(drawn);
+    const std::size_t misfits = SelectPixels(projected, judge, usable, found, parallelFor);
+    isJudged = static_cast<double>(misfits) < InPixels.fewMisfits * static_cast<double>(usable.size());
+    drawn = DrawSettledLine(projected, found.mask, judge.line, parallelFor);
+  }
+  if (!drawn.isDetermined)
+  {
+    return found;
+  }
+  projected.Compute(drawn);
+  const VarianceData data = projected.GetData(found.mask);
+  VarianceFit        fit = FitAllPixels(data, drawn, blackDn, parallelFor);
+  const GainFeedback feedback = FeedbackOf(projected, fit.GetLine(), found.mask, parallelFor);
+  if (feedback.IsLarge())
+  {
+    const VarianceLine settled = feedback.Settle(fit.GetLine(), projected.GetGain());
+    projected.Compute(settled);
+    fit = FitAllPixels(data, settled, blackDn, parallelFor);
+  }
+  const auto   settle = [&](const VarianceLine & fitted) { return feedback.Settle(fitted, projected.GetGain()); };
+  VarianceLine line = settle(fit.GetLine());
+  if (!line.isDetermined)
+  {
+    return found;
+  }
+  const std::vector<std::uint8_t> trimmed = fit.FindTrimmed();
+  ForPixels(trimmed.size(), parallelFor, [&](std::size_t p) {
+    found.pixelUse[p] = trimmed[p] != 0 ? static_cast<std::uint8_t>(PixelUse::Outlier) : found.pixelUse[p];
+  });
+  const ReferenceFrame & frame = projected.GetFrame();
+  found.pattern = MeasureLevelPattern(frame, data, line, blackDn, parallelFor);
+  if (found.pattern.LargestShare() * std::abs(line.gain) >
+      InPixels.negligiblePattern * std::sqrt(line.covariance(0, 0)))
+  {
+    found.fromLight = settle(FitLightLine(fit, data, frame));
+  }
+  CorrectForNoisyMeans(line, offsetDn, frame.frames);
+  found.line = line;
+  std::vector<std::uint8_t> kept = found.mask;
+  ForPixels(kept.size(), parallelFor, [&](std::size_t p) { kept[p] = trimmed[p] != 0 ? 0 : kept[p]; });
+  found.parts = ComparePartsOf(projected, { line, blackDn, sharedSquares }, kept, parallelFor);
+  found.curve = fit.CurveAbout(found.fromLight.isDetermined ? found.fromLight : line);
+  if (found.curve.ReducedChi2() > InSteps.leastChi2 * sharedSquares)
+  {
+    found.ofOwnLevels = fit.CurveAbout(found.curve.line, VarianceFit::SortedBy::OwnLevel);
+  }
+  found.notStatic = static_cast<std::size_t>(
+    std::count(found.pixelUse.begin(), found.pixelUse.end(), static_cast<std::uint8_t>(PixelUse::NotStatic)));
+  return found;
+}
+} // namespace
+
+StaticVariance
+FitStaticVariance(ProjectedVariance &               projected,
+                  const std::vector<std::uint8_t> & usable,
+                  std::vector<std::uint8_t>         pixelUse,
+                  double                            slopeDn,
+                  double                            offsetDn,
+                  double                            blackDn,
+                  const ParallelFor &               parallelFor,
+                  double                            sharedSquares)
+{
+  const FitPremises premises{ slopeDn, offsetDn, blackDn, sharedSquares };
+  StaticVariance    found = FitOnce(projected, usable, pixelUse, premises, true, parallelFor);
+  if (projected.HasRatios() && found.parts.Larger() == nullptr)
+  {
+    // The pixels that fit do not confirm the parts: a response that is not linear, on a chart, looks like them.
+    found = FitOnce(projected, usable, std::move(pixelUse), premises, false, parallelFor);
+  }
+  return found;
+}
+
+} // namespace sensornoise

@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "pixels/VarianceStep.h"
+
+#include "base/Significance.h"
+#include "pixels/Constants.h"
+#include "pixels/CurveRegression.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+std::vector<ExcessOfBin>
+ExcessesOf(const VarianceCurve & curve)
+{
+  std::vector<ExcessOfBin> bins;
+  for (const CurveBin & bin : curve.bins)
+  {
+    if (bin.weight > 0.0)
+    {
+      bins.push_back({ bin.x / bin.weight, bin.excess / bin.weight, bin.weight });
+    }
+  }
+  return bins;
+}
+
+/** A level at which the variance may step, and the fit of a line with that step. */
+struct StepCandidate
+{
+  double                   x{ 0.0 };         // [DN]
+  double                   halfWidth{ 0.0 }; // [DN]
+  std::vector<ExcessOfBin> bins;             // without those about the step
+  CurveRegression<3>       fit;              // of 1, x, and the step
+};
+
+CurveRegression<3>
+FitStep(const std::vector<ExcessOfBin> & bins, double at)
+{
+  return RegressCurve<3>(bins, [at](double x) { return Eigen::Vector3d{ 1.0, x, x > at ? 1.0 : 0.0 }; });
+}
+
+/** The candidate that gains most against a line. */
+std::optional<StepCandidate>
+FindBestStep(const VarianceCurve & curve, const std::vector<ExcessOfBin> & bins)
+{
+  std::optional<StepCandidate> best;
+  double                       most = 0.0;
+  for (std::size_t b = InSteps.leastBins; b + InSteps.leastBins < bins.size(); ++b)
+  {
+    StepCandidate tried;
+    tried.x = bins[b].x;
+    tried.halfWidth = InSteps.widthSds * std::sqrt(std::max(0.0, curve.line.At(curve.line.pivotDn + tried.x)));
+    std::size_t below = 0;
+    for (std::size_t k = 0; k < bins.size(); ++k)
+    {
+      if (k != b && std::abs(bins[k].x - tried.x) > tried.halfWidth)
+      {
+        tried.bins.push_back(bins[k]);
+        below += bins[k].x < tried.x ? 1 : 0;
+      }
+    }
+    if (below < InSteps.leastBins || tried.bins.size() < below + InSteps.leastBins)
+    {
+      continue;
+    }
+    tried.fit = FitStep(tried.bins, tried.x);
+    if (tried.fit.isDetermined)
+    {
+      const double size = tried.fit.coefficients(2);
+      const double gained = size * size / tried.fit.covariance(2, 2); // chi-square of a line less that of the step
+      if (gained > most)
+      {
+        most = gained;
+        best = std::move(tried);
+      }
+    }
+  }
+  return best;
+}
+
+/** The least chi-square of what has no step, and as many parameters: a cubic, and lines that bend at any level. */
+double
+LeastSmoothChi2(const std::vector<ExcessOfBin> & bins)
+{
+  const double scale = std::max(std::abs(bins.front().x), std::abs(bins.back().x));
+  const auto   cubic = RegressCurve<4>(bins, [scale](double x) {
+    const double s = x / scale;
+    return Eigen::Vector4d{ 1.0, s, s * s, s * s * s };
+  });
+  double       least = cubic.isDetermined ? cubic.chi2 : std::numeric_limits<double>::infinity();
+  for (const ExcessOfBin & bend : bins)
+  {
+    const auto bent =
+      RegressCurve<3>(bins, [at = bend.x](double x) { return Eigen::Vector3d{ 1.0, x, std::max(0.0, x - at) }; });
+    least = bent.isDetermined ? std::min(least, bent.chi2) : least;
+  }
+  return least;
+}
+
+/** Whether the step stands beside a parabola, which takes the bend of a response. */
+bool
+StandsBesideCurve(const StepCandidate & step, double scatter)
+{
+  const auto fit = RegressCurve<4>(
+    step.bins, [at = step.x](double x) { return Eigen::Vector4d{ 1.0, x, x * x, x > at ? 1.0 : 0.0 }; });
+  const double ratio = fit.coefficients(3) / step.fit.coefficients(2);
+  return fit.isDetermined && ratio > InSteps.leastBesideCurve &&
+         std::abs(fit.coefficients(3)) > Significance.manyTests * std::sqrt(scatter * fit.covariance(3, 3));
+}
+
+/** The slope of one side above the common one, and its error [DN/e-]. */
+struct SlopeOfSide
+{
+  double value{ 0.0 };
+  double error{ 0.0 };
+};
+
+/** By the bins of that side, and by what is known beforehand, \a prior [DN/e-]. */
+SlopeOfSide
+FitSide(const StepCandidate & step, bool isAbove, double prior, double scatter)
+{
+  std::vector<ExcessOfBin> side;
+  for (const ExcessOfBin & bin : step.bins)
+  {
+    if ((bin.x > step.x) == isAbove)
+    {
+      side.push_back(bin);
+    }
+  }
+  const auto fit = RegressCurve<2>(side, [](double x) { return Eigen::Vector2d{ 1.0, x }; });
+  if (!fit.isDetermined)
+  {
+    return { 0.0, prior };
+  }
+  const double variance = scatter * fit.covariance(1, 1);
+  const double share = prior * prior / (prior * prior + variance);
+  return { share * (fit.coefficients(1) - step.fit.coefficients(1)), std::sqrt(share * variance) };
+}
+} // namespace
+
+VarianceCurve
+VarianceStep::RestOf(const VarianceCurve & curve) const
+{
+  VarianceCurve rest{ line, {} };
+  for (const CurveBin & bin : curve.bins)
+  {
+    if (!(bin.weight > 0.0))
+    {
+      continue;
+    }
+    const double level = curve.LevelOf(bin);
+    if (std::abs(level - levelDn) > halfWidthDn)
+    {
+      const double variance = curve.VarianceOf(bin);
+      const double own = line.intercept + line.gain * level + (level > levelDn ? sizeDn2 : 0.0);
+      rest.bins.push_back(
+        { bin.pixels, bin.weight, bin.weight * (level - line.pivotDn), bin.weight * (variance - own) });
+    }
+  }
+  return rest;
+}
+
+std::optional<VarianceStep>
+FindVarianceStep(const VarianceCurve & curve)
+{
+  const std::vector<ExcessOfBin> bins = ExcessesOf(curve);
+  if (bins.size() < 2 * InSteps.leastBins + 1)
+  {
+    return std::nullopt;
+  }
+  const std::optional<StepCandidate> found = FindBestStep(curve, bins);
+  if (!found)
+  {
+    return std::nullopt;
+  }
+  const CurveRegression<3> & fit = found->fit;
+  const double               dof = static_cast<double>(found->bins.size()) - 4.0; // the level was fitted, too
+  const double               scatter = std::max(1.0, fit.chi2 / std::max(1.0, dof));
+  VarianceStep               step;
+  step.levelDn = curve.line.pivotDn + found->x;
+  step.halfWidthDn = std::max(found->halfWidth, 1e-9 * std::abs(step.levelDn));
+  step.sizeDn2 = fit.coefficients(2);
+  step.errorDn2 = std::sqrt(scatter * fit.covariance(2, 2));
+  step.line = curve.line;
+  step.line.gain += fit.coefficients(1);
+  step.line.intercept += fit.coefficients(0) - fit.coefficients(1) * curve.line.pivotDn;
+  const double below = step.line.intercept + step.line.gain * step.levelDn;
+  const double least = InSteps.leastSize * std::max({ below, below + step.sizeDn2, 0.0 });
+  if (std::abs(step.sizeDn2) < least || std::abs(step.sizeDn2) < Significance.manyTests * step.errorDn2 ||
+      LeastSmoothChi2(found->bins) - fit.chi2 < Significance.manyTests * Significance.manyTests * scatter ||
+      !StandsBesideCurve(*found, scatter))
+  {
+    return std::nullopt;
+  }
+  const double pivot = curve.line.pivotDn;
+  auto &       covariance = step.line.covariance;
+  covariance(0, 0) = fit.covariance(1, 1);
+  covariance(0, 1) = covariance(1, 0) = fit.covariance(0, 1) - pivot * fit.covariance(1, 1);
+  covariance(1, 1) = fit.covariance(0, 0) - 2.0 * pivot * fit.covariance(0, 1) + pivot * pivot * fit.covariance(1, 1);
+  covariance *= scatter;
+  const double      prior = InSteps.priorOfGains * std::abs(step.line.gain);
+  const SlopeOfSide ofBelow = FitSide(*found, false, prior, scatter);
+  const SlopeOfSide ofAbove = FitSide(*found, true, prior, scatter);
+  step.slopeBelow = ofBelow.value;
+  step.slopeAbove = ofAbove.value;
+  step.errorOfSlopes = std::max(ofBelow.error, ofAbove.error);
+  return step;
+}
+
+} // namespace sensornoise

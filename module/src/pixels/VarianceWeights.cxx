@@ -1,0 +1,248 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "pixels/VarianceFit.h"
+
+#include "base/ChiSquare.h"
+#include "sensornoise/Parallel.h"
+#include "base/Quantiles.h"
+#include "base/WideVectors.h"
+#include "moments/Constants.h"
+#include "moments/DefectivePixels.h"
+#include "pixels/ChiSquareTrim.h"
+#include "pixels/Constants.h"
+#include "pixels/VarianceLine.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+/** \file
+ * What a pixel counts for in VarianceFit: the weights, what is trimmed, and the pixels' own noise. */
+
+namespace sensornoise
+{
+
+namespace
+{
+/** Leaves the weights where the pixel counts, 0 elsewhere. A loop of its own: where a division is in a branch, neither
+ * becomes a vector instruction. */
+template <typename TNumbers>
+void
+TakeWeights(const TNumbers & counts, std::size_t pixels, TNumbers & weights)
+{
+  for (std::size_t i = 0; i < pixels; ++i)
+  {
+    const double weight = weights[i];
+    weights[i] = counts[i] > 0.0 ? weight : 0.0;
+  }
+}
+
+/** Sets the numbers behind the first \a pixels of a run to 0, which add nothing. */
+template <typename... TNumbers>
+void
+ClearBehind(std::size_t pixels, TNumbers &... numbers)
+{
+  (std::fill(numbers.begin() + static_cast<std::ptrdiff_t>(pixels), numbers.end(), 0.0), ...);
+}
+
+/** The weight of a variance, half of whose degrees of freedom are given, where \a expected is due [1/DN^4]. */
+double
+WeightAt(const VarianceLine & line, double halfFreedom, double expected)
+{
+  return halfFreedom / (expected * expected + halfFreedom * line.noiseSpreadDn4);
+}
+
+/** 1 between two limits, else 0: as numbers, which become vector instructions. */
+double
+IsBetween(double value, double low, double high)
+{
+  return (value > low ? 1.0 : 0.0) * (value < high ? 1.0 : 0.0);
+}
+
+/** What variances depart from a line by. Made of copies, which no pointer can point into. */
+struct Departure
+{
+  VarianceLine line{};
+  VarianceData data{};
+  double       reach{};      ///< above the line [DN^2]
+  double       reachBelow{}; ///< [DN^2]
+
+  /** By the level of the pixel's neighbours. */
+  double
+  Expected(std::size_t p) const
+  {
+    return line.At(data.neighbourMean[p]);
+  }
+  double
+  Excess(std::size_t p) const
+  {
+    return data.variance[p] - line.At(data.mean[p]);
+  }
+  /** 1 or 0. */
+  double
+  IsWithinReach(double excess) const
+  {
+    return IsBetween(excess, -reachBelow, reach);
+  }
+};
+} // namespace
+
+void
+VarianceFit::WeighRun(std::size_t first, std::size_t pixels, Run & run) const
+{
+  m_Rule == TrimRule::Distance ? this->WeighByDistance(first, pixels, run) : this->WeighByLevel(first, pixels, run);
+}
+
+void
+VarianceFit::WeighByDistance(std::size_t first, std::size_t pixels, Run & run) const
+{
+  WithWideVectors([&] {
+    const Departure of{ m_Line, m_Data, m_ReachDn2, m_ReachBelowDn2 };
+    OfRun           counts;
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      const std::size_t p = first + i;
+      run.weight[i] = WeightAt(of.line, 0.5 * of.data.freedom[p], of.Expected(p));
+      run.value[i] = of.data.variance[p];
+      counts[i] = of.IsWithinReach(of.Excess(p));
+    }
+    TakeWeights(counts, pixels, run.weight);
+  });
+}
+
+void
+VarianceFit::WeighByLevel(std::size_t first, std::size_t pixels, Run & run) const
+{
+  WithWideVectors([&] {
+    const VarianceLine line = m_Line; // copies, here too
+    const VarianceData data = m_Data;
+    OfRun              freedom;
+    OfRun              ratio;
+    OfRun              counts;
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      const std::size_t p = first + i;
+      const double      own = line.At(data.mean[p]);
+      const double      expected = line.At(data.neighbourMean[p]);
+      run.weight[i] = WeightAt(line, 0.5 * data.freedom[p], expected);
+      freedom[i] = line.EffectiveFreedom(data.freedom[p], own);
+      ratio[i] = data.variance[p] / own;
+    }
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      const auto & limits = m_Trim->Of(freedom[i]);
+      counts[i] = IsBetween(ratio[i], limits.low, limits.high);
+      run.value[i] = limits.mean;
+    }
+    TakeWeights(counts, pixels, run.weight);
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      run.value[i] = data.variance[first + i] / run.value[i];
+    }
+  });
+}
+
+void
+VarianceFit::KeepRun(std::size_t first, std::size_t pixels, Run & run, KeptRun & kept) const
+{
+  this->WeighRun(first, pixels, run);
+  WithWideVectors([&, mean = m_Data.mean + first, used = m_Data.mask + first, pivot = m_Line.pivotDn] {
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      const double weight = run.weight[i];
+      const bool   isKept = used[i] != 0 && weight > 0.0;
+      const double x = mean[i] - pivot;
+      const double value = run.value[i];
+      kept.weight[i] = isKept ? weight : 0.0;
+      kept.x[i] = isKept ? x : 0.0;
+      kept.value[i] = isKept ? value : 0.0;
+    }
+  });
+  ClearBehind(pixels, kept.weight, kept.x, kept.value);
+}
+
+std::vector<double>
+VarianceFit::SampleLevels() const
+{
+  std::vector<double> levels;
+  for (const std::size_t p : SamplePixels(m_Data.mask, m_Data.pixels))
+  {
+    levels.push_back(m_Data.neighbourMean[p]);
+  }
+  return levels;
+}
+
+void
+VarianceFit::SetReach()
+{
+  const double darkest = m_Line.At(m_DarkestDn);
+  const double brightest = m_Line.At(m_BrightestDn);
+  const double largest = std::max(darkest, brightest);
+  const double freedom = std::max(1.0, m_Line.SamplingFreedom(m_BrightFreedom, largest));
+  const double chance = largest * (ChiSquareUpperQuantile(InPixels.reachTail, freedom) / freedom - 1.0);
+  const double atBlack = std::max(0.0, m_Line.intercept + m_Line.gain * m_BlackDn);
+  const double noisy =
+    (InMoments.defectiveNoiseFactor * InMoments.defectiveNoiseFactor - 1.0) * std::min({ darkest, brightest, atBlack });
+  m_ReachDn2 = std::max(chance, noisy);
+  m_ReachBelowDn2 = largest * (1.0 - ChiSquareQuantile(InPixels.reachTail, freedom) / freedom);
+}
+
+void
+VarianceFit::FindSpread(std::size_t first, std::size_t pixels, SpreadTerms & terms) const
+{
+  WithWideVectors([&] {
+    const Departure of{ m_Line, m_Data, m_ReachDn2, m_ReachBelowDn2 };
+    OfRun           counts;
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      const std::size_t p = first + i;
+      const double      expected = of.Expected(p);
+      const double      chance = of.line.SamplingVariance(of.data.freedom[p], expected);
+      const double      excess = of.Excess(p);
+      terms.weight[i] = 1.0 / (chance * chance);
+      terms.more[i] = excess * excess - chance;
+      terms.chance[i] = chance;
+      counts[i] = of.IsWithinReach(excess) * of.data.mask[p];
+    }
+    TakeWeights(counts, pixels, terms.weight);
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      const double weight = terms.weight[i];
+      const double more = weight * terms.more[i];
+      const double chance = weight * terms.chance[i];
+      terms.more[i] = weight > 0.0 ? more : 0.0; // without freedom it is infinite
+      terms.chance[i] = weight > 0.0 ? chance : 0.0;
+    }
+  });
+  ClearBehind(pixels, terms.weight, terms.more, terms.chance);
+}
+
+void
+VarianceFit::SetNoiseSpread()
+{
+  // Sums of squared weights, times what the squared residuals have more than sampling noise, and times that noise.
+  enum : std::size_t
+  {
+    WW,
+    WWMore,
+    WWChance,
+    Sums
+  };
+  const auto   s = SumBlocks<Sums>(m_Data.pixels, m_ParallelFor, [&](std::size_t begin, std::size_t end, auto & sums) {
+    SpreadTerms terms{};
+    ForRuns(begin, end, [&](std::size_t first, std::size_t pixels) {
+      this->FindSpread(first, pixels, terms);
+      AddTerms(
+        terms.weight,
+        terms.more,
+        terms.chance,
+        [](double weight, double more, double chance) { return std::array<double, Sums>{ weight, more, chance }; },
+        sums);
+    });
+  });
+  const double spread = s[WWMore] / std::max(1e-300, s[WW]);
+  m_Line.noiseSpreadDn4 = spread * s[WW] > InPixels.leastNoiseSpread * s[WWChance] ? spread : 0.0;
+}
+
+} // namespace sensornoise

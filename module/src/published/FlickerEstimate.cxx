@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "published/FlickerEstimate.h"
+
+#include "published/RowFlicker.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace sensornoise
+{
+
+double
+Mean(const std::vector<double> & values)
+{
+  double sum = 0.0;
+  for (const double value : values)
+  {
+    sum += value;
+  }
+  return sum / static_cast<double>(values.size());
+}
+
+double
+SampleVariance(const std::vector<double> & values)
+{
+  const double mean = Mean(values);
+  double       sum = 0.0;
+  for (const double value : values)
+  {
+    sum += (value - mean) * (value - mean);
+  }
+  return sum / static_cast<double>(values.size() - 1);
+}
+
+namespace
+{
+/** The regression of v_* on v^*: offsetDn = mu (3.16), and what tells whether it holds. */
+struct OffsetLine
+{
+  double meanBright{ 0.0 }; ///< mean of v^* [1]
+  double meanDark{ 0.0 };   ///< mean of v_* [DN]
+  double sxx{ 0.0 };        ///< sum of squares of v^* about its mean [1]
+  double slopeDn{ 0.0 };    ///< K
+  double offsetDn{ 0.0 };   ///< mu; 0 if isWild
+  bool   isWild{ false };   ///< no flicker to speak of: v^* - 1 itself serves as gamma_t
+};
+
+OffsetLine
+FitOffsetLine(const std::vector<double> & brightRatio,
+              const std::vector<double> & darkResidualDn,
+              double                      brightDn,
+              double                      darkDn)
+{
+  OffsetLine line;
+  line.meanBright = Mean(brightRatio);
+  line.meanDark = Mean(darkResidualDn);
+  double sxy = 0.0;
+  for (std::size_t t = 0; t < brightRatio.size(); ++t)
+  {
+    const double dx = brightRatio[t] - line.meanBright;
+    line.sxx += dx * dx;
+    sxy += dx * (darkResidualDn[t] - line.meanDark);
+  }
+  line.slopeDn = line.sxx > 0.0 ? sxy / line.sxx : 0.0;
+  const double contrast = brightDn - darkDn;
+  line.offsetDn = line.slopeDn * brightDn / (line.slopeDn - contrast); // (3.16)
+  line.isWild = !std::isfinite(line.offsetDn) || line.offsetDn >= brightDn;
+  if (line.isWild)
+  {
+    line.offsetDn = 0.0;
+  }
+  return line;
+}
+
+/** Does the flicker stand out of the noise, and do v_* and v^* lie on one line? Sets flickerZ and offsetLinePhi. */
+void
+JudgeFlicker(FlickerEstimate & estimate, const OffsetLine & line, const FlickerSums & sums, double darkDn)
+{
+  const std::size_t frames = estimate.brightRatio.size();
+  const double      dof = static_cast<double>(frames - 1);
+  const double      ratioVariance = line.sxx / dof;
+  const double      noise = sums.GetBrightRatioNoise();
+  estimate.flickerZ = !line.isWild && noise > 0.0           ? (ratioVariance / noise - 1.0) / std::sqrt(2.0 / dof)
+                      : !line.isWild && ratioVariance > 0.0 ? std::numeric_limits<double>::infinity() // no noise at all
+                                                            : 0.0;
+  double residual = 0.0;
+  for (std::size_t t = 0; t < frames; ++t)
+  {
+    const double deviation =
+      estimate.darkResidualDn[t] - line.meanDark - line.slopeDn * (estimate.brightRatio[t] - line.meanBright);
+    residual += deviation * deviation;
+  }
+  const double lever = darkDn + line.slopeDn; // noise of v^* enters v_* and the abscissa
+  const double expected = sums.GetDarkResidualNoiseDn2() + lever * lever * noise;
+  estimate.offsetLinePhi = expected > 0.0 ? residual / (dof - 1.0) / expected : 1.0;
+}
+
+/** Sets gamma_t(y) with the width estimate.sigmaRows, and the flicker's root mean square over the known rows. */
+void
+EstimateRows(FlickerEstimate & estimate, const FlickerSums & sums, double gammaPerRatio)
+{
+  RowRatios ratios = SmoothRowRatios(sums, estimate.sigmaRows);
+  estimate.rows = sums.GetNumberOfRows();
+  estimate.rowKnown = std::move(ratios.known);
+  estimate.gammaRows = std::move(ratios.ratio);
+  for (double & value : estimate.gammaRows)
+  {
+    value = (value - 1.0) * gammaPerRatio;
+  }
+  double      total = 0.0;
+  std::size_t known = 0;
+  for (std::size_t row = 0; row < estimate.rows; ++row)
+  {
+    if (estimate.IsKnown(row))
+    {
+      std::vector<double> series;
+      for (std::size_t t = 0; t < sums.GetNumberOfFrames(); ++t)
+      {
+        series.push_back(estimate.Gamma(t, row));
+      }
+      total += SampleVariance(series);
+      ++known;
+    }
+  }
+  estimate.flickerSd = std::sqrt(total / static_cast<double>(known));
+}
+} // namespace
+
+FlickerEstimate
+EstimateFlicker(const FlickerSums &     sums,
+                const IsoIntensitySet & bright,
+                const IsoIntensitySet & dark,
+                RollingShutter          mode,
+                double                  sigmaRows)
+{
+  const std::size_t frames = sums.GetNumberOfFrames();
+  FlickerEstimate   estimate;
+  for (std::size_t t = 0; t < frames; ++t)
+  {
+    estimate.brightRatio.push_back(sums.GetBrightRatio(t));
+    estimate.darkResidualDn.push_back(sums.GetDarkResidualDn(t));
+  }
+  const OffsetLine line = FitOffsetLine(estimate.brightRatio, estimate.darkResidualDn, bright.levelDn, dark.levelDn);
+  estimate.slopeDn = line.slopeDn;
+  estimate.offsetDn = line.offsetDn;
+
+  const double gammaPerRatio = 1.0 + estimate.offsetDn / (bright.levelDn - estimate.offsetDn); // (3.17)
+  for (std::size_t t = 0; t < frames; ++t)
+  {
+    estimate.gamma.push_back((estimate.brightRatio[t] - 1.0) * gammaPerRatio);
+  }
+  estimate.flickerSd = std::sqrt(SampleVariance(estimate.gamma));
+  JudgeFlicker(estimate, line, sums, dark.levelDn);
+
+  if (mode != RollingShutter::Off && sums.GetNumberOfRows() > 1)
+  {
+    estimate.sigmaRows = mode == RollingShutter::Fixed ? sigmaRows : ChooseSigmaRows(sums);
+  }
+  if (estimate.sigmaRows > 0.0)
+  {
+    EstimateRows(estimate, sums, gammaPerRatio);
+  }
+  return estimate;
+}
+
+} // namespace sensornoise

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_published_VibrationCovariance_h
+#define sensornoise_published_VibrationCovariance_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/Parallel.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace sensornoise
+{
+
+/** Cov(alpha, beta) of the vibration, with the other coefficients of (2.20). */
+struct VibrationCovariance
+{
+  double      varianceXPixels2{ 0.0 };  ///< of alpha_t, along x [pixel^2]; below 0: none can be seen
+  double      varianceYPixels2{ 0.0 };  ///< of beta_t, along y [pixel^2]
+  double      covariancePixels2{ 0.0 }; ///< of alpha_t and beta_t [pixel^2]
+  double      flickerVariance{ 0.0 };   ///< sigma_gamma^2, the coefficient of the squared mean [1]
+  std::size_t pixels{ 0 };
+  bool        isDetermined{ false }; ///< false: too few pixels, or a scene without gradients
+};
+
+/** Multiple ordinary regression (2.20) of Sur & Gredi\'ac 2015 (https://doi.org/10.1137/140977035):
+ *
+ *     Var(u) = c0 + c1 ubar + sigma_gamma^2 ubar^2 + (1 + sigma_gamma^2) grad ubar' Cov(alpha, beta) grad ubar
+ *
+ * over all inner pixels that are \a valid (null: all) and finite, those moved by vibrations included. \a mean [DN] and
+ * \a variance [DN^2] are frame-sized maps of the stack as it is, flicker included. \a flickerSd is sigma_gamma where it
+ * is known from the flicker itself; below 0: the root of this regression's own coefficient (0 if that is negative). */
+SensorNoise_EXPORT VibrationCovariance
+FitVibrationCovariance(const double *       mean,
+                       const double *       variance,
+                       const std::uint8_t * valid,
+                       std::size_t          width,
+                       std::size_t          height,
+                       double               flickerSd,
+                       const ParallelFor &  parallelFor = SerialFor);
+
+} // namespace sensornoise
+
+#endif

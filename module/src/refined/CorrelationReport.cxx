@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "refined/CorrelationReport.h"
+
+#include "base/Significance.h"
+#include "base/Text.h"
+#include "correlation/Constants.h"
+#include "refined/Constants.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace sensornoise
+{
+
+namespace
+{
+const LagCoefficient *
+LargestOf(const std::vector<LagCoefficient> & lags)
+{
+  const auto largest = std::max_element(lags.begin(), lags.end(), [](const auto & a, const auto & b) {
+    return std::abs(a.coefficient.value) < std::abs(b.coefficient.value);
+  });
+  return largest == lags.end() ? nullptr : &*largest;
+}
+
+std::string
+PercentOf(const MeasuredNumber & number)
+{
+  return Measured(100.0 * number.value, 100.0 * number.standardError) + " %";
+}
+
+std::string
+NeighbourAt(const Lag & lag)
+{
+  const auto count = [](int apart, const char * what) {
+    return std::to_string(std::abs(apart)) + " " + what + (std::abs(apart) == 1 ? "" : "s");
+  };
+  const std::string distance = lag.y == 0   ? count(lag.x, "column")
+                               : lag.x == 0 ? count(lag.y, "row")
+                                            : count(lag.x, "column") + " and " + count(lag.y, "row");
+  return "pixels " + distance + " apart share ";
+}
+
+/** Says how the gain follows from the variance, and then \a action, a sentence. */
+std::string
+Consequence(const Report & report, const std::string & action)
+{
+  if (!report.gain.value || !report.varianceSlope.value)
+  {
+    return action.empty() ? "" : ". " + action;
+  }
+  return ". The slope of the variance (variance_slope) is " +
+         Text(std::round(100.0 * *report.varianceSlope.value / *report.gain.value)) +
+         " % of the gain, which is from the covariance over all lags" + (action.empty() ? "" : ". " + action);
+}
+
+/** Whether the distribution of the noise is what a linear filter leaves: then what neighbours share is against it. */
+bool
+IsNormal(const NoiseCorrelation & correlation)
+{
+  return std::none_of(correlation.kurtosis.begin(), correlation.kurtosis.end(), [](const MeasuredNumber & kurtosis) {
+    return kurtosis.Exceeds(0.0, Significance.severalTests);
+  });
+}
+
+/** Names of the kinds of KurtosisSums, without single pixels. */
+constexpr std::array<const char *, KurtosisSums::Kinds - 1> NamesOfDifferences{ { "of horizontal differences",
+                                                                                  "of vertical differences",
+                                                                                  "of differences in 2 x 2 pixels",
+                                                                                  "of differences in 8 x 1 pixels",
+                                                                                  "of differences in 1 x 8 pixels" } };
+
+/** The kind of KurtosisSums, without single pixels, whose kurtosis is the least probable for normal noise. */
+std::size_t
+MostUnusualDifference(const NoiseCorrelation & correlation)
+{
+  std::size_t most = 3; // where none is measured
+  double      largest = 0.0;
+  for (std::size_t kind = 1; kind < correlation.kurtosis.size(); ++kind)
+  {
+    const MeasuredNumber & kurtosis = correlation.kurtosis[kind];
+    const double           z = kurtosis.standardError > 0.0 ? std::abs(kurtosis.value) / kurtosis.standardError : 0.0;
+    if (z > largest)
+    {
+      largest = z;
+      most = kind;
+    }
+  }
+  return most;
+}
+
+void
+WarnOfNonlinear(Report & report, const NoiseCorrelation & correlation, const LagCoefficient * space)
+{
+  if (correlation.repeatedShare > 0.0)
+  {
+    report.Warn(WarningCode::NoiseNotLinear,
+                PercentApart(correlation.repeatedShare, InRefined.largestRepeatedShare) +
+                  " of the pixels repeat their value in the frame before, beyond chance (expected at most " +
+                  Percent(InRefined.largestRepeatedShare) +
+                  "): a video coder skips blocks, or parts of frames are repeated, so that the gain is not "
+                  "identifiable. Record raw frames");
+    return;
+  }
+  if (correlation.HasLocalMotion())
+  {
+    report.Warn(
+      WarningCode::NoiseNotLinear,
+      PercentOf(correlation.localMotion) +
+        " of the noise variance is common to neighbours in proportion to the slopes of the scene (expected "
+        "at most " +
+        Percent(InCorrelation.leastLocalMotion) +
+        "): parts of the scene move by themselves, as in heat haze. Choose a smooth part of the scene (--roi), "
+        "or record it at rest");
+    return;
+  }
+  const MeasuredNumber & own = correlation.kurtosis.front();
+  const std::size_t      kind = MostUnusualDifference(correlation);
+  const MeasuredNumber & other = correlation.kurtosis.at(kind);
+  const std::string      kurtosis = "excess kurtosis " + Measured(own.value, own.standardError) + ", " +
+                               NamesOfDifferences.at(kind - 1) + " " + Measured(other.value, other.standardError) +
+                               ", expected 0";
+  if (space != nullptr && IsNormal(correlation))
+  {
+    report.Warn(
+      WarningCode::NoiseNotLinear,
+      NeighbourAt(space->lag) + PercentOf(space->coefficient) +
+        " of their noise, which does not grow with the signal as after a filter: periodic interference, or blocks of "
+        "rounded pixels (compression). Record raw frames, and look for the source of the interference in cables, power "
+        "supply and read-out clock (" +
+        kurtosis + ": the noise is normal)");
+    return;
+  }
+  const bool isOfPixels = own.Exceeds(0.0, Significance.severalTests);
+  report.Warn(WarningCode::NoiseNotLinear,
+              (isOfPixels ? "the noise is not normally distributed ("
+                          : "differences of neighbours are not normally distributed (") +
+                kurtosis +
+                "): the camera corrects defects, takes medians or compresses. Set the camera to raw frames, without "
+                "corrections");
+}
+
+std::string
+TextOf(const EnlargementTrace & trace, const std::optional<Interval> & gain)
+{
+  std::string text = "the noise correlation of pixels " + std::to_string(trace.lag) +
+                     (trace.isAlongX ? " column" : " row") + (trace.lag == 1 ? "" : "s") + " apart changes by " +
+                     PercentApart(trace.amplitude, InCorrelation.leastOscillation) + " (expected at most " +
+                     Percent(InCorrelation.leastOscillation) + ") every " +
+                     Text(std::round(10.0 / trace.cyclesPerPixel) / 10.0) +
+                     " pixels: the frames were enlarged or a mosaic was interpolated";
+  if (gain && gain->low && gain->high)
+  {
+    text += ". The gain is between " + Rounded(*gain->low) + " and " + Rounded(*gain->high) + " DN/e-";
+  }
+  return text + ". Give the frames as the camera read them";
+}
+
+/** An addition to the action, where the covariance grows with the signal alone: a filter before the read-out, or events
+ * of several electrons. */
+std::string
+BeforeReadOut(const NoiseCorrelation & correlation)
+{
+  return correlation.ProbabilityOfLateNoise() > 0.5
+           ? "; their noise is spread before the read-out, so that the gain is per event where one event frees several "
+             "electrons (scintillator, intensifier)"
+           : "";
+}
+} // namespace
+
+void
+WarnOfCorrelation(Report & report, const NoiseCorrelation & correlation)
+{
+  const LagCoefficient * space = LargestOf(correlation.space);
+  const LagCoefficient * time = LargestOf(correlation.time);
+  switch (correlation.kind)
+  {
+    case NoiseKind::NotLinear:
+      WarnOfNonlinear(report, correlation, space);
+      break;
+    case NoiseKind::Temporal:
+      report.Warn(WarningCode::NoiseCorrelated,
+                  "the camera mixes its frames: frames " + std::to_string(time->lag.t) + " apart share " +
+                    PercentOf(time->coefficient) + " of their noise" +
+                    Consequence(report, "Switch the temporal noise reduction off"));
+      break;
+    case NoiseKind::Filtered:
+      report.Warn(WarningCode::NoiseCorrelated,
+                  "the camera smooths, resamples or sharpens its frames: " + NeighbourAt(space->lag) +
+                    PercentOf(space->coefficient) + " of their noise" +
+                    Consequence(report, "Set the camera to raw frames" + BeforeReadOut(correlation)));
+      break;
+    case NoiseKind::Enlarged:
+      report.Warn(WarningCode::FramesEnlarged, TextOf(*correlation.enlargement, report.gain.bracket));
+      break;
+    case NoiseKind::Crosstalk:
+      report.Warn(WarningCode::NoiseCorrelated,
+                  "neighbours are coupled, or slightly filtered: " + NeighbourAt(space->lag) +
+                    PercentOf(space->coefficient) + " of their noise" +
+                    Consequence(report, "Set the camera to raw frames, if it filters"));
+      break;
+    case NoiseKind::BrighterFatter:
+      report.Warn(WarningCode::NoiseCorrelated,
+                  "charge repels charge in bright pixels (brighter-fatter effect): " + NeighbourAt(space->lag) +
+                    PercentOf(space->coefficient) + " of their noise, in proportion to the square of the signal" +
+                    Consequence(report, ""));
+      break;
+    case NoiseKind::White:
+    case NoiseKind::NotMeasured:
+      break;
+  }
+}
+
+} // namespace sensornoise

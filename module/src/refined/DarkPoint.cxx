@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "refined/DarkPoint.h"
+
+#include "base/Constants.h"
+#include "base/Eigen.h"
+#include "base/PixelUse.h"
+#include "base/Significance.h"
+#include "moments/DarkMaps.h"
+#include "moments/KnownOffset.h"
+#include "pixels/VarianceCurve.h"
+#include "refined/Constants.h"
+#include "refined/GainEstimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** The point of the dark frames. */
+struct DarkPoint
+{
+  double offsetDn;
+  double offsetErrorDn;
+  double varianceDn2;
+  double varianceErrorDn2;
+};
+
+/** Over the pixels that were used, if the dark frames tell them one by one: bright and dark are then the same pixels.
+ */
+DarkPoint
+PointOf(const RefinedResults & found)
+{
+  const KnownOffset & dark = *found.settings.offset;
+  DarkPoint point{ dark.valueDn, dark.standardErrorDn, dark.variance->valueDn2, dark.variance->standardErrorDn2 };
+  if (dark.maps && dark.maps->usable.size() == found.variance.pixelUse.size())
+  {
+    double pixels = 0.0;
+    double offset = 0.0;
+    double variance = 0.0;
+    for (std::size_t p = 0; p < dark.maps->usable.size(); ++p)
+    {
+      if (dark.maps->usable[p] != 0 && found.variance.pixelUse[p] == static_cast<std::uint8_t>(PixelUse::Used))
+      {
+        pixels += 1.0;
+        offset += dark.maps->offsetDn[p];
+        variance += dark.maps->varianceDn2[p];
+      }
+    }
+    if (pixels > 0.0)
+    {
+      const double fewer = std::sqrt(static_cast<double>(dark.maps->usable.size()) / pixels);
+      point = {
+        offset / pixels, dark.standardErrorDn * fewer, variance / pixels, dark.variance->standardErrorDn2 * fewer
+      };
+    }
+  }
+  return point;
+}
+
+/** Moves the line towards the point, by the errors of both; returns by how many standard deviations they differed. */
+double
+MoveToPoint(GainEstimate & estimate, const DarkPoint & dark)
+{
+  VarianceLine &        line = estimate.line;
+  const Eigen::Vector2d design(dark.offsetDn, 1.0);
+  const double          difference = dark.varianceDn2 - line.intercept - line.gain * dark.offsetDn;
+  const double          error = std::hypot(dark.varianceErrorDn2, estimate.scale * dark.offsetErrorDn);
+  const double          own = design.dot(estimate.covariance * design);
+  const double          expected = own + error * error;
+  estimate.atOffset = DarkVariance{ line.intercept + line.gain * dark.offsetDn, std::sqrt(std::max(0.0, own)) };
+  const Eigen::Vector2d step = estimate.covariance * design / expected;
+  line.gain += step(0) * difference;
+  line.intercept += step(1) * difference;
+  estimate.covariance -= step * (estimate.covariance * design).transpose();
+  return std::abs(difference) / std::sqrt(expected);
+}
+
+/** The gains of the levels, (V - sigma^2) / (mean - mu). */
+struct LevelGains
+{
+  double mean{ 0.0 };
+  double variance{ 0.0 }; ///< of the mean, by chance
+  double scatter{ 0.0 };  ///< standard deviation from level to level, without chance
+};
+
+LevelGains
+GainsOfLevels(const VarianceCurve & curve, const DarkPoint & dark)
+{
+  const double brightestDn = curve.bins.empty() ? 0.0 : curve.LevelOf(curve.bins.back());
+  double       weight = 0.0, sum = 0.0, squares = 0.0, levels = 0.0;
+  for (const CurveBin & bin : curve.bins)
+  {
+    const double level = curve.LevelOf(bin);
+    const double light = level - dark.offsetDn;
+    if (light > InCommon.darkShare * (brightestDn - dark.offsetDn))
+    {
+      const double own = curve.VarianceOf(bin);
+      const double gain = (own - dark.varianceDn2) / light;
+      const double w = bin.weight * light * light;
+      weight += w;
+      sum += w * gain;
+      squares += w * gain * gain;
+      levels += 1.0;
+    }
+  }
+  LevelGains gains;
+  if (weight > 0.0)
+  {
+    gains.mean = sum / weight;
+    gains.variance = 1.0 / weight;
+    // Beyond chance by two standard deviations of chi-square.
+    const double freedom = std::max(1.0, levels - 1.0);
+    const double chi2 = squares - sum * gains.mean;
+    const double more = chi2 - freedom - Significance.hint * std::sqrt(2.0 * freedom);
+    gains.scatter = std::sqrt(std::max(0.0, more / weight));
+  }
+  return gains;
+}
+} // namespace
+
+void
+UseDarkPoint(GainEstimate & estimate, const RefinedResults & found)
+{
+  const DarkPoint    dark = PointOf(found);
+  const bool         isBent = estimate.IsBent();
+  const GainEstimate before = estimate;
+  const double       contradiction = MoveToPoint(estimate, dark);
+  const auto         atOffset = estimate.atOffset;
+  const bool         isFar = estimate.curve.DarkestShare(dark.offsetDn) > InCommon.darkShare;
+  estimate.isLinearityTested =
+    std::sqrt(before.covariance(0, 0)) < 0.5 * InRefined.largestNonlinearity * std::abs(before.line.gain);
+  const double difference = std::abs(dark.varianceDn2 - atOffset->valueDn2);
+  if (!isBent && contradiction > Significance.severalTests &&
+      difference > InCommon.leastDarkDifference * std::max(dark.varianceDn2, std::abs(atOffset->valueDn2)))
+  {
+    estimate = before;
+    estimate.atOffset = atOffset;
+    estimate.isDarkRejected = true;
+    return;
+  }
+  const LevelGains   gains = GainsOfLevels(estimate.curve, dark);
+  const VarianceLine line = estimate.line;
+  if (isBent || isFar)
+  {
+    estimate.atOffset.reset(); // a bend of the response may explain the difference
+  }
+  if ((isBent || contradiction > Significance.hint) && gains.mean > 0.0)
+  {
+    const double light = std::max(1e-9, line.pivotDn - dark.offsetDn);
+    const double error = std::hypot(dark.varianceErrorDn2 / light, gains.mean * dark.offsetErrorDn / light);
+    const double square = gains.variance + error * error;
+    estimate.line.gain = gains.mean;
+    estimate.line.intercept = dark.varianceDn2 - gains.mean * dark.offsetDn;
+    estimate.covariance << square, -square * dark.offsetDn, -square * dark.offsetDn,
+      square * dark.offsetDn * dark.offsetDn + dark.varianceErrorDn2 * dark.varianceErrorDn2;
+    estimate.below = estimate.above = gains.scatter;
+  }
+}
+
+} // namespace sensornoise

@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "refined/DarkSignal.h"
+
+#include "base/Eigen.h"
+#include "base/PixelUse.h"
+#include "base/Significance.h"
+#include "correlation/Jackknife.h"
+#include "moments/DarkMaps.h"
+#include "refined/Constants.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+constexpr std::size_t TileSide = 16; ///< [pixels]; glow and vignetting hardly change within it
+constexpr std::size_t MostBlocks = 32;
+constexpr std::size_t FewestBlocks = 4;
+constexpr double      FewestPixels = 16.0; ///< of a tile
+
+/** Sums over tiles of the centred signal x, bright minus dark mean, and of the centred dark mean y. */
+struct SignalSums
+{
+  double square{ 0.0 };  ///< of x, without its noise [DN^2]
+  double product{ 0.0 }; ///< of x and y, without their noise [DN^2]
+
+  SignalSums &
+  operator+=(const SignalSums & other)
+  {
+    square += other.square;
+    product += other.product;
+    return *this;
+  }
+  /** A dark frame that holds the fraction b of the signal has b / (1 - b) of the difference. */
+  double
+  Fraction() const
+  {
+    return square + product != 0.0 ? product / (square + product) : 0.0;
+  }
+};
+
+/** The sums of the tile at \a left, \a top; nothing where the scene has less contrast than pixels have of their own. */
+SignalSums
+SumTile(const RefinedResults & found, std::size_t left, std::size_t top)
+{
+  const ReferenceFrame & bright = found.scene.frame;
+  const DarkMaps &       dark = *found.settings.offset->maps;
+  const auto             frames = static_cast<double>(bright.frames);
+  const auto             darkFrames = static_cast<double>(dark.frames);
+  double                 pixels = 0.0, x = 0.0, y = 0.0, noise = 0.0, shared = 0.0;
+  SignalSums             sums;
+  for (std::size_t row = top; row < std::min(top + TileSide, bright.geometry.height); ++row)
+  {
+    for (std::size_t column = left; column < std::min(left + TileSide, bright.geometry.width); ++column)
+    {
+      const std::size_t p = row * bright.geometry.width + column;
+      if (dark.usable[p] == 0 || found.variance.pixelUse[p] != static_cast<std::uint8_t>(PixelUse::Used))
+      {
+        continue;
+      }
+      const double signal = bright.mean[p] - dark.offsetDn[p];
+      pixels += 1.0;
+      x += signal;
+      y += dark.offsetDn[p];
+      sums.square += signal * signal;
+      sums.product += signal * dark.offsetDn[p];
+      shared += dark.varianceDn2[p] / darkFrames;
+      noise += bright.variance[p] / frames;
+    }
+  }
+  if (pixels < FewestPixels)
+  {
+    return {};
+  }
+  const double fewer = 1.0 - 1.0 / pixels;
+  sums.square -= x * x / pixels + fewer * (noise + shared);
+  sums.product -= x * y / pixels - fewer * shared;
+  const double contrast = InRefined.leastContrastOfTile * x / pixels;
+  return sums.square > contrast * contrast * pixels ? sums : SignalSums();
+}
+} // namespace
+
+std::optional<MeasuredNumber>
+FindDarkSignal(const RefinedResults & found)
+{
+  const FrameGeometry & geometry = found.scene.frame.geometry;
+  const auto &          offset = found.settings.offset;
+  if (!offset || !offset->maps || offset->maps->usable.size() != found.variance.pixelUse.size())
+  {
+    return std::nullopt;
+  }
+  std::vector<SignalSums> blocks;
+  const std::size_t       rows = (geometry.height + TileSide - 1) / TileSide;
+  const std::size_t       count = std::min(rows, MostBlocks);
+  for (std::size_t block = 0; block < count; ++block)
+  {
+    SignalSums sum;
+    for (std::size_t row = block * rows / count; row < (block + 1) * rows / count; ++row)
+    {
+      for (std::size_t left = 0; left < geometry.width; left += TileSide)
+      {
+        sum += SumTile(found, left, row * TileSide);
+      }
+    }
+    if (sum.square > 0.0)
+    {
+      blocks.push_back(sum);
+    }
+  }
+  if (blocks.size() < FewestBlocks)
+  {
+    return std::nullopt;
+  }
+  const JackknifeEstimate estimate =
+    Jackknife(blocks, [](const SignalSums & sums) { return Eigen::VectorXd::Constant(1, sums.Fraction()); });
+  const MeasuredNumber fraction{ estimate.value(0), estimate.StandardError(0) };
+  const bool           counts =
+    fraction.value > InRefined.leastSignalOfDark && fraction.value > Significance.severalTests * fraction.standardError;
+  return counts ? std::optional<MeasuredNumber>(fraction) : std::nullopt;
+}
+
+} // namespace sensornoise

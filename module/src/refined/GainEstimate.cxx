@@ -1,0 +1,315 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "refined/GainEstimate.h"
+
+#include "base/Constants.h"
+#include "base/Significance.h"
+#include "moments/KnownOffset.h"
+#include "pixels/LevelPattern.h"
+#include "pixels/MeanGain.h"
+#include "pixels/ProjectedVariance.h"
+#include "pixels/VarianceCurve.h"
+#include "refined/BeyondChance.h"
+#include "refined/Constants.h"
+#include "refined/DarkPoint.h"
+#include "refined/DarkSignal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** A covariance of gain and intercept that leaves the value at the pivot alone. */
+Eigen::Matrix2d
+SlopeCovariance(double errorOfSlope, double pivotDn)
+{
+  Eigen::Matrix2d added;
+  added << 1.0, -pivotDn, -pivotDn, pivotDn * pivotDn;
+  return errorOfSlope * errorOfSlope * added;
+}
+
+/** What is known of the bias of large vibrations, beyond which the expansion in derivatives fails. */
+double
+ErrorOfVibration(const VarianceLine & line, const ProvisionalModel & model)
+{
+  const double square = std::max(model.vibrationXPixels2, model.vibrationYPixels2);
+  return square > InRefined.smallVibration
+           ? InRefined.biasOfVibration * line.gain * square / InRefined.referenceVibration
+           : 0.0;
+}
+
+/** By how much the slope of a part of the pixels can be off because its levels differ by fixed-pattern noise, not by
+ * signal [DN/e-]. The pattern is \a pattern's fraction of the levels of all pixels, \a levelsDn2 the variance of the
+ * levels of the part: in the dark parts of a scene nothing else may be left. */
+double
+SlopeOfPattern(double gain, const LevelPattern & pattern, double levelsDn2)
+{
+  const double patternDn2 = pattern.LargestShare() * pattern.lightDn2;
+  return levelsDn2 > patternDn2 ? std::abs(gain) * patternDn2 / levelsDn2 : std::abs(gain);
+}
+
+double
+DispersionOfClasses(const StaticVariance & variance)
+{
+  return variance.sharedSquares * BeyondChance(variance.classes.reducedChi2, ProjectedVariance::Classes - 1.0);
+}
+
+/** Chooses between the line of all pixels, with the error that patterns can cause, and that of light alone: by the
+ * errors, never by the values. */
+void
+ChooseLine(GainEstimate &           estimate,
+           const SensorLines &      lines,
+           const StaticVariance &   variance,
+           const ProvisionalModel & model)
+{
+  const VarianceLine & all = lines.all;
+  const double         dispersion = DispersionOfClasses(variance);
+  const double         fromPattern = variance.pattern.LargestShare() * std::abs(all.gain);
+  const double         error = std::sqrt(dispersion * all.covariance(0, 0));
+  estimate.line = all;
+  estimate.covariance = dispersion * all.covariance;
+  if (lines.fromLight.isDetermined &&
+      std::hypot(error, fromPattern) > std::sqrt(dispersion * lines.fromLight.covariance(0, 0)))
+  {
+    estimate.line = lines.fromLight;
+    estimate.covariance = dispersion * lines.fromLight.covariance;
+  }
+  else
+  {
+    estimate.covariance += SlopeCovariance(std::min(fromPattern, 100.0 * std::abs(all.gain)), all.pivotDn);
+  }
+  estimate.covariance += SlopeCovariance(ErrorOfVibration(all, model), all.pivotDn) + lines.errorOfShared;
+}
+
+/** Draws one line on either side of a step of the variance, of one gain, and looks for all else in what is left. */
+void
+UseStep(GainEstimate &           estimate,
+        const SensorLines &      lines,
+        const StaticVariance &   variance,
+        const ProvisionalModel & model)
+{
+  estimate.step = FindVarianceStep(lines.ofOwnLevels);
+  if (!estimate.step)
+  {
+    return;
+  }
+  const VarianceStep & step = *estimate.step;
+  estimate.line = step.line;
+  estimate.curve = step.RestOf(lines.ofOwnLevels);
+  estimate.reducedChi2 = estimate.curve.ReducedChi2() / variance.sharedSquares;
+  estimate.covariance = DispersionOfClasses(variance) * step.line.covariance + lines.errorOfShared;
+  const double ofPattern = variance.pattern.LargestShare() * std::abs(step.line.gain);
+  for (const double error : { ErrorOfVibration(step.line, model), ofPattern, step.errorOfSlopes })
+  {
+    estimate.covariance += SlopeCovariance(error, step.line.pivotDn);
+  }
+}
+
+/** The gains of the two amplifiers are in the interval. */
+void
+HoldSlopesBesideStep(GainEstimate & estimate)
+{
+  if (estimate.step)
+  {
+    for (const double slope : { estimate.step->slopeBelow, estimate.step->slopeAbove })
+    {
+      double & side = slope < 0.0 ? estimate.below : estimate.above;
+      side = std::max(side, std::abs(slope));
+    }
+  }
+}
+
+/** What the illumination series that could not be projected out may have added to the gain. They add the square of the
+ * signal, whose slope is twice its ratio to the signal; and neighbours share them, so that the sum over lags may hold
+ * light instead of noise. */
+void
+HoldRestOfLight(GainEstimate & estimate, const RefinedResults & found)
+{
+  const double rest = found.lines.restOfVariance;
+  if (rest > 0.0)
+  {
+    const double ofVariance = (1.0 - InRefined.slopeOfRest * rest) * found.variance.line.gain;
+    estimate.below = std::max(estimate.below, estimate.line.gain - ofVariance);
+    estimate.above = std::max(estimate.above, ofVariance - estimate.line.gain);
+  }
+}
+
+/** The size of a difference without what chance makes of it, \a z of its standard deviations. */
+double
+SizeBeyondChance(double difference, double variance, double z)
+{
+  return std::sqrt(std::max(0.0, difference * difference - z * z * variance));
+}
+
+/** The gains of the halves of the levels that differ from the whole's by more than chance. */
+void
+FindSpreadOfSlopes(GainEstimate &        estimate,
+                   const VarianceCurve & curve,
+                   const LevelPattern &  pattern,
+                   double                dispersion)
+{
+  for (const SlopeExcess & half : curve.SlopesOfHalves())
+  {
+    double & side = half.value < 0.0 ? estimate.below : estimate.above;
+    // The bins are by the mean of 8 neighbours, which has an eighth of the variance of their patterns.
+    const double ofPattern = SlopeOfPattern(curve.line.gain, pattern, 8.0 * half.levelsDn2);
+    const double variance = dispersion * half.variance + ofPattern * ofPattern;
+    side = std::max(side, SizeBeyondChance(half.value, variance, Significance.oneTest));
+  }
+}
+
+/** Where the response bends visibly, the mean of the local gain replaces the slope, which is not the gain there. */
+void
+UseMeanGain(GainEstimate & estimate, const VarianceCurve & curve, double blackDn, double dispersion)
+{
+  const std::optional<MeanGain> parabola = FindMeanGain(curve, 2);
+  if (!parabola)
+  {
+    return;
+  }
+  const double bend = parabola->value - curve.line.gain;
+  const double chance = dispersion * parabola->variance;
+  const bool   isSure = estimate.IsBent() || bend * bend > Significance.oneTest * Significance.oneTest * chance;
+  if (!isSure || !(estimate.nonlinearity > InRefined.leastNonlinearity))
+  {
+    double & side = bend < 0.0 ? estimate.below : estimate.above;
+    side = std::max(side, SizeBeyondChance(bend, chance, Significance.hint));
+    return;
+  }
+  const MeanGain best = FindMeanGain(curve, 3).value_or(*parabola);
+  const double   ofShape = InRefined.errorOfNonlinearity * estimate.nonlinearity * best.value;
+  const double   atPivot = estimate.line.intercept + estimate.line.gain * estimate.line.pivotDn;
+  estimate.below = estimate.above =
+    std::max(ofShape, InRefined.errorOfMeanGain * std::abs(best.value - curve.line.gain));
+  const double read = curve.line.intercept + curve.line.gain * blackDn;
+  const auto   shotNoise = FindMeanGain(curve, 2, blackDn);
+  if (shotNoise && read > InRefined.largestReadShare * curve.line.At(curve.LevelOf(curve.bins.back())))
+  {
+    estimate.above = std::max(estimate.above, shotNoise->value - best.value);
+    estimate.below = std::max(estimate.below, best.value - shotNoise->value);
+  }
+  estimate.line.gain = best.value;
+  estimate.line.intercept = atPivot - best.value * estimate.line.pivotDn;
+  estimate.covariance += SlopeCovariance(std::sqrt(dispersion * best.variance), estimate.line.pivotDn);
+}
+
+void
+FindModelError(GainEstimate &        estimate,
+               const VarianceCurve & curve,
+               const LevelPattern &  pattern,
+               double                blackDn,
+               double                dispersion)
+{
+  estimate.isWide = curve.DarkestShare(blackDn) < InRefined.largestDarkestShare;
+  if (!estimate.isWide && std::sqrt(estimate.covariance(0, 0)) > InCommon.largestRelativeError * estimate.scale)
+  {
+    return; // a line that is not known has no departures
+  }
+  estimate.nonlinearity = curve.Nonlinearity(dispersion);
+  FindSpreadOfSlopes(estimate, curve, pattern, dispersion);
+  if (estimate.isWide)
+  {
+    UseMeanGain(estimate, curve, blackDn, dispersion);
+  }
+  if (!estimate.IsBent())
+  {
+    // What is left is scatter about a line that is straight enough.
+    estimate.covariance *= BeyondChance(estimate.reducedChi2, static_cast<double>(curve.bins.size()) - 2.0);
+  }
+}
+/** The estimate by frames of unequal illumination alone. */
+GainEstimate
+EstimateOfFrames(const VarianceCurve &   frames,
+                 const Eigen::Matrix2d & errorOfShared,
+                 double                  blackDn,
+                 double                  sharedSquares)
+{
+  GainEstimate estimate;
+  estimate.line = frames.line;
+  estimate.curve = frames;
+  estimate.covariance = frames.line.covariance + errorOfShared;
+  estimate.reducedChi2 = frames.ReducedChi2() / sharedSquares;
+  estimate.isFromFrames = true;
+  FindModelError(estimate, frames, {}, blackDn, sharedSquares); // frames have no pattern
+  return estimate;
+}
+
+/** Joins the slopes by pixels and by frames, which are independent. The value at the pivot is that of the better one,
+ * and where either shows a response that is not linear the better one stands alone. */
+void
+UseFrames(GainEstimate & estimate, const SensorLines & lines, double blackDn, double sharedSquares)
+{
+  if (!lines.fromFrames.line.isDetermined || estimate.step) // the frames' variance steps, too
+  {
+    return;
+  }
+  GainEstimate other = EstimateOfFrames(lines.fromFrames, lines.errorOfShared, blackDn, sharedSquares);
+  other.scale = estimate.scale;
+  if (other.StandardError() < estimate.StandardError())
+  {
+    std::swap(other, estimate);
+  }
+  const bool   isBent = estimate.IsBent() || other.IsBent();
+  const double difference = other.line.gain - estimate.line.gain;
+  const double expected = std::pow(estimate.StandardError(), 2) + std::pow(other.StandardError(), 2);
+  if (!isBent)
+  {
+    const Eigen::Vector2d step = estimate.covariance.col(0) / expected;
+    estimate.line.gain += step(0) * difference;
+    estimate.line.intercept += step(1) * difference;
+    estimate.covariance -= step * estimate.covariance.row(0);
+  }
+  if (difference * difference > Significance.hint * Significance.hint * expected)
+  {
+    estimate.covariance += SlopeCovariance(0.5 * difference, estimate.line.pivotDn);
+  }
+}
+} // namespace
+
+double
+GainEstimate::RelativeModelError() const
+{
+  return this->IsBent() ? 0.5 * (below + above) / std::max(1e-9, line.gain) : 0.0;
+}
+
+double
+GainEstimate::StandardError() const
+{
+  return std::hypot(std::sqrt(covariance(0, 0)), 0.5 * (below + above));
+}
+
+GainEstimate
+EstimateGain(const RefinedResults & found, const SensorLines & lines)
+{
+  const StaticVariance & variance = found.variance;
+  GainEstimate           estimate;
+  estimate.curve = lines.curve;
+  estimate.reducedChi2 = lines.curve.ReducedChi2() / variance.sharedSquares;
+  ChooseLine(estimate, lines, variance, found.scene.model);
+  UseStep(estimate, lines, variance, found.scene.model);
+  estimate.scale = estimate.line.At(estimate.line.pivotDn) / std::max(1e-9, estimate.line.pivotDn - found.blackDn);
+  const double dispersion =
+    std::min(DispersionOfClasses(variance), InRefined.largestDispersion * variance.sharedSquares);
+  FindModelError(estimate, estimate.curve, variance.pattern, found.blackDn, dispersion);
+  HoldSlopesBesideStep(estimate);
+  HoldRestOfLight(estimate, found);
+  UseFrames(estimate, lines, found.blackDn, variance.sharedSquares);
+  if (found.settings.offset && found.settings.offset->variance)
+  {
+    estimate.darkSignal = FindDarkSignal(found);
+    estimate.isDarkRejected = estimate.darkSignal.has_value();
+    if (!estimate.isDarkRejected)
+    {
+      UseDarkPoint(estimate, found);
+    }
+  }
+  return estimate;
+}
+
+} // namespace sensornoise

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "refined/LineIllumination.h"
+
+#include "base/Eigen.h"
+#include "base/PixelUse.h"
+#include "base/Significance.h"
+#include "correlation/Jackknife.h"
+#include "refined/Constants.h"
+#include "scene/ReferenceFrame.h"
+
+#include <algorithm>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** Sums by which the illumination of a tile, and the variance that it adds to the pixels, are found. */
+struct TileLight
+{
+  double frames{ 0.0 };
+  double pixels{ 0.0 };
+  double square{ 0.0 }; ///< of its light in the frames, in units of the noise of that light
+
+  TileLight &
+  operator+=(const TileLight & other)
+  {
+    frames += other.frames;
+    pixels += other.pixels;
+    square += other.square;
+    return *this;
+  }
+};
+
+/** The light of tile \a i in each frame, sum w z r, has the variance sum w z^2 of the pixels' noise. A change of the
+ * illumination e adds e^2 sum w z^2 to it, relative to that, and the mean of that sum over the pixels to the variance
+ * of each. */
+TileLight
+LightOfTile(const NoiseResiduals & residuals, std::size_t i)
+{
+  const float * const w = residuals.WeightOf(i);
+  const float * const z = residuals.LightOf(i);
+  const std::size_t   size = residuals.GetTiles().Pixels();
+  TileLight           light;
+  double              noise = 0.0;
+  for (std::size_t p = 0; p < size; ++p)
+  {
+    light.pixels += w[p] > 0.0F ? 1.0 : 0.0;
+    noise += static_cast<double>(w[p]) * static_cast<double>(z[p]) * static_cast<double>(z[p]);
+  }
+  if (!(noise > 0.0))
+  {
+    return {};
+  }
+  for (std::size_t t = 0; t < residuals.GetTiles().frames; ++t)
+  {
+    const float * const values = residuals.OfTile(i) + t * size;
+    double              sum = 0.0;
+    for (std::size_t p = 0; p < size; ++p)
+    {
+      sum += static_cast<double>(w[p]) * static_cast<double>(z[p]) * static_cast<double>(values[p]);
+    }
+    light.square += sum * sum / noise;
+  }
+  light.frames = residuals.GetFreedom();
+  return light;
+}
+} // namespace
+
+double
+EffectOfLineLight(const MeasuredNumber & square, double signalDn, double gain, double least)
+{
+  const double effect = square.value * std::max(0.0, signalDn) / gain;
+  return square.value > Significance.severalTests * square.standardError && effect > least ? effect : 0.0;
+}
+
+double
+RestOfIllumination(const NoiseResiduals & residuals, const ParallelFor & parallelFor)
+{
+  std::vector<TileLight> tiles(residuals.GetTiles().origins.size());
+  parallelFor(tiles.size(), [&](std::size_t i) { tiles[i] = LightOfTile(residuals, i); });
+  const JackknifeEstimate estimate = Jackknife(tiles, [](const TileLight & sum) {
+    return Eigen::VectorXd::Constant(1, sum.pixels > 0.0 ? (sum.square - sum.frames) / sum.pixels : 0.0);
+  });
+  // Both sums are over the tiles: the excess of each is a sum over its frames.
+  const double perFrame = 1.0 / std::max(1.0, residuals.GetFreedom());
+  const double rest = estimate.value(0) * perFrame;
+  const double error = estimate.StandardError(0) * perFrame;
+  return rest > Significance.severalTests * error && rest > InRefined.largestLineLight / InRefined.slopeOfRest ? rest
+                                                                                                               : 0.0;
+}
+
+void
+TakeOffLineIllumination(LineIllumination &          lines,
+                        NoiseResiduals &            residuals,
+                        ProjectedVariance &         projected,
+                        std::vector<std::uint8_t> & chosen,
+                        std::vector<std::uint8_t> & pixelUse,
+                        const ParallelFor &         parallelFor)
+{
+  const std::vector<float>  left = residuals.TakeOffLines(lines.axis, chosen, parallelFor);
+  const SampleTiles &       tiles = residuals.GetTiles();
+  const std::size_t         width = projected.GetFrame().geometry.width;
+  std::vector<std::uint8_t> sampled(chosen.size(), 0);
+  for (std::size_t i = 0; i < tiles.origins.size(); ++i)
+  {
+    for (std::size_t p = 0; p < tiles.Pixels(); ++p)
+    {
+      const std::size_t pixel = tiles.PixelOf(i, p, width);
+      if (chosen[pixel] != 0 && left[i * tiles.Pixels() + p] > 0.0F)
+      {
+        sampled[pixel] = 1;
+        projected.ReplaceSquares(pixel, residuals.SquaresOf(i)[p], residuals.GetFreedom());
+      }
+    }
+  }
+  for (std::size_t p = 0; p < chosen.size(); ++p)
+  {
+    if (chosen[p] != 0 && sampled[p] == 0)
+    {
+      pixelUse[p] = static_cast<std::uint8_t>(PixelUse::FlickerUnknown);
+    }
+  }
+  chosen = std::move(sampled);
+  lines.isTakenOff = true;
+  lines.pixels = static_cast<std::size_t>(std::count(chosen.begin(), chosen.end(), std::uint8_t{ 1 }));
+}
+
+} // namespace sensornoise

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_refined_MemoryNeed_h
+#define sensornoise_refined_MemoryNeed_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/FrameGeometry.h"
+#include "correlation/SampleTiles.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace sensornoise
+{
+
+/** \class MemoryNeed
+ * \brief The memory of RefinedMethod for frames of a size, without the frames that it is handed [bytes].
+ *
+ * Counted from what is held at the same time, and measured to be enough: documentation/performance.md. */
+struct MemoryNeed
+{
+  std::size_t pixels;
+  std::size_t frames;
+
+  /** Whatever the number of series: the maps, and what is made of them between the passes. No limit may be below. */
+  double
+  Least() const
+  {
+    return leastBytesPerPixel * static_cast<double>(pixels) + this->OfFrames();
+  }
+  /** Of the third pass but for its sums: mean and variance, residual squares and masks. */
+  double
+  BesideProjections() const
+  {
+    return mapBytesPerPixel * static_cast<double>(pixels) + this->OfFrames();
+  }
+  /** The third pass's sums of all pixels with so many series. */
+  double
+  OfProjections(std::size_t series) const
+  {
+    return 8.0 * static_cast<double>(pixels) * static_cast<double>(series);
+  }
+
+private:
+  static constexpr double leastBytesPerPixel = 64.0;
+  static constexpr double mapBytesPerPixel = 34.0;
+  static constexpr double bytesPerFrame = 20e3; // the products of pass 2, and a thumbnail
+
+  double
+  OfFrames() const
+  {
+    const std::size_t sample = std::min(SampleTiles::MostValuesOf(pixels), SampleTiles::MostPixels * frames);
+    return bytesPerFrame * static_cast<double>(frames) + 4.0 * static_cast<double>(sample);
+  }
+};
+
+/** Throws std::invalid_argument if \a limitBytes are less than \a planes frames of the size \a geometry need at once.
+ */
+SensorNoise_EXPORT void
+RequireMemoryLimit(double limitBytes, const FrameGeometry & geometry, std::size_t frames, std::size_t planes);
+
+} // namespace sensornoise
+
+#endif

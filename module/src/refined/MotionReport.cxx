@@ -1,0 +1,392 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "refined/MotionReport.h"
+
+#include "base/Constants.h"
+#include "base/Stencils.h"
+#include "base/Text.h"
+#include "moments/Constants.h"
+#include "refined/Constants.h"
+#include "report/Quantities.h"
+#include "series/Constants.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** One axis of the motion. */
+struct AxisMotion
+{
+  std::vector<double> series;       ///< of every frame, mean 0 [pixel]; empty: its derivative is not active
+  std::vector<double> leastSquares; ///< the same by least squares
+  Eigen::Index        place{ 0 };   ///< of its derivative among those of the motion
+  Quantity            sd{ Quantity::Without(EstimateStatus::NotIdentifiable) };
+};
+
+/** The weights of the frames' shifts. Their variance is in proportion to 1 / (1 + gamma_t)^2: where the illumination
+ * changes strongly, that counts. Dark frames have no shift of their own. */
+struct FrameWeights
+{
+  std::vector<double> ofFrames;
+  double              sum{ 0.0 };
+  double              frames{ 0.0 };  ///< of weight above 0
+  double              squares{ 0.0 }; ///< of the weights
+
+  /** What a weighted sum of squares about the weighted mean has of the variance: the frames less one, if all weights
+   * are 1. */
+  double
+  Freedom() const
+  {
+    return sum - squares / sum;
+  }
+  /** The number of equally weighted frames that determine a variance as well, less one. */
+  double
+  EffectiveFreedom() const
+  {
+    return sum * sum / squares - 1.0;
+  }
+  /** The mean variance of the shifts' noise, over that at the mean illumination. */
+  double
+  MeanNoise() const
+  {
+    return (frames - 1.0) / this->Freedom();
+  }
+};
+
+FrameWeights
+WeighFrames(const std::vector<double> & gamma)
+{
+  const double squares = std::inner_product(gamma.begin(), gamma.end(), gamma.begin(), 0.0);
+  const double rms = std::sqrt(squares / std::max(1.0, static_cast<double>(gamma.size()) - 1.0));
+  const bool   isStrong = rms > InMoments.strongIlluminationChange;
+  FrameWeights weights;
+  for (const double change : gamma)
+  {
+    const double illumination = 1.0 + change;
+    const bool   hasShift = !(illumination < InSeries.leastIlluminationOfShift); // also where it is not known
+    const double weight = !hasShift ? 0.0 : isStrong ? illumination * illumination : 1.0;
+    weights.ofFrames.push_back(weight);
+    weights.sum += weight;
+    weights.squares += weight * weight;
+    weights.frames += hasShift ? 1.0 : 0.0;
+  }
+  return weights;
+}
+
+/** What coefficients of a derivative, (1 + gamma_t) times the shift, say of the shifts. */
+struct ShiftSpread
+{
+  std::vector<double> series;        ///< 0 where a frame has no shift of its own
+  double              square{ 0.0 }; ///< their variance over time, without that of their noise [pixel^2]
+};
+
+/** \a noiseSquare is the variance of the shifts' noise, its mean over the frames. */
+template <typename TCoefficients>
+ShiftSpread
+SpreadOf(const TCoefficients &       coefficients,
+         const std::vector<double> & gamma,
+         const FrameWeights &        weights,
+         double                      noiseSquare)
+{
+  ShiftSpread spread;
+  spread.series.assign(gamma.size(), 0.0);
+  double mean = 0.0;
+  for (std::size_t t = 0; t < gamma.size(); ++t)
+  {
+    if (weights.ofFrames[t] > 0.0)
+    {
+      spread.series[t] = coefficients(static_cast<Eigen::Index>(t)) / (1.0 + gamma[t]);
+      mean += weights.ofFrames[t] * spread.series[t] / weights.sum;
+    }
+  }
+  double sum = 0.0;
+  for (std::size_t t = 0; t < gamma.size(); ++t)
+  {
+    if (weights.ofFrames[t] > 0.0)
+    {
+      spread.series[t] -= mean;
+      sum += weights.ofFrames[t] * spread.series[t] * spread.series[t];
+    }
+  }
+  spread.square = sum / weights.Freedom() - noiseSquare;
+  return spread;
+}
+
+/** Shifts along one axis, by whichever way they were found, at the offset of the flicker that was taken off. */
+struct AxisShifts
+{
+  Eigen::VectorXd    coefficients; ///< (1 + gamma_t) times the shift [pixel]
+  Eigen::RowVector2d ofLight;      ///< the shift that a change of level, and one of contrast, looks like
+  double             noise{ 0.0 }; ///< variance of one frame's coefficient [pixel^2]
+
+  /** The same about another offset: other flicker is taken off. */
+  AxisShifts
+  About(const OffsetLine & before, const OffsetLine & after) const
+  {
+    AxisShifts   moved = *this;
+    const double off = ofLight.dot(Eigen::RowVector2d(-after.offset, 1.0));
+    const double on = ofLight.dot(Eigen::RowVector2d(-before.offset, 1.0));
+    for (std::size_t t = 0; t < before.gamma.size(); ++t)
+    {
+      moved.coefficients(static_cast<Eigen::Index>(t)) += before.gamma[t] * on - after.gamma[t] * off;
+    }
+    return moved;
+  }
+};
+
+AxisShifts
+ByLeastSquares(const PolishedSeries & polished, Eigen::Index k)
+{
+  AxisShifts   shifts{ polished.motion.coefficients.col(k), polished.motion.ofLight.row(k), 0.0 };
+  const double ofFlicker = shifts.ofLight.dot(Eigen::RowVector2d(-polished.line.offset, 1.0));
+  shifts.noise = polished.motion.covariance(k, k) + ofFlicker * ofFlicker / polished.line.precision;
+  return shifts;
+}
+
+AxisShifts
+ByInstruments(const PolishedSeries & polished, Eigen::Index axis)
+{
+  const InstrumentShifts & shifts = *polished.shifts;
+  return { shifts.coefficients.col(axis), shifts.ofLight.row(axis), shifts.covariance(axis, axis) };
+}
+
+/** What is taken off as flicker, and with what error. */
+struct LightOfShifts
+{
+  const OffsetLine & solved; ///< with which the shifts were found
+  OffsetLine         inUse;  ///< of the flicker that is reported
+  double             offsetErrorDn{ 0.0 };
+  double             phi{ 1.0 }; ///< dispersion of the frames' light
+
+  OffsetLine
+  Beyond(double sds) const
+  {
+    OffsetLine line = inUse;
+    line.UseOffset(inUse.offset + sds * offsetErrorDn);
+    return line;
+  }
+};
+
+/** Part of the noise by which the dispersion of the frames' light lets it be greater, or less, than half of it [1]. */
+double
+Slack(double phi)
+{
+  return 0.5 * (phi - 1.0);
+}
+
+/** The variance of the shifts over time, without that of their noise, and its error. The noise is between that of white
+ * noise and the dispersion of the frames' light times as much: what disperses this need not move anything. A wrong
+ * offset takes off too much level, and leaves a part of the flicker in the shifts: on average this adds the square of
+ * it, half of what an offset too low and one too high add together, which is taken off, too. */
+ShiftSpread
+SpreadAbout(const AxisShifts & shifts, const LightOfShifts & light, const FrameWeights & weights, double & errorSquare)
+{
+  const double white = shifts.noise * weights.MeanNoise();
+  const double noise = white * (1.0 + Slack(light.phi));
+  const auto   spreadAt = [&](const OffsetLine & line) {
+    return SpreadOf(shifts.About(light.solved, line).coefficients, line.gamma, weights, noise);
+  };
+  ShiftSpread  spread = spreadAt(light.inUse);
+  const double low = spreadAt(light.Beyond(-1.0)).square - spread.square;
+  const double high = spreadAt(light.Beyond(1.0)).square - spread.square;
+  const double ofFlicker = std::max(0.0, 0.5 * (low + high));
+  spread.square -= ofFlicker;
+  const double square = std::max(0.0, spread.square);
+  errorSquare = 4.0 * square * noise / weights.EffectiveFreedom() + 2.0 * noise * noise / weights.EffectiveFreedom() +
+                0.25 * (high - low) * (high - low) + 2.0 * ofFlicker * ofFlicker +
+                std::pow(white * Slack(light.phi), 2);
+  return spread;
+}
+
+/** The motion along \a axis, whose derivative is \a stencil: by least squares, or better by instruments where they see
+ * it. A part of what both differ by is a systematic error. */
+AxisMotion
+MotionAlong(Eigen::Index           axis,
+            std::size_t            stencil,
+            const PolishedSeries & polished,
+            const LightOfShifts &  light,
+            const FrameWeights &   weights)
+{
+  AxisMotion   result;
+  const auto & stencils = polished.motion.stencils;
+  const auto   place = std::find(stencils.begin(), stencils.end(), stencil);
+  if (place == stencils.end())
+  {
+    return result;
+  }
+  result.place = static_cast<Eigen::Index>(place - stencils.begin());
+  double      errorSquare = 0.0;
+  ShiftSpread spread = SpreadAbout(ByLeastSquares(polished, result.place), light, weights, errorSquare);
+  double      systematic = 0.0;
+  result.leastSquares = spread.series;
+  if (polished.shifts)
+  {
+    const double leastSquares = std::sqrt(std::max(0.0, spread.square));
+    spread = SpreadAbout(ByInstruments(polished, axis), light, weights, errorSquare);
+    const double sd = std::sqrt(std::max(0.0, spread.square));
+    systematic =
+      2.0 * sd * std::hypot(InRefined.errorOfMotion * (sd - leastSquares), sd * polished.shifts->scaleErrors(axis));
+  }
+  if (!(std::abs(polished.motion.ofOtherAxis) > InRefined.largestShareOfOtherAxis))
+  {
+    result.sd = RootOf(spread.square, std::hypot(std::sqrt(errorSquare), systematic));
+  }
+  result.series = std::move(spread.series);
+  return result;
+}
+
+/** The mean product of two series of mean 0. */
+double
+ProductOf(const std::vector<double> & a, const std::vector<double> & b, const FrameWeights & weights)
+{
+  double sum = 0.0;
+  for (std::size_t t = 0; t < a.size(); ++t)
+  {
+    sum += weights.ofFrames[t] * a[t] * b[t];
+  }
+  return sum / weights.Freedom();
+}
+
+/** The covariance of the shifts along both axes, without that of their noise. Its error is that of a mean product of
+ * shifts with Gaussian noise, whose covariance in one frame is known; a part of what it differs by from least squares,
+ * if it is by instruments, is a systematic one, as of the standard deviations. */
+Quantity
+CovarianceOf(const AxisMotion & x, const AxisMotion & y, const PolishedSeries & polished, const FrameWeights & weights)
+{
+  const Eigen::MatrixXd & ofAll = polished.motion.covariance;
+  Eigen::Matrix2d         noise;
+  noise << ofAll(x.place, x.place), ofAll(x.place, y.place), ofAll(y.place, x.place), ofAll(y.place, y.place);
+  const double slack = Slack(polished.motionPhi);
+  const double scale = weights.MeanNoise() * (1.0 + slack);
+  noise *= scale;
+  double value = ProductOf(x.leastSquares, y.leastSquares, weights) - noise(0, 1);
+  double systematic = 0.0;
+  if (polished.shifts)
+  {
+    const double leastSquares = value;
+    noise = polished.shifts->covariance * scale;
+    value = ProductOf(x.series, y.series, weights) - noise(0, 1);
+    const double scaleError = polished.shifts->scaleErrors.norm();
+    systematic = std::hypot(2.0 * InRefined.errorOfMotion * (value - leastSquares), scaleError * value);
+  }
+  const double squareX = std::max(0.0, ProductOf(x.series, x.series, weights) - noise(0, 0));
+  const double squareY = std::max(0.0, ProductOf(y.series, y.series, weights) - noise(1, 1));
+  const double shiftsAndNoise = squareX * noise(1, 1) + squareY * noise(0, 0) + 2.0 * value * noise(0, 1);
+  const double noiseAlone = noise(0, 0) * noise(1, 1) + noise(0, 1) * noise(0, 1);
+  const double variance = (std::max(0.0, shiftsAndNoise) + noiseAlone) / weights.EffectiveFreedom();
+  const double ofNoise = noise(0, 1) * slack / (1.0 + slack);
+  return WithError(value, std::hypot(std::sqrt(variance), systematic, ofNoise));
+}
+/** Why there is no flicker, and what to do. \a ofScale: the relative error of the illumination change [1]. */
+std::string
+TextOfUnknownFlicker(double ofScale, const std::optional<Interval> & limit)
+{
+  const std::string giveOffset =
+    ": give the offset (--offset) or dark frames (--dark), or include dark and bright areas "
+    "in the scene";
+  if (!std::isfinite(ofScale))
+  {
+    return "the illumination change is not known, and neither is the flicker" + giveOffset;
+  }
+  if (ofScale > InCommon.largestRelativeError)
+  {
+    return "the illumination change is known only to within " + PercentApart(ofScale, InCommon.largestRelativeError) +
+           "; " + Percent(InCommon.largestRelativeError) + " is needed for the flicker" + giveOffset;
+  }
+  return "the flicker is not distinguished from the noise of the frames: its standard deviation may be " +
+         (limit && limit->high ? RoundedApart(*limit->high, 1.0) : std::string("of any size")) +
+         " (below 1 is needed). Record more frames";
+}
+} // namespace
+
+void
+FillFlicker(Report & report, const RefinedResults & found, double offset, double offsetErrorDn, double scaleError)
+{
+  OffsetLine line = found.polished.line;
+  line.UseOffset(offset);
+  report.flicker = line.gamma;
+  const auto   frames = static_cast<double>(line.gamma.size());
+  const double noise = line.Widening() / line.precision;
+  double       squares = 0.0;
+  for (const double gamma : line.gamma)
+  {
+    squares += gamma * gamma;
+  }
+  const double variance = squares / (frames - 1.0) - noise;
+  const double fromOffset = 2.0 * variance * std::hypot(line.sensitivity * offsetErrorDn, scaleError);
+  const double ownError =
+    2.0 * std::sqrt(std::max(0.0, variance) * noise / (frames - 1.0)) + noise * std::sqrt(2.0 / (frames - 1.0));
+  report.flickerSd = RootOf(variance, std::hypot(ownError, fromOffset));
+  if (found.HasLocalLight())
+  {
+    const LocalFlicker & local = found.polished.localFlicker;
+    const double         sd = local.Sd(offset);
+    const double         step = 1.0 + offsetErrorDn;
+    const double         slope = (local.Sd(offset + step) - local.Sd(offset - step)) / (2.0 * step);
+    const double         error = std::hypot(slope * offsetErrorDn, sd * std::sqrt(noise), sd * scaleError);
+    report.flickerSd = RootOf(sd * sd, 2.0 * sd * error);
+  }
+  const double ofScale = std::abs(line.sensitivity) * offsetErrorDn;
+  const auto & limit = report.flickerSd.interval95;
+  // Noise of a flicker that is not known may be large, but a lamp that is off in most frames makes more than 1, too.
+  const bool isLarge = report.flickerSd.value && report.flickerSd.standardError &&
+                       *report.flickerSd.standardError < InCommon.largestRelativeError * *report.flickerSd.value;
+  if (ofScale > InCommon.largestRelativeError || !(isLarge || (limit && limit->high.value_or(2.0) < 1.0)))
+  {
+    report.flickerSd = Quantity::Without(EstimateStatus::NotIdentifiable);
+    report.Warn(WarningCode::FlickerNotIdentifiable, TextOfUnknownFlicker(ofScale, limit));
+  }
+}
+
+void
+FillMotion(Report & report, const RefinedResults & found, double offset, double offsetErrorDn)
+{
+  const PolishedSeries & polished = found.polished;
+  const FrameWeights     weights = WeighFrames(report.flicker);
+  if (polished.line.isLevelMotion || found.IsFlatUnderChange() || weights.frames < 2.0)
+  {
+    report.vibrationSdX = report.vibrationSdY = Quantity::Without(EstimateStatus::NotIdentifiable);
+    report.vibrationCovariance = Quantity::Without(EstimateStatus::NotIdentifiable);
+    return;
+  }
+  LightOfShifts light{ polished.line, polished.line, 0.0, polished.motionPhi };
+  if (std::isfinite(offset) && std::isfinite(offsetErrorDn))
+  {
+    light.offsetErrorDn = offsetErrorDn;
+    light.inUse.offset = offset;
+    light.inUse.UseOffset(offset);
+  }
+  const AxisMotion x = MotionAlong(0, StencilX, polished, light, weights);
+  const AxisMotion y = MotionAlong(1, StencilY, polished, light, weights);
+  report.vibrationSdX = x.sd;
+  report.vibrationSdY = y.sd;
+  report.vibrationCovariance = Quantity::Without(EstimateStatus::NotIdentifiable);
+  if (x.series.empty() || y.series.empty())
+  {
+    return;
+  }
+  for (std::size_t t = 0; t < x.series.size(); ++t)
+  {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN(); // of a dark frame
+    const bool       isKnown = weights.ofFrames[t] > 0.0;
+    report.motion.push_back({ isKnown ? x.series[t] : unknown, isKnown ? y.series[t] : unknown });
+  }
+  const Quantity covariance = CovarianceOf(x, y, polished, weights);
+  if (std::isfinite(covariance.value.value_or(0.0))) // else the light of the frames is not known, nor are their shifts
+  {
+    report.vibrationCovariance = covariance;
+  }
+}
+
+} // namespace sensornoise

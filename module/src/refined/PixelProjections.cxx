@@ -1,0 +1,241 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "refined/PixelProjections.h"
+
+#include "base/FirstTouch.h"
+#include "base/FreeMemory.h"
+#include "sensornoise/PixelTypes.h"
+#include "pixels/ProjectedFrames.h"
+#include "refined/MemoryNeed.h"
+#include "scene/ReferenceFrame.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace sensornoise
+{
+
+PixelProjections::PixelProjections(const FrameGeometry & geometry,
+                                   FrameSample           sample,
+                                   TemporalBasis         basis,
+                                   const Options &       options,
+                                   ParallelFor           parallelFor)
+  : m_Geometry(geometry)
+  , m_Layout(PixelLayout::OfFrames(geometry))
+  , m_Basis(std::move(basis))
+  , m_Options(options)
+  , m_ParallelFor(std::move(parallelFor))
+  , m_Sample(std::move(sample))
+{
+  if (!m_Options.sumsStay)
+  {
+    this->HoldSumsOfNextSlabs();
+  }
+}
+
+std::size_t
+PixelProjections::SlabsWithin(double bytes, std::size_t series)
+{
+  const double slab = MemoryNeed{ ProjectionSums::SlabPixels, 0 }.OfProjections(std::max<std::size_t>(1, series));
+  return static_cast<std::size_t>(std::clamp(bytes / slab, 1.0, 1e9)); // of no limit, too
+}
+
+void
+PixelProjections::HoldSumsOfNextSlabs()
+{
+  const std::size_t pixels = m_Geometry.Pixels();
+  const std::size_t series = m_Basis.Size();
+  const std::size_t first = m_NextSlab;
+  m_NextSlab = std::min(ProjectionSums::NumberOfSlabs(pixels), first + m_Options.slabsAtOnce);
+  if (first == 0)
+  {
+    GiveBackFreedMemory(); // the most is needed from here on
+  }
+  if (m_NextSlab - first == ProjectionSums::NumberOfSlabs(pixels))
+  {
+    RequireMemory(MemoryNeed{ pixels, 0 }.OfProjections(series),
+                  "the projection of all pixels on " + std::to_string(series) +
+                    " series of light and motion (a memory limit parts it)");
+  }
+  m_Sums = ProjectionSums(pixels, series, m_ParallelFor, first, m_NextSlab);
+}
+
+/** Frames on their way into a plane's sums, or its squares if they are all frames. */
+template <typename TPixel>
+struct PixelProjections::Batch
+{
+  PixelProjections *      to;
+  const ReferenceFrame *  frame;
+  ProjectedFrames<TPixel> projected;
+  ProjectionSums          light; // of all frames
+
+  Batch(const Plane & plane, const TPixel * frames, std::size_t count)
+    : to(plane.projections)
+    , frame(plane.frame)
+    , projected(to->m_Basis, frames, to->m_Layout, plane.first, count)
+  {
+    if (to->m_NextSlab > 0) // sums are held
+    {
+      return;
+    }
+    if (count < frame->frames)
+    {
+      to->HoldSumsOfNextSlabs();
+      return;
+    }
+    const std::size_t pixels = to->m_Geometry.Pixels();
+    light = ProjectionSums(pixels, to->m_Options.keepLight ? to->m_Basis.NumberOfLightFactors() : 0, to->m_ParallelFor);
+    to->m_Squares = { MakeMap<double>(pixels, to->m_ParallelFor), MakeMap<float>(pixels, to->m_ParallelFor) };
+    to->m_IsProjected = true;
+  }
+
+  /** Those of the pixels [begin, end) whose turn it is. */
+  void
+  AddBlock(std::size_t begin, std::size_t end)
+  {
+    if (to->m_IsProjected)
+    {
+      FillResidualSquares(*frame, to->m_Basis, projected, begin, end, to->m_Squares, light);
+      return;
+    }
+    begin = std::max(begin, to->m_Sums.FirstPixel());
+    to->m_Sums.AddFrames(projected, begin, std::max(begin, std::min(end, to->m_Sums.LastPixel())));
+  }
+
+  void
+  End()
+  {
+    if (to->m_IsProjected && to->m_Options.keepLight)
+    {
+      to->m_Coordinates = PixelCoordinates(std::move(light));
+    }
+  }
+};
+
+template <typename TPixel>
+void
+PixelProjections::AddFrames(const std::vector<Plane> & planes,
+                            const TPixel *             frames,
+                            std::size_t                count,
+                            const ParallelFor &        parallelFor)
+{
+  std::vector<Batch<TPixel>> batches;
+  batches.reserve(planes.size());
+  for (const Plane & plane : planes)
+  {
+    batches.emplace_back(plane, frames, count);
+  }
+  ForBlocks(planes.front().projections->m_Geometry.Pixels(), parallelFor, [&](std::size_t begin, std::size_t end) {
+    for (Batch<TPixel> & batch : batches)
+    {
+      batch.AddBlock(begin, end);
+    }
+  });
+  for (std::size_t i = 0; i < planes.size(); ++i)
+  {
+    batches[i].End();
+    PixelProjections & own = *planes[i].projections;
+    if (!own.m_HasSample)
+    {
+      own.m_Sample.AddFrames(frames, planes[i].first, count, planes[i].frame->mean, parallelFor);
+    }
+  }
+}
+
+void
+PixelProjections::Forget()
+{
+  m_Sums.Clear(m_ParallelFor);
+  if (std::exchange(m_IsProjected, false))
+  {
+    m_Squares = {};
+    m_Coordinates = {};
+  }
+  if (!m_HasSample)
+  {
+    m_Sample.Clear();
+  }
+}
+
+void
+PixelProjections::RequireShared() const
+{
+  if (m_Options.sumsStay)
+  {
+    throw std::logic_error("the sums of the third pass were to stay here; they are not saved or merged");
+  }
+}
+
+void
+PixelProjections::Save(std::ostream & out) const
+{
+  this->RequireShared();
+  m_Sums.Save(out);
+  if (!m_HasSample)
+  {
+    m_Sample.Save(out);
+  }
+}
+
+void
+PixelProjections::Merge(std::istream & in)
+{
+  this->RequireShared();
+  ProjectionSums others = m_Sums;
+  others.Restore(in);
+  if (!m_HasSample)
+  {
+    FrameSample sample = m_Sample;
+    sample.Restore(in);
+    m_Sample.Merge(sample);
+  }
+  m_Sums.Merge(others);
+}
+
+bool
+PixelProjections::EndPass(const ReferenceFrame & frame)
+{
+  m_HasSample = true;
+  if (m_IsProjected)
+  {
+    return true;
+  }
+  const std::size_t pixels = m_Geometry.Pixels();
+  const bool        keepAll = m_Options.keepLight && m_Sums.FirstPixel() == 0 && m_Sums.LastPixel() == pixels;
+  AppendResidualSquares(frame, m_Basis, m_Sums, keepAll, m_ParallelFor, m_Squares);
+  if (keepAll)
+  {
+    m_Coordinates = PixelCoordinates(std::move(m_Sums));
+  }
+  const bool isLast = m_Squares.rss.size() == pixels;
+  if (!isLast)
+  {
+    this->HoldSumsOfNextSlabs();
+  }
+  return isLast;
+}
+
+void
+PixelProjections::StartLight()
+{
+  m_Basis = m_Basis.OfLight();
+  m_NextSlab = 0;
+  m_Options.slabsAtOnce = ProjectionSums::NumberOfSlabs(m_Geometry.Pixels());
+  this->HoldSumsOfNextSlabs();
+}
+
+void
+PixelProjections::EndLight(const ReferenceFrame & frame)
+{
+  m_Coordinates = PixelCoordinates(std::move(m_Sums), m_Basis, frame.mean, m_ParallelFor);
+}
+
+#define SensorNoise_INSTANTIATE(TPixel)                         \
+  template SensorNoise_EXPORT void PixelProjections::AddFrames( \
+    const std::vector<Plane> &, const TPixel *, std::size_t, const ParallelFor &)
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
+
+} // namespace sensornoise

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_refined_RefinedReport_h
+#define sensornoise_refined_RefinedReport_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/Parallel.h"
+#include "base/NothingToMeasure.h"
+#include "refined/RefinedResults.h"
+#include "sensornoise/Settings.h"
+#include "sensornoise/Report.h"
+#include "scene/StillScene.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** The report of the refined method. */
+SensorNoise_EXPORT Report
+MakeRefinedReport(const RefinedResults & found, const ParallelFor & parallelFor = SerialFor);
+
+/** The report of a stack that cannot be measured: what is known of it, and why; every quantity is `failed`. \a pixelUse
+ * holds the values of PixelUse as far as they were found. */
+SensorNoise_EXPORT Report
+MakeRefusal(const RefinedSettings &           settings,
+            const StillScene &                scene,
+            const std::vector<std::uint8_t> & pixelUse,
+            const NothingToMeasure &          obstacle);
+
+} // namespace sensornoise
+
+#endif

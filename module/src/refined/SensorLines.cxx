@@ -1,0 +1,231 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "refined/SensorLines.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** The mean over all shapes of what is shared. */
+SharedShape
+MeanShape(const NoiseCorrelation & correlation)
+{
+  SharedShape mean;
+  for (const SharedShape & shape : correlation.shapes)
+  {
+    const double weight = shape.probability * shape.coefficient.value;
+    mean.ofVariance += weight * shape.ofVariance;
+    mean.ofLight += weight * shape.ofLight;
+    mean.ofSquare += weight * shape.ofSquare;
+    mean.constantDn2 += weight * shape.constantDn2;
+  }
+  return mean;
+}
+
+/** What is shared as a function of the level, of a line and a parabola. */
+class SharedVariance
+{
+public:
+  SharedVariance(const NoiseCorrelation & correlation, double blackDn, double codesDn2)
+    : m_Mean(MeanShape(correlation))
+    , m_Time(correlation.timeFactor.value)
+    , m_BlackDn(blackDn)
+    , m_CodesDn2(codesDn2)
+    , m_LinesDn2(correlation.LineNoise().value)
+  {}
+
+  /** The sensor's variance, of that of a pixel at a level. */
+  double
+  SensorOf(double varianceDn2, double levelDn) const
+  {
+    const double light = levelDn - m_BlackDn;
+    const double noise = varianceDn2 - m_CodesDn2 - m_LinesDn2;
+    return m_CodesDn2 + m_Time * (noise * (1.0 + m_Mean.ofVariance) + m_Mean.constantDn2 +
+                                  light * (m_Mean.ofLight + light * m_Mean.ofSquare));
+  }
+  /** How much the sensor's variance changes with that of a pixel. */
+  double
+  Factor() const
+  {
+    return m_Time * (1.0 + m_Mean.ofVariance);
+  }
+  /** The line of the sensor; \a slopeOfSquare and \a meanOfSquare are of the line through the square of the level. */
+  VarianceLine
+  SensorOf(const VarianceLine & line, const Eigen::Vector2d & lineOfSquare) const
+  {
+    VarianceLine sensor = line;
+    const double factor = this->Factor();
+    sensor.gain = factor * line.gain + m_Time * (m_Mean.ofLight + m_Mean.ofSquare * lineOfSquare(0));
+    sensor.intercept = m_CodesDn2 + factor * (line.intercept - m_CodesDn2 - m_LinesDn2) +
+                       m_Time * (m_Mean.ofSquare * lineOfSquare(1) - m_Mean.ofLight * m_BlackDn + m_Mean.constantDn2);
+    sensor.lowestDn2 = line.lowestDn2 * factor;
+    sensor.covariance = line.covariance * (factor * factor);
+    sensor.curvature = line.curvature * factor + m_Time * m_Mean.ofSquare;
+    sensor.curvatureSd = line.curvatureSd * factor;
+    sensor.weightSum = line.weightSum / (factor * factor);
+    sensor.noiseSpreadDn4 = line.noiseSpreadDn4 * factor * factor;
+    return sensor;
+  }
+
+private:
+  SharedShape m_Mean;
+  double      m_Time;
+  double      m_BlackDn;
+  double      m_CodesDn2;
+  double      m_LinesDn2;
+};
+
+/** Slope and intercept of the line through the square of the light, weighted as the curve. */
+Eigen::Vector2d
+LineOfSquare(const VarianceCurve & curve, double blackDn)
+{
+  double weight = 0.0;
+  double first = 0.0;
+  double second = 0.0;
+  for (const CurveBin & bin : curve.bins)
+  {
+    if (bin.weight > 0.0)
+    {
+      const double light = curve.LevelOf(bin) - blackDn;
+      weight += bin.weight;
+      first += bin.weight * light;
+      second += bin.weight * light * light;
+    }
+  }
+  if (!(weight > 0.0))
+  {
+    return Eigen::Vector2d::Zero();
+  }
+  const double mean = first / weight;
+  const double meanSquare = second / weight;
+  double       spread = 0.0;
+  double       product = 0.0;
+  for (const CurveBin & bin : curve.bins)
+  {
+    if (bin.weight > 0.0)
+    {
+      const double light = curve.LevelOf(bin) - blackDn;
+      spread += bin.weight * (light - mean) * (light - mean);
+      product += bin.weight * (light - mean) * (light * light - meanSquare);
+    }
+  }
+  const double slope = spread > 0.0 ? product / spread : 2.0 * mean;
+  return { slope, meanSquare - slope * (mean + blackDn) };
+}
+
+VarianceCurve
+CurveOfSensor(const VarianceCurve & curve, const SharedVariance & shared, const VarianceLine & line)
+{
+  VarianceCurve sensor{ line, {} };
+  for (const CurveBin & bin : curve.bins)
+  {
+    CurveBin changed = bin;
+    if (bin.weight > 0.0)
+    {
+      const double level = curve.LevelOf(bin);
+      const double variance = curve.VarianceOf(bin);
+      changed.weight = bin.weight / (shared.Factor() * shared.Factor());
+      changed.x = changed.weight * (level - line.pivotDn);
+      changed.excess = changed.weight * (shared.SensorOf(variance, level) - line.intercept - line.gain * level);
+    }
+    sensor.bins.push_back(changed);
+  }
+  return sensor;
+}
+
+/** What is not known of what is shared, as a covariance of gain and intercept: the coefficients' errors, and that the
+ * shape may be another one. */
+Eigen::Matrix2d
+ErrorOf(const NoiseCorrelation & correlation,
+        const VarianceLine &     line,
+        const VarianceLine &     sensor,
+        const Eigen::Vector2d &  lineOfSquare,
+        double                   blackDn,
+        double                   codesDn2)
+{
+  const double time = correlation.timeFactor.value;
+  const auto   unitOf = [&](const SharedShape & shape) {
+    return Eigen::Vector2d(time * (shape.ofVariance * Eigen::Vector2d(line.gain, line.intercept - codesDn2) +
+                                   shape.ofLight * Eigen::Vector2d(1.0, -blackDn) + shape.ofSquare * lineOfSquare +
+                                   Eigen::Vector2d(0.0, shape.constantDn2)));
+  };
+  const Eigen::Vector2d mean = unitOf(MeanShape(correlation));
+  // That it is a constant, or that nothing of it grows with the light, is left.
+  double          constant = 1.0;
+  Eigen::Matrix2d error = Eigen::Matrix2d::Zero();
+  for (const SharedShape & shape : correlation.shapes)
+  {
+    const Eigen::Vector2d unit = unitOf(shape);
+    const Eigen::Vector2d own = shape.coefficient.value * unit - mean;
+    const Eigen::Vector2d chance = shape.coefficient.standardError * unit;
+    error += shape.probability * (own * own.transpose() + chance * chance.transpose());
+    constant -= shape.probability;
+  }
+  error += std::max(0.0, constant) * mean * mean.transpose();
+  const Eigen::Vector2d whole(sensor.gain, sensor.intercept - codesDn2);
+  const double          relative = std::hypot(correlation.timeFactor.standardError / std::max(1e-9, time),
+                                     correlation.beyondReach * line.gain * time / std::max(1e-9, sensor.gain));
+  error += relative * relative * whole * whole.transpose();
+  // Taken off before the filter's factor is applied.
+  const double ofLines = FilterFactor(correlation) * correlation.LineNoise().standardError;
+  error(1, 1) += ofLines * ofLines;
+  return error;
+}
+} // namespace
+
+SensorLines
+LinesOf(const StaticVariance & variance)
+{
+  return { variance.line,  variance.fromLight,      variance.fromFrames,
+           variance.curve, Eigen::Matrix2d::Zero(), variance.ofOwnLevels };
+}
+
+double
+FilterFactor(const NoiseCorrelation & correlation)
+{
+  return correlation.timeFactor.value * (1.0 + MeanShape(correlation).ofVariance);
+}
+
+double
+VarianceOfSensor(double varianceDn2, const NoiseCorrelation & correlation, double codesDn2)
+{
+  return SharedVariance(correlation, 0.0, codesDn2).SensorOf(varianceDn2, 0.0);
+}
+
+double
+SpreadOfShapes(double varianceDn2, const NoiseCorrelation & correlation, double codesDn2)
+{
+  const double noise = varianceDn2 - codesDn2 - correlation.LineNoise().value;
+  const auto   sharedOf = [noise](const SharedShape & shape) { return shape.ofVariance * noise + shape.constantDn2; };
+  const double mean = sharedOf(MeanShape(correlation));
+  double       square = 0.0;
+  double       left = 1.0;
+  for (const SharedShape & shape : correlation.shapes)
+  {
+    const double own = shape.coefficient.value * sharedOf(shape) - mean;
+    square += shape.probability * own * own;
+    left -= shape.probability;
+  }
+  return correlation.timeFactor.value * std::sqrt(square + std::max(0.0, left) * mean * mean);
+}
+
+SensorLines
+WithSharedNoise(const SensorLines & lines, const NoiseCorrelation & correlation, double blackDn, double codesDn2)
+{
+  const SharedVariance  shared(correlation, blackDn, codesDn2);
+  const Eigen::Vector2d square = LineOfSquare(lines.curve, blackDn);
+  SensorLines           sensor;
+  sensor.all = shared.SensorOf(lines.all, square);
+  sensor.fromLight = shared.SensorOf(lines.fromLight, square);
+  sensor.fromFrames = CurveOfSensor(lines.fromFrames, shared, shared.SensorOf(lines.fromFrames.line, square));
+  sensor.curve = CurveOfSensor(lines.curve, shared, shared.SensorOf(lines.curve.line, square));
+  sensor.ofOwnLevels = CurveOfSensor(lines.ofOwnLevels, shared, shared.SensorOf(lines.ofOwnLevels.line, square));
+  sensor.errorOfShared = ErrorOf(correlation, lines.all, sensor.all, square, blackDn, codesDn2);
+  return sensor;
+}
+
+} // namespace sensornoise

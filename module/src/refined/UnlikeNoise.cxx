@@ -1,0 +1,271 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "refined/UnlikeNoise.h"
+
+#include "base/Quantiles.h"
+#include "base/Significance.h"
+#include "base/Text.h"
+#include "refined/Constants.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace sensornoise
+{
+
+namespace
+{
+constexpr double Unknown = std::numeric_limits<double>::quiet_NaN();
+
+double
+MedianOf(std::vector<double> values)
+{
+  return values.empty() ? Unknown : QuantileOf(std::move(values), 0.5);
+}
+
+/** The squares of every frame over those that \a line makes of the levels, median over the tiles. \a noise is what is
+ * known of the frames: the projection leaves some of the noise of each in the others. */
+Eigen::VectorXd
+RatiosOfFrames(const FrameEnergies &   energies,
+               const TileLevels &      levels,
+               const VarianceLine &    line,
+               const Eigen::VectorXd & noise)
+{
+  const Eigen::Index               frames = energies.Frames();
+  std::vector<std::vector<double>> ofFrames(static_cast<std::size_t>(frames));
+  for (Eigen::Index i = 0; i < energies.Tiles(); ++i)
+  {
+    const Eigen::VectorXd variance = VariancesOfFrames(energies, levels, line, i);
+    const Eigen::VectorXd expected = energies.ExpectedSquares(variance.cwiseProduct(noise));
+    std::vector<double>   ratios;
+    std::vector<double>   known;
+    for (Eigen::Index t = 0; t < frames; ++t)
+    {
+      const bool isLeft = energies.LeftShare()(t) > InRefined.leastLeftShare && expected(t) > 0.0;
+      ratios.push_back(isLeft ? energies.SquaresDn2()(i, t) * noise(t) / expected(t) : Unknown);
+      if (isLeft)
+      {
+        known.push_back(ratios.back());
+      }
+    }
+    const double typical = MedianOf(known);
+    for (std::size_t t = 0; t < ratios.size() && typical > 0.0; ++t)
+    {
+      if (std::isfinite(ratios[t]))
+      {
+        ofFrames[t].push_back(ratios[t] / typical);
+      }
+    }
+  }
+  Eigen::VectorXd medians(frames);
+  for (Eigen::Index t = 0; t < frames; ++t)
+  {
+    medians(t) = MedianOf(ofFrames[static_cast<std::size_t>(t)]);
+  }
+  return medians;
+}
+
+/** The line turned about its pivot. */
+VarianceLine
+Turned(const VarianceLine & line, double byGain)
+{
+  VarianceLine turned = line;
+  turned.gain += byGain;
+  turned.intercept -= byGain * line.pivotDn;
+  return turned;
+}
+
+/** The slope of a line about the pivot of \a line that has no noise without light, and twice as much, as the dark
+ * offset may not be known [DN/e-]. */
+double
+SteepestSlope(const VarianceLine & line, const TileLevels & levels)
+{
+  const double lightDn = line.pivotDn - levels.OffsetDn();
+  return lightDn > 0.0 ? 2.0 * line.At(line.pivotDn) / lightDn : std::numeric_limits<double>::infinity();
+}
+
+/** A frame and its noise. */
+using NoiseOfFrame = std::pair<double, std::size_t>;
+
+/** The largest group of \a sorted: first the shortest interval that holds half of them, then all that are near it. */
+std::pair<std::size_t, std::size_t>
+FindLargestGroup(const std::vector<NoiseOfFrame> & sorted, double chance, double least)
+{
+  std::vector<double> noise;
+  std::transform(
+    sorted.begin(), sorted.end(), std::back_inserter(noise), [](const NoiseOfFrame & frame) { return frame.first; });
+  auto begin = noise.begin() + static_cast<std::ptrdiff_t>(FindDensestHalf(noise));
+  auto end = begin + static_cast<std::ptrdiff_t>((noise.size() + 1) / 2);
+  for (int round = 0; round < 2; ++round) // the spread of the densest half is too small
+  {
+    const RobustCentre centre = CentreOf({ begin, end });
+    const double       most =
+      std::max(least * centre.median, Significance.everyPixel * std::max(chance * centre.median, centre.sd));
+    begin = std::lower_bound(noise.begin(), noise.end(), centre.median - most);
+    end = std::upper_bound(noise.begin(), noise.end(), centre.median + most);
+  }
+  return { static_cast<std::size_t>(begin - noise.begin()), static_cast<std::size_t>(end - noise.begin()) };
+}
+
+FrameGroup
+GroupOf(const std::vector<NoiseOfFrame> & sorted, std::size_t begin, std::size_t end)
+{
+  FrameGroup          group;
+  std::vector<double> noise;
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    group.frames.push_back(sorted[i].second);
+    noise.push_back(sorted[i].first);
+  }
+  std::sort(group.frames.begin(), group.frames.end());
+  group.noise = MedianOf(noise);
+  return group;
+}
+
+/** Adds the frames begin ... end - 1 in groups, parted where the noise differs by as much as counts. */
+void
+AddGroups(const std::vector<NoiseOfFrame> & sorted,
+          std::size_t                       begin,
+          std::size_t                       end,
+          double                            least,
+          std::vector<FrameGroup> &         groups)
+{
+  for (std::size_t first = begin, i = begin + 1; i <= end && begin < end; ++i)
+  {
+    if (i == end || sorted[i].first - sorted[i - 1].first > least * sorted[i].first)
+    {
+      groups.push_back(GroupOf(sorted, first, i));
+      first = i;
+    }
+  }
+}
+
+/** "frames 0 to 29, 31, 33, ...": the first ones. */
+std::string
+TextOfFrames(const std::vector<std::size_t> & frames)
+{
+  constexpr std::size_t most = 4;
+  std::string           text = frames.size() == 1 ? "frame " : "frames ";
+  std::size_t           count = 0;
+  for (std::size_t i = 0; i < frames.size(); ++count)
+  {
+    std::size_t last = i;
+    while (last + 1 < frames.size() && frames[last + 1] == frames[last] + 1)
+    {
+      ++last;
+    }
+    text += count == 0 ? "" : ", ";
+    if (count == most)
+    {
+      return text + "... (" + std::to_string(frames.size()) + " in all)";
+    }
+    text += std::to_string(frames[i]) + (last > i ? " to " + std::to_string(frames[last]) : "");
+    i = last + 1;
+  }
+  return text;
+}
+} // namespace
+
+Eigen::VectorXd
+NoiseOfFrames(const FrameEnergies &   energies,
+              const TileLevels &      levels,
+              const VarianceLine &    line,
+              double                  slopeError,
+              const Eigen::VectorXd & known)
+{
+  const Eigen::VectorXd noise = known.size() > 0 ? known : Eigen::VectorXd::Ones(energies.Frames());
+  if (energies.Tiles() < static_cast<Eigen::Index>(InRefined.leastTilesOfTransfer))
+  {
+    return {};
+  }
+  const double    slack = Significance.hint * slopeError;
+  const double    down = std::min(slack, std::max(0.0, line.gain));
+  const double    up = std::min(slack, std::max(0.0, SteepestSlope(line, levels) - line.gain));
+  Eigen::VectorXd nearest = RatiosOfFrames(energies, levels, line, noise);
+  Eigen::VectorXd low = nearest;
+  Eigen::VectorXd high = nearest;
+  for (int step = 1; step <= InRefined.stepsOfSlope; ++step)
+  {
+    const double part = static_cast<double>(step) / InRefined.stepsOfSlope;
+    for (const double turn : { -part * down, part * up })
+    {
+      const Eigen::VectorXd ratios = RatiosOfFrames(energies, levels, Turned(line, turn), noise);
+      low = low.cwiseMin(ratios);
+      high = high.cwiseMax(ratios);
+    }
+  }
+  for (Eigen::Index t = 0; t < nearest.size(); ++t)
+  {
+    nearest(t) = std::isfinite(nearest(t)) ? std::clamp(1.0, low(t), high(t)) : nearest(t);
+  }
+  return nearest;
+}
+
+FrameNoise
+JudgeFrameNoise(const Eigen::VectorXd & ofFrames, double chance, double least)
+{
+  std::vector<NoiseOfFrame> sorted;
+  std::vector<double>       differences;
+  for (Eigen::Index t = 0; t < ofFrames.size(); ++t)
+  {
+    if (std::isfinite(ofFrames(t)))
+    {
+      sorted.emplace_back(ofFrames(t), static_cast<std::size_t>(t));
+      differences.push_back(std::abs(ofFrames(t) - 1.0));
+    }
+  }
+  FrameNoise found;
+  if (sorted.empty())
+  {
+    return found;
+  }
+  std::sort(sorted.begin(), sorted.end());
+  const auto [begin, end] = FindLargestGroup(sorted, chance, least);
+  found.groups.push_back(GroupOf(sorted, begin, end));
+  AddGroups(sorted, 0, begin, least, found.groups);
+  AddGroups(sorted, end, sorted.size(), least, found.groups);
+  for (std::size_t k = 1; k < found.groups.size(); ++k)
+  {
+    found.unlike.insert(found.unlike.end(), found.groups[k].frames.begin(), found.groups[k].frames.end());
+  }
+  std::sort(found.unlike.begin(), found.unlike.end());
+  const double median = MedianOf(differences);
+  found.scatter = found.unlike.empty() && median > std::max(least, Significance.everyPixel * chance) ? median : 0.0;
+  return found;
+}
+
+Eigen::VectorXd
+FrameNoise::OfFrames(Eigen::Index frames) const
+{
+  Eigen::VectorXd noise = Eigen::VectorXd::Ones(frames);
+  for (const FrameGroup & group : groups)
+  {
+    for (const std::size_t t : group.frames)
+    {
+      noise(static_cast<Eigen::Index>(t)) = group.noise;
+    }
+  }
+  return noise;
+}
+
+std::string
+FrameNoise::Text(double gain) const
+{
+  constexpr std::size_t most = 4;
+  std::string           text;
+  for (std::size_t k = 0; k < groups.size() && k <= most; ++k)
+  {
+    text += k == 0 ? "" : "; ";
+    text += k == most ? "..."
+                      : TextOfFrames(groups[k].frames) + ": " + Rounded(groups[k].noise) + " times, about " +
+                          Rounded(gain * groups[k].noise) + " DN/e-";
+  }
+  return text;
+}
+
+} // namespace sensornoise

@@ -1,0 +1,231 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/ChannelReports.h"
+
+#include "base/ChiSquare.h"
+#include "base/Significance.h"
+#include "base/Text.h"
+#include "report/Constants.h"
+#include "report/Quantities.h"
+#include "report/Statuses.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** A number and its standard error. */
+struct Measurement
+{
+  double value;
+  double error;
+};
+
+std::optional<Measurement>
+MeasurementOf(const Quantity & quantity)
+{
+  if (!quantity.value || !quantity.standardError || !(*quantity.standardError > 0.0))
+  {
+    return std::nullopt;
+  }
+  return Measurement{ *quantity.value, *quantity.standardError };
+}
+
+/** Whether the offset of a report was told to it, without an own look at dark frames. */
+bool
+IsOffsetGiven(const Report & report)
+{
+  return std::any_of(report.settings.begin(), report.settings.end(), [](const auto & setting) {
+    return setting.first == "dark_frames" && setting.second == Report::SettingValue{ 0.0 };
+  });
+}
+
+std::optional<JointOffset>
+JoinOffsets(const std::array<Report, 4> & channels)
+{
+  std::vector<Measurement> offsets;
+  for (const Report & channel : channels)
+  {
+    if (const auto offset = MeasurementOf(channel.offset); offset && !IsOffsetGiven(channel))
+    {
+      offsets.push_back(*offset);
+    }
+  }
+  if (offsets.size() < 2)
+  {
+    return std::nullopt;
+  }
+  double weights = 0.0;
+  double sum = 0.0;
+  double best = offsets.front().error;
+  for (const Measurement & offset : offsets)
+  {
+    const double weight = 1.0 / (offset.error * offset.error);
+    weights += weight;
+    sum += weight * offset.value;
+    best = std::min(best, offset.error);
+  }
+  const double mean = sum / weights;
+  const double freedom = static_cast<double>(offsets.size()) - 1.0;
+  double       chi2 = 0.0;
+  for (const Measurement & offset : offsets)
+  {
+    chi2 += (offset.value - mean) * (offset.value - mean) / (offset.error * offset.error);
+  }
+  JointOffset joint;
+  joint.reducedChi2 = chi2 / freedom;
+  // More than chance: whatever it is that makes them differ is in the mean, too.
+  const bool   isMore = chi2 > ChiSquareQuantile(0.95, freedom);
+  const double error = std::sqrt((isMore ? joint.reducedChi2 : 1.0) / weights);
+  if (error < best)
+  {
+    joint.offset = WithError(mean, error);
+    joint.precisionGain = best / error;
+  }
+  else
+  {
+    joint.offset = Quantity::Without(EstimateStatus::Failed);
+  }
+  return joint;
+}
+
+/** The two greens have the same filter, pixel and amplifier: gains that differ tell of something else. */
+void
+CompareGreens(ChannelReports & reports)
+{
+  const auto first = MeasurementOf(reports.Of(BayerPlane::G1).gain);
+  const auto second = MeasurementOf(reports.Of(BayerPlane::G2).gain);
+  if (!first || !second)
+  {
+    return;
+  }
+  const double difference = first->value - second->value;
+  const double error = std::hypot(first->error, second->error);
+  const double mean = 0.5 * (first->value + second->value);
+  if (std::abs(difference) > Significance.oneTest * error &&
+      std::abs(difference) > InReport.leastGreenDifference * mean)
+  {
+    reports.warnings.push_back(
+      { WarningCode::GreensDiffer,
+        "the gains of the two greens are " + Measured(first->value, first->error) + " and " +
+          Measured(second->value, second->error) +
+          " DN/e-, expected equal: the pattern is another one, or rows are read by different amplifiers. Check the "
+          "pattern: --bayer" });
+  }
+}
+
+/** The mean level of the pixels used of a plane; null: none are [DN]. */
+std::optional<double>
+MeanLevelOf(const Report & report)
+{
+  double sum = 0.0;
+  double pixels = 0.0;
+  for (std::size_t i = 0; i < report.scatter.mean.size(); ++i)
+  {
+    sum += static_cast<double>(report.scatter.count[i]) * report.scatter.mean[i];
+    pixels += static_cast<double>(report.scatter.count[i]);
+  }
+  return pixels > 0.0 ? std::optional<double>(sum / pixels) : std::nullopt;
+}
+
+/** All planes see one scene, each through its colour: the two planes of one colour have the same mean level, as far as
+ * noise and edges let them. If the two that are not called green are alike, and those that are differ, they are the
+ * greens. */
+void
+CompareLevels(ChannelReports & reports)
+{
+  const auto red = MeanLevelOf(reports.Of(BayerPlane::R));
+  const auto first = MeanLevelOf(reports.Of(BayerPlane::G1));
+  const auto second = MeanLevelOf(reports.Of(BayerPlane::G2));
+  const auto blue = MeanLevelOf(reports.Of(BayerPlane::B));
+  if (!red || !first || !second || !blue)
+  {
+    return;
+  }
+  const double contrast = 0.5 * std::abs(*red + *blue - *first - *second);
+  const double ofGreens = std::abs(*first - *second);
+  const double ofOthers = std::abs(*red - *blue);
+  if (ofGreens > InReport.leastLevelDifference * std::max(contrast, ofOthers) && contrast > 0.0 &&
+      ofOthers < InReport.largestLevelDifference * ofGreens)
+  {
+    reports.warnings.push_back(
+      { WarningCode::BayerPatternDiffers,
+        std::string("the levels contradict the pattern ") + NameOf(reports.pattern) + ": its greens differ, with " +
+          Rounded(*first) + " and " + RoundedApart(*second, *first) + " DN, and its red and blue are alike, with " +
+          Rounded(*red) + " and " + Rounded(*blue) + " DN. Give the pattern of the sensor: --bayer " +
+          NameOf(CutPattern(reports.pattern, 1, 0)) + " or " + NameOf(CutPattern(reports.pattern, 0, 1)) });
+  }
+}
+
+/** Found from the codes of each plane, of which some are darker than others: the converter has one. */
+void
+ShareBitDepth(std::array<Report, 4> & channels)
+{
+  std::optional<int> bits;
+  for (const Report & channel : channels)
+  {
+    bits = std::max(bits, channel.bitDepth);
+  }
+  for (Report & channel : channels)
+  {
+    channel.bitDepth = channel.bitDepth ? bits : channel.bitDepth;
+  }
+}
+} // namespace
+
+const char *
+NameOf(BayerSource source)
+{
+  return source == BayerSource::Given ? "given" : source == BayerSource::File ? "file" : "levels";
+}
+
+bool
+ChannelReports::IsUsable() const
+{
+  return std::any_of(channels.begin(), channels.end(), [](const Report & channel) { return channel.IsUsable(); });
+}
+
+ChannelReports
+MakeChannelReports(BayerPattern pattern, BayerSource source, std::array<Report, 4> channels)
+{
+  ShareBitDepth(channels);
+  for (const BayerPlane plane : BayerPlanes)
+  {
+    Report & report = channels.at(static_cast<std::size_t>(plane));
+    report.channel = NameOf(plane);
+    report.settings.emplace_back("bayer", std::string(NameOf(pattern)));
+  }
+  ChannelReports reports{ pattern, source, std::move(channels), std::nullopt, std::nullopt, {}, std::nullopt };
+  if (source == BayerSource::Levels)
+  {
+    reports.warnings.push_back({ WarningCode::RedOrBlue,
+                                 std::string("the pattern ") + NameOf(pattern) +
+                                   " was found from the levels, which distinguish only green: the brighter of the "
+                                   "two other colours is called R, but may be blue. Give the pattern (--bayer " +
+                                   NameOf(pattern) + " or " + NameOf(CutPattern(pattern, 1, 1)) + ")" });
+  }
+  reports.joint = JoinOffsets(reports.channels);
+  if (reports.joint && reports.joint->offset.status == EstimateStatus::Failed)
+  {
+    reports.warnings.push_back(
+      { WarningCode::OffsetsDiffer,
+        "the offsets of the channels differ by " + Rounded(std::sqrt(reports.joint->reducedChi2)) +
+          " times their errors: steady illumination of another colour than the flickering one, or a black level for "
+          "each channel. Give dark frames (--dark)" });
+  }
+  reports.motion = JoinMotion(reports.channels);
+  if (reports.motion)
+  {
+    WidenVibration(reports.channels, *reports.motion);
+    std::for_each(reports.channels.begin(), reports.channels.end(), FileStatuses);
+  }
+  CompareGreens(reports);
+  CompareLevels(reports);
+  return reports;
+}
+
+} // namespace sensornoise

@@ -1,0 +1,327 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "report/ReportTable.h"
+
+#include "base/Text.h"
+#include "report/QuantityList.h"
+#include "report/ReportJson.h"
+#include "report/Signs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sensornoise
+{
+namespace
+{
+template <typename... TArguments>
+std::string
+Format(const char * format, TArguments... arguments)
+{
+  char buffer[256];
+  std::snprintf(buffer, sizeof(buffer), format, arguments...);
+  return buffer;
+}
+
+std::string
+Number(const std::optional<double> & number)
+{
+  return number ? Format("%.5g", *number) : "-";
+}
+
+/** The 95 % interval if there is one, else the bracket. */
+const std::optional<Interval> &
+RangeOf(const Quantity & quantity)
+{
+  return quantity.interval95 ? quantity.interval95 : quantity.bracket;
+}
+
+/** The value; of what is not distinguishable from zero, what it is below. */
+std::string
+Value(const Quantity & quantity)
+{
+  const std::optional<Interval> & range = RangeOf(quantity);
+  return quantity.status == EstimateStatus::UpperLimit && range && range->high ? "< " + Number(range->high)
+                                                                               : Number(quantity.value);
+}
+
+/** The value and its error, to two digits of the error. */
+struct RoundedQuantity
+{
+  std::string value{};
+  std::string error{};
+  int         decimals{ -1 }; // below 0: there is no error to round to
+};
+
+RoundedQuantity
+RoundToError(const Quantity & quantity)
+{
+  RoundedQuantity rounded{ Value(quantity), "", -1 };
+  if (quantity.value && quantity.standardError)
+  {
+    const std::string sign = " +- ";
+    const std::string text = Measured(*quantity.value, *quantity.standardError);
+    const std::size_t at = text.find(sign);
+    const std::size_t point = text.find('.');
+    rounded.value = text.substr(0, at);
+    rounded.error = WithSigns(sign).substr(1) + text.substr(at + sign.size());
+    rounded.decimals = point < at ? static_cast<int>(at - point) - 1 : 0;
+  }
+  return rounded;
+}
+
+/** An end of an interval: as its value is rounded. */
+std::string
+End(const std::optional<double> & end, const RoundedQuantity & rounded)
+{
+  constexpr int most = 15;
+  return end && rounded.decimals >= 0 && rounded.decimals <= most && std::abs(*end) < 1e9
+           ? Format("%.*f", rounded.decimals, *end)
+           : Number(end);
+}
+
+/** \a hasErrors: with a column for the standard error. */
+std::string
+Line(const QuantityEntry & entry, const Quantity & quantity, bool hasErrors)
+{
+  const std::optional<Interval> & range = RangeOf(quantity);
+  const RoundedQuantity           rounded = RoundToError(quantity);
+  std::string line = PaddedRight(WithSigns(entry.label), 24) + " " + PaddedLeft(rounded.value, 12) + " ";
+  line += hasErrors ? PaddedRight(rounded.error, 12) + " " : " ";
+  line += PaddedRight(WithSigns(entry.unit), 8) + " " + PaddedRight(NameOf(quantity.status), 17) + " ";
+  line += range ? "[" + End(range->low, rounded) + ", " + End(range->high, rounded) + "]" : "";
+  return line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+}
+
+std::string
+DescribeCodes(const Report & report)
+{
+  std::string text;
+  if (report.bitDepth)
+  {
+    text += Format(", %d bits (%s)", *report.bitDepth, report.bitDepthSource.c_str());
+  }
+  if (report.quantisationStepDn)
+  {
+    text += Format(", code step %g DN", *report.quantisationStepDn);
+  }
+  if (report.clipLowDn || report.clipHighDn)
+  {
+    text +=
+      ", levels " + Number(report.clipLowDn) + " to " + Number(report.clipHighDn) + " DN (" + report.clipSource + ")";
+  }
+  return text;
+}
+
+bool
+IsIdentified(const Quantity & quantity)
+{
+  return quantity.status == EstimateStatus::Identified;
+}
+
+/** Whether the table has a line for it. */
+bool
+IsShown(const QuantityEntry & entry, const Report & report)
+{
+  const Quantity * quantity = entry.of(report);
+  switch (entry.shown)
+  {
+    case ShownIn::EveryTable:
+      return quantity != nullptr;
+    case ShownIn::TableIfKnown:
+      return quantity != nullptr && quantity->value;
+    case ShownIn::TableIfNotTheGain:
+      return quantity != nullptr && quantity->value && Number(quantity->value) != Number(report.gain.value);
+    case ShownIn::TableIfLimited:
+      return quantity != nullptr && (quantity->value || quantity->status == EstimateStatus::UpperLimit);
+    case ShownIn::Record:
+      break;
+  }
+  return false;
+}
+
+/** "share 44 %" of the lag that shares most. */
+std::string
+MostShared(const std::vector<NoiseCorrelationRecord::Lag> & lags)
+{
+  const auto most = std::max_element(
+    lags.begin(), lags.end(), [](const auto & a, const auto & b) { return std::abs(a.value) < std::abs(b.value); });
+  return most == lags.end() ? "share some of it" : Format("share up to %.2g %% of it", 100.0 * most->value);
+}
+
+std::string
+DescribeFrames(const char * what, const InputFiles & input)
+{
+  const std::string count =
+    input.IsOfPixels() ? "pixels" : Format(input.files == 1 ? "%zu file" : "%zu files", input.files);
+  return what + (": " + count) + Format(", %llu bytes, SHA-256 ", static_cast<unsigned long long>(input.bytes)) +
+         (input.sha256.empty() ? "not computed" : input.sha256) + "\n";
+}
+} // namespace
+
+std::string
+DescribeInput(const std::optional<InputRecord> & input)
+{
+  if (!input)
+  {
+    return "";
+  }
+  return DescribeFrames("frames", input->frames) + (input->dark ? DescribeFrames("dark frames", *input->dark) : "");
+}
+
+std::string
+DescribeFit(const Report & report)
+{
+  if (!report.fit.reducedChi2)
+  {
+    return "";
+  }
+  return Format("fit: reduced chi2 %.4g (1: only sampling noise is left)", *report.fit.reducedChi2) +
+         (report.fit.offsetLinePhi ? Format(", offset line %.4g (1: one flicker for all)", *report.fit.offsetLinePhi)
+                                   : "");
+}
+
+std::string
+DescribeResponse(const Report & report)
+{
+  if (!report.fit.nonlinearity)
+  {
+    return "";
+  }
+  return *report.fit.nonlinearity > 0.0
+           ? Format("response: the variance departs from its line by up to %.2g %% of itself",
+                    100.0 * *report.fit.nonlinearity)
+           : "response: the variance departs from its line by no more than noise";
+}
+
+std::string
+DescribeNoise(const Report & report)
+{
+  if (!report.noiseCorrelation)
+  {
+    return "";
+  }
+  const NoiseCorrelationRecord & noise = *report.noiseCorrelation;
+  if (noise.kind == "white")
+  {
+    const bool hasLines = IsIdentified(noise.rowNoise) || IsIdentified(noise.columnNoise);
+    return hasLines ? "noise: white, but for rows and columns"
+                    : "noise: white (neighbours and frames share none of it)";
+  }
+  if (noise.kind == "not-linear")
+  {
+    return "noise: not-linear (not as a sensor's or a linear filter's: what gain it had cannot be told)";
+  }
+  if (noise.kind == "enlarged")
+  {
+    return "noise: enlarged (fewer samples than pixels: the gain cannot be told)";
+  }
+  const std::string text =
+    "noise: " + noise.kind +
+    (noise.kind == "temporal" ? ", frames " + MostShared(noise.time) : ", neighbours " + MostShared(noise.space));
+  return text + (report.gain.value ? "; the gain is from the sum over all lags" : "");
+}
+
+std::string
+DescribeLinearity(const Report & report)
+{
+  const LinearityRecord & linearity = report.linearity;
+  if (linearity.levels.empty())
+  {
+    return "";
+  }
+  if (!linearity.reason.empty())
+  {
+    return "linearity: not identifiable: " + linearity.reason;
+  }
+  const auto used = std::count_if(linearity.levels.begin(), linearity.levels.end(), [](const auto & level) {
+    return level.deviationPercent.has_value();
+  });
+  return Format("linearity: %d of %zu exposures in the range, saturation %.5g DN (",
+                static_cast<int>(used),
+                linearity.levels.size(),
+                linearity.saturationDn.value_or(0.0)) +
+         linearity.saturationSource + "), offset of " +
+         (linearity.offsetSource == "line" ? "the line" : linearity.offsetSource);
+}
+
+std::string
+TextOfCounted(const Report & report)
+{
+  const std::size_t leftOut = report.framesLeftOut.size();
+  std::string       text = leftOut > 0 ? Format("%zu left out", leftOut) : "";
+  if (report.framesDistinct + leftOut < report.frames)
+  {
+    text += (text.empty() ? "" : ", ") + Format("%zu different", report.framesDistinct);
+  }
+  return text.empty() ? text : " (" + text + ")";
+}
+
+std::string
+MakeTable(const Report & report)
+{
+  std::string table = Format("%zu frames", report.frames);
+  table += TextOfCounted(report);
+  table += Format(" of %zu x %zu pixels", report.width, report.height);
+  table += DescribeCodes(report) + "\n";
+  table += Format("%zu of %zu pixels used (%.1f %%), %zu clipped, %zu not finite\n",
+                  report.pixels.used,
+                  report.pixels.total,
+                  100.0 * static_cast<double>(report.pixels.used) /
+                    static_cast<double>(std::max<std::size_t>(1, report.pixels.total)),
+                  report.pixels.clipped,
+                  report.pixels.notFinite);
+  table += "method: " + report.method + "\n" + DescribeInput(report.input) + "\n";
+  std::vector<QuantityEntry> rows;
+  std::copy_if(QuantityList().begin(),
+               QuantityList().end(),
+               std::back_inserter(rows),
+               [&](const QuantityEntry & entry) { return IsShown(entry, report); });
+  const bool hasErrors = std::any_of(
+    rows.begin(), rows.end(), [&](const QuantityEntry & entry) { return entry.of(report)->standardError.has_value(); });
+  table += Format("%-24s %12s ", "quantity", "value") + (hasErrors ? Format("%-12s ", "  error") : " ");
+  table += Format("%-8s %-17s %s\n", "unit", "status", hasErrors ? "95 % interval or limits" : "limits");
+  for (const QuantityEntry & entry : rows)
+  {
+    table += Line(entry, *entry.of(report), hasErrors);
+  }
+  if (report.fit.line && !report.gain.value)
+  {
+    table += Format("\nindicative: variance = %.5g mean %+.5g (the line through all levels; no measurement)\n",
+                    report.fit.line->gain,
+                    report.fit.line->intercept);
+  }
+  bool isFirst = true;
+  for (const std::string & line :
+       { DescribeFit(report), DescribeResponse(report), DescribeNoise(report), DescribeLinearity(report) })
+  {
+    table += line.empty() ? "" : (isFirst ? "\n" : "") + line + "\n";
+    isFirst = isFirst && line.empty();
+  }
+  return table;
+}
+
+std::string
+TextOf(const Warning & warning)
+{
+  const WarningKind & kind = KindOf(warning.code);
+  return std::string(NameOf(kind.severity)) + ": " + warning.message + " [" + kind.name + "]\n";
+}
+
+std::string
+MakeText(const Report & report)
+{
+  std::string text = MakeTable(report);
+  for (const Warning & warning : report.warnings)
+  {
+    text += (&warning == &report.warnings.front() ? "\n" : "") + TextOf(warning);
+  }
+  return text;
+}
+
+} // namespace sensornoise

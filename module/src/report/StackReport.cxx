@@ -1,0 +1,187 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "report/StackReport.h"
+
+#include "base/IntensityIndex.h"
+#include "base/PixelUse.h"
+#include "base/Text.h"
+#include "moments/CodeRange.h"
+#include "moments/MosaicLevels.h"
+#include "moments/StackRequirements.h"
+
+#include <algorithm>
+#include <string>
+
+namespace sensornoise
+{
+namespace
+{
+/** Between which levels the data lie; of floating-point data one end may be open. */
+std::string
+TextOfLevels(const CodeRange & codes)
+{
+  if (!codes.clipLowDn)
+  {
+    return "up to " + Text(*codes.clipHighDn);
+  }
+  return codes.clipHighDn ? Text(*codes.clipLowDn) + " to " + Text(*codes.clipHighDn)
+                          : "from " + Text(*codes.clipLowDn);
+}
+} // namespace
+
+void
+DescribeStack(Report &                          report,
+              const FrameGeometry &             geometry,
+              std::size_t                       frames,
+              const StackSummary &              summary,
+              std::size_t                       valid,
+              const std::vector<std::uint8_t> & pixelUse)
+{
+  report.frames = frames;
+  report.framesDistinct = frames;
+  report.width = geometry.width;
+  report.height = geometry.height;
+
+  const CodeRange & codes = summary.codes;
+  report.bitDepth = codes.bitDepth;
+  report.bitDepthSource = codes.bitDepthSource;
+  if (codes.quantisationStepDn > 0.0)
+  {
+    report.quantisationStepDn = codes.quantisationStepDn;
+  }
+  report.clipLowDn = codes.clipLowDn;
+  report.clipHighDn = codes.clipHighDn;
+  report.clipSource = codes.clipSource;
+
+  report.pixels.total = geometry.Pixels();
+  report.pixels.valid = valid;
+  report.pixels.used =
+    static_cast<std::size_t>(std::count(pixelUse.begin(), pixelUse.end(), static_cast<std::uint8_t>(PixelUse::Used)));
+  report.pixels.clipped = summary.clipped;
+  report.pixels.notFinite = summary.notFinite;
+}
+
+void
+WarnOfStack(Report & report, std::size_t frames, const StackSummary & summary)
+{
+  const CodeRange & codes = summary.codes;
+  if (frames >= MinimumFrames && frames < 20)
+  {
+    report.Warn(WarningCode::FewFrames,
+                "only " + std::to_string(frames) +
+                  " distinct frames: treat the results as indicative. Record at least 20");
+  }
+  if (codes.clipSource.find("pile-up") != std::string::npos)
+  {
+    report.Warn(WarningCode::ClipLevelFound,
+                "the sensor attains only the levels " + TextOfLevels(codes) + " DN (" + codes.clipSource +
+                  "); pixels that reach an end are left out");
+  }
+  if (codes.steps.IsCompanded())
+  {
+    const auto &             table = codes.steps.GetTable();
+    const auto               byStep = [](const auto & a, const auto & b) { return a.stepDn < b.stepDn; };
+    const auto               ends = std::minmax_element(table.begin(), table.end(), byStep);
+    const CodeSteps::Local & fine = *ends.first;
+    const CodeSteps::Local & coarse = *ends.second;
+    report.Warn(
+      WarningCode::Companded,
+      "the quantization step is " + Rounded(fine.stepDn) + " DN at " + Rounded(fine.levelDn) + " DN and " +
+        RoundedApart(coarse.stepDn, fine.stepDn) + " DN at " + Rounded(coarse.levelDn) +
+        " DN: a tone curve to fewer bits was applied and undone, and the quantization noise depends on the level");
+  }
+  if (!codes.isRegular)
+  {
+    report.Warn(WarningCode::IrregularCodes,
+                "the quantization step varies about " + Rounded(codes.quantisationStepDn) +
+                  " DN: the frames were rescaled, and their quantization noise is not known. Give the frames as the "
+                  "camera recorded them");
+  }
+  if (summary.notFinite > 0)
+  {
+    report.Warn(WarningCode::NotFinitePixels,
+                std::to_string(summary.notFinite) + " pixels are NaN or infinite in a frame and left out");
+  }
+}
+
+void
+WarnOfMosaic(Report &                    report,
+             const std::vector<double> & mean,
+             const FrameGeometry &       geometry,
+             const ParallelFor &         parallelFor)
+{
+  if (const auto pattern = RecogniseMosaic(mean, geometry.width, geometry.height, parallelFor))
+  {
+    const BayerPattern other = CutPattern(*pattern, 1, 1); // red and blue exchanged
+    report.Warn(WarningCode::Mosaic,
+                std::string("the levels of neighbouring pixels alternate as behind a Bayer mosaic, ") +
+                  NameOf(*pattern) + " or " + NameOf(other) +
+                  ", but the frames were measured as those of a monochrome sensor. Measure each colour by itself: "
+                  "--bayer " +
+                  NameOf(*pattern));
+  }
+}
+
+std::vector<std::uint8_t>
+MaskOfUsed(const std::vector<std::uint8_t> & pixelUse)
+{
+  std::vector<std::uint8_t> used(pixelUse.size());
+  std::transform(pixelUse.begin(), pixelUse.end(), used.begin(), [](std::uint8_t use) {
+    return use == static_cast<std::uint8_t>(PixelUse::Used) ? 1 : 0;
+  });
+  return used;
+}
+
+void
+FillScatter(Report &                          report,
+            const std::vector<double> &       mean,
+            const std::vector<double> &       variance,
+            const std::vector<double> &       correctedVariance,
+            const std::vector<std::uint8_t> & used,
+            const ParallelFor &               parallelFor)
+{
+  // The sums of each bin.
+  enum : std::size_t
+  {
+    Mean,
+    Variance,
+    Corrected,
+    Pixels,
+    Sums
+  };
+  constexpr std::size_t      count = 256;
+  const std::size_t          pixels = mean.size();
+  const IntensityIndex       index(mean.data(), used.data(), pixels, parallelFor);
+  const IntensityIndex::Bins bins(index, count);
+  const std::vector<double>  sums = SumOverBlocks(pixels, parallelFor, count * Sums, [&](std::size_t p, double * sum) {
+    if (used[p] != 0)
+    {
+      double * const own = sum + Sums * bins.Of(mean[p]);
+      own[Mean] += mean[p];
+      own[Variance] += variance[p];
+      own[Corrected] += correctedVariance[p];
+      own[Pixels] += 1.0;
+    }
+  });
+  report.scatter = Report::Scatter();
+  for (const double * own = sums.data(); own != sums.data() + sums.size(); own += Sums)
+  {
+    if (own[Pixels] > 0.0)
+    {
+      report.scatter.mean.push_back(own[Mean] / own[Pixels]);
+      report.scatter.variance.push_back(own[Variance] / own[Pixels]);
+      report.scatter.correctedVariance.push_back(own[Corrected] / own[Pixels]);
+      report.scatter.count.push_back(static_cast<std::size_t>(own[Pixels]));
+    }
+  }
+}
+
+void
+FillBaselines(Report & report, const RegressionData & raw, const ParallelFor & parallelFor)
+{
+  const auto [affine, parabola] = FitLineAndParabola(raw, parallelFor);
+  report.affineBaseline = Report::Baseline{ 0.0, affine.slope, affine.intercept };
+  report.quadraticBaseline = Report::Baseline{ parabola.curvature, parabola.slope, parabola.intercept };
+}
+
+} // namespace sensornoise

@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "report/StackSettings.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+#include <zlib.h>
+
+namespace sensornoise
+{
+
+void
+RequireSelection(const StackSelection & selection, const FrameGeometry & geometry, std::size_t frames)
+{
+  const auto text = [](std::size_t number) { return std::to_string(number); };
+  if (const auto & roi = selection.roi; roi && ((*roi)[2] != geometry.width || (*roi)[3] != geometry.height))
+  {
+    throw std::invalid_argument("the source's region has " + text((*roi)[2]) + " x " + text((*roi)[3]) +
+                                " pixels, but the frames have " + text(geometry.width) + " x " + text(geometry.height));
+  }
+  if (const auto & range = selection.frames; range && range->second != range->first + frames)
+  {
+    throw std::invalid_argument("the source's frames are " + text(range->first) + " up to " + text(range->second) +
+                                ", but the stack has " + text(frames));
+  }
+}
+
+InputFiles
+InputFilesOf(const std::string & sha256, std::size_t files, std::uint64_t bytes)
+{
+  const bool hasOnlyDigits = sha256.find_first_not_of("0123456789abcdef") == std::string::npos;
+  if (!sha256.empty() && (sha256.size() != 64 || !hasOnlyDigits))
+  {
+    throw std::invalid_argument("the hash is \"" + sha256 +
+                                "\"; expected a SHA-256, 64 hexadecimal digits in small letters");
+  }
+  return { sha256, files, bytes };
+}
+
+void
+NoteCodes(Report & report, const CodeSettings & codes)
+{
+  const auto note = [&report](const char * name, const auto & given) {
+    if (given)
+    {
+      report.settings.emplace_back(name, static_cast<double>(*given));
+    }
+  };
+  note("bit_depth", codes.bitDepth);
+  note("clip_low", codes.clipLowDn);
+  note("clip_high", codes.clipHighDn);
+  note("quantisation_step", codes.quantisationStepDn);
+}
+
+void
+NoteMask(Report & report, const FrameGeometry & geometry, const std::vector<std::uint8_t> & mask)
+{
+  if (mask.empty())
+  {
+    return;
+  }
+  const std::string shape = std::to_string(geometry.width) + "x" + std::to_string(geometry.height) + ":";
+  uLong sum = crc32(0, reinterpret_cast<const unsigned char *>(shape.data()), static_cast<uInt>(shape.size()));
+  std::vector<unsigned char> row(geometry.width);
+  for (std::size_t y = 0; y < geometry.height; ++y)
+  {
+    const auto first = mask.begin() + static_cast<std::ptrdiff_t>(y * geometry.width);
+    std::transform(first, first + static_cast<std::ptrdiff_t>(geometry.width), row.begin(), [](std::uint8_t value) {
+      return static_cast<unsigned char>(value != 0);
+    });
+    sum = crc32(sum, row.data(), static_cast<uInt>(row.size()));
+  }
+  std::array<char, 9> text{};
+  std::snprintf(text.data(), text.size(), "%08lx", sum & 0xffffffffUL);
+  report.settings.emplace_back("mask_crc32", std::string(text.data()));
+}
+
+void
+NoteSelection(Report & report, const StackSelection & selection)
+{
+  const auto note = [&report](const char * name, std::size_t number) {
+    report.settings.emplace_back(name, static_cast<double>(number));
+  };
+  if (const auto & roi = selection.roi)
+  {
+    note("roi_x", (*roi)[0]);
+    note("roi_y", (*roi)[1]);
+    note("roi_width", (*roi)[2]);
+    note("roi_height", (*roi)[3]);
+  }
+  if (const auto & frames = selection.frames)
+  {
+    note("frame_range_first", frames->first);
+    note("frame_range_end", frames->second);
+  }
+}
+
+} // namespace sensornoise

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_report_StackSettings_h
+#define sensornoise_report_StackSettings_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/FrameGeometry.h"
+#include "moments/CodeSettings.h"
+#include "sensornoise/Report.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** Which part of what was recorded a stack is, where it was cut out before: it changes no number of the measurement,
+ * and without it nobody could repeat that. */
+struct StackSelection
+{
+  std::optional<std::array<std::size_t, 4>>          roi;    ///< x, y, width, height [pixel]
+  std::optional<std::pair<std::size_t, std::size_t>> frames; ///< the first one, and one past the last, from 0
+};
+
+/** Throws std::invalid_argument if what was selected is not of the size of a stack. */
+SensorNoise_EXPORT void
+RequireSelection(const StackSelection & selection, const FrameGeometry & geometry, std::size_t frames);
+
+/** What was read, by a hash that was computed elsewhere. Throws std::invalid_argument unless that is empty or 64
+ * hexadecimal digits in small letters. */
+SensorNoise_EXPORT InputFiles
+InputFilesOf(const std::string & sha256, std::size_t files, std::uint64_t bytes);
+
+/** Notes what was given of the codes in the settings of \a report: `bit_depth`, `clip_low`, `clip_high`,
+ * `quantisation_step`. What was to be found is left out. */
+SensorNoise_EXPORT void
+NoteCodes(Report & report, const CodeSettings & codes);
+
+/** Notes the pixels that a user left in, if there is a \a mask: `mask_crc32`, 8 hexadecimal digits, the CRC-32 (as
+ * zlib's and PNG's) of the text "<width>x<height>:" and one byte a pixel, row by row, 1 where the mask is not 0. */
+SensorNoise_EXPORT void
+NoteMask(Report & report, const FrameGeometry & geometry, const std::vector<std::uint8_t> & mask);
+
+/** Notes what the stack was cut out of: `roi_x`, `roi_y`, `roi_width`, `roi_height` and `frame_range_first`,
+ * `frame_range_end`. */
+SensorNoise_EXPORT void
+NoteSelection(Report & report, const StackSelection & selection);
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_scene_InnerBlocks_h
+#define sensornoise_scene_InnerBlocks_h
+
+#include "sensornoise/FrameGeometry.h"
+#include "sensornoise/Parallel.h"
+#include "base/Stencils.h"
+#include "base/WideVectors.h"
+
+#include <cstddef>
+
+namespace sensornoise
+{
+
+/** Calls function(begin, end) for blocks of the pixels of all rows but those next to the border, in any order and
+ * possibly at the same time: there a stencil reads nothing behind the map, not even at the ends of the rows, where what
+ * it gives is of no meaning. So loops over whole blocks need not ask, and become vectors, for which they are compiled
+ * wide.
+ */
+template <typename TFunction>
+void
+ForInnerBlocks(const FrameGeometry & geometry, const ParallelFor & parallelFor, TFunction function)
+{
+  if (geometry.height > 2 * StencilMargin)
+  {
+    const std::size_t first = StencilMargin * geometry.width;
+    ForBlocks(geometry.Pixels() - 2 * first, parallelFor, [&function, first](std::size_t begin, std::size_t end) {
+      WithWideVectors([&] { function(first + begin, first + end); });
+    });
+  }
+}
+
+} // namespace sensornoise
+
+#endif

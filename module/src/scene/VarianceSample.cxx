@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/VarianceSample.h"
+
+#include "base/Quantiles.h"
+#include "base/Stencils.h"
+#include "scene/Constants.h"
+#include "scene/ProvisionalModel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sensornoise
+{
+
+namespace
+{
+constexpr std::size_t Bins = 32; // of intensity
+} // namespace
+
+VarianceSample
+SampleVariance(const ReferenceFrame & frame, const std::vector<std::size_t> & pixels, const ProvisionalModel & model)
+{
+  const auto &      stencils = MotionStencils();
+  const std::size_t n = pixels.size();
+  VarianceSample    sample;
+  sample.design.resize(static_cast<Eigen::Index>(n), VarianceSample::Terms);
+  sample.level.resize(n);
+  sample.raw.resize(n);
+  sample.energy.resize(n);
+  sample.scale = std::max(1e-9, model.brightestDn - model.darkestDn);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    const std::size_t p = pixels[i];
+    const double      gx = ApplyStencil(stencils[StencilX], frame.mean.data(), frame.geometry.width, p);
+    const double      gy = ApplyStencil(stencils[StencilY], frame.mean.data(), frame.geometry.width, p);
+    const double      x = (frame.neighbourMean[p] - model.darkestDn) / sample.scale;
+    sample.level[i] = frame.neighbourMean[p];
+    sample.raw[i] = frame.variance[p];
+    sample.energy[i] = gx * gx + gy * gy;
+    sample.design.row(static_cast<Eigen::Index>(i)) << 1.0, x, x * x, gx * gx, gy * gy, gx * gy;
+  }
+  return sample;
+}
+
+VariancePrediction
+StartFromMedians(const VarianceSample & sample)
+{
+  const std::vector<std::size_t> binOf = BinsOfEqualCount(sample.level, Bins);
+  const double                   middleEnergy = QuantileOf(sample.energy, 0.5);
+  std::vector<double>            smooth;
+  std::vector<std::size_t>       smoothBin;
+  for (std::size_t i = 0; i < sample.Size(); ++i)
+  {
+    if (sample.energy[i] <= middleEnergy)
+    {
+      smooth.push_back(sample.raw[i]);
+      smoothBin.push_back(binOf[i]);
+    }
+  }
+  const std::vector<double> medians = MediansOfBins(smooth, smoothBin, Bins);
+  VariancePrediction        start;
+  double                    largest = 0.0;
+  for (const double median : medians)
+  {
+    if (std::isfinite(median))
+    {
+      largest = std::max(largest, median);
+      start.lowest = start.lowest == 0.0 ? median : std::min(start.lowest, median);
+    }
+  }
+  start.variance.resize(sample.Size());
+  start.keep.resize(sample.Size());
+  for (std::size_t i = 0; i < sample.Size(); ++i)
+  {
+    const double median = medians[binOf[i]];
+    start.variance[i] = std::isfinite(median) ? median : largest;
+    start.keep[i] =
+      sample.raw[i] <
+          (sample.energy[i] <= middleEnergy ? InScene.startRatioSmooth : InScene.startRatioRough) * start.variance[i]
+        ? 1
+        : 0;
+  }
+  return start;
+}
+
+VarianceSample::Coefficients
+SolveKept(const VarianceSample & sample, const VariancePrediction & prediction)
+{
+  using Gram = Eigen::Matrix<double, VarianceSample::Terms, VarianceSample::Terms>;
+  Gram                         gram = Gram::Zero();
+  VarianceSample::Coefficients right = VarianceSample::Coefficients::Zero();
+  for (std::size_t i = 0; i < sample.Size(); ++i)
+  {
+    if (prediction.keep[i] != 0)
+    {
+      const double w = 1.0 / (prediction.variance[i] * prediction.variance[i]);
+      const auto   terms = sample.TermsOf(i);
+      gram.noalias() += w * terms.transpose() * terms;
+      right.noalias() += w * sample.raw[i] * terms.transpose();
+    }
+  }
+  const VarianceSample::Coefficients unit = (gram.diagonal().array() + 1e-300).rsqrt();
+  const Gram                         scaled = unit.asDiagonal() * gram * unit.asDiagonal();
+  return unit.asDiagonal() * scaled.completeOrthogonalDecomposition().solve(unit.asDiagonal() * right);
+}
+
+void
+Predict(const VarianceSample &               sample,
+        const VarianceSample::Coefficients & theta,
+        double                               largestRatio,
+        VariancePrediction &                 prediction)
+{
+  prediction.variance.resize(sample.Size());
+  prediction.keep.resize(sample.Size());
+  for (std::size_t i = 0; i < sample.Size(); ++i)
+  {
+    prediction.variance[i] = std::max(InScene.leastShareOfDarkest * prediction.lowest, sample.TermsOf(i).dot(theta));
+    prediction.keep[i] = sample.raw[i] < largestRatio * prediction.variance[i] ? 1 : 0;
+  }
+}
+
+} // namespace sensornoise

@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_series_FrameBatch_h
+#define sensornoise_series_FrameBatch_h
+
+#include "sensornoise/FrameGeometry.h"
+#include "base/PixelLayout.h"
+#include "base/WideVectors.h"
+#include "series/FrameSums.h"
+#include "series/RegressorBand.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace detail
+{
+using WeightedColumns = FrameRegressors::WeightedColumns;
+using ClassColumns = std::array<WeightedColumns, GradientClasses>;
+
+inline constexpr std::size_t BandPixels = 4096; // the band's columns stay in the second-level cache
+
+/** Calls function() after \a band was moved to each band of a row of cells, in order. */
+template <typename TFunction>
+void
+ForBands(const FrameGeometry & geometry,
+         std::size_t           cellRow,
+         std::size_t           cellRows,
+         RegressorBand &       band,
+         TFunction             function)
+{
+  const std::size_t end = geometry.height * (cellRow + 1) / cellRows;
+  const std::size_t rows = std::max<std::size_t>(1, BandPixels / geometry.width);
+  for (std::size_t y = geometry.height * cellRow / cellRows; y < end; y += rows)
+  {
+    band.MoveTo(y, std::min(rows, end - y));
+    function();
+  }
+}
+
+/** Adds the sums of \a count series over a band to theirs over the classes, and calls function(cell of the band,
+ * series, sum of w, sum of w I) for the cells, group by group. */
+template <typename TFunction>
+void
+AddToClasses(const RegressorBand &                    band,
+             const std::vector<RegressorBand::Sums> & sums,
+             std::size_t                              count,
+             ClassColumns *                           parts,
+             TFunction                                function)
+{
+  for (std::size_t g = 0; g < sums.size(); ++g)
+  {
+    const RegressorBand::Group & group = band.GetGroups()[g];
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      const double * const sum = sums[g][k].data();
+      WeightedColumns &    columns = parts[k][group.gradientClass];
+      std::transform(columns.begin(), columns.end(), sum, columns.begin(), std::plus<double>());
+      function(
+        group.cell, k, sum[FrameColumns + FrameSums::Instruments], sum[FrameColumns + FrameSums::Instruments + 1]);
+    }
+  }
+}
+} // namespace detail
+
+/** Frames on their way into the sums. */
+template <typename TPixel>
+struct FrameSums::Batch
+{
+  FrameSums *                                    sums{ nullptr };
+  const TPixel *                                 frames{ nullptr };
+  std::size_t                                    first{ 0 };
+  std::size_t                                    count{ 0 };
+  std::vector<std::vector<detail::ClassColumns>> parts;     // of each cell row, and frame
+  std::vector<ColumnSums>                        ofColumns; // of each cell row; none: they are known
+
+  /** Different rows may be added at the same time. */
+  void
+  AddCellRow(std::size_t cellRow)
+  {
+    const PixelLayout & layout = sums->m_Layout;
+    RegressorBand       band(sums->m_Regressors, sums->m_CellsPerRow);
+    std::vector<TPixel> room;
+    parts[cellRow].resize(count);
+    detail::ForBands(sums->GetFrame().geometry, cellRow, sums->m_CellRows, band, [&] {
+      room.resize(layout.AreSideBySide() ? 0 : band.Pixels());
+      if (!ofColumns.empty()) // the band need not be made again for them
+      {
+        sums->AddColumns(band, cellRow, ofColumns[cellRow]);
+      }
+      const double * const mean = sums->GetFrame().mean.data() + band.First();
+      for (std::size_t t = 0; t < count; t += RegressorBand::Together)
+      {
+        const std::size_t together = std::min(RegressorBand::Together, count - t);
+        for (std::size_t k = 0; k < together; ++k)
+        {
+          const TPixel * const frame =
+            layout.SideBySide(frames + (t + k) * layout.frame, band.First(), band.First() + band.Pixels(), room.data());
+          double * const series = band.Series(k);
+          WithWideVectors([&] {
+            std::transform(frame, frame + band.Pixels(), mean, series, [](TPixel value, double expected) {
+              return static_cast<double>(value) - expected;
+            });
+          });
+        }
+        detail::AddToClasses(
+          band,
+          band.Multiply([&, next = t + together](std::size_t group) { this->AskFor(band, group, next); }),
+          together,
+          &parts[cellRow][t],
+          [&](std::size_t cell, std::size_t k, double w, double wI) {
+            std::array<double, 2> & ofCell =
+              sums->m_Products.OfCell(first + t + k, cellRow * sums->m_CellsPerRow + cell);
+            ofCell[0] += w;
+            ofCell[1] += wI;
+          });
+      }
+    });
+  }
+
+  /** The frames from \a next on will be needed soon: their pixels are asked for, a share with every group. */
+  void
+  AskFor(const RegressorBand & band, std::size_t group, std::size_t next) const
+  {
+    const std::size_t groups = band.GetGroups().size();
+    for (std::size_t t = next; t < std::min(count, next + RegressorBand::Together); ++t)
+    {
+      sums->m_Layout.Prefetch(frames + t * sums->m_Layout.frame,
+                              band.First() + band.Pixels() * group / groups,
+                              band.First() + band.Pixels() * (group + 1) / groups);
+    }
+  }
+
+  /** All rows are in. */
+  void
+  End()
+  {
+    if (!ofColumns.empty())
+    {
+      sums->TakeColumns(ofColumns);
+    }
+    for (const std::vector<detail::ClassColumns> & part : parts)
+    {
+      for (std::size_t t = 0; t < count; ++t)
+      {
+        for (std::size_t c = 0; c < GradientClasses; ++c)
+        {
+          const detail::WeightedColumns & columns = part[t][c];
+          sums->m_Products.OfClass(first + t, c) += Eigen::Map<const ColumnVector>(columns.data());
+          sums->m_Products.OfInstruments(first + t)[0] += columns[FrameColumns];
+          sums->m_Products.OfInstruments(first + t)[1] += columns[FrameColumns + 1];
+        }
+      }
+    }
+  }
+};
+
+} // namespace sensornoise
+
+#endif

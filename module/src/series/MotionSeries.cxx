@@ -1,0 +1,270 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "series/MotionSeries.h"
+
+#include "base/Stencils.h"
+#include "series/Constants.h"
+#include "series/FrameProducts.h"
+#include "series/ShiftInstruments.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sensornoise
+{
+
+namespace
+{
+using InstrumentGram = Eigen::Matrix<double, FrameSums::Instruments, FrameColumns>;
+
+/** Part of the third central difference D, at most, that a first one d lacks of the derivative: with a band-limited
+ * scene p' = d - D / 6 + ..., as k = sin k + k^3 / 6 - ... of a wave. */
+constexpr double LargestThirdDifference = 1.0 / 6.0;
+
+/** The products of the instruments with the columns, without the noise that they share. */
+InstrumentGram
+GramWithoutNoise(const FrameSums & sums, const InstrumentNoise & noise)
+{
+  // The triangle of two boxes of side s has the height 1 / s, and (s - 2) / s^2 two pixels away; a central difference
+  // smoothed by it and the plain one share (height - that) / 2 of the noise, along the other axis the height again. It
+  // is the same at one pixel and at two, so that the third difference shares as much, with the other sign.
+  const double   side = 2.0 * static_cast<double>(InSeries.instrumentRadius) + 1.0;
+  const double   shared = 0.5 * (1.0 / side - (side - 2.0) / (side * side)) / side;
+  const auto     frames = sums.GetFrame().frames;
+  const double   ofMean = shared * noise.variance / static_cast<double>(frames);
+  InstrumentGram gram = sums.GetInstrumentGram();
+  gram(0, 2 + StencilX) -= ofMean;
+  gram(1, 2 + StencilY) -= ofMean;
+  gram(0, 2 + StencilXXX) += ofMean;
+  gram(1, 2 + StencilYYY) += ofMean;
+  return gram;
+}
+
+/** A number that is known to be in an interval, and how well [1]. */
+struct Bounded
+{
+  double mean;
+  double sd;
+};
+
+/** What a normal estimate says of a number that is equally likely anywhere between -LargestThirdDifference and 0. */
+Bounded
+WithinThirdDifferences(double estimate, double standardError)
+{
+  constexpr int points = 65; // of the mean: to a hundredth of the interval, whatever the standard error
+  const double  nearest = std::clamp(estimate, -LargestThirdDifference, 0.0) - estimate;
+  double        sum = 0.0;
+  double        first = 0.0;
+  double        second = 0.0;
+  for (int i = 0; i < points; ++i)
+  {
+    const double value = -LargestThirdDifference * i / (points - 1.0);
+    const double off = value - estimate;
+    const double weight = std::exp(0.5 * (nearest * nearest - off * off) / (standardError * standardError));
+    sum += weight;
+    first += weight * value;
+    second += weight * value * value;
+  }
+  if (!(sum > 0.0) || !std::isfinite(sum))
+  {
+    return { estimate + nearest, 0.0 }; // far narrower than the points are apart
+  }
+  const double mean = first / sum;
+  return { mean, std::sqrt(std::max(0.0, second / sum - mean * mean)) };
+}
+
+/** The coefficient of a third difference over that of the first one, \a k, both over time and without their noise. A
+ * band-limited scene has -1/6; what is interpolated between pixels by cubics has 0. Least squares depends on sharp
+ * edges, and goes beyond. */
+Bounded
+ThirdDifference(const FrameEquations &      equations,
+                const std::vector<double> & gamma,
+                double                      offset,
+                std::size_t                 k,
+                std::size_t                 third)
+{
+  const Bounded unknown = WithinThirdDifferences(0.0, 1.0);
+  const auto    ofThird = static_cast<Eigen::Index>(2 + third);
+  if (!(equations.allGram(ofThird, ofThird) > InSeries.leastSignalShare * equations.allRawGram(ofThird, ofThird)))
+  {
+    return unknown;
+  }
+  std::vector<Eigen::Index> columns{ static_cast<Eigen::Index>(2 + k), ofThird };
+  for (std::size_t a = 2; a < equations.active.size(); ++a)
+  {
+    const auto column = static_cast<Eigen::Index>(equations.active[a]);
+    if (column != columns[0] && column != columns[1])
+    {
+      columns.push_back(column);
+    }
+  }
+  const auto      size = static_cast<Eigen::Index>(columns.size());
+  const auto      frames = equations.allRight.rows();
+  Eigen::MatrixXd gram(size, size);
+  Eigen::MatrixXd rawGram(size, size);
+  Eigen::MatrixXd right(frames, size);
+  for (Eigen::Index i = 0; i < size; ++i)
+  {
+    const auto   column = columns[static_cast<std::size_t>(i)];
+    const double light = equations.allGram(column, 1) - offset * equations.allGram(column, 0);
+    right.col(i) = equations.allRight.col(column) - light * Eigen::Map<const Eigen::VectorXd>(gamma.data(), frames);
+    for (Eigen::Index j = 0; j < size; ++j)
+    {
+      gram(i, j) = equations.allGram(column, columns[static_cast<std::size_t>(j)]);
+      rawGram(i, j) = equations.allRawGram(column, columns[static_cast<std::size_t>(j)]);
+    }
+  }
+  const Eigen::MatrixXd inverse = gram.inverse();
+  const Eigen::MatrixXd coefficients = right * inverse;
+  const Eigen::MatrixXd noise = inverse * rawGram * inverse;
+  const double          freedom = static_cast<double>(frames) - 1.0;
+  const double          square = coefficients.col(0).squaredNorm() - freedom * noise(0, 0);
+  if (!(square > freedom * noise(0, 0)))
+  {
+    return unknown; // more noise than motion
+  }
+  const double ratio = (coefficients.col(0).dot(coefficients.col(1)) - freedom * noise(0, 1)) / square;
+  const double residual = (coefficients.col(1) - ratio * coefficients.col(0)).squaredNorm() / freedom;
+  return WithinThirdDifferences(ratio, std::sqrt(residual / square));
+}
+
+/** What the noise of the sums over a frame is: of its columns that are active and, last, of the two instruments. */
+Eigen::MatrixXd
+NoiseOfSums(const FrameEquations & equations, const InstrumentGram & gram, const InstrumentNoise & noise)
+{
+  const auto      columns = static_cast<Eigen::Index>(equations.active.size());
+  Eigen::MatrixXd covariance(columns + 2, columns + 2);
+  covariance.topLeftCorner(columns, columns) = equations.rawGram;
+  covariance.bottomRightCorner<2, 2>() = noise.squares;
+  for (Eigen::Index i = 0; i < columns; ++i)
+  {
+    const auto column = static_cast<Eigen::Index>(equations.active[static_cast<std::size_t>(i)]);
+    covariance.block<1, 2>(i, columns) = gram.col(column).transpose();
+    covariance.block<2, 1>(columns, i) = gram.col(column);
+  }
+  return covariance;
+}
+} // namespace
+
+double
+MotionSeries::Get(std::size_t t, std::size_t k) const
+{
+  for (std::size_t i = 0; i < stencils.size(); ++i)
+  {
+    if (stencils[i] == k)
+    {
+      return coefficients(static_cast<Eigen::Index>(t), static_cast<Eigen::Index>(i));
+    }
+  }
+  return 0.0;
+}
+
+MotionSeries
+SolveMotion(const FrameEquations & equations, const std::vector<double> & gamma, double offset)
+{
+  MotionSeries series;
+  for (std::size_t k = 2; k < equations.active.size(); ++k)
+  {
+    series.stencils.push_back(equations.active[k] - 2);
+  }
+  const auto motion = static_cast<Eigen::Index>(series.stencils.size());
+  const auto frames = equations.right.rows();
+  if (motion == 0)
+  {
+    series.coefficients.resize(frames, 0);
+    series.covariance.resize(0, 0);
+    series.inverseGram.resize(0, 0);
+    series.ofLight.resize(0, 2);
+    return series;
+  }
+  const Eigen::MatrixXd  inverse = equations.gram.bottomRightCorner(motion, motion).inverse();
+  const Eigen::MatrixX2d columns = equations.gram.bottomLeftCorner(motion, 2);
+  const Eigen::VectorXd  light = columns * Eigen::Vector2d(-offset, 1.0);
+  const Eigen::VectorXd  flicker = Eigen::Map<const Eigen::VectorXd>(gamma.data(), frames);
+  series.coefficients = (equations.right.rightCols(motion) - flicker * light.transpose()) * inverse;
+  series.inverseGram = inverse;
+  series.ofLight = inverse * columns;
+  const bool hasX = equations.Find(2 + StencilX).has_value();
+  if (hasX != equations.Find(2 + StencilY).has_value())
+  {
+    const Eigen::Index own = 2 + (hasX ? StencilX : StencilY);
+    series.ofOtherAxis = equations.allGram(2 + StencilX, 2 + StencilY) / equations.allGram(own, own);
+  }
+  series.covariance = inverse * equations.rawGram.bottomRightCorner(motion, motion) * inverse;
+  return series;
+}
+
+std::optional<InstrumentShifts>
+SolveShifts(const FrameSums &           sums,
+            const FrameEquations &      equations,
+            const MotionSeries &        motion,
+            const InstrumentNoise &     noise,
+            const std::vector<double> & gamma,
+            double                      offset)
+{
+  if (!equations.Find(2 + StencilX) || !equations.Find(2 + StencilY))
+  {
+    return std::nullopt;
+  }
+  const auto           frames = sums.GetFrame().frames;
+  const InstrumentGram gram = GramWithoutNoise(sums, noise);
+  const Bounded        alongX = ThirdDifference(equations, gamma, offset, StencilX, StencilXXX);
+  const Bounded        alongY = ThirdDifference(equations, gamma, offset, StencilY, StencilYYY);
+  Eigen::Matrix2d      gradient;
+  gradient << gram.col(2 + StencilX) + alongX.mean * gram.col(2 + StencilXXX),
+    gram.col(2 + StencilY) + alongY.mean * gram.col(2 + StencilYYY);
+  if (!(gradient.diagonal().prod() > 0.0 &&
+        gradient.determinant() > InSeries.leastDeterminant * gradient.diagonal().prod()))
+  {
+    return std::nullopt; // too little of the scene is whole
+  }
+  const Eigen::Matrix2d inverse = gradient.inverse();
+  const Eigen::Vector2d direction(-offset, 1.0); // of the flicker, in the columns of the light
+  InstrumentShifts      shifts;
+  shifts.ofLight = inverse * gram.leftCols<2>();
+  shifts.scaleErrors << alongX.sd * std::abs(gram(0, 2 + StencilXXX) / gradient(0, 0)),
+    alongY.sd * std::abs(gram(1, 2 + StencilYYY) / gradient(1, 1));
+  shifts.coefficients.resize(static_cast<Eigen::Index>(frames), 2);
+  for (std::size_t t = 0; t < frames; ++t)
+  {
+    const auto &    sum = sums.GetInstrumentSums(t);
+    Eigen::Vector2d rest = Eigen::Vector2d(sum[0], sum[1]) - gamma[t] * gram.leftCols<2>() * direction;
+    for (std::size_t i = 0; i < motion.stencils.size(); ++i)
+    {
+      const std::size_t k = motion.stencils[i];
+      if (MotionStencils()[k].order == 2)
+      {
+        rest -= motion.coefficients(static_cast<Eigen::Index>(t), static_cast<Eigen::Index>(i)) *
+                gram.col(static_cast<Eigen::Index>(2 + k));
+      }
+    }
+    shifts.coefficients.row(static_cast<Eigen::Index>(t)) = inverse * rest;
+  }
+  // The shifts are linear in the sums of the frame: so is the flicker that is taken off, v' r / v' G v of the light's
+  // sums without the motion's, and so are the coefficients of second order.
+  const Eigen::MatrixXd ofSums = NoiseOfSums(equations, sums.GetInstrumentGram(), noise);
+  const auto            columns = static_cast<Eigen::Index>(equations.active.size());
+  const auto            size = static_cast<Eigen::Index>(motion.stencils.size());
+  Eigen::RowVectorXd    flicker = Eigen::RowVectorXd::Zero(columns + 2);
+  flicker.head(2) = direction.transpose();
+  flicker.segment(2, size) = -(motion.ofLight * direction).transpose();
+  flicker /= direction.dot(equations.light * direction);
+  Eigen::MatrixXd solution = Eigen::MatrixXd::Zero(2, columns + 2);
+  solution.rightCols<2>().setIdentity();
+  solution -= gram.leftCols<2>() * direction * flicker;
+  for (Eigen::Index i = 0; i < size; ++i)
+  {
+    const std::size_t k = motion.stencils[static_cast<std::size_t>(i)];
+    if (MotionStencils()[k].order == 2)
+    {
+      Eigen::RowVectorXd coefficient = -motion.ofLight.row(i).dot(direction) * flicker;
+      coefficient.segment(2, size) += motion.inverseGram.row(i);
+      solution -= gram.col(static_cast<Eigen::Index>(2 + k)) * coefficient;
+    }
+  }
+  solution = inverse * solution;
+  shifts.covariance = solution * ofSums * solution.transpose();
+  return shifts;
+}
+
+} // namespace sensornoise

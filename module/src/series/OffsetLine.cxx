@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "series/OffsetLine.h"
+
+#include "base/ChiSquare.h"
+#include "scene/ProvisionalModel.h"
+#include "series/FrameProducts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** The standard error of the offset, from the flicker's energy above its noise. */
+void
+SetStandardError(OffsetLine & line, double frames)
+{
+  const Eigen::Vector2d v(-line.offset, 1.0);
+  double                squares = 0.0;
+  for (const double gamma : line.gamma)
+  {
+    squares += gamma * gamma;
+  }
+  const double signal = squares - (frames - 1.0) / line.precision * line.Widening();
+  const double across = v.dot(line.light.col(0));
+  const double information = signal * (line.light(0, 0) - across * across / line.precision);
+  if (information > 0.0)
+  {
+    line.standardError = std::sqrt(line.Widening() / information);
+  }
+}
+
+/** The interval {m: J(m) >= max J - t^2 phi}; \a energy is sum r r', \a larger the maximum of J. */
+void
+SetInterval(OffsetLine & line, const Eigen::Matrix2d & energy, double larger, double frames)
+{
+  const double          student = StudentQuantile(0.975, std::max(1.0, frames - 2.0));
+  const Eigen::Matrix2d q = energy - (larger - student * student * line.Widening()) * line.light;
+  const double          discriminant = q(0, 1) * q(0, 1) - q(0, 0) * q(1, 1);
+  if (q(0, 0) < 0.0 && discriminant > 0.0)
+  {
+    const double root = std::sqrt(discriminant);
+    line.low = (q(0, 1) + root) / q(0, 0);
+    line.high = (q(0, 1) - root) / q(0, 0);
+  }
+}
+} // namespace
+
+void
+OffsetLine::UseOffset(double m)
+{
+  const Eigen::Vector2d v(-m, 1.0);
+  precision = v.dot(light * v);
+  sensitivity = v.dot(light.col(0)) / precision;
+  gamma.clear();
+  for (Eigen::Index t = 0; t < response.rows(); ++t)
+  {
+    gamma.push_back(response.row(t).dot(v) / precision);
+  }
+}
+
+std::optional<OffsetLine>
+FitOffsetLine(const FrameEquations & equations)
+{
+  const auto                        frames = static_cast<double>(equations.response.rows());
+  const Eigen::Matrix2d             energy = equations.response.transpose() * equations.response;
+  const Eigen::LLT<Eigen::Matrix2d> factor(equations.light);
+  if (equations.isLevelMotion || factor.info() != Eigen::Success || !energy.allFinite())
+  {
+    return std::nullopt;
+  }
+  const Eigen::Matrix2d                                half = factor.matrixL().solve(energy);
+  const Eigen::Matrix2d                                whitened = factor.matrixL().solve(half.transpose());
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(0.5 * (whitened + whitened.transpose()));
+  const Eigen::Vector2d                                direction = factor.matrixU().solve(eigen.eigenvectors().col(1));
+
+  OffsetLine   line;
+  const double larger = eigen.eigenvalues()(1);
+  line.offset = -direction(0) / direction(1);
+  line.phi = std::max(0.0, eigen.eigenvalues()(0)) / std::max(1.0, frames - 2.0);
+  line.flickerZ = (larger - (frames - 1.0)) / std::sqrt(2.0 * (frames - 1.0));
+  if (!std::isfinite(line.offset))
+  {
+    return std::nullopt;
+  }
+  line.light = equations.light;
+  line.response = equations.response;
+  line.UseOffset(line.offset);
+  SetStandardError(line, frames);
+  SetInterval(line, energy, larger, frames);
+  return line;
+}
+
+namespace
+{
+double
+ContrastOf(const FrameEquations & equations)
+{
+  return std::clamp(equations.gram(1, 1) / equations.rawGram(1, 1), 0.0, 1.0);
+}
+
+/** The flicker of a scene of one level, whose offset it cannot tell; null if the levels are one and the same, or their
+ * gram has no part left for light. */
+std::optional<OffsetLine>
+LineOfOneLevel(const FrameEquations & equations, double offset)
+{
+  if (!(equations.light(0, 0) > 0.0) || !(offset != 0.0))
+  {
+    return std::nullopt;
+  }
+  OffsetLine line;
+  line.light << equations.light(0, 0), 0.0, 0.0, 0.0;
+  line.response = equations.response;
+  line.offset = offset;
+  line.lastClass = GradientClasses - 1;
+  line.UseOffset(offset);
+  return line;
+}
+
+/** The flicker of a ramp, by what its slope changes. Any offset goes with it: a level can be motion. */
+OffsetLine
+LineOfRamp(const FrameEquations & equations, double offset)
+{
+  OffsetLine line;
+  line.light = equations.light;
+  line.response = equations.response;
+  line.offset = offset;
+  line.contrast = ContrastOf(equations);
+  line.lastClass = GradientClasses - 1;
+  line.isLevelMotion = true;
+  line.UseOffset(offset);
+  const auto frames = static_cast<double>(line.gamma.size());
+  const auto gamma = Eigen::Map<const Eigen::VectorXd>(line.gamma.data(), equations.response.rows());
+  line.flickerZ = (line.precision * gamma.squaredNorm() - (frames - 1.0)) / std::sqrt(2.0 * (frames - 1.0));
+  return line;
+}
+} // namespace
+
+std::optional<OffsetLine>
+FitOffsetLine(const FrameSums & sums, const RegressorNoise & noise, const std::vector<double> & gamma)
+{
+  std::optional<OffsetLine> best;
+  double                    smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t c = 0; c < GradientClasses; ++c)
+  {
+    const FrameEquations      equations = MakeFrameEquations(sums, noise, c, gamma);
+    std::optional<OffsetLine> line = FitOffsetLine(equations);
+    if (line)
+    {
+      const Eigen::Matrix2d & g = equations.light;
+      const double            error = std::sqrt(line->Widening() / (g(0, 0) - g(0, 1) * g(0, 1) / g(1, 1)));
+      if (error < smallest)
+      {
+        smallest = error;
+        line->lastClass = c;
+        line->contrast = ContrastOf(equations);
+        best = std::move(line);
+      }
+    }
+  }
+  if (!best)
+  {
+    const ProvisionalModel & model = sums.GetRegressors().GetModel();
+    const FrameEquations     equations = MakeFrameEquations(sums, noise, GradientClasses - 1, gamma);
+    const double             darkest = model.darkestDn - model.centreDn;
+    best = equations.isLevelMotion ? LineOfRamp(equations, darkest) : LineOfOneLevel(equations, darkest);
+  }
+  return best;
+}
+
+} // namespace sensornoise

@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "series/RegressorBand.h"
+
+#include "base/Stencils.h"
+#include "base/WideVectors.h"
+#include "series/Constants.h"
+#include "series/FrameProducts.h"
+#include "series/GroupProducts.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <numeric>
+#include <type_traits>
+#include <utility>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** The derivatives of MotionStencils() at \a count pixels from \a mean on, each in a row of \a rows that \a stride
+ * numbers lie between. One after the other: each loop becomes vectors. */
+template <std::size_t... VStencils>
+void
+FillDerivatives(const double * mean,
+                std::size_t    width,
+                std::size_t    count,
+                double *       rows,
+                std::size_t    stride,
+                std::index_sequence<VStencils...>)
+{
+  const auto fill = [&](auto stencil) {
+    double * const row = rows + stencil * stride;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      row[i] = std::get<stencil>(ApplyStencils(mean, width, i));
+    }
+  };
+  (fill(std::integral_constant<std::size_t, VStencils>()), ...);
+}
+} // namespace
+
+RegressorBand::RegressorBand(const FrameRegressors & regressors, std::size_t cells)
+  : m_Regressors(regressors)
+  , m_Cells(cells)
+{}
+
+/** Calls function(pixel of the band, group) for the pixels that serve, row by row. */
+template <typename TFunction>
+void
+RegressorBand::ForUsed(TFunction function) const
+{
+  const std::size_t width = m_Regressors.GetFrame().geometry.width;
+  for (std::size_t row = 0; row < m_Pixels; row += width)
+  {
+    for (std::size_t cell = 0; cell < m_Cells; ++cell)
+    {
+      const std::size_t end = width * (cell + 1) / m_Cells;
+      for (std::size_t x = width * cell / m_Cells; x < end; ++x)
+      {
+        const std::uint8_t gradientClass = m_Regressors.ClassOf(m_First + row + x);
+        if (gradientClass != FrameRegressors::Unused)
+        {
+          function(row + x, cell * GradientClasses + gradientClass);
+        }
+      }
+    }
+  }
+}
+
+void
+RegressorBand::MoveTo(std::size_t firstRow, std::size_t rows)
+{
+  const std::size_t width = m_Regressors.GetFrame().geometry.width;
+  m_First = firstRow * width;
+  m_Pixels = rows * width;
+  m_Rows.resize(NumberOfRows * m_Pixels);
+  m_Series.resize(Together * m_Pixels);
+  this->FindOrder();
+  WithWideVectors([this] {
+    this->FillValues();
+    this->FillWeights();
+    this->FillColumns();
+  });
+}
+
+/** Orders the pixels that serve by group. */
+void
+RegressorBand::FindOrder()
+{
+  m_Places.assign(m_Cells * GradientClasses + 1, 0);
+  this->ForUsed([this](std::size_t, std::size_t group) { ++m_Places[group + 1]; });
+  std::partial_sum(m_Places.begin(), m_Places.end(), m_Places.begin());
+  m_Groups.clear();
+  for (std::size_t group = 0; group + 1 < m_Places.size(); ++group)
+  {
+    if (m_Places[group + 1] > m_Places[group])
+    {
+      m_Groups.push_back({ group / GradientClasses, group % GradientClasses, m_Places[group], m_Places[group + 1] });
+    }
+  }
+  m_Order.resize(m_Places.back());
+  m_Columns.resize(m_Places.back());
+  m_Sums.resize(m_Groups.size());
+  this->ForUsed(
+    [this](std::size_t i, std::size_t group) { m_Order[m_Places[group]++] = static_cast<std::uint32_t>(i); });
+}
+
+/** 1, the mean minus the centre, and its derivatives, which at the border are of no meaning. */
+void
+RegressorBand::FillValues()
+{
+  const ReferenceFrame & frame = m_Regressors.GetFrame();
+  const double * const   mean = frame.mean.data() + m_First;
+  const double           centreDn = m_Regressors.GetModel().centreDn;
+  std::fill_n(this->RowOf(0), m_Pixels, 1.0);
+  std::transform(mean, mean + m_Pixels, this->RowOf(1), [centreDn](double level) { return level - centreDn; });
+  const std::size_t width = frame.geometry.width;
+  const std::size_t border = StencilMargin * width;
+  const std::size_t first = std::max(border, m_First);
+  const std::size_t last = std::min(frame.mean.size() - std::min(frame.mean.size(), border), m_First + m_Pixels);
+  if (first < last)
+  {
+    FillDerivatives(frame.mean.data() + first,
+                    width,
+                    last - first,
+                    this->RowOf(2) + (first - m_First),
+                    m_Pixels,
+                    std::make_index_sequence<NumberOfStencils>());
+  }
+}
+
+/** The inverse noise, that of cells, and the weighted instruments. */
+void
+RegressorBand::FillWeights()
+{
+  const ProvisionalModel   model = m_Regressors.GetModel(); // its own: no number below can be one of its
+  const ShiftInstruments & instruments = m_Regressors.GetInstruments();
+  const double * const     level = m_Regressors.GetFrame().neighbourMean.data() + m_First;
+  const double * const     gx = this->RowOf(2 + StencilX);
+  const double * const     gy = this->RowOf(2 + StencilY);
+  const double * const     weight = instruments.weight.data() + m_First;
+  double * const           ofPixel = this->RowOf(Weight);
+  double * const           ofCell = this->RowOf(CellWeight);
+  // Motion that the derivatives do not explain is noise to the light's local changes.
+  const double motionLeft = InSeries.motionLeftInCells;
+  for (std::size_t i = 0; i < m_Pixels; ++i)
+  {
+    const double noise = model.NoiseVariance(level[i]);
+    ofPixel[i] = 1.0 / noise;
+    ofCell[i] = 1.0 / (noise + motionLeft * model.MotionVariance(gx[i], gy[i]));
+  }
+  const auto weigh = [&](const std::vector<double> & instrument, double * weighted) {
+    const double * const own = instrument.data() + m_First;
+    std::transform(own, own + m_Pixels, weight, weighted, std::multiplies<double>());
+  };
+  weigh(instruments.x, this->RowOf(InstrumentX));
+  weigh(instruments.y, this->RowOf(InstrumentY));
+}
+
+/** The weighted columns of each pixel side by side, group by group. */
+void
+RegressorBand::FillColumns()
+{
+  const std::size_t pixels = m_Pixels;
+  for (std::size_t place = 0; place < m_Order.size(); ++place)
+  {
+    const double * const               own = m_Rows.data() + m_Order[place];
+    const double                       weight = own[Weight * pixels];
+    const double                       ofCell = own[CellWeight * pixels];
+    FrameRegressors::WeightedColumns & columns = m_Columns[place];
+    for (std::size_t k = 0; k < FrameColumns; ++k)
+    {
+      columns[k] = weight * own[k * pixels];
+    }
+    columns[FrameColumns] = own[InstrumentX * pixels];
+    columns[FrameColumns + 1] = own[InstrumentY * pixels];
+    columns[FrameColumns + FrameRegressors::Instruments] = ofCell;
+    columns[FrameColumns + FrameRegressors::Instruments + 1] = ofCell * own[pixels];
+    columns[FrameRegressors::Columns] = 0.0;
+  }
+}
+
+void
+RegressorBand::MultiplyGroupBy(std::size_t group, const double * series)
+{
+  MultiplyGroup(m_Groups[group], { m_Columns.data(), m_Order.data(), series, m_Pixels }, m_Sums[group]);
+}
+
+} // namespace sensornoise

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_series_ShiftInstruments_h
+#define sensornoise_series_ShiftInstruments_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/Parallel.h"
+#include "base/Stencils.h"
+#include "scene/ProvisionalModel.h"
+#include "scene/ReferenceFrame.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** The derivative of the mean by stencil \a k, smoothed [DN/pixel for the first derivatives], of all pixels. */
+SensorNoise_EXPORT std::vector<double>
+SmoothedDerivative(const ReferenceFrame & frame, StencilIndex k, const ParallelFor & parallelFor);
+
+/** Weights of the instruments: the inverse noise, smoothed, and falling smoothly to 0 where pixels are missing from
+ * \a mask. Rough weights, or an edge of which half is missing, would bring the short wavelengths back. */
+SensorNoise_EXPORT std::vector<double>
+InstrumentWeight(const ReferenceFrame &            frame,
+                 const ProvisionalModel &          model,
+                 const std::vector<std::uint8_t> & mask,
+                 const ParallelFor &               parallelFor);
+
+/** Instruments for the shifts along x and y: derivatives of long wavelengths, and their weights (see SolveShifts). */
+struct ShiftInstruments
+{
+  std::vector<double> x;
+  std::vector<double> y;
+  std::vector<double> weight;
+};
+
+/** Instruments over the pixels of \a mask. */
+SensorNoise_EXPORT ShiftInstruments
+MakeShiftInstruments(const ReferenceFrame &            frame,
+                     const ProvisionalModel &          model,
+                     const std::vector<std::uint8_t> & mask,
+                     const ParallelFor &               parallelFor);
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_simulation_BlockQuantisation_h
+#define sensornoise_simulation_BlockQuantisation_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/Parallel.h"
+#include "simulation/DoubleFrame.h"
+
+#include <array>
+#include <cstddef>
+
+namespace sensornoise
+{
+
+/** Lossy compression as JPEG does it to the luminance (Recommendation ITU-T T.81, 1992): blocks of 8 x 8 pixels from
+ * the upper left corner, their orthonormal discrete cosine transform, coefficients rounded to multiples of a step that
+ * grows with the frequency, and back. What JPEG does beside it is left out: the level shift, the rounding of the pixels
+ * (the simulator does that last), colour. Not linear: coefficients below half a step vanish. */
+struct BlockSettings
+{
+  /** Quality as libjpeg counts it, 1 to 100; 100 has a step of 1 code of 8 bits; 0: no compression. */
+  unsigned int quality{ 0 };
+
+  bool
+  IsOn() const
+  {
+    return quality > 0;
+  }
+};
+
+/** A step for each coefficient [DN], row after row: vertical frequency 0 to 7, in it horizontal frequency 0 to 7. */
+using BlockStepsDn = std::array<double, 64>;
+
+/** \throws std::invalid_argument if the setting cannot be used with a converter of \a bitDepth bits. */
+SensorNoise_EXPORT void
+CheckSettings(const BlockSettings & settings, unsigned int bitDepth);
+
+/** The luminance table of T.81, Table K.1, scaled by the quality and rounded as libjpeg's jpeg_quality_scaling() and
+ * jpeg_add_quant_table() do for baseline JPEG, in units of (2^bitDepth - 1) / 255. */
+SensorNoise_EXPORT BlockStepsDn
+StepsOfQuality(const BlockSettings & settings, unsigned int bitDepth);
+
+/** \a codesDn with the coefficients of each block at multiples of \a stepsDn, all above 0 [DN]. A block that the edge
+ * cuts is filled with copies of its last column and row. */
+SensorNoise_EXPORT DoubleFrame
+QuantiseBlocks(const DoubleFrame & codesDn, const BlockStepsDn & stepsDn, const ParallelFor & parallelFor);
+
+} // namespace sensornoise
+
+#endif

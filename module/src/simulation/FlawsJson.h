@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_simulation_FlawsJson_h
+#define sensornoise_simulation_FlawsJson_h
+
+#include "SensorNoiseExport.h"
+#include "report/JsonWriter.h"
+#include "simulation/SensorFlaws.h"
+
+namespace sensornoise
+{
+
+/** The settings of the flaws, a member for each piece, by the names of the settings without their units: DN, electrons,
+ * pixels and rows as there. */
+SensorNoise_EXPORT void
+WriteJson(JsonWriter & json, const SensorFlaws & flaws);
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,214 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "sensornoise/Simulator.h"
+
+#include "sensornoise/PixelTypes.h"
+#include "base/Text.h"
+#include "simulation/Random.h"
+#include "simulation/RandomStreams.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+namespace sensornoise
+{
+StackSimulator::StackSimulator(const std::vector<double> & reference,
+                               std::size_t                 width,
+                               std::size_t                 height,
+                               const SimulationSettings &  settings)
+  : m_Width(width)
+  , m_Height(height)
+  , m_Truth(DrawTruth(settings, height))
+  , m_Light(reference, width, height, settings)
+  , m_ReadOut(settings, width, height)
+  , m_TemporalFilter(std::make_shared<TemporalFilter>(settings.flaws.temporalFilter))
+{
+  const std::vector<double> & gamma = m_Truth.series.gamma;
+  m_MeanBrightness = 1.0 + std::accumulate(gamma.begin(), gamma.end(), 0.0) / static_cast<double>(gamma.size());
+  const auto readNoise = m_ReadOut.SummariseReadNoise();
+  m_Truth.realisedReadNoiseRmsDn = readNoise.rmsDn;
+  m_Truth.realisedReadNoiseMedianDn = readNoise.medianDn;
+}
+
+void
+StackSimulator::RequireRow(std::size_t frame, std::size_t y) const
+{
+  if (frame >= m_Truth.settings.frames || y >= m_Height)
+  {
+    throw std::invalid_argument("row " + std::to_string(y) + " of frame " + std::to_string(frame) +
+                                " was asked for; expected a row below " + std::to_string(m_Height) +
+                                " and a frame below " + std::to_string(m_Truth.settings.frames));
+  }
+}
+
+void
+StackSimulator::ExpectedElectronsRow(std::size_t frame, std::size_t y, double * electrons) const
+{
+  RequireRow(frame, y);
+  m_Light.ExpectedElectronsRow(m_Truth, frame, y, electrons);
+}
+
+double
+StackSimulator::LocalGainAt(std::size_t pixel) const
+{
+  return m_ReadOut.LocalGainAt(pixel, m_Light.ElectronsAtRest(pixel, m_MeanBrightness));
+}
+
+template <typename TPixel>
+std::pair<double, double>
+StackSimulator::CodeRange(const SimulationSettings & settings)
+{
+  static_assert(std::is_arithmetic_v<TPixel>, "a frame holds integer or floating-point numbers");
+  using Limits = std::numeric_limits<TPixel>;
+  double low = settings.clipLowDn.value_or(-std::numeric_limits<double>::infinity());
+  double high = settings.clipHighDn.value_or(std::numeric_limits<double>::infinity());
+  if constexpr (std::is_integral_v<TPixel>)
+  {
+    static_assert(Limits::digits <= 32, "codes of more than 32 bits are not represented exactly");
+    const auto bits = static_cast<int>(settings.bitDepth);
+    if (bits > Limits::digits)
+    {
+      throw std::invalid_argument("the bit depth is " + std::to_string(bits) + "; the pixel type holds at most " +
+                                  std::to_string(Limits::digits) + " bits");
+    }
+    low = std::max(std::ceil(low), bits == 0 ? static_cast<double>(Limits::lowest()) : 0.0);
+    high = std::min(std::floor(high), bits == 0 ? static_cast<double>(Limits::max()) : std::ldexp(1.0, bits) - 1.0);
+    if (!(low < high))
+    {
+      throw std::invalid_argument("the clip levels leave the codes from " + Text(low) + " to " + Text(high) +
+                                  "; expected at least two codes");
+    }
+  }
+  return { low, high };
+}
+
+void
+StackSimulator::ExposeRow(std::size_t frame, std::size_t y, double * electrons, double * normals) const
+{
+  const SimulationSettings & settings = m_Truth.settings;
+  const std::size_t          exposure = settings.flaws.repetition.ExposureOf(frame);
+  CounterSeededRandom        random(settings.seed, StreamNumber(RandomStream::Pixels, settings.isDark), exposure, y);
+  ExpectedElectronsRow(frame, y, electrons);
+  for (std::size_t x = 0; x < m_Width; ++x)
+  {
+    electrons[x] = static_cast<double>(random.Poisson(electrons[x]));
+    normals[x] = random.Normal();
+  }
+}
+
+void
+StackSimulator::ReadRow(std::size_t    frame,
+                        std::size_t    y,
+                        const double * electrons,
+                        const double * normals,
+                        double *       codesDn) const
+{
+  constexpr double           infinity = std::numeric_limits<double>::infinity();
+  const SimulationSettings & settings = m_Truth.settings;
+  const double               low = settings.clipLowDn.value_or(-infinity);
+  const double               high = settings.clipHighDn.value_or(infinity);
+  m_ReadOut.ReadRow(settings.flaws.repetition.ExposureOf(frame), y, electrons, normals, codesDn);
+  std::transform(codesDn, codesDn + m_Width, codesDn, [=](double code) { return std::clamp(code, low, high); });
+}
+
+DoubleFrame
+StackSimulator::ReadFrame(std::size_t frame, const ParallelFor & parallelFor) const
+{
+  DoubleFrame charge(m_Width, m_Height);
+  DoubleFrame codesDn(m_Width, m_Height);
+  parallelFor(m_Height, [&](std::size_t y) { ExposeRow(frame, y, charge.Row(y), codesDn.Row(y)); });
+  charge = MoveCharge(std::move(charge), m_Truth.settings.flaws, parallelFor);
+  parallelFor(m_Height, [&](std::size_t y) { ReadRow(frame, y, charge.Row(y), codesDn.Row(y), codesDn.Row(y)); });
+  return codesDn;
+}
+
+template <typename TPixel>
+void
+StackSimulator::WriteRow(double * codesDn, TPixel * out) const
+{
+  const SimulationSettings & settings = m_Truth.settings;
+  const auto                 range = CodeRange<TPixel>(settings);
+  if (settings.flaws.companding.IsOn())
+  {
+    Compand(codesDn, m_Width, settings.flaws.companding, settings.bitDepth);
+  }
+  for (std::size_t x = 0; x < m_Width; ++x)
+  {
+    if constexpr (std::is_integral_v<TPixel>)
+    {
+      out[x] = static_cast<TPixel>(std::clamp(std::floor(codesDn[x] + 0.5), range.first, range.second));
+    }
+    else
+    {
+      out[x] = static_cast<TPixel>(std::clamp(codesDn[x], range.first, range.second));
+    }
+  }
+}
+
+template <typename TPixel>
+void
+StackSimulator::RenderRow(std::size_t frame, std::size_t y, TPixel * out) const
+{
+  if (NeedsWholeFrames())
+  {
+    throw std::invalid_argument(
+      "one row of a frame was asked for, with flaws that mix the rows or the frames; expected "
+      "RenderFrame to be used");
+  }
+  std::vector<double> electrons(m_Width);
+  std::vector<double> codesDn(m_Width);
+  ExposeRow(frame, y, electrons.data(), codesDn.data());
+  ReadRow(frame, y, electrons.data(), codesDn.data(), codesDn.data());
+  WriteRow(codesDn.data(), out);
+}
+
+template <typename TPixel>
+void
+StackSimulator::RenderFrame(std::size_t frame, TPixel * out, const ParallelFor & parallelFor) const
+{
+  if (!NeedsWholeFrames())
+  {
+    parallelFor(m_Height, [&](std::size_t y) { RenderRow(frame, y, out + y * m_Width); });
+    return;
+  }
+  RequireRow(frame, 0);
+  const SensorFlaws & flaws = m_Truth.settings.flaws;
+  const auto          codesOf = [&](std::size_t exposure) {
+    const std::size_t firstFrame = flaws.repetition.FirstFrameOf(exposure);
+    return ProcessBeforeTemporalFilter(ReadFrame(firstFrame, parallelFor), flaws, parallelFor);
+  };
+  const std::size_t exposure = flaws.repetition.ExposureOf(frame);
+  DoubleFrame       codesDn =
+    flaws.temporalFilter.IsOn() ? m_TemporalFilter->OutputFrame(exposure, codesOf, parallelFor) : codesOf(exposure);
+  codesDn = ProcessAfterTemporalFilter(std::move(codesDn), flaws, m_Truth.settings.bitDepth, parallelFor);
+  parallelFor(m_Height, [&](std::size_t y) { WriteRow(codesDn.Row(y), out + y * m_Width); });
+}
+
+#define SensorNoise_INSTANTIATE(TPixel)                               \
+  template SensorNoise_EXPORT void StackSimulator::RenderRow<TPixel>( \
+    std::size_t, std::size_t, std::add_pointer_t<TPixel>) const
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
+#define SensorNoise_INSTANTIATE(TPixel)                                 \
+  template SensorNoise_EXPORT void StackSimulator::RenderFrame<TPixel>( \
+    std::size_t, std::add_pointer_t<TPixel>, const ParallelFor &) const
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
+
+template SensorNoise_EXPORT std::pair<double, double>
+StackSimulator::CodeRange<unsigned char>(const SimulationSettings &);
+template SensorNoise_EXPORT std::pair<double, double>
+StackSimulator::CodeRange<unsigned short>(const SimulationSettings &);
+template SensorNoise_EXPORT std::pair<double, double>
+StackSimulator::CodeRange<short>(const SimulationSettings &);
+template SensorNoise_EXPORT std::pair<double, double>
+StackSimulator::CodeRange<float>(const SimulationSettings &);
+template SensorNoise_EXPORT std::pair<double, double>
+StackSimulator::CodeRange<double>(const SimulationSettings &);
+
+} // namespace sensornoise

@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "stabilise/NoiseModelCheck.h"
+
+#include "base/Quantiles.h"
+#include "base/Text.h"
+#include "stabilise/CheckSentence.h"
+#include "stabilise/PoissonGaussianLaw.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** Bands of equal width in the root of the level, so that each spans as much of the noise. */
+constexpr std::size_t Bands = 12;
+/** What a band may depart by, whatever its error [1]. */
+constexpr double Tolerance = 0.02;
+// At three, one of a dozen bands of a right model would fail by chance in every 30th check, and the model has errors,
+// too.
+constexpr double StandardErrors = 4.0;
+/** From this error on a ratio tells nothing [1]. */
+constexpr double LargestError = 0.05;
+/** Electrons above which the transform makes a variance of 1 within 0.016, whatever the read noise. */
+constexpr double EnoughElectrons = 10.0;
+/** Median of chi-square with one degree of freedom. */
+constexpr double MedianOfSquare = 0.4549364;
+
+/** Variance of the error of each bin's ratio over ratio^2. */
+std::vector<double>
+RelativeErrors2(const Report & frames)
+{
+  const double        freedom = std::max(1.0, static_cast<double>(frames.framesDistinct) - 1.0);
+  std::vector<double> errors2;
+  for (const std::size_t count : frames.scatter.count)
+  {
+    errors2.push_back(2.0 / (static_cast<double>(count) * freedom));
+  }
+  return errors2;
+}
+
+/** What neighbouring bins differ by, over what the number of pixels and frames makes of it, squared; at least 1. */
+double
+ExcessScatter(const Report::Scatter & scatter, const NoiseModel & model, const std::vector<double> & errors2)
+{
+  std::vector<double> squares;
+  for (std::size_t i = 1; i < errors2.size(); ++i)
+  {
+    const double before = model.VarianceAt(scatter.mean[i - 1]);
+    const double after = model.VarianceAt(scatter.mean[i]);
+    if (before > 0.0 && after > 0.0 && scatter.correctedVariance[i] > 0.0)
+    {
+      const double a = scatter.correctedVariance[i - 1] / before;
+      const double b = scatter.correctedVariance[i] / after;
+      squares.push_back((b - a) * (b - a) / (a * a * errors2[i - 1] + b * b * errors2[i]));
+    }
+  }
+  constexpr std::size_t least = 16;
+  return squares.size() < least ? 1.0 : std::max(1.0, QuantileOf(std::move(squares), 0.5) / MedianOfSquare);
+}
+
+/** The bins from \a begin to \a end as one band. */
+NoiseModelCheck::Band
+MakeBand(const Report::Scatter &     scatter,
+         std::size_t                 begin,
+         std::size_t                 end,
+         const NoiseModel &          model,
+         const std::vector<double> & errors2,
+         double                      excess)
+{
+  NoiseModelCheck::Band band;
+  band.lowDn = scatter.mean[begin];
+  band.highDn = scatter.mean[end - 1];
+  double sum = 0.0;
+  double weights = 0.0;
+  bool   hasVariance = true;
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    const double expected = model.VarianceAt(scatter.mean[i]);
+    hasVariance = hasVariance && expected > 0.0;
+    sum += scatter.correctedVariance[i] / expected / errors2[i];
+    weights += 1.0 / errors2[i];
+    band.pixels += scatter.count[i];
+  }
+  if (!hasVariance)
+  {
+    return band;
+  }
+  band.ratio = sum / weights;
+  band.standardError = std::abs(*band.ratio) * std::sqrt(excess / weights);
+  return band;
+}
+
+/** Pixels are sorted by means that have noise: at both ends of the range, those are gathered whose mean came out too
+ * low, or too high. What one standard deviation of a mean makes of the ratio, for an end's band of so many bins [1]. */
+double
+SortingError(const NoiseModelCheck::Band & band, const NoiseModel & model, double frames, std::size_t bins)
+{
+  const double variance = model.VarianceAt(band.lowDn);
+  return variance > 0.0 ? model.varianceSlopeDn / std::sqrt(variance * frames) / static_cast<double>(bins) : 0.0;
+}
+
+/** Whether a band's ratio is near 1; \a sortingError for the bands at both ends. */
+bool
+Fits(const NoiseModelCheck::Band & band, double sortingError)
+{
+  const double departure = std::abs(band.ratio.value_or(0.0) - 1.0);
+  return band.ratio && (departure <= Tolerance + sortingError || departure <= StandardErrors * band.standardError);
+}
+
+/** Variance after the transform at a level, if the model is right [1]. */
+std::optional<double>
+TransformVariance(const NoiseModel & model, double levelDn, std::optional<double> readNoiseElectrons)
+{
+  const double electrons2 = model.VarianceAt(levelDn) / (model.varianceSlopeDn * model.varianceSlopeDn);
+  if (!(electrons2 > 0.0) || (!readNoiseElectrons && electrons2 < EnoughElectrons))
+  {
+    return std::nullopt;
+  }
+  const double readNoise = std::clamp(readNoiseElectrons.value_or(0.0), 0.0, std::min(1000.0, std::sqrt(electrons2)));
+  const double electrons = std::clamp(electrons2 - readNoise * readNoise, 0.0, 1e6); // rounding could leave less than 0
+  return MomentsOfStabilised(electrons, readNoise).variance;
+}
+
+NoiseModelCheck::Verdict
+VerdictOf(const std::vector<NoiseModelCheck::Band> & bands)
+{
+  const auto isTold = [](const NoiseModelCheck::Band & band) { return band.standardError < LargestError; };
+  if (!std::all_of(bands.begin(), bands.end(), [](const auto & band) { return band.fits; }))
+  {
+    return NoiseModelCheck::Verdict::DoesNotFit;
+  }
+  const auto told = static_cast<std::size_t>(std::count_if(bands.begin(), bands.end(), isTold));
+  return 2 * told >= bands.size() ? NoiseModelCheck::Verdict::Fits : NoiseModelCheck::Verdict::NotTold;
+}
+} // namespace
+
+NoiseModelCheck
+CheckNoiseModel(const Report & frames, const NoiseModel & model, std::optional<double> readNoiseElectrons)
+{
+  model.Validate();
+  NoiseModelCheck         check;
+  const Report::Scatter & scatter = frames.scatter;
+  const std::size_t       bins = scatter.mean.size();
+  const bool              isMeasured = bins > 0 && std::all_of(scatter.correctedVariance.begin(),
+                                                  scatter.correctedVariance.end(),
+                                                  [](double variance) { return std::isfinite(variance); });
+  if (isMeasured)
+  {
+    const std::vector<double> errors2 = RelativeErrors2(frames);
+    const double              excess = ExcessScatter(scatter, model, errors2);
+    const double              zero = scatter.mean.front();
+    const auto                bandOf = [&](std::size_t bin) {
+      const double share = std::sqrt((scatter.mean[bin] - zero) / std::max(scatter.mean.back() - zero, 1e-300));
+      return std::min(Bands - 1, static_cast<std::size_t>(share * Bands));
+    };
+    for (std::size_t begin = 0; begin < bins;)
+    {
+      std::size_t end = begin + 1;
+      while (end < bins && bandOf(end) == bandOf(begin))
+      {
+        ++end;
+      }
+      check.bands.push_back(MakeBand(scatter, begin, end, model, errors2, excess));
+      NoiseModelCheck::Band & band = check.bands.back();
+      band.transformVariance = TransformVariance(model, 0.5 * (band.lowDn + band.highDn), readNoiseElectrons);
+      const bool isEnd = begin == 0 || end == bins;
+      band.fits =
+        Fits(band, isEnd ? SortingError(band, model, static_cast<double>(frames.framesDistinct), end - begin) : 0.0);
+      begin = end;
+    }
+    check.verdict = VerdictOf(check.bands);
+  }
+  check.sentence = MakeCheckSentence(check, frames);
+  return check;
+}
+
+NoiseModelCheck
+CheckReport(const Report & frames, const Report & report)
+{
+  NoiseModelCheck check = CheckNoiseModel(frames, NoiseModelOf(report), report.readNoiseElectrons.value);
+  if (frames.quantisationStepDn && report.quantisationStepDn &&
+      *frames.quantisationStepDn != *report.quantisationStepDn)
+  {
+    check.sentence += "; its codes are " + Text(*report.quantisationStepDn) + " DN apart, those of these frames " +
+                      Text(*frames.quantisationStepDn) + " DN: it may be of another scale";
+  }
+  return check;
+}
+
+} // namespace sensornoise
