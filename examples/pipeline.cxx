@@ -7,7 +7,7 @@
 // This is Figure 2 of F. Sur, M. Gredi'ac, SIAM J. Imaging Sci. 8(1), 2015. SensorNoiseEstimator gives the same numbers
 // in fewer passes over the stack.
 
-#include "report/QuantityList.h"
+#include "sensornoise/ReportText.h"
 #include "sensornoise/Report.h"
 #include "itkFlickerCorrectionImageFilter.h"
 #include "itkNoiseRegressionEstimator.h"

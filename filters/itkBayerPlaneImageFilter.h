@@ -19,8 +19,7 @@
 #define itkBayerPlaneImageFilter_h
 
 #include "SensorNoiseExport.h"
-#include "base/BayerPattern.h"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 #include "itkImage.h"
 #include "itkImageToImageFilter.h"
 

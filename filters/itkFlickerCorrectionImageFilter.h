@@ -20,8 +20,7 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/FrameGeometry.h"
-#include "sensornoise/PixelTypes.h"
-#include "base/RollingShutter.h"
+#include "sensornoise/Settings.h"
 #include "published/FlickerEstimate.h"
 #include "published/IsoIntensitySet.h"
 #include "itkImage.h"

@@ -21,12 +21,11 @@
 #include "itkSensorNoiseChunks.h"
 #include "itkSensorNoiseErrors.h"
 #include "sensornoise/FrameGeometry.h"
-#include "base/RollingShutter.h"
+#include "sensornoise/Settings.h"
 #include "base/Significance.h"
 #include "published/FlickerEstimate.h"
 #include "published/FlickerSums.h"
 #include "published/IsoIntensitySet.h"
-#include "published/PublishedSettings.h"
 #include "itkImageScanlineIterator.h"
 
 #include <algorithm>

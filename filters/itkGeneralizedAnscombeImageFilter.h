@@ -19,7 +19,7 @@
 #define itkGeneralizedAnscombeImageFilter_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Report.h"
 #include "itkImage.h"
 #include "itkImageToImageFilter.h"

@@ -19,9 +19,9 @@
 #define itkInverseGeneralizedAnscombeImageFilter_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Report.h"
-#include "stabilise/GeneralizedAnscombe.h"
+#include "sensornoise/NoiseModel.h"
 #include "itkImage.h"
 #include "itkImageToImageFilter.h"
 #include "itkSensorNoiseResult.h"

@@ -19,7 +19,6 @@
 #define itkInverseGeneralizedAnscombeImageFilter_hxx
 
 #include "itkSensorNoiseErrors.h"
-#include "stabilise/GeneralizedAnscombe.h"
 #include "sensornoise/NoiseModel.h"
 #include "itkImageScanlineIterator.h"
 

@@ -19,7 +19,7 @@
 #define itkNoiseCorrelationEstimator_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 #include "correlation/CorrelationEstimate.h"
 #include "itkSensorNoiseResult.h"
 #include "itkSensorNoiseStackSink.h"

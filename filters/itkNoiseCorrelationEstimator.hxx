@@ -22,7 +22,7 @@
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Parallel.h"
 #include "correlation/FrameSample.h"
-#include "moments/CodeSettings.h"
+#include "sensornoise/Settings.h"
 #include "moments/StackMaps.h"
 #include "moments/TemporalMoments.h"
 

@@ -20,7 +20,6 @@
 
 #include "itkSensorNoiseErrors.h"
 #include "base/PolynomialFit.h"
-#include "page/FigureJson.h"
 #include "sensornoise/ReportPage.h"
 #include "published/NoiseParameters.h"
 #include "sensornoise/Report.h"

@@ -19,17 +19,14 @@
 #define itkSensorNoiseEstimator_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/PixelTypes.h"
-#include "base/RollingShutter.h"
-#include "report/ReportJson.h"
-#include "published/PublishedSettings.h"
+#include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Settings.h"
-#include "report/Catalogue.h"
+#include "report/ReportJson.h"
+#include "sensornoise/ReportText.h"
 #include "sensornoise/Report.h"
 #include "report/ReportTable.h"
 #include "report/StackSettings.h"
-#include "report/ChannelRecord.h"
-#include "stabilise/NoiseModelCheck.h"
+#include "sensornoise/NoiseModel.h"
 #include "itkNumericTraits.h"
 #include "itkSensorNoiseStackSink.h"
 #include "itkSensorNoiseResult.h"
@@ -523,9 +520,9 @@ protected:
 private:
   friend class SensorNoiseSums<TStack>; // goes through the passes itself
 
-  /** \a sumsStay: no sums are saved or merged. */
+  /** \a withoutMerging: no sums are saved or merged. */
   void
-  StartEstimation(bool sumsStay);
+  StartEstimation(bool withoutMerging);
 
   // The six maps of the dark frames stand after the others.
   static constexpr DataObjectPointerArraySizeType FirstPixelOutput = 5;

@@ -23,7 +23,7 @@
 #include "itkSensorNoiseEstimation.h"
 #include "itkSensorNoiseEstimator.h"
 #include "sensornoise/FrameGeometry.h"
-#include "moments/KnownOffset.h"
+#include "sensornoise/Settings.h"
 #include "moments/MosaicLevels.h"
 
 #include <algorithm>
@@ -168,7 +168,7 @@ SensorNoiseEstimator<TStack>::StartPasses()
 
 template <typename TStack>
 void
-SensorNoiseEstimator<TStack>::StartEstimation(bool sumsStay)
+SensorNoiseEstimator<TStack>::StartEstimation(bool withoutMerging)
 {
   const auto       size = this->GetFrameRegion().GetSize();
   SensorNoiseStack stack{ { size[0], size[1], m_ShutterAxis }, this->GetNumberOfFrames(), {}, {}, {} };
@@ -186,7 +186,7 @@ SensorNoiseEstimator<TStack>::StartEstimation(bool sumsStay)
   const auto settings = m_Method == MethodEnum::Refined ? typename Work::Settings(this->MakeRefinedSettings())
                                                         : typename Work::Settings(this->MakePublishedSettings());
   m_Estimation = std::make_unique<Estimation>(
-    Estimation{ Work::Start(settings, stack, this->GetParallelFor(), this->GetNumberOfThreads(), sumsStay) });
+    Estimation{ Work::Start(settings, stack, this->GetParallelFor(), this->GetNumberOfThreads(), withoutMerging) });
 }
 
 template <typename TStack>

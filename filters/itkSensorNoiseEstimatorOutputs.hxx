@@ -23,8 +23,7 @@
 #include "itkSensorNoiseEstimator.h"
 #include "itkSensorNoiseMapContainer.h"
 #include "itkSensorNoisePageMaps.h"
-#include "base/PixelUse.h"
-#include "page/FigureJson.h"
+#include "sensornoise/Report.h"
 #include "sensornoise/ReportPage.h"
 
 #include <algorithm>

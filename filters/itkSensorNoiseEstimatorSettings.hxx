@@ -22,10 +22,8 @@
 #include "itkSensorNoiseEstimator.h"
 #include "itkSensorNoiseMetaData.h"
 #include "base/FreeMemory.h"
-#include "base/RollingShutter.h"
-#include "moments/Exposures.h"
-#include "published/PublishedSettings.h"
 #include "sensornoise/Settings.h"
+#include "moments/Exposures.h"
 #include "report/StackSettings.h"
 
 #include <cmath>

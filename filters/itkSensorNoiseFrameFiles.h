@@ -19,7 +19,6 @@
 #define itkSensorNoiseFrameFiles_h
 
 #include "SensorNoiseExport.h"
-#include "files/FrameChoice.h"
 #include "sensornoise/FrameFile.h"
 
 #include <array>

@@ -23,7 +23,7 @@
 #include "itkImage.h"
 #include "itkImageIOBase.h"
 #include "itkImageSource.h"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 
 #include <cstddef>
 #include <ostream>

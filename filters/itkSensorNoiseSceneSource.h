@@ -19,7 +19,7 @@
 #define itkSensorNoiseSceneSource_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/Scenes.h"
+#include "sensornoise/Simulator.h"
 #include "itkImage.h"
 #include "itkImageSource.h"
 #include "itkSensorNoiseErrors.h"

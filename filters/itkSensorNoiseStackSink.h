@@ -20,7 +20,7 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/Parallel.h"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 #include "itkImage.h"
 #include "itkImageSink.h"
 #include "itkSensorNoiseChunks.h"

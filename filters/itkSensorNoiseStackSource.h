@@ -19,12 +19,10 @@
 #define itkSensorNoiseStackSource_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/PixelTypes.h"
-#include "simulation/SensorFlaws.h"
-#include "simulation/SimulationTruth.h"
-#include "sensornoise/SimulationSettings.h"
-#include "simulation/TruthJson.h"
+#include "sensornoise/FrameGeometry.h"
+#include "sensornoise/SensorFlaws.h"
 #include "sensornoise/Simulator.h"
+#include "sensornoise/SimulationSettings.h"
 #include "itkImage.h"
 #include "itkImageSource.h"
 #include "itkNumericTraits.h"

@@ -21,9 +21,9 @@
 #include "itkSensorNoiseErrors.h"
 #include "base/FreeMemory.h"
 #include "moments/Codes.h"
-#include "simulation/SimulationTruth.h"
-#include "sensornoise/SimulationSettings.h"
+#include "simulation/FrameProcessing.h"
 #include "sensornoise/Simulator.h"
+#include "sensornoise/SimulationSettings.h"
 #include "itkSensorNoiseStackSource.h"
 #include "itkImageRegionConstIterator.h"
 

@@ -23,7 +23,7 @@
 #include "itkObject.h"
 #include "itkObjectFactory.h"
 #include "itkSensorNoiseEstimator.h"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 
 #include <ostream>
 #include <string>

@@ -19,7 +19,7 @@
 #define itkTemporalStatisticsImageFilter_h
 
 #include "SensorNoiseExport.h"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 #include "moments/StackMaps.h"
 #include "moments/TemporalMoments.h"
 #include "itkSensorNoiseStackSink.h"

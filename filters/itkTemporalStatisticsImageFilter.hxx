@@ -18,7 +18,7 @@
 #ifndef itkTemporalStatisticsImageFilter_hxx
 #define itkTemporalStatisticsImageFilter_hxx
 
-#include "moments/CodeSettings.h"
+#include "sensornoise/Settings.h"
 #include "moments/Codes.h"
 #include "moments/StackMaps.h"
 #include "moments/TemporalMoments.h"

@@ -3,7 +3,7 @@
 #ifndef EfficiencyOptions_h
 #define EfficiencyOptions_h
 
-#include "sensornoise/Scenes.h"
+#include "sensornoise/Simulator.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studies/EfficiencyStack.h"
 
+#include "mosaic/MosaicGeometry.h"
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Parallel.h"
-#include "base/PixelUse.h"
+#include "sensornoise/Report.h"
 #include "limits/CramerRaoBound.h"
 #include "limits/CramerRaoInformation.h"
 #include "limits/PrecisionLimit.h"
@@ -12,8 +13,6 @@
 #include "sensornoise/PublishedMethod.h"
 #include "sensornoise/RefinedMethod.h"
 #include "sensornoise/ChannelReports.h"
-#include "sensornoise/Report.h"
-#include "simulation/SimulationTruth.h"
 #include "sensornoise/Simulator.h"
 #include "studies/RenderedStack.h"
 
@@ -123,16 +122,13 @@ CompareMosaic(const MosaicGeometry & mosaic, const Scene & scene, const StackSim
   const SimulationTruth &              truth = simulator.GetTruth();
   const std::size_t                    frames = truth.settings.frames;
   const std::vector<std::uint16_t>     stack = RenderStack(simulator, scene.width, scene.height, frames);
-  MosaicMethod<std::uint16_t, TMethod> method(
-    mosaic, [&](BayerPlane, const ParallelFor &) { return TMethod({}, mosaic.Plane(), frames); });
+  MosaicMethod<std::uint16_t, TMethod> method(typename TMethod::Settings(), mosaic.frame, mosaic.pattern, frames);
   while (!method.IsDone())
   {
     method.AddFrames(stack.data(), frames);
     method.EndPass();
   }
-  const std::vector<std::uint8_t> use =
-    method.JoinMaps([](const auto & ofPlane) -> const auto & { return ofPlane.GetPixelUse(); },
-                    static_cast<std::uint8_t>(PixelUse::Border));
+  const std::vector<std::uint8_t> use = method.TakePixelUse();
   const std::vector<double>       electrons = ElectronsAtRest(scene, truth.settings);
   const std::vector<std::uint8_t> mask = MaskOfUnclipped(use, scene.values.size());
   const ChannelReports            reports = MakeChannelReports(mosaic.pattern, BayerSource::Given, method.GetReports());

@@ -3,7 +3,7 @@
 #include "studies/EfficiencyTable.h"
 
 #include "sensornoise/Report.h"
-#include "report/ReportJson.h"
+#include "sensornoise/ReportText.h"
 
 #include <algorithm>
 #include <cmath>

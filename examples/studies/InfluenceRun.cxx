@@ -4,7 +4,7 @@
 
 #include "base/ForAll.h"
 #include "sensornoise/RefinedMethod.h"
-#include "report/ReportJson.h"
+#include "sensornoise/ReportText.h"
 #include "studies/RobustnessEstimate.h"
 
 #include <algorithm>

@@ -4,15 +4,14 @@
 
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Parallel.h"
-#include "base/PixelUse.h"
+#include "sensornoise/Report.h"
 #include "base/Quantiles.h"
 #include "moments/DarkFrames.h"
-#include "moments/KnownOffset.h"
+#include "sensornoise/Settings.h"
 #include "moments/PixelCalibration.h"
 #include "moments/StackMoments.h"
 #include "sensornoise/RefinedMethod.h"
-#include "sensornoise/Settings.h"
-#include "simulation/SimulationTruth.h"
+#include "sensornoise/Simulator.h"
 #include "studies/RealSensorCorrelation.h"
 #include "studies/RealSensorStack.h"
 

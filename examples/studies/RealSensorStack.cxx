@@ -3,8 +3,7 @@
 #include "studies/RealSensorStack.h"
 
 #include "simulation/Random.h"
-#include "sensornoise/Scenes.h"
-#include "simulation/SimulationTruth.h"
+#include "sensornoise/Simulator.h"
 
 #include <algorithm>
 #include <cmath>

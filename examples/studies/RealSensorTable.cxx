@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studies/RealSensorTable.h"
 
-#include "report/ReportJson.h"
+#include "sensornoise/ReportText.h"
 #include "studies/RealSensorFormat.h"
 #include "studies/RealSensorStatistics.h"
 

@@ -4,7 +4,6 @@
 #define RobustnessEstimate_h
 
 #include "sensornoise/FrameGeometry.h"
-#include "base/PixelUse.h"
 #include "sensornoise/Report.h"
 #include "studies/RobustnessRun.h"
 #include "studies/StressStacks.h"

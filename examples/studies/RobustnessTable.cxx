@@ -3,7 +3,7 @@
 #include "studies/RobustnessTable.h"
 
 #include "sensornoise/Report.h"
-#include "report/ReportJson.h"
+#include "sensornoise/ReportText.h"
 
 #include <cmath>
 #include <cstdio>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "simulation/SensorFlaws.h"
+#include "sensornoise/SensorFlaws.h"
 #include "studies/StressRecipe.h"
 
 #include <vector>

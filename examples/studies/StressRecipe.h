@@ -4,7 +4,7 @@
 #define StressRecipe_h
 
 #include "sensornoise/SimulationSettings.h"
-#include "simulation/SimulationTruth.h"
+#include "sensornoise/Simulator.h"
 #include "studies/StressStacks.h"
 
 #include <cstddef>

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulation/Illumination.h"
 #include "simulation/Random.h"
-#include "sensornoise/Scenes.h"
-#include "simulation/SimulationTruth.h"
+#include "sensornoise/Simulator.h"
 #include "sensornoise/SimulationSettings.h"
 #include "studies/StressRecipe.h"
 

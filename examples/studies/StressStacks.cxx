@@ -3,9 +3,8 @@
 #include "studies/StressStacks.h"
 
 #include "simulation/Random.h"
-#include "sensornoise/Scenes.h"
-#include "sensornoise/SimulationSettings.h"
 #include "sensornoise/Simulator.h"
+#include "sensornoise/SimulationSettings.h"
 #include "studies/StressRecipe.h"
 
 #include <algorithm>

@@ -4,9 +4,8 @@
 
 #include "sensornoise/PublishedMethod.h"
 #include "sensornoise/Report.h"
-#include "sensornoise/Scenes.h"
-#include "sensornoise/SimulationSettings.h"
 #include "sensornoise/Simulator.h"
+#include "sensornoise/SimulationSettings.h"
 #include "studies/RenderedStack.h"
 
 #include <atomic>

@@ -5,10 +5,9 @@
 
 #include "sensornoise/RefinedMethod.h"
 #include "sensornoise/Report.h"
-#include "sensornoise/Scenes.h"
-#include "sensornoise/SimulationSettings.h"
 #include "sensornoise/Simulator.h"
-#include "stabilise/NoiseModelCheck.h"
+#include "sensornoise/SimulationSettings.h"
+#include "sensornoise/NoiseModel.h"
 #include "studies/RenderedStack.h"
 #include "studies/RobustnessEstimate.h"
 

@@ -3,7 +3,7 @@
 // Measures how close the estimates come to the Cramer-Rao bound: simulates stacks of the cameras and conditions of
 // Table 1 of Sur & Gredi'ac 2015 and compares estimates and 95 % intervals with the truth. See --help.
 
-#include "sensornoise/Scenes.h"
+#include "sensornoise/Simulator.h"
 #include "sensornoise/SimulationSettings.h"
 #include "studies/EfficiencyOptions.h"
 #include "studies/EfficiencyStack.h"

@@ -6,7 +6,7 @@
 //
 //   measure-stabilisation
 
-#include "stabilise/GeneralizedAnscombe.h"
+#include "sensornoise/NoiseModel.h"
 #include "stabilise/PoissonGaussianLaw.h"
 
 #include <algorithm>

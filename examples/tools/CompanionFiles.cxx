@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/CompanionFiles.h"
 
-#include "files/FileError.h"
+#include "sensornoise/FrameFile.h"
 #include "tools/ImageOnFile.h"
 
 #include <algorithm>

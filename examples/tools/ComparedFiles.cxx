@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/ComparedFiles.h"
 
-#include "report/ReportJson.h"
+#include "sensornoise/ReportText.h"
 #include "tools/ReportFile.h"
 
 #include <algorithm>

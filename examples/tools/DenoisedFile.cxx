@@ -3,7 +3,7 @@
 #include "tools/DenoisedFile.h"
 
 #include "base/FreeMemory.h"
-#include "stabilise/GeneralizedAnscombe.h"
+#include "sensornoise/NoiseModel.h"
 #include "tools/ImageScale.h"
 #include "tools/LowerCase.h"
 #include "tools/PendingFile.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/EstimateOptions.h"
 
-#include "base/RollingShutter.h"
+#include "sensornoise/Settings.h"
 #include "tools/EstimateOptionList.h"
 #include "tools/ExposureList.h"
 #include "tools/FileNames.h"

@@ -3,8 +3,8 @@
 #ifndef EstimateOptions_h
 #define EstimateOptions_h
 
-#include "base/RollingShutter.h"
-#include "files/FrameChoice.h"
+#include "sensornoise/Settings.h"
+#include "sensornoise/FrameFile.h"
 
 #include <array>
 #include <cstddef>

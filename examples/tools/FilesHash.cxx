@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/FilesHash.h"
 
-#include "files/FileError.h"
+#include "sensornoise/FrameFile.h"
 #include "itkSensorNoiseFrameFiles.h"
 
 #ifdef SENSORNOISE_OPENSSL

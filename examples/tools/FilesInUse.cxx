@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/FilesInUse.h"
 
+#include "files/FileIdentity.h"
 #include "tools/LowerCase.h"
 #include "tools/OutputTarget.h"
 

@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/ModelCheck.h"
 
-#include "report/ChannelRecord.h"
+#include "sensornoise/ReportText.h"
 #include "report/JsonWriter.h"
-#include "report/ReportJson.h"
-#include "report/ReportTable.h"
 #include "sensornoise/NoiseModel.h"
 #include "tools/CompanionFiles.h"
 #include "tools/EstimateOptions.h"

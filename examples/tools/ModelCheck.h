@@ -3,7 +3,7 @@
 #ifndef ModelCheck_h
 #define ModelCheck_h
 
-#include "stabilise/NoiseModelCheck.h"
+#include "sensornoise/NoiseModel.h"
 #include "tools/StackEstimate.h"
 
 #include <optional>

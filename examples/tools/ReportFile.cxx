@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/ReportFile.h"
 
-#include "report/ReportJson.h"
+#include "sensornoise/ReportText.h"
 
 #include <cerrno>
 #include <filesystem>

@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures the noise of a camera from a burst of raw frames on files. See --help, and README.md.
 
-#include "report/ChannelRecord.h"
+#include "sensornoise/ReportText.h"
 #include "sensornoise/Report.h"
-#include "report/ReportTable.h"
 #include "page/ComparisonPage.h"
 #include "tools/ErrorSentence.h"
 #include "tools/CompanionFiles.h"

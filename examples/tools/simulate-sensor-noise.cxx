@@ -6,7 +6,7 @@
 #include "base/FreeMemory.h"
 #include "simulation/Illumination.h"
 #include "sensornoise/SimulationSettings.h"
-#include "files/FileError.h"
+#include "sensornoise/FrameFile.h"
 #include "tools/ErrorSentence.h"
 #include "tools/FilesInUse.h"
 #include "tools/ImageOnFile.h"

@@ -17,7 +17,7 @@
  *=========================================================================*/
 #include "itkBayerPlaneImageFilter.h"
 #include "itkBayerPlaneImageFilter.hxx"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 
 namespace itk
 {

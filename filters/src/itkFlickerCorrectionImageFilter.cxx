@@ -17,7 +17,7 @@
  *=========================================================================*/
 #include "itkFlickerCorrectionImageFilter.h"
 #include "itkFlickerCorrectionImageFilter.hxx"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 
 namespace itk
 {

@@ -16,7 +16,7 @@
  *
  *=========================================================================*/
 #include "itkGeneralizedAnscombeImageFilter.h"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 
 namespace itk
 {

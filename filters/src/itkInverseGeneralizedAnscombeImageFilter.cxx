@@ -16,7 +16,7 @@
  *
  *=========================================================================*/
 #include "itkInverseGeneralizedAnscombeImageFilter.h"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 
 namespace itk
 {

@@ -18,7 +18,7 @@
 #include "itkNoiseCorrelationEstimator.h"
 #include "itkNoiseCorrelationEstimator.hxx"
 #include "itkSensorNoiseStackSink.hxx"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 
 namespace itk
 {

@@ -22,10 +22,9 @@
 #include "base/FramesTogether.h"
 #include "sensornoise/Parallel.h"
 #include "mosaic/PlaneFrames.h"
-#include "moments/CodeSettings.h"
+#include "sensornoise/Settings.h"
 #include "moments/DarkDrift.h"
 #include "moments/DarkFrames.h"
-#include "moments/KnownOffset.h"
 #include "moments/TemporalMoments.h"
 
 #include <cstddef>

@@ -21,14 +21,12 @@
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Parallel.h"
 #include "moments/DarkMaps.h"
-#include "moments/KnownOffset.h"
-#include "moments/PixelCalibration.h"
-#include "sensornoise/MosaicMethod.h"
-#include "sensornoise/PublishedMethod.h"
-#include "published/PublishedSettings.h"
-#include "refined/MemoryNeed.h"
-#include "sensornoise/RefinedMethod.h"
 #include "sensornoise/Settings.h"
+#include "moments/PixelCalibration.h"
+#include "mosaic/MosaicPasses.h"
+#include "published/PublishedPasses.h"
+#include "refined/MemoryNeed.h"
+#include "refined/RefinedPasses.h"
 #include "sensornoise/ChannelReports.h"
 #include "report/StackSettings.h"
 
@@ -71,10 +69,10 @@ struct SensorNoiseStack
 template <typename TPixel>
 struct SensorNoiseEstimation
 {
-  using Refined = sensornoise::RefinedMethod<TPixel>;
-  using Published = sensornoise::PublishedMethod<TPixel>;
-  using MosaicRefined = sensornoise::MosaicMethod<TPixel, Refined>;
-  using MosaicPublished = sensornoise::MosaicMethod<TPixel, Published>;
+  using Refined = sensornoise::RefinedPasses<TPixel>;
+  using Published = sensornoise::PublishedPasses<TPixel>;
+  using MosaicRefined = sensornoise::MosaicPasses<TPixel, Refined>;
+  using MosaicPublished = sensornoise::MosaicPasses<TPixel, Published>;
   using DarkMapsPointer = std::shared_ptr<const sensornoise::DarkMaps>;
   using Settings = std::variant<sensornoise::RefinedSettings, sensornoise::PublishedSettings>;
   template <typename T>
@@ -85,35 +83,34 @@ struct SensorNoiseEstimation
   std::vector<DarkMapsPointer> dark{}; ///< of each plane; null: fewer than two frames
 
   /** The method that has the \a settings, before its first pass. A memory limit is that of all planes. \a parallelFor
-   * has \a threads threads. \a sumsStay: no sums are saved or merged, which needs less memory. */
+   * has \a threads threads. \a withoutMerging: no sums are saved or merged, which needs less memory. */
   static SensorNoiseEstimation
   Start(const Settings &                 settings,
         const SensorNoiseStack &         stack,
         const sensornoise::ParallelFor & parallelFor,
         std::size_t                      threads,
-        bool                             sumsStay)
+        bool                             withoutMerging)
   {
     const auto start = [&](const auto & ofStack) -> decltype(method) {
       constexpr bool isRefined = std::is_same_v<decltype(ofStack), const sensornoise::RefinedSettings &>;
       using OfFrame = std::conditional_t<isRefined, Refined, Published>;
-      const auto make =
-        [&]([[maybe_unused]] std::size_t part, const auto & frame, const auto & mask, const auto & spread) {
-          auto ofPart = ofStack;
-          if constexpr (std::is_same_v<OfFrame, Refined>)
-          {
-            ofPart.offset = stack.offsets[part];
-            ofPart.memoryLimitBytes /= static_cast<double>(stack.offsets.size());
-          }
-          return OfFrame(ofPart, frame, stack.frames, mask, spread);
-        };
-      if (!stack.mosaic)
-      {
-        OfFrame ofFrame = make(0, stack.frame, stack.mask, parallelFor);
+      const auto settingsOf = [&]([[maybe_unused]] std::size_t part) {
+        auto ofPart = ofStack;
         if constexpr (isRefined)
         {
-          if (sumsStay)
+          ofPart.offset = stack.offsets[part];
+          ofPart.memoryLimitBytes /= static_cast<double>(stack.offsets.size());
+        }
+        return ofPart;
+      };
+      if (!stack.mosaic)
+      {
+        OfFrame ofFrame(settingsOf(0), stack.frame, stack.frames, stack.mask, parallelFor);
+        if constexpr (isRefined)
+        {
+          if (withoutMerging)
           {
-            ofFrame.LetSumsStay();
+            ofFrame.DisableMerging();
           }
         }
         return ofFrame;
@@ -123,16 +120,15 @@ struct SensorNoiseEstimation
       {
         sensornoise::RequireMemoryLimit(ofStack.memoryLimitBytes, planes.Plane(), stack.frames, stack.offsets.size());
       }
-      const auto makeOfPlane = [&](sensornoise::BayerPlane plane, const sensornoise::ParallelFor & spread) {
-        return make(static_cast<std::size_t>(plane), planes.Plane(), planes.Take(stack.mask, plane), spread);
-      };
-      sensornoise::MosaicMethod<TPixel, OfFrame> ofMosaic(planes, makeOfPlane, parallelFor, threads);
+      const std::array ofPlanes{ settingsOf(0), settingsOf(1), settingsOf(2), settingsOf(3) };
+      auto             ofMosaic = sensornoise::MakeMosaicPasses<TPixel, OfFrame>(
+        ofPlanes, planes, stack.frames, stack.mask, parallelFor, threads);
       if constexpr (isRefined)
       {
-        if (sumsStay)
+        if (withoutMerging)
         {
           using ManySums = typename MosaicRefined::ManySums;
-          ofMosaic.LetSumsStay(std::isinf(ofStack.memoryLimitBytes) ? std::optional(ManySums{}) : std::nullopt);
+          ofMosaic.DisableMerging(std::isinf(ofStack.memoryLimitBytes) ? std::optional(ManySums{}) : std::nullopt);
         }
       }
       return ofMosaic;

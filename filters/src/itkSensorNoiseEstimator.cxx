@@ -18,7 +18,7 @@
 #include "itkSensorNoiseEstimator.h"
 #include "itkSensorNoiseEstimator.hxx"
 #include "itkSensorNoiseStackSink.hxx"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 
 namespace itk
 {

@@ -19,8 +19,9 @@
 
 #include "itkSensorNoiseOpenImageIO.h"
 #include "base/FreeMemory.h"
-#include "files/FileError.h"
+#include "sensornoise/FrameFile.h"
 #include "files/FrameFormats.h"
+#include "files/FrameReader.h"
 #include "files/RawLayout.h"
 #include "files/StoredNumber.h"
 

@@ -17,7 +17,7 @@
  *=========================================================================*/
 #include "itkSensorNoiseFrameListSource.h"
 #include "itkSensorNoiseFrameListSource.hxx"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 
 namespace itk
 {

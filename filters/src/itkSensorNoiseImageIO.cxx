@@ -21,6 +21,7 @@
 #include "itkSensorNoiseMetaData.h"
 #include "files/FileBytes.h"
 #include "files/FrameFormats.h"
+#include "files/FrameReader.h"
 #include "files/RawLayout.h"
 #include "files/RawTiff.h"
 

@@ -17,7 +17,7 @@
  *=========================================================================*/
 #include "itkSensorNoiseOpenImageIO.h"
 
-#include "files/FileError.h"
+#include "sensornoise/FrameFile.h"
 #include "files/FrameFormats.h"
 #include "files/StoredNumber.h"
 #include "itkObjectFactoryBase.h"

@@ -18,7 +18,6 @@
 #ifndef itkSensorNoiseOpenImageIO_h
 #define itkSensorNoiseOpenImageIO_h
 
-#include "files/FileError.h"
 #include "sensornoise/FrameFile.h"
 #include "itkImageIOBase.h"
 

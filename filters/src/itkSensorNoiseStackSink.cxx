@@ -17,7 +17,7 @@
  *=========================================================================*/
 #include "itkSensorNoiseStackSink.h"
 #include "itkSensorNoiseStackSink.hxx"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 
 namespace itk
 {

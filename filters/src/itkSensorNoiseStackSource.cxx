@@ -17,7 +17,7 @@
  *=========================================================================*/
 #include "itkSensorNoiseStackSource.h"
 #include "itkSensorNoiseStackSource.hxx"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 
 namespace itk
 {

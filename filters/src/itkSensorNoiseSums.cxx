@@ -17,7 +17,7 @@
  *=========================================================================*/
 #include "itkSensorNoiseSums.h"
 #include "itkSensorNoiseSums.hxx"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 
 namespace itk
 {

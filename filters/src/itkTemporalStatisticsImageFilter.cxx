@@ -18,7 +18,7 @@
 #include "itkTemporalStatisticsImageFilter.h"
 #include "itkTemporalStatisticsImageFilter.hxx"
 #include "itkSensorNoiseStackSink.hxx"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 
 namespace itk
 {

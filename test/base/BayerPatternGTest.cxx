@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "base/BayerPattern.h"
+#include "sensornoise/FrameGeometry.h"
 
 #include <array>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "benchmark/BenchmarkStack.h"
 
-#include "sensornoise/Scenes.h"
+#include "sensornoise/Simulator.h"
 #include "itkMultiThreaderBase.h"
 #include "itkSensorNoiseStackSource.h"
 

@@ -5,7 +5,7 @@
 // reads one frame; a line through these numbers has the cost per sample as its slope.
 
 #include "benchmark/BenchmarkStack.h"
-#include "sensornoise/Scenes.h"
+#include "sensornoise/Simulator.h"
 #include "itkSensorNoiseStackSource.h"
 
 #include <algorithm>

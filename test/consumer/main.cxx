@@ -2,16 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "itkSensorNoiseEstimator.h"
 #include "sensornoise/FrameGeometry.h"
-#include "base/NothingToMeasure.h"
+#include "sensornoise/FrameFile.h"
 #include "sensornoise/RefinedMethod.h"
 #include "sensornoise/Settings.h"
 #include "sensornoise/Report.h"
 #include "sensornoise/Version.h"
-#include "scene/ProvisionalModel.h"
-#include "scene/ReferenceFrame.h"
-#include "sensornoise/Scenes.h"
-#include "sensornoise/SimulationSettings.h"
 #include "sensornoise/Simulator.h"
+#include "sensornoise/SimulationSettings.h"
 
 #include "itkImage.h"
 
@@ -72,12 +69,12 @@ IsRefusedByItsType()
 {
   try
   {
-    sensornoise::FitProvisionalModel(sensornoise::ReferenceFrame{});
+    sensornoise::InspectFrameFile("no-such-file.tif");
   }
-  catch (const sensornoise::NothingToMeasure & error)
+  catch (const sensornoise::FileError & error)
   {
-    std::cout << "nothing to measure: " << error.what() << '\n';
-    return error.GetCode() == sensornoise::WarningCode::NothingToMeasure;
+    std::cout << "refused: " << error.what() << '\n';
+    return true;
   }
   return false;
 }

@@ -3,9 +3,8 @@
 #include "correlation/NoiseCorrelation.h"
 #include "correlation/NoiseResiduals.h"
 #include "correlation/FrameSample.h"
-#include "sensornoise/Scenes.h"
-#include "sensornoise/SimulationSettings.h"
 #include "sensornoise/Simulator.h"
+#include "sensornoise/SimulationSettings.h"
 #include "helpers/SimulatorTestHelper.h"
 #include "helpers/StackTestHelper.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "files/FileError.h"
+#include "sensornoise/FrameFile.h"
 
 #include <gtest/gtest.h>
 #include <string>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "helpers/BurstFilesTestHelper.h"
+#include "files/FrameReader.h"
 #include "helpers/FrameFileTestHelper.h"
 
 #include <string>

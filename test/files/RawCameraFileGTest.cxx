@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "files/RawCameraFile.h"
+#include "files/FrameReader.h"
 
 #include "helpers/DngTestHelper.h"
 #include "helpers/FrameFileTestHelper.h"

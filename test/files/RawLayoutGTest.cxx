@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "files/RawLayout.h"
+#include "files/FrameReader.h"
 #include "helpers/BurstFilesTestHelper.h"
 #include "helpers/FrameFileTestHelper.h"
 

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "helpers/FrameFileTestHelper.h"
+#include "files/FrameReader.h"
 #include "helpers/TiffTestHelper.h"
-#include "files/FrameChoice.h"
+#include "sensornoise/FrameFile.h"
 
 #include <string>
 #include <vector>

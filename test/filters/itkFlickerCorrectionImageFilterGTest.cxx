@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "base/RollingShutter.h"
+#include "sensornoise/Settings.h"
 #include "itkFlickerCorrectionImageFilter.h"
 #include "helpers/FlickerCorrectionTestHelper.h"
 #include "helpers/PipelineTestHelper.h"

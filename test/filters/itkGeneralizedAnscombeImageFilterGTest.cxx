@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "itkGeneralizedAnscombeImageFilter.h"
 
-#include "stabilise/GeneralizedAnscombe.h"
+#include "sensornoise/NoiseModel.h"
 #include "itkInverseGeneralizedAnscombeImageFilter.h"
 #include "helpers/PipelineTestHelper.h"
 #include "itkPipelineMonitorImageFilter.h"

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "report/ReportJson.h"
-#include "sensornoise/Scenes.h"
+#include "sensornoise/ReportText.h"
 #include "sensornoise/Simulator.h"
 #include "itkBayerPlaneImageFilter.h"
 #include "itkImage.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/CameraSettings.h"
-#include "report/ReportJson.h"
+#include "sensornoise/ReportText.h"
 #include "itkImage.h"
 #include "itkMetaDataObject.h"
 #include "itkSensorNoiseEstimator.h"

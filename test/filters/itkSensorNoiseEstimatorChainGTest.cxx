@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "base/RollingShutter.h"
+#include "sensornoise/Settings.h"
 #include "sensornoise/Report.h"
-#include "sensornoise/Scenes.h"
+#include "sensornoise/Simulator.h"
 #include "itkSensorNoiseEstimator.h"
 #include "helpers/PipelineTestHelper.h"
 #include "helpers/SensorNoiseEstimatorTestHelper.h"

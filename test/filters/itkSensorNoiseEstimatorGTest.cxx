@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "base/PixelUse.h"
 #include "sensornoise/Report.h"
 #include "itkSensorNoiseEstimator.h"
 #include "helpers/PipelineTestHelper.h"

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "base/PixelUse.h"
 #include "sensornoise/Report.h"
 #include "itkNumericTraits.h"
 #include "itkSensorNoiseEstimator.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "base/RollingShutter.h"
+#include "sensornoise/Settings.h"
 #include "sensornoise/Report.h"
 #include "itkSensorNoiseEstimator.h"
 #include "helpers/PipelineTestHelper.h"

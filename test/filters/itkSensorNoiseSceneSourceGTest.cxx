@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/Scenes.h"
+#include "sensornoise/Simulator.h"
 #include "itkSensorNoiseSceneSource.h"
 
 #include <gtest/gtest.h>

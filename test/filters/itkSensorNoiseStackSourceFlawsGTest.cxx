@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/Scenes.h"
-#include "sensornoise/SimulationSettings.h"
 #include "sensornoise/Simulator.h"
+#include "sensornoise/SimulationSettings.h"
 #include "itkSensorNoiseStackSource.h"
 #include "itkImageRegionConstIterator.h"
 #include "itkPipelineMonitorImageFilter.h"

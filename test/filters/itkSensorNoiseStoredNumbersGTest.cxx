@@ -3,7 +3,7 @@
 #include "helpers/BurstFilesTestHelper.h"
 #include "helpers/FrameFilesTestHelper.h"
 #include "helpers/TiffTestHelper.h"
-#include "files/FileError.h"
+#include "sensornoise/FrameFile.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -3,7 +3,7 @@
 #include "itkSensorNoiseSums.h"
 #include "helpers/SensorNoiseEstimatorTestHelper.h"
 
-#include "report/ReportJson.h"
+#include "sensornoise/ReportText.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "published/VibrationCovariance.h"
 #include "published/VibrationMask.h"
-#include "sensornoise/Scenes.h"
+#include "sensornoise/Simulator.h"
 #include "itkVibrationCovarianceEstimator.h"
 #include "helpers/PipelineTestHelper.h"
 #include "itkTemporalStatisticsImageFilter.h"

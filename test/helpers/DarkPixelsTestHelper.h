@@ -4,10 +4,9 @@
 #define sensornoise_test_DarkPixelsTestHelper_h
 
 #include "sensornoise/Parallel.h"
-#include "moments/CodeSettings.h"
+#include "sensornoise/Settings.h"
 #include "moments/DarkDrift.h"
 #include "moments/DarkFrames.h"
-#include "moments/KnownOffset.h"
 #include "moments/TemporalMoments.h"
 #include "simulation/Random.h"
 #include "helpers/StackTestHelper.h"

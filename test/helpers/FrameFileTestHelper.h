@@ -3,7 +3,6 @@
 #ifndef sensornoise_test_FrameFileTestHelper_h
 #define sensornoise_test_FrameFileTestHelper_h
 
-#include "files/FileError.h"
 #include "sensornoise/FrameFile.h"
 #include "files/FrameFormats.h"
 #include "helpers/FolderTestHelper.h"

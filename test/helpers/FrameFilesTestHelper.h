@@ -5,7 +5,7 @@
 
 #include "itkSensorNoiseFrameFiles.h"
 #include "itkSensorNoiseFrameListSource.h"
-#include "files/FileError.h"
+#include "sensornoise/FrameFile.h"
 #include "helpers/FolderTestHelper.h"
 #include "itkImage.h"
 #include "itkImageFileWriter.h"

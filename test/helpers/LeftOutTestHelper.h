@@ -5,7 +5,7 @@
 
 #include "moments/UnlikeFrames.h"
 #include "sensornoise/Report.h"
-#include "report/ReportJson.h"
+#include "sensornoise/ReportText.h"
 #include "helpers/ReportTestHelper.h"
 #include "helpers/StackTestHelper.h"
 

@@ -3,7 +3,7 @@
 #ifndef sensornoise_test_PipelineTestHelper_h
 #define sensornoise_test_PipelineTestHelper_h
 
-#include "sensornoise/Scenes.h"
+#include "sensornoise/Simulator.h"
 #include "itkImage.h"
 #include "itkImageAlgorithm.h"
 #include "itkImageFileWriter.h"

@@ -5,11 +5,10 @@
 
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Parallel.h"
-#include "base/RollingShutter.h"
+#include "sensornoise/Settings.h"
 #include "sensornoise/PublishedMethod.h"
-#include "published/PublishedSettings.h"
 #include "sensornoise/Report.h"
-#include "report/ReportJson.h"
+#include "sensornoise/ReportText.h"
 #include "sensornoise/SimulationSettings.h"
 #include "helpers/ReportTestHelper.h"
 #include "helpers/StackTestHelper.h"

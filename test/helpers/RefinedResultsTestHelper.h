@@ -3,7 +3,7 @@
 #ifndef sensornoise_test_RefinedResultsTestHelper_h
 #define sensornoise_test_RefinedResultsTestHelper_h
 
-#include "base/PixelUse.h"
+#include "sensornoise/Report.h"
 #include "refined/GainEstimate.h"
 #include "refined/OffsetReport.h"
 #include "refined/RefinedResults.h"

@@ -4,7 +4,7 @@
 #define sensornoise_test_RepeatedTestHelper_h
 
 #include "sensornoise/Report.h"
-#include "report/ReportJson.h"
+#include "sensornoise/ReportText.h"
 #include "helpers/StackTestHelper.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #define sensornoise_test_SensorNoiseEstimatorTestHelper_h
 
 #include "sensornoise/Report.h"
-#include "report/ReportJson.h"
+#include "sensornoise/ReportText.h"
 #include "itkImage.h"
 #include "itkSensorNoiseEstimator.h"
 #include "helpers/PipelineTestHelper.h"

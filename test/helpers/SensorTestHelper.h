@@ -3,7 +3,6 @@
 #ifndef sensornoise_test_SensorTestHelper_h
 #define sensornoise_test_SensorTestHelper_h
 
-#include "moments/KnownOffset.h"
 #include "sensornoise/Settings.h"
 #include "sensornoise/Report.h"
 #include "sensornoise/SimulationSettings.h"

@@ -4,9 +4,8 @@
 #define sensornoise_test_StackTestHelper_h
 
 #include "sensornoise/Parallel.h"
-#include "sensornoise/Scenes.h"
-#include "sensornoise/SimulationSettings.h"
 #include "sensornoise/Simulator.h"
+#include "sensornoise/SimulationSettings.h"
 
 #include <algorithm>
 #include <cstddef>

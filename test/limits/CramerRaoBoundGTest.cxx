@@ -5,9 +5,8 @@
 #include "sensornoise/Parallel.h"
 #include "limits/CramerRaoInput.h"
 #include "limits/PrecisionLimit.h"
-#include "sensornoise/Scenes.h"
+#include "sensornoise/Simulator.h"
 #include "sensornoise/SimulationSettings.h"
-#include "simulation/SimulationTruth.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "moments/DarkDrift.h"
+#include "moments/DarkMaps.h"
 #include "sensornoise/Parallel.h"
-#include "moments/KnownOffset.h"
+#include "sensornoise/Settings.h"
 #include "simulation/Random.h"
 #include "helpers/DarkPixelsTestHelper.h"
 

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "moments/DarkFrames.h"
 #include "sensornoise/Parallel.h"
-#include "moments/CodeSettings.h"
-#include "moments/KnownOffset.h"
+#include "sensornoise/Settings.h"
 #include "moments/TemporalMoments.h"
 #include "sensornoise/SimulationSettings.h"
 #include "helpers/StackTestHelper.h"

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/ChiSquare.h"
 #include "moments/DarkFrames.h"
+#include "moments/DarkMaps.h"
 #include "moments/DefectivePixels.h"
-#include "moments/KnownOffset.h"
+#include "sensornoise/Settings.h"
 #include "helpers/DarkPixelsTestHelper.h"
 
 #include <algorithm>

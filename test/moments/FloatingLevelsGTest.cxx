@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "moments/FloatingLevels.h"
-#include "moments/CodeRange.h"
-#include "moments/CodeSettings.h"
+#include "sensornoise/StepResults.h"
+#include "sensornoise/Settings.h"
 #include "moments/Codes.h"
 #include "moments/OutermostLevels.h"
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "moments/MosaicLevels.h"
 
-#include "sensornoise/Scenes.h"
 #include "sensornoise/Simulator.h"
 
 #include <algorithm>

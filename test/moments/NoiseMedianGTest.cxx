@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "moments/NoiseMedian.h"
-#include "moments/KnownOffset.h"
+#include "sensornoise/Settings.h"
 #include "simulation/Random.h"
 #include "helpers/DarkPixelsTestHelper.h"
 

@@ -3,7 +3,7 @@
 #include "moments/PixelCalibration.h"
 #include "base/ChiSquare.h"
 #include "moments/DarkMaps.h"
-#include "moments/KnownOffset.h"
+#include "sensornoise/Settings.h"
 #include "helpers/DarkPixelsTestHelper.h"
 
 #include <cmath>

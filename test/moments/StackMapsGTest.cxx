@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "moments/StackMaps.h"
 #include "sensornoise/Parallel.h"
-#include "moments/CodeSettings.h"
+#include "sensornoise/Settings.h"
 #include "moments/StackMoments.h"
 #include "helpers/StackTestHelper.h"
 

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/MosaicMethod.h"
 
-#include "base/PixelUse.h"
-#include "sensornoise/PublishedMethod.h"
-#include "sensornoise/RefinedMethod.h"
-#include "report/ReportJson.h"
+#include "sensornoise/Report.h"
+#include "mosaic/MosaicPasses.h"
+#include "published/PublishedPasses.h"
+#include "refined/RefinedPasses.h"
+#include "sensornoise/ReportText.h"
 #include "helpers/StackTestHelper.h"
 
 #include <algorithm>
@@ -41,7 +42,7 @@ SimulateMosaic(BayerPattern pattern, std::size_t width, std::size_t height)
 
 template <typename TMethod>
 using SettingsOf =
-  std::conditional_t<std::is_same_v<TMethod, RefinedMethod<Pixel>>, RefinedSettings, PublishedSettings>;
+  std::conditional_t<std::is_same_v<TMethod, RefinedPasses<Pixel>>, RefinedSettings, PublishedSettings>;
 
 template <typename TMethod>
 TMethod
@@ -87,7 +88,7 @@ RunOnPlane(TMethod & method, const Stack<Pixel> & stack, const MosaicGeometry & 
 template <typename TMethod>
 class MosaicMethodOf : public ::testing::Test
 {};
-using Methods = ::testing::Types<RefinedMethod<Pixel>, PublishedMethod<Pixel>>;
+using Methods = ::testing::Types<RefinedPasses<Pixel>, PublishedPasses<Pixel>>;
 TYPED_TEST_SUITE(MosaicMethodOf, Methods, );
 } // namespace
 
@@ -104,7 +105,7 @@ TYPED_TEST(MosaicMethodOf, FindsOfEachPlaneWhatItFindsOfItAlone)
       mask[p] = 0;
     }
     const auto                     threads = Threads(3);
-    MosaicMethod<Pixel, TypeParam> mosaic(
+    MosaicPasses<Pixel, TypeParam> mosaic(
       geometry,
       [&](BayerPlane plane, const ParallelFor & parallelFor) {
         return MakeMethod<TypeParam>(geometry.Plane(), stack.frames, geometry.Take(mask, plane), parallelFor);
@@ -156,7 +157,7 @@ TYPED_TEST(MosaicMethodOf, PlanesThatAreReadInPlaceAreThoseAlone)
     const auto make = [&](BayerPlane, const ParallelFor & parallelFor) {
       return MakeMethod<Method>(geometry.Plane(), stack.frames, {}, parallelFor, settings);
     };
-    MosaicMethod<Pixel, Method> mosaic(geometry, make, Threads(3));
+    MosaicPasses<Pixel, Method> mosaic(geometry, make, Threads(3));
     RunPasses(mosaic, stack, 7);
     for (std::size_t k = 0; k < BayerPlanes.size(); ++k)
     {
@@ -172,7 +173,7 @@ TYPED_TEST(MosaicMethodOf, PlanesThatAreReadInPlaceAreThoseAlone)
 /** What RefinedMethod finds of the planes, in how many passes, if \a many sums make the rows take turns. */
 struct InTurns
 {
-  using Method = MosaicMethod<Pixel, RefinedMethod<Pixel>>;
+  using Method = MosaicPasses<Pixel, RefinedPasses<Pixel>>;
 
   Method      method;
   std::size_t passes{ 0 };
@@ -185,13 +186,13 @@ struct InTurns
     : method(
         { { stack.width, stack.height, 1 }, BayerPattern::GRBG },
         [&](BayerPlane, const ParallelFor & withinPlane) {
-          return MakeMethod<RefinedMethod<Pixel>>(
+          return MakeMethod<RefinedPasses<Pixel>>(
             { stack.width / 2, stack.height / 2, 1 }, stack.frames, {}, withinPlane);
         },
         parallelFor,
         threads)
   {
-    method.LetSumsStay(many);
+    method.DisableMerging(many);
     for (; !method.IsDone(); ++passes)
     {
       for (std::size_t t = 0; t < stack.frames; t += chunk)
@@ -233,11 +234,40 @@ TEST(MosaicMethod, PlanesCountTheirOwnFrames)
 {
   const MosaicGeometry geometry{ { 64, 64, 1 }, BayerPattern::RGGB };
   const auto           make = [&](BayerPlane, const ParallelFor &) {
-    return RefinedMethod<Pixel>(RefinedSettings(), geometry.Plane(), 8);
+    return RefinedPasses<Pixel>(RefinedSettings(), geometry.Plane(), 8);
   };
-  MosaicMethod<Pixel, RefinedMethod<Pixel>> method(geometry, make);
+  MosaicPasses<Pixel, RefinedPasses<Pixel>> method(geometry, make);
   const std::vector<Pixel>                  frames(64 * 64 * 9);
   EXPECT_THROW(method.AddFrames(frames.data(), 9), std::logic_error);
+}
+
+/** The public class hands on: a memory limit of all planes is shared out, and the settings of each plane are its own.
+ */
+TYPED_TEST(MosaicMethodOf, IsThePassesOfItsPlanes)
+{
+  using Method =
+    std::conditional_t<std::is_same_v<TypeParam, RefinedPasses<Pixel>>, RefinedMethod<Pixel>, PublishedMethod<Pixel>>;
+  const Stack<Pixel>          stack = SimulateMosaic(BayerPattern::GBRG, 97, 90);
+  const MosaicGeometry        geometry{ { stack.width, stack.height, 1 }, BayerPattern::GBRG };
+  const SettingsOf<TypeParam> settings;
+  std::vector<std::uint8_t>   mask(stack.width * stack.height, 1);
+  std::fill(mask.begin(), mask.begin() + 100, std::uint8_t{ 0 });
+  auto passes = MakeMosaicPasses<Pixel, TypeParam>(
+    { { settings, settings, settings, settings } }, geometry, stack.frames, mask, SerialFor, 1);
+  RunPasses(passes, stack, stack.frames);
+  MosaicMethod<Pixel, Method> made(settings, geometry.frame, geometry.pattern, stack.frames, mask, Threads(2), 2);
+  auto                        method = std::move(made);
+  RunPasses(method, stack, 9);
+  for (std::size_t k = 0; k < BayerPlanes.size(); ++k)
+  {
+    EXPECT_EQ(ToJson(method.GetReports().at(k)), ToJson(passes.GetReports().at(k)));
+  }
+  const auto use =
+    passes.JoinMaps([](auto & ofPlane) { return ofPlane.TakePixelUse(); }, static_cast<std::uint8_t>(PixelUse::Border));
+  EXPECT_EQ(method.TakePixelUse(), use);
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto       mean = passes.JoinMaps([](auto & ofPlane) { return ofPlane.TakeMean(); }, nan);
+  EXPECT_TRUE(HaveSameBits(method.TakeMean(), mean));
 }
 
 TEST(MosaicGeometry, SplitAndPutAreInverse)
@@ -385,7 +415,7 @@ struct MorePassesInEachPlane
 
 TEST(SensorNoiseMosaicMethod, PlanesThatAreDoneWaitForTheOthers)
 {
-  MosaicMethod<Pixel, MorePassesInEachPlane> mosaic(
+  MosaicPasses<Pixel, MorePassesInEachPlane> mosaic(
     { { 4, 4, 1 }, BayerPattern::RGGB },
     [](BayerPlane plane, const auto &) { return MorePassesInEachPlane{ 3 + static_cast<std::size_t>(plane) }; });
   const std::vector<Pixel> frames(5 * 16);

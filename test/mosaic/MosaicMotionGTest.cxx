@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/MosaicMethod.h"
+#include "mosaic/MosaicPasses.h"
+#include "refined/RefinedPasses.h"
 #include "sensornoise/RefinedMethod.h"
 #include "sensornoise/ChannelReports.h"
-#include "sensornoise/Scenes.h"
 #include "sensornoise/Simulator.h"
 #include "helpers/StackTestHelper.h"
 
@@ -29,8 +29,8 @@ TEST(MosaicMotion, OfAllPlanesIsThatOfTheSensor)
     const StackSimulator simulator(MakeTargetScene(side, side), side, side, settings);
     const auto           stack = Simulate<std::uint16_t>(settings, side, side);
     const MosaicGeometry geometry{ { side, side, 1 }, BayerPattern::RGGB };
-    using Method = RefinedMethod<std::uint16_t>;
-    MosaicMethod<std::uint16_t, Method> method(
+    using Method = RefinedPasses<std::uint16_t>;
+    MosaicPasses<std::uint16_t, Method> method(
       geometry,
       [&](BayerPlane, const ParallelFor & parallelFor) {
         return Method(RefinedSettings(), geometry.Plane(), stack.frames, {}, parallelFor);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "page/FigureJson.h"
+#include "sensornoise/ReportPage.h"
 
 #include <array>
 #include <cstddef>

@@ -3,7 +3,7 @@
 #include "pixels/StaticVariance.h"
 #include "base/Eigen.h"
 #include "sensornoise/Parallel.h"
-#include "base/PixelUse.h"
+#include "sensornoise/Report.h"
 #include "pixels/ProjectedVariance.h"
 #include "helpers/ProjectionTestHelper.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/Significance.h"
 #include "published/FlickerEstimate.h"
-#include "base/RollingShutter.h"
+#include "sensornoise/Settings.h"
 #include "published/FlickerSums.h"
 #include "published/IsoIntensitySet.h"
 

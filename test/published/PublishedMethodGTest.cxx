@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/PublishedMethod.h"
 #include "sensornoise/FrameGeometry.h"
-#include "base/PixelUse.h"
-#include "published/PublishedSettings.h"
 #include "sensornoise/Report.h"
+#include "sensornoise/Settings.h"
 #include "simulation/Random.h"
 #include "sensornoise/SimulationSettings.h"
-#include "simulation/SimulationTruth.h"
+#include "sensornoise/Simulator.h"
 #include "helpers/PublishedTestHelper.h"
 
 #include <algorithm>

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/PublishedMethod.h"
-#include "moments/CodeSettings.h"
-#include "published/PublishedSettings.h"
+#include "sensornoise/Settings.h"
 #include "sensornoise/Report.h"
-#include "report/ReportJson.h"
+#include "sensornoise/ReportText.h"
 #include "sensornoise/SimulationSettings.h"
 #include "helpers/PublishedTestHelper.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/PublishedMethod.h"
-#include "sensornoise/Scenes.h"
+#include "sensornoise/Simulator.h"
 #include "helpers/PublishedTestHelper.h"
 #include "helpers/RepeatedTestHelper.h"
 

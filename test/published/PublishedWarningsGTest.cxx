@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "published/NoiseParameters.h"
-#include "report/ReportTable.h"
-#include "sensornoise/Scenes.h"
+#include "sensornoise/ReportText.h"
+#include "sensornoise/Simulator.h"
 #include "helpers/PublishedTestHelper.h"
 
 #include <cmath>

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "base/PixelUse.h"
-#include "sensornoise/RefinedMethod.h"
 #include "sensornoise/Report.h"
-#include "report/ReportJson.h"
-#include "sensornoise/Scenes.h"
+#include "sensornoise/RefinedMethod.h"
+#include "sensornoise/ReportText.h"
+#include "sensornoise/Simulator.h"
 #include "sensornoise/SimulationSettings.h"
 #include "helpers/RefinedTestHelper.h"
 #include "helpers/ReportTestHelper.h"

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "base/PixelUse.h"
+#include "sensornoise/Report.h"
 #include "sensornoise/RefinedMethod.h"
 #include "simulation/Random.h"
-#include "sensornoise/Scenes.h"
-#include "sensornoise/SimulationSettings.h"
 #include "sensornoise/Simulator.h"
+#include "sensornoise/SimulationSettings.h"
 #include "helpers/RefinedTestHelper.h"
 #include "helpers/StackTestHelper.h"
 

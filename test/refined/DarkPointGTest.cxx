@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "refined/DarkPoint.h"
-#include "moments/KnownOffset.h"
+#include "sensornoise/Settings.h"
 #include "sensornoise/Report.h"
 #include "sensornoise/SimulationSettings.h"
 #include "sensornoise/Simulator.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/RefinedMethod.h"
-#include "report/ReportJson.h"
+#include "sensornoise/ReportText.h"
 #include "helpers/RefinedTestHelper.h"
 #include "helpers/StackTestHelper.h"
 

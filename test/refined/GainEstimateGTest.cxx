@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "refined/GainEstimate.h"
 #include "base/Eigen.h"
-#include "moments/KnownOffset.h"
+#include "sensornoise/Settings.h"
 #include "pixels/MeanGain.h"
 #include "pixels/VarianceCurve.h"
 #include "pixels/VarianceLine.h"

@@ -1,14 +1,12 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/KnownOffset.h"
 #include "sensornoise/Settings.h"
 #include "report/Quantities.h"
 #include "sensornoise/Report.h"
-#include "report/ReportTable.h"
+#include "sensornoise/ReportText.h"
 #include "simulation/Random.h"
-#include "sensornoise/Scenes.h"
-#include "sensornoise/SimulationSettings.h"
 #include "sensornoise/Simulator.h"
+#include "sensornoise/SimulationSettings.h"
 #include "helpers/RefinedTestHelper.h"
 
 #include <algorithm>

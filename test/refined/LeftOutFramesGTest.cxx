@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/MosaicMethod.h"
+#include "mosaic/MosaicPasses.h"
+#include "refined/RefinedPasses.h"
 #include "sensornoise/PublishedMethod.h"
 #include "sensornoise/RefinedMethod.h"
 #include "helpers/LeftOutTestHelper.h"
@@ -201,8 +202,8 @@ TEST(SensorNoiseLeftOutFrames, OfOnePlaneOfAMosaicAreLeftOutOfAll)
     const std::vector<Codes> frame = geometry.Join(planes, Codes{ 0 }, SerialFor);
     mosaic.pixels.insert(mosaic.pixels.end(), frame.begin(), frame.end());
   }
-  MosaicMethod<Codes, RefinedMethod<Codes>> method(geometry, [&](BayerPlane, const ParallelFor & parallelFor) {
-    return RefinedMethod<Codes>(WithCodes(), geometry.Plane(), plane.frames, {}, parallelFor);
+  MosaicPasses<Codes, RefinedPasses<Codes>> method(geometry, [&](BayerPlane, const ParallelFor & parallelFor) {
+    return RefinedPasses<Codes>(WithCodes(), geometry.Plane(), plane.frames, {}, parallelFor);
   });
   while (!method.IsDone())
   {

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "base/PixelUse.h"
+#include "sensornoise/Report.h"
 #include "sensornoise/RefinedMethod.h"
 #include "sensornoise/Settings.h"
-#include "sensornoise/Report.h"
 #include "sensornoise/SimulationSettings.h"
 #include "helpers/SensorTestHelper.h"
 

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "refined/RefinedReport.h"
-#include "report/ReportJson.h"
-#include "report/ReportTable.h"
+#include "sensornoise/ReportText.h"
 #include "helpers/RefinedResultsTestHelper.h"
 #include "helpers/ReportTestHelper.h"
 

@@ -3,7 +3,7 @@
 #include "pixels/ProjectionSums.h"
 #include "refined/MemoryNeed.h"
 #include "sensornoise/RefinedMethod.h"
-#include "report/ReportJson.h"
+#include "sensornoise/ReportText.h"
 #include "helpers/RefinedTestHelper.h"
 #include "helpers/ReportTestHelper.h"
 #include "helpers/StackTestHelper.h"
@@ -84,7 +84,7 @@ MeasureWithSumsThatStay(const Stack<Codes> & stack, std::size_t atOnce)
   RefinedSettings settings = WithCodes();
   settings.memoryLimitBytes = MemoryNeed{ Width * Height, Frames }.Least();
   Limited limited{ RefinedMethod<Codes>(settings, GeometryOf(stack), Frames, {}, Threads(2)) };
-  limited.method.LetSumsStay();
+  limited.method.DisableMerging();
   for (; !limited.method.IsDone(); ++limited.passes)
   {
     limited.method.AddFrames(stack.Frame(0), Frames);
@@ -145,7 +145,7 @@ TEST(SensorNoiseMemoryLimit, SumsThatStayAreNotSavedOrMerged)
 {
   const Stack<Codes>   stack = FramesOf(false);
   RefinedMethod<Codes> method(WithCodes(), GeometryOf(stack), Frames, {}, Threads(2));
-  method.LetSumsStay();
+  method.DisableMerging();
   std::stringstream sums;
   for (int pass = 0; pass < 2; ++pass)
   {

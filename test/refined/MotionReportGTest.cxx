@@ -3,7 +3,7 @@
 #include "refined/MotionReport.h"
 #include "sensornoise/Report.h"
 #include "sensornoise/SimulationSettings.h"
-#include "simulation/SimulationTruth.h"
+#include "sensornoise/Simulator.h"
 #include "helpers/RefinedTestHelper.h"
 
 #include <cmath>

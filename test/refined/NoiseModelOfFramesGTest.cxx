@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // A report's noise model held against frames that it was not made from.
 #include "sensornoise/Report.h"
-#include "report/ReportJson.h"
-#include "sensornoise/Scenes.h"
+#include "sensornoise/ReportText.h"
+#include "sensornoise/Simulator.h"
 #include "sensornoise/SimulationSettings.h"
-#include "stabilise/GeneralizedAnscombe.h"
 #include "sensornoise/NoiseModel.h"
-#include "stabilise/NoiseModelCheck.h"
 #include "helpers/RefinedTestHelper.h"
 
 #include <cmath>

@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Parallel.h"
-#include "base/PixelUse.h"
+#include "sensornoise/Report.h"
 #include "sensornoise/RefinedMethod.h"
 #include "sensornoise/Settings.h"
-#include "sensornoise/Report.h"
-#include "report/ReportJson.h"
-#include "sensornoise/Scenes.h"
-#include "simulation/SimulationTruth.h"
+#include "sensornoise/ReportText.h"
+#include "sensornoise/Simulator.h"
 #include "sensornoise/SimulationSettings.h"
 #include "helpers/RefinedTestHelper.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "report/ReportJson.h"
+#include "sensornoise/ReportText.h"
 #include "sensornoise/RefinedMethod.h"
 #include "sensornoise/Report.h"
 #include "helpers/MergeTestHelper.h"

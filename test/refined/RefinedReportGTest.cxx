@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "refined/RefinedReport.h"
 #include "sensornoise/Report.h"
-#include "report/ReportJson.h"
-#include "sensornoise/Scenes.h"
-#include "sensornoise/SimulationSettings.h"
+#include "sensornoise/ReportText.h"
 #include "sensornoise/Simulator.h"
+#include "sensornoise/SimulationSettings.h"
 #include "helpers/SensorTestHelper.h"
 
 #include <cmath>

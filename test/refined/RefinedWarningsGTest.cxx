@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "base/PixelUse.h"
 #include "sensornoise/Report.h"
-#include "report/ReportTable.h"
+#include "sensornoise/ReportText.h"
 #include "simulation/Random.h"
-#include "sensornoise/Scenes.h"
+#include "sensornoise/Simulator.h"
 #include "sensornoise/SimulationSettings.h"
 #include "helpers/SensorTestHelper.h"
 #include "helpers/SentencesTestHelper.h"

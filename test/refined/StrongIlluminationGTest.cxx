@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "sensornoise/MosaicMethod.h"
+#include "mosaic/MosaicPasses.h"
+#include "refined/RefinedPasses.h"
 #include "sensornoise/RefinedMethod.h"
-#include "report/ReportJson.h"
-#include "report/ReportTable.h"
+#include "sensornoise/ReportText.h"
 #include "helpers/RefinedTestHelper.h"
 #include "helpers/ReportTestHelper.h"
 
@@ -222,10 +222,10 @@ TEST(SensorNoiseStrongIllumination, SameBitsForAnyChunksThreadsAndOrder)
   auto       chunks = MethodOf(stack, threads);
   RunPasses(chunks, stack, 7);
   ExpectSameBits(chunks, whole);
-  auto sumsStay = MethodOf(stack);
-  sumsStay.LetSumsStay();
-  RunPasses(sumsStay, stack, stack.frames);
-  ExpectSameBits(sumsStay, whole);
+  auto withoutMerging = MethodOf(stack);
+  withoutMerging.DisableMerging();
+  RunPasses(withoutMerging, stack, stack.frames);
+  ExpectSameBits(withoutMerging, whole);
   auto turned = MethodOf(stack);
   while (!turned.IsDone())
   {
@@ -309,12 +309,12 @@ TEST(SensorNoiseStrongIllumination, PlanesOfAMosaicFindWhatTheyFindAlone)
     }
   }
   const auto make = [&](BayerPlane, const ParallelFor & parallelFor) {
-    return RefinedMethod<Codes>(RefinedSettings(), geometry.Plane(), stack.frames, {}, parallelFor);
+    return RefinedPasses<Codes>(RefinedSettings(), geometry.Plane(), stack.frames, {}, parallelFor);
   };
   for (const std::size_t chunk : { std::size_t{ 9 }, stack.frames })
   {
-    MosaicMethod<Codes, RefinedMethod<Codes>> mosaic(geometry, make, Threads(3), 3);
-    mosaic.LetSumsStay(MosaicMethod<Codes, RefinedMethod<Codes>>::ManySums{ 0, 0 });
+    MosaicPasses<Codes, RefinedPasses<Codes>> mosaic(geometry, make, Threads(3), 3);
+    mosaic.DisableMerging(MosaicPasses<Codes, RefinedPasses<Codes>>::ManySums{ 0, 0 });
     RunPasses(mosaic, stack, chunk);
     for (std::size_t k = 0; k < BayerPlanes.size(); ++k)
     {

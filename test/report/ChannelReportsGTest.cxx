@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/ChannelReports.h"
 
-#include "report/ChannelRecord.h"
+#include "sensornoise/ReportText.h"
 #include "report/Quantities.h"
-#include "report/ReportJson.h"
 
 #include <algorithm>
 #include <array>

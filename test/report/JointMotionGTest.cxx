@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/JointMotion.h"
 
-#include "base/BayerPattern.h"
+#include "sensornoise/FrameGeometry.h"
 #include "report/Quantities.h"
 
 #include <array>

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/LinearityReport.h"
 #include "sensornoise/ReportPage.h"
-#include "report/ReportJson.h"
-#include "report/ReportTable.h"
+#include "sensornoise/ReportText.h"
 
 #include <gtest/gtest.h>
 #include <string>

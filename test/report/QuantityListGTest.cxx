@@ -1,9 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "report/QuantityList.h"
+#include "sensornoise/ReportText.h"
 #include "report/Quantities.h"
-#include "report/ReportJson.h"
-#include "report/ReportTable.h"
 #include "report/Signs.h"
 
 #include <gtest/gtest.h>

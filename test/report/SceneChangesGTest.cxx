@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/PublishedMethod.h"
 #include "sensornoise/RefinedMethod.h"
-#include "report/ReportTable.h"
-#include "sensornoise/Scenes.h"
+#include "sensornoise/ReportText.h"
+#include "sensornoise/Simulator.h"
 #include "helpers/ReportTestHelper.h"
 #include "helpers/StackTestHelper.h"
 

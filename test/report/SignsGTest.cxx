@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/Signs.h"
 #include "sensornoise/Report.h"
-#include "report/ReportTable.h"
+#include "sensornoise/ReportText.h"
 
 #include <gtest/gtest.h>
 #include <string>

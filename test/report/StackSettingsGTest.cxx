@@ -3,7 +3,7 @@
 #include "report/StackSettings.h"
 
 #include "sensornoise/FrameGeometry.h"
-#include "moments/CodeSettings.h"
+#include "sensornoise/Settings.h"
 #include "sensornoise/Report.h"
 
 #include <cstdint>

@@ -4,7 +4,7 @@
 #include "report/Quantities.h"
 #include "helpers/ReportTestHelper.h"
 
-#include "report/QuantityList.h"
+#include "sensornoise/ReportText.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/GuardBand.h"
 #include "sensornoise/Parallel.h"
-#include "moments/CodeRange.h"
+#include "sensornoise/StepResults.h"
 #include "helpers/FrameTestHelper.h"
 
 #include <algorithm>

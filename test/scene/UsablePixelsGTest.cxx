@@ -3,8 +3,8 @@
 #include "scene/UsablePixels.h"
 #include "base/NothingToMeasure.h"
 #include "sensornoise/Parallel.h"
-#include "base/PixelUse.h"
-#include "moments/CodeRange.h"
+#include "sensornoise/Report.h"
+#include "sensornoise/StepResults.h"
 #include "scene/ReferenceFrame.h"
 #include "helpers/FrameTestHelper.h"
 

@@ -3,7 +3,7 @@
 #include "series/SceneSeries.h"
 #include "base/NothingToMeasure.h"
 #include "sensornoise/Parallel.h"
-#include "base/RollingShutter.h"
+#include "sensornoise/Settings.h"
 #include "series/FrameEquations.h"
 #include "series/FrameProducts.h"
 #include "series/FrameRegressors.h"

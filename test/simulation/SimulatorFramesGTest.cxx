@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/Simulator.h"
-#include "sensornoise/Scenes.h"
 #include "helpers/SimulatorTestHelper.h"
 #include "helpers/StackTestHelper.h"
 

@@ -1,9 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/Simulator.h"
-#include "sensornoise/Scenes.h"
 #include "sensornoise/SimulationSettings.h"
-#include "simulation/SimulationTruth.h"
 #include "helpers/SimulatorTestHelper.h"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/WarningCodes.h"
-#include "report/QuantityList.h"
+#include "sensornoise/ReportText.h"
 #include "helpers/CheckoutTestHelper.h"
 
 #include <filesystem>

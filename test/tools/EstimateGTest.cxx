@@ -3,7 +3,7 @@
 #include "helpers/EstimateToolTestHelper.h"
 #include "base/Text.h"
 #include "report/Signs.h"
-#include "report/QuantityList.h"
+#include "sensornoise/ReportText.h"
 
 #include <cmath>
 #include <cstdio>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "base/PixelUse.h"
+#include "sensornoise/Report.h"
 #include "helpers/EstimateToolTestHelper.h"
 
 #include <cmath>

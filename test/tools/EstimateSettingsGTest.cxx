@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/Report.h"
-#include "base/PixelUse.h"
 #include "helpers/EstimateToolTestHelper.h"
 
 #include <algorithm>

@@ -4,12 +4,12 @@
 #define sensornoise_ChannelReports_h
 
 #include "SensorNoiseExport.h"
-#include "base/BayerPattern.h"
-#include "report/JointMotion.h"
+#include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Report.h"
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,7 +22,7 @@ enum class BayerSource : std::uint8_t
 {
   Given, ///< by the user
   File,  ///< by what the frames' file says
-  Levels ///< by the frames' levels, see RecogniseMosaic(): red and blue may be exchanged
+  Levels ///< by the levels of the frames: red and blue may be exchanged
 };
 
 SensorNoise_EXPORT const char *
@@ -39,6 +39,20 @@ struct JointOffset
   /** Mean square difference of the channels from their mean, in units of their errors, over the degrees of freedom [1].
    */
   double reducedChi2{ 0.0 };
+};
+
+/** The motion of a sensor, of the four planes of its mosaic together. In pixels of a plane, as each plane's own.
+ *
+ * A plane sees edges through every second pixel, and what lies between is missing: where an edge stands, the square of
+ * the shift is taken for a shift, with one sign by the even columns and with the other by the odd ones. Of R and B
+ * together, and of G1 and G2, every column and row is seen once, and what they do not agree in is gone from their mean.
+ */
+struct JointMotion
+{
+  Quantity                           sdX;        ///< [pixel]
+  Quantity                           sdY;        ///< [pixel]
+  Quantity                           covariance; ///< [pixel^2]
+  std::vector<std::array<double, 2>> series;     ///< (alpha_t, beta_t) of every frame, mean 0 [pixel]
 };
 
 /** What was measured of a stack behind a Bayer mosaic: a report for each of its four planes. Widths, heights and

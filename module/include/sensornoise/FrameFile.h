@@ -5,19 +5,41 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/CameraSettings.h"
-#include "files/FileIdentity.h"
-#include "files/FrameReader.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace sensornoise
 {
+
+class FrameReader; // private
+
+/** What is wrong with a file: one sentence that begins with the file's name and says what was found and what was
+ * expected. It is one line of UTF-8, whatever is in the file: other characters are shown as "?". */
+class SensorNoise_EXPORT FileError : public std::runtime_error
+{
+public:
+  FileError(const std::string & file, const std::string & what);
+};
+
+/** Which file a name stands for, and in which state: while it stays equal, nobody has replaced the file or written to
+ * it (to the resolution of the file system's clock). */
+struct FileIdentity
+{
+  std::string   name{};
+  std::uint64_t device{ 0 };
+  std::uint64_t inode{ 0 };
+  std::uint64_t size{ 0 };         // [bytes]
+  std::int64_t  modified{ 0 };     // the contents [ns since the file system's epoch]
+  std::int64_t  statusChange{ 0 }; // contents or rights; unlike `modified` it cannot be set back [ns]
+};
 
 struct FrameFormat;
 
@@ -106,6 +128,19 @@ InspectFrameFile(const std::string & name, const BeforeInflating & beforeInflati
 /** Throws FileError unless the file and its data files are still those, in that state, that were inspected. */
 SensorNoise_EXPORT void
 RequireUnchanged(const FrameFile & file);
+
+/** Which frames of a file are those of a burst, where it holds several channels or planes (FrameFile::axes). */
+struct FrameChoice
+{
+  std::optional<std::size_t> channel{};    ///< from 0
+  std::optional<std::size_t> plane{};      ///< from 0
+  bool                       all{ false }; ///< frames of any channel and plane, one after the other
+};
+
+/** Reduces the frames of the file to those of one channel and one plane, in time order. Throws FileError that names the
+ * axes where there are several channels or planes and none is chosen, and where the choice is not in the file. */
+SensorNoise_EXPORT void
+ChooseFrames(FrameFile & file, const FrameChoice & choice);
 
 } // namespace sensornoise
 

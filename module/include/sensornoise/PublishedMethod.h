@@ -5,168 +5,44 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/FrameGeometry.h"
-#include "base/FramesTogether.h"
 #include "sensornoise/Parallel.h"
-#include "base/PixelLayout.h"
-#include "sensornoise/PixelTypes.h"
-#include "moments/StackPasses.h"
-#include "published/CorrectedVariance.h"
-#include "published/FlickerEstimate.h"
-#include "published/FlickerSums.h"
-#include "published/PublishedReport.h"
-#include "published/PublishedScene.h"
-#include "published/PublishedSettings.h"
-#include "sensornoise/Report.h"
+#include "sensornoise/Settings.h"
+#include "sensornoise/StackMethod.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <istream>
-#include <optional>
-#include <ostream>
 #include <vector>
 
 namespace sensornoise
 {
 
 /** \class PublishedMethod
- * \brief The algorithm of Figure 2 of Sur & Gredi\'ac 2015 in three passes over the stack.
+ * \brief Runs the algorithm of Figure 2 of Sur & Gredi\'ac 2015 in three passes over the stack.
  *
  * https://doi.org/10.1137/140977035. Pass 1 gathers the temporal moments, which give mean, variance, clip levels, the
- * vibration mask and the iso-intensity sets; pass 2 each frame's sums over the sets, which give flicker and offset;
- * pass 3 the sums of the corrected variance, which gives gain and intercept. Usage, also by several processes, as
- * StackPasses: their sums have 32 bytes a frame and 8 a frame and row in pass 2, and 8 bytes a pixel in pass 3.
+ * vibration mask and the iso-intensity sets; pass 2 the sums of each frame over the sets, which give flicker and
+ * offset; pass 3 the sums of the corrected variance, which gives gain and intercept. Several processes share sums of 32
+ * bytes a frame and 8 a frame and row in pass 2, and of 8 bytes a pixel in pass 3.
  *
- * Frames that are equal are counted once, see DistinctFrames; flicker is reported for all of them.
+ * Equal frames are counted once; the flicker is reported for all of them.
  *
- * Same bits for any number of threads and any chunks. Memory: 40 bytes a pixel, 8 bytes a frame and row.
- * A stack that cannot be measured ends in a report whose quantities are `failed`, with a warning that says why; wrong
- * use throws std::invalid_argument.
- */
+ * The bits are the same for any number of threads and any chunks. Memory: 40 bytes a pixel, 8 bytes a frame and row. A
+ * stack that cannot be measured ends in a report whose quantities are `failed`, with a warning that says why; wrong use
+ * throws std::invalid_argument. */
 template <typename TPixel>
-class PublishedMethod final : public StackPasses<TPixel>
+class PublishedMethod final : public StackMethod<TPixel>
 {
 public:
-  using typename StackPasses<TPixel>::Passes;
+  using Settings = PublishedSettings;
 
-  /** Whether the third pass has more than one sum of a pixel. */
-  static constexpr bool HasManySums = false;
-
-  /** \a mask, if given, has a nonzero value at the pixels to be used; \a parallelFor spreads the work. Throws
-   * std::invalid_argument for settings out of range, see PublishedSettings::Validate(), and for a stack or a mask that
-   * RequireStack() refuses. */
+  /** \a mask, if given, has a nonzero value at the pixels to be used; \a parallelFor spreads the work over threads.
+   * Throws std::invalid_argument for settings out of range, see PublishedSettings::Validate(), for fewer than 5 frames,
+   * frames under 3 x 3 pixels, and a mask of another size. */
   PublishedMethod(const PublishedSettings &         settings,
                   const FrameGeometry &             geometry,
                   std::size_t                       frames,
                   const std::vector<std::uint8_t> & mask = {},
                   ParallelFor                       parallelFor = SerialFor);
-
-  /** Whether the last pass has ended. */
-  bool
-  IsDone() const
-  {
-    return m_IsDone;
-  }
-  /** The report and maps of a frame's size are there when the last pass has ended. */
-  const Report &
-  GetReport() const
-  {
-    return m_Report;
-  }
-  const std::vector<double> &
-  GetMean() const
-  {
-    return m_Scene.mean;
-  }
-  const std::vector<double> &
-  GetVariance() const
-  {
-    return m_Scene.variance;
-  }
-  /** NaN where the flicker is not known; empty if the stack cannot be measured. */
-  const std::vector<double> &
-  GetCorrectedVariance() const
-  {
-    return m_Corrected.variance;
-  }
-  /** Values of PixelUse. */
-  const std::vector<std::uint8_t> &
-  GetPixelUse() const
-  {
-    return m_Corrected.pixelUse;
-  }
-
-  /** Give the maps away, after which they are empty here. */
-  std::vector<double>
-  TakeMean()
-  {
-    return std::move(m_Scene.mean);
-  }
-  std::vector<double>
-  TakeVariance()
-  {
-    return std::move(m_Scene.variance);
-  }
-  std::vector<double>
-  TakeCorrectedVariance()
-  {
-    return std::move(m_Corrected.variance);
-  }
-  std::vector<std::uint8_t>
-  TakePixelUse()
-  {
-    return std::move(m_Corrected.pixelUse);
-  }
-
-private:
-  using typename StackPasses<TPixel>::Plane;
-  using Passes::m_Distinct;
-  using Passes::m_Geometry;
-  using Passes::m_Layout;
-  using Passes::m_Moments;
-  using Passes::m_ParallelFor;
-  using Passes::m_Thumbnails;
-  using Passes::m_UserMask;
-
-  bool
-  HasSums() const override
-  {
-    return m_Sums || m_Correction;
-  }
-  void
-  AddDistinct(const std::vector<Plane> & planes,
-              const TPixel *             frames,
-              std::size_t                count,
-              const ParallelFor &        parallelFor) const override;
-  void
-  ForgetOwnSums() override;
-  void
-  SaveOwnSums(std::ostream & out) const override;
-  void
-  MergeOwnSums(std::istream & in) override;
-  void
-  AddFindings(Fingerprint & fingerprint) const override;
-  void
-  FinishMoments() override;
-  void
-  FinishSums() override;
-
-  PublishedScene
-  EndMoments();
-  CorrectedMaps
-  EndCorrection() const;
-
-  PublishedSettings m_Settings;
-
-  // What passes 2 and 3 gather, one of them at a time; neither if the stack cannot be measured.
-  std::optional<FlickerSums>       m_Sums;
-  std::optional<CorrectedVariance> m_Correction;
-
-  // What the passes find, one after the other.
-  PublishedScene  m_Scene;
-  FlickerEstimate m_Flicker;
-  CorrectedMaps   m_Corrected;
-  Report          m_Report;
-  bool            m_IsDone{ false };
 };
 
 #define SensorNoise_EXTERN(TPixel) extern template class SensorNoise_EXPORT PublishedMethod<TPixel>

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef sensornoise_Report_h
 #define sensornoise_Report_h
-#include "sensornoise/WarningCodes.h"
+
+#include "SensorNoiseExport.h"
 #include "sensornoise/CameraSettings.h"
-#include "moments/UnlikeFrames.h"
+#include "sensornoise/WarningCodes.h"
 
 #include <array>
 #include <cstddef>
@@ -17,6 +18,47 @@
 
 namespace sensornoise
 {
+
+/** The reason for which a frame is not one of the burst. */
+enum class FrameFault : std::uint8_t
+{
+  NotFinite,   ///< most of it is NaN or infinite
+  NoNoise,     ///< neighbouring pixels are equal in most of it: zeros, or saturated
+  OtherShape,  ///< it is not the scene of the others in other light: another scene, a shadow
+  OtherOffset, ///< its level differs by as much in dark places as in bright ones: another dark offset
+  OtherNoise   ///< its noise is not that of the others at its level: another gain, another processing
+};
+
+/** Its name in the JSON record; stable, for programs. */
+SensorNoise_EXPORT const char *
+NameOf(FrameFault fault);
+
+/** A frame of the stack as given that is not counted. */
+struct LeftOutFrame
+{
+  std::size_t frame{ 0 }; ///< from 0
+  FrameFault  fault{ FrameFault::OtherShape };
+};
+
+/** Why a pixel takes part in the estimate of the gain or not: the values of the pixel-use map. */
+enum class PixelUse : std::uint8_t
+{
+  Used = 0,
+  Clipped = 1,        ///< a frame holds a clip level
+  NotFinite = 2,      ///< a frame holds NaN or infinity
+  Vibration = 3,      ///< its gradient is more than noise explains
+  Border = 4,         ///< it has no centred difference
+  Constant = 5,       ///< it never varies
+  FlickerUnknown = 6, ///< the bright set does not reach its row
+  Masked = 7,         ///< the user left it out
+  NearClip = 8,       ///< it could have come to a clip level, or a neighbour is clipped or not finite
+  NotStatic = 9,      ///< its variance does not fit, nor does that of its surroundings: something moved
+  Outlier = 10,       ///< its variance is too far from the line, or dark frames show it defective
+  CoarseCodes = 11,   ///< its noise is below half a code step
+  OutsideRange = 12,  ///< its level is not one that the user wants
+  Edge = 13,          ///< frames were filtered, and neighbours of another level mixed their noise in
+  MaskedBorder = 14   ///< of a strip along the border that is no part of the scene, as optical-black columns
+};
 
 /** What can be said of a quantity. */
 enum class EstimateStatus : std::uint8_t

@@ -3,6 +3,7 @@
 #ifndef sensornoise_correlation_CorrelationEstimate_h
 #define sensornoise_correlation_CorrelationEstimate_h
 
+#include "sensornoise/StepResults.h"
 #include "SensorNoiseExport.h"
 #include "sensornoise/Parallel.h"
 #include "correlation/NoiseCorrelation.h"
@@ -37,33 +38,6 @@ struct SensorNoise_EXPORT CorrelationSettings
   Validate(std::size_t frames) const;
 };
 
-/** Noise at a level of the light: the mean of a quarter of the pixels. */
-struct LightNoise
-{
-  double         lightDn{ 0.0 }; ///< above the level without light [DN]
-  MeasuredNumber varianceDn2;    ///< of a pixel as it is, with the codes' noise [DN^2]
-  Quantity       sumOverLags;    ///< as CorrelationEstimate's [1]
-};
-
-/** What neighbours and frames share of their noise, and what the variance has to be multiplied by. */
-struct CorrelationEstimate
-{
-  std::size_t width{ 0 };
-  std::size_t height{ 0 };
-  std::size_t frames{ 0 };     ///< of the stack
-  std::size_t framesUsed{ 0 }; ///< of the sample, equal ones counted once
-  std::size_t pixelsUsed{ 0 }; ///< of the sample
-
-  NoiseCorrelationRecord correlation;
-  /** The sum of the noise's covariances over all lags, relative to the variance of a pixel [1]: after a linear filter
-   * whose weights sum to 1, variance times this is the variance before it. The variance is that of the frames about
-   * their own mean, which mixed frames make a little less than a value's own: by 1 - 2 (sum of coefficients) / T. 1
-   * within its error where the noise is white: the variance is then better left alone. Its error is that of a block
-   * jackknife, with what is beyond the last lag. `failed` where the noise is not linear or was not measured. */
-  Quantity                sumOverLags{ Quantity::Without(EstimateStatus::Failed) };
-  std::vector<LightNoise> lights; ///< from dark to bright; empty: not measured
-};
-
 /** Measures it on a sample of the whole stack, which it uses up. \a mean of every pixel [DN]; \a take: pixels of value
  * 0 are left out, and those whose mean is not finite; \a series of settings are of all frames. */
 SensorNoise_EXPORT CorrelationEstimate
@@ -72,13 +46,6 @@ EstimateCorrelation(NoiseSample                       sample,
                     const std::vector<std::uint8_t> & take,
                     const CorrelationSettings &       settings,
                     const ParallelFor &               parallelFor = SerialFor);
-
-/** The version of its JSON. */
-inline constexpr const char * CorrelationSchema = "itk-sensornoise-correlation/1";
-
-/** As JSON: one object, units in each quantity; noise_correlation as in the report's. */
-SensorNoise_EXPORT std::string
-ToJson(const CorrelationEstimate & estimate);
 
 } // namespace sensornoise
 

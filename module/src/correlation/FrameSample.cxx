@@ -4,7 +4,7 @@
 
 #include "base/BinaryStream.h"
 #include "base/FirstTouch.h"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 #include "base/WideVectors.h"
 
 #include <algorithm>

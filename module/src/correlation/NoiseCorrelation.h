@@ -3,6 +3,7 @@
 #ifndef sensornoise_correlation_NoiseCorrelation_h
 #define sensornoise_correlation_NoiseCorrelation_h
 
+#include "sensornoise/StepResults.h"
 #include "SensorNoiseExport.h"
 #include "sensornoise/Parallel.h"
 #include "correlation/LagSums.h"
@@ -35,17 +36,6 @@ enum class NoiseKind : std::uint8_t
 /** "white", "crosstalk" ... */
 SensorNoise_EXPORT const char *
 NameOf(NoiseKind kind);
-
-/** A number and its standard error. */
-struct MeasuredNumber
-{
-  double value{ 0.0 };
-  double standardError{ 0.0 };
-
-  /** Whether its size is above \a least beyond chance. */
-  bool
-  Exceeds(double least, double z) const;
-};
 
 /** The correlation coefficient of the noise of two values [1]. */
 struct LagCoefficient

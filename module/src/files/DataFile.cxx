@@ -3,7 +3,8 @@
 #include "files/DataFile.h"
 
 #include "files/FileBytes.h"
-#include "files/FileError.h"
+#include "sensornoise/FrameFile.h"
+#include "files/FileIdentity.h"
 #include "files/Inflate.h"
 
 #include <algorithm>

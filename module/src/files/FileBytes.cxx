@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/FileBytes.h"
 
-#include "files/FileError.h"
+#include "sensornoise/FrameFile.h"
 #include "files/FileIdentity.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/FileIdentity.h"
 
-#include "files/FileError.h"
+#include "sensornoise/FrameFile.h"
 
 #include <chrono>
 #include <filesystem>

@@ -3,6 +3,7 @@
 #ifndef sensornoise_files_FileIdentity_h
 #define sensornoise_files_FileIdentity_h
 
+#include "sensornoise/FrameFile.h"
 #include "SensorNoiseExport.h"
 
 #include <cstdint>
@@ -10,18 +11,6 @@
 
 namespace sensornoise
 {
-
-/** Which file a name stands for, and in which state: while it stays equal, nobody has replaced the file or written to
- * it (to the resolution of the file system's clock). */
-struct FileIdentity
-{
-  std::string   name{};
-  std::uint64_t device{ 0 };
-  std::uint64_t inode{ 0 };
-  std::uint64_t size{ 0 };         // [bytes]
-  std::int64_t  modified{ 0 };     // the contents [ns since the file system's epoch]
-  std::int64_t  statusChange{ 0 }; // contents or rights; unlike `modified` it cannot be set back [ns]
-};
 
 SensorNoise_EXPORT bool
 operator==(const FileIdentity & a, const FileIdentity & b);

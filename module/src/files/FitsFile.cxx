@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/FitsFile.h"
 
-#include "files/FileError.h"
+#include "sensornoise/FrameFile.h"
 #include "files/FitsFrames.h"
 #include "files/FitsHeader.h"
 #include "files/FrameSizes.h"

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "files/FrameChoice.h"
+#include "sensornoise/FrameFile.h"
 
-#include "files/FileError.h"
+#include "files/FrameReader.h"
 #include "files/FrameSizes.h"
 
 #include <memory>

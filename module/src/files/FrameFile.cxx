@@ -3,7 +3,7 @@
 #include "sensornoise/FrameFile.h"
 
 #include "files/FileBytes.h"
-#include "files/FileError.h"
+#include "files/FileIdentity.h"
 #include "files/FrameFormats.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #  include "files/LibRawFrame.h"
 
 #  include "base/FreeMemory.h"
-#  include "files/FileError.h"
+#  include "sensornoise/FrameFile.h"
 #  include "files/LibRawSettings.h"
 #  include "files/LibRawStream.h"
 

@@ -4,7 +4,7 @@
 #  include "files/LibRawStream.h"
 
 #  include "files/FileBytes.h"
-#  include "files/FileError.h"
+#  include "sensornoise/FrameFile.h"
 
 #  include <cstdio>
 #  include <cstring>

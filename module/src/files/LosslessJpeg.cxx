@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/LosslessJpeg.h"
 
-#include "files/FileError.h"
+#include "sensornoise/FrameFile.h"
 
 #include <string>
 

@@ -3,7 +3,7 @@
 #include "files/MetaImageFile.h"
 
 #include "files/DataFile.h"
-#include "files/FileError.h"
+#include "sensornoise/FrameFile.h"
 #include "files/FrameFormats.h"
 #include "files/FrameSizes.h"
 #include "files/MetaImageHeader.h"

@@ -3,7 +3,7 @@
 #include "files/NpyFile.h"
 
 #include "files/ByteOrder.h"
-#include "files/FileError.h"
+#include "sensornoise/FrameFile.h"
 #include "files/FrameSizes.h"
 #include "files/PackedFrames.h"
 #include "files/StoredNumber.h"

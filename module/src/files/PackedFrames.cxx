@@ -3,7 +3,7 @@
 #include "files/PackedFrames.h"
 
 #include "files/FileBytes.h"
-#include "files/FileError.h"
+#include "sensornoise/FrameFile.h"
 #include "files/FrameSizes.h"
 #include "files/StoredNumber.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/PhotronHeader.h"
 
-#include "files/FileError.h"
+#include "sensornoise/FrameFile.h"
 
 #include <cstddef>
 #include <sstream>

@@ -9,6 +9,7 @@
 #include "files/PackedFrames.h"
 #include "files/StoredNumber.h"
 #include "files/TextHeader.h"
+#include "files/FileIdentity.h"
 
 #include <algorithm>
 #include <array>

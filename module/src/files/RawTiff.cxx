@@ -3,7 +3,7 @@
 #include "files/RawTiff.h"
 
 #include "files/ByteRanges.h"
-#include "files/FileError.h"
+#include "sensornoise/FrameFile.h"
 #include "files/LosslessJpeg.h"
 #include "files/TiffDirectory.h"
 #include "files/TiffTags.h"

@@ -3,7 +3,7 @@
 #include "files/SerFile.h"
 
 #include "files/ByteOrders.h"
-#include "files/FileError.h"
+#include "sensornoise/FrameFile.h"
 #include "files/FrameSizes.h"
 #include "files/PackedFrames.h"
 #include "files/TextHeader.h"

@@ -3,7 +3,7 @@
 #include "files/TiffDirectory.h"
 
 #include "files/ByteOrder.h"
-#include "files/FileError.h"
+#include "sensornoise/FrameFile.h"
 
 #include <algorithm>
 #include <array>

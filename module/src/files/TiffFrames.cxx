@@ -3,7 +3,6 @@
 #include "files/TiffFrames.h"
 
 #include "files/FileBytes.h"
-#include "files/FileError.h"
 #include "sensornoise/FrameFile.h"
 #include "files/Inflate.h"
 #include "files/SamplePacking.h"

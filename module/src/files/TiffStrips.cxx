@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/TiffStrips.h"
 
-#include "files/FileError.h"
+#include "sensornoise/FrameFile.h"
 #include "files/Inflate.h"
 #include "files/StoredNumber.h"
 #include "files/TiffLzw.h"

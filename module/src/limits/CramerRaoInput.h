@@ -4,7 +4,7 @@
 #define sensornoise_limits_CramerRaoInput_h
 
 #include "SensorNoiseExport.h"
-#include "simulation/SimulationTruth.h"
+#include "sensornoise/Simulator.h"
 
 #include <cstddef>
 #include <cstdint>

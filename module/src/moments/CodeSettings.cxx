@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "moments/CodeSettings.h"
+#include "sensornoise/Settings.h"
 
 #include "base/Text.h"
 

@@ -3,8 +3,8 @@
 #include "moments/Codes.h"
 
 #include "base/Text.h"
-#include "moments/CodeRange.h"
-#include "moments/CodeSettings.h"
+#include "sensornoise/StepResults.h"
+#include "sensornoise/Settings.h"
 #include "moments/CodeSteps.h"
 #include "moments/Constants.h"
 #include "moments/PileUp.h"

@@ -3,7 +3,7 @@
 #include "moments/DarkDrift.h"
 
 #include "sensornoise/Parallel.h"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 #include "base/Quantiles.h"
 #include "moments/Constants.h"
 

@@ -4,9 +4,8 @@
 #define sensornoise_moments_DarkFrames_h
 
 #include "sensornoise/Parallel.h"
-#include "moments/CodeSettings.h"
+#include "sensornoise/Settings.h"
 #include "moments/DarkDrift.h"
-#include "moments/KnownOffset.h"
 #include "moments/TemporalMoments.h"
 #include "SensorNoiseExport.h"
 

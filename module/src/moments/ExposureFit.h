@@ -4,7 +4,7 @@
 #define sensornoise_moments_ExposureFit_h
 
 #include "SensorNoiseExport.h"
-#include "moments/CodeRange.h"
+#include "sensornoise/StepResults.h"
 #include "moments/Exposures.h"
 
 #include <cstddef>

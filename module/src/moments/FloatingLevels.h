@@ -3,8 +3,8 @@
 #ifndef sensornoise_moments_FloatingLevels_h
 #define sensornoise_moments_FloatingLevels_h
 
-#include "moments/CodeRange.h"
-#include "moments/CodeSettings.h"
+#include "sensornoise/StepResults.h"
+#include "sensornoise/Settings.h"
 #include "moments/OutermostLevels.h"
 #include "moments/PileUp.h"
 #include "SensorNoiseExport.h"

@@ -3,7 +3,7 @@
 #include "moments/FrameThumbnails.h"
 
 #include "base/BinaryStream.h"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 #include "base/Quantiles.h"
 #include "moments/Constants.h"
 #include "moments/FrameFit.h"

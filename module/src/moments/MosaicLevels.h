@@ -4,7 +4,7 @@
 #define sensornoise_moments_MosaicLevels_h
 
 #include "SensorNoiseExport.h"
-#include "base/BayerPattern.h"
+#include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Parallel.h"
 
 #include <cstddef>

@@ -5,7 +5,7 @@
 #include "base/Constants.h"
 #include "base/Quantiles.h"
 #include "moments/Constants.h"
-#include "moments/KnownOffset.h"
+#include "sensornoise/Settings.h"
 #include "moments/LogDeconvolution.h"
 
 #include <algorithm>

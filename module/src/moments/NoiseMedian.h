@@ -3,7 +3,7 @@
 #ifndef sensornoise_moments_NoiseMedian_h
 #define sensornoise_moments_NoiseMedian_h
 
-#include "moments/KnownOffset.h"
+#include "sensornoise/Settings.h"
 #include "SensorNoiseExport.h"
 
 #include <optional>

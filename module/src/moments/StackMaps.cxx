@@ -4,10 +4,10 @@
 
 #include "base/ForAll.h"
 #include "sensornoise/Parallel.h"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 #include "base/Quantiles.h"
-#include "moments/CodeRange.h"
-#include "moments/CodeSettings.h"
+#include "sensornoise/StepResults.h"
+#include "sensornoise/Settings.h"
 #include "moments/Codes.h"
 #include "moments/Constants.h"
 #include "moments/CountsFromZero.h"

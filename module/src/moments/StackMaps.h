@@ -3,9 +3,9 @@
 #ifndef sensornoise_moments_StackMaps_h
 #define sensornoise_moments_StackMaps_h
 
+#include "sensornoise/StepResults.h"
 #include "sensornoise/Parallel.h"
-#include "moments/CodeRange.h"
-#include "moments/CodeSettings.h"
+#include "sensornoise/Settings.h"
 #include "moments/TemporalMaps.h"
 #include "moments/TemporalMoments.h"
 #include "SensorNoiseExport.h"
@@ -16,20 +16,6 @@
 
 namespace sensornoise
 {
-
-/** What the moments of a stack say beside mean and variance. */
-struct SensorNoise_EXPORT StackSummary
-{
-  /** The codes with the clip levels that a pixel attains: one that none attains has cut off nothing. */
-  CodeRange
-  AttainedCodes() const;
-
-  CodeRange   codes;
-  std::size_t clipped{ 0 };     ///< pixels that attain a clip level in a frame
-  std::size_t clippedLow{ 0 };  ///< those that attain the lower one
-  std::size_t clippedHigh{ 0 }; ///< those that attain the upper one
-  std::size_t notFinite{ 0 };   ///< pixels that are NaN or infinite in a frame
-};
 
 /** What was found of a stack of these \a maps; to \a valid, which has room for a frame's pixels, goes 1 where a pixel
  * is finite and never at a clip level, else 0. Codes and clip levels are given or found, see FindCodes() and

@@ -5,7 +5,7 @@
 #include "base/BinaryStream.h"
 #include "base/BytesFingerprint.h"
 #include "sensornoise/Parallel.h"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 #include "base/WideVectors.h"
 #include "moments/ChosenFrames.h"
 #include "moments/TemporalMoments.h"

@@ -5,7 +5,7 @@
 
 #include "sensornoise/Parallel.h"
 #include "base/PixelLayout.h"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 #include "moments/DistinctFrames.h"
 #include "moments/FrameFingerprints.h"
 #include "moments/TemporalMoments.h"

@@ -3,7 +3,7 @@
 #include "moments/StackPasses.h"
 
 #include "base/BinaryStream.h"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 #include "moments/StackRequirements.h"
 
 #include <algorithm>

@@ -6,8 +6,8 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Parallel.h"
+#include "sensornoise/Report.h"
 #include "base/PixelLayout.h"
-#include "sensornoise/PixelTypes.h"
 #include "moments/DistinctFrames.h"
 #include "moments/FrameFingerprints.h"
 #include "moments/FrameThumbnails.h"
@@ -21,6 +21,7 @@
 #include <optional>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sensornoise
@@ -29,51 +30,20 @@ namespace sensornoise
 class Fingerprint;
 
 /** \class StackPasses
- * \brief The passes of a method over a stack, here or in several processes.
+ * \brief The passes of a method over a stack, in one process or in several: what is behind StackMethod.
  *
- * The first pass is that of every method: the temporal moments, which frames are equal, bit by bit, and which are
- unlike
- * the others. Equal frames are counted once. Unlike ones are left out: if there are any, the next pass is for the
- * moments of the others. What is made of these, and what later passes sum, is the method's. Usage, RefinedMethod for
- example:
-   \code
-   RefinedMethod<unsigned short> method(settings, geometry, frames);
-   while (!method.IsDone())
-   {
-     for (const auto & chunk : chunks) // of consecutive frames, all of the stack in every pass
-       method.AddFrames(chunk.pixels, chunk.frames);
-     method.EndPass();
-   }
-   method.GetReport();
-   \endcode
- *
- * Several processes, each with a part of the frames, get the whole's report if they share the sums of every pass: the
- * whole's bits with integer pixels; with floating point the same bits in all of them, equal to the whole's to rounding.
- * Equal frames must be read by one process, or by one that has merged the other's sums before: where two have counted
- * the same frame, MergeSums() throws and names both.
-   \code
-   RefinedMethod<unsigned short> method(settings, geometry, frames); // alike in every process
-   while (!method.IsDone())
-   {
-     method.SkipFrames(first); // this process reads the frames first ... first + count - 1
-     method.AddFrames(part, count);
-     method.SaveSums(toOthers);
-     for (std::istream * other : fromOthers)
-     {
-       method.MergeSums(*other);
-     }
-     method.EndPass();
-   }
-   \endcode
- */
+ * The first pass is that of every method: the temporal moments, the frames that are equal, bit by bit, and those that
+ * are unlike the others. Equal frames are counted once. Unlike frames are left out: if there are any, the next pass is
+ * for the moments of the others. What is made of these, and what later passes sum, is the method's. */
 template <typename TPixel>
 class StackPasses
 {
 public:
   using Passes = StackPasses;
 
-  /** How often a stack is read; more often where frames are left out, the illumination changes strongly, or
-   * RefinedSettings::memoryLimitBytes asks for it. */
+  virtual ~StackPasses() = default;
+
+  /** See StackMethod. */
   static constexpr unsigned int NumberOfPasses = 3;
 
   /** The pixels of the frames to come stand as \a layout says; without it, one frame after the other. To be told once,
@@ -159,6 +129,28 @@ public:
   void
   EndPass();
 
+  /** What the method finds, see StackMethod. */
+  virtual bool
+  IsDone() const = 0;
+  virtual const Report &
+  GetReport() const = 0;
+  virtual const std::vector<double> &
+  GetMean() const = 0;
+  virtual const std::vector<double> &
+  GetVariance() const = 0;
+  virtual const std::vector<double> &
+  GetCorrectedVariance() const = 0;
+  virtual const std::vector<std::uint8_t> &
+  GetPixelUse() const = 0;
+  virtual std::vector<double>
+  TakeMean() = 0;
+  virtual std::vector<double>
+  TakeVariance() = 0;
+  virtual std::vector<double>
+  TakeCorrectedVariance() = 0;
+  virtual std::vector<std::uint8_t>
+  TakePixelUse() = 0;
+
   /** Whether the current pass is the first one, in which unlike frames are found. */
   bool
   IsFirstPass() const
@@ -188,7 +180,6 @@ protected:
   StackPasses(StackPasses &&) noexcept = default;
   StackPasses &
   operator=(StackPasses &&) noexcept = default;
-  ~StackPasses() = default;
 
   /** The current pass, from 0. */
   unsigned int

@@ -3,6 +3,7 @@
 #ifndef sensornoise_moments_UnlikeFrames_h
 #define sensornoise_moments_UnlikeFrames_h
 
+#include "sensornoise/Report.h"
 #include "SensorNoiseExport.h"
 #include "moments/Constants.h"
 
@@ -14,27 +15,6 @@ namespace sensornoise
 {
 
 class FrameThumbnails;
-
-/** The reason for which a frame is not one of the burst. */
-enum class FrameFault : std::uint8_t
-{
-  NotFinite,   ///< most of it is NaN or infinite
-  NoNoise,     ///< neighbouring pixels are equal in most of it: zeros, or saturated
-  OtherShape,  ///< it is not the scene of the others in other light: another scene, a shadow
-  OtherOffset, ///< its level differs by as much in dark places as in bright ones: another dark offset
-  OtherNoise   ///< its noise is not that of the others at its level: another gain, another processing
-};
-
-/** Its name in the JSON record; stable, for programs. */
-SensorNoise_EXPORT const char *
-NameOf(FrameFault fault);
-
-/** A frame of the stack as given that is not counted. */
-struct LeftOutFrame
-{
-  std::size_t frame{ 0 }; ///< from 0
-  FrameFault  fault{ FrameFault::OtherShape };
-};
 
 /** Finds the frames that are unlike the others, in their order; none if fewer than MinimumFrames would be left, or if
  * more than a fifth of the frames that have something in them are unlike.

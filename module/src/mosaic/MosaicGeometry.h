@@ -3,9 +3,8 @@
 #ifndef sensornoise_mosaic_MosaicGeometry_h
 #define sensornoise_mosaic_MosaicGeometry_h
 
-#include "base/BayerPattern.h"
-#include "base/FirstTouch.h"
 #include "sensornoise/FrameGeometry.h"
+#include "base/FirstTouch.h"
 #include "sensornoise/Parallel.h"
 #include "base/PixelLayout.h"
 

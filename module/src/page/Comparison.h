@@ -4,7 +4,7 @@
 #define sensornoise_page_Comparison_h
 
 #include "SensorNoiseExport.h"
-#include "report/QuantityList.h"
+#include "sensornoise/ReportText.h"
 #include "sensornoise/Report.h"
 
 #include <cstddef>

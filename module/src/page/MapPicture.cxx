@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "page/MapPicture.h"
 
-#include "base/PixelUse.h"
+#include "sensornoise/Report.h"
 #include "base/Text.h"
 #include "page/PngData.h"
 

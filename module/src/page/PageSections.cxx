@@ -7,7 +7,7 @@
 #include "page/FigureStyle.h"
 #include "page/HtmlText.h"
 #include "page/PageStyle.h"
-#include "report/QuantityList.h"
+#include "sensornoise/ReportText.h"
 #include "report/ReportJson.h"
 #include "report/ReportTable.h"
 #include "report/Signs.h"

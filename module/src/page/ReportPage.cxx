@@ -6,9 +6,10 @@
 #include "page/FigureData.h"
 #include "page/Figures.h"
 #include "page/HtmlText.h"
+#include "page/MapPicture.h"
 #include "page/PageSections.h"
 #include "page/Verdict.h"
-#include "report/ChannelRecord.h"
+#include "sensornoise/ReportText.h"
 #include "report/ReportTable.h"
 
 #include <algorithm>

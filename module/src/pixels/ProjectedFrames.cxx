@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pixels/ProjectedFrames.h"
 
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 #include "base/Prefetch.h"
 #include "series/TemporalBasis.h"
 

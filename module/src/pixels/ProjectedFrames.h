@@ -5,7 +5,7 @@
 
 #include "SensorNoiseExport.h"
 #include "base/PixelLayout.h"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 #include "pixels/PairProducts.h"
 
 #include <cstddef>

@@ -5,7 +5,7 @@
 #include "base/BinaryStream.h"
 #include "base/Eigen.h"
 #include "sensornoise/Parallel.h"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 
 #include <algorithm>
 #include <cstddef>

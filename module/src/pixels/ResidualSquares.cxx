@@ -4,7 +4,7 @@
 
 #include "base/Eigen.h"
 #include "base/FirstTouch.h"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 #include "base/WideVectors.h"
 #include "pixels/ProjectedFrames.h"
 #include "pixels/ProjectionSums.h"

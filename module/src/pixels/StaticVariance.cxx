@@ -3,7 +3,7 @@
 #include "pixels/StaticVariance.h"
 
 #include "sensornoise/Parallel.h"
-#include "base/PixelUse.h"
+#include "sensornoise/Report.h"
 #include "pixels/Constants.h"
 #include "pixels/FlatPixels.h"
 #include "pixels/GainByParts.h"

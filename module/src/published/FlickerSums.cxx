@@ -4,7 +4,7 @@
 
 #include "base/BinaryStream.h"
 #include "base/PixelRuns.h"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 #include "base/Prefetch.h"
 #include "base/WideVectors.h"
 

@@ -3,8 +3,8 @@
 #include "published/PublishedScene.h"
 
 #include "base/ForAll.h"
-#include "base/PixelUse.h"
-#include "base/RollingShutter.h"
+#include "sensornoise/Report.h"
+#include "sensornoise/Settings.h"
 #include "moments/StackRequirements.h"
 #include "published/VibrationMask.h"
 

@@ -9,7 +9,7 @@
 #include "base/NothingToMeasure.h"
 #include "moments/StackMaps.h"
 #include "published/IsoIntensitySet.h"
-#include "published/PublishedSettings.h"
+#include "sensornoise/Settings.h"
 
 #include <cstddef>
 #include <cstdint>

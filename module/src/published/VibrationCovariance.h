@@ -3,6 +3,7 @@
 #ifndef sensornoise_published_VibrationCovariance_h
 #define sensornoise_published_VibrationCovariance_h
 
+#include "sensornoise/StepResults.h"
 #include "SensorNoiseExport.h"
 #include "sensornoise/Parallel.h"
 
@@ -11,17 +12,6 @@
 
 namespace sensornoise
 {
-
-/** Cov(alpha, beta) of the vibration, with the other coefficients of (2.20). */
-struct VibrationCovariance
-{
-  double      varianceXPixels2{ 0.0 };  ///< of alpha_t, along x [pixel^2]; below 0: none can be seen
-  double      varianceYPixels2{ 0.0 };  ///< of beta_t, along y [pixel^2]
-  double      covariancePixels2{ 0.0 }; ///< of alpha_t and beta_t [pixel^2]
-  double      flickerVariance{ 0.0 };   ///< sigma_gamma^2, the coefficient of the squared mean [1]
-  std::size_t pixels{ 0 };
-  bool        isDetermined{ false }; ///< false: too few pixels, or a scene without gradients
-};
 
 /** Multiple ordinary regression (2.20) of Sur & Gredi\'ac 2015 (https://doi.org/10.1137/140977035):
  *

@@ -4,10 +4,10 @@
 
 #include "base/Constants.h"
 #include "base/Eigen.h"
-#include "base/PixelUse.h"
+#include "sensornoise/Report.h"
 #include "base/Significance.h"
 #include "moments/DarkMaps.h"
-#include "moments/KnownOffset.h"
+#include "sensornoise/Settings.h"
 #include "pixels/VarianceCurve.h"
 #include "refined/Constants.h"
 #include "refined/GainEstimate.h"

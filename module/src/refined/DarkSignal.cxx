@@ -3,7 +3,7 @@
 #include "refined/DarkSignal.h"
 
 #include "base/Eigen.h"
-#include "base/PixelUse.h"
+#include "sensornoise/Report.h"
 #include "base/Significance.h"
 #include "correlation/Jackknife.h"
 #include "moments/DarkMaps.h"

@@ -4,7 +4,7 @@
 
 #include "base/Constants.h"
 #include "base/Significance.h"
-#include "moments/KnownOffset.h"
+#include "sensornoise/Settings.h"
 #include "pixels/LevelPattern.h"
 #include "pixels/MeanGain.h"
 #include "pixels/ProjectedVariance.h"

@@ -5,8 +5,8 @@
 
 #include "SensorNoiseExport.h"
 #include "base/Eigen.h"
+#include "sensornoise/Settings.h"
 #include "correlation/NoiseCorrelation.h"
-#include "moments/KnownOffset.h"
 #include "pixels/VarianceLine.h"
 #include "pixels/VarianceCurve.h"
 #include "pixels/VarianceStep.h"

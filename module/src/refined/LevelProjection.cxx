@@ -93,7 +93,7 @@ LevelProjection::LevelProjection(StackMaps                   maps,
                                  const FrameGeometry &       geometry,
                                  const PixelLayout &         layout,
                                  const std::vector<double> & frameMeans,
-                                 bool                        sumsStay,
+                                 bool                        withoutMerging,
                                  const ParallelFor &         parallelFor)
   : m_Summary(maps.summary)
   , m_Valid(std::move(maps.valid))
@@ -106,7 +106,7 @@ LevelProjection::LevelProjection(StackMaps                   maps,
   , m_Projections(geometry,
                   FrameSample(),
                   BasisOfLevels(frameMeans),
-                  { ProjectionSums::NumberOfSlabs(geometry.Pixels()), false, sumsStay },
+                  { ProjectionSums::NumberOfSlabs(geometry.Pixels()), false, withoutMerging },
                   parallelFor)
 {
   m_Projections.SetLayout(layout);

@@ -37,13 +37,13 @@ AreLevelsSeries(const std::vector<double> & frameMeans);
 class SensorNoise_EXPORT LevelProjection
 {
 public:
-  /** \a frameMeans are those of the distinct frames [DN], see AreLevelsSeries(). \a sumsStay: no sums are saved or
-   * merged. */
+  /** \a frameMeans are those of the distinct frames [DN], see AreLevelsSeries(). \a withoutMerging: no sums are saved
+   * or merged. */
   LevelProjection(StackMaps                   maps,
                   const FrameGeometry &       geometry,
                   const PixelLayout &         layout,
                   const std::vector<double> & frameMeans,
-                  bool                        sumsStay,
+                  bool                        withoutMerging,
                   const ParallelFor &         parallelFor);
 
   /** What the frames are added to. */

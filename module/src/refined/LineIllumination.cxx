@@ -3,7 +3,7 @@
 #include "refined/LineIllumination.h"
 
 #include "base/Eigen.h"
-#include "base/PixelUse.h"
+#include "sensornoise/Report.h"
 #include "base/Significance.h"
 #include "correlation/Jackknife.h"
 #include "refined/Constants.h"

@@ -6,7 +6,7 @@
 #include "base/FaintFlicker.h"
 #include "base/Significance.h"
 #include "base/Text.h"
-#include "moments/KnownOffset.h"
+#include "sensornoise/Settings.h"
 #include "pixels/Constants.h"
 #include "refined/Constants.h"
 #include "refined/GainEstimate.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "refined/PixelNoise.h"
 
-#include "base/RollingShutter.h"
+#include "sensornoise/Settings.h"
 #include "correlation/FrameEnergies.h"
 #include "correlation/LocalMotion.h"
 #include "correlation/NoiseResiduals.h"

@@ -4,7 +4,7 @@
 
 #include "base/FirstTouch.h"
 #include "base/FreeMemory.h"
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 #include "pixels/ProjectedFrames.h"
 #include "refined/MemoryNeed.h"
 #include "scene/ReferenceFrame.h"
@@ -29,7 +29,7 @@ PixelProjections::PixelProjections(const FrameGeometry & geometry,
   , m_ParallelFor(std::move(parallelFor))
   , m_Sample(std::move(sample))
 {
-  if (!m_Options.sumsStay)
+  if (!m_Options.withoutMerging)
   {
     this->HoldSumsOfNextSlabs();
   }
@@ -162,7 +162,7 @@ PixelProjections::Forget()
 void
 PixelProjections::RequireShared() const
 {
-  if (m_Options.sumsStay)
+  if (m_Options.withoutMerging)
   {
     throw std::logic_error("the sums of the third pass were to stay here; they are not saved or merged");
   }

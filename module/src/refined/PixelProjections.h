@@ -36,9 +36,9 @@ class SensorNoise_EXPORT PixelProjections
 public:
   struct Options
   {
-    std::size_t slabsAtOnce{ 1 };   ///< slabs (ProjectionSums) that are projected in a pass
-    bool        keepLight{ false }; ///< the coordinates on the series of light are needed
-    bool        sumsStay{ false };  ///< no sums are saved or merged
+    std::size_t slabsAtOnce{ 1 };        ///< slabs (ProjectionSums) that are projected in a pass
+    bool        keepLight{ false };      ///< the coordinates on the series of light are needed
+    bool        withoutMerging{ false }; ///< no sums are saved or merged
   };
 
   /** For frames of \a geometry; \a sample is to be filled in the first pass. */

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "refined/PixelsOfVariance.h"
 
-#include "base/PixelUse.h"
+#include "sensornoise/Report.h"
 #include "moments/DarkMaps.h"
-#include "moments/KnownOffset.h"
+#include "sensornoise/Settings.h"
 #include "refined/Constants.h"
 
 #include <algorithm>

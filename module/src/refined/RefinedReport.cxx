@@ -4,7 +4,7 @@
 
 #include "base/ChiSquare.h"
 #include "base/Eigen.h"
-#include "base/RollingShutter.h"
+#include "sensornoise/Settings.h"
 #include "base/Text.h"
 #include "pixels/VarianceLine.h"
 #include "correlation/CorrelationRecord.h"

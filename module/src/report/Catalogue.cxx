@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "report/Catalogue.h"
+#include "sensornoise/ReportText.h"
 
 #include "sensornoise/WarningCodes.h"
 #include "report/JsonWriter.h"
-#include "report/QuantityList.h"
 
 #include <vector>
 

@@ -6,6 +6,7 @@
 #include "base/Significance.h"
 #include "base/Text.h"
 #include "report/Constants.h"
+#include "report/JointMotion.h"
 #include "report/Quantities.h"
 #include "report/Statuses.h"
 

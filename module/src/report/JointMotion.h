@@ -3,6 +3,7 @@
 #ifndef sensornoise_report_JointMotion_h
 #define sensornoise_report_JointMotion_h
 
+#include "sensornoise/ChannelReports.h"
 #include "SensorNoiseExport.h"
 #include "sensornoise/Report.h"
 
@@ -12,20 +13,6 @@
 
 namespace sensornoise
 {
-
-/** The motion of a sensor, of the four planes of its mosaic together. In pixels of a plane, as each plane's own.
- *
- * A plane sees edges through every second pixel, and what lies between is missing: where an edge stands, the square of
- * the shift is taken for a shift, with one sign by the even columns and with the other by the odd ones. Of R and B
- * together, and of G1 and G2, every column and row is seen once, and what they do not agree in is gone from their mean.
- */
-struct JointMotion
-{
-  Quantity                           sdX;        ///< [pixel]
-  Quantity                           sdY;        ///< [pixel]
-  Quantity                           covariance; ///< [pixel^2]
-  std::vector<std::array<double, 2>> series;     ///< (alpha_t, beta_t) of every frame, mean 0 [pixel]
-};
 
 /** Of the reports of the planes R, G1, G2, B, in this order; null unless all four have a motion. The standard
  * deviations are roots of the covariance of R and B's mean with G1 and G2's, which share no noise. Each error is the

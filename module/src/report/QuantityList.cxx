@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "report/QuantityList.h"
+#include "sensornoise/ReportText.h"
 
 #include <array>
 

@@ -3,7 +3,7 @@
 #include "report/ReportJson.h"
 
 #include "report/JsonWriter.h"
-#include "report/QuantityList.h"
+#include "sensornoise/ReportText.h"
 #include "sensornoise/Version.h"
 
 #include <array>

@@ -3,6 +3,7 @@
 #ifndef sensornoise_report_ReportJson_h
 #define sensornoise_report_ReportJson_h
 
+#include "sensornoise/ReportText.h"
 #include "SensorNoiseExport.h"
 #include "sensornoise/Report.h"
 
@@ -12,13 +13,6 @@ namespace sensornoise
 {
 
 class JsonWriter;
-
-/** The version of the record. */
-inline constexpr const char * ReportSchema = "itk-sensornoise-report/1";
-
-/** The JSON name of a status. */
-SensorNoise_EXPORT const char *
-NameOf(EstimateStatus status);
 
 /** What the record is made of, as JSON. */
 SensorNoise_EXPORT void
@@ -45,11 +39,6 @@ WriteJson(JsonWriter & json, const InputRecord & input);
 /** The record as a value among others. */
 SensorNoise_EXPORT void
 WriteJson(JsonWriter & json, const Report & report);
-
-/** The record as JSON, schema "itk-sensornoise-report/1": one object, units in each quantity, null for what is unknown.
- */
-SensorNoise_EXPORT std::string
-ToJson(const Report & report);
 
 } // namespace sensornoise
 

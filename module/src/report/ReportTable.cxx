@@ -3,7 +3,7 @@
 #include "report/ReportTable.h"
 
 #include "base/Text.h"
-#include "report/QuantityList.h"
+#include "sensornoise/ReportText.h"
 #include "report/ReportJson.h"
 #include "report/Signs.h"
 

@@ -3,6 +3,7 @@
 #ifndef sensornoise_report_ReportTable_h
 #define sensornoise_report_ReportTable_h
 
+#include "sensornoise/ReportText.h"
 #include "SensorNoiseExport.h"
 #include "sensornoise/Report.h"
 
@@ -11,10 +12,6 @@
 
 namespace sensornoise
 {
-
-/** The report as a table that a person can read: what was found, one line a quantity, no warnings. */
-SensorNoise_EXPORT std::string
-MakeTable(const Report & report);
 
 /** The frames that were measured, or their files, with their hash: a line, with its end, for these and one for dark
  * ones;
@@ -32,18 +29,6 @@ std::string
 DescribeNoise(const Report & report);
 std::string
 DescribeLinearity(const Report & report);
-
-/** A warning as a line: "warning: message [code]", with "note" or "error" where its severity is that. */
-SensorNoise_EXPORT std::string
-TextOf(const Warning & warning);
-
-/** " (3 left out, 50 different)", of the frames given; "" where all are counted. */
-SensorNoise_EXPORT std::string
-TextOfCounted(const Report & report);
-
-/** The table and, a line each, what the user should know: for those who see nothing else. */
-SensorNoise_EXPORT std::string
-MakeText(const Report & report);
 
 } // namespace sensornoise
 

@@ -3,9 +3,9 @@
 #include "report/StackReport.h"
 
 #include "base/IntensityIndex.h"
-#include "base/PixelUse.h"
+#include "sensornoise/Report.h"
 #include "base/Text.h"
-#include "moments/CodeRange.h"
+#include "sensornoise/StepResults.h"
 #include "moments/MosaicLevels.h"
 #include "moments/StackRequirements.h"
 

@@ -3,9 +3,9 @@
 #ifndef sensornoise_report_StackSettings_h
 #define sensornoise_report_StackSettings_h
 
+#include "sensornoise/Settings.h"
 #include "SensorNoiseExport.h"
 #include "sensornoise/FrameGeometry.h"
-#include "moments/CodeSettings.h"
 #include "sensornoise/Report.h"
 
 #include <array>
@@ -18,14 +18,6 @@
 
 namespace sensornoise
 {
-
-/** Which part of what was recorded a stack is, where it was cut out before: it changes no number of the measurement,
- * and without it nobody could repeat that. */
-struct StackSelection
-{
-  std::optional<std::array<std::size_t, 4>>          roi;    ///< x, y, width, height [pixel]
-  std::optional<std::pair<std::size_t, std::size_t>> frames; ///< the first one, and one past the last, from 0
-};
 
 /** Throws std::invalid_argument if what was selected is not of the size of a stack. */
 SensorNoise_EXPORT void

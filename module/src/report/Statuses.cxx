@@ -4,7 +4,7 @@
 
 #include "base/Text.h"
 #include "report/Quantities.h"
-#include "report/QuantityList.h"
+#include "sensornoise/ReportText.h"
 
 #include <algorithm>
 #include <array>

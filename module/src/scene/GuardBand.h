@@ -5,7 +5,7 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/Parallel.h"
-#include "moments/CodeRange.h"
+#include "sensornoise/StepResults.h"
 #include "scene/Constants.h"
 #include "scene/ProvisionalModel.h"
 #include "scene/ReferenceFrame.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/StillScene.h"
 
-#include "base/PixelUse.h"
+#include "sensornoise/Report.h"
 #include "base/Stencils.h"
 #include "moments/StackRequirements.h"
 #include "scene/CrossedRegion.h"

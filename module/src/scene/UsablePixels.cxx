@@ -4,7 +4,7 @@
 
 #include "base/Constants.h"
 #include "base/NothingToMeasure.h"
-#include "base/PixelUse.h"
+#include "sensornoise/Report.h"
 #include "base/Stencils.h"
 #include "base/Text.h"
 #include "scene/Constants.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "series/FrameSums.h"
 
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 #include "base/WideVectors.h"
 #include "series/FrameBatch.h"
 #include "series/InstrumentRun.h"

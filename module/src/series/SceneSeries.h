@@ -4,7 +4,7 @@
 #define sensornoise_series_SceneSeries_h
 
 #include "SensorNoiseExport.h"
-#include "base/RollingShutter.h"
+#include "sensornoise/Settings.h"
 #include "series/FrameEquations.h"
 #include "series/FrameOffsets.h"
 #include "series/FrameRegressors.h"

@@ -3,6 +3,7 @@
 #ifndef sensornoise_simulation_BlockQuantisation_h
 #define sensornoise_simulation_BlockQuantisation_h
 
+#include "sensornoise/SensorFlaws.h"
 #include "SensorNoiseExport.h"
 #include "sensornoise/Parallel.h"
 #include "simulation/DoubleFrame.h"
@@ -12,22 +13,6 @@
 
 namespace sensornoise
 {
-
-/** Lossy compression as JPEG does it to the luminance (Recommendation ITU-T T.81, 1992): blocks of 8 x 8 pixels from
- * the upper left corner, their orthonormal discrete cosine transform, coefficients rounded to multiples of a step that
- * grows with the frequency, and back. What JPEG does beside it is left out: the level shift, the rounding of the pixels
- * (the simulator does that last), colour. Not linear: coefficients below half a step vanish. */
-struct BlockSettings
-{
-  /** Quality as libjpeg counts it, 1 to 100; 100 has a step of 1 code of 8 bits; 0: no compression. */
-  unsigned int quality{ 0 };
-
-  bool
-  IsOn() const
-  {
-    return quality > 0;
-  }
-};
 
 /** A step for each coefficient [DN], row after row: vertical frequency 0 to 7, in it horizontal frequency 0 to 7. */
 using BlockStepsDn = std::array<double, 64>;

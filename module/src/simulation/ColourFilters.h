@@ -3,7 +3,8 @@
 #ifndef sensornoise_simulation_ColourFilters_h
 #define sensornoise_simulation_ColourFilters_h
 
-#include "base/BayerPattern.h"
+#include "sensornoise/SensorFlaws.h"
+#include "sensornoise/FrameGeometry.h"
 #include "simulation/SettingChecks.h"
 
 #include <cstddef>
@@ -12,16 +13,6 @@
 
 namespace sensornoise
 {
-
-/** A mosaic of colour filters in front of the pixels: of the light that a pixel would have without it, the electrons
- * of the scene, so much is left. The filters are the sensor's and do not move with the scene. */
-struct ColourFilterSettings
-{
-  std::optional<BayerPattern> pattern;              ///< null: no filters
-  double                      transmissionR{ 0.6 }; ///< [1], 0 to 1, under the light of the scene
-  double                      transmissionG{ 1.0 }; ///< of both greens
-  double                      transmissionB{ 0.5 };
-};
 
 /** \throws std::invalid_argument if a transmission is not from 0 to 1. */
 inline void

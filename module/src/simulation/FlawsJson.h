@@ -5,7 +5,7 @@
 
 #include "SensorNoiseExport.h"
 #include "report/JsonWriter.h"
-#include "simulation/SensorFlaws.h"
+#include "sensornoise/SensorFlaws.h"
 
 namespace sensornoise
 {

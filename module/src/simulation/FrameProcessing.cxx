@@ -2,6 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulation/FrameProcessing.h"
 
+#include "simulation/BlockQuantisation.h"
+#include "simulation/BrighterFatter.h"
+#include "simulation/ChargeCoupling.h"
+#include "simulation/DefectCorrection.h"
+#include "simulation/FrameBinning.h"
+#include "simulation/FrameResampling.h"
+#include "simulation/FrameSmoothing.h"
+#include "simulation/MedianFilter.h"
+
 #include <utility>
 
 namespace sensornoise

@@ -6,7 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/Parallel.h"
 #include "simulation/DoubleFrame.h"
-#include "simulation/SensorFlaws.h"
+#include "sensornoise/SensorFlaws.h"
 
 /** \file
  * The order of the pieces that look at a whole frame. */

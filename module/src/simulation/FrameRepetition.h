@@ -3,6 +3,7 @@
 #ifndef sensornoise_simulation_FrameRepetition_h
 #define sensornoise_simulation_FrameRepetition_h
 
+#include "sensornoise/SensorFlaws.h"
 #include "simulation/SettingChecks.h"
 
 #include <algorithm>
@@ -10,38 +11,6 @@
 
 namespace sensornoise
 {
-
-/** Frames that are written more than once, as when a recorder runs faster than the camera: each exposure, or each so
- * manieth of them. */
-struct RepetitionSettings
-{
-  /** How often such an exposure is written, 1 or more; 1: no frame is repeated. */
-  std::size_t count{ 1 };
-  /** Such is the last of so many exposures, 1 or more; 1: each, 3: each third one, 0 1 2 2 3 4 5 5 of a count of 2. */
-  std::size_t period{ 1 };
-
-  /** The exposure that frame \a frame of the stack shows. */
-  std::size_t
-  ExposureOf(std::size_t frame) const
-  {
-    const std::size_t inPeriod = std::min(frame % FramesOfPeriod(), period - 1);
-    return frame / FramesOfPeriod() * period + inPeriod;
-  }
-
-  /** The first frame that shows it. */
-  std::size_t
-  FirstFrameOf(std::size_t exposure) const
-  {
-    return exposure / period * FramesOfPeriod() + exposure % period;
-  }
-
-private:
-  std::size_t
-  FramesOfPeriod() const
-  {
-    return period - 1 + count;
-  }
-};
 
 /** \throws std::invalid_argument if the setting cannot be used. */
 inline void

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulation/FrameSmoothing.h"
 
-#include "sensornoise/Scenes.h"
+#include "sensornoise/Simulator.h"
 #include "simulation/SettingChecks.h"
 
 namespace sensornoise

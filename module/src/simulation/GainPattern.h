@@ -3,6 +3,7 @@
 #ifndef sensornoise_simulation_GainPattern_h
 #define sensornoise_simulation_GainPattern_h
 
+#include "sensornoise/SensorFlaws.h"
 #include "SensorNoiseExport.h"
 
 #include <cstddef>
@@ -11,22 +12,6 @@
 
 namespace sensornoise
 {
-
-/** What differs from pixel to pixel or from column to column and is no light: gains of the amplifiers in the pixels and
- * at the ends of the columns, fill factors, offsets. Beside the simulator's prnuSd (efficiency of each pixel) and
- * dsnuSdDn (offset of each pixel). EMVA Standard 1288, release 4.0, reports pixel, row and column parts alike. */
-struct PatternSettings
-{
-  /** Relative standard deviation of the gain [DN/e-] from pixel to pixel [1], 0 or more, below 0.2; about 0.01 in sCMOS
-   * sensors. It scales signal and read noise alike. */
-  double gainSd{ 0.0 };
-  /** The same from column to column. */
-  double columnGainSd{ 0.0 };
-  /** Relative standard deviation of the expected electrons from column to column [1], 0 or more, below 0.2. */
-  double columnEfficiencySd{ 0.0 };
-  /** Standard deviation of the offset from column to column [DN], 0 or more. */
-  double columnOffsetSdDn{ 0.0 };
-};
 
 /** \throws std::invalid_argument naming the first setting that cannot be used. */
 SensorNoise_EXPORT void

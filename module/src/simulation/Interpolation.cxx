@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "simulation/Interpolation.h"
+#include "sensornoise/SensorFlaws.h"
 
 #include <array>
 #include <stdexcept>

@@ -3,6 +3,7 @@
 #ifndef sensornoise_simulation_LineNoise_h
 #define sensornoise_simulation_LineNoise_h
 
+#include "sensornoise/SensorFlaws.h"
 #include "SensorNoiseExport.h"
 
 #include <cstddef>
@@ -10,22 +11,6 @@
 
 namespace sensornoise
 {
-
-/** Noise that the pixels of a row or of a column share, added to the code: it comes from the converters and references
- * at the ends of rows and columns and does not grow with the light (EMVA Standard 1288, release 4.0, reports
- * it beside the pixels' own). */
-struct LineNoiseSettings
-{
-  /** Standard deviation of one normal number for each row of each frame [DN], 0 or more. */
-  double rowNoiseSdDn{ 0.0 };
-  /** Standard deviation of one normal number for each column of each frame [DN], 0 or more. */
-  double columnNoiseSdDn{ 0.0 };
-  /** Amplitude of a sine along y whose phase is drawn anew for each frame [DN], 0 or more: interference of the power
-   * supply. Its standard deviation over frames is amplitude / sqrt(2). */
-  double bandingAmplitudeDn{ 0.0 };
-  /** Its period [row], above 0. */
-  double bandingPeriodRows{ 64.0 };
-};
 
 /** \throws std::invalid_argument naming the first setting that cannot be used. */
 SensorNoise_EXPORT void

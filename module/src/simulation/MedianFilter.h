@@ -3,26 +3,13 @@
 #ifndef sensornoise_simulation_MedianFilter_h
 #define sensornoise_simulation_MedianFilter_h
 
+#include "sensornoise/SensorFlaws.h"
 #include "SensorNoiseExport.h"
 #include "sensornoise/Parallel.h"
 #include "simulation/DoubleFrame.h"
 
 namespace sensornoise
 {
-
-/** Median filter in the camera, frame by frame: a pixel becomes the median of the square around it, edge pixels
- * replicated. Not linear: edges stay, noise loses more than the mean of as many pixels would leave. */
-struct MedianSettings
-{
-  /** The square is 2 radius + 1 pixels wide [pixel], 0 to 10; 1: 3 x 3; 0: none. */
-  unsigned int radiusPixels{ 0 };
-
-  bool
-  IsOn() const
-  {
-    return radiusPixels > 0;
-  }
-};
 
 /** \throws std::invalid_argument naming the first setting that cannot be used. */
 SensorNoise_EXPORT void

@@ -4,7 +4,7 @@
 
 #include "simulation/FixedPattern.h"
 #include "simulation/LinearShift.h"
-#include "sensornoise/Scenes.h"
+#include "sensornoise/Simulator.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #define sensornoise_simulation_SceneLight_h
 
 #include "SensorNoiseExport.h"
-#include "simulation/SimulationTruth.h"
+#include "sensornoise/Simulator.h"
 
 #include <cstddef>
 #include <vector>

@@ -3,7 +3,24 @@
 #include "sensornoise/SimulationSettings.h"
 
 #include "base/Text.h"
+#include "simulation/BlockQuantisation.h"
+#include "simulation/BrighterFatter.h"
+#include "simulation/ChargeCoupling.h"
+#include "simulation/ColourFilters.h"
+#include "simulation/Companding.h"
+#include "simulation/DefectCorrection.h"
+#include "simulation/FrameBinning.h"
+#include "simulation/FrameRepetition.h"
+#include "simulation/FrameResampling.h"
+#include "simulation/FrameSmoothing.h"
+#include "simulation/GainPattern.h"
+#include "simulation/Illumination.h"
+#include "simulation/LineNoise.h"
+#include "simulation/MedianFilter.h"
+#include "simulation/ReadNoisePattern.h"
+#include "simulation/ResponseCurve.h"
 #include "simulation/SettingChecks.h"
+#include "simulation/TemporalFilter.h"
 
 #include <cmath>
 #include <limits>

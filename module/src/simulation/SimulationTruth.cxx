@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "simulation/SimulationTruth.h"
+#include "sensornoise/Simulator.h"
 
+#include "simulation/Illumination.h"
 #include "simulation/Random.h"
 #include "simulation/RandomStreams.h"
 #include "simulation/ReadOut.h"

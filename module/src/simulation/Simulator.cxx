@@ -2,21 +2,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensornoise/Simulator.h"
 
-#include "sensornoise/PixelTypes.h"
+#include "sensornoise/FrameGeometry.h"
 #include "base/Text.h"
+#include "simulation/Companding.h"
+#include "simulation/DoubleFrame.h"
+#include "simulation/FrameProcessing.h"
 #include "simulation/Random.h"
 #include "simulation/RandomStreams.h"
+#include "simulation/ReadOut.h"
+#include "simulation/SceneLight.h"
+#include "simulation/TemporalFilter.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace sensornoise
 {
+
+/** The scene on the sensor, the read-out, and the memory of the temporal filter. */
+struct StackSimulator::Sensor
+{
+  SceneLight                      light;
+  ReadOut                         readOut;
+  std::shared_ptr<TemporalFilter> temporalFilter;
+};
+
 StackSimulator::StackSimulator(const std::vector<double> & reference,
                                std::size_t                 width,
                                std::size_t                 height,
@@ -24,13 +42,13 @@ StackSimulator::StackSimulator(const std::vector<double> & reference,
   : m_Width(width)
   , m_Height(height)
   , m_Truth(DrawTruth(settings, height))
-  , m_Light(reference, width, height, settings)
-  , m_ReadOut(settings, width, height)
-  , m_TemporalFilter(std::make_shared<TemporalFilter>(settings.flaws.temporalFilter))
+  , m_Sensor(std::make_shared<const Sensor>(Sensor{ SceneLight(reference, width, height, settings),
+                                                    ReadOut(settings, width, height),
+                                                    std::make_shared<TemporalFilter>(settings.flaws.temporalFilter) }))
 {
   const std::vector<double> & gamma = m_Truth.series.gamma;
   m_MeanBrightness = 1.0 + std::accumulate(gamma.begin(), gamma.end(), 0.0) / static_cast<double>(gamma.size());
-  const auto readNoise = m_ReadOut.SummariseReadNoise();
+  const auto readNoise = m_Sensor->readOut.SummariseReadNoise();
   m_Truth.realisedReadNoiseRmsDn = readNoise.rmsDn;
   m_Truth.realisedReadNoiseMedianDn = readNoise.medianDn;
 }
@@ -50,13 +68,31 @@ void
 StackSimulator::ExpectedElectronsRow(std::size_t frame, std::size_t y, double * electrons) const
 {
   RequireRow(frame, y);
-  m_Light.ExpectedElectronsRow(m_Truth, frame, y, electrons);
+  m_Sensor->light.ExpectedElectronsRow(m_Truth, frame, y, electrons);
 }
 
 double
 StackSimulator::LocalGainAt(std::size_t pixel) const
 {
-  return m_ReadOut.LocalGainAt(pixel, m_Light.ElectronsAtRest(pixel, m_MeanBrightness));
+  return m_Sensor->readOut.LocalGainAt(pixel, m_Sensor->light.ElectronsAtRest(pixel, m_MeanBrightness));
+}
+
+double
+StackSimulator::PixelReadNoiseDn(std::size_t pixel) const
+{
+  return m_Sensor->readOut.PixelReadNoiseDn(pixel);
+}
+
+double
+StackSimulator::PixelOffsetDn(std::size_t pixel) const
+{
+  return m_Sensor->readOut.PixelOffsetDn(pixel);
+}
+
+bool
+StackSimulator::NeedsWholeFrames() const
+{
+  return sensornoise::NeedsWholeFrames(m_Truth.settings.flaws);
 }
 
 template <typename TPixel>
@@ -112,7 +148,7 @@ StackSimulator::ReadRow(std::size_t    frame,
   const SimulationSettings & settings = m_Truth.settings;
   const double               low = settings.clipLowDn.value_or(-infinity);
   const double               high = settings.clipHighDn.value_or(infinity);
-  m_ReadOut.ReadRow(settings.flaws.repetition.ExposureOf(frame), y, electrons, normals, codesDn);
+  m_Sensor->readOut.ReadRow(settings.flaws.repetition.ExposureOf(frame), y, electrons, normals, codesDn);
   std::transform(codesDn, codesDn + m_Width, codesDn, [=](double code) { return std::clamp(code, low, high); });
 }
 
@@ -183,8 +219,9 @@ StackSimulator::RenderFrame(std::size_t frame, TPixel * out, const ParallelFor &
     return ProcessBeforeTemporalFilter(ReadFrame(firstFrame, parallelFor), flaws, parallelFor);
   };
   const std::size_t exposure = flaws.repetition.ExposureOf(frame);
-  DoubleFrame       codesDn =
-    flaws.temporalFilter.IsOn() ? m_TemporalFilter->OutputFrame(exposure, codesOf, parallelFor) : codesOf(exposure);
+  DoubleFrame       codesDn = flaws.temporalFilter.IsOn()
+                                ? m_Sensor->temporalFilter->OutputFrame(exposure, codesOf, parallelFor)
+                                : codesOf(exposure);
   codesDn = ProcessAfterTemporalFilter(std::move(codesDn), flaws, m_Truth.settings.bitDepth, parallelFor);
   parallelFor(m_Height, [&](std::size_t y) { WriteRow(codesDn.Row(y), out + y * m_Width); });
 }

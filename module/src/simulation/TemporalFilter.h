@@ -3,6 +3,7 @@
 #ifndef sensornoise_simulation_TemporalFilter_h
 #define sensornoise_simulation_TemporalFilter_h
 
+#include "sensornoise/SensorFlaws.h"
 #include "SensorNoiseExport.h"
 #include "sensornoise/Parallel.h"
 #include "simulation/DoubleFrame.h"
@@ -14,20 +15,6 @@
 
 namespace sensornoise
 {
-
-/** Temporal denoising in the camera, a recursive filter: out_t = (1 - a) in_t + a out_(t-1), out_0 = in_0. White noise
- * keeps (1 - a) / (1 + a) of its variance once a^(2 t) has died away, and frames d apart correlate by a^d. */
-struct TemporalFilterSettings
-{
-  /** a, the weight of the last frame [1], 0 to 0.99; 0: no filter. */
-  double weight{ 0.0 };
-
-  bool
-  IsOn() const
-  {
-    return weight > 0.0;
-  }
-};
 
 /** \throws std::invalid_argument naming the first setting that cannot be used. */
 SensorNoise_EXPORT void

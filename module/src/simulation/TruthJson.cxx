@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "simulation/TruthJson.h"
+#include "sensornoise/Simulator.h"
 
 #include "report/JsonWriter.h"
 #include "simulation/FlawsJson.h"

@@ -3,7 +3,7 @@
 #ifndef sensornoise_stabilise_CheckSentence_h
 #define sensornoise_stabilise_CheckSentence_h
 
-#include "stabilise/NoiseModelCheck.h"
+#include "sensornoise/NoiseModel.h"
 
 #include <string>
 

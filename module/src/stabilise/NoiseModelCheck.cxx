@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the ITKSensorNoise contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "stabilise/NoiseModelCheck.h"
+#include "sensornoise/NoiseModel.h"
 
 #include "base/Quantiles.h"
 #include "base/Text.h"

@@ -1,0 +1,458 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "refined/RefinedPasses.h"
+
+#include "base/BinaryStream.h"
+#include "sensornoise/FrameGeometry.h"
+#include "moments/Constants.h"
+#include "moments/DarkMaps.h"
+#include "moments/StackMaps.h"
+#include "pixels/ProjectedVariance.h"
+#include "refined/MemoryNeed.h"
+#include "refined/PixelNoise.h"
+#include "refined/PixelsOfVariance.h"
+#include "refined/RefinedReport.h"
+#include "report/AllFrames.h"
+#include "report/Statuses.h"
+#include "report/ExcessNoise.h"
+#include "report/LinearityReport.h"
+#include "report/SceneChangeReport.h"
+#include "report/StackReport.h"
+#include "report/StackSettings.h"
+#include "series/FrameProducts.h"
+#include "series/SceneRegressors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** The largest of the levels, without its sign [DN]. */
+double
+LargestMeanDn(const std::vector<double> & mean)
+{
+  double largest = 0.0;
+  for (const double level : mean)
+  {
+    largest = std::isfinite(level) ? std::max(largest, std::abs(level)) : largest;
+  }
+  return largest;
+}
+} // namespace
+
+template <typename TPixel>
+RefinedPasses<TPixel>::RefinedPasses(const RefinedSettings &           settings,
+                                     const FrameGeometry &             geometry,
+                                     std::size_t                       frames,
+                                     const std::vector<std::uint8_t> & mask,
+                                     ParallelFor                       parallelFor)
+  : Passes("RefinedMethod", geometry, frames, mask, std::move(parallelFor))
+  , m_Settings(settings)
+  , m_Scene(std::make_unique<StillScene>())
+{
+  settings.Validate();
+  RequireExposuresOfFrames(settings.exposures, frames);
+  RequireMemoryLimit(settings.memoryLimitBytes, geometry, frames, 1);
+  if constexpr (std::is_integral_v<TPixel>)
+  {
+    constexpr int bits = 8 * sizeof(TPixel);
+    settings.RequireOffsetWithin(std::exp2(bits), "the number of codes of " + std::to_string(bits) + " bits");
+  }
+}
+
+template <typename TPixel>
+void
+RefinedPasses<TPixel>::AddDistinct(const std::vector<Plane> & planes,
+                                   const TPixel *             frames,
+                                   std::size_t                count,
+                                   const ParallelFor &        parallelFor) const
+{
+  std::vector<FrameSums::Plane>        summed;
+  std::vector<PixelProjections::Plane> projected;
+  for (const auto & [passes, place] : planes)
+  {
+    auto & method = static_cast<RefinedPasses &>(*passes);
+    if (method.m_Levels) // the planes of a mosaic need not be in step
+    {
+      projected.push_back(method.m_Levels->PlaneAt(place));
+    }
+    else if (method.m_Projections)
+    {
+      projected.push_back({ &*method.m_Projections, place, &method.m_Scene->frame });
+    }
+    else
+    {
+      summed.push_back({ method.m_FrameSums.get(), place });
+    }
+  }
+  if (!summed.empty())
+  {
+    FrameSums::AddFrames(summed, frames, count, parallelFor);
+  }
+  if (!projected.empty())
+  {
+    PixelProjections::AddFrames(projected, frames, count, parallelFor);
+  }
+}
+
+template <typename TPixel>
+void
+RefinedPasses<TPixel>::ForgetOwnSums()
+{
+  PixelProjections * const projections = this->GetProjections();
+  projections != nullptr ? projections->Forget() : m_FrameSums->Forget();
+}
+
+template <typename TPixel>
+void
+RefinedPasses<TPixel>::SaveOwnSums(std::ostream & out) const
+{
+  const PixelProjections * const projections = this->GetProjections();
+  projections != nullptr ? projections->Save(out) : m_FrameSums->Save(out);
+}
+
+template <typename TPixel>
+void
+RefinedPasses<TPixel>::MergeOwnSums(std::istream & in)
+{
+  if (PixelProjections * const projections = this->GetProjections())
+  {
+    projections->Merge(in);
+    return;
+  }
+  FrameProducts others = m_FrameSums->GetProducts();
+  others.Restore(in);
+  m_FrameSums->Merge(others);
+}
+
+template <typename TPixel>
+void
+RefinedPasses<TPixel>::AddFindings(Fingerprint & fingerprint) const
+{
+  const ReferenceFrame & frame = m_Levels ? m_Levels->GetFrame() : m_Scene->frame;
+  fingerprint.Add(frame.mean.data(), frame.mean.size());
+  fingerprint.Add(frame.variance.data(), frame.variance.size());
+  fingerprint.Add(m_Scene->pixelUse.data(), m_Scene->pixelUse.size());
+  const TemporalBasis * const basis = m_Levels   ? &m_Levels->GetProjections().GetBasis()
+                                      : m_Series ? &m_Series->basis
+                                                 : nullptr;
+  for (std::size_t j = 0; basis != nullptr && j < basis->Size(); ++j)
+  {
+    for (std::size_t t = 0; t < m_Distinct.Count(); ++t)
+    {
+      const double rounded = basis->Rounded(t, j);
+      fingerprint.Add(&rounded, 1);
+    }
+  }
+}
+
+template <typename TPixel>
+template <typename TFunction>
+void
+RefinedPasses<TPixel>::Finish(TFunction function)
+{
+  try
+  {
+    function();
+  }
+  catch (const NothingToMeasure & obstacle)
+  {
+    m_Obstacle.emplace(obstacle);
+    m_FrameSums.reset();
+    m_Projections.reset();
+  }
+  m_IsDone = m_IsDone || (!this->HasSums() && !this->IsOfMoments() && this->GetPass() >= Passes::NumberOfPasses);
+  if (m_IsDone)
+  {
+    this->MakeReport();
+  }
+}
+
+template <typename TPixel>
+void
+RefinedPasses<TPixel>::FinishMoments()
+{
+  this->Finish([this] { this->EndMoments(); });
+}
+
+template <typename TPixel>
+void
+RefinedPasses<TPixel>::FinishSums()
+{
+  this->Finish([this] {
+    if (m_Levels)
+    {
+      this->EndLevels();
+    }
+    else if (m_Projections)
+    {
+      m_IsDone = this->EndProjections();
+    }
+    else if (m_FrameSums)
+    {
+      this->EndFrameSums();
+    }
+  });
+}
+
+template <typename TPixel>
+void
+RefinedPasses<TPixel>::EndMoments()
+{
+  StackMaps                 maps = MakeStackMaps<TPixel>(m_Moments.Take(), m_Settings.codes, m_ParallelFor);
+  const std::vector<double> levels = m_Distinct.OfDistinct(m_Moments.GetFrameMeans());
+  m_ExposureFit = FitExposures(m_Settings.exposures, m_Thumbnails, m_Distinct.Counted(), maps);
+  const bool isStrong = m_Thumbnails.FindIlluminationChange(m_Distinct.Counted()) > InMoments.strongIlluminationChange;
+  if (isStrong && AreLevelsSeries(levels))
+  {
+    m_Levels = std::make_unique<LevelProjection>(
+      std::move(maps), m_Geometry, m_Layout, levels, m_IsWithoutMerging, m_ParallelFor);
+    return;
+  }
+  this->MakeScene(std::move(maps));
+}
+
+template <typename TPixel>
+void
+RefinedPasses<TPixel>::EndLevels()
+{
+  LevelProjection::Maps maps = m_Levels->TakeMaps(m_ParallelFor);
+  m_Levels.reset();
+  this->MakeScene(std::move(maps.ofScene), std::move(maps.rawVariance));
+}
+
+template <typename TPixel>
+double
+RefinedPasses<TPixel>::NoiseOfDarkestFrame() const
+{
+  const std::vector<std::size_t> counted = m_Distinct.Counted();
+  const std::vector<double>      levels = m_Distinct.OfDistinct(m_Moments.GetFrameMeans());
+  const auto                     darkest = std::min_element(levels.begin(), levels.end()) - levels.begin();
+  return m_Thumbnails.NoiseOf(counted[static_cast<std::size_t>(darkest)]) * m_Thumbnails.PixelsOfCell();
+}
+
+template <typename TPixel>
+void
+RefinedPasses<TPixel>::MakeScene(StackMaps maps, std::vector<double> rawVariance)
+{
+  m_HasScene = true;
+  const bool            isProjected = !rawVariance.empty();
+  std::optional<double> darkestNoiseDn2;
+  if (isProjected)
+  {
+    darkestNoiseDn2 = this->NoiseOfDarkestFrame();
+  }
+  m_Scene = std::make_unique<StillScene>(MakeStillScene(maps.summary,
+                                                        std::move(maps.mean),
+                                                        std::move(maps.variance),
+                                                        std::move(maps.valid),
+                                                        m_UserMask,
+                                                        m_Geometry,
+                                                        m_Distinct.Count(),
+                                                        m_Distinct.OfDistinct(m_Moments.GetFrameMeans()),
+                                                        m_ParallelFor,
+                                                        darkestNoiseDn2));
+  std::unique_ptr<FrameSums> sums;
+  if (!m_Scene->obstacle)
+  {
+    sums = std::make_unique<FrameSums>(MakeSceneRegressors(*m_Scene, m_ParallelFor), m_ParallelFor);
+    sums->SetLayout(m_Layout);
+  }
+  if (isProjected)
+  {
+    m_Scene->frame.variance = std::move(rawVariance); // what users see, and the third pass takes the squares from
+  }
+  if (m_Scene->obstacle)
+  {
+    throw NothingToMeasure(*m_Scene->obstacle);
+  }
+  if (std::is_floating_point_v<TPixel>)
+  {
+    m_Settings.RequireOffsetWithin(1000.0 * LargestMeanDn(m_Scene->frame.mean),
+                                   "1000 times the largest level of the frames");
+  }
+  m_FrameSums = std::move(sums);
+}
+
+template <typename TPixel>
+void
+RefinedPasses<TPixel>::EndFrameSums()
+{
+  this->ReleaseFrameSums();
+  std::optional<double> knownOffsetDn;
+  if (m_Settings.offset)
+  {
+    knownOffsetDn = m_Settings.offset->valueDn;
+  }
+  m_Series.emplace(FindSceneSeries(*m_FrameSums,
+                                   m_Settings.rollingShutter,
+                                   knownOffsetDn,
+                                   BlackLevel(m_Settings, *m_Scene, std::nullopt),
+                                   m_Scene->changesStrongly));
+  if (this->StartAgainWithout(m_Series->frameOffsets.unlike, FrameFault::OtherOffset))
+  {
+    this->ForgetFindings();
+    return;
+  }
+  const MemoryNeed  need{ m_Geometry.Pixels(), m_Distinct.Count() };
+  const double      left = m_Settings.memoryLimitBytes - need.BesideProjections();
+  const std::size_t slabs = PixelProjections::SlabsWithin(left, m_Series->basis.Size());
+  m_Projections.emplace(m_Geometry,
+                        FrameSample::Of<TPixel>(m_Geometry, m_Distinct.Count(), m_ParallelFor),
+                        m_Series->basis,
+                        PixelProjections::Options{ slabs, m_Series->local.series.cols() > 0, m_IsWithoutMerging },
+                        m_ParallelFor);
+  m_Projections->SetLayout(m_Layout);
+}
+
+/** Whether all that is needed has been read. */
+template <typename TPixel>
+bool
+RefinedPasses<TPixel>::EndProjections()
+{
+  const bool isLightLocal = m_Series->local.series.cols() > 0; // of which the coordinates tell more
+  if (m_Variance)
+  {
+    m_Projections->EndLight(m_Scene->frame);
+  }
+  else if (!m_Projections->EndPass(m_Scene->frame))
+  {
+    return false;
+  }
+  else
+  {
+    this->MeasureVariance();
+    const double most = m_FrameNoise.areFramesEqual ? InMoments.largestOtherGroup : InMoments.largestLeftOutShare;
+    if (this->StartAgainWithout(m_FrameNoise.unlike, FrameFault::OtherNoise, most))
+    {
+      this->ForgetFindings();
+      return false;
+    }
+    const std::vector<std::size_t> counted = m_Distinct.Counted();
+    for (FrameGroup & group : m_FrameNoise.groups)
+    {
+      std::transform(group.frames.begin(), group.frames.end(), group.frames.begin(), [&](std::size_t place) {
+        return counted[place];
+      });
+    }
+    if (isLightLocal && !m_Projections->HasCoordinates())
+    {
+      m_Projections->StartLight();
+      return false;
+    }
+  }
+  m_Polished.emplace(
+    PolishSceneSeries(*m_FrameSums, *m_Series, m_Projections->TakeCoordinates(), *m_Variance, m_ParallelFor));
+  m_Projections.reset();
+  TakeOffLine(*m_Variance, CodeNoise(m_Variance->codeNoise)); // the series were weighed by all of the noise
+  return true;
+}
+
+template <typename TPixel>
+void
+RefinedPasses<TPixel>::ForgetFindings()
+{
+  m_Scene = std::make_unique<StillScene>();
+  m_FrameSums.reset();
+  m_Series.reset();
+  m_Projections.reset();
+  m_Variance.reset();
+  m_Correlation = {};
+  m_FrameNoise = {};
+  m_Lines = {};
+  m_CorrectedVariance.clear();
+  m_HasScene = false;
+}
+
+template <typename TPixel>
+void
+RefinedPasses<TPixel>::MeasureVariance()
+{
+  FillNeighbourMean(m_Scene->frame, m_ParallelFor);
+  const ReferenceFrame & frame = m_Scene->frame;
+  ProjectedVariance      projected(frame,
+                              m_Series->basis,
+                              m_Series->motion,
+                              m_Projections->TakeSquares(),
+                              m_Scene->model,
+                              frame.usable,
+                              m_ParallelFor);
+  const CodeNoise        codeNoise = this->FindCodeNoise();
+  projected.TakeOffRest(codeNoise);
+  PixelNoise noise = MeasurePixelNoise(
+    projected, m_Projections->TakeSample(), *m_Scene, m_Series, m_Settings, codeNoise.inTheDarkDn2, m_ParallelFor);
+  m_Variance.emplace(std::move(noise.variance));
+  m_Variance->codeNoise = codeNoise;
+  if (!m_Variance->line.isDetermined)
+  {
+    throw NothingToMeasure(
+      "too few pixels are left to fit the variance, or all have one intensity. Include dark and bright areas "
+      "in the scene, or measure a larger part of it (--roi)",
+      WarningCode::IntensityRangeTooSmall);
+  }
+  m_Correlation = std::move(noise.correlation);
+  m_Lines = noise.lines;
+  if (m_Thumbnails.FindChange(m_Distinct.Counted()).IsLarge()) // frames of several scenes tell nothing of each other
+  {
+    m_Variance->fromFrames = {};
+  }
+  else
+  {
+    m_FrameNoise = std::move(noise.frames);
+  }
+  m_CorrectedVariance = projected.TakeVariance();
+  ForPixels(m_CorrectedVariance.size(), m_ParallelFor, [&](std::size_t p) {
+    m_CorrectedVariance[p] = frame.usable[p] != 0 ? m_CorrectedVariance[p] + codeNoise.RestAt(frame.mean[p])
+                                                  : std::numeric_limits<double>::quiet_NaN();
+  });
+}
+
+template <typename TPixel>
+CodeNoise
+RefinedPasses<TPixel>::FindCodeNoise() const
+{
+  const auto & offset = m_Settings.offset;
+  const double darkStepDn = offset && offset->maps ? offset->maps->stepDn : 0.0;
+  return MakeCodeNoise(m_Scene->summary.codes, m_Scene->frame, m_Scene->model, darkStepDn);
+}
+
+template <typename TPixel>
+void
+RefinedPasses<TPixel>::MakeReport()
+{
+  m_Report = m_Obstacle ? MakeRefusal(m_Settings, *m_Scene, this->GetPixelUse(), *m_Obstacle)
+                        : MakeRefinedReport({ m_Settings,
+                                              *m_Scene,
+                                              *m_Series,
+                                              *m_Variance,
+                                              *m_Polished,
+                                              m_CorrectedVariance,
+                                              BlackLevel(m_Settings, *m_Scene, m_Series),
+                                              m_Correlation,
+                                              m_FrameNoise,
+                                              m_Lines,
+                                              m_ExposureFit ? &*m_ExposureFit : nullptr },
+                                            m_ParallelFor);
+  ReportLinearity(m_Report, m_ExposureFit);
+  FileStatuses(m_Report);
+  DivideExcessNoise(m_Report, m_Settings.excessNoiseFactor);
+  UncoverUnknown(m_Scene->frame, m_ParallelFor);
+  WarnOfMosaic(m_Report, m_Scene->frame.mean, m_Geometry, m_ParallelFor);
+  NoteMask(m_Report, m_Geometry, m_UserMask);
+  ReportSceneChange(m_Report, m_Thumbnails.FindChange(m_Distinct.Counted()));
+  ReportAllFrames(m_Report, m_Distinct, this->GetLeftOut());
+}
+
+#define SensorNoise_INSTANTIATE(TPixel) template class RefinedPasses<TPixel>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
+#undef SensorNoise_INSTANTIATE
+
+} // namespace sensornoise

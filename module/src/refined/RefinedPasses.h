@@ -1,0 +1,268 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_refined_RefinedPasses_h
+#define sensornoise_refined_RefinedPasses_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/FrameGeometry.h"
+#include "base/NothingToMeasure.h"
+#include "sensornoise/Parallel.h"
+#include "correlation/NoiseCorrelation.h"
+#include "moments/ExposureFit.h"
+#include "moments/StackMaps.h"
+#include "moments/StackPasses.h"
+#include "pixels/StaticVariance.h"
+#include "refined/LevelProjection.h"
+#include "refined/PixelProjections.h"
+#include "refined/PolishedSeries.h"
+#include "sensornoise/Settings.h"
+#include "refined/LineIllumination.h"
+#include "refined/UnlikeNoise.h"
+#include "sensornoise/Report.h"
+#include "scene/StillScene.h"
+#include "series/FrameSums.h"
+#include "series/SceneSeries.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <istream>
+#include <memory>
+#include <optional>
+#include <ostream>
+#include <utility>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** \class RefinedPasses
+ * \brief Gain, offset and read noise at the theoretical limit, in three passes over the stack.
+ *
+ * Pass 1 gathers the temporal moments: the mean image, a rough noise model, what is clipped. Pass 2 regresses every
+ * frame on the mean image and its derivatives: the series over time of flicker, local light and motion, and the
+ * offset. Pass 3 projects every pixel's time series on these few series; what is left is sensor noise, whose
+ * regression on the mean gives gain and intercept. Where the illumination changes strongly, the stack is read once more
+ * between passes 1 and 2, see LevelProjection. Usage, also by several processes, as StackPasses: their sums have 16 kB
+ a
+ * frame in pass 2, 8 bytes a pixel and series in pass 3, and 8 bytes a pixel in that further one.
+ *
+ * Frames that are equal, bit by bit, are counted once: the result is that of the distinct frames, and the report's
+ * series repeat the values of a frame's original.
+ *
+ * Same bits for any number of threads and any chunks. Memory: 56 bytes a pixel and 8 more for each series of light and
+ * motion that is found (2 to 20), 20 kB a frame and 32 MiB, see MemoryNeed. A stack that cannot be measured
+ (NothingToMeasure) ends in a report whose quantities are `failed`, with a
+ * warning that says why; wrong use throws std::invalid_argument. May be moved, also between and within passes. */
+template <typename TPixel>
+class RefinedPasses final : public StackPasses<TPixel>
+{
+public:
+  using typename StackPasses<TPixel>::Passes;
+  using Settings = RefinedSettings;
+
+  /** Whether there is SumsPerPixel(). */
+  static constexpr bool HasManySums = true;
+
+  /** \a mask, if given, has a nonzero value at the pixels to be used; \a parallelFor spreads the work. Throws
+   * std::invalid_argument for settings out of range, see RefinedSettings::Validate(), and for a stack or a mask that
+   * RequireStack() refuses. */
+  RefinedPasses(const RefinedSettings &           settings,
+                const FrameGeometry &             geometry,
+                std::size_t                       frames,
+                const std::vector<std::uint8_t> & mask = {},
+                ParallelFor                       parallelFor = SerialFor);
+
+  /** No sums of the third pass are saved or merged: where all frames are added to it together, it needs no memory for
+   * them. To be told before it. */
+  void
+  DisableMerging()
+  {
+    m_IsWithoutMerging = true;
+  }
+
+  /** Whether the report is there. That is after NumberOfPasses passes or more, which read the stack once more: one for
+   * the moments if frames are left out, one after these where the illumination changes strongly (LevelProjection), and
+   * others, like the third, if RefinedSettings::memoryLimitBytes asks for them. */
+  bool
+  IsDone() const override
+  {
+    return m_IsDone;
+  }
+  /** Whether the current pass is the last one before the third, or, if the stack cannot be measured, a pass without
+   * sums. */
+  bool
+  IsBeforeProjections() const
+  {
+    return m_HasScene && !m_IsDone && !m_Projections;
+  }
+  /** The sums of 8 bytes that the third pass has of every pixel; 0 before it. */
+  std::size_t
+  SumsPerPixel() const
+  {
+    return m_Projections ? m_Projections->SumsPerPixel() : 0;
+  }
+  /** All frames of the second pass are in, and it is to end later: gives back the memory that only adding needs. */
+  void
+  ReleaseFrameSums()
+  {
+    if (m_FrameSums)
+    {
+      m_FrameSums->EndFrames(m_ParallelFor);
+      ReleaseNeighbourMean(m_Scene->frame);
+    }
+  }
+  const Report &
+  GetReport() const override
+  {
+    return m_Report;
+  }
+  const std::vector<double> &
+  GetMean() const override
+  {
+    return m_Scene->frame.mean;
+  }
+  const std::vector<double> &
+  GetVariance() const override
+  {
+    return m_Scene->frame.variance;
+  }
+  /** NaN where it was not computed; empty if the stack cannot be measured. */
+  const std::vector<double> &
+  GetCorrectedVariance() const override
+  {
+    return m_CorrectedVariance;
+  }
+  /** Values of PixelUse. */
+  const std::vector<std::uint8_t> &
+  GetPixelUse() const override
+  {
+    return m_Variance ? m_Variance->pixelUse : m_Scene->pixelUse;
+  }
+
+  /** Give the maps away, after which they are empty here. */
+  std::vector<double>
+  TakeMean() override
+  {
+    return std::move(m_Scene->frame.mean);
+  }
+  std::vector<double>
+  TakeVariance() override
+  {
+    return std::move(m_Scene->frame.variance);
+  }
+  std::vector<double>
+  TakeCorrectedVariance() override
+  {
+    return std::move(m_CorrectedVariance);
+  }
+  std::vector<std::uint8_t>
+  TakePixelUse() override
+  {
+    return std::move(m_Variance ? m_Variance->pixelUse : m_Scene->pixelUse);
+  }
+
+private:
+  using typename StackPasses<TPixel>::Plane;
+  using Passes::m_Distinct;
+  using Passes::m_Geometry;
+  using Passes::m_Layout;
+  using Passes::m_Moments;
+  using Passes::m_ParallelFor;
+  using Passes::m_Thumbnails;
+  using Passes::m_UserMask;
+
+  /** Those of the current pass; null: it has none. */
+  PixelProjections *
+  GetProjections()
+  {
+    return m_Levels ? &m_Levels->GetProjections() : m_Projections ? &*m_Projections : nullptr;
+  }
+  const PixelProjections *
+  GetProjections() const
+  {
+    return m_Levels ? &m_Levels->GetProjections() : m_Projections ? &*m_Projections : nullptr;
+  }
+  bool
+  HasSums() const override
+  {
+    return m_FrameSums || m_Levels;
+  }
+  void
+  AddDistinct(const std::vector<Plane> & planes,
+              const TPixel *             frames,
+              std::size_t                count,
+              const ParallelFor &        parallelFor) const override;
+  void
+  ForgetOwnSums() override;
+  void
+  SaveOwnSums(std::ostream & out) const override;
+  void
+  MergeOwnSums(std::istream & in) override;
+  void
+  AddFindings(Fingerprint & fingerprint) const override;
+  void
+  FinishMoments() override;
+  void
+  FinishSums() override;
+  /** Calls function(), which may find that the stack cannot be measured; makes the report if nothing is left to read.
+   */
+  template <typename TFunction>
+  void
+  Finish(TFunction function);
+
+  void
+  EndMoments();
+  void
+  EndLevels();
+  /** The variance that the noise of the frame of the lowest level has at most, by what neighbouring pixels differ by
+   * [DN^2]. */
+  double
+  NoiseOfDarkestFrame() const;
+  /** Makes the scene of \a maps, and starts the second pass; \a rawVariance, if not empty, takes the place of the
+   * variance that the scene is made of. */
+  void
+  MakeScene(StackMaps maps, std::vector<double> rawVariance = {});
+  void
+  EndFrameSums();
+  bool
+  EndProjections();
+  void
+  MeasureVariance();
+  /** All that the passes after the moments found. */
+  void
+  ForgetFindings();
+  /** Of companded codes. */
+  CodeNoise
+  FindCodeNoise() const;
+  void
+  MakeReport();
+
+  RefinedSettings            m_Settings;
+  std::optional<ExposureFit> m_ExposureFit; // of the first pass; none: no exposures were given
+
+  // The sums of the passes, and what each pass found. The scene stays where it is: FrameSums points to its frame.
+  std::unique_ptr<StillScene>           m_Scene;
+  std::unique_ptr<LevelProjection>      m_Levels;    // of the pass after the first one, where there is one
+  std::unique_ptr<FrameSums>            m_FrameSums; // null then, or if the stack cannot be measured
+  std::optional<const SceneSeries>      m_Series;
+  std::optional<PixelProjections>       m_Projections;
+  std::optional<StaticVariance>         m_Variance;
+  std::optional<const PolishedSeries>   m_Polished;
+  NoiseCorrelation                      m_Correlation;
+  FrameNoise                            m_FrameNoise;
+  LineIllumination                      m_Lines;
+  std::vector<double>                   m_CorrectedVariance;
+  std::optional<const NothingToMeasure> m_Obstacle;
+  bool                                  m_HasScene{ false };
+  bool                                  m_IsWithoutMerging{ false };
+  bool                                  m_IsDone{ false };
+  Report                                m_Report;
+};
+
+#define SensorNoise_EXTERN(TPixel) extern template class SensorNoise_EXPORT RefinedPasses<TPixel>
+SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);
+#undef SensorNoise_EXTERN
+
+} // namespace sensornoise
+
+#endif
