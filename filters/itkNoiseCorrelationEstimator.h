@@ -20,7 +20,7 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/FrameGeometry.h"
-#include "correlation/CorrelationEstimate.h"
+#include "sensornoise/StepResults.h"
 #include "itkSensorNoiseResult.h"
 #include "itkSensorNoiseStackSink.h"
 
@@ -212,7 +212,7 @@ protected:
   PrintSelf(std::ostream & os, Indent indent) const override;
 
 private:
-  // Defined in the .hxx: what reads the headers alone, as wrapping does, need not read the moments.
+  // What an update gathers.
   struct Measurement;
 
   void

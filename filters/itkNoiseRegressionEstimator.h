@@ -19,10 +19,9 @@
 #define itkNoiseRegressionEstimator_h
 
 #include "SensorNoiseExport.h"
-#include "published/FlickerEstimate.h"
-#include "report/ReportJson.h"
+#include "sensornoise/StepResults.h"
+#include "sensornoise/ReportText.h"
 #include "sensornoise/Report.h"
-#include "report/ReportTable.h"
 #include "itkImage.h"
 #include "itkProcessObject.h"
 #include "itkSensorNoiseResult.h"

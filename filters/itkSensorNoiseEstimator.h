@@ -21,11 +21,8 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Settings.h"
-#include "report/ReportJson.h"
 #include "sensornoise/ReportText.h"
 #include "sensornoise/Report.h"
-#include "report/ReportTable.h"
-#include "report/StackSettings.h"
 #include "sensornoise/NoiseModel.h"
 #include "itkNumericTraits.h"
 #include "itkSensorNoiseStackSink.h"
@@ -38,11 +35,6 @@
 #include <ostream>
 #include <string>
 #include <vector>
-
-namespace sensornoise
-{
-struct KnownOffset;
-}
 
 namespace itk
 {
@@ -246,8 +238,8 @@ public:
     return m_Exposures;
   }
 
-  /** Excess noise factor F of the sensor, 1 or more [1]: the gain is the slope of the variance divided by F, see
-   * sensornoise::DivideExcessNoise(). About 2 in an EMCCD; 1 (default): none. An ExceptionObject at Update() if it is
+  /** Excess noise factor F of the sensor, 1 or more [1]: the gain is the slope of the variance divided by F.
+   * About 2 in an EMCCD; 1 (default): none. An ExceptionObject at Update() if it is
    * less. */
   itkSetMacro(ExcessNoiseFactor, double);
   itkGetConstMacro(ExcessNoiseFactor, double);
@@ -290,7 +282,7 @@ public:
    * "GRBG", "GBRG" or "BGGR", the colours of the stack's upper left pixels: each of the four planes is measured by
    * itself, and there are channel reports in place of the report; each pass still reads the stack once, and the maps
    * stay those of the mosaic. "auto": as the input's MetaDataDictionary says (sensornoise::MetaDataKeys), else as the
-   * levels of its first frame tell, see sensornoise::RecogniseMosaic(). Mask and Dark are mosaics, too. */
+   * levels of its first frame tell. Mask and Dark are mosaics, too. */
   void
   SetBayerPattern(const std::string & name);
   itkGetConstReferenceMacro(BayerPattern, std::string);
@@ -528,7 +520,7 @@ private:
   static constexpr DataObjectPointerArraySizeType FirstPixelOutput = 5;
   static constexpr DataObjectPointerArraySizeType ChannelReportsOutput = FirstPixelOutput + 6;
 
-  // Defined in the .hxx: what reads the headers alone, as wrapping does, need not read the methods.
+  // The method at work.
   struct Estimation;
 
   const sensornoise::Report &

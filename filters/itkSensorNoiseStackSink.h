@@ -23,7 +23,6 @@
 #include "sensornoise/FrameGeometry.h"
 #include "itkImage.h"
 #include "itkImageSink.h"
-#include "itkSensorNoiseChunks.h"
 
 #include <chrono>
 #include <ostream>
@@ -130,16 +129,10 @@ protected:
 
   /** Bytes of a chunk of a stack that is not in memory; of the first pass before StartPasses(), of all after it. */
   virtual SizeValueType
-  ChunkBytes(unsigned int) const
-  {
-    return SensorNoiseChunkBytes;
-  }
+  ChunkBytes(unsigned int pass) const;
   /** Bytes of a stack in memory that ProcessFrames() is given at a time, whole frames. */
   virtual SizeValueType
-  BytesAtOnce() const
-  {
-    return SensorNoisePieceBytes;
-  }
+  BytesAtOnce() const;
 
   /** Spreads work over this filter's threads. Throws ProcessAborted, before that or in its midst, if an abort was asked
    * for. */
@@ -152,9 +145,8 @@ protected:
   /** The region of a frame, and the geometry of the stack's first two axes for a frame-sized output. */
   FrameRegionType
   GetFrameRegion() const;
-  template <typename TFrame>
   void
-  CopyFrameInformation(TFrame * frame) const;
+  CopyFrameInformation(ImageBase<2> * frame) const;
 
   SizeValueType
   GetNumberOfFrames() const
@@ -195,16 +187,16 @@ private:
   /** Gives the pixels of the chunk, which is there, to ProcessFrames(). */
   void
   ProcessChunk(unsigned int number);
-  /** Tells the observers that the progress \a reached so much, unless they were told a moment ago, and throws
-   * ProcessAborted if an abort is asked for. Does nothing on another thread than that of Update(). */
+  /** Reports the progress \a reached to the observers, at most every 50 ms, and throws ProcessAborted if an abort is
+   * asked for. Does nothing on another thread than that of Update(). */
   void
-  TakeBreath(float reached);
+  ReportProgress(float reached);
 
   unsigned int                          m_NumberOfStreamDivisions{ 0 };
   std::vector<unsigned int>             m_Chunks; // of each pass, when they have started
   StackRegionType                       m_Chunk;
   std::thread::id                       m_Thread; // of Update()
-  std::chrono::steady_clock::time_point m_LastBreath{};
+  std::chrono::steady_clock::time_point m_LastReport{};
   float                                 m_Reached{ 0.0F };     // the progress, at least
   float                                 m_NextReached{ 0.0F }; // when the frames at work are done
 };

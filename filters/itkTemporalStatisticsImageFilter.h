@@ -20,11 +20,11 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/FrameGeometry.h"
-#include "moments/StackMaps.h"
-#include "moments/TemporalMoments.h"
+#include "sensornoise/StepResults.h"
 #include "itkSensorNoiseStackSink.h"
 
 #include <limits>
+#include <memory>
 #include <ostream>
 #include <string>
 
@@ -170,7 +170,7 @@ public:
 
 protected:
   TemporalStatisticsImageFilter();
-  ~TemporalStatisticsImageFilter() override = default;
+  ~TemporalStatisticsImageFilter() override;
 
   using Superclass::MakeOutput;
   DataObjectPointer
@@ -202,8 +202,11 @@ private:
   double       m_ClipHigh{ std::numeric_limits<double>::quiet_NaN() };
   double       m_QuantisationStep{ 0.0 };
 
-  sensornoise::TemporalMoments<PixelType> m_Moments;
-  sensornoise::StackSummary               m_Summary;
+  // The sums over time.
+  struct Moments;
+
+  std::unique_ptr<Moments>  m_Moments;
+  sensornoise::StackSummary m_Summary;
 };
 
 // Instantiated once, in the library.

@@ -19,8 +19,7 @@
 #define itkVibrationCovarianceEstimator_h
 
 #include "SensorNoiseExport.h"
-#include "published/FlickerEstimate.h"
-#include "published/VibrationCovariance.h"
+#include "sensornoise/StepResults.h"
 #include "itkImage.h"
 #include "itkProcessObject.h"
 #include "itkSensorNoiseResult.h"

@@ -18,6 +18,7 @@
 #ifndef itkSensorNoiseEstimation_h
 #define itkSensorNoiseEstimation_h
 
+#include "itkSensorNoiseEstimator.h"
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Parallel.h"
 #include "moments/DarkMaps.h"
@@ -287,6 +288,11 @@ struct SensorNoiseEstimation
     return joined;
   }
 };
+
+/** The method at work. The header of the estimator only declares it: nobody else needs the methods. */
+template <typename TStack>
+struct SensorNoiseEstimator<TStack>::Estimation : SensorNoiseEstimation<typename TStack::PixelType>
+{};
 
 } // namespace itk
 

@@ -16,9 +16,68 @@
  *
  *=========================================================================*/
 #include "itkVibrationCovarianceEstimator.h"
-#include "itkVibrationCovarianceEstimator.hxx"
+
+#include "itkSensorNoiseErrors.h"
+#include "published/VibrationCovariance.h"
+
+#include <ostream>
 
 namespace itk
 {
+
+template <typename TFrame>
+VibrationCovarianceEstimator<TFrame>::VibrationCovarianceEstimator()
+{
+  this->SetPrimaryInputName("Mean");
+  this->AddRequiredInputName("Variance", 1);
+  this->AddOptionalInputName("ValidMask", 2);
+  this->SetNumberOfRequiredOutputs(1);
+  this->ProcessObject::SetNthOutput(0, this->MakeOutput(0));
+}
+
+template <typename TFrame>
+void
+VibrationCovarianceEstimator<TFrame>::GenerateData()
+{
+  const FrameImageType * mean = this->GetMean();
+  const MaskImageType *  mask = this->GetValidMask();
+  const auto             region = mean->GetLargestPossibleRegion();
+  if (this->GetVariance()->GetLargestPossibleRegion() != region ||
+      (mask != nullptr && mask->GetLargestPossibleRegion() != region))
+  {
+    itkExceptionMacro("mean, variance and valid mask have different regions, the mean's is " << region
+                                                                                             << "; expected the same");
+  }
+  this->GetResultOutput()->Set(sensornoise::FitVibrationCovariance(mean->GetBufferPointer(),
+                                                                   this->GetVariance()->GetBufferPointer(),
+                                                                   mask == nullptr ? nullptr : mask->GetBufferPointer(),
+                                                                   region.GetSize(0),
+                                                                   region.GetSize(1),
+                                                                   m_FlickerSd));
+}
+
+template <typename TFrame>
+void
+VibrationCovarianceEstimator<TFrame>::UpdateOutputInformation()
+{
+  ResetAfterError(this, [this] { Superclass::UpdateOutputInformation(); });
+}
+
+template <typename TFrame>
+void
+VibrationCovarianceEstimator<TFrame>::UpdateOutputData(DataObject * output)
+{
+  ResetAfterError(this, [this, output] { Superclass::UpdateOutputData(output); });
+}
+
+template <typename TFrame>
+void
+VibrationCovarianceEstimator<TFrame>::PrintSelf(std::ostream & os, Indent indent) const
+{
+  Superclass::PrintSelf(os, indent);
+  os << indent << "FlickerSd: " << m_FlickerSd << std::endl;
+}
+
 template class VibrationCovarianceEstimator<Image<double, 2>>;
+
 } // namespace itk
