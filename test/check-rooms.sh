@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Checks that a room of the module includes only rooms that stand above it in the table of module/README.md. A public
 # header belongs to the room that has the source of the same name; every room may include one without such a source.
-# Prints the includes from room to room, and how many of the module's headers a header pulls in.
+# Public headers, and those of the filters, include no private ones; module/README.md lists all public headers. Prints the
+# includes from room to room, and how many of the module's headers a header pulls in.
 set -euo pipefail
 cd "$(dirname "$0")/../module/src"
 python3 - <<'PY'
@@ -42,6 +43,16 @@ depths = {name: len(pulled(name, set()) - {name}) for name in includes if name.e
 deepest = max(depths, key=depths.get)
 print(f"{len(depths)} headers; a header pulls in {statistics.median(depths.values()):g} others (median), "
       f"at most {depths[deepest]} ({deepest})")
+readme = pathlib.Path("../README.md").read_text()
+wrong = [f"{name} includes {other}, which is private" for name, others in includes.items() for other in others
+         if name.startswith("sensornoise/") and not other.startswith("sensornoise/")]
+for p in sorted(pathlib.Path("../../filters").glob("*.h*")):
+    wrong += [f"filters/{p.name} includes {other}, which is private" for other in re.findall(r'#include "([^"]+)"', p.read_text())
+              if (pathlib.Path("../../filters/src") / other).exists() or pathlib.Path(other).exists()]
+listed = set(re.findall(r"^\| `(\w+\.h)` \|", readme, re.M))
+wrong += [f"module/README.md and module/include/sensornoise differ in {name}" for name in listed ^ {p.name for p in public}]
+if wrong:
+    sys.exit("\n".join(wrong))
 back = [f"{a} -> {b}" for a, others in rooms.items() for b in others if order.index(b) >= order.index(a)]
 if back:
     sys.exit("arrows run back: " + ", ".join(back))
