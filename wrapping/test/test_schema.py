@@ -1,0 +1,78 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Every report, stored or written now, is as documentation/report.schema.json says."""
+
+import copy
+import json
+import subprocess
+from pathlib import Path
+
+import itk
+import jsonschema
+import pytest
+
+SOURCE = Path(__file__).resolve().parents[2]
+SCHEMA = json.loads((SOURCE / "documentation" / "report.schema.json").read_text(encoding="utf-8"))
+STORED = sorted((SOURCE / "test" / "reports").glob("*.json"))
+SMALL = ("--size", "96x64", "--frames", "20")
+
+# What the simulator is asked for, and the options of the estimator.
+WRITTEN = {
+    "refined": ((), ()),
+    "published": ((), ("--method", "published")),
+    "mosaic": (("--bayer", "RGGB"), ("--bayer", "RGGB")),
+    "smoothed": (("--smoothing", "0.6"), ()),
+    "known offset": ((), ("--offset", "100,0.5", "--level-range", "50,3000", "--clip", "0,4000", "--step", "1")),
+    "part": ((), ("--roi", "8,8,64,48", "--frames", "2:18", "--excess-noise-factor", "2")),
+    "hash and check": ((), ("--hash", "--check")),
+    "failed": (("--clip", "0,300"), ()),
+    "rolling shutter": (("--rolling-shutter", "20", "--reference", "bars"), ("--method", "published")),
+    "different frames": (("--repeat", "2"), ("--bit-depth", "12")),
+}
+
+
+@pytest.fixture(scope="module")
+def validator():
+    jsonschema.Draft202012Validator.check_schema(SCHEMA)
+    return jsonschema.Draft202012Validator(SCHEMA)
+
+
+def require_valid(validator, record) -> None:
+    """Says where a record is not as the schema says."""
+    definition = "mosaic" if "channels" in record else "report"
+    narrow = validator.evolve(schema={"$ref": f"#/$defs/{definition}", "$defs": SCHEMA["$defs"]})
+    errors = [f"{error.json_path}: {error.message[:200]}" for error in narrow.iter_errors(record)]
+    assert not errors and validator.is_valid(record), "\n".join(errors)
+
+
+@pytest.mark.parametrize("path", STORED, ids=lambda path: path.stem)
+def test_stored_reports(validator, path):
+    require_valid(validator, json.loads(path.read_text(encoding="utf-8")))
+
+
+@pytest.mark.parametrize("name", WRITTEN)
+def test_reports_that_the_tool_writes(validator, tool, tmp_path, name):
+    simulated, options = WRITTEN[name]
+    tool("simulate-sensor-noise", *SMALL, *simulated, "--output", str(tmp_path / "burst.mha"))
+    written = tmp_path / "report.json"
+    try:
+        tool("estimate-sensor-noise", str(tmp_path / "burst.mha"), *options, "--json", str(written), "--quiet")
+    except subprocess.CalledProcessError as error:
+        assert error.returncode == 3
+    require_valid(validator, json.loads(written.read_text(encoding="utf-8")))
+
+
+def test_reports_with_dark_frames_and_exposures(validator):
+    frames, _ = itk.simulate_sensor_noise(size=(96, 64), frames=20)
+    dark, _ = itk.simulate_sensor_noise(size=(96, 64), frames=20, dark=True, seed=2)
+    series = [0, 100, 200, 300] * 5
+    for options in ({"dark": dark}, {"dark": dark, "hash": True}, {"exposures": series}, {"mask": frames[0] > 300}):
+        require_valid(validator, itk.estimate_sensor_noise(frames, bayer="none", **options).to_dict())
+
+
+def test_what_is_no_report_is_not_valid(validator):
+    record = json.loads(STORED[0].read_text(encoding="utf-8"))
+    for change in ({"gain": 1.0}, {"another": 1}, {"method": "other"}, {"warnings": [{"code": "x"}]}):
+        assert not validator.is_valid({**copy.deepcopy(record), **change})
+    del record["gain"]
+    assert not validator.is_valid(record)
