@@ -38,8 +38,8 @@ check_format() {
 check_python() {
   install_programs
   local status=0
-  "$venv/bin/ruff" check --quiet ${fix:+--fix} "$here"/{wrapping,examples,test} || status=1
-  "$venv/bin/ruff" format --quiet $([ -n "$fix" ] || echo --diff) "$here"/{wrapping,examples,test} || status=1
+  "$venv/bin/ruff" check --quiet ${fix:+--fix} "$here"/{wrapping,examples,test,documentation} || status=1
+  "$venv/bin/ruff" format --quiet $([ -n "$fix" ] || echo --diff) "$here"/{wrapping,examples,test,documentation} || status=1
   return "$status"
 }
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-# Installs a build of the library, then configures, builds and runs the project of this folder, and the one that README.md
-# shows, against what was installed.
+# Installs a build of the library, then configures, builds and runs the project of this folder, and the project that the
+# documents show, against what was installed.
 #
 #   bash test/consumer/run.sh BUILD_DIR WORK_DIR [options for the consumer's cmake]
 #
@@ -24,13 +24,13 @@ cmake --build "$work/build"
 "$work/build/consumer"
 [ ! -e "$work/prefix/bin/estimate-sensor-noise" ] || "$work/prefix/bin/estimate-sensor-noise" --version
 
-# The project that README.md shows, as it stands there, measures a burst.
-rm -rf "$work/readme" "$work/readme-build"
-python3 "$here/readme.py" "$here/../../README.md" "$work/readme"
-cmake -S "$work/readme" -B "$work/readme-build" -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix" "$@" \
-  >"$work/readme.log" 2>&1 || { cat "$work/readme.log" >&2; exit 1; }
-cmake --build "$work/readme-build"
+# The project that the documents show, as it stands there, measures a burst.
+rm -rf "$work/shown" "$work/shown-build"
+python3 "$here/documents.py" "$work/shown" "$here/../../README.md" "$here/../../documentation/guides/pipeline.md"
+cmake -S "$work/shown" -B "$work/shown-build" -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix" "$@" \
+  >"$work/shown.log" 2>&1 || { cat "$work/shown.log" >&2; exit 1; }
+cmake --build "$work/shown-build"
 if [ -e "$work/prefix/bin/simulate-sensor-noise" ]; then
   "$work/prefix/bin/simulate-sensor-noise" --frames 20 --size 64x64 --output "$work/burst.tif" >/dev/null
-  "$work/readme-build/measure" "$work/burst.tif"
+  "$work/shown-build/measure" "$work/burst.tif"
 fi

@@ -193,9 +193,10 @@ def _tiff(
     return made
 
 
-def _described(frames: list[bytes]) -> File:
-    """ImageJ's stack above 4 GiB: one page, behind which the images lie that its description counts."""
-    text = f"ImageJ=1.53t\nimages={len(frames)}\nslices={len(frames)}\n\0".encode()
+def _described(frames: list[bytes], axes: str = "") -> File:
+    """ImageJ's stack above 4 GiB: one page, behind which the images lie that its description counts. `axes`: other
+    lines of that description than the number of slices."""
+    text = f"ImageJ=1.53t\nimages={len(frames)}\n{axes or f'slices={len(frames)}'}\n\0".encode()
     step = 2 * WIDTH * HEIGHT
     entries = [(256, 4, 1, WIDTH), (257, 4, 1, HEIGHT), (258, 3, 1, 16), (262, 3, 1, 1)]
     begin = 8 + 2 + 12 * (len(entries) + 5) + 4

@@ -12,7 +12,7 @@
 #include <set>
 #include <string>
 
-// What README and the tests say of every warning and of every quantity.
+// What the documentation and the tests say of every warning and of every quantity.
 
 using namespace sensornoise;
 
@@ -26,50 +26,50 @@ TextOfFile(const std::filesystem::path & name)
   return { std::istreambuf_iterator<char>(file), {} };
 }
 
-/** First cells, in backquotes, of the rows of README's table whose head begins with \a head. */
+/** First cells, in backquotes, of the rows of the table of \a document whose head begins with \a head. */
 std::set<std::string>
-FirstCells(const std::string & readme, const std::string & head)
+FirstCells(const std::string & document, const std::string & head)
 {
   std::set<std::string> cells;
-  std::size_t           at = readme.find("\n" + head);
+  std::size_t           at = document.find("\n" + head);
   EXPECT_NE(at, std::string::npos) << head;
-  for (at = readme.find('\n', at + 1) + 1; readme[at] == '|'; at = readme.find('\n', at) + 1)
+  for (at = document.find('\n', at + 1) + 1; document[at] == '|'; at = document.find('\n', at) + 1)
   {
-    if (readme.compare(at, 3, "| `") == 0)
+    if (document.compare(at, 3, "| `") == 0)
     {
-      cells.insert(readme.substr(at + 3, readme.find('`', at + 3) - at - 3));
+      cells.insert(document.substr(at + 3, document.find('`', at + 3) - at - 3));
     }
   }
   return cells;
 }
 } // namespace
 
-TEST(SensorNoiseDocuments, ReadmeHasTheTableOfWarnings)
+TEST(SensorNoiseDocuments, DocumentationHasTheTableOfWarnings)
 {
-  const std::string     readme = TextOfFile(SourceFolder() + "/README.md");
+  const std::string     document = TextOfFile(SourceFolder() + "/documentation/reference/warnings.md");
   std::set<std::string> names;
   for (const WarningKind & kind : WarningTable)
   {
     names.insert(kind.name);
     const std::string row =
       std::string("\n| `") + kind.name + "` | " + NameOf(kind.severity) + " | " + kind.sentence + " |\n";
-    EXPECT_NE(readme.find(row), std::string::npos) << "README.md lacks this row:" << row;
+    EXPECT_NE(document.find(row), std::string::npos) << "warnings.md lacks this row:" << row;
   }
-  EXPECT_EQ(FirstCells(readme, "| code |"), names);
+  EXPECT_EQ(FirstCells(document, "| code |"), names);
 }
 
-TEST(SensorNoiseDocuments, ReadmeHasTheListOfQuantities)
+TEST(SensorNoiseDocuments, DocumentationHasTheListOfQuantities)
 {
-  const std::string     readme = TextOfFile(SourceFolder() + "/README.md");
+  const std::string     document = TextOfFile(SourceFolder() + "/documentation/reference/quantities.md");
   std::set<std::string> paths;
   for (const QuantityEntry & entry : QuantityList())
   {
     paths.insert(entry.path);
     const std::string row =
       std::string("\n| `") + entry.path + "` | " + entry.label + " | " + entry.unit + " | " + entry.meaning + " |";
-    EXPECT_NE(readme.find(row), std::string::npos) << "README.md lacks this row:" << row;
+    EXPECT_NE(document.find(row), std::string::npos) << "quantities.md lacks this row:" << row;
   }
-  EXPECT_EQ(FirstCells(readme, "| quantity |"), paths);
+  EXPECT_EQ(FirstCells(document, "| quantity |"), paths);
 }
 
 TEST(SensorNoiseDocuments, EveryWarningOccursInATest)

@@ -153,10 +153,10 @@ def estimate_sensor_noise(
     frame_range : (int, int) or slice, optional
         (first, end), or slice(first, end): only the frames first, first + 1, ... end - 1, counted from 0.
     maps : bool, str or os.PathLike, optional
-        What is known of every pixel: mean, variance, corrected_variance [DN, DN^2] and pixel_use (0: used; the other
-        values are README.md's); with two dark frames or more also the camera calibration: pixel_offset and
-        pixel_read_noise [DN], and the ends of their 95 % intervals, _low and _high. True: arrays by these names, the
-        report's `maps`. A folder: an image (.mha) each, written there. Default: none.
+        What is known of every pixel: mean, variance, corrected_variance [DN, DN^2] and pixel_use (0: used;
+        documentation/reference/record.md lists the other values); with two dark frames or more also the camera
+        calibration: pixel_offset and pixel_read_noise [DN], and the ends of their 95 % intervals, _low and _high. True:
+        arrays by these names, the report's `maps`. A folder: an image (.mha) each, written there. Default: none.
     hash : bool, default False
         Whether record, table and page have the SHA-256 of the frames, and of the dark ones, as `input`, by which they
         are filed. Of names: as the tool's --hash, of the bytes of all files in their order, behind a header those of
@@ -167,9 +167,8 @@ def estimate_sensor_noise(
         too. "of" says which it is, "files" or "pixels".
     raw : str, optional
         How frames lie in files without a header, those of `frames` and of `dark`:
-        "WxH:TYPE[:SKIP[:ROW[:GAP[:END]]]]", for example
-        "640x480:uint16le", or "1920x1080:Mono12p:64" behind 64 other bytes; the types are README.md's. Default: the
-        files say so.
+        "WxH:TYPE[:SKIP[:ROW[:GAP[:END]]]]", for example "640x480:uint16le", or "1920x1080:Mono12p:64" behind 64 other
+        bytes; documentation/reference/files.md lists the types. Default: the files say so.
     memory_limit : int, optional
         Most memory that the estimate takes beside the frames [bytes], for example 4 * 10**9: frames that are read a few
         at a time are read more often where it would need more, with the same result. "refined" needs 56 bytes a pixel

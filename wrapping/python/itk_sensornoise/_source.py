@@ -103,8 +103,8 @@ def sensor_noise_frame_list_source(
     Parameters
     ----------
     file_names : str, os.PathLike or sequence of them
-        2-D images in time order, of the formats that README.md names, or the name of one stack; a pattern of names or a
-        folder, as `frames` of estimate_sensor_noise().
+        2-D images in time order, of the formats that documentation/reference/files.md lists, or the name of one stack;
+        a pattern of names or a folder, as `frames` of estimate_sensor_noise().
     ttype : type, optional
         Type of the image, for instance itk.Image[itk.US, 3]. Default: the type of the files. Nothing is converted.
     raw : str, optional

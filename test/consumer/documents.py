@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the project that README.md shows under "In C++" into a folder, as it stands: readme.py README.md FOLDER.
+"""Writes the C++ project that the documents show into a folder, as it stands: documents.py FOLDER DOCUMENT...
 
-Its CMakeLists.txt is the cmake block, measure.cxx the cpp block with a main function. The other cpp blocks, of which
-the README shows no project, are added to that target.
+Its CMakeLists.txt is the cmake block, measure.cxx the cpp block with a main function. The other cpp blocks, for which
+the documents show no project, are added to that target.
 """
 
 import pathlib
@@ -12,14 +12,18 @@ import re
 import sys
 
 
-def main():
-    readme, folder = map(pathlib.Path, sys.argv[1:])
-    blocks = re.findall(r"^```(cpp|cmake)\n(.*?)^```$", readme.read_text(), re.DOTALL | re.MULTILINE)
+def main() -> None:
+    folder, *documents = map(pathlib.Path, sys.argv[1:])
+    blocks = [
+        block
+        for document in documents
+        for block in re.findall(r"^```(cpp|cmake)\n(.*?)^```$", document.read_text(), re.DOTALL | re.MULTILINE)
+    ]
     programs = [text for kind, text in blocks if kind == "cpp" and "main(" in text]
     others = [text for kind, text in blocks if kind == "cpp" and "main(" not in text]
     projects = [text for kind, text in blocks if kind == "cmake"]
     if len(programs) != 1 or len(projects) != 1:
-        sys.exit(f"{readme}: {len(programs)} programs and {len(projects)} CMakeLists.txt; expected one of each")
+        sys.exit(f"{len(programs)} programs and {len(projects)} CMakeLists.txt in the documents; expected one of each")
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "measure.cxx").write_text(programs[0])
     added = [f"target_sources(measure PRIVATE block{number}.cxx)\n" for number in range(len(others))]

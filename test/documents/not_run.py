@@ -1,0 +1,17 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""The commands of the documents that check_documents.py does not run, each with the reason."""
+
+_BUILDS = "builds or tests the whole project: continuous integration runs it"
+_STUDY = "takes minutes or hours: the tables of the documents come from it"
+
+NOT_RUN = {
+    "bash test/run.sh": _BUILDS,
+    "python3 test/fuzz/fuzz_files.py --bin build/bin --count 20000": _STUDY,
+    "python examples/python/measure_speed.py --bin build/bin --opencv ENV/bin/python "
+    "--anscombe-transform ENV/bin/python --nanoimagingpack ENV/bin/python": _STUDY,
+    "bash wrapping/build-wheel.sh && pip install dist/itk_sensornoise-*.whl": _BUILDS,
+}
+
+# Programs that a build may lack; their commands are then not run.
+OPTIONAL = {"stabilise-mats": "needs OpenCV with image and video files"}
