@@ -79,7 +79,7 @@ sensornoise_venv() {
 sensornoise_prune_cache() {
   [ -d "$sensornoise_cache" ] || return 0
   find "$sensornoise_cache" -mindepth 1 -maxdepth 1 -type d \( -name 'itk-*' -o -name 'venv-*' -o -name 'style-*' \
-    -o -name 'uv-*' \) -mtime +30 -exec rm -rf {} +
+    -o -name 'uv-*' -o -name 'site-*' \) -mtime +30 -exec rm -rf {} +
   [ ! -d "$sensornoise_cache/tidy" ] || find "$sensornoise_cache/tidy" -type f -mtime +30 -delete
 }
 

@@ -1,15 +1,17 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: the ITKSensorNoise contributors
 # SPDX-License-Identifier: Apache-2.0
-# Installs what is missing, builds into build/ and runs every test: C++ with damaged files among them, then Python (examples,
-# tests, damaged files) with the wheel in a fresh virtual environment, then C++ once more with AddressSanitizer and
-# UndefinedBehaviorSanitizer, in build/sanitized. Warnings are errors, and test/check-style.sh has no finding. The last lines
-# say what each part took, and what it found in the caches. Options are handed on to ctest, for example -R Codes.
+# Installs what is missing, builds into build/ and runs every test: C++ with damaged files among them, then the site of the
+# documentation, then Python (examples, tests, damaged files) with the wheel in a fresh virtual environment, then C++ once more
+# with AddressSanitizer and UndefinedBehaviorSanitizer, in build/sanitized. Warnings are errors, and test/check-style.sh has no
+# finding. The last lines say what each part took, and what it found in the caches. Options are handed on to ctest, for example
+# -R Codes.
 #
 # Python needs ITK's source (wrapping/build-itk.sh says where that comes from). Where it is not to be had, the last line says
 # so, and what was tested counts. SENSORNOISE_PYTHON=1: that is a failure, too; SENSORNOISE_PYTHON=0: Python is left out.
 # SENSORNOISE_STYLE in the same way: 1, or CI=true: it is a failure that a program which checks the style is not to be had;
-# 0: the style is left out. SENSORNOISE_SANITIZE=0: the sanitizers are left out. examples/setup.sh has those of the caches.
+# 0: the style is left out. SENSORNOISE_SITE in the same way, for the site of the documentation. SENSORNOISE_SANITIZE=0: the
+# sanitizers are left out. examples/setup.sh has the variables of the caches.
 set -euo pipefail
 here="$(cd "$(dirname "$0")/.." && pwd)"
 source "$here/examples/setup.sh"
@@ -70,6 +72,20 @@ if [ "${SENSORNOISE_STYLE:-}" != 0 ]; then
     failed+=(style)
   fi
   took "style"
+fi
+
+unsited=
+if [ "${SENSORNOISE_SITE:-}" != 0 ]; then
+  set +e
+  bash "$here/documentation/build.sh" "$here/build/site" 2>&1 | tee "$here/build/site.log"
+  status="${PIPESTATUS[0]}"
+  set -e
+  if [ "$status" = 69 ] && [ "${SENSORNOISE_SITE:-}" != 1 ] && [ "${CI:-}" != true ]; then
+    unsited="$(sed -n '$s/^build.sh: //p' "$here/build/site.log")"
+  elif [ "$status" != 0 ]; then
+    failed+=(documentation)
+  fi
+  took "site of the documentation"
 fi
 
 # test_wheel WHEEL: the wheel as a user installs it. Run from build/, so that nothing of the checkout is imported.
@@ -139,4 +155,5 @@ printf '%s\n' "${times[@]}" | sort -rn
 [ ! -d "$sensornoise_cache" ] || echo "caches: $(du -sh "$sensornoise_cache" | cut -f1) in $sensornoise_cache"
 [ -z "$untested" ] || echo "Python: not tested, $untested" >&2
 [ -z "$unchecked" ] || echo "style: not checked, $unchecked" >&2
+[ -z "$unsited" ] || echo "site of the documentation: not built, $unsited" >&2
 [ ${#failed[@]} = 0 ] || { echo "failed: ${failed[*]}" >&2; exit 1; }
