@@ -12,8 +12,8 @@ if(Module_SensorNoise AND NOT SensorNoise_GIT_REPOSITORY)
 endif()
 itk_fetch_module(
   SensorNoise
-  "Measures the noise of a camera (gain, offset, read noise) from a burst of raw frames of any static scene, though lamps
-flicker and the floor trembles. After F. Sur and M. Grediac, SIAM J. Imaging Sci. 8(1), 2015,
+  "Measures the noise of a camera (gain, offset, read noise) from a burst of raw frames of any static scene,
+also under flickering illumination and vibrations. After F. Sur and M. Grediac, SIAM J. Imaging Sci. 8(1), 2015,
 https://doi.org/10.1137/140977035"
   MODULE_COMPLIANCE_LEVEL 3
   GIT_REPOSITORY ${SensorNoise_GIT_REPOSITORY}

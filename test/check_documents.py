@@ -16,8 +16,9 @@ The examples of a document run in an empty folder, in their order. These blocks 
   language below a hidden command shows some lines of its output, in their order.
 
 A command that fails, by any exit code but 0 and 3 (no gain), fails the test. documents/not_run.py lists the commands
-that are not run, with a reason each. --write puts the outputs of the programs into the documents instead; a shortened
-block keeps its selection of lines. Exit code 1 if an output differs.
+that are not run, with a reason each. Links to files and headings of the repository have to exist. --write puts the
+outputs of the programs into the documents instead; a shortened block keeps its selection of lines. Exit code 1 if an
+output differs.
 """
 
 import argparse
@@ -28,6 +29,7 @@ import tempfile
 from collections.abc import Iterator
 
 from documents.comparison import GAP, differences, rewritten
+from documents.links import broken_links
 from documents.not_run import NOT_RUN, OPTIONAL
 from documents.scratch import SOURCE, Scratch
 
@@ -163,6 +165,10 @@ def main() -> int:
             failed = True
         found.append(document)
         blocks += document.blocks
+    for path in [*all_documents(), SOURCE / "CONTRIBUTING.md", *sorted((SOURCE / "module").glob("*.md"))]:
+        for target in broken_links(path):
+            print(f"{path.relative_to(SOURCE)}: a link to {target}, which does not exist")
+            failed = True
     not_run = [command for document in found for command in document.not_run]
     if not options.documents:
         for command in NOT_RUN.keys() - set(not_run):
