@@ -5,10 +5,10 @@
 
     check_language.py [FILE...] [--library] [--count]
 
-A sentence has at most 40 words, and does not begin with a bare genitive ("Of a row."). Words that the field does not
+A sentence has at most 40 words, and does not begin with a genitive ("Of a row."). Words that the field does not
 use in this sense are listed in WORDS, with what to write instead. Blocks of code, code within a line and addresses are
-not read. The generated parts of the reference, which come from the sources, are read with --library only. --count
-prints only how much was found. Exit code 1 if something was found.
+not read. The quantities and the filters of the reference, which come from the sources, are read with --library only.
+--count prints only how much was found. Exit code 1 if something was found.
 """
 
 import argparse
@@ -48,10 +48,10 @@ WORDS = {
     r"\blamps? (?:flickers?|flickering)\b": "the illumination flickers",
     r"\bof which\b|\bthat of\b|\bthose of\b": "repeat the noun",
 }
-GENITIVE = re.compile(r"^(?:Of (?!\d|course)[^,]*|The same,? of\b.*|As (?:by|of)\b[^,]*)$")
+GENITIVE = re.compile(r"Of (?!\d|course)|The same,? of\b|As (?:by|of)\b[^,]*$")
 # What ends a sentence; a point of an abbreviation does not.
 END = re.compile(r"(?<=[.!?;])(?<!\be\.g\.)(?<!\bF\.)(?<!\bM\.)\s+(?=[A-Z0-9\"'“*(`\[])|(?<=:)\s+")
-GENERATED = re.compile(r"<!-- generated: .*?<!-- end -->", re.DOTALL)
+GENERATED = re.compile(r"<!-- generated: (?:quantities|filters) .*?<!-- end -->", re.DOTALL)
 
 
 def documents() -> list[pathlib.Path]:
@@ -95,7 +95,7 @@ def findings(text: str) -> Iterator[tuple[str, int, str]]:
             if len(sentence.split()) > LONGEST:
                 yield f"a sentence of {len(sentence.split())} words", number, sentence[:100]
             if GENITIVE.match(sentence.strip()):
-                yield "a bare genitive", number, sentence[:100]
+                yield "a genitive at its beginning", number, sentence[:100]
         for pattern, advice in WORDS.items():
             for match in re.finditer(pattern, words_of_paragraph, re.IGNORECASE):
                 yield f'write "{advice}" for', number, match[0]
