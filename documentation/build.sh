@@ -10,6 +10,7 @@ set -euo pipefail
 here="$(cd "$(dirname "$0")/.." && pwd)"
 source "$here/examples/setup.sh"
 site="${1:-$here/build/site}"
+export PYTHONPYCACHEPREFIX="$here/build/pycache" # nothing is written beside the sources
 
 mapfile -t requirements < <(grep -v '^#' "$here/documentation/requirements.txt")
 venv="$(sensornoise_venv site "${requirements[@]}")" ||
