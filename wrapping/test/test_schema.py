@@ -5,6 +5,7 @@
 import copy
 import json
 import subprocess
+import sys
 from pathlib import Path
 
 import itk
@@ -60,6 +61,17 @@ def test_reports_that_the_tool_writes(validator, tool, tmp_path, name):
     except subprocess.CalledProcessError as error:
         assert error.returncode == 3
     require_valid(validator, json.loads(written.read_text(encoding="utf-8")))
+
+
+def test_reports_with_what_a_file_says_of_its_camera(validator, tool, tmp_path):
+    tool("simulate-sensor-noise", *SMALL, "--output", str(tmp_path / "burst.mha"))
+    maker = SOURCE / "test" / "documents" / "reader_files.py"
+    recording = str(tmp_path / "recording.ser")
+    subprocess.run([sys.executable, str(maker), str(tmp_path / "burst.mha"), "ser", recording], check=True)
+    tool("estimate-sensor-noise", recording, "--json", str(tmp_path / "report.json"), "--quiet")
+    record = json.loads((tmp_path / "report.json").read_text(encoding="utf-8"))
+    assert record["camera"]["name"] == "camera"
+    require_valid(validator, record)
 
 
 def test_reports_with_dark_frames_and_exposures(validator):
