@@ -9,14 +9,14 @@ namespace sensornoise
 
 namespace
 {
-template <Quantity Report::* VMember>
+template <Quantity Report::*VMember>
 const Quantity *
 OfReport(const Report & report)
 {
   return &(report.*VMember);
 }
 
-template <Quantity NoiseCorrelationRecord::* VMember>
+template <Quantity NoiseCorrelationRecord::*VMember>
 const Quantity *
 OfNoise(const Report & report)
 {
@@ -24,7 +24,7 @@ OfNoise(const Report & report)
 }
 using Noise = NoiseCorrelationRecord;
 
-template <Quantity LinearityRecord::* VMember>
+template <Quantity LinearityRecord::*VMember>
 const Quantity *
 OfLinearity(const Report & report)
 {
@@ -36,67 +36,68 @@ constexpr std::array Entries{
     "gain",
     "gain g",
     "DN/e-",
-    "Slope of the variance against the level: DN per electron, if nothing multiplies or adds noise to the light. Of "
-    "an EMCCD or an intensifier it is the excess noise factor times the gain.",
+    "Slope of the variance against the level. It is the number of DN per electron if nothing multiplies or adds noise "
+    "to the signal. For an EMCCD or an intensified camera it is the excess noise factor times the gain.",
     ShownIn::EveryTable,
     QuantityDomain::Positive,
     OfReport<&Report::gain> },
   QuantityEntry{ "offset",
                  "offset mu",
                  "DN",
-                 "Level without light; of a burst alone, the level that does not flicker.",
+                 "Dark offset: the level without signal. Without dark frames it is the component of the level that "
+                 "does not change with the illumination.",
                  ShownIn::EveryTable,
                  QuantityDomain::Offset,
                  OfReport<&Report::offset> },
   QuantityEntry{ "read_noise",
                  "read noise sigma",
                  "DN",
-                 "Noise without light, rms over all pixels that are not defective; without rounding.",
+                 "Standard deviation of the noise without signal, rms over all pixels that are not defective. "
+                 "Quantization noise is not included.",
                  ShownIn::EveryTable,
                  QuantityDomain::NonNegative,
                  OfReport<&Report::readNoise> },
   QuantityEntry{ "read_noise_median",
                  "read noise, median pixel",
                  "DN",
-                 "Of the median pixel, where pixels differ; only dark frames tell it.",
+                 "Read noise of the median pixel, where the pixels differ. Only dark frames determine it.",
                  ShownIn::TableIfKnown,
                  QuantityDomain::NonNegative,
                  OfReport<&Report::readNoiseMedian> },
   QuantityEntry{ "read_noise_electrons",
                  "read noise sigma / g",
                  "e-",
-                 "Read noise over gain.",
+                 "Read noise divided by the gain.",
                  ShownIn::EveryTable,
                  QuantityDomain::NonNegative,
                  OfReport<&Report::readNoiseElectrons> },
-  QuantityEntry{ "intercept",
-                 "intercept sigma^2 - g mu",
-                 "DN^2",
-                 "Of the sensor's variance at level 0, without rounding.",
-                 ShownIn::EveryTable,
-                 QuantityDomain::AnySign,
-                 OfReport<&Report::intercept> },
   QuantityEntry{
-    "variance_slope",
-    "variance slope",
-    "DN/e-",
-    "Of a pixel's variance against its level, in the frames as they are: for a denoiser. The gain where noise is "
-    "white "
-    "and codes are even.",
-    ShownIn::TableIfNotTheGain,
-    QuantityDomain::Positive,
-    OfReport<&Report::varianceSlope> },
+    "intercept",
+    "intercept sigma^2 - g mu",
+    "DN^2",
+    "Intercept of the photon transfer line: the variance of the sensor at level 0, without quantization noise.",
+    ShownIn::EveryTable,
+    QuantityDomain::AnySign,
+    OfReport<&Report::intercept> },
+  QuantityEntry{ "variance_slope",
+                 "variance slope",
+                 "DN/e-",
+                 "Slope of the variance of a pixel against its level, in the frames as they are, for a denoiser. It "
+                 "equals the gain if the noise is white and the quantization is uniform.",
+                 ShownIn::TableIfNotTheGain,
+                 QuantityDomain::Positive,
+                 OfReport<&Report::varianceSlope> },
   QuantityEntry{ "total_intercept",
                  "total intercept",
                  "DN^2",
-                 "Of a pixel's variance at level 0, in the frames as they are, rounding included: for a denoiser.",
+                 "Variance of a pixel at level 0, in the frames as they are, with quantization noise, for a denoiser.",
                  ShownIn::EveryTable,
                  QuantityDomain::AnySign,
                  OfReport<&Report::totalIntercept> },
   QuantityEntry{ "flicker_sd",
                  "flicker sd",
                  "1",
-                 "Standard deviation of the light from frame to frame, relative to it.",
+                 "Standard deviation of the illumination factor from frame to frame, relative to its mean.",
                  ShownIn::EveryTable,
                  QuantityDomain::NonNegative,
                  OfReport<&Report::flickerSd> },
@@ -117,28 +118,28 @@ constexpr std::array Entries{
   QuantityEntry{ "vibration.covariance",
                  "vibration covariance",
                  "pixel^2",
-                 "Of the motion along x and along y.",
+                 "Covariance of the motions along x and along y.",
                  ShownIn::Record,
                  QuantityDomain::AnySign,
                  OfReport<&Report::vibrationCovariance> },
   QuantityEntry{ "noise_correlation.row_noise",
                  "row noise",
                  "DN",
-                 "Common to the pixels of a row in one frame.",
+                 "Standard deviation of the noise that all pixels of a row have in common in one frame.",
                  ShownIn::TableIfKnown,
                  QuantityDomain::NonNegative,
                  OfNoise<&Noise::rowNoise> },
   QuantityEntry{ "noise_correlation.column_noise",
                  "column noise",
                  "DN",
-                 "Common to the pixels of a column in one frame.",
+                 "Standard deviation of the noise that all pixels of a column have in common in one frame.",
                  ShownIn::TableIfKnown,
                  QuantityDomain::NonNegative,
                  OfNoise<&Noise::columnNoise> },
   QuantityEntry{ "noise_correlation.excess_kurtosis",
                  "excess kurtosis",
                  "1",
-                 "Of the noise of a pixel; 0: normal.",
+                 "Excess kurtosis of the noise of a pixel. It is 0 for normal noise.",
                  ShownIn::Record,
                  QuantityDomain::AnySign,
                  OfNoise<&Noise::excessKurtosis> },
@@ -153,7 +154,8 @@ constexpr std::array Entries{
   QuantityEntry{ "linearity.offset_dn",
                  "offset by exposures",
                  "DN",
-                 "Level at exposure 0: of frames of that exposure, else of the line through the exposures.",
+                 "Level at exposure 0: the mean of frames of that exposure if there are any, else the value of the "
+                 "line through the exposures.",
                  ShownIn::TableIfLimited,
                  QuantityDomain::Offset,
                  OfLinearity<&LinearityRecord::offsetDn> },
