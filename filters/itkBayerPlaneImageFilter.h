@@ -30,14 +30,15 @@ namespace itk
 {
 
 /** \class BayerPlaneImageFilter
- * \brief The pixels behind one colour of a Bayer mosaic, R, G1, G2 or B, as an image of half the width and height.
+ * \brief Extracts one colour plane of a Bayer mosaic, R, G1, G2 or B, as an image of half the width and height.
  *
- * No value is interpolated. G1 is the green in the rows of red, G2 that in the rows of blue. The pattern begins at the
- * first pixel of the input's largest possible region; of an odd width or height the last column or row is in no plane.
- * Spacing is twice the input's along x and y; the origin is where the plane's first pixel was. The output's region
- * begins at index 0 along x and y; further axes, as a stack's time, stay as they are.
+ * No value is interpolated. G1 holds the green pixels in the rows of red, and G2 holds the green pixels in the rows of
+ * blue. The pattern begins at the first pixel of the input's largest possible region. If the width or height is odd,
+ * the last column or row is in no plane. The spacing is twice the spacing of the input along x and y, and the origin is
+ * the position of the first pixel of the plane. The region of the output begins at index 0 along x and y. Further axes,
+ * for example the time axis of a stack, are unchanged.
  *
- * Streams: asks its input for no more than the rows, columns and frames that are needed. Threaded.
+ * The filter streams: it requests only the rows, columns and frames that are needed. It is threaded.
  *
  * \tparam TImage itk::Image of 2 or 3 dimensions of unsigned char, unsigned short, short, float or double.
  * \ingroup SensorNoise
@@ -64,8 +65,8 @@ public:
     return "BayerPlaneImageFilter";
   }
 
-  /** Colours of the input's upper left 2 x 2 pixels, row by row: "RGGB" (default), "GRBG", "GBRG" or "BGGR". Any other
-   * name is an ExceptionObject. */
+  /** Colours of the upper left 2 x 2 pixels of the input, row by row: "RGGB" (default), "GRBG", "GBRG" or "BGGR". Any
+   * other name throws an ExceptionObject. */
   void
   SetPattern(const std::string & name);
   std::string
@@ -74,7 +75,7 @@ public:
     return sensornoise::NameOf(m_Pattern);
   }
 
-  /** The plane: "R" (default), "G1", "G2" or "B". Any other name is an ExceptionObject. */
+  /** Plane that is extracted: "R" (default), "G1", "G2" or "B". Any other name throws an ExceptionObject. */
   void
   SetPlane(const std::string & name);
   std::string
@@ -97,7 +98,7 @@ protected:
   PrintSelf(std::ostream & os, Indent indent) const override;
 
 private:
-  /** What of the input has the plane's pixels of an output region, from the first to the last. */
+  /** Returns the smallest region of the input that contains all pixels of the plane for a region of the output. */
   RegionType
   InputRegionOf(const RegionType & output) const;
 
@@ -105,7 +106,7 @@ private:
   sensornoise::BayerPlane   m_Plane{ sensornoise::BayerPlane::R };
 };
 
-// Instantiated once, in the library.
+// The library instantiates these classes once.
 #define SensorNoise_EXTERN(TPixel) extern template class SensorNoise_EXPORT BayerPlaneImageFilter<Image<TPixel, 2>>
 SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);
 #undef SensorNoise_EXTERN

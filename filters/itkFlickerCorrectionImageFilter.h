@@ -34,22 +34,24 @@ namespace itk
 {
 
 /** \class FlickerCorrectionImageFilter
- * \brief Estimates the flicker of every frame and the sensor's offset, and takes the flicker out of the stack.
+ * \brief Estimates the flicker of every frame and the dark offset, and removes the flicker from the stack.
  *
- * Inputs: 0 the stack, and of a frame's size 1 "Mean" [DN], 2 "Variance" [DN^2] (of the stack itself: it gives the
- * width of the iso-intensity sets), 3 "Mask" (pixels to take the sets from: not clipped, not moved by vibrations).
+ * Input 0 is the stack. The other inputs have the size of a frame: 1 "Mean" [DN], 2 "Variance" [DN^2], 3 "Mask". The
+ * variance belongs to the uncorrected stack and gives the width of the iso-intensity sets. The mask selects the pixels
+ * for these sets: not clipped, and not moved by vibrations.
  *
- * Output: the corrected stack u^ = u - (1 + gamma_t)(ubar - mu) [DN], (3.18), whose temporal mean is mu and whose
- * variance is affine in ubar, (3.24). It is not masked: the mask travels beside it. Rows whose flicker is not known
- * (rolling shutter, and the brightest pixels do not reach them) are NaN rather than extrapolated.
+ * The output is the corrected stack u^ = u - (1 + gamma_t)(ubar - mu) [DN], (3.18). Its temporal mean is mu, and its
+ * variance is affine in ubar, (3.24). The mask is not applied to it. Rows whose flicker is not known are NaN and are
+ * not extrapolated. This happens with a rolling shutter if the brightest pixels do not reach a row.
  *
- * Before its first output chunk the filter reads the stack once in chunks of its own for gamma_t and mu, which it keeps
- * until an input or a parameter changes. It then streams: the output's requested frames are asked for again after the
- * other inputs are up to date, so that one reader may feed the whole chain. Threaded. The same bits for any number of
- * threads and chunks.
+ * Before its first output chunk the filter reads the stack once, in its own chunks, to estimate gamma_t and mu. It
+ * keeps them until an input or a parameter changes. It then streams: the frames of the requested output are requested
+ * again after the other inputs are up to date, so that one reader can feed the whole chain. The filter is threaded. The
+ * result has the same bits for any number of threads and chunks.
  *
- * Sections 3.2 and 3.5 of F. Sur, M. Gredi\'ac, SIAM J. Imaging Sci. 8(1), 2015, https://doi.org/10.1137/140977035;
- * IsoIntensitySet tells how the sets are read. Remark 3's widening is reported by GetBrightSet() and GetDarkSet().
+ * Sections 3.2 and 3.5 of F. Sur, M. Gredi\'ac, SIAM J. Imaging Sci. 8(1), 2015, https://doi.org/10.1137/140977035.
+ * sensornoise::IsoIntensitySet describes how the sets are read. GetBrightSet() and GetDarkSet() report the widening of
+ * Remark 3.
  *
  * \tparam TStack itk::Image of 3 dimensions (x, y, time).
  * \ingroup SensorNoise
@@ -92,13 +94,15 @@ public:
   itkSetMacro(DarkQuantile, double);
   itkGetConstMacro(DarkQuantile, double);
 
-  /** Whether the flicker may differ from row to row: Off, Auto (default: found out, and sigma_y chosen by
-   * cross-validation) or Fixed (with SigmaRows). */
+  /** Mode of the flicker estimate: Off, Auto or Fixed. Off estimates one flicker value for each frame. Auto, the
+   * default, finds out whether the flicker differs from row to row, and chooses sigma_y by cross-validation. Fixed uses
+   * SigmaRows. */
   void
   SetRollingShutter(RollingShutterEnum mode);
-  /** The same by name: "off", "auto" or "fixed". */
+  /** Name of the mode: "off", "auto" or "fixed". */
   void
   SetRollingShutter(const std::string & name);
+  /** Returns the mode, by its name or as a value. */
   std::string
   GetRollingShutterName() const
   {
@@ -110,64 +114,71 @@ public:
     return m_RollingShutter;
   }
 
-  /** sigma_y of (3.28) for RollingShutter Fixed [rows]. Default 50, the paper's. */
+  /** Standard deviation sigma_y of (3.28) for the RollingShutter mode Fixed [rows]. Default 50, as in the paper. */
   itkSetMacro(SigmaRows, double);
   itkGetConstMacro(SigmaRows, double);
 
-  /** Axis along which the shutter travels: 1 = y (default); 0 = x, the rows are then columns of the frame. */
+  /** Axis along which the shutter travels: 1 = y (default), or 0 = x. With 0, the rows are the columns of the frame. */
   itkSetMacro(ShutterAxis, unsigned int);
   itkGetConstMacro(ShutterAxis, unsigned int);
 
-  /** Flicker, offset, K and the scatter (v^*, v_*); valid after Update(). */
+  /** Returns the flicker, the offset, K and the scatter (v^*, v_*). Valid after Update(). */
   const sensornoise::FlickerEstimate &
   GetFlicker() const
   {
     return m_Flicker;
   }
-  /** Its members one by one: gamma_t of every frame [1]; gamma_t(y), frame by frame, empty if one flicker serves the
-   * whole frame; v^*(t) [1] and v_*(t) [DN], the scatter whose slope is K [DN]; the flicker's standard deviation [1];
-   * sigma_y [rows], 0 if one flicker serves; and mu [DN] whether or not it is identified. */
+  /** Returns gamma_t, the relative flicker of every frame [1]. */
   std::vector<double>
   GetGamma() const
   {
     return m_Flicker.gamma;
   }
+  /** Returns gamma_t(y), the relative flicker of every row [1], frame by frame. Empty if each frame has a single
+   * flicker value. */
   std::vector<double>
   GetGammaRows() const
   {
     return m_Flicker.gammaRows;
   }
+  /** Returns v^*(t), (3.8), one value for each frame [1]. */
   std::vector<double>
   GetBrightRatio() const
   {
     return m_Flicker.brightRatio;
   }
+  /** Returns v_*(t), (3.14), one value for each frame [DN]. */
   std::vector<double>
   GetDarkResidual() const
   {
     return m_Flicker.darkResidualDn;
   }
+  /** Returns K, the slope of v_* against v^* - 1 [DN]. */
   double
   GetSlope() const
   {
     return m_Flicker.slopeDn;
   }
+  /** Returns the standard deviation of gamma_t over time [1]. For gamma_t(y) it is the root mean square. */
   double
   GetFlickerSd() const
   {
     return m_Flicker.flickerSd;
   }
+  /** Returns sigma_y [rows]. It is 0 if each frame has a single flicker value. */
   double
   GetFoundSigmaRows() const
   {
     return m_Flicker.sigmaRows;
   }
+  /** Returns the dark offset mu [DN], even if it is not identifiable. */
   double
   GetRawOffset() const
   {
     return m_Flicker.offsetDn;
   }
 
+  /** Returns the bright or the dark iso-intensity set. Valid after Update(). */
   const sensornoise::IsoIntensitySet &
   GetBrightSet() const
   {
@@ -179,7 +190,8 @@ public:
     return m_DarkSet;
   }
 
-  /** mu [DN] as a pipeline output; NaN where the flicker is too small to identify it (GetFlicker() holds it raw). */
+  /** Dark offset mu [DN] as a pipeline output. It is NaN if the flicker is too small to identify it; GetFlicker() has
+   * the raw value. */
   using OffsetDecoratorType = SimpleDataObjectDecorator<double>;
   OffsetDecoratorType *
   GetOffsetOutput()
@@ -192,8 +204,8 @@ public:
     return static_cast<const OffsetDecoratorType *>(this->ProcessObject::GetOutput("Offset"))->Get();
   }
 
-  /** Resets the pipeline when an input could not be updated: ITK would otherwise take the next Update() for one that is
-   * under way and return without a word and without a result. */
+  /** Resets the pipeline if an input cannot be updated. ITK would otherwise assume that the failed update is still in
+   * progress, and the next Update() would return without an error and without a result. */
   void
   UpdateOutputInformation() override;
   void
@@ -239,7 +251,7 @@ private:
   TimeStamp                    m_EstimateTime;
 };
 
-// Instantiated once, in the library.
+// The library instantiates these classes once.
 #define SensorNoise_EXTERN(TPixel) \
   extern template class SensorNoise_EXPORT FlickerCorrectionImageFilter<Image<TPixel, 3>>
 SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);

@@ -33,24 +33,24 @@ namespace itk
 {
 
 /** \class GeneralizedAnscombeImageFilter
- * \brief Makes noise whose variance grows with the light into noise of variance 1, for whatever removes Gaussian noise.
+ * \brief Transforms noise whose variance grows with the signal to noise of variance 1, for denoisers of Gaussian noise.
  *
  *   f(x) = (2/a) sqrt(max(0, a x + 3/8 a^2 + b)),
  *
- * a the slope and b the intercept of the variance against the level, as SensorNoiseEstimator reports them. The variance
- * of f is 1 within 0.02 above 10 electrons and falls to 0 in the dark of a sensor without read noise.
- * InverseGeneralizedAnscombeImageFilter leads back.
+ * where a is the slope and b the intercept of the variance against the mean, as SensorNoiseEstimator reports them. The
+ * variance of f is 1 within 0.02 above 10 electrons. It falls to 0 in the dark if the sensor has no read noise.
+ * InverseGeneralizedAnscombeImageFilter is the inverse.
  *
- * Input: levels [DN], of unsigned char, unsigned short, short, float or double. Output: f [1], float or double. Where
- * the root's argument is negative f is 0, and the pixel is counted. NaN stays NaN and is not counted.
+ * Input: grey values [DN], of unsigned char, unsigned short, short, float or double. Output: f [1], float or double. If
+ * the argument of the root is negative, f is 0 and the pixel is counted. NaN stays NaN and is not counted.
  *
- * Any dimension: pixels are transformed one by one. Streams and is threaded. Computed in double; the same bits for any
- * number of threads and any region.
+ * The images have any dimension, because each pixel is transformed by itself. The filter streams and is threaded. It
+ * computes in double. The result has the same bits for any number of threads and any region.
  *
  * F. Murtagh, J.-L. Starck, A. Bijaoui, Image restoration with noise suppression using a multiresolution support,
  * Astron. Astrophys. Suppl. Ser. 112, 1995.
  *
- * \tparam TInputImage image of levels.
+ * \tparam TInputImage image of grey values.
  * \tparam TOutputImage image of the same dimension.
  * \ingroup SensorNoise
  */
@@ -74,31 +74,32 @@ public:
     return "GeneralizedAnscombeImageFilter";
   }
 
-  /** The noise model: `variance_slope` a [DN/e-], above 0, and `total_intercept` b [DN^2], of either sign, of a report.
-   * Both must be set, here or by SetReport(). */
+  /** Noise model, from a report: `variance_slope` a [DN/e-], above 0, and `total_intercept` b [DN^2], positive or
+   * negative. Both must be set, here or by SetReport(). */
   itkSetMacro(VarianceSlope, double);
   itkGetConstMacro(VarianceSlope, double);
   itkSetMacro(TotalIntercept, double);
   itkGetConstMacro(TotalIntercept, double);
 
-  /** Takes both from a report, as SensorNoiseEstimator::GetReport() or GetReportOutput() give it. Throws
-   * ExceptionObject where one of them has no value, or the slope is not above 0; nothing else of the report is asked
-   * for. */
+  /** Sets the slope and the intercept from a report, as SensorNoiseEstimator::GetReport() or GetReportOutput() return
+   * it. Throws an ExceptionObject if one of them has no value or the slope is not above 0. Other quantities of the
+   * report are not used. */
   void
   SetReport(const sensornoise::Report & report);
   void
   SetReport(const SensorNoiseResult<sensornoise::Report> * report);
 
-  /** How many pixels had a negative argument and became 0, in the last Update(): of all the regions it was made in, and
-   * of each as often as it was made. Many in number say that the model is of another camera or setting. */
+  /** Returns the number of pixels whose argument of the root was negative and whose output is 0. It counts all regions
+   * that the last Update() computed; a region that was computed several times is counted each time. A large number
+   * means that the noise model belongs to another camera or setting. */
   SizeValueType
   GetNumberOfNegativeArguments() const
   {
     return m_NumberOfNegativeArguments;
   }
 
-  /** Resets the pipeline when an input could not be updated: ITK would otherwise take the next Update() for one that is
-   * under way and return without a word and without a result. */
+  /** Resets the pipeline if an input cannot be updated. ITK would otherwise assume that the failed update is still in
+   * progress, and the next Update() would return without an error and without a result. */
   void
   UpdateOutputInformation() override;
   void
@@ -124,7 +125,7 @@ private:
   bool                       m_IsNewUpdate{ true };
 };
 
-// Instantiated once, in the library.
+// The library instantiates these classes once.
 #define SensorNoise_EXTERN(TPixel)                                                                             \
   extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<TPixel, 2>, Image<float, 2>>;  \
   extern template class SensorNoise_EXPORT GeneralizedAnscombeImageFilter<Image<TPixel, 2>, Image<double, 2>>; \

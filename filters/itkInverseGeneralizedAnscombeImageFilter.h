@@ -35,23 +35,24 @@ namespace itk
 {
 
 /** \class InverseGeneralizedAnscombeImageFilter
- * \brief Leads from stabilised values, denoised or averaged, back to levels.
+ * \brief Transforms stabilised values, denoised or averaged, back to grey values.
  *
- * By default the closed-form approximation of the exact unbiased inverse, for what was denoised or averaged: the root
- * is concave, and the algebraic inverse of a mean therefore too low. Its departure from the exact inverse, found by
- * numerical integration for 0 to 10,000 electrons and a read noise of 0 to 30: at most 0.05 electrons in the dark, 0.02
- * from 3 electrons on, 0.002 at 10,000. SetInverse() gives the algebraic one, for single values, and the asymptotic
- * one.
+ * The default is the closed-form approximation of the exact unbiased inverse, for denoised or averaged values. The root
+ * is concave, and the algebraic inverse of a mean is therefore too low. The deviation of the approximation from the
+ * exact inverse was found by numerical integration for 0 to 10,000 electrons and a read noise of 0 to 30. It is at most
+ * 0.05 electrons in the dark, 0.02 from 3 electrons on, and 0.002 at 10,000. SetInverse() selects the algebraic
+ * inverse, for single values, or the asymptotic inverse.
  *
- * Input: stabilised values [1], float or double; negative ones count as 0. Output: levels [DN], of unsigned char,
- * unsigned short, short, float or double. Integers are rounded to the nearest (half up) and kept within the range of
- * the type; the lowest level is the zero level -b/a of the model, 3/8 electrons lower with the algebraic inverse. NaN
- * stays NaN; for integers it is an error that says how many pixels are NaN.
+ * Input: stabilised values [1], float or double; negative values are treated as 0. Output: grey values [DN], of
+ * unsigned char, unsigned short, short, float or double. Integers are rounded to the nearest (half up) and clamped to
+ * the range of their type. The lowest output is the zero level -b/a of the model; with the algebraic inverse it is 3/8
+ * electrons lower. NaN stays NaN. If the output is integer, NaN is an error that gives the number of NaN pixels.
  *
- * Any dimension. Streams and is threaded. Computed in double; the same bits for any number of threads and any region.
+ * The images have any dimension. The filter streams and is threaded. It computes in double. The result has the same
+ * bits for any number of threads and any region.
  *
- * M. M\"akitalo, A. Foi, Optimal inversion of the generalized Anscombe transformation for Poisson-Gaussian noise,
- * IEEE Trans. Image Process. 22(1), 2013, https://doi.org/10.1109/TIP.2012.2202675.
+ * M. M\"akitalo, A. Foi, Optimal inversion of the generalized Anscombe transformation for Poisson-Gaussian noise, IEEE
+ * Trans. Image Process. 22(1), 2013, https://doi.org/10.1109/TIP.2012.2202675.
  *
  * \tparam TInputImage image of stabilised values.
  * \tparam TOutputImage image of the same dimension.
@@ -78,27 +79,28 @@ public:
     return "InverseGeneralizedAnscombeImageFilter";
   }
 
-  /** The noise model: `variance_slope` a [DN/e-], above 0, and `total_intercept` b [DN^2], of either sign, of a report.
-   * Both must be set, here or by SetReport(). */
+  /** Noise model, from a report: `variance_slope` a [DN/e-], above 0, and `total_intercept` b [DN^2], positive or
+   * negative. Both must be set, here or by SetReport(). */
   itkSetMacro(VarianceSlope, double);
   itkGetConstMacro(VarianceSlope, double);
   itkSetMacro(TotalIntercept, double);
   itkGetConstMacro(TotalIntercept, double);
 
-  /** Takes both from a report, as SensorNoiseEstimator::GetReport() or GetReportOutput() give it. Throws
-   * ExceptionObject where one of them has no value, or the slope is not above 0; nothing else of the report is asked
-   * for. */
+  /** Sets the slope and the intercept from a report, as SensorNoiseEstimator::GetReport() or GetReportOutput() return
+   * it. Throws an ExceptionObject if one of them has no value or the slope is not above 0. Other quantities of the
+   * report are not used. */
   void
   SetReport(const sensornoise::Report & report);
   void
   SetReport(const SensorNoiseResult<sensornoise::Report> * report);
 
-  /** Which inverse: ExactUnbiased (default), Algebraic or Asymptotic. */
+  /** Inverse that is applied: ExactUnbiased (default), Algebraic or Asymptotic. */
   void
   SetInverse(InverseEnum inverse);
-  /** The same by name: "exact-unbiased", "algebraic" or "asymptotic". */
+  /** Name of the inverse: "exact-unbiased", "algebraic" or "asymptotic". */
   void
   SetInverse(const std::string & name);
+  /** Returns the inverse, as a value or by its name. */
   InverseEnum
   GetInverse() const
   {
@@ -110,8 +112,8 @@ public:
     return sensornoise::NameOf(m_Inverse);
   }
 
-  /** Resets the pipeline when an input could not be updated: ITK would otherwise take the next Update() for one that is
-   * under way and return without a word and without a result. */
+  /** Resets the pipeline if an input cannot be updated. ITK would otherwise assume that the failed update is still in
+   * progress, and the next Update() would return without an error and without a result. */
   void
   UpdateOutputInformation() override;
   void
@@ -139,7 +141,7 @@ private:
   std::atomic<SizeValueType> m_NumberOfNotNumbers{ 0 };
 };
 
-// Instantiated once, in the library.
+// The library instantiates these classes once.
 #define SensorNoise_EXTERN(TPixel)                                                                                    \
   extern template class SensorNoise_EXPORT InverseGeneralizedAnscombeImageFilter<Image<float, 2>, Image<TPixel, 2>>;  \
   extern template class SensorNoise_EXPORT InverseGeneralizedAnscombeImageFilter<Image<double, 2>, Image<TPixel, 2>>; \

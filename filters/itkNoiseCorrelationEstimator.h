@@ -36,33 +36,36 @@ namespace itk
 {
 
 /** \class NoiseCorrelationEstimator
- * \brief Whether the noise is that of raw frames: what neighbours and frames share of it, and the gain over all lags.
+ * \brief Tests whether frames are raw: spatial and temporal noise correlation, and total covariance over lags.
  *
- * Inputs: 0 the stack, frames of a scene that stands still (flat fields, for instance) along the last axis; of a
- * frame's size 1 "Mean" [DN] and 2 "Mask" (pixels of value 0 are left out: clipped ones should be), as
- * TemporalStatisticsImageFilter gives them. Both are optional: where one is missing, the stack is read once more to
- * find it. Output: a decorated sensornoise::CorrelationEstimate:
+ * Input 0 is the stack: frames of a static scene, for example flat fields, along the last axis. Inputs 1 "Mean" [DN]
+ * and 2 "Mask" have the size of a frame. Pixels whose mask is 0 are left out; clipped pixels should be. Both are
+ * optional, and TemporalStatisticsImageFilter gives them. If one is missing, the stack is read once more to find it.
  *
- * - the record of the report (sensornoise::NoiseCorrelationRecord): the kind of processing (`white`, `crosstalk`,
- *   `filtered`, `temporal`, `enlarged`, `brighter-fatter`, `not-linear`, `not-measured` where there are fewer than
- *   1024 pixels in 4 tiles), the correlation coefficients by lag [1], the noise of whole rows and columns [DN], all
- * with errors;
- * - the sum over all lags of the covariances, relative to the variance [1]. A camera that smooths its frames lowers
- *   the variance, and a photon transfer of variance against mean then gives too small a gain; variance, or gain, times
- *   this sum is what it was before. For any linear processing whose weights sum to 1. Of all pixels, and for quarters
- *   of them from dark to bright, with their light and variance.
+ * The output is a decorated sensornoise::CorrelationEstimate:
  *
- * What changes from frame to frame must not be taken for noise: the frames' means (flicker, a drifting offset) are
- * taken out by default, series of one's own (FlickerCorrectionImageFilter::GetGamma(), motion) by AddSeries(). Of a
- * scene with contrast that flickers and trembles, SensorNoiseEstimator finds them all, and has this record in its
- * report.
+ * - The record of the report (sensornoise::NoiseCorrelationRecord): the noise class, the correlation coefficients by
+ *   lag [1], and the noise of whole rows and columns [DN], all with errors. The noise class is `white`, `crosstalk`,
+ *   `filtered`, `temporal`, `enlarged`, `brighter-fatter`, `not-linear`, or `not-measured`. It is `not-measured` if
+ *   there are fewer than 1024 pixels in 4 tiles.
+ * - The total covariance over lags, relative to the variance [1]. A camera that smooths its frames lowers the variance,
+ *   and a photon transfer curve of variance against mean then gives a gain that is too small. The variance or the gain,
+ *   multiplied by the total covariance, is its value before the smoothing. This holds for any linear processing whose
+ *   weights sum to 1. The total is given for all pixels, and for quarters of them from dark to bright, each with its
+ *   signal and variance.
  *
- * Measured on square tiles spread evenly over the frame, at most 131072 pixels and 256 frames, of which those equal to
- * an earlier one are left out. Standard errors are from a jackknife over the tiles. Reads the stack once, or twice, in
- * chunks (see SensorNoiseStackSink). Threaded; the same bits for any number of threads and chunks. Memory, beside one
- * chunk: up to 70 MiB for the sample, and about 20 bytes a pixel of a frame, 60 where it reads twice.
+ * Changes from frame to frame must not be counted as noise. The means of the frames (flicker, a drifting offset) are
+ * removed by default. AddSeries() removes other series, for example FlickerCorrectionImageFilter::GetGamma() or motion.
+ * If the scene has contrast, and illumination or camera position vary, use SensorNoiseEstimator. It finds all these
+ * series and has this record in its report.
  *
- * P. Astier et al., A&A 629, A36, 2019, https://doi.org/10.1051/0004-6361/201935508, for flats; EMVA 1288 release 4 for
+ * The correlation is measured on square tiles that are distributed evenly over the frame, at most 131072 pixels and 256
+ * frames. Frames that are equal to an earlier frame are left out. Standard errors are from a jackknife over the tiles.
+ * The filter reads the stack once or twice, in chunks (see SensorNoiseStackSink). It is threaded. The result has the
+ * same bits for any number of threads and chunks. Memory, in addition to one chunk: up to 70 MiB for the sample, and
+ * about 20 bytes for each pixel of a frame, or 60 if the stack is read twice.
+ *
+ * P. Astier et al., A&A 629, A36, 2019, https://doi.org/10.1051/0004-6361/201935508, for flats; EMVA 1288 Release 4 for
  * the noise of rows and columns.
  *
  * \tparam TStack itk::Image of 3 dimensions (x, y, time) of unsigned char, unsigned short, short, float or double.
@@ -100,44 +103,49 @@ public:
     Superclass::SetNumberOfStreamDivisions(number);
   }
 
-  /** The stack's mean of every pixel [DN], which tells its light; NaN: the pixel is left out. Default: found. */
+  /** Temporal mean of every pixel of the stack [DN], which determines its signal. A pixel whose mean is NaN is left
+   * out. Default: computed from the stack. */
   itkSetInputMacro(Mean, FrameImageType);
   itkGetInputMacro(Mean, FrameImageType);
 
-  /** Pixels of value 0 are left out. Default: none but those that attain a clip level or are not finite, which are left
-   * out, too, where the mean is not given. */
+  /** Mask of the pixels: pixels of value 0 are left out. By default the pixels that reach a clip level or are not
+   * finite are left out. If the mask is given but the mean is not, these pixels are left out, too. */
   itkSetInputMacro(Mask, MaskImageType);
   itkGetInputMacro(Mask, MaskImageType);
 
-  /** Adds a series over time, a finite number a frame, of any unit: what is in proportion to it is taken out of every
-   * pixel, each by its own factor. Default: none. */
+  /** Adds a series over time, with a finite number in any unit for each frame. The component of every pixel that is
+   * proportional to the series is removed; each pixel has its own factor. Default: no series. */
   void
   AddSeries(const std::vector<double> & series);
+  /** Removes all series that were added. */
   void
   ClearSeries();
+  /** Returns the number of series that were added. */
   SizeValueType
   GetNumberOfSeries() const
   {
     return m_Series.size();
   }
 
-  /** Whether the means of the frames, plain and weighted with the light, are taken out as series are: flicker and a
-   * drifting offset, which all pixels share. Default: on. Off, a fluctuating light is seen as noise that is shared. */
+  /** Whether the means of the frames, plain and weighted with the signal, are removed in the same way as series. They
+   * contain flicker and a drifting offset, which are common to all pixels. Default: on. If it is off, fluctuating
+   * illumination appears as noise correlation. */
   itkSetMacro(RemoveFrameMeans, bool);
   itkGetConstMacro(RemoveFrameMeans, bool);
   itkBooleanMacro(RemoveFrameMeans);
 
-  /** The level without light [DN]: tells what grows with the light from what does not. NaN (default): not known; the
-   * darkest level if that is below 0.3 of the brightest, else 0. */
+  /** Dark offset [DN], which separates the component that grows with the signal from the constant component. Default
+   * NaN: not known. The darkest level is then used if it is below 0.3 of the brightest level, else 0. */
   itkSetMacro(Offset, double);
   itkGetConstMacro(Offset, double);
 
-  /** Spacing of the codes [DN]: the noise of rounding, step^2/12, has passed no filter. 0 (default): found; where mean
-   * and mask are given, 1 for integer pixels and none for floating-point ones. */
+  /** Quantization step [DN]. Quantization noise, step^2/12, has passed through no filter. Default 0: the step is found
+   * from the stack. If the mean and the mask are given, the default is 1 for integer pixels and no step for
+   * floating-point pixels. */
   itkSetMacro(QuantisationStep, double);
   itkGetConstMacro(QuantisationStep, double);
 
-  /** The result as a pipeline output, and itself; valid after Update(). */
+  /** Returns the result, as a pipeline output or as a struct. Valid after Update(). */
   ResultObjectType *
   GetResultOutput()
   {
@@ -149,30 +157,31 @@ public:
     return static_cast<const ResultObjectType *>(this->ProcessObject::GetOutput(0))->Get();
   }
 
-  /** The result as JSON, schema "itk-sensornoise-correlation/1"; noise_correlation in it as in the report's. */
+  /** Returns the result as JSON, schema "itk-sensornoise-correlation/1". Its member noise_correlation is the same as in
+   * the report. */
   std::string
   GetResultAsJson() const
   {
     return sensornoise::ToJson(this->GetResult());
   }
 
-  /** The kind of processing: "white", "filtered" ... */
+  /** Returns the noise class: "white", "filtered" ... */
   std::string
   GetKind() const
   {
     return this->GetResult().correlation.kind;
   }
 
-  /** The sum of the covariances over all lags in space and time, relative to the variance [1]: what variance and slope
-   * have to be multiplied by where the kind is another than white. NaN where the noise is not linear, or not measured.
-   */
+  /** Returns the total covariance over lags in space and time, relative to the variance [1]. If the noise class is not
+   * white, multiply the variance and the slope by this number. NaN if the noise is not linear or not measured. */
   double
   GetSumOverLags() const
   {
     return this->GetResult().sumOverLags.value.value_or(std::numeric_limits<double>::quiet_NaN());
   }
 
-  /** Its standard error [1], with what the lags beyond the last may add; NaN as the sum. */
+  /** Returns the standard error of GetSumOverLags() [1], including what lags beyond the last lag may add. NaN if the
+   * total is NaN. */
   double
   GetSumOverLagsStandardError() const
   {
@@ -212,7 +221,7 @@ protected:
   PrintSelf(std::ostream & os, Indent indent) const override;
 
 private:
-  // What an update gathers.
+  // Data that an update collects.
   struct Measurement;
 
   void
@@ -226,7 +235,7 @@ private:
   std::unique_ptr<Measurement> m_Measurement;
 };
 
-// Instantiated once, in the library.
+// The library instantiates these classes once.
 #define SensorNoise_EXTERN(TPixel) extern template class SensorNoise_EXPORT NoiseCorrelationEstimator<Image<TPixel, 3>>
 SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);
 #undef SensorNoise_EXTERN

@@ -34,15 +34,15 @@ namespace itk
 {
 
 /** \class NoiseRegressionEstimator
- * \brief Gain, intercept and read noise from the line through temporal variance against mean.
+ * \brief Estimates gain, intercept and read noise from the line through temporal variance against mean.
  *
- * Inputs, of a frame's size: 0 "Mean" of the stack [DN], 1 "Variance" of the flicker-corrected stack [DN^2], 2 "Mask"
- * (pixels that take part); and 3 "Offset" mu [DN], a decorated number, optional. Pixels whose variance is NaN are left
- * out. Output: a report in which gain, intercept, offset, read noise and, if NumberOfFrames is set, the fit's quality
- * are filled. Without an offset, or where it is NaN, offset and read noise are not-identifiable.
+ * Inputs of the size of a frame: 0 "Mean" of the stack [DN], 1 "Variance" of the flicker-corrected stack [DN^2], 2
+ * "Mask" (pixels that are used). Input 3 "Offset" is mu [DN], a decorated number, and is optional. Pixels whose
+ * variance is NaN are left out. The output is a report with gain, intercept, offset, read noise and, if NumberOfFrames
+ * is set, the quality of the fit. Without an offset, or if it is NaN, offset and read noise are not-identifiable.
  *
- * Ordinary least squares in the order of the pixels: the same bits each time. Section 3.3 and (3.24) of F. Sur,
- * M. Gredi\'ac, SIAM J. Imaging Sci. 8(1), 2015, https://doi.org/10.1137/140977035.
+ * The fit is ordinary least squares in the order of the pixels, and gives the same bits each time. Section 3.3 and
+ * (3.24) of F. Sur, M. Gredi\'ac, SIAM J. Imaging Sci. 8(1), 2015, https://doi.org/10.1137/140977035.
  *
  * \tparam TFrame Image<double, 2>.
  * \ingroup SensorNoise
@@ -70,7 +70,7 @@ public:
   }
 
   using Superclass::SetInput;
-  /** The mean, by the name that filters use. */
+  /** Sets the mean, by the name that filters use. */
   void
   SetInput(const FrameImageType * mean)
   {
@@ -85,11 +85,12 @@ public:
   itkGetInputMacro(Mask, MaskImageType);
   itkSetGetDecoratedInputMacro(Offset, double);
 
-  /** Number of frames T of which the variance was taken; 0 (default): not known, the fit is not judged. */
+  /** Number of frames T from which the variance was computed. Default 0: not known, and the quality of the fit is not
+   * tested. */
   itkSetMacro(NumberOfFrames, SizeValueType);
   itkGetConstMacro(NumberOfFrames, SizeValueType);
 
-  /** The result as a pipeline output, and itself; valid after Update(). */
+  /** Returns the report, as a pipeline output or as a struct. Valid after Update(). */
   ReportObjectType *
   GetReportOutput()
   {
@@ -100,20 +101,20 @@ public:
   {
     return static_cast<const ReportObjectType *>(this->ProcessObject::GetOutput(0))->Get();
   }
-  /** The report as JSON, schema "itk-sensornoise-report/1". */
+  /** Returns the report as JSON, schema "itk-sensornoise-report/1". */
   std::string
   GetReportAsJson() const
   {
     return sensornoise::ToJson(this->GetReport());
   }
-  /** The report as a table that a person can read, as `estimate-sensor-noise` prints it, and its warnings. */
+  /** Returns the report as a readable table with its warnings, as `estimate-sensor-noise` prints it. */
   std::string
   GetReportAsText() const
   {
     return sensornoise::MakeText(this->GetReport());
   }
-  /** The same as a page, as an SVG file and as the numbers of its figures: without a noise curve, which is of a stack.
-   * \see SensorNoiseEstimator */
+  /** Returns the report as an HTML page, as an SVG file, and as JSON with the numbers of its figures. There is no noise
+   * curve, because it needs a stack. \see SensorNoiseEstimator */
   std::string
   GetReportAsHtml() const;
   std::string
@@ -127,8 +128,8 @@ public:
     return this->ProcessObject::GetOutput(index);
   }
 
-  /** Resets the pipeline when an input could not be updated: ITK would otherwise take the next Update() for one that is
-   * under way and return without a word and without a result. */
+  /** Resets the pipeline if an input cannot be updated. ITK would otherwise assume that the failed update is still in
+   * progress, and the next Update() would return without an error and without a result. */
   void
   UpdateOutputInformation() override;
   void
@@ -153,7 +154,7 @@ private:
   SizeValueType m_NumberOfFrames{ 0 };
 };
 
-// Instantiated once, in the library.
+// The library instantiates this class once.
 extern template class SensorNoise_EXPORT NoiseRegressionEstimator<Image<double, 2>>;
 
 } // namespace itk

@@ -28,8 +28,9 @@
 namespace itk
 {
 
-/** Calls \a function for its value; an error of the kind TError that is not ITK's becomes ITK's, in the name of \a
- * object and with \a prefix before its message. Others pass through. */
+/** Calls \a function and returns its value. An error of type TError that is not an ITK exception is rethrown as an
+ * ExceptionObject. Its message names \a object and has \a prefix before the message of the error. Other errors pass
+ * through. */
 template <typename TError = std::exception, typename TFunction>
 auto
 WithItkErrors(const Object * object, TFunction function, const char * prefix = "") -> decltype(function())
@@ -48,8 +49,8 @@ WithItkErrors(const Object * object, TFunction function, const char * prefix = "
   }
 }
 
-/** Whether an image has memory for the region that it says it holds. Without Allocate() it has none, and whoever reads
- * its pixels has to see to that. */
+/** Returns whether an image has memory for its buffered region. Without Allocate() it has no memory, and a caller that
+ * reads the pixels has to check this first. */
 template <typename TImage>
 bool
 HasPixels(const TImage * image)
@@ -58,7 +59,8 @@ HasPixels(const TImage * image)
   return pixels && pixels->Size() >= image->GetBufferedRegion().GetNumberOfPixels();
 }
 
-/** Throws where an image, by \a name, has no memory for its pixels. */
+/** Throws std::invalid_argument if an image has no memory for its pixels. \a name is the name of the image in the
+ * message. */
 template <typename TImage>
 void
 RequirePixels(const TImage * image, const char * name)
@@ -69,9 +71,9 @@ RequirePixels(const TImage * image, const char * name)
   }
 }
 
-/** Calls \a update, a part of the update of \a process, and resets the pipeline after an error: ITK would otherwise
- * take the next Update() for one that is under way, and return without a word and without a result, or with half of
- * one. */
+/** Calls \a update, a part of the update of \a process, and resets the pipeline after an error. ITK would otherwise
+ * assume that the failed update is still in progress. The next Update() would then return without an error, and without
+ * a result or with half of a result. */
 template <typename TUpdate>
 void
 ResetAfterError(ProcessObject * process, TUpdate update)

@@ -52,45 +52,56 @@ class SensorNoiseEstimatorEnums
 {
 public:
   /** \class Method
-   * \brief How the noise is estimated.
+   * \brief Method by which the noise is estimated.
    * \ingroup SensorNoise
    */
   enum class Method : uint8_t
   {
-    Published = 0, ///< Figure 2 of Sur & Gredi\'ac 2015, to the letter: even areas only, no errors
-    Refined = 1    ///< all pixels of a still scene, with standard errors
+    Published = 0, ///< Figure 2 of Sur & Gredi\'ac 2015, unchanged: uniform areas only, no errors
+    Refined = 1    ///< all pixels of a static scene, with standard errors
   };
 };
 
 /** \class SensorNoiseEstimator
  * \brief Measures gain, offset and read noise of a camera, flicker and vibration, from a stack of a static scene.
  *
- * Inputs: 0 the stack, raw frames along the last axis, at least 5; "Mask", optional, of a frame's size: pixels of
- * value 0 are left out; "Dark", optional, for the method Refined: a stack of frames of the same size taken without
- * light. Outputs: 0 the report (decorated sensornoise::Report: value, status and unit of each quantity); of a frame's
- * size 1 mean [DN], 2 variance [DN^2], 3 corrected variance [DN^2] (NaN: not known), 4 pixel use
- * (sensornoise::PixelUse: 0 used, else why not); with two dark frames or more, of every pixel by itself, 5 offset, 6
- * and 7 the ends of its 95 % interval, 8 read noise, 9 and 10 the ends of its interval [DN] (NaN: not known, see
- * sensornoise::PixelCalibration), which have no pixels otherwise; of a Bayer mosaic 11 the channels' reports in place
- * of 0.
+ * Inputs:
  *
- * The method Refined, the default, regresses every frame on the mean image and its derivatives, which gives flicker,
- * offset and motion, takes these out of every pixel, and fits the variance that is left with the weights of its own
- * noise: edges and texture take part, and what is measured of the sensor has a standard error and a 95 % interval.
- * Light that changes in some places in another way than in others is looked for and allowed for. Read noise and
- * intercept are the sensor's, without the noise of rounding to codes (total_intercept keeps that). See
+ * - 0: the stack, raw frames along the last axis, at least 5.
+ * - "Mask", optional, of the size of a frame: pixels of value 0 are left out.
+ * - "Dark", optional, for the method Refined: a stack of dark frames of the same size.
+ *
+ * Outputs; the maps have the size of a frame:
+ *
+ * - 0: the report (decorated sensornoise::Report: value, status and unit of each quantity).
+ * - 1: mean [DN].
+ * - 2: variance [DN^2].
+ * - 3: corrected variance [DN^2] (NaN: not known).
+ * - 4: pixel use (sensornoise::PixelUse: 0 if the pixel is used, else the reason why it is not).
+ * - 5 to 7: offset of each pixel, and the lower and upper end of its 95 % interval [DN].
+ * - 8 to 10: read noise of each pixel, and the lower and upper end of its 95 % interval [DN].
+ * - 11: the reports of the channels of a Bayer mosaic; output 0 then has no report.
+ *
+ * Outputs 5 to 10 need two or more dark frames; otherwise they have no pixels. NaN means not known, see
+ * sensornoise::PixelCalibration.
+ *
+ * The method Refined is the default. It regresses every frame on the mean image and its derivatives, which gives
+ * flicker, offset and motion. It removes these from every pixel, and fits the remaining variance with weights from its
+ * own noise. Edges and texture are therefore used, too. The measured quantities of the sensor have a standard error and
+ * a 95 % interval. The method detects illumination that changes differently in different places, and allows for it.
+ * Read noise and intercept belong to the sensor and exclude the quantization noise (total_intercept includes it). See
  * sensornoise::RefinedMethod.
  *
  * The method Published gives the numbers of the chain TemporalStatistics - VibrationMask - FlickerCorrection -
  * TemporalStatistics - NoiseRegression to rounding, and no errors. See sensornoise::PublishedMethod.
  *
- * Both take three passes over the stack, in chunks (see SensorNoiseStackSink), and one over the dark frames. Threaded;
- * the same bits for any number of threads and chunks. Memory, beside one chunk: see MemoryLimit (Published: 40 bytes a
- * pixel).
+ * Both methods make three passes over the stack, in chunks (see SensorNoiseStackSink), and one over the dark frames.
+ * The filter is threaded. The result has the same bits for any number of threads and chunks. SetMemoryLimit() describes
+ * the memory in addition to one chunk (Published: 40 bytes for each pixel).
  *
  * A stack that cannot be measured gives a report whose quantities are `failed` or `not-identifiable`, with a warning
- * that says why. Wrong use (fewer than 5 frames, frames under 3 x 3 pixels, a bit depth below the data, dark frames
- * whose black level is cut off) throws.
+ * that gives the reason. Wrong use throws: fewer than 5 frames, frames smaller than 3 x 3 pixels, a bit depth that the
+ * data exceed, or dark frames whose black level is cut off.
  *
  * F. Sur, M. Gredi\'ac, SIAM J. Imaging Sci. 8(1), 2015, https://doi.org/10.1137/140977035.
  *
@@ -132,35 +143,40 @@ public:
     Superclass::SetNumberOfStreamDivisions(number);
   }
 
+  /** Mask of the size of a frame: pixels of value 0 are left out. Default: no mask. */
   itkSetInputMacro(Mask, MaskImageType);
   itkGetInputMacro(Mask, MaskImageType);
 
-  /** Frames without light, of the frames' size and at their exposure, gain and temperature (Refined only): they give
-   * the offset and, from two frames on, the read noise. Read in chunks. Not together with Offset. */
+  /** Stack of dark frames, with the size, exposure, gain and temperature of the frames (Refined only). They give the
+   * offset and, if there are two or more, the read noise. They are read in chunks. Dark frames and Offset exclude each
+   * other. */
   itkSetInputMacro(Dark, TStack);
   itkGetInputMacro(Dark, TStack);
 
-  /** How the noise is estimated: Refined (default) or Published. */
+  /** Method by which the noise is estimated: Refined (default) or Published. */
   void
   SetMethod(MethodEnum method);
-  /** The same by name: "refined" or "published". */
+  /** Name of the method: "refined" or "published". */
   void
   SetMethod(const std::string & name);
+  /** Returns the method by which the noise is estimated. */
   MethodEnum
   GetMethod() const
   {
     return m_Method;
   }
 
+  /** Returns the name of the method: "refined" or "published". */
   std::string
   GetMethodName() const
   {
     return m_Method == MethodEnum::Refined ? "refined" : "published";
   }
 
-  /** The offset [DN], if it is known (Refined only): offset and read noise then need no flicker, and steady light is
-   * told from the offset. NaN (default): not known, but for the level of masked pixels, where the input's metadata have
-   * it with its error (sensornoise::MetaDataKeys) and there are no dark frames. */
+  /** Dark offset [DN], if it is known (Refined only). Offset and read noise then need no flicker, and steady
+   * illumination is distinguished from the offset. Default NaN: not known. Without dark frames the level of the
+   * optically masked pixels is then used, if the metadata of the input have it with its error
+   * (sensornoise::MetaDataKeys). */
   itkSetMacro(Offset, double);
   itkGetConstMacro(Offset, double);
 
@@ -168,25 +184,27 @@ public:
   itkSetMacro(OffsetStandardError, double);
   itkGetConstMacro(OffsetStandardError, double);
 
-  /** Level of the test that finds pixels moved by vibrations, a probability. Default 0.01. Refined does without. */
+  /** Level of the test that finds pixels moved by vibrations, a probability. Default 0.01. Refined does not use it. */
   itkSetMacro(Level, double);
   itkGetConstMacro(Level, double);
 
-  /** Quantiles of the mean at which the bright and the dark set lie, 0 to 1. Defaults 0.99 and 0.01. Refined does
-   * without. */
+  /** Quantiles of the mean at which the bright and the dark set lie, 0 to 1. Defaults 0.99 and 0.01. Refined does not
+   * use them. */
   itkSetMacro(BrightQuantile, double);
   itkGetConstMacro(BrightQuantile, double);
   itkSetMacro(DarkQuantile, double);
   itkGetConstMacro(DarkQuantile, double);
 
-  /** Whether the flicker may differ from row to row: Off, Auto (default: found out, and sigma_y chosen by
-   * cross-validation) or Fixed (with SigmaRows). Refined looks for any light that changes in some places in another way
-   * than in others, unless Off; to it, Fixed is Auto. */
+  /** Mode of the flicker estimate: Off, Auto or Fixed. Off estimates one flicker value for each frame. Auto, the
+   * default, finds out whether the flicker differs from row to row, and chooses sigma_y by cross-validation. Fixed uses
+   * SigmaRows. Unless the mode is Off, Refined detects any illumination that changes differently in different places;
+   * it treats Fixed as Auto. */
   void
   SetRollingShutter(RollingShutterEnum mode);
-  /** The same by name: "off", "auto" or "fixed". */
+  /** Name of the mode: "off", "auto" or "fixed". */
   void
   SetRollingShutter(const std::string & name);
+  /** Returns the mode, by its name or as a value. */
   std::string
   GetRollingShutterName() const
   {
@@ -198,38 +216,42 @@ public:
     return m_RollingShutter;
   }
 
-  /** sigma_y of (3.28) for RollingShutter Fixed [rows]. Default 50, the paper's. Refined does without. */
+  /** Standard deviation sigma_y of (3.28) for the RollingShutter mode Fixed [rows]. Default 50, as in the paper.
+   * Refined does not use it. */
   itkSetMacro(SigmaRows, double);
   itkGetConstMacro(SigmaRows, double);
 
-  /** Axis along which the shutter travels: 1 = y (default, row by row), 0 = x (column by column). Refined does without.
-   */
+  /** Axis along which the shutter travels: 1 = y (default, row by row), or 0 = x (column by column). Refined does not
+   * use it. */
   itkSetMacro(ShutterAxis, unsigned int);
   itkGetConstMacro(ShutterAxis, unsigned int);
 
-  /** Bits of the sensor's codes, 1 to 16; 0 (default): found. Data beyond them are refused. What the input's metadata
-   * say of the camera (sensornoise::MetaDataKeys) goes before what is found, here and for the highest level. */
+  /** Bit depth of the sensor's digital numbers [bit], 1 to 16. Default 0: found from the data. Data that exceed the bit
+   * depth are an error. The camera settings in the metadata of the input (sensornoise::MetaDataKeys) take precedence
+   * over values found from the data, here and for the highest level. */
   itkSetMacro(BitDepth, unsigned int);
   itkGetConstMacro(BitDepth, unsigned int);
 
-  /** Lowest and highest level that the sensor attains [DN]; NaN (default): found. */
+  /** Lowest and highest level that the sensor reaches [DN]. Default NaN: found from the data. */
   itkSetMacro(ClipLow, double);
   itkGetConstMacro(ClipLow, double);
   itkSetMacro(ClipHigh, double);
   itkGetConstMacro(ClipHigh, double);
 
-  /** Levels between which the variance is fitted [DN] (Refined only), for sensors whose response is straight in a part
-   * of its range. The level of a pixel is the mean of its neighbours; those outside have the pixel use OutsideRange.
-   * Defaults NumericTraits<double>::NonpositiveMin() and max(): all levels. */
+  /** Lowest and highest level of the range in which the variance is fitted [DN] (Refined only). Use it for sensors
+   * whose response is linear in a part of the range. The level of a pixel is the mean of its neighbours. Pixels outside
+   * the range have the pixel use OutsideRange. Defaults NumericTraits<double>::NonpositiveMin() and max(): all levels.
+   */
   itkSetMacro(LevelRangeLow, double);
   itkGetConstMacro(LevelRangeLow, double);
   itkSetMacro(LevelRangeHigh, double);
   itkGetConstMacro(LevelRangeHigh, double);
 
   /** Exposure of each frame of the stack, in the order of the frames, in any unit (Refined only): exposure times, or
-   * irradiations; 0: a dark frame. Finite, 0 or more, at least 3 different values. With them the report has the
-   * linearity error of EMVA 1288, and offset and responsivity of a line through the levels. Empty (default): not given.
-   * An ExceptionObject at Update() if there is not one exposure for each frame. */
+   * irradiations. An exposure of 0 is a dark frame. The values are finite and 0 or more, and at least 3 of them differ.
+   * The report then has the linearity error of EMVA 1288, and the offset and responsivity of a line through the levels.
+   * Default: empty, not given. Update() throws an ExceptionObject if the number of exposures differs from the number of
+   * frames. */
   void
   SetExposures(const std::vector<double> & exposures);
   std::vector<double>
@@ -238,27 +260,28 @@ public:
     return m_Exposures;
   }
 
-  /** Excess noise factor F of the sensor, 1 or more [1]: the gain is the slope of the variance divided by F.
-   * About 2 in an EMCCD; 1 (default): none. An ExceptionObject at Update() if it is
-   * less. */
+  /** Excess noise factor F of the sensor, 1 or more [1]: the gain is the slope of the variance divided by F. It is
+   * about 2 in an EMCCD. Default 1: no excess noise. Update() throws an ExceptionObject if it is less than 1. */
   itkSetMacro(ExcessNoiseFactor, double);
   itkGetConstMacro(ExcessNoiseFactor, double);
 
-  /** Spacing of the codes [DN]; 0 (default): found. */
+  /** Quantization step [DN]. Default 0: found from the data. */
   itkSetMacro(QuantisationStep, double);
   itkGetConstMacro(QuantisationStep, double);
 
-  /** Most memory that the estimate may take beside one chunk of a stack that is not in memory [bytes] (Refined only).
-   * 0 (default): as much as it needs, 56 bytes a pixel of a frame and 8 more for each series of light and motion that
-   * is found. With less the stack is read more often, with the same result, unless it is in memory and no mosaic, which
-   * needs no more than that; less than 64 bytes a pixel, 20 kB a frame and 32 MiB is refused. */
+  /** Largest memory of the estimate in addition to one chunk of a stack that is not in memory [bytes] (Refined only).
+   * Default 0: as much as needed, which is 56 bytes for each pixel of a frame, and 8 more for each temporal component
+   * of illumination and motion that is found. With a smaller limit the stack is read more often, with the same result.
+   * This does not apply to a stack that is in memory and is not a mosaic, which needs no more memory than stated above.
+   * A limit below the minimum is an error. The minimum is the sum of 64 bytes for each pixel, 20 kB for each frame, and
+   * 32 MiB. */
   itkSetMacro(MemoryLimit, SizeValueType);
   itkGetConstMacro(MemoryLimit, SizeValueType);
 
-  /** What was recorded may be more than the stack: the rectangle of each frame, and the frames from \a first up to but
-   * not \a end, that the stack was cut out of. Noted in the report's settings, so that the measurement can be repeated;
-   * nothing is cut here, and no number changes. By default nothing is noted. Throws for a rectangle, or a range, that
-   * is not of the stack's size at Update(). */
+  /** Region of the recording from which the stack was cut out: a rectangle of each frame, and the frames from \a first
+   * up to, but not including, \a end. The report's settings record them, so that the measurement can be repeated.
+   * Nothing is cut here, and no number changes. Default: nothing is recorded. Update() throws if the rectangle or the
+   * range does not have the size of the stack. */
   void
   SetSourceRegion(SizeValueType x, SizeValueType y, SizeValueType width, SizeValueType height);
   void
@@ -269,32 +292,33 @@ public:
     return m_Source;
   }
 
-  /** SHA-256 of the frames, and of the dark ones, 64 hexadecimal digits, by which the report is known to be of them: of
-   * \a files files with that many \a bytes, or, if these are 0, of the pixels (see sensornoise::InputFiles, which says
-   * of what bytes). Noted as the report's input; whoever computes it sees to it that they are the bytes that are
-   * measured. An empty text (default): nothing is noted. */
+  /** SHA-256 hash of the frames, or of the dark frames, 64 hexadecimal digits. It identifies the frames of the report,
+   * which records it as its input. The number of files is \a files, and their total size is \a bytes. If both are 0,
+   * the hash is the hash of the pixels (see sensornoise::InputFiles, which defines the bytes). The caller has to make
+   * sure that these bytes are the bytes that are measured. Default: empty, nothing is recorded. */
   void
   SetFramesHash(const std::string & sha256, SizeValueType files, SizeValueType bytes);
   void
   SetDarkHash(const std::string & sha256, SizeValueType files, SizeValueType bytes);
 
-  /** Colour filters in front of the pixels. "none" (default): the frames are those of a monochrome sensor. "RGGB",
-   * "GRBG", "GBRG" or "BGGR", the colours of the stack's upper left pixels: each of the four planes is measured by
-   * itself, and there are channel reports in place of the report; each pass still reads the stack once, and the maps
-   * stay those of the mosaic. "auto": as the input's MetaDataDictionary says (sensornoise::MetaDataKeys), else as the
-   * levels of its first frame tell. Mask and Dark are mosaics, too. */
+  /** Pattern of the colour filters in front of the pixels: "none" (default), "RGGB", "GRBG", "GBRG", "BGGR" or "auto".
+   * With "none" the sensor is monochrome. The four patterns give the colours of the upper left pixels of the stack.
+   * Each of the four planes is then measured separately, and channel reports replace the report. Each pass still reads
+   * the stack once, and the maps have the pixels of the mosaic. With "auto" the input's MetaDataDictionary gives the
+   * pattern (sensornoise::MetaDataKeys), else the levels of the first frame do. Mask and Dark are mosaics, too. */
   void
   SetBayerPattern(const std::string & name);
   itkGetConstReferenceMacro(BayerPattern, std::string);
 
-  /** Whether the stack was measured as a mosaic, of which there are the channels' reports and not one report. */
+  /** Returns whether the stack was measured as a mosaic. There are then reports of the channels and no single report.
+   */
   bool
   HasChannelReports() const
   {
     return static_cast<const ChannelReportsObjectType *>(this->ProcessObject::GetOutput(ChannelReportsOutput))->Has();
   }
-  /** The reports of a mosaic's channels, as a pipeline output and themselves; an ExceptionObject where there are none.
-   */
+  /** Returns the reports of the channels of a mosaic, as a pipeline output or as a struct. Throws an ExceptionObject if
+   * there are no channel reports. */
   ChannelReportsObjectType *
   GetChannelReportsOutput()
   {
@@ -306,8 +330,8 @@ public:
     return static_cast<const ChannelReportsObjectType *>(this->ProcessObject::GetOutput(ChannelReportsOutput))->Get();
   }
 
-  /** The report as a pipeline output, and itself. Before Update(), and after one that failed in its work, there is
-   * none: an ExceptionObject, of all that asks for it. */
+  /** Returns the report, as a pipeline output or as a struct. There is no report before Update(), nor after an Update()
+   * that failed during the computation. All methods that need the report then throw an ExceptionObject. */
   ReportObjectType *
   GetReportOutput()
   {
@@ -324,14 +348,15 @@ public:
     return static_cast<const ReportObjectType *>(this->ProcessObject::GetOutput(0))->Get();
   }
 
-  /** The report as JSON, schema "itk-sensornoise-report/1"; of a mosaic those of all channels in one record. */
+  /** Returns the report as JSON, schema "itk-sensornoise-report/1". For a mosaic, one record has the reports of all
+   * channels. */
   std::string
   GetReportAsJson() const
   {
     return this->HasChannelReports() ? sensornoise::ToJson(this->GetChannelReports())
                                      : sensornoise::ToJson(this->GetReport());
   }
-  /** The report of one channel of a mosaic, "R", "G1", "G2" or "B", as JSON and as a table. */
+  /** Returns the report of one channel of a mosaic, "R", "G1", "G2" or "B", as JSON or as a table. */
   std::string
   GetChannelReportAsJson(const std::string & channel) const
   {
@@ -342,7 +367,7 @@ public:
   {
     return sensornoise::MakeText(this->GetChannelReport(channel));
   }
-  /** The report as a table that a person can read, as `estimate-sensor-noise` prints it, and its warnings. */
+  /** Returns the report as a readable table with its warnings, as `estimate-sensor-noise` prints it. */
   std::string
   GetReportAsText() const
   {
@@ -350,35 +375,37 @@ public:
                                      : sensornoise::MakeText(this->GetReport());
   }
 
-  /** The report as one HTML page with figures and maps, which needs no other file. \see sensornoise::ToHtml */
+  /** Returns the report as one HTML page with figures and maps, which needs no other file. \see sensornoise::ToHtml */
   std::string
   GetReportAsHtml() const;
 
-  /** Variance against mean as an SVG file; of a mosaic that of the channel "G1". \see sensornoise::ToSvg */
+  /** Returns the graph of variance against mean as an SVG file. For a mosaic it shows the channel "G1".
+   * \see sensornoise::ToSvg */
   std::string
   GetReportAsSvg() const;
 
-  /** The same of one channel of a mosaic; its page is without maps. */
+  /** Returns the report of one channel of a mosaic as an HTML page without maps, or its graph as an SVG file. */
   std::string
   GetChannelReportAsHtml(const std::string & channel) const;
   std::string
   GetChannelReportAsSvg(const std::string & channel) const;
 
-  /** The numbers of the figures as JSON; of a mosaic an object for each channel. \see sensornoise::FigureAsJson */
+  /** Returns the numbers of the figures as JSON. For a mosaic there is an object for each channel.
+   * \see sensornoise::FigureAsJson */
   std::string
   GetFigureAsJson() const;
 
-  /** All warnings and quantities that a report may have, as JSON. \see sensornoise::CatalogueAsJson */
+  /** Returns all warnings and quantities that a report may have, as JSON. \see sensornoise::CatalogueAsJson */
   static std::string
   GetCatalogueAsJson()
   {
     return sensornoise::CatalogueAsJson();
   }
 
-  /** Whether the stack has the noise of a model, level by level: its corrected variance against variance slope [DN/e-]
-   * and total intercept [DN^2] of another stack's report, whose read noise [e-] and quantisation step [DN] help to say
-   * it (NaN: not known). As JSON, schema "itk-sensornoise-check/1", and as a table for people. \see
-   * sensornoise::NoiseModelCheck */
+  /** Compares the noise of the stack with a noise model at each level, as JSON, schema "itk-sensornoise-check/1", or as
+   * a readable table. The corrected variance of the stack is compared with the variance slope [DN/e-] and the total
+   * intercept [DN^2] of another report. The read noise [e-] and the quantization step [DN] of that report help to
+   * describe a difference (NaN: not known). \see sensornoise::NoiseModelCheck */
   std::string
   GetNoiseModelCheckAsJson(double varianceSlope,
                            double totalIntercept,
@@ -390,16 +417,17 @@ public:
                            double readNoiseElectrons = std::numeric_limits<double>::quiet_NaN(),
                            double quantisationStep = std::numeric_limits<double>::quiet_NaN()) const;
 
-  /** What neighbours and frames share of their noise: kind, coefficients by lag, noise of rows and columns. Null where
-   * it was not measured (method Published, few pixels or frames). Stands until the next Update(). \see
-   * NoiseCorrelationEstimator */
+  /** Returns the spatial and temporal noise correlation: noise class, coefficients by lag, noise of rows and columns.
+   * Returns null if it was not measured (method Published, few pixels or frames). The record is valid until the next
+   * Update().
+   * \see NoiseCorrelationEstimator */
   const sensornoise::NoiseCorrelationRecord *
   GetNoiseCorrelation() const
   {
     const auto & correlation = this->GetReport().noiseCorrelation;
     return correlation ? &*correlation : nullptr;
   }
-  /** Its kind: "white", "filtered" ...; "not-measured". */
+  /** Returns the noise class: "white", "filtered" ..., or "not-measured". */
   std::string
   GetNoiseKind() const
   {
@@ -407,6 +435,8 @@ public:
     return correlation != nullptr ? correlation->kind : "not-measured";
   }
 
+  /** Returns a map of the size of a frame: mean [DN], variance [DN^2], corrected variance [DN^2] (NaN: not known), or
+   * pixel use (sensornoise::PixelUse). */
   FrameImageType *
   GetMean()
   {
@@ -428,8 +458,8 @@ public:
     return static_cast<MaskImageType *>(this->ProcessObject::GetOutput(4));
   }
 
-  /** Offset of every pixel by itself, from the dark frames, and the ends of its 95 % interval [DN]. An image without
-   * pixels where there are fewer than two dark frames. */
+  /** Returns the offset of each pixel, from the dark frames, or the lower or upper end of its 95 % interval [DN]. The
+   * image has no pixels if there are fewer than two dark frames. */
   FrameImageType *
   GetPixelOffset()
   {
@@ -446,8 +476,8 @@ public:
     return static_cast<FrameImageType *>(this->ProcessObject::GetOutput(FirstPixelOutput + 2));
   }
 
-  /** Read noise of every pixel by itself, without that of rounding to codes, and the ends of its 95 % interval [DN]; as
-   * the offset. */
+  /** Returns the read noise of each pixel, from the dark frames, without quantization noise, or the lower or upper end
+   * of its 95 % interval [DN]. The image has no pixels if there are fewer than two dark frames. */
   FrameImageType *
   GetPixelReadNoise()
   {
@@ -494,7 +524,8 @@ protected:
   StartPasses() override;
   SizeValueType
   ChunkBytes(unsigned int pass) const override;
-  /** All: what is made anew of the pixels for each piece, and their sums, then need not be. */
+  /** Returns the largest number: the pixels of the whole stack are processed at once. Otherwise intermediate arrays
+   * would be computed again for each piece, and sums would be needed. */
   SizeValueType
   BytesAtOnce() const override
   {
@@ -510,27 +541,28 @@ protected:
   PrintSelf(std::ostream & os, Indent indent) const override;
 
 private:
-  friend class SensorNoiseSums<TStack>; // goes through the passes itself
+  friend class SensorNoiseSums<TStack>; // runs the passes itself
 
-  /** \a withoutMerging: no sums are saved or merged. */
+  /** Starts the estimation. \a withoutMerging means that no sums are saved or merged. */
   void
   StartEstimation(bool withoutMerging);
 
-  // The six maps of the dark frames stand after the others.
+  // The six maps of the dark frames follow the other maps.
   static constexpr DataObjectPointerArraySizeType FirstPixelOutput = 5;
   static constexpr DataObjectPointerArraySizeType ChannelReportsOutput = FirstPixelOutput + 6;
 
-  // The method at work.
+  // The method that is running.
   struct Estimation;
 
   const sensornoise::Report &
   GetChannelReport(const std::string & channel) const;
   std::optional<SensorNoiseMosaic>
   FindMosaic();
-  /** Offset and read noise of the dark frames, or what was given of the offset; of each plane of a mosaic. */
+  /** Returns the offset and read noise of the dark frames, or the offset that was given. For a mosaic there is one
+   * result for each plane. */
   std::vector<std::optional<sensornoise::KnownOffset>>
   FindOffsets(const SensorNoiseStack & stack);
-  /** The hashes that were given, of what there is. */
+  /** Returns the hashes that were given, for the inputs that are present. */
   std::optional<sensornoise::InputRecord>
   GetInputRecord() const;
   sensornoise::NoiseModelCheck
@@ -539,7 +571,8 @@ private:
   HasLevelRange() const;
   sensornoise::PublishedSettings
   MakePublishedSettings() const;
-  /** What the input's metadata say, and what follows from it where nothing else was set. */
+  /** Returns the camera settings in the metadata of the input, and their consequences for settings that were not set
+   * otherwise. */
   sensornoise::CameraSettings
   GetCamera() const;
   sensornoise::CodeSettings
@@ -569,7 +602,7 @@ private:
   SizeValueType       m_MemoryLimit{ 0 };
   std::string         m_BayerPattern{ "none" };
 
-  sensornoise::BayerSource m_BayerSource{ sensornoise::BayerSource::Given }; // of a pattern that is not auto
+  sensornoise::BayerSource m_BayerSource{ sensornoise::BayerSource::Given }; // source of a pattern that is not auto
 
   sensornoise::StackSelection m_Source;
   sensornoise::InputFiles     m_FramesHash;
@@ -578,7 +611,7 @@ private:
   std::unique_ptr<Estimation> m_Estimation;
 };
 
-// Instantiated once, in the library.
+// The library instantiates these classes once.
 #define SensorNoise_EXTERN(TPixel) extern template class SensorNoise_EXPORT SensorNoiseEstimator<Image<TPixel, 3>>
 SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);
 #undef SensorNoise_EXTERN

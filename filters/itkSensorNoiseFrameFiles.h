@@ -30,9 +30,9 @@
 namespace sensornoise
 {
 
-/** Where the pixels of a stack stand in space, as its file says; of a list, as its first file says of x and y. Where a
- * file gives none, or one that ITK's images cannot have (a spacing of 0, a singular direction): 1, 0, along the axes.
- */
+/** Positions of the pixels of a stack in space, from the header of its file. For a list of frames, the header of the
+ * first file gives x and y. The default is spacing 1, origin 0 and directions along the axes. The default replaces
+ * values that the file does not give or that ITK images cannot have (a spacing of 0, a singular direction). */
 struct FrameListGeometry
 {
   std::array<double, 3>                spacing{ { 1.0, 1.0, 1.0 } };
@@ -42,11 +42,11 @@ struct FrameListGeometry
   };
 };
 
-/** Frames on files in time order, whose headers have all been checked: stacks, or one frame a file. */
+/** Frames in files, in time order: stacks, or one frame in each file. All headers have been checked. */
 struct FrameList
 {
   std::vector<FrameFile> files;
-  bool                   isStack{ false }; // a stack, or several that follow each other in time
+  bool                   isStack{ false }; // one stack, or several stacks in time order
   FramePixel             pixel{ FramePixel::UnsignedShort };
   std::size_t            width{ 0 };  // pixels
   std::size_t            height{ 0 }; // pixels
@@ -54,41 +54,46 @@ struct FrameList
   bool                   streams{ false }; // can be read a few frames at a time
   std::uint64_t          bytes{ 0 };       // of the pixels of all frames, uncompressed
   FrameListGeometry      geometry;
-  CameraSettings         camera; // as the first file says
+  CameraSettings         camera; // from the first file
 
   std::vector<std::string>
   Names() const;
 };
 
-/** Checks every file (InspectFrameFile()), then has ITK open it, and requires that ITK says the same. No pixel is kept.
+/** Checks every file (InspectFrameFile()), then opens it with ITK, and requires that ITK reads the same properties. No
+ * pixel is kept.
  *
- * Throws std::invalid_argument without a file, and FileError unless each file is a complete image of one grey value of
- * type unsigned char, unsigned short, short, float or double a pixel, and all have the same size and type. A 3-D file
- * is a stack; several stacks are one burst, in the order given. A list of frames holds 2-D files, or 3-D files of one
- * slice, and no stack. Formats are those of FrameFormats(), as far as the
- * program has registered their ImageIO. \a beforeInflating is asked about each compressed file before it is
- * inflated. \a rawLayout: how frames lie in files without a header, see ReadRawLayout(), which throws for what is none;
- * empty: the files say so. \a choice: the channel and the plane, where files have several, see ChooseFrames(). */
+ * Each file must be a complete image with one grey value of type unsigned char, unsigned short, short, float or double
+ * for each pixel. All files must have the same size and type. A 3-D file is a stack. Several stacks are one burst, in
+ * the given order. A list of frames holds 2-D files, or 3-D files of one slice, and no stack. The formats are the list
+ * of FrameFormats(), if the program has registered their ImageIO.
+ *
+ * The function \a beforeInflating is called for each compressed file before the file is inflated. The text \a rawLayout
+ * is the layout of the frames in files without a header. ReadRawLayout() describes it, and throws if the text is not a
+ * layout. An empty text means that the files give their layout. The parameter \a choice is the channel and the plane if
+ * files have several, see ChooseFrames().
+ *
+ * Throws std::invalid_argument if \a names is empty, and FileError if a file does not meet the conditions above. */
 SensorNoise_EXPORT FrameList
 OpenFrames(const std::vector<std::string> & names,
            const BeforeInflating &          beforeInflating = {},
            const std::string &              rawLayout = {},
            const FrameChoice &              choice = {});
 
-/** Reads \a count frames from the frame \a first on, one after the other, without conversion: \a buffer has room for
- * width x height x count pixels of the list's type. Of stacks that do not stream only all frames can be read.
+/** Reads \a count consecutive frames, beginning with the frame \a first, without conversion. The \a buffer has room for
+ * width x height x count pixels of the type of the list. If stacks do not stream, only all frames can be read together.
  *
- * Throws FileError if a file has changed since OpenFrames(), before or while it is read, and where its pixels cannot be
+ * Throws FileError if a file has changed since OpenFrames(), before or during the reading, or if its pixels cannot be
  * read. */
 SensorNoise_EXPORT void
 ReadFrames(const FrameList & list, std::size_t first, std::size_t count, void * buffer);
 
-/** Returns a sentence on what is odd about the files and no error, or nothing: a file that is there twice, by any
- * names, or the first FrameFile::warning. */
+/** Returns a warning about the files, as one sentence, or an empty text. It reports a file that is listed twice, under
+ * any names, or the first FrameFile::warning. These are not errors. */
 SensorNoise_EXPORT std::string
 WarningOf(const FrameList & list);
 
-/** "640 x 480 pixels of type unsigned short" */
+/** Returns a description of the frames, for example "640 x 480 pixels of type unsigned short". */
 SensorNoise_EXPORT std::string
 DescribeFrame(const FrameList & list);
 

@@ -34,29 +34,29 @@ namespace itk
 {
 
 /** \class SensorNoiseFrameListSource
- * \brief Reads frames from files as a stack, an image whose last axis is time: one stack file or several, or a list of
- * frames.
+ * \brief Reads frames from files as a stack, an image whose last axis is time.
  *
- * Every file is checked before a pixel is read (sensornoise::OpenFrames()): whether it is complete, of one grey value a
- * pixel, and as all others in size and type. Whatever a damaged file would make of ITK's own readers, which fill up,
- * guess or end the process, is an error here, one sentence that begins with the name of the file. Nothing is converted:
- * the pixel type is the component type of the files, and a program that does not know that asks ReadComponentType()
- * before it chooses.
+ * The files are one or several stacks, or a list of single frames. Every file is checked before a pixel is read
+ * (sensornoise::OpenFrames()): it must be complete, have one grey value for each pixel, and have the size and type of
+ * the other files. ITK's own readers fill up or guess the content of a damaged file, or end the process. This source
+ * throws an error instead: one sentence that begins with the name of the file. No value is converted: the pixel type is
+ * the component type of the files. A program that does not know this type calls ReadComponentType() first.
  *
- * A list streams: no more frames than were asked for are held. So do multi-page TIFF, SER, MRAW, raw frames without a
- * header, an uncompressed MetaImage, and whatever else ITK reads in parts. Other stacks (NRRD, compressed MetaImage)
- * are read whole, at each reading again. A frame is read whole, whatever part of it is wanted. Formats that this
- * library reads itself, TIFF for one, are read by several threads at once, those that ITK reads by one.
+ * A list of frames streams: only the requested frames are held in memory. Multi-page TIFF, SER, MRAW, raw frames
+ * without a header, an uncompressed MetaImage, and all other formats that ITK reads in parts stream, too. Other stacks
+ * (NRRD, compressed MetaImage) are read completely, and again at each reading. A frame is always read completely, even
+ * if only a part is requested. Formats that this library reads itself, for example TIFF, are read by several threads at
+ * once. Formats that ITK reads are read by one thread.
  *
- * A file that has changed since it was checked, by size, time or place on the disk, is an error as well, at the reading
- * that meets it. After an error the next Update() checks the files anew and starts from them as they are then.
+ * A file that has changed since the check, in its size, time or place on the disk, is also an error. The error is
+ * thrown when the file is read. After an error the next Update() checks the files again and uses their new state.
  *
- * The region starts at index 0. Spacing, origin and direction are those of the stack's file, or for x and y those of
- * the list's first; time has spacing 1 and origin 0 there. What the file, or the list's first, says of the camera is in
- * the output's MetaDataDictionary (itkSensorNoiseMetaData.h).
+ * The region starts at index 0. Spacing, origin and direction are taken from the file of the stack. For a list of
+ * frames, the first file gives them for x and y, and time has spacing 1 and origin 0. The output's MetaDataDictionary
+ * has the camera settings of the file, or of the first file of a list (itkSensorNoiseMetaData.h).
  *
- * Not ImageSeriesReader: that stacks images of height 1 along y instead of time, converts a file whose component type
- * has changed, and believes files that have been cut off since.
+ * ImageSeriesReader does not replace this source. It stacks images of height 1 along y instead of time. It converts a
+ * file whose component type has changed, and accepts a file that has been truncated since the check.
  *
  * \tparam TOutputStack itk::Image of 3 dimensions, x, y and time, of unsigned char, unsigned short, short, float or
  * double.
@@ -87,8 +87,8 @@ public:
     return "SensorNoiseFrameListSource";
   }
 
-  /** Files in time order: 2-D images, or 3-D ones of one slice; or stacks. Required: without one, or with
-   * files that OpenFrames() refuses, Update() and UpdateOutputInformation() throw. */
+  /** Names of the files in time order: 2-D images, 3-D images of one slice, or stacks. Required. Update() and
+   * UpdateOutputInformation() throw if there is no file or if OpenFrames() rejects a file. */
   void
   SetFileNames(const std::vector<std::string> & names);
   const std::vector<std::string> &
@@ -96,15 +96,16 @@ public:
   {
     return m_FileNames;
   }
-  /** One more file, after the others. */
+  /** Adds one file after the others. */
   void
   AddFileName(const std::string & name);
-  /** One file alone: a stack, or a single frame. */
+  /** Sets one file, a stack or a single frame, in place of all others. */
   void
   SetFileName(const std::string & name);
 
-  /** How frames lie in files that do not say so themselves, "640x480:uint16le" for instance, "1920x1080:Mono12p:64" for
-   * packed ones behind 64 other bytes; see sensornoise::ReadRawLayout(). Default: empty, the files say so. */
+  /** Layout of the frames in files that do not give it themselves. Examples are "640x480:uint16le", and
+   * "1920x1080:Mono12p:64" for packed pixels after 64 other bytes; see sensornoise::ReadRawLayout(). Default: empty,
+   * the files give their layout. */
   void
   SetRawLayout(const std::string & layout);
   const std::string &
@@ -113,33 +114,36 @@ public:
     return m_RawLayout;
   }
 
-  /** Files that are open already, and are not checked a second time. */
+  /** Sets files that are open already. They are not checked a second time. */
   void
   SetFrameList(const sensornoise::FrameList & list);
-  /** What the files hold, checked first if they are not yet, for instance their type. Does not ask whether this source
-   * has the right one, so that a source of any type can be asked, and what it found handed on to another by
-   * SetFrameList(). */
+  /** Returns the properties of the files, for example their type. Checks the files first if they are not yet checked.
+   * The pixel type of this source is not compared with the files. A source of any type can therefore inspect the files
+   * and hand the list on to another source by SetFrameList(). */
   const sensornoise::FrameList &
   GetFrameList();
 
-  /** Every file that is read, in the order of the frames, each header's files of pixels behind it. Checks them first if
-   * they are not yet. */
+  /** Returns the names of all files that are read, in the order of the frames. The pixel files of a header follow the
+   * header. Checks the files first if they are not yet checked. */
   std::vector<std::string>
   GetFilesRead();
 
-  /** Component type of the files, UCHAR, USHORT, SHORT, FLOAT or DOUBLE. Checks them first if they are not yet. */
+  /** Returns the component type of the files: UCHAR, USHORT, SHORT, FLOAT or DOUBLE. Checks the files first if they are
+   * not yet checked. */
   IOComponentEnum
   GetComponentType();
-  /** Component type of some files, for a program that has to choose the source's type. Throws as Update() would. */
+  /** Returns the component type of the named files, for a program that has to choose the pixel type of the source.
+   * Throws the same errors as Update(). */
   static IOComponentEnum
   ReadComponentType(const std::vector<std::string> & names);
 
-  /** What is odd about the files and no error, as a sentence, or nothing: that one is there twice, for instance. Checks
-   * the files first if they are not yet. */
+  /** Returns a warning about the files as one sentence, or an empty text, for example if a file is listed twice. A
+   * warning is not an error. Checks the files first if they are not yet checked. */
   std::string
   GetWarning();
 
-  /** Whether fewer frames than all can be read. Checks the files first if they are not yet. */
+  /** Returns whether a part of the frames can be read without the others. Checks the files first if they are not yet
+   * checked. */
   bool
   CanStream();
 
@@ -149,7 +153,7 @@ protected:
 
   void
   GenerateOutputInformation() override;
-  /** Whole frames; all of them where the files do not stream. */
+  /** Enlarges the requested region to whole frames, and to all frames if the files do not stream. */
   void
   EnlargeOutputRequestedRegion(DataObject * output) override;
   void
@@ -158,8 +162,8 @@ protected:
   PrintSelf(std::ostream & os, Indent indent) const override;
 
 private:
-  /** Reads the frames from \a first up to \a end in parts of so many frames, at the same time. Of several errors, that
-   * of the earliest part is thrown. */
+  /** Reads the frames from \a first up to, but not including, \a end in parts of \a partFrames frames, in parallel. If
+   * several parts fail, the error of the earliest part is thrown. */
   void
   ReadSideBySide(std::size_t first, std::size_t end, std::size_t partFrames, OutputPixelType * buffer);
 
@@ -169,7 +173,7 @@ private:
   bool                     m_IsOpen{ false };
 };
 
-// Instantiated once, in the library.
+// The library instantiates these classes once.
 #define SensorNoise_EXTERN(TPixel) extern template class SensorNoise_EXPORT SensorNoiseFrameListSource<Image<TPixel, 3>>
 SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);
 #undef SensorNoise_EXTERN
@@ -177,7 +181,7 @@ SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);
 } // namespace itk
 
 #ifdef ITK_IO_FACTORY_REGISTER_MANAGER
-#  include "itkImageIOFactoryRegisterManager.h" // as ImageFileReader: registers the formats that the program links
+#  include "itkImageIOFactoryRegisterManager.h" // registers the formats that the program links, as ImageFileReader does
 #endif
 
 #endif

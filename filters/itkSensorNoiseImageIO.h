@@ -29,19 +29,22 @@ namespace itk
 {
 
 /** \class SensorNoiseImageIO
- * \brief Reads bursts that ITK has no reader for, or none that reads them in parts: SER, Photron's MRAW, stacks on
- * multi-page TIFF, raw files of cameras (with LibRaw), and, if their layout is given, raw frames without a header.
+ * \brief Reads bursts that ITK does not read, or does not read in parts.
  *
- * Each file is checked whole before a pixel is read (sensornoise::InspectFrameFile()), so that a damaged one is an
- * error of one sentence. Codes stand as the sensor gave them: those of 10 and 12 bits that are packed in the file come
- * as unsigned short. What the file says of the camera is in the MetaDataDictionary (itkSensorNoiseMetaData.h).
+ * The formats are SER, Photron's MRAW, stacks in multi-page TIFF files, raw files of cameras (with LibRaw), and, if
+ * their layout is given, raw frames without a header.
  *
- * An image of several frames has three dimensions, the last of which is time; one frame has two. Frames are read whole,
- * no more of them than are asked for.
+ * Each file is checked completely before a pixel is read (sensornoise::InspectFrameFile()). A damaged file is therefore
+ * an error, reported in one sentence. Digital numbers are returned as the sensor gave them. Packed values of 10 and 12
+ * bits are returned as unsigned short. The camera settings of the file are in the MetaDataDictionary
+ * (itkSensorNoiseMetaData.h).
  *
- * CanReadFile() takes of TIFFs only those of several pages of one grey value a pixel; others are left to ITK. Raw files
- * of cameras it takes always, DNG among them, of which ITK's reader of TIFF would read the preview: what is wrong with
- * one, or that this build has no LibRaw, is then an error. Nothing is written.
+ * An image of several frames has three dimensions, and the last dimension is time. A single frame has two dimensions.
+ * Frames are read completely, and only the requested frames are read.
+ *
+ * CanReadFile() accepts only TIFF files with several pages and one grey value for each pixel; other TIFF files are left
+ * to ITK. It always accepts raw files of cameras. These include DNG, because ITK's TIFF reader would read the preview.
+ * A defect of a raw file, or a build without LibRaw, is then an error. The class writes no files.
  * \ingroup SensorNoise
  */
 class SensorNoise_EXPORT SensorNoiseImageIO : public ImageIOBase
@@ -62,8 +65,9 @@ public:
     return "SensorNoiseImageIO";
   }
 
-  /** How frames lie in a file that does not say so itself, "640x480:uint16le" for instance; see
-   * sensornoise::ReadRawLayout(). Empty, the default: the file says so. Throws where it is read, if it is no layout. */
+  /** Layout of the frames in a file that does not give it itself, for example "640x480:uint16le"; see
+   * sensornoise::ReadRawLayout(). Default: empty, the file gives its layout. Text that is not a layout throws when the
+   * file is read. */
   void
   SetRawLayout(const std::string & layout);
   const std::string &
@@ -72,8 +76,9 @@ public:
     return m_RawLayout;
   }
 
-  /** Throws unless all codes of a raw file that is a TIFF, a DNG above all, are in the file, whole numbers without
-   * loss: for readers that do not look. \a width, \a height: of the codes that LibRaw finds, margins too [pixels]. */
+  /** Throws unless a raw file in TIFF format, in most cases a DNG, holds all digital numbers as integers, stored
+   * without loss. Some readers do not check this. \a width and \a height are the size of the raw image that LibRaw
+   * finds, including the margins [pixels]. */
   static void
   RequireWholeRawTiff(const std::string & name, unsigned int width, unsigned int height);
 
@@ -88,7 +93,7 @@ public:
   ReadImageInformation() override;
   void
   Read(void * buffer) override;
-  /** Whole frames. */
+  /** Returns a region of whole frames. */
   ImageIORegion
   GenerateStreamableReadRegionFromRequestedRegion(const ImageIORegion & requested) const override;
 
@@ -111,12 +116,12 @@ protected:
   PrintSelf(std::ostream & os, Indent indent) const override;
 
 private:
-  /** Throws FileError, or std::invalid_argument for a layout that is none. */
+  /** Inspects a file. Throws FileError, or std::invalid_argument if the text of the layout is not a layout. */
   void
   Inspect(const std::string & name);
 
   std::string            m_RawLayout;
-  sensornoise::FrameFile m_File; // what was inspected last; without a name: nothing
+  sensornoise::FrameFile m_File; // the file that was inspected last; without a name: no file
 };
 
 } // namespace itk

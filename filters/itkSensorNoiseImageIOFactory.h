@@ -25,10 +25,10 @@ namespace itk
 {
 
 /** \class SensorNoiseImageIOFactory
- * \brief Has ITK's readers use SensorNoiseImageIO, before others that take the same file and read it whole.
+ * \brief Registers SensorNoiseImageIO with ITK's readers, before other classes that read the same file as a whole.
  *
- * The sources of this library need no factory. An ImageFileReader does: RegisterOneFactory() once, or link to the
- * module with ITK's registration of factories.
+ * The sources of this library need no factory. An ImageFileReader needs it: call RegisterOneFactory() once, or link to
+ * the module with ITK's registration of factories.
  * \ingroup SensorNoise
  */
 class SensorNoise_EXPORT SensorNoiseImageIOFactory : public ObjectFactoryBase
@@ -53,7 +53,7 @@ public:
   const char *
   GetDescription() const override;
 
-  /** In front of all others; once, however often it is called. */
+  /** Registers the factory before all others. Repeated calls have no effect. */
   static void
   RegisterOneFactory();
 

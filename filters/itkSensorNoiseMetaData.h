@@ -25,7 +25,7 @@
 namespace sensornoise
 {
 
-/** Under which keys a MetaDataDictionary has the CameraSettings; what is not known has none. */
+/** Keys of the CameraSettings in a MetaDataDictionary. A setting that is not known has no entry. */
 namespace MetaDataKeys
 {
 constexpr const char * BayerPattern = "SensorNoise.BayerPattern";           ///< std::string
@@ -39,12 +39,12 @@ constexpr const char * OpticalBlackError = "SensorNoise.OpticalBlackError"; ///<
 constexpr const char * Camera = "SensorNoise.Camera";                       ///< std::string
 } // namespace MetaDataKeys
 
-/** Replaces what \a dictionary says of the camera by \a camera. Its other entries stay. */
+/** Replaces the camera settings of \a dictionary by \a camera. The other entries of the dictionary are unchanged. */
 SensorNoise_EXPORT void
 SetCameraSettings(itk::MetaDataDictionary & dictionary, const CameraSettings & camera);
 
-/** What a dictionary says of the camera; numbers may be of any type that Python or programs
- * write; entries of another type count as none. */
+/** Returns the camera settings of a dictionary. Numbers may have any numeric type that Python or other programs write.
+ * Entries of any other type are treated as missing. */
 SensorNoise_EXPORT CameraSettings
 CameraSettingsOf(const itk::MetaDataDictionary & dictionary);
 

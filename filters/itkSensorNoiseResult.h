@@ -31,8 +31,9 @@ namespace itk
 /** \class SensorNoiseResult
  * \brief Carries the result of an estimator, a plain struct, through a pipeline.
  *
- * As SimpleDataObjectDecorator, which wants its component to be comparable; a result is new each time it is set. Before
- * the estimator's Update(), and after one that failed in its work, there is none.
+ * The class resembles SimpleDataObjectDecorator, but does not need a comparable component: each call of Set() counts as
+ * a new result. There is no result before the Update() of the estimator, nor after an Update() that failed during the
+ * computation.
  *
  * \tparam TResult a copyable type.
  * \ingroup SensorNoise
@@ -56,18 +57,20 @@ public:
     return "SensorNoiseResult";
   }
 
+  /** Sets the result. */
   void
   Set(TResult result)
   {
     m_Result = std::move(result);
     this->Modified();
   }
+  /** Returns whether there is a result. */
   bool
   Has() const
   {
     return m_Result.has_value();
   }
-  /** Throws an ExceptionObject if there is no result. */
+  /** Returns the result. Throws an ExceptionObject if there is no result. */
   const TResult &
   Get() const
   {
@@ -78,7 +81,7 @@ public:
     return *m_Result;
   }
 
-  /** Called by ITK before the estimator works: what follows may fail. */
+  /** Removes the result. ITK calls this before the estimator computes, because the computation may fail. */
   void
   Initialize() override
   {

@@ -36,9 +36,9 @@ namespace itk
 /** \class SensorNoiseSceneSource
  * \brief Draws a reference image for SensorNoiseStackSource: values from 0 to 1.
  *
- * Scenes: "target", 4 x 4 even patches (MakeTargetScene); "bars", vertical bars, so that every row holds every level
- * (MakeBarsScene); "texture", like a natural image (MakeTextureScene); "flat", 1 everywhere (MakeFlatScene). The same
- * parameters give the same image.
+ * There are four scenes. "target" has 4 x 4 uniform patches (MakeTargetScene). "bars" has vertical bars, so that every
+ * row holds every level (MakeBarsScene). "texture" resembles a natural image (MakeTextureScene). "flat" is 1 everywhere
+ * (MakeFlatScene). The same parameters give the same image.
  *
  * \tparam TOutputImage Image<double, 2>.
  * \ingroup SensorNoise
@@ -62,11 +62,12 @@ public:
     return "SensorNoiseSceneSource";
   }
 
-  /** "target" (default), "bars", "texture" or "flat". */
+  /** Name of the scene: "target" (default), "bars", "texture" or "flat". */
   itkSetStringMacro(Scene);
   itkGetStringMacro(Scene);
 
-  /** Size [pixel]. Defaults 512; a target has at least 32 x 32, bars 16 x 1, a texture 16 x 16, a flat 1 x 1. */
+  /** Width and height of the image [pixel]. Default 512 each. The smallest sizes are 32 x 32 for a target, 16 x 1 for
+   * bars, 16 x 16 for a texture and 1 x 1 for a flat. */
   itkSetMacro(Width, SizeValueType);
   itkGetConstMacro(Width, SizeValueType);
   itkSetMacro(Height, SizeValueType);
@@ -83,7 +84,7 @@ protected:
     this->GetOutput()->SetLargestPossibleRegion(typename TOutputImage::RegionType(size));
   }
 
-  /** The scenes are drawn whole. */
+  /** Enlarges the requested region to the whole image, because scenes are drawn as a whole. */
   void
   EnlargeOutputRequestedRegion(DataObject * output) override
   {
@@ -123,7 +124,7 @@ private:
   SizeValueType m_Height{ 512 };
 };
 
-// Instantiated once, in the library.
+// The library instantiates this class once.
 extern template class SensorNoise_EXPORT SensorNoiseSceneSource<Image<double, 2>>;
 
 } // namespace itk

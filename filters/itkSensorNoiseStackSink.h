@@ -33,16 +33,16 @@ namespace itk
 {
 
 /** \class SensorNoiseStackSink
- * \brief Reads a stack, an image whose last axis is time, in chunks of whole frames and as often as a subclass wants.
+ * \brief Reads a stack, an image whose last axis is time, in chunks of whole frames, once or in several passes.
  *
- * The number of requested regions is that of all passes' chunks. By default their number is chosen: one if the stack is
- * in memory already, else as many as keep a chunk under ChunkBytes(), 32 MiB unless a subclass can do with more.
- * Readers that cannot stream (NRRD, multi-page TIFF) give the whole stack each time; still only the chunk asked for is
- * handed on.
+ * The number of requested regions is the number of chunks of all passes. By default the number of chunks is chosen. A
+ * stack that is in memory already is one chunk. Otherwise each chunk is smaller than ChunkBytes(), which is 32 MiB
+ * unless a subclass allows more. Readers that cannot stream (NRRD, multi-page TIFF) return the whole stack each time.
+ * The subclass still receives only the requested chunk.
  *
- * An error, or an abort, resets the pipeline: the next Update() starts afresh, never from a partial result. An abort
- * takes effect within a moment, also if the stack is in memory, and between the passes: observers of progress are asked
- * again and again while the threads work, at most every 50 ms.
+ * An error or an abort resets the pipeline, and the next Update() starts from the beginning, never from a partial
+ * result. An abort takes effect within a moment, also for a stack in memory and between the passes. While the threads
+ * work, progress is reported to the observers at most every 50 ms.
  *
  * A subclass implements NumberOfPasses(), StartPasses(), ProcessFrames() and EndPass().
  *
@@ -75,7 +75,8 @@ public:
     return "SensorNoiseStackSink";
   }
 
-  /** Number of chunks in which each pass reads the stack. 0 (default): chosen; more than the frames: one a frame. */
+  /** Number of chunks in which each pass reads the stack. Default 0: the number is chosen. A number above the number of
+   * frames gives one chunk for each frame. */
   void
   SetNumberOfStreamDivisions(unsigned int number) override;
   unsigned int
@@ -84,7 +85,8 @@ public:
     return m_NumberOfStreamDivisions;
   }
 
-  /** As every process object: does nothing if nothing has changed (ImageSink would compute again). */
+  /** Updates the filter. Does nothing if nothing has changed since the last update, as other process objects do.
+   * (ImageSink would compute again.) */
   void
   Update() override
   {
@@ -104,45 +106,49 @@ protected:
   SensorNoiseStackSink() = default;
   ~SensorNoiseStackSink() override = default;
 
-  /** How often the stack is read. */
+  /** Returns the number of passes over the stack. */
   virtual unsigned int
   NumberOfPasses() const = 0;
-  /** Called before the first pass. */
+  /** Prepares the passes. Called before the first pass. */
   virtual void
   StartPasses() = 0;
-  /** The next frames of the current pass, whole and one after the other. \a first counts from 0. */
+  /** Processes the next frames of the current pass: \a count whole frames in time order. \a first is the index of the
+   * first one and counts from 0. */
   virtual void
   ProcessFrames(unsigned int pass, const PixelType * frames, SizeValueType first, SizeValueType count) = 0;
-  /** Called after the last frame of a pass. */
+  /** Ends a pass. Called after its last frame. */
   virtual void
   EndPass(unsigned int pass) = 0;
-  /** Asked after EndPass(): whether the pass is repeated, which reads the stack once more. */
+  /** Returns whether the pass is repeated, which reads the stack once more. Called after EndPass(). */
   virtual bool
   RepeatsPass(unsigned int) const
   {
     return false;
   }
-  /** Called after an error or an abort: gives back the memory of the passes. */
+  /** Releases the memory of the passes. Called after an error or an abort. */
   virtual void
   DropPasses()
   {}
 
-  /** Bytes of a chunk of a stack that is not in memory; of the first pass before StartPasses(), of all after it. */
+  /** Returns the largest size of a chunk of a stack that is not in memory [bytes]. Called before StartPasses() for the
+   * first pass, and after it for all passes. */
   virtual SizeValueType
   ChunkBytes(unsigned int pass) const;
-  /** Bytes of a stack in memory that ProcessFrames() is given at a time, whole frames. */
+  /** Returns the largest size of the whole frames of a stack in memory that one call of ProcessFrames() receives
+   * [bytes]. */
   virtual SizeValueType
   BytesAtOnce() const;
 
-  /** Spreads work over this filter's threads. Throws ProcessAborted, before that or in its midst, if an abort was asked
-   * for. */
+  /** Returns a function that distributes work over the threads of this filter. The function throws ProcessAborted,
+   * before or during the work, if an abort is requested. */
   sensornoise::ParallelFor
   GetParallelFor();
-  /** That it spreads work over. */
+  /** Returns the number of threads over which GetParallelFor() distributes work. */
   std::size_t
   GetNumberOfThreads() const;
 
-  /** The region of a frame, and the geometry of the stack's first two axes for a frame-sized output. */
+  /** Returns the region of a frame. CopyFrameInformation() copies the geometry of the first two axes of the stack to an
+   * output of the size of a frame. */
   FrameRegionType
   GetFrameRegion() const;
   void
@@ -171,7 +177,7 @@ protected:
   PrintSelf(std::ostream & os, Indent indent) const override;
 
 private:
-  /** Of a requested region: its pass, and its place among the pass's chunks. */
+  /** Pass of a requested region, its index among the chunks of the pass, and the number of these chunks. */
   struct Place
   {
     unsigned int pass;
@@ -184,24 +190,24 @@ private:
   ChooseNumberOfChunks(unsigned int pass) const;
   void
   ChooseChunks();
-  /** Gives the pixels of the chunk, which is there, to ProcessFrames(). */
+  /** Passes the pixels of the current chunk, which is in memory, to ProcessFrames(). */
   void
   ProcessChunk(unsigned int number);
   /** Reports the progress \a reached to the observers, at most every 50 ms, and throws ProcessAborted if an abort is
-   * asked for. Does nothing on another thread than that of Update(). */
+   * requested. Does nothing on a thread other than the thread of Update(). */
   void
   ReportProgress(float reached);
 
   unsigned int                          m_NumberOfStreamDivisions{ 0 };
-  std::vector<unsigned int>             m_Chunks; // of each pass, when they have started
+  std::vector<unsigned int>             m_Chunks; // for each pass, once the passes have started
   StackRegionType                       m_Chunk;
-  std::thread::id                       m_Thread; // of Update()
+  std::thread::id                       m_Thread; // the thread of Update()
   std::chrono::steady_clock::time_point m_LastReport{};
-  float                                 m_Reached{ 0.0F };     // the progress, at least
-  float                                 m_NextReached{ 0.0F }; // when the frames at work are done
+  float                                 m_Reached{ 0.0F };     // lower bound of the progress
+  float                                 m_NextReached{ 0.0F }; // progress after the current frames
 };
 
-// Instantiated once, in the library.
+// The library instantiates these classes once.
 #define SensorNoise_EXTERN(TPixel) extern template class SensorNoise_EXPORT SensorNoiseStackSink<Image<TPixel, 3>>
 SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);
 #undef SensorNoise_EXTERN

@@ -33,7 +33,7 @@
 #include <string>
 #include <vector>
 
-/** Set and get of one of the sensor's flaws, which the simulator keeps together. */
+/** Defines the methods that set and return one of the sensor's flaws, which the simulator keeps in one struct. */
 #define itkSensorFlawMacro(name, type, member) \
   virtual void Set##name(type value)           \
   {                                            \
@@ -54,22 +54,25 @@ namespace itk
 /** \class SensorNoiseStackSource
  * \brief Simulates a burst of raw frames with known gain, offset, read noise, flicker and vibration.
  *
- * The input is a reference image, of any range; the output is a stack whose last axis is time, in digital numbers [DN]:
+ * The input is a reference image with any range. The output is a stack whose last axis is time, in digital numbers
+ * [DN]:
  *
  *   u(x, y, t) = Gain * Poisson((1 + gamma_t) p(x + alpha_t, y + beta_t)) + Normal(Offset, ReadNoise^2)
  *
- * with p the reference, blurred and then scaled to [0, Electrons]. Integer pixels are rounded and clipped to BitDepth.
- * The model is equation (2.1) of F. Sur and M. Grediac, "Measuring the Noise of Digital Imaging Sensors by Stacking
- * Raw Images Affected by Vibrations and Illumination Flickering", SIAM J. Imaging Sci. 8(1), 2015,
+ * where p is the reference, blurred and then scaled to [0, Electrons]. Integer pixels are rounded and clipped to
+ * BitDepth. The model is equation (2.1) of F. Sur and M. Grediac, "Measuring the Noise of Digital Imaging Sensors by
+ * Stacking Raw Images Affected by Vibrations and Illumination Flickering", SIAM J. Imaging Sci. 8(1), 2015,
  * https://doi.org/10.1137/140977035, simulated as in section 4.2. The defaults are its camera B in condition 3.
  *
- * What real sensors and cameras do beside can be added (sensornoise::SensorFlaws): a bent response, patterns of gain,
- * read noise that differs from pixel to pixel, noise of rows and columns, coupled charge, processing in the camera.
+ * Further effects of real sensors and cameras can be added (sensornoise::SensorFlaws): a non-linear response, gain
+ * patterns, read noise that differs from pixel to pixel, noise of rows and columns, coupled charge, and processing in
+ * the camera.
  *
- * The source streams: it needs the whole reference, but generates no more rows than were asked for (a row is drawn
- * whole, whatever part of it is wanted; with flaws that mix rows, a frame). Rows are shared out among threads; each row
- * of each frame has random numbers of its own, so the same seed gives the same bits for any number of threads and any
- * chunks. It holds a few frames of doubles beside the requested region. */
+ * The source streams. It needs the whole reference, but generates only the requested rows. A row is always drawn
+ * completely, even if only a part is requested; with flaws that mix rows, a frame is always drawn completely. Rows are
+ * distributed over threads. Each row of each frame has its own random numbers, so the same seed gives the same bits for
+ * any number of threads and any chunks. The source holds a few frames of doubles in addition to the requested region.
+ */
 template <typename TOutputStack>
 class ITK_TEMPLATE_EXPORT SensorNoiseStackSource : public ImageSource<TOutputStack>
 {
@@ -96,12 +99,12 @@ public:
     return "SensorNoiseStackSource";
   }
 
-  /** The scene without noise; its values are scaled, so any range will do. Required. */
+  /** Reference image: the scene without noise. Its values are scaled, so it may have any range. Required. */
   itkSetInputMacro(Reference, ReferenceImageType);
   itkGetInputMacro(Reference, ReferenceImageType);
 
   using Superclass::SetInput;
-  /** The reference, by the name that filters use. */
+  /** Sets the reference, by the name that filters use. */
   virtual void
   SetInput(const ReferenceImageType * reference)
   {
@@ -110,27 +113,27 @@ public:
   virtual void
   SetInput(unsigned int index, const ReferenceImageType * reference);
 
-  /** Sets Electrons, Gain, Offset and ReadNoise to camera 'A', 'B' or 'C' of the paper's Table 1. */
+  /** Sets Electrons, Gain, Offset and ReadNoise to the camera 'A', 'B' or 'C' of Table 1 of the paper. */
   void
   SetCamera(char name);
 
-  /** Sets FlickerSd, VibrationSdX and VibrationSdY to condition 1, 2 or 3 of the paper's Table 1. */
+  /** Sets FlickerSd, VibrationSdX and VibrationSdY to the condition 1, 2 or 3 of Table 1 of the paper. */
   void
   SetConditions(int number);
 
-  /** Electrons of the brightest pixel of the scene [e-], above 0 and at most 1e9. Default 3000. */
+  /** Number of electrons of the brightest pixel of the scene [e-], above 0 and at most 1e9. Default 3000. */
   itkSetMacro(Electrons, double);
   itkGetConstMacro(Electrons, double);
 
-  /** Gain g [DN/e-], above 0. Default 1. */
+  /** System gain g [DN/e-], above 0. Default 1. */
   itkSetMacro(Gain, double);
   itkGetConstMacro(Gain, double);
 
-  /** Offset mu, the level without light [DN]. Default 100. */
+  /** Dark offset mu, the mean dark signal [DN]. Default 100. */
   itkSetMacro(Offset, double);
   itkGetConstMacro(Offset, double);
 
-  /** Read noise sigma, the standard deviation without light [DN], 0 or more. Default 8. */
+  /** Read noise sigma, the standard deviation in the dark [DN], 0 or more. Default 8. */
   itkSetMacro(ReadNoise, double);
   itkGetConstMacro(ReadNoise, double);
 
@@ -146,9 +149,9 @@ public:
   itkSetMacro(VibrationSdY, double);
   itkGetConstMacro(VibrationSdY, double);
 
-  /** Illumination factors of the frames by name, with which 1 + gamma_t is multiplied: "steady", "pulses", "ramp",
-   * "decay", "sine", "uniform" or "exponential", then the lowest factor and the period in frames, as in "pulses:0.3:4"
-   * (sensornoise::IlluminationShape). Default "steady".
+  /** Illumination factors of the frames, by name; 1 + gamma_t is multiplied by them. The names are "steady", "pulses",
+   * "ramp", "decay", "sine", "uniform" and "exponential". The lowest factor and the period in frames may follow, as in
+   * "pulses:0.3:4" (sensornoise::IlluminationShape). Default "steady".
    * \throws ExceptionObject for other text. */
   void
   SetIllumination(const std::string & text);
@@ -158,7 +161,7 @@ public:
     return sensornoise::TextOf(m_Illumination);
   }
 
-  /** Illumination factors of the frames [1], one each, 0 or more, instead of a named shape. */
+  /** Illumination factors of the frames [1], one for each frame, 0 or more. They replace a named shape. */
   void
   SetIlluminationFactors(const std::vector<double> & factors);
   std::vector<double>
@@ -171,12 +174,13 @@ public:
   itkSetMacro(NumberOfFrames, unsigned int);
   itkGetConstMacro(NumberOfFrames, unsigned int);
 
-  /** Bits of the converter: integer pixels are clipped to [0, 2^BitDepth - 1]. 0: to the range of their type. At most
-   * what the type holds, and 32. Default 12, or 8 if the pixels are of 8 bits. Floating-point pixels ignore it. */
+  /** Bit depth of the converter [bit]: integer pixels are clipped to [0, 2^BitDepth - 1]. With 0 they are clipped to
+   * the range of their type. At most the number of bits of the type, and 32. Default 12, or 8 if the pixels have 8
+   * bits. Floating-point pixels ignore it. */
   itkSetMacro(BitDepth, unsigned int);
   itkGetConstMacro(BitDepth, unsigned int);
 
-  /** Seed: the same seed gives the same stack. Any value. Default 1. */
+  /** Seed of the random numbers: the same seed gives the same stack. Any value. Default 1. */
   itkSetMacro(Seed, std::uint64_t);
   itkGetConstMacro(Seed, std::uint64_t);
 
@@ -184,25 +188,25 @@ public:
   itkSetMacro(OpticalBlur, double);
   itkGetConstMacro(OpticalBlur, double);
 
-  /** Period of a lamp's pulse in rows of a rolling shutter [row]; 0: global shutter, one flicker number a frame. Above
-   * 0: gamma_t(y) = sqrt(2) FlickerSd sin(2 pi y / period + phase_t). Default 0. */
+  /** Period of a lamp's pulse in rows of a rolling shutter [row]. Default 0: global shutter, one flicker value for each
+   * frame. Above 0: gamma_t(y) = sqrt(2) FlickerSd sin(2 pi y / period + phase_t). */
   itkSetMacro(RollingShutterPeriod, double);
   itkGetConstMacro(RollingShutterPeriod, double);
 
-  /** Floor of the sensor [DN]; `NumericTraits<double>::NonpositiveMin()`, the default, is none. */
+  /** Lowest value of the sensor [DN]. Default `NumericTraits<double>::NonpositiveMin()`: no lower limit. */
   itkSetMacro(ClipLow, double);
   itkGetConstMacro(ClipLow, double);
 
-  /** Level at which the sensor saturates [DN]; `NumericTraits<double>::max()`, the default, is none. */
+  /** Level at which the sensor saturates [DN]. Default `NumericTraits<double>::max()`: no saturation. */
   itkSetMacro(ClipHigh, double);
   itkGetConstMacro(ClipHigh, double);
 
-  /** Photo-response non-uniformity: standard deviation of the pixels' relative sensitivity [1], 0 or more. Default 0.
-   */
+  /** Photo-response non-uniformity (PRNU): standard deviation of the relative sensitivity of the pixels [1], 0 or more.
+   * Default 0. */
   itkSetMacro(PrnuSd, double);
   itkGetConstMacro(PrnuSd, double);
 
-  /** Dark-signal non-uniformity: standard deviation of the pixels' offset [DN], 0 or more. Default 0. */
+  /** Dark-signal non-uniformity (DSNU): standard deviation of the offset of the pixels [DN], 0 or more. Default 0. */
   itkSetMacro(DsnuSd, double);
   itkGetConstMacro(DsnuSd, double);
 
@@ -210,17 +214,17 @@ public:
   itkSetMacro(HotPixelFraction, double);
   itkGetConstMacro(HotPixelFraction, double);
 
-  /** Read noise of those pixels in units of ReadNoise, 0 or more. Default 10. */
+  /** Read noise of the pixels of HotPixelFraction, in units of ReadNoise [1], 0 or more. Default 10. */
   itkSetMacro(HotPixelNoiseFactor, double);
   itkGetConstMacro(HotPixelNoiseFactor, double);
 
-  /** The shutter is closed: frames of the same sensor without light, with the same fixed patterns and other noise.
-   * Default off. */
+  /** Whether the shutter is closed: the output is dark frames of the same sensor, with the same fixed-pattern noise and
+   * different temporal noise. Default off. */
   itkSetMacro(Dark, bool);
   itkGetConstMacro(Dark, bool);
   itkBooleanMacro(Dark);
 
-  /** Mosaic of colour filters: "RGGB", "GRBG", "GBRG" or "BGGR"; "none" (default): no filters. */
+  /** Pattern of the colour filters: "RGGB", "GRBG", "GBRG" or "BGGR". Default "none": no filters. */
   void
   SetBayerPattern(const std::string & name);
   std::string
@@ -229,7 +233,8 @@ public:
     return m_Flaws.filters.pattern ? sensornoise::NameOf(*m_Flaws.filters.pattern) : "none";
   }
 
-  /** What the filters let through of the scene's electrons [1], 0 to 1. Defaults 0.6, 1, 0.5. */
+  /** Transmission of the colour filters, the fraction of the scene's electrons that remains [1], 0 to 1. Defaults 0.6
+   * (R), 1 (G) and 0.5 (B). */
   itkSensorFlawMacro(TransmissionR, double, filters.transmissionR);
   itkSensorFlawMacro(TransmissionG, double, filters.transmissionG);
   itkSensorFlawMacro(TransmissionB, double, filters.transmissionB);
@@ -237,18 +242,18 @@ public:
   /** Relative standard deviation of the gain from pixel to pixel [1], 0 or more, below 0.2. Default 0. */
   itkSensorFlawMacro(GainSd, double, pattern.gainSd);
 
-  /** The same from column to column. Default 0. */
+  /** Relative standard deviation of the gain from column to column [1], 0 or more, below 0.2. Default 0. */
   itkSensorFlawMacro(ColumnGainSd, double, pattern.columnGainSd);
 
-  /** Relative standard deviation of the expected electrons from column to column [1], 0 or more, below 0.2. Default
-   * 0. */
+  /** Relative standard deviation of the expected electrons from column to column [1], 0 or more, below 0.2. Default 0.
+   */
   itkSensorFlawMacro(ColumnEfficiencySd, double, pattern.columnEfficiencySd);
 
   /** Standard deviation of the offset from column to column [DN], 0 or more. Default 0. */
   itkSensorFlawMacro(ColumnOffsetSd, double, pattern.columnOffsetSdDn);
 
-  /** Brighter-fatter effect: shift of the border between two pixels for each electron of difference [1/e-], 0 or
-   * more, times Electrons at most 0.1. Default 0. */
+  /** Brighter-fatter effect: shift of the border between two pixels for each electron of difference [1/e-], 0 or more.
+   * Its product with Electrons is at most 0.1. Default 0. */
   itkSensorFlawMacro(BrighterFatterPerElectron, double, brighterFatter.perElectron);
 
   /** Interpixel capacitance: fraction of its signal that a pixel gives to each of its four neighbours [1], 0 to 0.2.
@@ -261,7 +266,8 @@ public:
   /** Fraction of the pixels in the tail of the read noise, 0 to 1. Default 0. */
   itkSensorFlawMacro(ReadNoiseTailFraction, double, readNoise.tailFraction);
 
-  /** In the tail the logarithm is greater by |normal| times this [1], 0 to 3. Default 1. */
+  /** Factor of the tail of the read noise [1], 0 to 3. In the tail the logarithm is greater by |normal| times this
+   * factor. Default 1. */
   itkSensorFlawMacro(ReadNoiseTailSpread, double, readNoise.tailSpread);
 
   /** Shape of the response: straight, quadratic, wave, shoulder, gamma or s-curve (sensornoise::ResponseShape). Default
@@ -274,43 +280,45 @@ public:
     return sensornoise::NameOf(m_Flaws.response.shape);
   }
 
-  /** How far the response is bent [1]: departure of the local gain, or the exponent of gamma, or the weight of the
+  /** Size of the non-linearity [1]: deviation of the local gain, or the exponent of gamma, or the weight of the
    * s-curve. Default 0. */
   itkSensorFlawMacro(ResponseSize, double, response.size);
 
-  /** Signal at the end of the response [e-]; 0, the default: Electrons. */
+  /** Signal at the end of the response [e-]. Default 0: the value of Electrons. */
   itkSensorFlawMacro(ResponseFullScale, double, response.fullScaleElectrons);
 
-  /** Standard deviation of a number that the pixels of a row share in a frame [DN], 0 or more. Default 0. */
+  /** Standard deviation of the row noise, a random number that is common to the pixels of a row in a frame [DN], 0 or
+   * more. Default 0. */
   itkSensorFlawMacro(RowNoiseSd, double, lineNoise.rowNoiseSdDn);
 
-  /** Standard deviation of a number that the pixels of a column share in a frame [DN], 0 or more. Default 0. */
+  /** Standard deviation of the column noise, a random number that is common to the pixels of a column in a frame [DN],
+   * 0 or more. Default 0. */
   itkSensorFlawMacro(ColumnNoiseSd, double, lineNoise.columnNoiseSdDn);
 
-  /** Amplitude of a sine along y with a phase of its own in each frame [DN], 0 or more. Default 0. */
+  /** Amplitude of the banding, a sine along y with a different phase in each frame [DN], 0 or more. Default 0. */
   itkSensorFlawMacro(BandingAmplitude, double, lineNoise.bandingAmplitudeDn);
 
-  /** Its period [row], above 0. Default 64. */
+  /** Period of the banding [row], above 0. Default 64. */
   itkSensorFlawMacro(BandingPeriod, double, lineNoise.bandingPeriodRows);
 
-  /** Correction of defects in the camera: a pixel further from the median of its neighbours than so many of their
-   * standard deviations becomes that median; 0, the default: none. */
+  /** Threshold of the defect correction in the camera, in standard deviations of the neighbours of a pixel. A pixel
+   * that is further from the median of its neighbours is replaced by this median. Default 0: no correction. */
   itkSensorFlawMacro(DefectThresholdSd, double, defectCorrection.thresholdSd);
 
-  /** Temporal filter in the camera: weight of the last frame [1], 0 to 0.99. Default 0. */
+  /** Weight of the last frame in the temporal filter of the camera [1], 0 to 0.99. Default 0. */
   itkSensorFlawMacro(TemporalFilterWeight, double, temporalFilter.weight);
 
-  /** Median filter in the camera: radius of its square [pixel], 1: 3 x 3, 0 to 10. Default 0: none. */
+  /** Radius of the square of the median filter in the camera [pixel], 0 to 10; 1 means 3 x 3. Default 0: no filter. */
   itkSensorFlawMacro(MedianRadius, unsigned int, median.radiusPixels);
 
-  /** Smoothing in the camera: standard deviation of its Gaussian kernel [pixel], 0 to 100. Default 0. */
+  /** Standard deviation of the Gaussian smoothing in the camera [pixel], 0 to 100. Default 0. */
   itkSensorFlawMacro(SmoothingSd, double, smoothing.sdPixels);
 
-  /** Binning in the camera, in the old size: side of the squares whose mean is taken [pixel], 1 to 64. Default 1:
-   * none. */
+  /** Binning in the camera at unchanged size: side of the square tiles whose mean is taken [pixel], 1 to 64. Default 1:
+   * no binning. */
   itkSensorFlawMacro(BinningFactor, unsigned int, binning.factor);
 
-  /** How the old size is made again: nearest, the default, or linear. */
+  /** Interpolation that restores the original size after binning: nearest (default) or linear. */
   void
   SetBinningInterpolation(const std::string & name);
   std::string
@@ -319,13 +327,13 @@ public:
     return sensornoise::NameOf(m_Flaws.binning.interpolation);
   }
 
-  /** Resampling in the camera: horizontal shift [pixel], -1000 to 1000. Default 0. */
+  /** Horizontal shift of the resampling in the camera [pixel], -1000 to 1000. Default 0. */
   itkSensorFlawMacro(ResamplingShiftX, double, resampling.shiftXPixels);
 
-  /** Vertical shift of the resampling [pixel], -1000 to 1000. Default 0. */
+  /** Vertical shift of the resampling in the camera [pixel], -1000 to 1000. Default 0. */
   itkSensorFlawMacro(ResamplingShiftY, double, resampling.shiftYPixels);
 
-  /** How the resampling interpolates: linear, the default, or cubic. */
+  /** Interpolation of the resampling: linear (default) or cubic. */
   void
   SetResamplingInterpolation(const std::string & name);
   std::string
@@ -334,27 +342,30 @@ public:
     return sensornoise::NameOf(m_Flaws.resampling.interpolation);
   }
 
-  /** JPEG-like quantisation of blocks of 8 x 8 pixels: libjpeg's quality, 1 to 100; 0, the default: none. Needs a
-   * BitDepth above 0. */
+  /** JPEG-like quantization of blocks of 8 x 8 pixels: quality as in libjpeg, 1 to 100. Default 0: no quantization of
+   * blocks. Needs a BitDepth above 0. */
   itkSensorFlawMacro(BlockQuality, unsigned int, blocks.quality);
 
-  /** Square-root companding: bits of the stored codes, 2 to 16; 0, the default: none. Needs a BitDepth above 0. */
+  /** Square-root companding: number of bits of the stored values [bit], 2 to 16. Default 0: no companding. Needs a
+   * BitDepth above 0. */
   itkSensorFlawMacro(CompandingBits, unsigned int, companding.bits);
 
-  /** How often each exposure, or each one of RepeatPeriod, is written, 1 or more. Default 1. */
+  /** Number of times that an exposure is written, 1 or more: each exposure, or one in every RepeatPeriod. Default 1. */
   itkSensorFlawMacro(RepeatCount, unsigned int, repetition.count);
 
-  /** The last of so many exposures is repeated, 1 or more. Default 1: each. */
+  /** Period of the repetition [exposures], 1 or more: the last exposure of each period is repeated. Default 1: each
+   * exposure. */
   itkSensorFlawMacro(RepeatPeriod, unsigned int, repetition.period);
 
-  /** What an estimator of this stack should find. Up to date after UpdateOutputInformation() or Update(). */
+  /** Returns the true values that an estimator should find in this stack. Up to date after UpdateOutputInformation() or
+   * Update(). */
   const sensornoise::SimulationTruth &
   GetTruth() const
   {
     return m_Truth;
   }
 
-  /** The truth as JSON, schema "itk-sensornoise-truth/1". */
+  /** Returns the true values as JSON, schema "itk-sensornoise-truth/1". */
   std::string
   GetTruthAsJson() const
   {
@@ -362,15 +373,16 @@ public:
     return sensornoise::ToJson(m_Truth, size[0], size[1]);
   }
 
-  /** The simulator of the last Update(), null before; kept until the filter or the reference is modified. */
+  /** Returns the simulator of the last Update(), or null before it. It is kept until the filter or the reference is
+   * modified. */
   const sensornoise::StackSimulator *
   GetSimulator() const
   {
     return m_Simulator.get();
   }
 
-  /** Resets the pipeline when the reference could not be made: ITK would otherwise take the next Update() for one that
-   * is under way and return without a word and without an image. */
+  /** Resets the pipeline if the reference cannot be made. ITK would otherwise assume that the failed update is still in
+   * progress, and the next Update() would return without an error and without an image. */
   void
   UpdateOutputInformation() override;
   void
@@ -386,7 +398,7 @@ protected:
   void
   GenerateInputRequestedRegion() override;
 
-  /** Draws rows in any order, or whole frames one after the other where flaws mix rows or frames. */
+  /** Draws rows in any order, or whole frames one after the other if flaws mix rows or frames. */
   void
   GenerateData() override;
 
@@ -400,7 +412,7 @@ protected:
   PrintSelf(std::ostream & os, Indent indent) const override;
 
 private:
-  /** Sets one of the flaws' interpolations by its name. */
+  /** Sets an interpolation of one of the flaws by its name. */
   void
   SetInterpolation(sensornoise::Interpolation & interpolation, const std::string & name);
 
@@ -436,7 +448,7 @@ private:
   std::unique_ptr<const sensornoise::StackSimulator> m_Simulator;
   TimeStamp                                          m_SimulatorTime;
 };
-// Instantiated once, in the library.
+// The library instantiates these classes once.
 #define SensorNoise_EXTERN(TPixel) extern template class SensorNoise_EXPORT SensorNoiseStackSource<Image<TPixel, 3>>
 SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);
 #undef SensorNoise_EXTERN

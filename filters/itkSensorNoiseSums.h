@@ -32,20 +32,29 @@ namespace itk
 {
 
 /** \class SensorNoiseSums
- * \brief The sums of SensorNoiseEstimator by themselves: several processes, each with a part of the frames, share them.
+ * \brief Exposes the sums of SensorNoiseEstimator, so that several processes can each read a part of the frames.
  *
- * The estimator goes over the stack three times or more, see IsDone(). In each pass every
- * process adds its frames and hands the sums, a row of bytes, to the others, or to one that merges all; when all frames
- * are in, every process merges the sums of the whole and ends the pass, and all of them start the next one alike. After
- * the last pass the estimator has the report and the maps. With 8- and 16-bit pixels they are those of one process that
- * reads all frames, bit by bit, whatever part is read by whom and merged when; with floating point they agree to
+ * The estimator makes three or more passes over the stack, see IsDone(). In each pass every process adds its frames. It
+ * then sends its sums, a row of bytes, to the other processes, or to one process that merges them. When all frames are
+ * included, every process merges the sums of the whole stack and ends the pass. All processes start the next pass from
+ * the same state. After the last pass the estimator has the report and the maps.
+ *
+ * With 8- and 16-bit pixels the results are bit-identical to the results of one process that reads all frames. They do
+ * not depend on which process reads a part or on the order of merging. With floating-point pixels they agree to
  * rounding, and the same parts, merged in the same order, give the same bits.
  *
- * Bytes of the sums: in pass 1, 20 a pixel (floating point: 32) and 2 kB a frame that is in; in pass 2, 16 kB a frame;
- * in pass 3, 8 a pixel and series (4 to 20), and a sample of at most 32 MiB; in the pass that strong changes of the
- * illumination add after pass 1, 8 a pixel. Method Published: 32 a frame and 8 a frame
- * and row in pass 2, 8 a pixel in pass 3. They are for the same version of the module on the same kind of machine. Up
- * to 2^22 frames, for which sums of integers are exact. Memory: that of the estimator, and twice the sums.
+ * Size of the sums in bytes:
+ *
+ * - Pass 1: 20 for each pixel (floating point: 32), and 2 kB for each included frame.
+ * - Pass 2: 16 kB for each frame.
+ * - Pass 3: 8 for each pixel and temporal component (4 to 20 components), and a sample of at most 32 MiB.
+ * - The extra pass after pass 1, which strong changes of the illumination need: 8 for each pixel.
+ * - Method Published, pass 2: 32 for each frame, and 8 for each frame and row.
+ * - Method Published, pass 3: 8 for each pixel.
+ *
+ * Sums can be merged only by the same version of the module on the same kind of machine. A stack has at most 2^22
+ * frames, the number up to which sums of integers are exact. The memory is the memory of the estimator and twice the
+ * size of the sums.
  *
  * \tparam TStack itk::Image of 3 dimensions (x, y, time) of unsigned char, unsigned short, short, float or double.
  * \ingroup SensorNoise
@@ -73,71 +82,76 @@ public:
     return "SensorNoiseSums";
   }
 
-  /** Starts the first pass with an estimator's settings, mask and dark frames, which are read. Of its stack only the
-   * size and the metadata are looked at: it needs no pixels. A Bayer pattern "auto" is what the metadata say, else what
-   * \a recognised says of the first frame, see RecogniseBayerPattern(); an ExceptionObject where neither does. The
-   * estimator is not to be changed or updated from then on. */
+  /** Starts the first pass with the settings, mask and dark frames of an estimator; mask and dark frames are read. Only
+   * the size and the metadata of its stack are used; the stack needs no pixels. A Bayer pattern "auto" is taken from
+   * the metadata, else from \a recognised, the result of RecogniseBayerPattern() for the first frame. Throws an
+   * ExceptionObject if neither gives a pattern. The estimator must not be changed or updated from then on. */
   void
   Start(EstimatorType * estimator, const std::string & recognised = "");
 
-  /** "RGGB", "GRBG", "GBRG" or "BGGR", as the levels of the first frame tell, or "none". */
+  /** Returns the Bayer pattern that the levels of the first frame show: "RGGB", "GRBG", "GBRG", "BGGR" or "none". */
   static std::string
   RecogniseBayerPattern(const TStack * frames);
 
-  /** The current pass, from 0: how many have ended. */
+  /** Returns the index of the current pass, from 0, which is the number of passes that have ended. */
   unsigned int
   GetPass() const
   {
     return m_Pass;
   }
 
-  /** Whether all passes have ended, and the estimator has the results: after three, and one more each where frames are
-   * left out, as they are unlike the others, and where the illumination changes strongly. */
+  /** Returns whether all passes have ended and the estimator has the results. There are three passes. There is one more
+   * if frames are left out because they differ from the others, and one more if the illumination changes strongly. */
   bool
   IsDone() const;
 
-  /** Of a mosaic 4, which are measured each by itself, else 1. */
+  /** Returns the number of planes: 4 for a mosaic, whose planes are measured separately, else 1. */
   unsigned int
   GetNumberOfPlanes() const;
 
-  /** Adds the frames of an image in memory to the sums of the current pass, the first as frame \a first of the stack.
-   * Frames may come in any order; those of floating-point pixels are summed in the order in which they come. An
-   * ExceptionObject, and nothing is added, if they are not of the stack's size, or one is in. */
+  /** Adds the frames of an image in memory to the sums of the current pass. The first frame of the image is frame \a
+   * first of the stack. Frames may be added in any order; floating-point frames are summed in the order in which they
+   * are added. Throws an ExceptionObject, and adds nothing, if the frames do not have the size of the stack or a frame
+   * is already included. */
   void
   AddFrames(const TStack * frames, SizeValueType first);
 
-  /** A row with a value for each frame: 1 if it is in, else 0. */
+  /** Returns a row with a value for each frame: 1 if the frame is included, else 0. */
   BytesPointer
   GetFrames() const;
-  /** The same of what GetSums() wrote, here or elsewhere, in the same pass. */
+  /** Returns a row with a value for each frame: 1 if the frame is included in \a sums, else 0. The bytes \a sums are
+   * the result of GetSums() of this or another process, in the same pass. */
   BytesPointer
   GetFramesOf(const BytesType * sums) const;
 
-  /** Pass 1: a row for each frame that is in, of 16 bytes a plane, which are equal where frames are equal, bit by bit.
-   * Equal frames are counted once: two processes that have counted one each cannot be merged. */
+  /** Returns the fingerprints of the frames in pass 1: a row for each included frame, with 16 bytes for each plane.
+   * Equal fingerprints mean that the frames are bit-identical. Equal frames are counted once: two processes that have
+   * both counted such a frame cannot be merged. */
   BytesPointer
   GetFingerprints() const;
 
-  /** Pass 1, before the frames are added: a row for each plane with a value for each frame, not 0 where it is left to
-   * another process to count the frame, because it has an equal one. */
+  /** Sets the frames that another process counts, because they are equal to one of its frames. The array \a flags has a
+   * row for each plane, with a value for each frame. A value other than 0 means that another process counts the frame.
+   * Call this in pass 1, before the frames are added. */
   void
   SetCountedElsewhere(const BytesType * flags);
 
-  /** The sums of the frames that are in, as one row of bytes, behind their version, length and checksum. */
+  /** Returns the sums of the included frames as one row of bytes, after their version, length and checksum. */
   BytesPointer
   GetSums() const;
 
-  /** Adds the sums of other frames. Returns false, and changes nothing, if all of these are in: then they were handed
-   * over twice. An ExceptionObject if some are in, if the sums are of another stack, pass, start or version of the
-   * module, and if the bytes are damaged or not all that GetSums() returned. */
+  /** Adds the sums of other frames and returns true. Returns false, and changes nothing, if all of these frames are
+   * already included, which means that the sums were sent twice. Throws an ExceptionObject if a part of the frames is
+   * already included, or if the sums belong to another stack, pass, start or version of the module. Throws an
+   * ExceptionObject, too, if the bytes are damaged or incomplete. */
   bool
   MergeSums(const BytesType * sums);
 
-  /** Takes back what was added and merged in the current pass. */
+  /** Removes all frames and sums that were added or merged in the current pass. */
   void
   ForgetSums();
 
-  /** Ends the pass. An ExceptionObject if a frame is missing. */
+  /** Ends the pass. Throws an ExceptionObject if a frame is missing. */
   void
   EndPass();
 
@@ -149,7 +163,7 @@ protected:
   PrintSelf(std::ostream & os, Indent indent) const override;
 
 private:
-  /** Throws unless a pass is under way. */
+  /** Throws if no pass is in progress. */
   void
   RequirePass() const;
 
@@ -157,7 +171,7 @@ private:
   unsigned int                    m_Pass{ 0 };
 };
 
-// Instantiated once, in the library.
+// The library instantiates these classes once.
 #define SensorNoise_EXTERN(TPixel) extern template class SensorNoise_EXPORT SensorNoiseSums<Image<TPixel, 3>>
 SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);
 #undef SensorNoise_EXTERN

@@ -32,20 +32,21 @@ namespace itk
 {
 
 /** \class TemporalStatisticsImageFilter
- * \brief Mean and unbiased variance over time of every pixel of a stack, and the mask of valid pixels.
+ * \brief Computes the temporal mean and unbiased variance of every pixel of a stack, and the mask of valid pixels.
  *
- * Outputs, of a frame's size: 0 mean [DN], 1 variance [DN^2], 2 valid mask (1: finite in every frame and never at a
- * clip level, else 0). Where a pixel is NaN or infinite once, mean and variance are NaN.
+ * Outputs of the size of a frame: 0 mean [DN], 1 variance [DN^2], 2 valid mask. The mask is 1 if the pixel is finite in
+ * every frame and never at a clip level, else 0. If a pixel is NaN or infinite in any frame, its mean and variance are
+ * NaN.
  *
- * A pixel is clipped as soon as one frame holds a clip level. Clip levels are the lowest and highest levels that the
- * sensor attains: given, or found from pile-ups of the pixels' extremes, else the ends of the code range. See
- * GetSummary() for what was found. Floating-point stacks have no codes and no code range: their clip levels are given,
- * found from pile-ups, or none.
+ * A pixel is clipped if it has a clip level in at least one frame. Clip levels are the lowest and highest levels that
+ * the sensor reaches. They are given, or found from repeated extreme values of the pixels, else they are the ends of
+ * the DN range. GetSummary() returns what was found. Floating-point stacks have no quantization step and no DN range:
+ * their clip levels are given, found from repeated extreme values, or absent.
  *
- * Reads the stack once, in chunks (see SensorNoiseStackSink); threaded over rows. Integer pixels are summed exactly,
- * floating-point ones by Welford's recurrence in time order: the same bits for any number of threads and chunks.
- * Memory: 21 bytes a pixel for integers, 33 for floating point, outputs included, beside one chunk. At most 2^22 frames
- * of integers.
+ * The filter reads the stack once, in chunks (see SensorNoiseStackSink), and is threaded over rows. Integer pixels are
+ * summed exactly, and floating-point pixels by Welford's recurrence in time order. The result has the same bits for any
+ * number of threads and chunks. Memory, in addition to one chunk and including the outputs: 21 bytes for each pixel if
+ * integer, 33 if floating-point. A stack of integers has at most 2^22 frames.
  *
  * Sections 2.3.1 and 3.1 of F. Sur, M. Gredi\'ac, SIAM J. Imaging Sci. 8(1), 2015, https://doi.org/10.1137/140977035.
  *
@@ -83,6 +84,8 @@ public:
     Superclass::SetNumberOfStreamDivisions(number);
   }
 
+  /** Returns a map of the size of a frame: mean [DN], variance [DN^2], or the mask of valid pixels (1: valid, else 0).
+   */
   FrameImageType *
   GetMean()
   {
@@ -98,7 +101,7 @@ public:
   {
     return static_cast<MaskImageType *>(this->ProcessObject::GetOutput(2));
   }
-  /** The mean. */
+  /** Returns the mean. */
   FrameImageType *
   GetOutput()
   {
@@ -110,58 +113,66 @@ public:
     return this->ProcessObject::GetOutput(index);
   }
 
-  /** Bits of the sensor's codes, 1 to 16; 0 (default): found. Data beyond them are refused. */
+  /** Bit depth of the sensor's digital numbers [bit], 1 to 16. Default 0: found from the data. Data that exceed the bit
+   * depth are an error. */
   itkSetMacro(BitDepth, unsigned int);
   itkGetConstMacro(BitDepth, unsigned int);
 
-  /** Lowest and highest level that the sensor attains [DN]; NaN (default): found. */
+  /** Lowest and highest level that the sensor reaches [DN]. Default NaN: found from the data. */
   itkSetMacro(ClipLow, double);
   itkGetConstMacro(ClipLow, double);
   itkSetMacro(ClipHigh, double);
   itkGetConstMacro(ClipHigh, double);
 
-  /** Spacing of the codes [DN]; 0 (default): found. */
+  /** Quantization step [DN]. Default 0: found from the data. */
   itkSetMacro(QuantisationStep, double);
   itkGetConstMacro(QuantisationStep, double);
 
-  /** Codes and clip levels as given or found, and how many pixels were left out; valid after Update(). */
+  /** Returns the quantization and the clip levels, given or found, and the numbers of pixels that were left out. Valid
+   * after Update(). */
   const sensornoise::StackSummary &
   GetSummary() const
   {
     return m_Summary;
   }
 
-  /** Its members one by one. NaN: no clip level; 0: no codes. */
+  /** Returns the lowest level that the sensor reaches [DN], given or found. NaN: no clip level. */
   double
   GetAttainedLow() const
   {
     return m_Summary.codes.clipLowDn.value_or(std::numeric_limits<double>::quiet_NaN());
   }
+  /** Returns the highest level that the sensor reaches [DN], given or found. NaN: no clip level. */
   double
   GetAttainedHigh() const
   {
     return m_Summary.codes.clipHighDn.value_or(std::numeric_limits<double>::quiet_NaN());
   }
+  /** Returns the source of the clip levels: `given`, `pile-up`, `code range`, `none`, or `low: ..., high: ...`. */
   std::string
   GetClipSource() const
   {
     return m_Summary.codes.clipSource;
   }
+  /** Returns the quantization step [DN], given or found. 0: no quantization. */
   double
   GetFoundQuantisationStep() const
   {
     return m_Summary.codes.quantisationStepDn;
   }
+  /** Returns the bit depth [bit], given or found. 0: floating-point data. */
   int
   GetFoundBitDepth() const
   {
     return m_Summary.codes.bitDepth.value_or(0);
   }
+  /** Returns the number of pixels that reach a clip level. */
   SizeValueType
   GetNumberOfClippedPixels() const
   {
     return m_Summary.clipped;
   }
+  /** Returns the number of pixels that are NaN or infinite in any frame. */
   SizeValueType
   GetNumberOfNotFinitePixels() const
   {
@@ -202,14 +213,14 @@ private:
   double       m_ClipHigh{ std::numeric_limits<double>::quiet_NaN() };
   double       m_QuantisationStep{ 0.0 };
 
-  // The sums over time.
+  // Sums over time.
   struct Moments;
 
   std::unique_ptr<Moments>  m_Moments;
   sensornoise::StackSummary m_Summary;
 };
 
-// Instantiated once, in the library.
+// The library instantiates these classes once.
 #define SensorNoise_EXTERN(TPixel) \
   extern template class SensorNoise_EXPORT TemporalStatisticsImageFilter<Image<TPixel, 3>>
 SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);

@@ -30,12 +30,12 @@ namespace itk
 {
 
 /** \class VibrationCovarianceEstimator
- * \brief Covariance of the vibration (alpha_t, beta_t) from temporal variance and mean, by multiple regression.
+ * \brief Estimates the covariance of the vibration (alpha_t, beta_t) from temporal variance and mean, by regression.
  *
- * Inputs, of a frame's size: 0 "Mean" [DN], 1 "Variance" [DN^2], both of the stack as it is, 2 "ValidMask" (optional:
- * pixels of value 0 are left out; clipped ones should be, those moved by vibrations not; without it, all finite pixels
- * take part). Output: a decorated sensornoise::VibrationCovariance [pixel^2], with sigma_gamma^2 as the regression sees
- * it.
+ * Inputs of the size of a frame: 0 "Mean" [DN] and 1 "Variance" [DN^2], both of the uncorrected stack, and 2
+ * "ValidMask" (optional). Pixels whose mask is 0 are left out. Clipped pixels should be left out, but pixels that
+ * vibrations move should not. Without a mask all finite pixels are used. The output is a decorated
+ * sensornoise::VibrationCovariance [pixel^2], with the sigma_gamma^2 that the multiple regression estimates.
  *
  * (2.20) and section 3.4 of F. Sur, M. Gredi\'ac, SIAM J. Imaging Sci. 8(1), 2015, https://doi.org/10.1137/140977035.
  *
@@ -65,7 +65,7 @@ public:
   }
 
   using Superclass::SetInput;
-  /** The mean, by the name that filters use. */
+  /** Sets the mean, by the name that filters use. */
   void
   SetInput(const FrameImageType * mean)
   {
@@ -79,11 +79,12 @@ public:
   itkSetInputMacro(ValidMask, MaskImageType);
   itkGetInputMacro(ValidMask, MaskImageType);
 
-  /** sigma_gamma where it is known from the flicker itself [1], at least 0; below 0 (default): the regression's own. */
+  /** Standard deviation of the flicker, sigma_gamma [1], if it is known from the flicker itself; 0 or more. Any value
+   * below 0 (default) means that the regression estimates it. */
   itkSetMacro(FlickerSd, double);
   itkGetConstMacro(FlickerSd, double);
 
-  /** The result as a pipeline output, and itself; valid after Update(). */
+  /** Returns the result, as a pipeline output or as a struct. Valid after Update(). */
   ResultObjectType *
   GetResultOutput()
   {
@@ -94,7 +95,8 @@ public:
   {
     return static_cast<const ResultObjectType *>(this->ProcessObject::GetOutput(0))->Get();
   }
-  /** Its members one by one: Cov(alpha, beta) [pixel^2], sigma_gamma^2 [1], and whether they are determined. */
+  /** Returns an element of the covariance matrix Cov(alpha, beta) [pixel^2]. A negative variance along x means that no
+   * vibration is visible. */
   double
   GetVarianceX() const
   {
@@ -110,24 +112,28 @@ public:
   {
     return this->GetResult().covariancePixels2;
   }
+  /** Returns sigma_gamma^2, the variance of the flicker [1]. */
   double
   GetFlickerVariance() const
   {
     return this->GetResult().flickerVariance;
   }
+  /** Returns whether the data determine the result. They do not if there are too few pixels or the scene has no
+   * gradients. */
   bool
   GetIsDetermined() const
   {
     return this->GetResult().isDetermined;
   }
+  /** Returns an output by its index. */
   DataObject *
   GetOutput(unsigned int index)
   {
     return this->ProcessObject::GetOutput(index);
   }
 
-  /** Resets the pipeline when an input could not be updated: ITK would otherwise take the next Update() for one that is
-   * under way and return without a word and without a result. */
+  /** Resets the pipeline if an input cannot be updated. ITK would otherwise assume that the failed update is still in
+   * progress, and the next Update() would return without an error and without a result. */
   void
   UpdateOutputInformation() override;
   void
@@ -152,7 +158,7 @@ private:
   double m_FlickerSd{ -1.0 };
 };
 
-// Instantiated once, in the library.
+// The library instantiates this class once.
 extern template class SensorNoise_EXPORT VibrationCovarianceEstimator<Image<double, 2>>;
 
 } // namespace itk

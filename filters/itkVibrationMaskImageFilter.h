@@ -28,18 +28,18 @@ namespace itk
 {
 
 /** \class VibrationMaskImageFilter
- * \brief Mask of the pixels whose gradient noise alone explains, so that vibrations leave their variance alone.
+ * \brief Finds the pixels whose gradient is explained by noise alone, so that vibrations do not change their variance.
  *
- * Inputs, of a frame's size: 0 mean [DN], 1 "Variance" [DN^2], 2 "ValidMask" (optional: pixels of value 0 are not
- * kept). Output: 1 where 2 T |grad mean|^2 / variance is below the chi-square quantile of Level for 2 degrees of
- * freedom (1 % gives 9.21), else 0; 0 on the border, where there is no centred difference, and where the variance is 0
- * or NaN.
+ * Inputs of the size of a frame: 0 mean [DN], 1 "Variance" [DN^2], 2 "ValidMask" (optional: pixels of value 0 get 0).
+ * The output is 1 if 2 T |grad mean|^2 / variance is below the chi-square quantile of Level for 2 degrees of freedom,
+ * else 0. A Level of 1 % gives the quantile 9.21. The output is also 0 on the border, where there is no centred
+ * difference, and where the variance is 0 or NaN.
  *
- * Gradients are in DN per pixel: the spacing does not matter. Streams and is threaded.
+ * Gradients are in DN per pixel and do not depend on the spacing. The filter streams and is threaded.
  *
  * Section 3.1 of F. Sur, M. Gredi\'ac, SIAM J. Imaging Sci. 8(1), 2015, https://doi.org/10.1137/140977035.
  *
- * \tparam TFrame Image<double, 2>, as TemporalStatisticsImageFilter gives it.
+ * \tparam TFrame Image<double, 2>, the output type of TemporalStatisticsImageFilter.
  * \ingroup SensorNoise
  */
 template <typename TFrame = Image<double, 2>>
@@ -69,16 +69,16 @@ public:
   itkSetInputMacro(ValidMask, MaskImageType);
   itkGetInputMacro(ValidMask, MaskImageType);
 
-  /** Number of frames T of which mean and variance were taken, at least 2. Must be set. */
+  /** Number of frames T from which mean and variance were computed, at least 2. Must be set. */
   itkSetMacro(NumberOfFrames, SizeValueType);
   itkGetConstMacro(NumberOfFrames, SizeValueType);
 
-  /** Level of the test, a probability: the share of still pixels that is left out. Default 0.01. */
+  /** Level of the test, a probability: the fraction of unmoved pixels that is left out. Default 0.01. */
   itkSetMacro(Level, double);
   itkGetConstMacro(Level, double);
 
-  /** Resets the pipeline when an input could not be updated: ITK would otherwise take the next Update() for one that is
-   * under way and return without a word and without a result. */
+  /** Resets the pipeline if an input cannot be updated. ITK would otherwise assume that the failed update is still in
+   * progress, and the next Update() would return without an error and without a result. */
   void
   UpdateOutputInformation() override;
   void
@@ -104,7 +104,7 @@ private:
   double        m_Level{ 0.01 };
 };
 
-// Instantiated once, in the library.
+// The library instantiates this class once.
 extern template class SensorNoise_EXPORT VibrationMaskImageFilter<Image<double, 2>>;
 
 } // namespace itk

@@ -39,7 +39,7 @@ def test_help_is_the_header_s(name):
 
 def test_help_tells_of_the_parameters():
     cls = itk.SensorNoiseEstimator[itk.Image[itk.US, 3]]
-    assert cls.SetBitDepth.__doc__.startswith("Bits of the sensor's codes, 1 to 16; 0 (default): found.")
+    assert cls.SetBitDepth.__doc__.startswith("Bit depth of the sensor's digital numbers [bit], 1 to 16.")
     assert "SetBitDepth(self" in cls.SetBitDepth.__doc__  # SWIG's words stay
     assert cls.SetDarkQuantile.__doc__.startswith("Quantiles of the mean") and "Refined" in cls.SetMethod.__doc__
     assert itk.SensorNoiseStackSource[itk.Image[itk.US, 3]].SetPrnuSd.__doc__.startswith("Photo-response")
