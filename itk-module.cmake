@@ -1,6 +1,6 @@
 set(DOCUMENTATION
     "Measures the noise of a camera (gain, offset, read noise) from a burst of raw frames of any static scene,
-though lamps flicker and the floor trembles. After F. Sur and M. Grediac, SIAM J. Imaging Sci. 8(1), 2015,
+under flickering illumination and vibration. After F. Sur and M. Grediac, SIAM J. Imaging Sci. 8(1), 2015,
 https://doi.org/10.1137/140977035")
 
 itk_module(SensorNoise

@@ -40,8 +40,8 @@ struct QuantityEntry
   const Quantity * (*of)(const Report & report);
 };
 
-/** All quantities, in the order of the table. JSON, table, Python and README are made of this list, or tested against
- * it. */
+/** Returns all quantities, in the order of the table. JSON, table, Python and documentation/reference/quantities.md are
+ * generated from this list, or tested against it. */
 SensorNoise_EXPORT const std::vector<QuantityEntry> &
 QuantityList();
 

@@ -10,7 +10,7 @@
 namespace sensornoise
 {
 
-/** What a warning is about. */
+/** Subject of a warning. */
 enum class WarningCode : std::uint8_t
 {
   FewFrames,
@@ -64,11 +64,11 @@ enum class WarningCode : std::uint8_t
   LightSeriesLeft
 };
 
-/** What a warning does to the measurement. */
+/** Effect of a warning on the measurement. */
 enum class Severity : std::uint8_t
 {
-  Note,    ///< allowed for: every number stands
-  Warning, ///< some number is missing, or rests on something that was not seen or does not fit
+  Note,    ///< the effect is allowed for, and every number is valid
+  Warning, ///< a number is missing, or depends on an assumption that was not confirmed or does not fit
   Error    ///< no gain
 };
 
@@ -78,17 +78,17 @@ NameOf(Severity severity)
   return severity == Severity::Note ? "note" : severity == Severity::Warning ? "warning" : "error";
 }
 
-/** A line of the table of warnings. */
+/** Row of the table of warnings. */
 struct WarningKind
 {
   WarningCode  code;
   const char * name; ///< in the JSON record; stable, for programs
   Severity     severity;
-  const char * sentence; ///< what it means, and what helps
+  const char * sentence; ///< its meaning, and what to do
 };
 
-/** All that a report can warn of, in the order of WarningCode. README and Python show this table; a warning's own
- * message has the numbers. */
+/** All warnings that a report can have, in the order of WarningCode. documentation/reference/warnings.md and the Python
+ * package show this table. The message of a warning has the numbers. */
 inline constexpr std::array<WarningKind, 49> WarningTable{ {
   { WarningCode::FewFrames,
     "few-frames",
@@ -339,7 +339,7 @@ inline constexpr std::array<WarningKind, 49> WarningTable{ {
     "(--roi)." },
 } };
 
-/** The line of \a code. */
+/** Returns the row of the table for \a code. */
 constexpr const WarningKind &
 KindOf(WarningCode code)
 {
