@@ -99,10 +99,10 @@ GainsOf(const PartRegression & fit, const std::vector<TileExcess> & tiles)
   return gains;
 }
 
-/** Whether one part with a step at some level describes the tiles clearly better than \a criterion. Where the scene is
- * a ramp, a step between two amplifiers looks like parts. */
+/** Whether one part with a step at some level describes the tiles as well as \a criterion, or nearly so. Where the
+ * scene is a ramp, a step between two amplifiers looks like parts. */
 bool
-IsStepBetter(const std::vector<TileExcess> & tiles, double scale, double criterion)
+IsStepAsGood(const std::vector<TileExcess> & tiles, double scale, double criterion)
 {
   std::vector<double> levels;
   std::transform(
@@ -112,7 +112,7 @@ IsStepBetter(const std::vector<TileExcess> & tiles, double scale, double criteri
   {
     const double fraction = static_cast<double>(k) / static_cast<double>(InParts.levelsOfStep);
     const double own = FitUniform(tiles, SortedQuantile(levels, fraction)).Criterion(tiles, scale);
-    if (own < criterion - InParts.strongEvidence)
+    if (own < criterion + InParts.strongEvidence)
     {
       return true;
     }
@@ -179,7 +179,7 @@ FindBest(const std::vector<TileExcess> & tiles, Divided divided)
   const auto             any = [](const PartRegression &) { return true; };
   const PartRegression * chosen = FindLowest(fits, tiles, scale, limit, any);
   if (chosen != nullptr && divided == Divided::Places && !DiffersInAll(*chosen) &&
-      IsStepBetter(tiles, scale, chosen->Criterion(tiles, scale)))
+      IsStepAsGood(tiles, scale, chosen->Criterion(tiles, scale)))
   {
     chosen = FindLowest(fits, tiles, scale, limit, DiffersInAll);
   }
