@@ -198,21 +198,21 @@ TEST(SensorNoiseRefinedWarnings, BorderLeftOut)
 
 TEST(SensorNoiseRefinedWarnings, LightSeriesLeft)
 {
-  // Bands of 8 rows, each with a flicker of its own.
+  // Bands of 8 rows and of 8 columns, each with a flicker of its own: one of both can be taken off.
+  constexpr std::size_t      bands = Size / 8;
   std::vector<double>        flicker;
   std::mt19937               random(7);
   std::normal_distribution<> normal;
-  for (std::size_t i = 0; i < Frames * Size / 8; ++i)
+  for (std::size_t i = 0; i < Frames * 2 * bands; ++i)
   {
     flicker.push_back(0.02 * normal(random));
   }
   const SimulationSettings settings = StillCamera(Frames);
-  const Report             report = Measure(Changed([&](std::size_t t, std::size_t, std::size_t y, double value) {
-                                  return settings.camera.offsetDn +
-                                         (value - settings.camera.offsetDn) * (1.0 + flicker[t * Size / 8 + y / 8]);
-                                }),
-                                            {})
-                          .GetReport();
+  const auto               inBands = [&](std::size_t t, std::size_t x, std::size_t y, double value) {
+    const double factor = 1.0 + flicker[t * 2 * bands + y / 8] + flicker[(t * 2 + 1) * bands + x / 8];
+    return settings.camera.offsetDn + factor * (value - settings.camera.offsetDn);
+  };
+  const Report report = Measure(Changed(inBands), {}).GetReport();
   EXPECT_TRUE(HasWarning(report, WarningCode::LightSeriesLeft)) << MakeText(report);
 }
 

@@ -161,8 +161,8 @@ struct ChosenPixels
   std::vector<std::uint8_t> & pixelUse;
 };
 
-/** Takes off the illumination that rows or columns have of their own, where it counts, or where the series of the
- * illumination are more than could be projected out (\a areSeriesLeft). */
+/** Takes off the illumination that rows or columns have of their own, where it counts; where the series of the
+ * illumination are more than could be projected out (\a areSeriesLeft), wherever it is beyond chance. */
 LineIllumination
 AllowForLines(NoiseResiduals &     residuals,
               ProjectedVariance &  projected,
@@ -180,12 +180,14 @@ AllowForLines(NoiseResiduals &     residuals,
     lines.found = ofColumns;
     lines.axis = LineAxis::Columns;
   }
-  if (EffectOfLineLight(lines.found, signalDn, scene.model.slopeDn, InRefined.leastLineLight) > 0.0 || areSeriesLeft)
+  const double least = areSeriesLeft ? 0.0 : InRefined.leastLineLight;
+  const bool   counts = EffectOfLineLight(lines.found, signalDn, scene.model.slopeDn, least) > 0.0;
+  if (counts && residuals.HasEnoughPixels())
   {
-    if (residuals.HasEnoughPixels())
-    {
-      TakeOffLineIllumination(lines, residuals, projected, pixels.chosen, pixels.pixelUse, parallelFor);
-    }
+    TakeOffLineIllumination(lines, residuals, projected, pixels.chosen, pixels.pixelUse, parallelFor);
+  }
+  if (counts || areSeriesLeft)
+  {
     lines.restOfVariance = RestOfIllumination(residuals, parallelFor);
   }
   return lines;
