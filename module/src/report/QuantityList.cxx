@@ -9,14 +9,14 @@ namespace sensornoise
 
 namespace
 {
-template <Quantity Report::*VMember>
+template <Quantity Report::* VMember>
 const Quantity *
 OfReport(const Report & report)
 {
   return &(report.*VMember);
 }
 
-template <Quantity NoiseCorrelationRecord::*VMember>
+template <Quantity NoiseCorrelationRecord::* VMember>
 const Quantity *
 OfNoise(const Report & report)
 {
@@ -24,7 +24,7 @@ OfNoise(const Report & report)
 }
 using Noise = NoiseCorrelationRecord;
 
-template <Quantity LinearityRecord::*VMember>
+template <Quantity LinearityRecord::* VMember>
 const Quantity *
 OfLinearity(const Report & report)
 {
