@@ -3,11 +3,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Checks the sentences of README.md and documentation/: their length, their beginning and their words.
 
-    check_language.py [FILE...] [--library] [--count]
+    check_language.py [FILE...] [--count]
 
 A sentence has at most 40 words, and does not begin with a genitive ("Of a row."). Words that the field does not
 use in this sense are listed in WORDS, with what to write instead. Blocks of code, code within a line and addresses are
-not read. The quantities and the filters of the reference, which come from the sources, are read with --library only.
+not read. The pages of warnings, quantities and filters hold sentences of the sources.
+
 --count prints only how much was found. Exit code 1 if something was found.
 """
 
@@ -51,7 +52,6 @@ WORDS = {
 GENITIVE = re.compile(r"Of (?!\d|course)|The same,? of\b|As (?:by|of)\b[^,]*$")
 # What ends a sentence; a point of an abbreviation does not.
 END = re.compile(r"(?<=[.!?;])(?<!\be\.g\.)(?<!\bF\.)(?<!\bM\.)\s+(?=[A-Z0-9\"'“*(`\[])|(?<=:)\s+")
-GENERATED = re.compile(r"<!-- generated: (?:quantities|filters) .*?<!-- end -->", re.DOTALL)
 
 
 def documents() -> list[pathlib.Path]:
@@ -104,7 +104,6 @@ def findings(text: str) -> Iterator[tuple[str, int, str]]:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("files", nargs="*", type=pathlib.Path, metavar="FILE", help="default: all documents")
-    parser.add_argument("--library", action="store_true", help="also the parts that are generated from the sources")
     parser.add_argument("--count", action="store_true", help="print only how much was found")
     options = parser.parse_args()
 
@@ -112,9 +111,6 @@ def main() -> int:
     files = [path.resolve() for path in options.files] or documents()
     for path in files:
         text = path.read_text(encoding="utf-8")
-        if not options.library:
-            # As many lines as before: the numbers of the lines stay.
-            text = GENERATED.sub(lambda match: "\n" * match[0].count("\n"), text)
         for kind, number, words in findings(text):
             counts[re.sub(r"\d+", "more than 40", kind) if kind.startswith("a sentence") else kind.split('"')[0]] += 1
             if not options.count:
