@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Illumination of more independent components than the estimator projects out, and scenes that are none.
 
-Cells that flash one by one, light-emitting diodes that pulse in bands of a few states, rain, and frames with skipped
-blocks.
+Cells that flash one by one, light-emitting diodes that pulse in bands of a few states, rain, caustics, and frames with
+skipped blocks.
 """
 
 import numpy as np
@@ -54,6 +54,15 @@ def rain(random, electrons, drops):
     return changing(random, np.minimum(light, 7000.0))
 
 
+def caustics(random, electrons, rms):
+    """Illumination through moving water: a pattern of 6 pixels, another one in every frame, of this relative rms."""
+    light = illumination(random)[:, None, None] * electrons[None]
+    for t in range(FRAMES):
+        pattern = smooth(random.normal(size=SHAPE), 3.0)
+        light[t] *= 1 + rms * pattern / pattern.std()
+    return changing(random, light)
+
+
 def skipped(random, electrons, fraction):
     """A video coder that repeats blocks of 8 x 8 pixels of the frame before, this fraction of them."""
     burst = changing(random, illumination(random)[:, None, None] * electrons[None])
@@ -67,6 +76,7 @@ def skipped(random, electrons, fraction):
 KINDS = {
     "calcium": (calcium, (0.1, 0.3)),
     "led-bands": (bands, (0.003, 0.01)),
+    "caustics": (caustics, (0.002, 0.01)),
     "rain": (rain, (50, 200)),
     "skipped-blocks": (skipped, (0.5, 0.8)),
 }

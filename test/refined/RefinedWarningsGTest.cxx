@@ -216,6 +216,33 @@ TEST(SensorNoiseRefinedWarnings, LightSeriesLeft)
   EXPECT_TRUE(HasWarning(report, WarningCode::LightSeriesLeft)) << MakeText(report);
 }
 
+// Caustics: in each frame the illumination has waves of 12 pixels, of other directions and phases, of 0.5 % rms together.
+TEST(SensorNoiseRefinedWarnings, IlluminationOfFinePatternsIsNoFilter)
+{
+  constexpr std::size_t            waves = 8;
+  constexpr double                 perPixel = 6.283185307179586 / 12.0;
+  std::mt19937                     random(11);
+  std::uniform_real_distribution<> angle(0.0, 6.283185307179586);
+  std::vector<double>              angles(2 * waves * Frames);
+  std::generate(angles.begin(), angles.end(), [&] { return angle(random); });
+  const SimulationSettings settings = StillCamera(Frames);
+  const auto               lit = [&](std::size_t t, std::size_t x, std::size_t y, double value) {
+    double factor = 1.0;
+    for (std::size_t w = 0; w < waves; ++w)
+    {
+      const double * const own = angles.data() + 2 * (t * waves + w);
+      const double along = std::cos(own[0]) * static_cast<double>(x) + std::sin(own[0]) * static_cast<double>(y);
+      factor += 0.0025 * std::cos(perPixel * along + own[1]);
+    }
+    return settings.camera.offsetDn + factor * (value - settings.camera.offsetDn);
+  };
+  const Report report = Measure(Changed(lit), {}).GetReport();
+  EXPECT_TRUE(HasWarning(report, WarningCode::NoiseNotLinear)) << MakeText(report);
+  EXPECT_FALSE(HasWarning(report, WarningCode::NoiseCorrelated)) << MakeText(report);
+  EXPECT_EQ(report.gain.status, EstimateStatus::Failed);
+  EXPECT_NE(MakeText(report).find("grows with the square of the signal"), std::string::npos) << MakeText(report);
+}
+
 // Half of the blocks of 8 x 8 pixels repeat the frame before.
 TEST(SensorNoiseRefinedWarnings, SkippedBlocksAreNoFilter)
 {

@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 
 namespace sensornoise
@@ -153,6 +154,17 @@ ProbabilitiesOf(const Eigen::VectorXd & chi2, bool mayBeCharge)
   }
   return probabilities;
 }
+
+/** Whether the square of the signal describes what neighbours share clearly better than all other shapes. */
+bool
+IsOfSquare(const Eigen::VectorXd & coefficients, Eigen::VectorXd chi2)
+{
+  const auto   square = static_cast<Eigen::Index>(ShapeOfShared::Square);
+  const double own = chi2(square);
+  chi2(square) = std::numeric_limits<double>::infinity();
+  return coefficients(square) > 0.0 && own + InCorrelation.strongEvidence < chi2.minCoeff();
+}
+
 /** Whether the variance bends as charge that repels charge bends it, and what the nearest share straightens it. Either
  * alone would be chance, or the response. */
 bool
@@ -246,7 +258,8 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
   const bool isRounding =
     (shared.value < -Significance.hint * shared.standardError && isUnlikeFilter) ||
     (shared.value < 0.0 && SpreadOfPhases(sums.SumPhases()) > InCorrelation.largestSpreadOfPhases);
-  if (isRounding)
+  found.isOfIllumination = !mayBeCharge && IsOfSquare(fits.value.head(NumberOfShapes), chi2);
+  if (isRounding || found.isOfIllumination)
   {
     found.kind = NoiseKind::NotLinear;
   }
