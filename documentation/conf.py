@@ -4,6 +4,7 @@
 
 import pathlib
 import re
+import subprocess
 import sys
 
 SOURCE = pathlib.Path(__file__).resolve().parent.parent
@@ -107,7 +108,19 @@ def _read_docstring(app, what: str, name: str, thing: object, options: object, l
     lines[:] = made
 
 
+def _run_doxygen(app, error: Exception | None) -> None:
+    """Writes the pages of the C++ interface, with warnings as errors."""
+    if error is not None:
+        return
+    folder = pathlib.Path(app.outdir) / "cpp"
+    folder.mkdir(exist_ok=True)
+    settings = (SOURCE / "documentation" / "Doxyfile").read_text(encoding="utf-8")
+    settings += f'OUTPUT_DIRECTORY = "{folder}"\nPROJECT_NUMBER = {release}\n'
+    subprocess.run(["doxygen", "-"], input=settings, text=True, cwd=SOURCE, check=True)
+
+
 def setup(app) -> None:
     """Called by Sphinx."""
     app.connect("source-read", _read_source)
     app.connect("autodoc-process-docstring", _read_docstring, priority=100)
+    app.connect("build-finished", _run_doxygen)
