@@ -10,6 +10,14 @@ NOT_RUN = {
     "python3 test/fuzz/fuzz_files.py --bin build/bin --count 20000": _STUDY,
     "python examples/python/measure_speed.py --bin build/bin --opencv ENV/bin/python "
     "--anscombe-transform ENV/bin/python --nanoimagingpack ENV/bin/python": _STUDY,
+    **{
+        f"python examples/python/measure_acceptance.py {options}": _STUDY
+        for options in (
+            "--quick --results before.jsonl",
+            "--quick --results after.jsonl",
+            "--compare before.jsonl after.jsonl",
+        )
+    },
     "bash wrapping/build-wheel.sh && pip install dist/itk_sensornoise-*.whl": _BUILDS,
 }
 

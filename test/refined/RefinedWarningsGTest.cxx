@@ -216,7 +216,8 @@ TEST(SensorNoiseRefinedWarnings, LightSeriesLeft)
   EXPECT_TRUE(HasWarning(report, WarningCode::LightSeriesLeft)) << MakeText(report);
 }
 
-// Caustics: in each frame the illumination has waves of 12 pixels, of other directions and phases, of 0.5 % rms together.
+// Caustics: in each frame the illumination has waves of 12 pixels, of other directions and phases, of 0.5 % rms
+// together.
 TEST(SensorNoiseRefinedWarnings, IlluminationOfFinePatternsIsNoFilter)
 {
   constexpr std::size_t            waves = 8;

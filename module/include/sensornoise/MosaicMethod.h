@@ -114,11 +114,13 @@ private:
   std::unique_ptr<Planes> m_Planes;
 };
 
+// A type between angle brackets takes no parentheses. NOLINTBEGIN(bugprone-macro-parentheses)
 #define SensorNoise_EXTERN(TPixel)                                                      \
   extern template class SensorNoise_EXPORT MosaicMethod<TPixel, RefinedMethod<TPixel>>; \
   extern template class SensorNoise_EXPORT MosaicMethod<TPixel, PublishedMethod<TPixel>>
 SensorNoise_FOR_PIXEL_TYPES(SensorNoise_EXTERN);
 #undef SensorNoise_EXTERN
+// NOLINTEND(bugprone-macro-parentheses)
 
 } // namespace sensornoise
 

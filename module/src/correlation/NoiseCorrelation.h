@@ -107,8 +107,8 @@ struct SensorNoise_EXPORT NoiseCorrelation
   double beyondReach{ 0.0 };
   /** Part of the values that repeat that of the frame before beyond chance, where the kind is NotLinear for it [1]. */
   double repeatedShare{ 0.0 };
-  /** Whether what neighbours share grows with the square of the signal and reaches further than charge: the illumination
-   * changes from place to place. The kind is then NotLinear. */
+  /** Whether what neighbours share grows with the square of the signal and reaches further than charge: the
+   * illumination changes from place to place. The kind is then NotLinear. */
   bool isOfIllumination{ false };
   /** See FindLocalMotion(), where neighbours share anything. */
   MeasuredNumber localMotion;

@@ -109,11 +109,12 @@ WarnOfNonlinear(Report & report, const NoiseCorrelation & correlation, const Lag
   }
   if (correlation.isOfIllumination && space != nullptr)
   {
-    report.Warn(WarningCode::NoiseNotLinear,
-                NeighbourAt(space->lag) + PercentOf(space->coefficient) +
-                  " of their noise, which grows with the square of the signal: the illumination changes from place to "
-                  "place, in patterns too fine to be removed (caustics, haze, moving shadows). Choose an evenly lit part "
-                  "(--roi), or steady the illumination");
+    report.Warn(
+      WarningCode::NoiseNotLinear,
+      NeighbourAt(space->lag) + PercentOf(space->coefficient) +
+        " of their noise, which grows with the square of the signal: the illumination changes from place to "
+        "place, in patterns too fine to be removed (caustics, haze, moving shadows). Choose an evenly lit part "
+        "(--roi), or steady the illumination");
     return;
   }
   if (correlation.HasLocalMotion())

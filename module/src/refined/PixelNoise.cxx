@@ -146,8 +146,8 @@ NameOtherCauses(NoiseCorrelation &     correlation,
     correlation.localMotion = FindLocalMotion(residuals, parallelFor);
     correlation.kind = correlation.HasLocalMotion() ? NoiseKind::NotLinear : correlation.kind;
   }
-  const bool mayRepeat = correlation.kind == NoiseKind::Temporal || correlation.kind == NoiseKind::Enlarged ||
-                         correlation.isOfIllumination;
+  const bool mayRepeat =
+    correlation.kind == NoiseKind::Temporal || correlation.kind == NoiseKind::Enlarged || correlation.isOfIllumination;
   if (mayRepeat && repeated > InRefined.largestRepeatedShare)
   {
     correlation.kind = NoiseKind::NotLinear; // a filter blends values, and repeats none
