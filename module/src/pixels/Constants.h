@@ -204,7 +204,7 @@ struct PartsConstants
   /** Knots of the curve, and rounds of the regression, half of them by absolute deviations. */
   std::size_t knots{ 6 };
   int         rounds{ 12 };
-  /** Parts into which the levels are divided, between which a step may be. Chosen for the time. */
+  /** Levels at which a step is tried, or a curve has its knots. Chosen for the time. */
   std::size_t levelsOfStep{ 32 };
   /** Difference of Schwarz' criterion that is very strong evidence (Kass & Raftery 1995, on the scale of 2 ln B) [1].
    */

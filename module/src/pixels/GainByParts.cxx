@@ -99,11 +99,15 @@ GainsOf(const PartRegression & fit, const std::vector<TileExcess> & tiles)
   return gains;
 }
 
-/** Whether one part with a step at some level describes the tiles as well as \a criterion, or nearly so. Where the
- * scene is a ramp, a step between two amplifiers looks like parts. */
+/** Whether one part describes the tiles better than \a criterion by their levels: with a step at one of them, or with a
+ * curve of many knots. Where the scene is a ramp or has patches of one level, both look like parts. */
 bool
-IsStepAsGood(const std::vector<TileExcess> & tiles, double scale, double criterion)
+AreLevelsBetter(const std::vector<TileExcess> & tiles, double scale, double criterion)
 {
+  if (FitUniform(tiles, std::nullopt, InParts.levelsOfStep).Criterion(tiles, scale) < criterion)
+  {
+    return true;
+  }
   std::vector<double> levels;
   std::transform(
     tiles.begin(), tiles.end(), std::back_inserter(levels), [](const TileExcess & tile) { return tile.levelDn; });
@@ -111,8 +115,7 @@ IsStepAsGood(const std::vector<TileExcess> & tiles, double scale, double criteri
   for (std::size_t k = 1; k < InParts.levelsOfStep; ++k)
   {
     const double fraction = static_cast<double>(k) / static_cast<double>(InParts.levelsOfStep);
-    const double own = FitUniform(tiles, SortedQuantile(levels, fraction)).Criterion(tiles, scale);
-    if (own < criterion + InParts.strongEvidence)
+    if (FitUniform(tiles, SortedQuantile(levels, fraction)).Criterion(tiles, scale) < criterion)
     {
       return true;
     }
@@ -124,6 +127,15 @@ bool
 DiffersInAll(const PartRegression & fit)
 {
   return fit.IsSmooth() || (fit.gains > 1 && fit.darks > 1);
+}
+
+/** Whether parts differ in the dark alone, and describe the tiles clearly better than one part (\a uniform), also if
+ * its levels are described in detail. */
+bool
+IsClearlyDark(const PartRegression & fit, const std::vector<TileExcess> & tiles, double scale, double uniform)
+{
+  const double criterion = fit.Criterion(tiles, scale) + InParts.strongEvidence;
+  return fit.darks > 1 && criterion < uniform && !AreLevelsBetter(tiles, scale, criterion);
 }
 
 /** The fit of the lowest criterion of those that \a isMeant takes; null: none is below \a limit. */
@@ -178,8 +190,7 @@ FindBest(const std::vector<TileExcess> & tiles, Divided divided)
   const double           limit = FitUniform(tiles).Criterion(tiles, scale);
   const auto             any = [](const PartRegression &) { return true; };
   const PartRegression * chosen = FindLowest(fits, tiles, scale, limit, any);
-  if (chosen != nullptr && divided == Divided::Places && !DiffersInAll(*chosen) &&
-      IsStepAsGood(tiles, scale, chosen->Criterion(tiles, scale)))
+  if (chosen != nullptr && !DiffersInAll(*chosen) && !IsClearlyDark(*chosen, tiles, scale, limit))
   {
     chosen = FindLowest(fits, tiles, scale, limit, DiffersInAll);
   }

@@ -112,15 +112,15 @@ ScaleOf(const std::vector<double> & residuals)
 
 /** Least absolute deviations first, which any half of the tiles withstands, then Tukey's bisquare. */
 void
-FitRobustly(const std::vector<TileExcess> & tiles, PartRegression & fit)
+FitRobustly(const std::vector<TileExcess> & tiles, PartRegression & fit, std::size_t knots = InParts.knots)
 {
   std::vector<double> levels;
   std::transform(
     tiles.begin(), tiles.end(), std::back_inserter(levels), [](const TileExcess & tile) { return tile.levelDn; });
   std::sort(levels.begin(), levels.end());
-  for (std::size_t k = 0; k < InParts.knots; ++k)
+  for (std::size_t k = 0; k < knots; ++k)
   {
-    const double knot = SortedQuantile(levels, static_cast<double>(k) / static_cast<double>(InParts.knots - 1));
+    const double knot = SortedQuantile(levels, static_cast<double>(k) / static_cast<double>(knots - 1));
     if (fit.knotsDn.empty() || knot > fit.knotsDn.back())
     {
       fit.knotsDn.push_back(knot);
@@ -198,8 +198,9 @@ PartRegression::Criterion(const std::vector<TileExcess> & tiles, double common) 
     const double left = std::max(0.0, 1.0 - residual * residual / (common * common * limit));
     loss += limit / 3.0 * (1.0 - left * left * left);
   }
-  const Eigen::Index ofStep = stepDn ? 2 : 0; // its height and its level
-  return loss + std::log(static_cast<double>(tiles.size())) * static_cast<double>(gains + darks + ofStep);
+  const std::size_t ofStep = stepDn ? 2 : 0; // its height and its level
+  const std::size_t ofCurve = std::max(knotsDn.size(), InParts.knots) - InParts.knots;
+  return loss + std::log(static_cast<double>(tiles.size())) * static_cast<double>(gains + darks + ofStep + ofCurve);
 }
 
 void
@@ -258,12 +259,12 @@ FitParts(Partition partition, PartsDiffer differ, const std::vector<TileExcess> 
 }
 
 PartRegression
-FitUniform(const std::vector<TileExcess> & tiles, std::optional<double> stepDn)
+FitUniform(const std::vector<TileExcess> & tiles, std::optional<double> stepDn, std::size_t knots)
 {
   PartRegression fit;
   fit.gains = fit.darks = 1;
   fit.stepDn = stepDn;
-  FitRobustly(tiles, fit);
+  FitRobustly(tiles, fit, knots);
   return fit;
 }
 

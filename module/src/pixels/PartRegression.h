@@ -5,9 +5,11 @@
 
 #include "SensorNoiseExport.h"
 #include "base/Eigen.h"
+#include "pixels/Constants.h"
 #include "pixels/PartTiles.h"
 #include "pixels/Partition.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -72,9 +74,11 @@ SensorNoise_EXPORT PartRegression
 FitParts(Partition partition, PartsDiffer differ, const std::vector<TileExcess> & tiles);
 
 /** Fits one part, all pixels. With \a stepDn the curve has a step at that level, as between two amplifiers that read
- * every pixel. */
+ * every pixel; of more \a knots it follows a response that is strongly non-linear. */
 SensorNoise_EXPORT PartRegression
-FitUniform(const std::vector<TileExcess> & tiles, std::optional<double> stepDn = std::nullopt);
+FitUniform(const std::vector<TileExcess> & tiles,
+           std::optional<double>           stepDn = std::nullopt,
+           std::size_t                     knots = InParts.knots);
 
 } // namespace sensornoise
 
