@@ -294,8 +294,9 @@ inline constexpr std::array<WarningKind, 49> WarningTable{ {
   { WarningCode::NoiseNotLinear,
     "noise-not-linear",
     Severity::Error,
-    "The noise is not as a linear filter leaves it: the camera corrects defects, takes medians or compresses, or parts "
-    "of the scene move by themselves. Set the camera to raw frames, or choose a smooth part of the scene (--roi)." },
+    "The noise is not as a linear filter leaves it: the camera corrects defects, takes medians or compresses, parts of "
+    "the scene move by themselves, or the illumination changes in fine patterns. Set the camera to raw frames, or "
+    "choose a smooth and evenly lit part of the scene (--roi)." },
   { WarningCode::FramesEnlarged,
     "frames-enlarged",
     Severity::Error,
