@@ -187,10 +187,12 @@ MosaicMethod<TPixel, TMethod>::TakePixelUse()
   return m_Planes->passes.JoinMaps([](auto & ofPlane) { return ofPlane.TakePixelUse(); }, missing);
 }
 
+// A type between angle brackets takes no parentheses. NOLINTBEGIN(bugprone-macro-parentheses)
 #define SensorNoise_INSTANTIATE(TPixel)                       \
   template class MosaicMethod<TPixel, RefinedMethod<TPixel>>; \
   template class MosaicMethod<TPixel, PublishedMethod<TPixel>>
 SensorNoise_FOR_PIXEL_TYPES(SensorNoise_INSTANTIATE);
 #undef SensorNoise_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 } // namespace sensornoise
