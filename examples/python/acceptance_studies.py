@@ -17,7 +17,7 @@ from acceptance_programs import run
 from acceptance_stacks import WRONG_ERRORS, WRONG_SIZE, file_wrong, judge
 
 HELD_Z = 1.96  # 95 % of normal errors [standard errors]
-WARNING_CODES = Path(__file__).resolve().parents[2] / "module" / "sensornoise" / "base" / "WarningCodes.h"
+WARNING_CODES = Path(__file__).resolve().parents[2] / "module" / "include" / "sensornoise" / "WarningCodes.h"
 EXPERIMENTS = tuple(f"{camera}{condition}" for camera in "ABC" for condition in (1, 2, 3))
 NONE = "-"  # of a table: no number
 

@@ -18,7 +18,7 @@ from ._types import Frame, Frames
 def vibration_mask_image_filter(
     mean: Frame, *, variance: Frame, valid_mask: Frame | None = None, **parameters: Any
 ) -> Any:
-    """Mask of the pixels whose gradient noise alone explains, so that vibrations leave their variance alone.
+    """Finds the pixels whose gradient is explained by noise alone, so that vibrations do not change their variance.
 
     itk.VibrationMaskImageFilter in functional style.
 

@@ -120,7 +120,7 @@ def sensor_noise_estimator(
 
 
 def temporal_statistics_image_filter(stack: Frames, **parameters: Any) -> tuple[Any, Any, Any]:
-    """Mean and unbiased variance over time of every pixel of a stack, and the mask of valid pixels.
+    """Computes the temporal mean and unbiased variance of every pixel of a stack, and the mask of valid pixels.
 
     Parameters
     ----------
