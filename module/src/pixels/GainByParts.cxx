@@ -160,6 +160,26 @@ FindLowest(const std::vector<PartRegression> & fits,
   return lowest;
 }
 
+/** Adds fits of parts that differ in one of both, of the partitions where such parts may be clearly better than one
+ * part
+ * (\a uniform): no fit with fewer coefficients leaves a smaller loss. */
+void
+AddSimplerFits(std::vector<PartRegression> & fits, const std::vector<TileExcess> & tiles, double scale, double uniform)
+{
+  const std::size_t partitions = fits.size();
+  for (std::size_t i = 0; i < partitions; ++i)
+  {
+    const double parts = static_cast<double>(fits[i].gains);
+    const double saved = std::log(static_cast<double>(tiles.size())) * (parts - 1.0);
+    if (!fits[i].IsSmooth() && fits[i].Criterion(tiles, scale) - saved + InParts.strongEvidence < uniform)
+    {
+      const Partition partition = fits[i].partition;
+      fits.push_back(FitParts(partition, PartsDiffer::InGain, tiles));
+      fits.push_back(FitParts(partition, PartsDiffer::InTheDark, tiles));
+    }
+  }
+}
+
 /** The partition of what is \a divided that describes the tiles best; null: none is better than one part, or the parts
  * do not differ. */
 std::optional<PartGains>
@@ -175,19 +195,12 @@ FindBest(const std::vector<TileExcess> & tiles, Divided divided)
   {
     if (kind.divided == divided)
     {
-      fits.push_back(FitParts(kind.partition, PartsDiffer::InGain, tiles));
-      if (!fits.back().IsSmooth())
-      {
-        fits.push_back(FitParts(kind.partition, PartsDiffer::InTheDark, tiles));
-        fits.push_back(FitParts(kind.partition, PartsDiffer::InBoth, tiles));
-      }
+      fits.push_back(FitParts(kind.partition, PartsDiffer::InBoth, tiles));
+      scale = std::min(scale, fits.back().scale);
     }
   }
-  for (const PartRegression & fit : fits)
-  {
-    scale = std::min(scale, fit.scale);
-  }
-  const double           limit = FitUniform(tiles).Criterion(tiles, scale);
+  const double limit = FitUniform(tiles).Criterion(tiles, scale);
+  AddSimplerFits(fits, tiles, scale, limit);
   const auto             any = [](const PartRegression &) { return true; };
   const PartRegression * chosen = FindLowest(fits, tiles, scale, limit, any);
   if (chosen != nullptr && !DiffersInAll(*chosen) && !IsClearlyDark(*chosen, tiles, scale, limit))
