@@ -48,20 +48,22 @@ struct SignalSums
 
 /** The sums of the tile at \a left, \a top; nothing where the scene has less contrast than pixels have of their own. */
 SignalSums
-SumTile(const RefinedResults & found, std::size_t left, std::size_t top)
+SumTile(const DarkMaps &                  dark,
+        const ReferenceFrame &            bright,
+        const std::vector<std::uint8_t> & pixelUse,
+        std::size_t                       left,
+        std::size_t                       top)
 {
-  const ReferenceFrame & bright = found.scene.frame;
-  const DarkMaps &       dark = *found.settings.offset->maps;
-  const auto             frames = static_cast<double>(bright.frames);
-  const auto             darkFrames = static_cast<double>(dark.frames);
-  double                 pixels = 0.0, x = 0.0, y = 0.0, noise = 0.0, shared = 0.0;
-  SignalSums             sums;
+  const auto frames = static_cast<double>(bright.frames);
+  const auto darkFrames = static_cast<double>(dark.frames);
+  double     pixels = 0.0, x = 0.0, y = 0.0, noise = 0.0, shared = 0.0;
+  SignalSums sums;
   for (std::size_t row = top; row < std::min(top + TileSide, bright.geometry.height); ++row)
   {
     for (std::size_t column = left; column < std::min(left + TileSide, bright.geometry.width); ++column)
     {
       const std::size_t p = row * bright.geometry.width + column;
-      if (dark.usable[p] == 0 || found.variance.pixelUse[p] != static_cast<std::uint8_t>(PixelUse::Used))
+      if (dark.usable[p] == 0 || pixelUse[p] != static_cast<std::uint8_t>(PixelUse::Used))
       {
         continue;
       }
@@ -88,32 +90,29 @@ SumTile(const RefinedResults & found, std::size_t left, std::size_t top)
 } // namespace
 
 std::optional<MeasuredNumber>
-FindDarkSignal(const RefinedResults & found)
+FindDarkSignal(const std::optional<KnownOffset> & offset,
+               const ReferenceFrame &             bright,
+               const std::vector<std::uint8_t> &  pixelUse,
+               const ParallelFor &                parallelFor)
 {
-  const FrameGeometry & geometry = found.scene.frame.geometry;
-  const auto &          offset = found.settings.offset;
-  if (!offset || !offset->maps || offset->maps->usable.size() != found.variance.pixelUse.size())
+  if (!offset || !offset->maps || offset->maps->usable.size() != pixelUse.size())
   {
     return std::nullopt;
   }
-  std::vector<SignalSums> blocks;
-  const std::size_t       rows = (geometry.height + TileSide - 1) / TileSide;
-  const std::size_t       count = std::min(rows, MostBlocks);
-  for (std::size_t block = 0; block < count; ++block)
-  {
-    SignalSums sum;
+  const std::size_t       rows = (bright.geometry.height + TileSide - 1) / TileSide;
+  std::vector<SignalSums> blocks(std::min(rows, MostBlocks));
+  const std::size_t       count = blocks.size();
+  parallelFor(count, [&](std::size_t block) {
     for (std::size_t row = block * rows / count; row < (block + 1) * rows / count; ++row)
     {
-      for (std::size_t left = 0; left < geometry.width; left += TileSide)
+      for (std::size_t left = 0; left < bright.geometry.width; left += TileSide)
       {
-        sum += SumTile(found, left, row * TileSide);
+        blocks[block] += SumTile(*offset->maps, bright, pixelUse, left, row * TileSide);
       }
     }
-    if (sum.square > 0.0)
-    {
-      blocks.push_back(sum);
-    }
-  }
+  });
+  const auto isEmpty = [](const SignalSums & sum) { return !(sum.square > 0.0); };
+  blocks.erase(std::remove_if(blocks.begin(), blocks.end(), isEmpty), blocks.end());
   if (blocks.size() < FewestBlocks)
   {
     return std::nullopt;

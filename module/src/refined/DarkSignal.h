@@ -5,9 +5,13 @@
 
 #include "SensorNoiseExport.h"
 #include "correlation/NoiseCorrelation.h"
-#include "refined/RefinedResults.h"
+#include "sensornoise/Parallel.h"
+#include "sensornoise/Settings.h"
+#include "scene/ReferenceFrame.h"
 
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace sensornoise
 {
@@ -17,9 +21,13 @@ namespace sensornoise
  * or there are no maps of the dark frames.
  *
  * The regression of the dark mean on the difference of bright and dark mean, within tiles of the frame. Offsets of the
- * pixels are in both means and cancel in the difference. Estimator.md, 3.9. */
+ * pixels are in both means and cancel in the difference. \a pixelUse has a value of PixelUse for each pixel.
+ * Estimator.md, 3.9. */
 SensorNoise_EXPORT std::optional<MeasuredNumber>
-FindDarkSignal(const RefinedResults & found);
+FindDarkSignal(const std::optional<KnownOffset> & offset,
+               const ReferenceFrame &             bright,
+               const std::vector<std::uint8_t> &  pixelUse,
+               const ParallelFor &                parallelFor);
 
 } // namespace sensornoise
 

@@ -12,7 +12,6 @@
 #include "refined/BeyondChance.h"
 #include "refined/Constants.h"
 #include "refined/DarkPoint.h"
-#include "refined/DarkSignal.h"
 
 #include <algorithm>
 #include <cmath>
@@ -302,8 +301,7 @@ EstimateGain(const RefinedResults & found, const SensorLines & lines)
   UseFrames(estimate, lines, found.blackDn, variance.sharedSquares);
   if (found.settings.offset && found.settings.offset->variance)
   {
-    estimate.darkSignal = FindDarkSignal(found);
-    estimate.isDarkRejected = estimate.darkSignal.has_value();
+    estimate.isDarkRejected = found.darkSignal.has_value();
     if (!estimate.isDarkRejected)
     {
       UseDarkPoint(estimate, found);

@@ -6,7 +6,6 @@
 #include "SensorNoiseExport.h"
 #include "base/Eigen.h"
 #include "sensornoise/Settings.h"
-#include "correlation/NoiseCorrelation.h"
 #include "pixels/VarianceLine.h"
 #include "pixels/VarianceCurve.h"
 #include "pixels/VarianceStep.h"
@@ -50,8 +49,6 @@ struct GainEstimate
    * bend of the response may part them from the line. */
   std::optional<DarkVariance> atOffset;
 
-  /** The fraction of the signal that the dark frames hold, see FindDarkSignal() [1]; null: none. */
-  std::optional<MeasuredNumber> darkSignal;
   /** Whether the dark frames contradict the line of the bright frames, or hold signal, and are not in the gain. */
   bool isDarkRejected{ false };
   /** Whether the line of the bright frames alone is precise enough for dark frames to test the linearity of the

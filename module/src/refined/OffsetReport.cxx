@@ -28,25 +28,22 @@ namespace
 /** Warns if the dark frames hold signal, or are noisier or quieter than the line is at the offset, see UseDarkPoint().
  */
 void
-CompareDarkVariance(Report &             report,
-                    const GainEstimate & gain,
-                    double               varianceDn2,
-                    double               errorDn2,
-                    double               quantisationDn2)
+CompareDarkVariance(Report & report, const RefinedResults & found, const GainEstimate & gain, double quantisationDn2)
 {
-  if (gain.darkSignal)
+  if (found.darkSignal)
   {
     report.Warn(
       WarningCode::DarkFramesDiffer,
-      "the dark frames hold " + Measured(100.0 * gain.darkSignal->value, 100.0 * gain.darkSignal->standardError) +
+      "the dark frames hold " + Measured(100.0 * found.darkSignal->value, 100.0 * found.darkSignal->standardError) +
         " % of the signal of the frames (expected less than " + Percent(InRefined.leastSignalOfDark) +
         "), so the gain is measured without them. Close the shutter, or cover the lens, and record them again");
   }
   else if (gain.isDarkRejected)
   {
+    const DarkVariance & dark = *found.settings.offset->variance;
     report.Warn(
       WarningCode::DarkFramesDiffer,
-      "the noise variance of the dark frames is " + Measured(varianceDn2 - quantisationDn2, errorDn2) +
+      "the noise variance of the dark frames is " + Measured(dark.valueDn2 - quantisationDn2, dark.standardErrorDn2) +
         " DN^2, but at the offset it is " +
         Measured(gain.atOffset->valueDn2 - quantisationDn2, gain.atOffset->standardErrorDn2) +
         " DN^2, so the gain is measured without them. Record dark frames in the dark, with the black level, exposure, "
@@ -166,7 +163,7 @@ FillReadNoise(Report &               report,
   if (found.settings.offset && found.settings.offset->variance)
   {
     const DarkVariance & dark = *found.settings.offset->variance;
-    CompareDarkVariance(report, gain, dark.valueDn2, dark.standardErrorDn2, quantisationDn2);
+    CompareDarkVariance(report, found, gain, quantisationDn2);
     FillFromDarkFrames(report, found.settings, quantisationDn2);
     FillElectrons(
       report, dark.valueDn2 - quantisationDn2, dark.standardErrorDn2, v.gain, gain.StandardError(), student);

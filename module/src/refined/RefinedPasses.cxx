@@ -8,6 +8,7 @@
 #include "moments/DarkMaps.h"
 #include "moments/StackMaps.h"
 #include "pixels/ProjectedVariance.h"
+#include "refined/DarkSignal.h"
 #include "refined/MemoryNeed.h"
 #include "refined/PixelNoise.h"
 #include "refined/PixelsOfVariance.h"
@@ -428,19 +429,22 @@ template <typename TPixel>
 void
 RefinedPasses<TPixel>::MakeReport()
 {
-  m_Report = m_Obstacle ? MakeRefusal(m_Settings, *m_Scene, this->GetPixelUse(), *m_Obstacle)
-                        : MakeRefinedReport({ m_Settings,
-                                              *m_Scene,
-                                              *m_Series,
-                                              *m_Variance,
-                                              *m_Polished,
-                                              m_CorrectedVariance,
-                                              BlackLevel(m_Settings, *m_Scene, m_Series),
-                                              m_Correlation,
-                                              m_FrameNoise,
-                                              m_Lines,
-                                              m_ExposureFit ? &*m_ExposureFit : nullptr },
-                                            m_ParallelFor);
+  m_Report =
+    m_Obstacle
+      ? MakeRefusal(m_Settings, *m_Scene, this->GetPixelUse(), *m_Obstacle)
+      : MakeRefinedReport({ m_Settings,
+                            *m_Scene,
+                            *m_Series,
+                            *m_Variance,
+                            *m_Polished,
+                            m_CorrectedVariance,
+                            BlackLevel(m_Settings, *m_Scene, m_Series),
+                            m_Correlation,
+                            m_FrameNoise,
+                            m_Lines,
+                            m_ExposureFit ? &*m_ExposureFit : nullptr,
+                            FindDarkSignal(m_Settings.offset, m_Scene->frame, m_Variance->pixelUse, m_ParallelFor) },
+                          m_ParallelFor);
   ReportLinearity(m_Report, m_ExposureFit);
   FileStatuses(m_Report);
   DivideExcessNoise(m_Report, m_Settings.excessNoiseFactor);

@@ -343,7 +343,7 @@ MakeRefinedReport(const RefinedResults & found, const ParallelFor & parallelFor)
     const RefinedResults  sensor = { settings,       found.scene,       found.series,
                                      found.variance, found.polished,    found.correctedVariance,
                                      found.blackDn,  found.correlation, found.frameNoise,
-                                     found.lines,    found.exposures };
+                                     found.lines,    found.exposures,   found.darkSignal };
     FillSensor(report, sensor, EstimateGain(sensor, lines), codesDn2);
   }
   else

@@ -13,6 +13,7 @@
 #include "series/Constants.h"
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 namespace sensornoise
@@ -33,6 +34,8 @@ struct RefinedResults
   LineIllumination            lines{};           ///< of the third pass's sample
   /** What the frames' exposures tell; null: none were given. */
   const ExposureFit * exposures{ nullptr };
+  /** The fraction of the signal that the dark frames hold, see FindDarkSignal() [1]; null: none. */
+  std::optional<MeasuredNumber> darkSignal{};
 
   /** A level of the mean frame in the frame of the lowest or the highest illumination factor, where these differ so
    * much that the frames have a photon transfer of their own; else the level itself [DN]. */
