@@ -66,64 +66,75 @@ ProductOfParts(const std::vector<double> & sums)
   return product;
 }
 
-/** The pixels of one line of the tiles of a group, in the order of the frame. */
-class LineOfTiles
+/** A pixel of a line. */
+struct PixelOfLine
 {
-public:
-  LineOfTiles(const NoiseResiduals & residuals, const std::vector<std::size_t> & tiles, LineAxis axis, std::size_t line)
-    : m_Residuals(residuals)
-    , m_Tiles(tiles)
-    , m_Axis(axis)
-    , m_Line(line)
-  {}
-
-  /** The sums of valueOf(tile, place in the tile) over each part. */
-  template <typename TFunction>
-  std::vector<double>
-  SumParts(TFunction valueOf) const
-  {
-    const SampleTiles & tiles = m_Residuals.GetTiles();
-    const std::size_t   length = tiles.side / PartsOfTile;
-    std::vector<double> sums(PartsOfTile * m_Tiles.size(), 0.0);
-    for (std::size_t s = 0; s < sums.size(); ++s)
-    {
-      const std::size_t tile = m_Tiles[s / PartsOfTile];
-      for (std::size_t k = s % PartsOfTile * length; k < (s % PartsOfTile + 1) * length; ++k)
-      {
-        sums[s] += valueOf(tile, tiles.InTile(m_Axis, m_Line, k));
-      }
-    }
-    return sums;
-  }
-
-  LineLightProducts
-  Products() const
-  {
-    const auto w = [this](std::size_t i, std::size_t p) { return static_cast<double>(m_Residuals.WeightOf(i)[p]); };
-    const auto z = [this](std::size_t i, std::size_t p) { return static_cast<double>(m_Residuals.LightOf(i)[p]); };
-    LineLightProducts products;
-    products.constant = ProductOfParts(this->SumParts(w));
-    products.mixed = ProductOfParts(this->SumParts([&](std::size_t i, std::size_t p) { return w(i, p) * z(i, p); }));
-    products.square =
-      ProductOfParts(this->SumParts([&](std::size_t i, std::size_t p) { return w(i, p) * z(i, p) * z(i, p); }));
-    for (std::size_t t = 0; t < m_Residuals.GetTiles().frames; ++t)
-    {
-      const auto weighed = [&](std::size_t i, std::size_t p) {
-        return w(i, p) * static_cast<double>(m_Residuals.OfTile(i)[t * m_Residuals.GetTiles().Pixels() + p]);
-      };
-      const auto light = [&](std::size_t i, std::size_t p) { return weighed(i, p) * z(i, p); };
-      products.noise += ProductOfParts(this->SumParts(weighed)) / m_Residuals.GetFreedom();
-      products.lightNoise += ProductOfParts(this->SumParts(light)) / m_Residuals.GetFreedom();
-    }
-    return products;
-  }
-
-private:
-  const NoiseResiduals &           m_Residuals;
-  const std::vector<std::size_t> & m_Tiles;
-  LineAxis                         m_Axis;
-  std::size_t                      m_Line;
+  std::size_t part;
+  std::size_t tile;
+  std::size_t inTile;
+  double      w;
+  double      z;
 };
+
+/** The pixels of line \a line of \a tiles, which lie side by side, in the order of the frame. */
+std::vector<PixelOfLine>
+PixelsOfLine(const NoiseResiduals & residuals, const std::vector<std::size_t> & tiles, LineAxis axis, std::size_t line)
+{
+  const SampleTiles &      of = residuals.GetTiles();
+  const std::size_t        length = of.side / PartsOfTile;
+  std::vector<PixelOfLine> pixels;
+  pixels.reserve(tiles.size() * of.side);
+  for (std::size_t part = 0; part < PartsOfTile * tiles.size(); ++part)
+  {
+    const std::size_t tile = tiles[part / PartsOfTile];
+    for (std::size_t k = part % PartsOfTile * length; k < (part % PartsOfTile + 1) * length; ++k)
+    {
+      const std::size_t p = of.InTile(axis, line, k);
+      pixels.push_back({ part,
+                         tile,
+                         p,
+                         static_cast<double>(residuals.WeightOf(tile)[p]),
+                         static_cast<double>(residuals.LightOf(tile)[p]) });
+    }
+  }
+  return pixels;
+}
+
+LineLightProducts
+ProductsOfLine(const NoiseResiduals & residuals, const std::vector<PixelOfLine> & pixels)
+{
+  const std::size_t   parts = pixels.empty() ? 0 : pixels.back().part + 1;
+  std::vector<double> constant(parts, 0.0);
+  std::vector<double> mixed(parts, 0.0);
+  std::vector<double> square(parts, 0.0);
+  for (const PixelOfLine & pixel : pixels)
+  {
+    constant[pixel.part] += pixel.w;
+    mixed[pixel.part] += pixel.w * pixel.z;
+    square[pixel.part] += pixel.w * pixel.z * pixel.z;
+  }
+  LineLightProducts products;
+  products.constant = ProductOfParts(constant);
+  products.mixed = ProductOfParts(mixed);
+  products.square = ProductOfParts(square);
+  std::vector<double> noise(parts);
+  std::vector<double> lightNoise(parts);
+  for (std::size_t t = 0; t < residuals.GetTiles().frames; ++t)
+  {
+    std::fill(noise.begin(), noise.end(), 0.0);
+    std::fill(lightNoise.begin(), lightNoise.end(), 0.0);
+    for (const PixelOfLine & pixel : pixels)
+    {
+      const float * const values = residuals.OfTile(pixel.tile) + t * residuals.GetTiles().Pixels();
+      const double        weighed = pixel.w * static_cast<double>(values[pixel.inTile]);
+      noise[pixel.part] += weighed;
+      lightNoise[pixel.part] += weighed * pixel.z;
+    }
+    products.noise += ProductOfParts(noise) / residuals.GetFreedom();
+    products.lightNoise += ProductOfParts(lightNoise) / residuals.GetFreedom();
+  }
+  return products;
+}
 } // namespace
 
 MeasuredNumber
@@ -138,7 +149,7 @@ FindLineLight(const NoiseResiduals & residuals, LineAxis axis, const ParallelFor
   std::vector<LineLightProducts> ofLines(lines > 0 ? (lines + step - 1) / step : 0);
   parallelFor(ofLines.size(), [&](std::size_t i) {
     const std::size_t line = i * step;
-    ofLines[i] = LineOfTiles(residuals, groups[line / tiles.side], axis, line % tiles.side).Products();
+    ofLines[i] = ProductsOfLine(residuals, PixelsOfLine(residuals, groups[line / tiles.side], axis, line % tiles.side));
   });
   std::vector<LineLightProducts> blocks(std::min(Blocks, ofLines.size()));
   for (std::size_t i = 0; i < ofLines.size(); ++i)
