@@ -41,6 +41,10 @@ struct CommonConstants
   /** Variance of the noise, relative to the square of the code step, below which the codes hide it [1]: that of half a
    * step. */
   double hiddenVariance{ 0.25 };
+
+  /** Difference of chi-squares, or of Schwarz' criterion, that is very strong evidence (Kass & Raftery 1995, on the
+   * scale of 2 ln B) [1]. */
+  double strongEvidence{ 10.0 };
 };
 
 SENSORNOISE_CONSTANT CommonConstants InCommon;

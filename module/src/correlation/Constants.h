@@ -96,8 +96,6 @@ struct CorrelationConstants
   /** Chi-square of the best shape from which nothing explains it [1]: the 99 % quantile for four bins and one number.
    */
   double largestChi2{ 11.3 };
-  /** Difference of chi-squares that is very strong evidence (Kass & Raftery 1995, on the scale of 2 ln B) [1]. */
-  double strongEvidence{ 10.0 };
   /** Root mean square by which a negative share of nearest neighbours may differ with the place in a block [1]. Set by
    * hand: a JPEG of quality 98 makes 0.01. (A positive one may: frames that were binned, sensors read in groups of
    * rows.) */

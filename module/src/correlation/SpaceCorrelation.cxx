@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "correlation/SpaceCorrelation.h"
 
+#include "base/Constants.h"
 #include "base/Eigen.h"
 #include "base/Significance.h"
 #include "correlation/BlockPhases.h"
@@ -162,7 +163,7 @@ IsOfSquare(const Eigen::VectorXd & coefficients, Eigen::VectorXd chi2)
   const auto   square = static_cast<Eigen::Index>(ShapeOfShared::Square);
   const double own = chi2(square);
   chi2(square) = std::numeric_limits<double>::infinity();
-  return coefficients(square) > 0.0 && own + InCorrelation.strongEvidence < chi2.minCoeff();
+  return coefficients(square) > 0.0 && own + InCommon.strongEvidence < chi2.minCoeff();
 }
 
 /** Whether the variance bends as charge that repels charge bends it, and what the nearest share straightens it. Either

@@ -206,9 +206,6 @@ struct PartsConstants
   int         rounds{ 12 };
   /** Levels at which a step is tried, or a curve has its knots. Chosen for the time. */
   std::size_t levelsOfStep{ 32 };
-  /** Difference of Schwarz' criterion that is very strong evidence (Kass & Raftery 1995, on the scale of 2 ln B) [1].
-   */
-  double strongEvidence{ 10.0 };
   /** Tukey's constant, which has 95 % of the efficiency of least squares (Beaton & Tukey 1974) [1]. */
   double tukey{ 4.685 };
 };

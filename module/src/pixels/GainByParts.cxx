@@ -134,7 +134,7 @@ DiffersInAll(const PartRegression & fit)
 bool
 IsClearlyDark(const PartRegression & fit, const std::vector<TileExcess> & tiles, double scale, double uniform)
 {
-  const double criterion = fit.Criterion(tiles, scale) + InParts.strongEvidence;
+  const double criterion = fit.Criterion(tiles, scale) + InCommon.strongEvidence;
   return fit.darks > 1 && criterion < uniform && !AreLevelsBetter(tiles, scale, criterion);
 }
 
@@ -171,7 +171,7 @@ AddSimplerFits(std::vector<PartRegression> & fits, const std::vector<TileExcess>
   {
     const double parts = static_cast<double>(fits[i].gains);
     const double saved = std::log(static_cast<double>(tiles.size())) * (parts - 1.0);
-    if (!fits[i].IsSmooth() && fits[i].Criterion(tiles, scale) - saved + InParts.strongEvidence < uniform)
+    if (!fits[i].IsSmooth() && fits[i].Criterion(tiles, scale) - saved + InCommon.strongEvidence < uniform)
     {
       const Partition partition = fits[i].partition;
       fits.push_back(FitParts(partition, PartsDiffer::InGain, tiles));
