@@ -26,7 +26,7 @@ class StackPasses; // private
 /** \class StackMethod
  * \brief What both methods share: the passes over a stack, in one process or in several, the report and the maps.
  *
- * Frames that are equal, bit by bit, are counted once. Frames that are unlike the others are left out: if there are
+ * Frames that are equal, bit by bit, are counted once. Frames that are unlike the others are left out. If there are
  any,
  * the next pass repeats the first one without them. Usage, with RefinedMethod for example:
    \code
@@ -41,7 +41,7 @@ class StackPasses; // private
    \endcode
  *
  * Several processes, each with a part of the frames, share the sums of every pass and all get the report of the whole
- * stack. With integer pixels it has the bits of a single process; with floating-point pixels it is equal to rounding,
+ * stack. With integer pixels it has the bits of a single process. With floating-point pixels it is equal to rounding,
  and
  * has the same bits in all processes. Equal frames must be read by one process, or by one that has merged the other's
  * sums before: where two have counted the same frame, MergeSums() throws and names both.
