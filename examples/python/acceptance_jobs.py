@@ -81,25 +81,21 @@ def situation_jobs(programs, plan):
 
 
 def study_jobs(programs, plan):
-    """The jobs of the studies that were built. Those of measure-real-sensors are the longest and come first, so that no
+    """The jobs of measure-cases, if it was built. Those of the sensors are the longest and come first, so that no
     processor waits for them at the end."""
-    efficiency, robustness, sensors = (programs.study(name) for name in ("efficiency", "robustness", "real-sensors"))
-    for name in acceptance_studies.names_of(sensors) if sensors.exists() else ():
-        size = plan.sensors_size
-        for seed in range(1, plan.sensors_seeds + 1):
-            measure = partial(acceptance_studies.measure_sensors, sensors, name, size, seed)
-            yield Job(f"sensors/{name}", "", seed, f"size {size}", hash_of(sensors), measure)
-    for seed in range(1, plan.efficiency_seeds + 1) if efficiency.exists() else ():
-        for name in acceptance_studies.EXPERIMENTS:
-            size = plan.efficiency_size
-            measure = partial(acceptance_studies.measure_efficiency, efficiency, name, size, seed)
-            yield Job(f"efficiency/{name}", "target", seed, f"size {size}", hash_of(efficiency), measure)
-    for name in acceptance_studies.names_of(robustness) if robustness.exists() else ():
-        for scene in ("target", "texture"):
-            size = plan.robustness_size
-            for seed in range(1, plan.robustness_seeds + 1):
-                measure = partial(acceptance_studies.measure_robustness, robustness, name, scene, size, seed)
-                yield Job(f"robustness/{name}", scene, seed, f"size {size}", hash_of(robustness), measure)
+    program = programs.studies
+    if not program.exists():
+        return
+    plans = [("sensors", "", plan.sensors_size, plan.sensors_seeds)]
+    plans += [("efficiency", "target", plan.efficiency_size, plan.efficiency_seeds)]
+    plans += [("robustness", scene, plan.robustness_size, plan.robustness_seeds) for scene in ("target", "texture")]
+    for study, scene, size, seeds in plans:
+        for name in acceptance_studies.names_of(program, study):
+            pattern = f"{study}/{name}/{scene or '*'}"
+            seeded = f"{study} {name} {scene}" if study == "robustness" else f"{study} {name}"
+            for seed in range(1, seeds + 1):
+                measure = partial(acceptance_studies.measure, program, pattern, seeded, size, seed)
+                yield Job(f"{study}/{name}", scene, seed, f"size {size}", hash_of(program), measure)
 
 
 def read_results(name):

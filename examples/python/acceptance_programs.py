@@ -61,5 +61,6 @@ class Programs(NamedTuple):
     def estimator(self):
         return self.estimators / "estimate-sensor-noise"
 
-    def study(self, name):
-        return self.estimators / f"measure-{name}"
+    @property
+    def studies(self):
+        return self.estimators / "measure-cases"

@@ -6,9 +6,8 @@
     measure_acceptance.py --bin build/bin --quick --results after.jsonl
     measure_acceptance.py --compare before.jsonl after.jsonl
 
-A line is a kind of burst: those of acceptance_lines.py, which simulate-sensor-noise makes, the experiments of
-measure-efficiency, the cases of measure-robustness, the lines of measure-real-sensors, and the bursts that NumPy makes
-(situations.py). Of each line:
+A line is a kind of burst: those of acceptance_lines.py, which simulate-sensor-noise makes, the cases of
+measure-cases, and the bursts that NumPy makes (situations.py). Of each line:
 
     error %    mean error of the gain without its sign; more than 100 % counts as 100 %
     /bound     rms error of the gain over its Cramér-Rao bound, where that is known

@@ -9,8 +9,23 @@
 #include "refined/Constants.h"
 #include "series/Constants.h"
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdio>
+#include <stdexcept>
+
 namespace sensornoise::tools
 {
+
+namespace
+{
+struct VariedConstant
+{
+  std::string  name;
+  double *     value;
+  const char * unit;
+  const char * what; ///< one line for people
+};
 
 const std::vector<VariedConstant> &
 GetVariedConstants()
@@ -33,6 +48,39 @@ GetVariedConstants()
     { "InRefined.largestNonlinearity", &InRefined.largestNonlinearity, "1", "bend that is refused" },
   };
   return constants;
+}
+} // namespace
+
+void
+PrintVariedConstants()
+{
+  for (const VariedConstant & constant : GetVariedConstants())
+  {
+    std::printf("%-32s %-8.4g %-3s %s\n", constant.name.c_str(), *constant.value, constant.unit, constant.what);
+  }
+}
+
+void
+MultiplyConstants(const std::vector<std::string> & changes)
+{
+  for (const std::string & change : changes)
+  {
+    const std::size_t equals = change.find('=');
+    const auto &      all = GetVariedConstants();
+    const auto        found = std::find_if(all.begin(), all.end(), [&](const VariedConstant & constant) {
+      return constant.name == change.substr(0, equals);
+    });
+    char              rest = 0;
+    double            factor = 0.0;
+    const bool        isFactor = equals != std::string::npos &&
+                          std::sscanf(change.c_str() + equals + 1, "%lf%c", &factor, &rest) == 1 && factor > 0.0;
+    if (found == all.end() || !isFactor)
+    {
+      throw std::invalid_argument("--constant is \"" + change +
+                                  "\"; expected NAME=FACTOR with a name of --list-constants and a positive factor");
+    }
+    *found->value *= factor;
+  }
 }
 
 } // namespace sensornoise::tools

@@ -9,39 +9,17 @@
 namespace sensornoise::tools
 {
 
-/** A number of the refined method that a study changes. */
-struct VariedConstant
-{
-  std::string name; ///< as at the place where it is used: "Significance.manyTests"
-  double *    value;
-  std::string unit;
-  std::string what; ///< one line for people
-};
+/** Prints the constants of the refined method that MultiplyConstants() changes: name, value, unit, what for. They are
+ * the most influential ones: of all numbers in the Constants.h of the components, those whose half or double changed
+ * most in the robustness cases. */
+void
+PrintVariedConstants();
 
-/** The most influential ones: of all numbers in the rooms' Constants.h, those whose half or twice changed most in the
- * stress cases. */
-const std::vector<VariedConstant> &
-GetVariedConstants();
-
-/** Gives a constant a value as long as it lives. Whatever measures meanwhile, in any thread, measures with it. */
-class ConstantChange
-{
-public:
-  ConstantChange(double & constant, double value)
-    : m_Constant(constant)
-    , m_Before(constant)
-  {
-    m_Constant = value;
-  }
-  ~ConstantChange() { m_Constant = m_Before; }
-  ConstantChange(const ConstantChange &) = delete;
-  ConstantChange &
-  operator=(const ConstantChange &) = delete;
-
-private:
-  double & m_Constant;
-  double   m_Before;
-};
+/** Multiplies constants of the refined method for the rest of the program. \a changes are of the form NAME=FACTOR, with
+ * the name as at the place where the constant is used: "Significance.manyTests=0.5". Throws std::invalid_argument for
+ * another form or another name. */
+void
+MultiplyConstants(const std::vector<std::string> & changes);
 
 } // namespace sensornoise::tools
 

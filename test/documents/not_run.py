@@ -18,6 +18,15 @@ NOT_RUN = {
             "--compare before.jsonl after.jsonl",
         )
     },
+    **dict.fromkeys(
+        (
+            "measure-cases 'efficiency/*/target' --seeds 24 >efficiency.jsonl",
+            "python examples/python/study_tables.py efficiency.jsonl",
+            "measure-cases 'efficiency/*/target' --method published --seeds 20 >table2.jsonl",
+            "python examples/python/study_tables.py --paper table2.jsonl",
+        ),
+        _STUDY,
+    ),
     "bash wrapping/build-wheel.sh && pip install dist/itk_sensornoise-*.whl": _BUILDS,
 }
 

@@ -199,67 +199,41 @@ def test_what_the_file_has_is_not_run_again(tmp_path):
     assert len(stacks_of(records, jobs[:2])) == 2
 
 
-ROBUSTNESS = """\
-case                 ref.     seed    g err %      z  c err DN^2      z  mu err DN      z  mu interval DN
-{row}
-over the seeds: mean error
-case                 ref.        g err %      z
-{summary}
-"""
+def record(case, gain, status="identified", **members):
+    """A line of measure-cases, of a true gain of 0.5 DN/e-."""
+    report = {"gain": quantity(*gain, status), "offset": quantity(101.0, 0.4), "warnings": []}
+    return {"case": case, "truth": {"gain": 0.5, "offset": 100.0}, "report": report} | members
 
 
 @pytest.mark.parametrize(
-    ("row", "summary", "expected"),
+    ("expectation", "status", "expected"),
     [
-        (
-            "plain  target  1  -0.332 -2.3 +0.352 +0.8 -0.783 -0.4  [94.7, 103.7]  identified  0.938 8 local-light",
-            "plain  target  -0.332 2.3 +0.352 0.8 -0.783 0.4  1/1   0.938  ok",
-            {"error": -0.00332, "z": -2.3, "covered": {"gain": False, "offset": True}, "expected": "measured"},
-        ),
-        (
-            "gamma  texture 7  - - - - - -  -  failed  0.907 - variance-not-affine",
-            "gamma  texture  - - - - - -  0/1   0.914  failed as expected",
-            {"refused": True, "covered": {}, "expected": "must refuse", "warnings": ["variance-not-affine"]},
-        ),
-        (
-            "gamma  texture 7  +2.0 +5.0 - - - -  -  not-identifiable  0.907 - -",
-            "gamma  texture  +2.0 5.0 - - - -  0/1   0.914  MISS (not refused)",
-            {"refused": False, "wrong": ["gain"], "silent": True, "expected": "must refuse"},
-        ),
+        ("measured", "identified", {"refused": False, "wrong": ["gain"], "silent": True, "expected": "measured"}),
+        ("refused", "failed", {"refused": True, "wrong": [], "silent": False, "expected": "must refuse"}),
+        ("refused", "identified", {"refused": False, "wrong": ["gain"], "silent": True}),
+        ("processed", "not-identifiable", {"refused": True, "wrong": [], "expected": "may refuse"}),
     ],
 )
-def test_a_row_of_measure_robustness_is_read(row, summary, expected):
-    from acceptance_studies import read_robustness
+def test_a_robustness_case_is_judged_by_what_is_expected_of_it(expectation, status, expected):
+    from acceptance_studies import judge_record
 
-    (stack,) = read_robustness(ROBUSTNESS.format(row=row, summary=summary), 1.0, {"variance-not-affine"})
+    stack = judge_record(record("robustness/a/target", (0.51, 0.001), status, expectation=expectation))
     assert {name: stack[name] for name in expected} == expected
+    assert stack["covered"]["offset"] is False and stack["setting"] == ""  # 2.5 standard errors, of an interval of 2
 
 
-def test_rows_of_measure_real_sensors_are_read():
-    from acceptance_studies import read_sensors
+def test_the_offset_of_a_study_has_no_size_to_be_held_against():
+    from acceptance_studies import judge_record
 
-    text = "\n".join(
-        [
-            "bends: local gain off",
-            "setting                   scene      T    n ref. |  g held rms z mean z  s.e. %  bias %       p | mu held",
-            "quadratic -0.02           texture   50    1    0 |     0/1  4.53  +4.53   0.565      +2    0.05 |"
-            "     1/1  0.39 |     1/1  1.26     - |     1/1  0.15 |     1/1     1/1 | -; noise white 1",
-            "narrow 0.5 to 1           flat      50    1    1 |       -     -      -       -       -       - |"
-            "       -     - |       -     -     - |       -     - |     1/1       - | few-frames 1; noise white 1",
-            "bends, all settings together: 2 stacks, refused 1",
-        ]
-    )
-    wrong, refused = read_sensors(text, 3.0, {"few-frames"})
-    assert wrong["wrong"] == ["gain"] and wrong["silent"] and wrong["error"] == 0.02 and wrong["z"] == 4.53
-    assert wrong["covered"] == {"gain": False, "offset": True, "read_noise": True} and wrong["seconds"] == 1.5
-    assert wrong["setting"] == "texture, quadratic -0.02, 50 frames"
-    assert refused["refused"] and refused["status"] == "failed" and refused["warnings"] == ["few-frames"]
+    stack = judge_record(record("efficiency/B3/target", (0.5, 0.001), limit={"gain": 0.0005}))
+    assert stack["wrong"] == [] and stack["bound"] == 0.001
 
 
-def test_the_severities_are_those_of_the_table():
-    from acceptance_studies import loud_codes
+def test_a_setting_of_the_sensors_is_named_by_the_case():
+    from acceptance_studies import judge_record
 
-    assert {"few-frames", "variance-not-affine"} < loud_codes() and "not-static" not in loud_codes()
+    stack = judge_record(record("sensors/bends/wave 0.02, 50 frames/texture", (0.5, 0.001)))
+    assert stack["setting"] == "wave 0.02, 50 frames/texture" and stack["expected"] == "may refuse"
 
 
 @pytest.mark.skipif("SENSORNOISE_BIN" not in os.environ, reason="SENSORNOISE_BIN names no folder of the tools")

@@ -5,7 +5,7 @@
 
 /** \def SENSORNOISE_CONSTANT
  * Before a struct of the methods' numbers: it is known when the library is compiled. With SENSORNOISE_VARY_CONSTANTS it
- * is a variable, which a program may change before it measures, to study what a number does (measure-influence). */
+ * is a variable, which a program may change before it measures, to study what a number does (measure-varied-cases). */
 #ifdef SENSORNOISE_VARY_CONSTANTS
 #  define SENSORNOISE_CONSTANT inline
 #else

@@ -37,7 +37,7 @@ struct RefinedConstants
   ///@{
   /** Vibration beyond which the expansion in derivatives fails, as a square [pixels^2], and what is then known of the
    * bias, relative to the gain, at the reference's square, with which it grows [1, pixels^2]. Measured by
-   * measure-robustness. */
+   * the robustness cases of measure-cases. */
   double smallVibration{ 0.16 };
   double biasOfVibration{ 0.0015 };
   double referenceVibration{ 0.25 };

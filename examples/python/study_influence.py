@@ -1,0 +1,81 @@
+# SPDX-FileCopyrightText: the ITKSensorNoise contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Measures what half and double of the most influential constants of the refined method do, as a table in Markdown.
+
+    cmake -S . -B build -DSensorNoise_BUILD_INFLUENCE=ON && cmake --build build --target measure-varied-cases
+    python examples/python/study_influence.py --bin build/bin
+
+A cell: mean error of the gain [%] ± mean standard error, largest error over standard error, stacks within 3 of them /
+stacks whose gain is identified; "=": no report changes. About half a second a stack, constant, value and processor.
+"""
+
+import argparse
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+from study_records import estimate_of, mean
+
+CASES = ("waving_quarter", "hot_pixels", "bleach_mixed", "shoulder+4", "brighter_fatter", "smoothed")
+FACTORS = (0.5, 2.0)
+LARGEST_Z = 3.0  # [standard errors]
+
+
+def measure(program, case, options, *more):
+    """The records of a case, by their seeds."""
+    command = [program, f"robustness/{case}/{options.scene}", "--seeds", options.seeds, "--size", options.size, *more]
+    done = subprocess.run(list(map(str, command)), stdout=subprocess.PIPE, check=True)
+    return [json.loads(line) for line in done.stdout.splitlines()]
+
+
+def cell(records):
+    gains = [one for one in (estimate_of(record, "gain") for record in records) if one.z is not None]
+    if not gains:
+        return f"0/{len(records)}"
+    bias = mean(100 * one.error / one.truth for one in gains)
+    error = mean(100 * one.standard_error / one.truth for one in gains)
+    right = sum(abs(one.z) <= LARGEST_Z for one in gains)
+    return f"{bias:+.2f} ± {error:.2f}, {max(abs(one.z) for one in gains):.1f}, {right}/{len(gains)}"
+
+
+def constants_of(program, names):
+    """Name and value of the constants, as the program lists them."""
+    lines = subprocess.run([program, "--list-constants"], stdout=subprocess.PIPE, check=True, text=True).stdout
+    known = {line.split()[0]: float(line.split()[1]) for line in lines.splitlines()}
+    missing = set(names) - set(known)
+    if missing:
+        raise SystemExit(f"error: no constant has the name {min(missing)}; known are {', '.join(known)}")
+    return {name: value for name, value in known.items() if not names or name in names}
+
+
+def main(arguments=None) -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--bin", type=Path, default=Path("build/bin"), help="folder of measure-varied-cases")
+    parser.add_argument("--constant", action="append", default=[], help="this one alone; may be repeated")
+    parser.add_argument("--cases", default=",".join(CASES), help="names of robustness cases, with commas between them")
+    parser.add_argument("--scene", default="texture", choices=("target", "texture"))
+    parser.add_argument("--seeds", type=int, default=8)
+    parser.add_argument("--size", type=int, default=256, help="width and height [pixels]")
+    options = parser.parse_args(arguments)
+    program = (options.bin / "measure-varied-cases").resolve()
+    cases = options.cases.split(",")
+    as_is = {case: measure(program, case, options) for case in cases}
+    print("| constant | value |" + "".join(f" {case} |" for case in cases) + "\n|---|---|" + "---|" * len(cases))
+    print("| as they are | |" + "".join(f" {cell(as_is[case])} |" for case in cases))
+    changed = count = 0
+    for name, value in constants_of(program, options.constant).items():
+        for factor in FACTORS:
+            cells = []
+            for case in cases:
+                records = measure(program, case, options, "--constant", f"{name}={factor}")
+                different = sum(new["report"] != old["report"] for new, old in zip(records, as_is[case], strict=True))
+                changed, count = changed + different, count + len(records)
+                cells.append(cell(records) if different else "=")
+            print(f"| {name} | {factor * value:.4g} |" + "".join(f" {text} |" for text in cells), flush=True)
+    print(f"\n{changed} of {count} reports changed")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef MeasuredStack_h
+#define MeasuredStack_h
+
+#include "sensornoise/FrameGeometry.h"
+#include "sensornoise/PublishedMethod.h"
+#include "sensornoise/RefinedMethod.h"
+#include "sensornoise/Report.h"
+#include "sensornoise/ReportText.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace sensornoise::tools
+{
+
+/** A report, and the value of PixelUse of each pixel. */
+struct MeasuredStack
+{
+  Report                    report;
+  std::vector<std::uint8_t> pixelUse;
+
+  /** The report as JSON. */
+  nlohmann::ordered_json
+  ReportRecord() const
+  {
+    return nlohmann::ordered_json::parse(ToJson(report));
+  }
+};
+
+/** Hands all \a frames frames of a stack, one after the other in \a codes, to a method in all of its passes. */
+template <typename TMethod, typename TPixel>
+MeasuredStack
+MeasureBy(TMethod && method, const std::vector<TPixel> & codes, std::size_t frames)
+{
+  while (!method.IsDone())
+  {
+    method.AddFrames(codes.data(), frames);
+    method.EndPass();
+  }
+  return { method.GetReport(), method.GetPixelUse() };
+}
+
+/** Measures a stack by the method "refined" or "published", with its default settings. */
+template <typename TPixel>
+MeasuredStack
+MeasureBy(const std::string &         methodName,
+          const std::vector<TPixel> & codes,
+          const FrameGeometry &       geometry,
+          std::size_t                 frames)
+{
+  return methodName == "refined" ? MeasureBy(RefinedMethod<TPixel>({}, geometry, frames), codes, frames)
+                                 : MeasureBy(PublishedMethod<TPixel>({}, geometry, frames), codes, frames);
+}
+
+} // namespace sensornoise::tools
+
+#endif

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef OrderedWork_h
+#define OrderedWork_h
+
+#include <cstddef>
+#include <functional>
+#include <string>
+
+namespace sensornoise::tools
+{
+
+/** Calls \a make for 0 to \a count - 1, by \a threads threads at a time, and hands each result to \a use as soon as all
+ * results before it were used: the order of the results does not depend on the number of threads. Throws the first
+ * exception of \a make; no further result is used then. */
+void
+MakeInOrder(std::size_t                                      count,
+            unsigned int                                     threads,
+            const std::function<std::string(std::size_t)> &  make,
+            const std::function<void(const std::string &)> & use);
+
+} // namespace sensornoise::tools
+
+#endif
