@@ -14,22 +14,25 @@ namespace sensornoise
 {
 
 /** \class ChiSquareTrim
- * \brief Two-sided trimming of sample variances at the tail probability trimTail each, unless another is asked
- * for, and its bias: a trimmed mean of chi-square variables of k degrees of freedom is (F_{k+2}(b) - F_{k+2}(a)) /
- * (F_k(b) - F_k(a)) of the mean. */
+ * \brief Limits for two-sided trimming of sample variances, and the bias of the trimmed mean.
+ *
+ * Trimming chi-square variables of k degrees of freedom to the interval from a to b multiplies their mean by
+ * (F_{k+2}(b) - F_{k+2}(a)) / (F_k(b) - F_k(a)). */
 class SensorNoise_EXPORT ChiSquareTrim
 {
 public:
-  /** For degrees of freedom from \a lowest to \a highest. */
+  /** Computes the limits for all whole degrees of freedom from \a lowest to \a highest, 1 or more. \a tail is the
+   * probability of each trimmed tail [1]. */
   ChiSquareTrim(double lowest, double highest, double tail = InPixels.trimTail);
 
   struct Limits
   {
-    double low;    ///< a variance below it is trimmed, relative to the expected one
-    double high;   ///< one above it is trimmed
-    double mean;   ///< of those that are kept
-    double median; ///< of all
+    double low;    ///< variances below it are trimmed, relative to the expected variance [1]
+    double high;   ///< variances above it are trimmed, relative to the expected variance [1]
+    double mean;   ///< mean of the variances that are kept, relative to the expected variance [1]
+    double median; ///< median of all variances, relative to the expected variance [1]
   };
+  /** Returns the limits for the degrees of freedom in the table that are nearest to \a freedom. */
   const Limits &
   Of(double freedom) const
   {

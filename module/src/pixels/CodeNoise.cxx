@@ -21,8 +21,8 @@ namespace
 {
 constexpr std::size_t LevelsOfRest = 513;
 
-/** The noise of rounding of a pixel of the mean \a levelDn and the standard deviation \a sdDn: the expectation over a
- * normal distribution, by the five-point rule of Gauss and Hermite. */
+/** Returns the quantization noise of a pixel of the mean \a levelDn and the standard deviation \a sdDn [DN^2]: the
+ * expectation over a normal distribution, by the five-point Gauss-Hermite rule. */
 double
 MeanVarianceAt(const CodeSteps & steps, double levelDn, double sdDn)
 {
@@ -36,8 +36,8 @@ MeanVarianceAt(const CodeSteps & steps, double levelDn, double sdDn)
   return sum;
 }
 
-/** Parts the rests, which are still all of the noise, into line and rest: the line that pixels with weights as in the
- * fit of the variance draw. */
+/** Splits the excess into a line and a remainder. Before, restsDn2 holds the whole excess. The line is fitted to the
+ * usable pixels with the weights of the variance fit. */
 void
 PartOffLine(CodeNoise & noise, const ReferenceFrame & frame, const ProvisionalModel & model)
 {

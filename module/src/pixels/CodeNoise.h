@@ -19,30 +19,33 @@ namespace sensornoise
 struct StaticVariance;
 
 /** \class CodeNoise
- * \brief What rounding to companded codes adds to the variance beyond what it adds in the dark, by level.
+ * \brief Quantization noise of companded data beyond the quantization noise in the dark, as a function of the level.
  *
- * It is parted in two: a line, which for a square root is all of it, and a rest. The rest is taken off the variance of
- * every pixel, so that what is fitted is a line; the line is taken off the fit. Until then the variance is that which
- * the pixels have, and their scatter about it what chance makes of it. Even codes: zero. */
+ * The excess is split into a line in the level and a remainder. For data that are companded by a square root, the line
+ * is all of it. The remainder is subtracted from the variance of every pixel, so that the variance can be fitted by a
+ * line. The line is subtracted after the fit: until then the variance includes it, as the scatter of the pixels does.
+ * With uniform quantization the excess is 0. */
 struct SensorNoise_EXPORT CodeNoise
 {
-  /** The noise of rounding in the dark, which is left in the intercept [DN^2]. */
+  /** Quantization noise in the dark, which stays in the intercept [DN^2]. */
   double inTheDarkDn2{ 0.0 };
-  double slopeDn{ 0.0 };      ///< of the line [DN]
-  double interceptDn2{ 0.0 }; ///< of the line [DN^2]
+  double slopeDn{ 0.0 };      ///< slope of the line [DN]
+  double interceptDn2{ 0.0 }; ///< intercept of the line [DN^2]
 
-  double              lowestDn{ 0.0 };  ///< level of the first rest [DN]
-  double              spacingDn{ 1.0 }; ///< of the levels of the rests [DN]
-  std::vector<double> restsDn2;         ///< beyond the line; empty: none
+  double              lowestDn{ 0.0 };  ///< level of the first remainder [DN]
+  double              spacingDn{ 1.0 }; ///< distance of the levels of two successive remainders [DN]
+  std::vector<double> restsDn2;         ///< remainders at equally spaced levels [DN^2]; empty: none
 
-  double darkErrorDn2{ 0.0 }; ///< of the noise in the dark
+  double darkErrorDn2{ 0.0 }; ///< standard error of inTheDarkDn2 [DN^2]
 
-  /** Covariance of gain and intercept by what is not known of this noise: some per cent of it, and the error in the
-   * dark. 0 for even codes. */
+  /** Returns the covariance of gain and intercept that the uncertainty of this noise adds: InPixels.errorOfCodeNoise of
+   * the slope, and darkErrorDn2. \a pivotDn is the level at which an error of the slope leaves the line unchanged [DN].
+   * Zero with uniform quantization. */
   Eigen::Matrix2d
   ErrorOfLine(double pivotDn) const;
 
-  /** Beyond the line [DN^2]. */
+  /** Returns the remainder at a level, linear between two levels and constant beyond the first and the last one
+   * [DN^2]. */
   double
   RestAt(double levelDn) const
   {
@@ -58,12 +61,13 @@ struct SensorNoise_EXPORT CodeNoise
   }
 };
 
-/** The noise of \a codes on the usable pixels of \a frame, whose noise is about \a model's: a pixel's frames reach the
- * codes about its mean. \a darkStepDn, above 0, is the step in the dark as dark frames tell it. */
+/** Computes the quantization noise of \a codes at the levels of the usable pixels of \a frame. The values of a pixel
+ * over time are taken to be normally distributed, with the variance of \a model. \a darkStepDn is the quantization step
+ * in the dark as measured in dark frames [DN]; 0: not measured, the first step of \a codes is used. */
 SensorNoise_EXPORT CodeNoise
 MakeCodeNoise(const CodeRange & codes, const ReferenceFrame & frame, const ProvisionalModel & model, double darkStepDn);
 
-/** Takes the line of \a noise off the lines that were fitted. */
+/** Subtracts the line of \a noise from all fitted lines, adds its covariance to theirs, and stores \a noise. */
 SensorNoise_EXPORT void
 TakeOffLine(StaticVariance & variance, const CodeNoise & noise);
 

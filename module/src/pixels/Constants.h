@@ -10,165 +10,178 @@
 namespace sensornoise
 {
 
-/** The numbers of the room `pixels`: which pixels fit, and the line through them. Estimator.md, 3.5 to 3.8. */
+/** Constants of the component `pixels` for the rejection of pixels and the variance line. Estimator.md, 3.5 to 3.8. */
 struct PixelsConstants
 {
   /** \name Roughness */
   ///@{
-  /** Standard deviation of the motion below which roughness is that of a radius of 2 pixels [pixels]; above, the radius
-   * is larger by so many standard deviations, of a motion of at most so many pixels. Set by hand. */
+  /** Standard deviation of the motion up to which the roughness is computed within a radius of 2 pixels [pixel]. For
+   * larger motion the radius grows by motionSds standard deviations of the motion, which counts up to largestMotion
+   * [pixel]. Chosen empirically. */
   double smallMotion{ 0.35 };
   double motionSds{ 3.0 };
   double largestMotion{ 4.0 };
-  /** Part of a pixel's freedom that the motion's series may take, at most [1]. Set by hand. */
+  /** Largest fraction of a pixel's degrees of freedom that the motion components may take [1]. Chosen empirically. */
   double largestLeverage{ 0.5 };
-  /** Part of the degrees of freedom that a change of the illumination must take to be allowed for [1]. Set by hand:
-   * below, standard errors are at most half of it too small. A flicker of 10 % rms takes so much. */
+  /** Smallest loss of degrees of freedom by a change of the illumination that is allowed for, as a fraction [1]. Chosen
+   * empirically: below, standard errors are too small by at most half of this fraction. A flicker of 10 % rms has this
+   * loss. */
   double leastLossOfFreedom{ 0.01 };
-  /** Share of the classes, the flat ones, that draw the first line [1]. Set by hand. */
+  /** Fraction of the roughness classes, the flattest ones, that the first line is fitted to [1]. Chosen empirically. */
   double flatShare{ 0.6 };
   ///@}
 
-  /** \name Single pixels, neighbourhoods and classes that do not fit */
+  /** \name Rejection of pixels, neighbourhoods and roughness classes */
   ///@{
-  /** Half width of a neighbourhood [pixels]. Set by hand: 225 variances of 100 frames have a mean to 1 %. */
+  /** Half width of a neighbourhood [pixel]. Chosen empirically: the mean of 225 variances of 100 frames is known to
+   * 1 %. */
   std::size_t misfitRadius{ 7 };
-  /** Excess over the line by which a neighbourhood's mean variance does not fit [1], and the share of its pixels that
-   * it needs [1]. Set by hand. */
+  /** Excess of a neighbourhood's mean variance over the line above which it is rejected [1], and the fraction of its
+   * pixels that must count for this test [1]. Chosen empirically. */
   double leastMisfit{ 0.04 };
   double leastCountedShare{ 0.3 };
-  /** Share of the frame's pixels that do not fit, below which the line that they took part in stands [1]. Set by hand:
-   * so few have not drawn it. */
+  /** Fraction of the frame's pixels in rejected neighbourhoods below which the line is not fitted again without them
+   * [1]. Chosen empirically: so few pixels do not change the line. */
   double fewMisfits{ 1e-3 };
-  /** Excess over the flat classes by which a class of roughness does not fit [1]; or its outliers beyond theirs, of its
-   * pixels [1]. Set by hand. */
+  /** A roughness class is rejected if its mean variance exceeds the mean of the flat classes by this fraction [1], or
+   * if its fraction of outliers exceeds their fraction by this number [1]. Chosen empirically. */
   double leastClassExcess{ 0.0015 };
   double leastClassOutliers{ 0.01 };
-  /** The flattest class that may be left out. Set by hand: those below are the reference. */
+  /** The flattest class that can be rejected. Chosen empirically: the classes below it are the reference. */
   std::size_t firstJudgedClass{ 4 };
   ///@}
 
   /** \name The first line */
   ///@{
-  /** Bins of the square root of the signal, and the pixels that one must have to count. Chosen empirically: an
-   * extrapolation by a factor of 2 or more is seen, and a median of 50 variances is known to 4 %. */
+  /** Number of bins of the square root of the signal, and the pixels that a bin must have to count. Chosen empirically:
+   * an extrapolation by a factor of 2 or more is detected, and the median of 50 variances is known to 4 %. */
   std::size_t levelBins{ 16 };
   std::size_t leastPixelsOfLevel{ 50 };
-  /** Fraction of the bright pixels that must be near a line through dark and bright ones [1]. Chosen empirically: edges
-   * move in most scenes. */
+  /** Fraction of the bright pixels that must be near a line through dark and bright pixels [1]. Chosen empirically: in
+   * most scenes edges move. */
   double leastNearLine{ 0.75 };
   ///@}
 
-  /** \name The judging line */
+  /** \name The rejection model */
   ///@{
-  /** Side of a square [pixels]: enough for a mean to 2 %, few enough to be of one level; and its pixels that must
-   * count. Set by hand. */
-  static constexpr std::size_t judgingSquareSide{ 16 }; // the size of arrays
+  /** Side of a tile [pixel], and the pixels of a tile that must count. Chosen empirically: the mean of a tile is known
+   * to 2 %, and its pixels are of about one level. */
+  static constexpr std::size_t judgingSquareSide{ 16 }; // a constant expression: the size of arrays
   double                       leastSquarePixels{ 64.0 };
-  /** Squares that are enough: of twice as many or more every second counts, and so on. Set by hand: the medians of 16
-   * levels are known to 0.2 %. Half and twice move no gain of 1024 x 1024 pixels by 0.05 of its error. */
+  /** Number of tiles that suffice. Of twice as many or more every second tile is used, of three times as many every
+   * third, and so on. Chosen empirically: the medians at 16 levels are known to 0.2 %. Half and twice this number
+   * change no gain of 1024 x 1024 pixels by more than 0.05 of its error. */
   std::size_t enoughJudgingSquares{ 1024 };
-  /** Levels at most, and squares of each at least. Set by hand. */
+  /** Largest number of levels, and smallest number of tiles at each level. Chosen empirically. */
   std::size_t mostJudgingLevels{ 16 };
   std::size_t squaresPerLevel{ 8 };
-  /** Departure from the line, beside chance, that counts [1]. Set by hand: neighbourhoods are
-   * blamed from 4 % on; half of it is within the noise of frames of 128 x 128 pixels. */
+  /** Deviation from the line beyond chance above which it counts [1]. Chosen empirically: neighbourhoods are rejected
+   * from 4 % on, and half of this deviation is within the noise of frames of 128 x 128 pixels. */
   double leastDeparture{ 0.01 };
-  /** One in so many squares, the darkest, tells the scatter of the pixels' own noise. Set by hand. */
+  /** The darkest tiles, one in this number, give the dispersion of the noise from pixel to pixel. Chosen
+   * empirically. */
   std::size_t darkSquaresOneIn{ 5 };
-  /** Variance of what the pixels' own offsets do to the line, relative to its square at the darkest level, up to which
-   * pixels are judged at their own level [1]. Set by hand: at the limit a ratio of variances is off by 2 %. */
+  /** Variance that the offset pattern (DSNU) adds to the line's value, relative to the square of this value at the
+   * darkest level. Up to this limit pixels are tested at their own level, above it at their neighbours' level [1].
+   * Chosen empirically: at the limit a ratio of variances is biased by 2 %. */
   double largestOwnOffset{ 0.02 };
   ///@}
 
   /** \name The variance line */
   ///@{
-  /** Probability of each tail of chi-square that is trimmed where pixels are judged [1]. Set by hand. */
+  /** Probability of each trimmed tail of chi-square where pixels are tested [1]. Chosen empirically. */
   double trimTail{ 1e-4 };
-  /** Where the line serves as a variance it is cut at this part of the smallest median of a bin [1]. Set by hand. */
+  /** Lower limit of the line where it serves as a variance, as a fraction of the smallest median of a bin [1]. Chosen
+   * empirically. */
   double lowestShare{ 0.2 };
-  /** Pixels of a bin of the first line, and of a fit, at least. Set by hand. */
+  /** Smallest number of pixels of a bin of the first line, and of a fit. Chosen empirically. */
   double      fewestPixelsOfBin{ 5.0 };
   std::size_t fewestPixelsOfFit{ 10 };
-  /** Pixels, or up to twice as many, that draw a line by which pixels are judged, or from which a fit of all pixels
-   * starts. Set by hand: those of 100 frames know a variance to 0.05 %, the smallest effect that is judged is 0.15 %.
-   * Half and twice move no gain of 1024 x 1024 pixels by 0.05 of its error. */
+  /** Number of pixels, or up to twice as many, for the line that pixels are tested against and for the start of the fit
+   * of all pixels. Chosen empirically: with 100 frames this number determines a variance to 0.05 %, and the smallest
+   * effect that is tested is 0.15 %. Half and twice this number change no gain of 1024 x 1024 pixels by more than 0.05
+   * of its error. */
   std::size_t pixelsOfRoughLine{ 65536 };
-  /** Steps from there to the line of all pixels (estimator.md, 3.6). One: 0.2 errors of the gain with 1 % noisy pixels,
-   * elsewhere 1e-4; four: 5e-5. */
+  /** Iterations from the line of these pixels to the line of all pixels (estimator.md, 3.6). One iteration leaves 0.2
+   * errors of the gain with 1 % noisy pixels, elsewhere 1e-4; four leave 5e-5. */
   int stepsFromRoughLine{ 2 };
-  /** Derivative of the fitted gain to the gain by which the variances were corrected, up to which that gain need not
-   * be settled [1]: its error is then at most 1 % too small. Set by hand. */
+  /** Derivative of the fitted gain with respect to the gain that corrects the variances. Up to this limit no fixed
+   * point is needed [1]: the error of the gain is then at most 1 % too small. Chosen empirically. */
   double leastFeedback{ 0.01 };
-  /** The derivative above which the frames do not determine a gain [1]: nine tenths of it were put in, and what is
-   * wrong with the rest counts ten times. Set by hand. */
+  /** Largest derivative with which the frames determine a gain [1]. Above it nine tenths of the fitted gain are the
+   * gain that was put in, and errors of the rest count ten times. Chosen empirically. */
   double largestFeedback{ 0.9 };
-  /** Part of the illumination that frames carry together which are named as the cause [1]. Set by hand. */
+  /** The fewest frames that together carry this fraction of the illumination are named as the reason of a failed
+   * estimate [1]. Chosen empirically. */
   double shareOfFewFrames{ 0.9 };
-  /** Times that a line is drawn and its gain settled, at most, and the relative change of the gain that ends it [1].
-   * Set by hand: the solution is exact but for weights and outliers, which change once or twice. */
+  /** Largest number of times that the line is fitted and its gain corrected, and the relative change of the gain that
+   * ends the iteration [1]. Chosen empirically: the solution is exact but for weights and outliers, which change once
+   * or twice. */
   int    settlingRounds{ 4 };
   double settledChange{ 1e-4 };
-  /** Determinant of a line's equations, relative to its diagonal, up to which the levels are one [1]: rounding. */
+  /** Determinant of a line's normal equations, relative to the product of their diagonal, up to which all levels are
+   * equal but for rounding [1]. */
   double leastDeterminant{ 1e-12 };
-  /** Probability that chance carries a pixel of the brightest level beyond the reach of TrimRule::Distance [1]. Set by
-   * hand, small enough to leave the mean alone: a tenth and ten times of it move no gain by 0.01 %. */
+  /** Probability that a pixel of the brightest level is beyond the limit of TrimRule::Distance by chance [1]. Chosen
+   * empirically, so small that it does not bias the mean: a tenth and ten times of it change no gain by 0.01 %. */
   double reachTail{ 1e-5 };
-  /** Variance of the pixels' own noise, in units of what the sampling noise makes of it at the darkest level, below
-   * which the weights leave it out [1]. Set by hand: at the limit equal weights cost 0.3 % of the precision. */
+  /** Dispersion of the pixels' noise variances, relative to their sampling variance, below which the weights neglect it
+   * [1]. Chosen empirically: at the limit equal weights cost 0.3 % of the precision. */
   double leastNoiseSpread{ 0.1 };
-  /** Error that a pattern may cause, in standard errors, which is left out [1]. Set by hand: it adds 3 % to the error.
-   */
+  /** Largest error by fixed-pattern noise that is neglected, in standard errors [1]. Chosen empirically: it adds 3 % to
+   * the error. */
   double negligiblePattern{ 0.25 };
   ///@}
 
   /** \name Noise of companded codes */
   ///@{
-  /** What is not known of the noise of rounding, relative to it [1]. Set by hand: of square roots, powers and
-   * logarithms to 8 and 10 bits, at four gains, a scene of few levels left 0 to 6 % of it in the slope where the codes
-   * are as coarse as the noise; a texture less. */
+  /** Relative uncertainty of the quantization noise [1]. Chosen empirically on data companded by square roots, powers
+   * and logarithms to 8 and 10 bits, at four gains. A scene of few levels left 0 to 6 % of this noise in the slope
+   * where the quantization step is as large as the noise; a texture left less. */
   double errorOfCodeNoise{ 0.05 };
-  /** What rounding the expanded codes to their unit does to the variance at one level, which the codes at that level
-   * stretch or squeeze by chance: relative to the unit times the root of noise and step [1]. Set by hand, on charts
-   * whose darkest patch has one level. */
+  /** Error of the variance at one level because the expanded digital numbers are rounded to their unit, relative to the
+   * unit times the square root of noise and step [1]. Chosen empirically on charts whose darkest patch has one
+   * level. */
   double errorOfRounding{ 0.15 };
   ///@}
 };
 
 SENSORNOISE_CONSTANT PixelsConstants InPixels;
 
-/** The numbers of the room `pixels` by which pixels' own patterns and local light are told. Estimator.md, 3.7. */
+/** Constants of the component `pixels` for fixed-pattern noise and local illumination. Estimator.md, 3.7. */
 struct PatternConstants
 {
-  /** Side of a square [pixels], in small frames, and the pixels of a frame that is not small: many columns tell their
-   * pattern, but a small frame may have no large square that is flat. Set by hand: with 8 in large frames those squares
-   * are the flattest whose few columns are alike by chance. */
-  static constexpr std::size_t squareSide{ 16 }; // the size of arrays
+  /** Side of a tile in large and in small frames [pixel], and the pixels of a large frame. Many columns are needed to
+   * measure a pattern of columns, but a small frame may have no large flat tile. Chosen empirically: with a side of 8
+   * in large frames, the flattest tiles are those whose few columns are alike by chance. */
+  static constexpr std::size_t squareSide{ 16 }; // a constant expression: the size of arrays
   std::size_t                  smallSquareSide{ 8 };
   std::size_t                  largeFramePixels{ 16384 };
-  /** Pixels of either half of a square that counts. Set by hand. */
+  /** Smallest number of pixels of either half of a tile. Chosen empirically. */
   double leastHalfPixels{ 24.0 };
-  /** Share of the squares that count as the flattest [1], and their least number. Set by hand: with half and twice the
-   * share the shares of natural scenes change by a third. */
+  /** Fraction of the tiles that count as the flattest [1], and their smallest number. Chosen empirically: with half and
+   * twice this fraction, the results for natural scenes change by a third. */
   double      flattestShare{ 0.05 };
   std::size_t fewestSquares{ 4 };
-  /** Standard deviations of patterns of real sensors, at most: of gain or efficiency [1], and of offset, in units of
-   * the noise at the level of the flattest squares [1]. What is larger, in a scene that is rough everywhere, is light.
-   * Set by hand, three times and twice what data sheets and measured sensors have. */
+  /** Largest standard deviation of the fixed-pattern noise of real sensors: of gain or efficiency (PRNU), relative to
+   * the mean [1], and of offset (DSNU), in units of the noise at the level of the flattest tiles [1]. Larger
+   * differences, in a scene without flat areas, are signal. Chosen empirically, three times and twice the values of
+   * data sheets and measured sensors. */
   double largestGain{ 0.03 };
   double largestOffset{ 5.0 };
-  /** Variance of the slope by whole columns or rows, relative to that by pixels, that is more than chance [1]. Set by
-   * hand: 256 columns scatter by 0.1. */
+  /** Variance of the slope from whole columns or rows, relative to the variance from pixels, above which it exceeds
+   * chance [1]. Chosen empirically: with 256 columns the ratio scatters by 0.1. */
   double leastLikeness{ 1.5 };
 
-  /** Pixels of a tile that tells a line of responses to local light, and, for an offset, what its levels must differ by
-   * in units of the noise of their means, as variances [1]. Set by hand. */
+  /** Limits for tiles with local illumination. leastLeakPixels, leastTilePixels: the pixels that a tile needs for a
+   * line, to estimate the leakage of motion and the offset. leastTileContrast: the variance of its levels, relative to
+   * the noise of their means, that the offset needs [1]. Chosen empirically. */
   double leastLeakPixels{ 20.0 };
   double leastTilePixels{ 12.0 };
   double leastTileContrast{ 30.0 };
-  /** Side of a tile [pixels], chi-square by which tiles may depart from one line, relative to their number [1], and
-   * what that line must explain in units of that chi-square [1], for local light to be a drift of the offset. Set by
-   * hand. */
+  /** Limits for local illumination to be a drift of the offset: side of a tile [pixel], largest chi-square of the tiles
+   * about one line, relative to their number [1], and the smallest chi-square that the line explains, relative to that
+   * chi-square [1]. Chosen empirically. */
   std::size_t driftTileSide{ 32 };
   double      largestDriftChi2{ 4.0 };
   double      leastDriftExplained{ 10.0 };
@@ -176,61 +189,63 @@ struct PatternConstants
 
 SENSORNOISE_CONSTANT PatternConstants InPattern;
 
-/** The numbers of the room `pixels` by which the gains of the parts of a frame are compared. Estimator.md, 3.15. */
+/** Constants of the component `pixels` for the comparison of the gains of the parts of a frame. Estimator.md, 3.15. */
 struct PartsConstants
 {
-  /** Tiles along an axis, at most, and larger tiles whose 16 phases are compared. Chosen empirically: the regressions
-   * then take a few per cent of the time of a burst. */
+  /** Largest number of tiles along an axis, and of larger tiles whose 16 phases are compared. Chosen empirically: the
+   * regressions then take a few per cent of the time of a burst. */
   std::size_t mostTiles{ 32 };
   std::size_t mostPhaseTiles{ 8 };
-  /** Tiles that a comparison needs. Chosen empirically. */
+  /** Number of tiles that a comparison needs. Chosen empirically. */
   std::size_t fewestTiles{ 24 };
-  /** Variance of a pixel over the line from which on it is left out of the sums [1]: defective, or something moves.
-   * Chosen above what twice the gain and chance together make of 10 frames. */
+  /** Variance of a pixel over the line above which the sums leave it out, because it is defective or something moves
+   * [1]. Chosen above the joint effect of twice the gain and of chance in 10 frames. */
   double largestRatio{ 6.0 };
-  /** Difference of the gains, rms over the pixels, from which on it counts [1]. Chosen by the size of the effect:
-   * below, the gain of no half is off by more than its error in bursts of 100 frames. */
+  /** Smallest difference of the gains that counts, rms over the pixels [1]. Chosen by the size of the effect: below,
+   * the gain of no half deviates by more than its error in bursts of 100 frames. */
   double leastDifference{ 0.0075 };
-  /** The same from which on the rejection of pixels allows for it [1]: neighbourhoods are rejected from 4 % on. */
+  /** Smallest difference of the gains that the rejection of pixels allows for [1]. Neighbourhoods are rejected from 4 %
+   * on. */
   double largeDifference{ 0.0125 };
-  /** Scatter of the tiles within parts over that of sampling, up to which parts are uniform in themselves [1]: where
-   * something moves it is 10 and more. Chosen empirically. */
+  /** Dispersion of the tiles within parts over their sampling error, up to which the parts are uniform [1]. Moving
+   * objects make it 10 and more. Chosen empirically. */
   double largestScatter{ 3.0 };
-  /** What is known of the coefficients beforehand, as standard deviations [1]: gains are alike within a factor of 2,
-   * the variances without signal (read noise, offset) within 30 %, a curve departs from its line by a few per cent. */
+  /** Prior standard deviations of the coefficients [1]: gains agree within a factor of 2, the variances without signal
+   * (read noise, offset) within 30 %, and a curve deviates from its line by a few per cent. */
   double priorOfGain{ 1.0 };
   double priorOfDark{ 0.3 };
   double priorOfCurve{ 0.05 };
-  /** Knots of the curve, and rounds of the regression, half of them by absolute deviations. */
+  /** Number of knots of the curve, and rounds of the regression; half of the rounds minimize absolute deviations. */
   std::size_t knots{ 6 };
   int         rounds{ 12 };
-  /** Levels at which a step is tried, or a curve has its knots. Chosen for the time. */
+  /** Number of levels at which a step is tried, or a curve has its knots. Chosen for the time. */
   std::size_t levelsOfStep{ 32 };
-  /** Tukey's constant, which has 95 % of the efficiency of least squares (Beaton & Tukey 1974) [1]. */
+  /** Tukey's constant for 95 % of the efficiency of least squares (Beaton & Tukey 1974) [1]. */
   double tukey{ 4.685 };
 };
 
 SENSORNOISE_CONSTANT PartsConstants InParts;
 
-/** The numbers of the room `pixels` by which a step of the variance is found. Estimator.md, 3.16. */
+/** Constants of the component `pixels` for the detection of a step of the variance. Estimator.md, 3.16. */
 struct StepConstants
 {
-  /** Reduced chi-square of the variance about its line from which on a step is looked for [1]: a step of five
-   * standard errors adds as much to that of 64 bins. */
+  /** Reduced chi-square of the variance about its line above which a step is looked for [1]. A step of five standard
+   * errors increases the reduced chi-square of 64 bins by this much. */
   double leastChi2{ 1.25 };
-  /** Size of a step, relative to the larger variance beside it, from which on it counts [1]. Chosen by the size of the
-   * effect: in the middle of the levels a step of so much moves the gain by 1 to 2 %. */
+  /** Smallest size of a step that counts, relative to the larger of the variances beside it [1]. Chosen by the size of
+   * the effect: in the middle of the levels a step of this size changes the gain by 1 to 2 %. */
   double leastSize{ 0.03 };
-  /** Part of its size that a step must keep beside a parabola [1]: of a bend nothing is left. Chosen empirically. */
+  /** Fraction of its size that a step must keep beside a parabola [1]; a smooth non-linearity keeps nothing. Chosen
+   * empirically. */
   double leastBesideCurve{ 0.5 };
-  /** Bins on either side of a step, at least. Chosen empirically: a line of fewer is not known. */
+  /** Smallest number of bins on either side of a step. Chosen empirically: fewer bins do not determine a line. */
   std::size_t leastBins{ 4 };
-  /** Standard deviations of the noise about the step, at which a pixel is of either amplifier in some frames, and does
-   * not count [1]. Beyond, fewer than 5 % of its values are of the other one. */
+  /** Half width, in standard deviations of the noise, of the interval about the step in which pixels do not count,
+   * because they are of either amplifier in some frames [1]. Beyond it, fewer than 5 % of a pixel's values are of the
+   * other amplifier. */
   double widthSds{ 2.0 };
-  /** What is known beforehand of the gains of two amplifiers, after the camera has matched them, as the standard
-   * deviation of either from the common one [1]. From public reports on dual-gain sensors, whose branches differ by 0.5
-   * to 2 % in level. */
+  /** Prior standard deviation of the gain of either amplifier from the common gain, after the camera has matched them
+   * [1]. From public reports on dual-gain sensors, whose branches differ by 0.5 to 2 % in level. */
   double priorOfGains{ 0.01 };
 };
 

@@ -11,15 +11,15 @@
 namespace sensornoise
 {
 
-/** The mean excess of the bins of a VarianceCurve, each with its weight, at a level above the pivot. */
+/** Mean excess of the variance over a line, of one bin of a VarianceCurve. */
 struct ExcessOfBin
 {
-  double x;      ///< level above the pivot [DN]
-  double excess; ///< mean of the variance above the line [DN^2]
-  double weight; ///< [1/DN^4]
+  double x;      ///< level above the pivot of the line [DN]
+  double excess; ///< mean excess of the variance over the line [DN^2]
+  double weight; ///< weight of the mean excess [1/DN^4]
 };
 
-/** The weighted regression of the excess of bins on \a VTerms functions of the level. */
+/** Result of a weighted regression of the excess of bins on \a VTerms functions of the level. */
 template <int VTerms>
 struct CurveRegression
 {
@@ -29,19 +29,20 @@ struct CurveRegression
   Terms                                 coefficients{ Terms::Zero() };
   Eigen::Matrix<double, VTerms, VTerms> covariance{
     Eigen::Matrix<double, VTerms, VTerms>::Zero()
-  }; ///< as the weights have it
-  double chi2{ 0.0 }; ///< about the fit
+  }; ///< inverse of the weighted normal equations
+  double chi2{ 0.0 }; ///< weighted sum of squares about the fit [1]
 };
 
-/** The regression of \a bins on termsAt(x), which returns CurveRegression<VTerms>::Terms. */
+/** Fits the excess of \a bins by a linear combination of the functions termsAt(x), which returns
+ * CurveRegression<VTerms>::Terms. The result is not determined if the normal equations are singular. */
 template <int VTerms, typename TTerms>
 CurveRegression<VTerms>
 RegressCurve(const std::vector<ExcessOfBin> & bins, TTerms termsAt)
 {
   using Terms = typename CurveRegression<VTerms>::Terms;
-  constexpr double        leastPivot = 1e-10; // relative to the term's own square sum: rounding
+  constexpr double        leastPivot = 1e-10; // relative to the diagonal element; below it is rounding
   CurveRegression<VTerms> fit;
-  auto &                  gram = fit.covariance; // which becomes its own inverse
+  auto &                  gram = fit.covariance; // inverted in place
   Terms                   right = Terms::Zero();
   for (const ExcessOfBin & bin : bins)
   {

@@ -10,13 +10,15 @@
 namespace sensornoise
 {
 
-/** Where a chi-square variable over its \a freedom is far off 1 (Significance.manyTests): its cube root is about normal
- * (Wilson & Hilferty 1931). */
+/** Limits beyond which a chi-square variable over its degrees of freedom deviates from 1 by more than
+ * Significance.manyTests standard deviations. The cube root of the variable is about normal (Wilson & Hilferty
+ * 1931). */
 struct FarLimits
 {
-  double low;
-  double high;
+  double low;  ///< lower limit [1]
+  double high; ///< upper limit [1]
 
+  /** Computes the limits for \a freedom degrees of freedom, above 0. */
   explicit FarLimits(double freedom)
   {
     const double s = 2.0 / (9.0 * freedom);

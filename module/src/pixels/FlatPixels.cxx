@@ -22,7 +22,8 @@ namespace sensornoise
 
 namespace
 {
-/** The bins of the level, whose square roots are equally distant: the standard deviation of shot noise. */
+/** Bins of the level whose square roots have equal widths, because the standard deviation of shot noise grows with the
+ * square root. */
 class LevelBins
 {
 public:
@@ -66,7 +67,7 @@ private:
   double                      m_RangeDn;
 };
 
-/** One more than the highest bin that has enough pixels. */
+/** Returns one more than the highest bin that has enough pixels. */
 std::size_t
 EndOf(const std::vector<std::size_t> & counts)
 {
@@ -78,7 +79,7 @@ EndOf(const std::vector<std::size_t> & counts)
   return end;
 }
 
-/** The class of roughness up to which half of the pixels of each bin are. */
+/** Returns for each bin the median roughness class of its pixels. */
 std::vector<std::size_t>
 MedianClasses(const ProjectedVariance & projected, const std::vector<std::uint8_t> & usable, const LevelBins & bins)
 {
@@ -106,7 +107,8 @@ MedianClasses(const ProjectedVariance & projected, const std::vector<std::uint8_
   return medians;
 }
 
-/** The line through the median level and variance of each bin, each weighted by its relative error. */
+/** Returns the line through the median level and variance of each bin, weighted by the inverse square of the
+ * variance. */
 VarianceLine
 LineThroughMedians(const ProjectedVariance & projected, const std::vector<std::uint8_t> & mask, const LevelBins & bins)
 {
@@ -171,7 +173,7 @@ FindBrighterPixels(const ProjectedVariance &         projected,
   const LevelBins   bins(projected.GetFrame().neighbourMean, usable);
   const std::size_t covered = EndOf(bins.CountsOf(flat));
   const std::size_t end = EndOf(bins.CountsOf(usable));
-  // The bins are of square roots: half of them is a quarter of the signal.
+  // The bins are of square roots: half of them reach a quarter of the signal.
   if (covered == 0 || 2 * covered >= end)
   {
     return std::nullopt;

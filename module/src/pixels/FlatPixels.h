@@ -12,41 +12,41 @@
 #include <vector>
 
 /** \file
- * The pixels by which the first line is drawn, before any is rejected: those in whose flat surroundings motion makes
- * next to no residuals. */
+ * Selection of the pixels for the first line, before any pixel is rejected: pixels in flat areas, where motion leaves
+ * almost no residuals. */
 
 namespace sensornoise
 {
 
 class ProjectedVariance;
 
-/** The \a usable pixels of the flatter classes of roughness, in which motion that the series leave makes next to no
- * residuals. */
+/** Returns the mask of the \a usable pixels of the flatter roughness classes. Motion that the temporal components do
+ * not describe leaves almost no residuals there. */
 SensorNoise_EXPORT std::vector<std::uint8_t>
 MaskOfFlatClasses(const ProjectedVariance &         projected,
                   const std::vector<std::uint8_t> & usable,
                   const ParallelFor &               parallelFor);
 
-/** Pixels beyond the levels of the flat ones, for a scene whose flat parts are all dark. Estimator.md, 3.5. */
+/** Pixels at levels that the flat pixels do not reach, for a scene whose flat areas are all dark. Estimator.md, 3.5. */
 struct BrighterPixels
 {
-  std::vector<std::uint8_t> mask;    ///< 1: a flat pixel, or of the flatter half of the pixels of a higher level
-  std::vector<std::uint8_t> beyond;  ///< 1: the latter alone
-  VarianceLine              through; ///< through the median variances of all levels, without errors
+  std::vector<std::uint8_t> mask;    ///< 1: a flat pixel, or one of the flatter half of the pixels of a higher level
+  std::vector<std::uint8_t> beyond;  ///< 1: a pixel of the mask at a higher level
+  VarianceLine              through; ///< line through the median variances at all levels, without errors
 };
 
-/** Finds the pixels of the levels that the \a flat ones, which are usable, do not reach. A line through the flat pixels
- * would be extrapolated to these levels, and reject their pixels by what is not known.
+/** Finds the pixels at the levels that the \a flat pixels, which are usable, do not reach. A line through the flat
+ * pixels alone would be extrapolated to these levels, and pixels would be rejected by the error of the extrapolation.
  *
- * Null if the flat pixels reach a level of at least a quarter of the signal of the brightest usable pixels. */
+ * Null if the flat pixels reach a quarter of the signal of the brightest usable pixels. */
 SensorNoise_EXPORT std::optional<BrighterPixels>
 FindBrighterPixels(const ProjectedVariance &         projected,
                    const std::vector<std::uint8_t> & usable,
                    const std::vector<std::uint8_t> & flat,
                    const ParallelFor &               parallelFor);
 
-/** Whether the variance of most pixels of \a mask is that of \a line, but for chance: signal lies on one line with the
- * dark pixels, the variance of motion does not. */
+/** Returns whether the variance of most pixels of \a mask agrees with \a line within sampling noise. The variance of a
+ * signal lies on one line with the variance of the dark pixels; the variance by motion does not. */
 SensorNoise_EXPORT bool
 FollowsLine(const ProjectedVariance & projected, const std::vector<std::uint8_t> & mask, const VarianceLine & line);
 

@@ -22,7 +22,8 @@ FrameFreedom::FrameFreedom(const Eigen::MatrixXd & basis, const std::vector<doub
   m_Linear = factor.dot(Eigen::VectorXd(1.0 - leverage.array()));
   m_Square = factor.cwiseAbs2().dot(Eigen::VectorXd(1.0 - 2.0 * leverage.array())) +
              (q.transpose() * factor.asDiagonal() * q).squaredNorm();
-  // One lit frame of many has no residual: the others are equal, but their mean is not that of all.
+  // A single illuminated frame has no residual. The other frames are equal, but their mean is not the mean of all
+  // frames.
   m_IsEqual = !(m_Freedom > 0.0) || (this->FractionAt(1.0) > 1.0 - InPixels.leastLossOfFreedom &&
                                      std::abs(m_Linear) < InPixels.leastFeedback * m_Freedom);
 }
@@ -30,8 +31,8 @@ FrameFreedom::FrameFreedom(const Eigen::MatrixXd & basis, const std::vector<doub
 double
 FrameFreedom::FractionAt(double shotFraction) const
 {
-  const double b = std::min(1.0, std::max(0.0, shotFraction)); // 0 of what is no number, too
-  // Without residuals of lit frames and without read noise nothing is left, in equal frames.
+  const double b = std::min(1.0, std::max(0.0, shotFraction)); // also makes NaN 0
+  // Illuminated frames without residuals, and no read noise, leave no noise; then the frames count as equal.
   const double square = m_Freedom + (2.0 * m_Linear + m_Square * b) * b;
   return square > m_Freedom ? m_Freedom / square : 1.0;
 }

@@ -19,7 +19,7 @@ namespace sensornoise
 
 namespace
 {
-/** Standard deviations of chi-square, by its cube root (Wilson & Hilferty 1931). */
+/** Converts chi-square to standard deviations of a normal variable, by its cube root (Wilson & Hilferty 1931). */
 double
 StandardDeviationsOf(double chi2, double dof)
 {
@@ -27,8 +27,8 @@ StandardDeviationsOf(double chi2, double dof)
   return (std::cbrt(chi2 / dof) - 1.0 + s) / std::sqrt(s);
 }
 
-/** Standard deviations of chi-square by which the coefficients from \a first on differ from 0, or, with
- * \a fromTheLast, from the last of them: these differences are independent numbers. */
+/** Returns the standard deviations of chi-square by which \a count coefficients from \a first on differ from 0 or, with
+ * \a fromTheLast, from the last of them. The \a count - 1 differences from the last are linearly independent. */
 double
 SignificanceOf(const PartRegression & fit, Eigen::Index first, Eigen::Index count, bool fromTheLast)
 {
@@ -44,7 +44,7 @@ SignificanceOf(const PartRegression & fit, Eigen::Index first, Eigen::Index coun
   return StandardDeviationsOf(difference.dot(chance.ldlt().solve(difference)), static_cast<double>(rank));
 }
 
-/** Relates the gains of the parts to their pixel-weighted mean. */
+/** Sets the gains of the parts relative to their pixel-weighted mean, and their significance. */
 void
 FillGains(PartGains & gains, const PartRegression & fit, const std::vector<TileExcess> & tiles)
 {
@@ -99,8 +99,9 @@ GainsOf(const PartRegression & fit, const std::vector<TileExcess> & tiles)
   return gains;
 }
 
-/** Whether one part describes the tiles better than \a criterion by their levels: with a step at one of them, or with a
- * curve of many knots. Where the scene is a ramp or has patches of one level, both look like parts. */
+/** Returns whether one part with a detailed curve of the levels has a criterion below \a criterion: with a step at one
+ * level, or with many knots. If the scene is a ramp or has patches of one level, a step and such a curve look like
+ * differences of parts. */
 bool
 AreLevelsBetter(const std::vector<TileExcess> & tiles, double scale, double criterion)
 {
@@ -129,8 +130,8 @@ DiffersInAll(const PartRegression & fit)
   return fit.IsSmooth() || (fit.gains > 1 && fit.darks > 1);
 }
 
-/** Whether parts differ in the dark alone, and describe the tiles clearly better than one part (\a uniform), also if
- * its levels are described in detail. */
+/** Returns whether the parts differ only in the dark and have a criterion that is clearly below the criterion of one
+ * part (\a uniform), even if the curve of the levels is detailed. */
 bool
 IsClearlyDark(const PartRegression & fit, const std::vector<TileExcess> & tiles, double scale, double uniform)
 {
@@ -138,7 +139,7 @@ IsClearlyDark(const PartRegression & fit, const std::vector<TileExcess> & tiles,
   return fit.darks > 1 && criterion < uniform && !AreLevelsBetter(tiles, scale, criterion);
 }
 
-/** The fit of the lowest criterion of those that \a isMeant takes; null: none is below \a limit. */
+/** Returns the fit of the lowest criterion among those that \a isMeant accepts; null: none is below \a limit. */
 template <typename TFunction>
 const PartRegression *
 FindLowest(const std::vector<PartRegression> & fits,
@@ -160,9 +161,8 @@ FindLowest(const std::vector<PartRegression> & fits,
   return lowest;
 }
 
-/** Adds fits of parts that differ in one of both, of the partitions where such parts may be clearly better than one
- * part
- * (\a uniform): no fit with fewer coefficients leaves a smaller loss. */
+/** Adds fits of parts that differ only in the gain or only in the dark, for the partitions where such fits can be
+ * clearly better than one part (\a uniform). A fit with fewer coefficients never has a smaller loss. */
 void
 AddSimplerFits(std::vector<PartRegression> & fits, const std::vector<TileExcess> & tiles, double scale, double uniform)
 {
@@ -180,8 +180,8 @@ AddSimplerFits(std::vector<PartRegression> & fits, const std::vector<TileExcess>
   }
 }
 
-/** The partition of what is \a divided that describes the tiles best; null: none is better than one part, or the parts
- * do not differ. */
+/** Returns the partition by \a divided that describes the tiles best. Null if none is better than one part, or if its
+ * parts do not differ. */
 std::optional<PartGains>
 FindBest(const std::vector<TileExcess> & tiles, Divided divided)
 {

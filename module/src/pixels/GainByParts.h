@@ -16,45 +16,51 @@
 namespace sensornoise
 {
 
-/** How the gain of the parts of a frame differs from the common one. Estimator.md, 3.15. */
+/** Relative differences between the gains of the parts of a frame. Estimator.md, 3.15. */
 struct SensorNoise_EXPORT PartGains
 {
   Partition           partition{ Partition::LeftRight };
-  std::vector<double> excess; ///< of each part's gain over the pixel-weighted mean, relative to it [1]
-  std::vector<double> error;  ///< its standard error [1]
-  std::vector<double> dark;   ///< the same of the variance without signal; of a smooth field one number [1]
-  std::vector<double> pixels;
-  Eigen::VectorXd     field;         ///< of a smooth field: its coefficients [1]
-  double              size{ 0 };     ///< rms of the excess over the pixels, beyond chance [1]
-  double              z{ 0 };        ///< standard deviations of chi-square by which the parts differ [1]
-  double              darkSize{ 0 }; ///< as size, of dark [1]
-  double              darkZ{ 0 };    ///< as z [1]
-  double              scale{ 1 };    ///< scatter of the tiles over that of sampling, 1 or more [1]
+  std::vector<double> excess; ///< gain of each part relative to the pixel-weighted mean gain, minus 1 [1]
+  std::vector<double> error;  ///< standard error of each excess [1]
+  /** Relative excess of each part's variance without signal; a smooth field has one number for all parts [1]. */
+  std::vector<double> dark;
+  std::vector<double> pixels;    ///< number of pixels of each part
+  Eigen::VectorXd     field;     ///< coefficients of a smooth field [1]; otherwise empty
+  double              size{ 0 }; ///< rms of the excess over the pixels, beyond chance [1]
+  /** Significance of the differences of the gains, in standard deviations of chi-square [1]. */
+  double z{ 0 };
+  double darkSize{ 0 }; ///< rms of the differences of dark over the pixels, beyond chance [1]
+  /** Significance of the differences of dark, in standard deviations of chi-square [1]. */
+  double darkZ{ 0 };
+  double scale{ 1 }; ///< dispersion of the tiles over their sampling error, 1 or more [1]
 
-  /** The variance of a pixel over that of the common line [1]. \a shotFraction is that of the common line there. */
+  /** Returns the variance of a pixel over the variance by the common line [1]. \a x and \a y are the place in units of
+   * the frame's width and height [1]; \a shotFraction is the fraction of the common line's variance there that is shot
+   * noise [1]. */
   double
   RatioAt(double x, double y, std::size_t phase, double shotFraction) const;
 
-  /** Whether the gains differ by as much as counts, beyond chance. */
+  /** Returns whether the gains differ by more than InParts.leastDifference, and beyond chance. */
   bool
   Differ() const;
-  /** The same of the variance without signal: of the read noise. */
+  /** Returns whether the variances without signal, and so the read noise, differ by more than
+   * InCommon.leastDarkDifference, and beyond chance. */
   bool
   DifferInTheDark() const;
-  /** Whether they differ by so much that the rejection of pixels and the line have to know. */
+  /** Returns whether the parts differ so much that the rejection of pixels and the line have to allow for it. */
   bool
   DifferMuch() const;
 };
 
-/** The pattern of the gains: the partition by place, that by phase, and that of the frames, that describe them best;
- * null: the gain is one. */
+/** The partitions by place, by phase and by frames that describe the differences of the gain best; null: the gain is
+ * uniform. */
 struct GainByParts
 {
   std::optional<PartGains> places;
   std::optional<PartGains> phases;
   std::optional<PartGains> frames;
 
-  /** That of places and phases with the larger effect; null: neither. */
+  /** Returns the partition by place or by phase with the larger differences; null: neither is there. */
   const PartGains *
   Larger() const
   {
@@ -62,15 +68,18 @@ struct GainByParts
   }
 };
 
-/** Compares the parts of every partition, and chooses between partitions by Schwarz' criterion. */
+/** Compares the parts of every partition by place and by phase, and chooses between partitions by the Schwarz
+ * criterion. */
 SensorNoise_EXPORT GainByParts
 CompareParts(const PartTiles & tiles);
 
-/** Compares the groups of frames in the same way, of which each of \a tiles has one at a place. */
+/** Compares groups of frames in the same way; \a tiles has an entry for each group at each place. Null if the gains do
+ * not differ. */
 SensorNoise_EXPORT std::optional<PartGains>
 CompareFrameParts(const std::vector<TileExcess> & tiles);
 
-/** The ratio of every pixel's variance to the common line, as \a parts have it [1]. */
+/** Returns a map of every pixel's variance over the variance by the common line, as given by the places and phases of
+ * \a parts [1]. \a mean is the map of means [DN]. */
 SensorNoise_EXPORT std::vector<float>
 MapOfRatios(const GainByParts &         parts,
             const std::vector<double> & mean,

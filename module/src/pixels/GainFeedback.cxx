@@ -22,7 +22,7 @@ GainFeedback::GainFeedback(const ProjectedVariance &         projected,
                            const std::vector<std::uint8_t> & mask,
                            const ParallelFor &               parallelFor)
 {
-  // Sums of the weight, times powers of x, the mean above the pivot, and times k.
+  // Sums of the weight times powers of x, the mean above the pivot, and times k.
   enum : std::size_t
   {
     W,
@@ -78,7 +78,7 @@ GainFeedback::Settle(const VarianceLine & fitted, double gainPutIn) const
   }
   if (m_OfGain > InPixels.largestFeedback)
   {
-    // As large as a slope that takes all of the variance within the scatter of the levels: whatever slope came out.
+    // As large as a slope that explains all of the variance by the dispersion of the levels, whatever slope was fitted.
     const double          error = fitted.At(fitted.pivotDn) * std::sqrt(fitted.weightSum / fitted.spreadDn2);
     const Eigen::Vector2d direction(1.0, -fitted.pivotDn);
     settled.covariance += error * error * direction * direction.transpose();

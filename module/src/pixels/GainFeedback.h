@@ -16,43 +16,46 @@ namespace sensornoise
 class ProjectedVariance;
 
 /** \class GainFeedback
- * \brief By how much the line of the variance follows the gain that its own correction was made with.
+ * \brief Dependence of the fitted variance line on the gain that corrects the variances.
  *
- * ProjectedVariance adds g k to the variance of a pixel, k the skew over its divisor [DN]. The fit of the result is a
- * line whose gain and intercept rise by d and e per unit of g: those of the weighted line through k. Few bright frames,
- * which the series take much of, make d large: with three lit frames of 60 it is 0.3, with one it is 1, for its
- * residual is 0. The gain that reproduces itself is
+ * ProjectedVariance adds g k to the variance of a pixel, where k is the skew over its divisor [DN]. A fit of the result
+ * has a gain and an intercept that rise by d and e per unit of g. d and e are gain and intercept of the weighted line
+ * through k. A few bright frames, whose variation the temporal components mostly remove, make d large: with three
+ * illuminated frames of 60 d is 0.3; with one it is 1, because the residual of this frame is 0. The gain that
+ * reproduces itself is
  *
  *     g = (g_fit - d g_in) / (1 - d),   intercept = intercept_fit + e (g - g_in),
  *
- * and its error is that of the fit over 1 - d. Estimator.md, 3.5. */
+ * and its error is the error of the fit over 1 - d. Estimator.md, 3.5. */
 class SensorNoise_EXPORT GainFeedback
 {
 public:
-  /** None. */
+  /** No dependence: d = e = 0. */
   GainFeedback() = default;
+  /** \a ofGain is d [1], \a ofInterceptDn is e [DN]. */
   GainFeedback(double ofGain, double ofInterceptDn)
     : m_OfGain(ofGain)
     , m_OfIntercept(ofInterceptDn)
   {}
-  /** Of the pixels of \a mask, with the weights of \a line. */
+  /** Computes d and e from the pixels of \a mask, with the weights of \a line. */
   GainFeedback(const ProjectedVariance &         projected,
                const VarianceLine &              line,
                const std::vector<std::uint8_t> & mask,
                const ParallelFor &               parallelFor);
 
-  /** d [1]. */
+  /** Returns d [1]. */
   double
   GetOfGain() const
   {
     return m_OfGain;
   }
-  /** Whether d is above InPixels.leastFeedback. */
+  /** Returns whether the absolute value of d is above InPixels.leastFeedback. */
   bool
   IsLarge() const;
-  /** The line that reproduces itself, with its covariance, from a \a fitted one whose variances were computed with
-   * \a gainPutIn. Where d is above InPixels.largestFeedback, no line does: then the gain stays, and its standard error
-   * is larger than any gain of these levels. Without a large d the line is as it was. */
+  /** Returns the line that reproduces itself, with its covariance. \a fitted was fitted to variances that were computed
+   * with \a gainPutIn [DN/e-]. If d is not large, the result is \a fitted. If d is above InPixels.largestFeedback, the
+   * gain cannot be determined: it stays, and its standard error becomes larger than any gain that these levels
+   * allow. */
   VarianceLine
   Settle(const VarianceLine & fitted, double gainPutIn) const;
 

@@ -16,14 +16,15 @@
 namespace sensornoise
 {
 
-/** What a judging line says of pixels that lie one after the other, of the mask or not: in vectors. */
+/** Test of a run of pixels, inside and outside the mask, against a rejection model, with SIMD instructions. */
 struct JudgedRun
 {
-  OfRun expected; ///< by the line, at the pixel's level [DN^2]
-  OfRun ratio;    ///< of the variance to it [1]
-  OfRun isAbove;  ///< 1 where the ratio is far above 1, else 0
-  OfRun isOff;    ///< the same on either side
+  OfRun expected; ///< variance by the model at the pixel's level [DN^2]
+  OfRun ratio;    ///< variance over the expected variance [1]
+  OfRun isAbove;  ///< 1 where the ratio is beyond the upper limit of FarLimits, else 0
+  OfRun isOff;    ///< 1 where the ratio is beyond either limit of FarLimits, else 0
 
+  /** Tests \a pixels pixels, at most PixelsPerRun, from pixel \a first on. */
   void
   Judge(const ProjectedVariance & projected, const JudgingLine & judge, std::size_t first, std::size_t pixels)
   {

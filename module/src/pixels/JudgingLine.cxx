@@ -23,17 +23,17 @@ namespace sensornoise
 
 namespace
 {
-/** What the pixels of a square tell about the line. */
+/** Mean excess of the variance over the line in a tile. */
 struct JudgingSquare
 {
-  double level{ 0.0 };  // mean [DN]
-  double excess{ 0.0 }; // mean of the variance relative to the line, minus 1
-  double spread{ 0.0 }; // variance of the pixels' own noise [DN^4]
-  double pixels{ 0.0 };
-  double roughness{ 0.0 }; // mean class
+  double level{ 0.0 };     // mean level [DN]
+  double excess{ 0.0 };    // mean of the variance relative to the line, minus 1 [1]
+  double spread{ 0.0 };    // dispersion of the noise variance from pixel to pixel [DN^4]
+  double pixels{ 0.0 };    // number of pixels
+  double roughness{ 0.0 }; // mean roughness class
 };
 
-/** What a line says of pixels that lie one after the other: in vectors, unlike the sums. */
+/** Excess over a line of a row of pixels, computed with SIMD instructions; the sums over the row are not. */
 struct JudgedRow
 {
   VarianceLine line;
@@ -44,7 +44,7 @@ struct JudgedRow
   void
   Judge(const VarianceData & data, std::size_t first, std::size_t pixels)
   {
-    const VarianceLine   own = line; // which no pointer can point into
+    const VarianceLine   own = line; // a copy that no pointer can alias
     const double * const mean = data.mean + first;
     const double * const variance = data.variance + first;
     const float * const  freedom = data.freedom + first;
@@ -102,7 +102,7 @@ SumJudgingSquare(const VarianceLine &      line,
   return square;
 }
 
-/** Sorted by their levels. */
+/** Returns the tiles with enough pixels, sorted by their levels. */
 std::vector<JudgingSquare>
 MakeJudgingSquares(const VarianceLine &      line,
                    const VarianceData &      data,
@@ -174,7 +174,7 @@ MakeJudgingLine(const VarianceLine &              line,
     {
       distance.push_back(std::abs(squares[i].excess - excess));
     }
-    // 1.5 median distances are a standard deviation; a median's standard error is 1.25 of a mean's.
+    // 1.5 median deviations are a standard deviation; a median has 1.25 times the standard error of a mean.
     const double error = 1.25 * 1.5 * Quantile(distance, 0.5) / std::sqrt(static_cast<double>(last - first));
     departs = departs || std::abs(excess) > InPixels.leastDeparture + Significance.hint * error;
     const double level = MedianOf(squares, first, last, &JudgingSquare::level);

@@ -19,18 +19,20 @@ namespace sensornoise
 
 class ProjectedVariance;
 
-/** The variance that pixels are judged by: a line, and what the sensor itself departs from it by, which no pixel is
- * blamed for: a response that bends, pixels that are noisier than others in the dark. */
+/** Rejection model: the variance that pixels are tested against. It is a line times the deviation from the line that
+ * the whole sensor has, for example by a non-linear response, and it includes the dispersion of the noise from pixel to
+ * pixel. Pixels are not rejected for these. */
 struct SensorNoise_EXPORT JudgingLine
 {
-  VarianceLine        line;
-  std::vector<double> levels; ///< rising [DN]; empty: the line as it is
-  std::vector<double> ratios; ///< variance over line at these levels [1]
-  bool byNeighbours{ false }; ///< whether a pixel's level is its neighbours' mean: its own offset is no light
-  /** By how much more the mean variance of many pixels scatters than if they shared no noise: the sum over all lags of
-   * the squared correlation coefficients [1]. */
+  VarianceLine        line;   ///< the line, with the dispersion of the noise from pixel to pixel
+  std::vector<double> levels; ///< levels in rising order [DN]; empty: the model is the line
+  std::vector<double> ratios; ///< variance over the line at these levels [1]
+  bool byNeighbours{ false }; ///< true: a pixel's level is its neighbours' mean, because its own offset is not signal
+  /** Variance inflation of the mean of many pixels by the spatial noise correlation: the sum over all lags of the
+   * squared correlation coefficients [1]. */
   double sharedSquares{ 1.0 };
 
+  /** Returns the expected variance at the level \a meanDn [DN^2]. */
   double
   At(double meanDn) const
   {
@@ -38,11 +40,12 @@ struct SensorNoise_EXPORT JudgingLine
     this->FillVariance(&meanDn, 1, variance);
     return variance[0];
   }
-  /** The same at the levels of a run of pixels, in vectors. */
+  /** Sets \a variance to the expected variance at the levels of \a pixels pixels, at most PixelsPerRun, with SIMD
+   * instructions [DN^2]. */
   void
   FillVariance(const double * meanDn, std::size_t pixels, OfRun & variance) const
   {
-    const VarianceLine own = line; // which no pointer can point into
+    const VarianceLine own = line; // a copy that no pointer can alias, which SIMD instructions need
     for (std::size_t i = 0; i < pixels; ++i)
     {
       variance[i] = own.At(meanDn[i]);
@@ -51,7 +54,7 @@ struct SensorNoise_EXPORT JudgingLine
     {
       return;
     }
-    // The ratios, as a sum of what they rise by from each level to the next.
+    // The ratio is interpolated as a sum of its increments from each level to the next.
     OfRun ratio{};
     std::fill_n(ratio.begin(), pixels, ratios[0]);
     for (std::size_t k = 0; k + 1 < levels.size(); ++k)
@@ -69,12 +72,14 @@ struct SensorNoise_EXPORT JudgingLine
       variance[i] *= ratio[i];
     }
   }
-  /** The levels that the pixels of \a frame are judged at [DN]. */
+  /** Returns the levels of the pixels of \a frame at which they are tested [DN]. */
   const std::vector<double> &
   LevelsOf(const ReferenceFrame & frame) const
   {
     return byNeighbours ? frame.neighbourMean : frame.mean;
   }
+  /** Returns the degrees of freedom of a pixel's variance, reduced by the dispersion of the noise from pixel to
+   * pixel. */
   double
   EffectiveFreedom(double freedom, double varianceDn2) const
   {
@@ -82,11 +87,13 @@ struct SensorNoise_EXPORT JudgingLine
   }
 };
 
-/** Finds what the sensor departs from \a line by. What a sensor does it does everywhere, things that move are in
- * places: the frame is parted into squares of 16 x 16 pixels, and the medians of their mean variance over the line, of
- * the smoother half in each of up to 16 bins of the intensity, are the departure; the median scatter in the dark
- * squares is the pixels' own noise. Departures of less than 1 % are left to the line. \a blackDn as of
- * MeasureLevelPattern(). */
+/** Measures the deviation of the whole sensor from \a line. The sensor deviates everywhere, moving objects do so in
+ * places. Therefore the frame is divided into tiles of 16 x 16 pixels, which are sorted into up to 16 bins of the
+ * level. The deviation in a bin is the median excess of its smoother half of tiles. The dispersion of the noise from
+ * pixel to pixel is the median over the dark tiles.
+ *
+ * The result is \a line alone if no deviation exceeds InPixels.leastDeparture by Significance.hint standard errors.
+ * \a blackDn is as in MeasureLevelPattern(). */
 SensorNoise_EXPORT JudgingLine
 MakeJudgingLine(const VarianceLine &              line,
                 const ProjectedVariance &         projected,

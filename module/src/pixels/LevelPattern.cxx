@@ -21,16 +21,16 @@ namespace sensornoise
 
 namespace
 {
-/** Variance of a pixel minus its diagonal mean, in units of a pixel's. */
+/** Variance of a pixel minus its diagonal mean, relative to the variance of a pixel [1]. */
 constexpr double DifferenceVariance = 1.125;
 
-/** What every second pixel of a square, as on a chequerboard, differs by from their surroundings. */
+/** Sums over the differences from their diagonal means of every second pixel of a tile, as on a chequerboard. */
 struct HalfSquare
 {
-  double pixels{ 0.0 };
-  double level{ 0.0 };   // [DN]
-  double squares{ 0.0 }; // of the differences [DN^2]
-  double noise{ 0.0 };   // what the noise of the means makes of them [DN^2]
+  double pixels{ 0.0 };  // number of pixels
+  double level{ 0.0 };   // sum of the levels; after MakeSquares() their mean [DN]
+  double squares{ 0.0 }; // sum of the squared differences [DN^2]
+  double noise{ 0.0 };   // expectation of squares by the noise of the means [DN^2]
 
   double
   Pattern() const
@@ -48,15 +48,15 @@ struct HalfSquare
 struct Square
 {
   HalfSquare
-    half[2]; // one to choose squares by, one to measure: what is chosen for being small is small by chance, too
+    half[2]; // one selects tiles, the other measures them: a value selected for being small is small by chance, too
 
-  /** How rough it may be, by the half to choose by [DN^2]. */
+  /** Returns an upper limit of the pattern's variance, by the half that selects [DN^2]. */
   double
   Roughness(std::size_t chooser) const
   {
     return half[chooser].Pattern() + Significance.hint * half[chooser].Error();
   }
-  /** The same relative to the square of the light [1]. */
+  /** Returns Roughness() relative to the square of the signal [1]. */
   double
   RelativeRoughness(std::size_t chooser, double blackDn) const
   {
@@ -65,8 +65,8 @@ struct Square
   }
 };
 
-/** What pixels that lie one after the other differ by from their diagonal neighbours, squared [DN^2], and whether these
- * are all usable: in vectors, unlike the sums. */
+/** Squared differences of a row of pixels from their diagonal means [DN^2], and whether the diagonal pixels are all
+ * usable. Computed with SIMD instructions; the sums over the row are not. */
 struct PatternRow
 {
   double       square[InPattern.squareSide]{};
@@ -104,7 +104,7 @@ SumPatternSquare(const ReferenceFrame & frame,
     return std::min(first + side, size - std::min(size, DiagonalReach));
   };
   PatternRow        row;
-  const std::size_t begin = std::max(left, DiagonalReach); // no pixel that is nearer to the border is used
+  const std::size_t begin = std::max(left, DiagonalReach); // pixels nearer to the border are not used
   const std::size_t end = std::max(begin, before(left, frame.geometry.width));
   for (std::size_t y = std::max(top, DiagonalReach); y < before(top, frame.geometry.height); ++y)
   {
@@ -113,7 +113,7 @@ SumPatternSquare(const ReferenceFrame & frame,
     {
       if (row.counts[x - begin] != 0)
       {
-        // As on a chequerboard: diagonal neighbours are of the same half, so that the halves have no pixel in common.
+        // Diagonal neighbours are in the same half, so the halves have no pixel in common.
         const std::size_t p = y * frame.geometry.width + x;
         HalfSquare &      half = square.half[(x + y) % 2];
         half.pixels += 1.0;
@@ -155,7 +155,7 @@ MakeSquares(const ReferenceFrame & frame, const VarianceData & data, const Paral
   return squares;
 }
 
-/** The \a count squares of the smallest \a value, in its order. */
+/** Returns the \a count tiles of the smallest \a value, in rising order. */
 template <typename TValue>
 std::vector<const Square *>
 SmallestSquares(const std::vector<Square> & squares, std::size_t count, TValue value)
@@ -171,7 +171,7 @@ SmallestSquares(const std::vector<Square> & squares, std::size_t count, TValue v
   return smallest;
 }
 
-/** Weighted mean of \a value over squares, and its standard error added. */
+/** Returns the weighted mean of \a value over tiles, at least 0, plus its standard error. */
 template <typename TValue, typename TError>
 double
 UpperMean(const std::vector<const Square *> & squares, TValue value, TError error)

@@ -19,7 +19,8 @@ namespace sensornoise
 VarianceLine
 FitLightLine(const VarianceFit & fit, const VarianceData & data, const ReferenceFrame & frame)
 {
-  // Sums of the weight times x and v, mean and variance above the line at its pivot, and z, the neighbours' mean.
+  // Sums of the weight times x and v, the mean and the variance above the line at its pivot, and z, the mean of the
+  // diagonal neighbours.
   enum : std::size_t
   {
     W,
@@ -59,7 +60,7 @@ FitLightLine(const VarianceFit & fit, const VarianceData & data, const Reference
   light.gain = (s[WZV] - zMean * s[WV]) / common;
   light.pivotDn = pivot + s[WX] / s[W];
   light.intercept = s[WV] / s[W] - light.gain * light.pivotDn;
-  // Of the squared scores, for the sandwich.
+  // Sums of the squared scores, for the sandwich covariance.
   const auto squares = fit.SumWeighed<3>([&](std::size_t p, const VarianceFit::Weighed & weighed, auto & sums) {
     if (HasDiagonals(frame.usable.data(), frame.geometry.width, p))
     {
@@ -71,7 +72,7 @@ FitLightLine(const VarianceFit & fit, const VarianceData & data, const Reference
       sums[2] += score * score;
     }
   });
-  // Patterns of columns or rows make their pixels' scores alike: then columns or rows are what is independent.
+  // A pattern of columns or rows correlates the scores of their pixels: then whole columns or rows are independent.
   const std::size_t width = frame.geometry.width;
   const auto        alike = fit.SumWeighed(
     width + frame.geometry.height, [&](std::size_t p, const VarianceFit::Weighed & weighed, double * sums) {

@@ -13,15 +13,16 @@ class VarianceFit;
 struct ReferenceFrame;
 struct VarianceData;
 
-/** The line by what the levels of a pixel have in common with those of its diagonal neighbours, which is light: with z
- * their mean as an instrument for the pixel's own mean x,
+/** Fits the variance line by instrumental variables. The instrument of a pixel's mean x is z, the mean of its diagonal
+ * neighbours:
  *
  *     gain = sum w (z - <z>) V / sum w (z - <z>) x.
  *
- * Gains, efficiencies and offsets that differ from pixel to pixel, row to row or column to column, and the noise of the
- * means, have no part in it (see LevelPattern); detail as fine as a pixel has none either, which costs precision.
- * Weights, and what is trimmed, are those of \a fit. The pivot is the weighted mean of x, the covariance the sandwich.
- * Not determined with one intensity. */
+ * Only the signal is common to x and z. Gains, efficiencies and offsets that differ from pixel to pixel, row to row or
+ * column to column do not bias this gain (see LevelPattern), and neither does the noise of the means. Detail as fine as
+ * a pixel does not contribute, which costs precision. Weights and trimmed pixels are taken from \a fit. The pivot is
+ * the weighted mean of x, the covariance is the sandwich estimate. The line is not determined if there is only one
+ * intensity. */
 SensorNoise_EXPORT VarianceLine
 FitLightLine(const VarianceFit & fit, const VarianceData & data, const ReferenceFrame & frame);
 

@@ -22,20 +22,20 @@
 #include <vector>
 
 /** \file
- * Neighbourhoods whose variance does not fit the line. */
+ * Rejection of neighbourhoods whose variance does not fit the rejection model. */
 
 namespace sensornoise
 {
 
 namespace
 {
-/** How single pixels fit the line. */
+/** Fit of single pixels to the rejection model. */
 struct PixelFits
 {
-  std::vector<float>         ratio; // of the variance to the line's; 0 unless it fits
-  std::vector<std::uint16_t> count; // 1: of the mask, and not far above the line; Rejected: far above it
+  std::vector<float>         ratio; // variance over the model [1]; 0 outside the mask and at outliers
+  std::vector<std::uint16_t> count; // 1: in the mask and no outlier; Rejected: outlier; 0: outside the mask
 
-  /** More than a neighbourhood has pixels, so that one sum tells how many fit and how many are rejected. */
+  /** More than the pixels of a neighbourhood, so that one sum counts both the pixels that fit and the outliers. */
   static constexpr std::uint16_t Rejected = 1024;
 };
 
@@ -67,7 +67,7 @@ JudgePixels(const ProjectedVariance &         projected,
   return fits;
 }
 
-/** The pixels about which a square of \a radius does not fit: 1. */
+/** Returns a map that is 1 at pixels whose neighbourhood of the half width \a radius does not fit. */
 std::vector<std::uint8_t>
 FindMisfitCores(const ProjectedVariance & projected,
                 const JudgingLine &       line,

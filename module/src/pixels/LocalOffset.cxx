@@ -21,8 +21,8 @@ namespace sensornoise
 
 namespace
 {
-/** Sums over a tile: the Gram matrix of 1 and I, the mean minus the centre, freed of the noise of the means, and per
- * response r1 = sum w z and r2 = sum w I z. */
+/** Sums over a tile: the Gram matrix of 1 and I, the mean minus the centre, corrected for the noise of the means, and
+ * for each response z the sums r1 = sum w z and r2 = sum w I z. */
 struct TileSums
 {
   double              n{ 0.0 };
@@ -37,7 +37,7 @@ struct TileSums
   {
     return g11 * g22 - g12 * g12;
   }
-  /** Of a line's slope if it crosses zero at \a m. */
+  /** Returns the inverse variance of the slope of a line that crosses zero at \a m. */
   double
   Precision(double m) const
   {
@@ -45,7 +45,7 @@ struct TileSums
   }
 };
 
-/** What lines through zero at \a m explain of the responses. */
+/** Returns the sum of squares of the responses that lines through zero at \a m explain. */
 double
 Explained(const std::vector<TileSums> & tiles, double m)
 {
@@ -60,7 +60,7 @@ Explained(const std::vector<TileSums> & tiles, double m)
   return sum;
 }
 
-/** The zero that explains most. */
+/** Returns the zero that explains most, within \a range of \a start. */
 double
 FindCommonZero(const std::vector<TileSums> & tiles, double start, double range)
 {
@@ -78,7 +78,7 @@ FindCommonZero(const std::vector<TileSums> & tiles, double start, double range)
       best = m;
     }
   }
-  // Golden section between the neighbours of the best of the grid.
+  // Golden-section search between the neighbours of the best point of the grid.
   constexpr double ratio = 0.6180339887498949;
   double           low = best - step;
   double           high = best + step;
@@ -92,12 +92,12 @@ FindCommonZero(const std::vector<TileSums> & tiles, double start, double range)
   return 0.5 * (low + high);
 }
 
-/** What is known of a common zero. */
+/** Sums for the error of a common zero. */
 struct ZeroErrors
 {
-  double full{ 0.0 };        // what lines that are free explain of the responses
-  double information{ 0.0 }; // about the zero
-  double number{ 0.0 };      // of lines
+  double full{ 0.0 };        // sum of squares that free lines explain
+  double information{ 0.0 }; // information on the zero [1/DN^2]
+  double number{ 0.0 };      // number of lines
 };
 
 ZeroErrors
@@ -147,7 +147,8 @@ FitTiles(const std::vector<TileSums> & tiles, const PixelLight & data)
   return result;
 }
 
-/** The sums of the tiles that tell a line: enough pixels, and means that differ by more than their noise. */
+/** Returns the sums of the tiles that determine a line: those with enough pixels whose levels differ by more than their
+ * noise. */
 std::vector<TileSums>
 SumTiles(const PixelLight &                       data,
          const std::vector<std::vector<double>> & responses,

@@ -15,21 +15,24 @@ namespace sensornoise
 
 struct PixelLight;
 
-/** The offset from the pixels' responses to the series of light. */
+/** Dark offset from the responses of the pixels to the illumination components. */
 struct LocalOffset
 {
-  double      offset{ 0.0 };                                            ///< [DN], minus the centre
-  double      standardError{ std::numeric_limits<double>::infinity() }; ///< [DN]
-  double      low{ -std::numeric_limits<double>::infinity() };          ///< 95 % interval [DN], minus the centre
-  double      high{ std::numeric_limits<double>::infinity() };          ///< its other end [DN]
-  double      phi{ 1.0 }; ///< dispersion of the lines about the common zero; 1 if they meet there but for noise
-  std::size_t tiles{ 0 }; ///< that tell it
+  double offset{ 0.0 };                                            ///< offset minus the centre [DN]
+  double standardError{ std::numeric_limits<double>::infinity() }; ///< standard error of the offset [DN]
+  /** Lower end of the 95 % interval, minus the centre [DN]; infinite: not bounded. */
+  double low{ -std::numeric_limits<double>::infinity() };
+  /** Upper end of the 95 % interval, minus the centre [DN]; infinite: not bounded. */
+  double high{ std::numeric_limits<double>::infinity() };
+  /** Dispersion of the lines about the common zero, over their noise [1]; 1 if only noise separates them. */
+  double      phi{ 1.0 };
+  std::size_t tiles{ 0 }; ///< number of tiles that determine a line
 };
 
-/** The offset where light is local. A pixel's response to any series of light is its own light's, S_j = rho_j (mean -
- * mu), with rho_j about constant over a tile: the lines of all tiles and series cross zero at mu. Tiles of 8 to 64
- * pixels and strips of rows are tried, and the one of the smallest standard error, which their dispersion widens,
- * serves. Estimator.md, 3.7. */
+/** Estimates the dark offset where the illumination is local. The response of a pixel to an illumination component is
+ * S_j = rho_j (mean - mu), with rho_j nearly constant over a tile. The lines of all tiles and components therefore
+ * cross zero at mu. Tiles of 8 to 64 pixels and strips of rows are tried, and the partition of the smallest standard
+ * error is used. The dispersion of the lines widens the error. Null if no tile determines a line. Estimator.md, 3.7. */
 SensorNoise_EXPORT std::optional<LocalOffset>
 FindLocalOffset(const PixelLight & data, const ParallelFor & parallelFor = SerialFor);
 

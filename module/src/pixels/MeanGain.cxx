@@ -19,7 +19,7 @@ namespace sensornoise
 
 namespace
 {
-/** The levels of the curve's bins, from the darkest at 0 to the brightest at 1, and the variance along them. */
+/** The levels of the curve's bins, from 0 at the darkest to 1 at the brightest, and the line along them. */
 struct ScaledCurve
 {
   std::vector<double> level;
@@ -27,7 +27,7 @@ struct ScaledCurve
   double              lineAtDarkest{ 0.0 }; // [DN^2]
   double              lineRise{ 0.0 };      // from the darkest to the brightest [DN^2]
   double              rangeDn{ 0.0 };
-  double              darkestLightDn{ 0.0 }; // of the darkest level above the offset; 0: little
+  double              darkestLightDn{ 0.0 }; // signal at the darkest level [DN]; 0: taken to be small
 };
 
 double
@@ -41,7 +41,7 @@ PolynomialAt(const Eigen::VectorXd & coefficients, double x)
   return value;
 }
 
-/** The inverse of a matrix of normal equations; null if they do not determine its terms. */
+/** Returns the inverse of a matrix of normal equations; null if they do not determine all terms. */
 std::optional<Eigen::MatrixXd>
 InverseOf(Eigen::MatrixXd matrix)
 {
@@ -55,7 +55,7 @@ InverseOf(Eigen::MatrixXd matrix)
   return isDetermined ? std::optional(std::move(matrix)) : std::nullopt;
 }
 
-/** The mean local gain of the line and the polynomial \a excess above it; null if it has none. */
+/** Returns the mean local gain of the line plus the polynomial \a excess; null if there is none, see FindMeanGain(). */
 std::optional<double>
 MeanLocalGain(const ScaledCurve & curve, const Eigen::VectorXd & excess)
 {
@@ -77,7 +77,8 @@ MeanLocalGain(const ScaledCurve & curve, const Eigen::VectorXd & excess)
   double x = 0.0;
   for (std::size_t b = 0; b < curve.level.size(); ++b)
   {
-    // V is taken for a line over each step: that is exact where it is one, however steep the root is near the dark.
+    // V is taken to be a line over each step, which is exact for a line, however steep its square root is near the
+    // dark.
     constexpr int steps = 8;
     const double  step = (curve.level[b] - x) / steps;
     for (int i = 0; i < steps && step > 0.0; ++i)
@@ -106,7 +107,7 @@ FindMeanGain(const VarianceCurve & curve, int degree, const std::optional<double
   {
     return std::nullopt;
   }
-  // The bins are sorted by the levels of the neighbours.
+  // The bins are sorted by the levels of the neighbours, so their own levels need not rise.
   const auto            levelOf = [](const CurveBin & bin) { return bin.x / bin.weight; };
   std::vector<CurveBin> bins = curve.bins;
   std::sort(bins.begin(), bins.end(), [&](const CurveBin & a, const CurveBin & b) { return levelOf(a) < levelOf(b); });
@@ -144,7 +145,7 @@ FindMeanGain(const VarianceCurve & curve, int degree, const std::optional<double
   {
     return std::nullopt;
   }
-  // How the gain changes with the coefficients, by differences of one standard error.
+  // Derivatives of the gain with respect to the coefficients, by differences of a tenth of a standard error.
   Eigen::VectorXd derivative(terms);
   for (Eigen::Index k = 0; k < terms; ++k)
   {
@@ -154,7 +155,7 @@ FindMeanGain(const VarianceCurve & curve, int degree, const std::optional<double
     derivative(k) = (MeanLocalGain(scaled, moved).value_or(*value) - *value) / (0.1 * step);
   }
   const Eigen::VectorXd moment = ProductInLoops(*covariance, derivative);
-  double                variance = -1.0 / information; // of the line's gain
+  double                variance = -1.0 / information; // sampling variance of the line's gain, which is subtracted
   for (Eigen::Index k = 0; k < terms; ++k)
   {
     variance += derivative(k) * moment(k);

@@ -39,7 +39,7 @@ FitMedians(const VarianceData & data, const ChiSquareTrim & trim)
     centred.push_back(data.mean[sample[i]] - line.pivotDn);
     count[binOf[i]] += 1.0;
   }
-  // Medians on both axes: where a bin holds parts of two patches, they are those of the larger part.
+  // Medians on both axes: if a bin holds parts of two patches, both medians are from the larger part.
   const auto medians = MediansOfBins(value, binOf, bins);
   const auto levels = MediansOfBins(centred, binOf, bins);
   double     s0 = 0.0, s1 = 0.0, s2 = 0.0, r0 = 0.0, r1 = 0.0;

@@ -13,8 +13,8 @@ namespace sensornoise
 
 class ChiSquareTrim;
 
-/** A first line, through the medians of 40 bins of the intensity; \a trim knows the medians of all degrees of freedom.
- * Null with one intensity. */
+/** Fits a first line to the medians of 40 bins of the intensity. \a trim has the medians for the degrees of freedom of
+ * all pixels. Null if there is only one intensity. */
 SensorNoise_EXPORT std::optional<VarianceLine>
 FitMedians(const VarianceData & data, const ChiSquareTrim & trim);
 

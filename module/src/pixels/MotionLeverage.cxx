@@ -15,7 +15,8 @@ namespace sensornoise
 
 namespace
 {
-/** Adds the squares of a derivative along a row, times \a weight; both are at the first pixel that has one. */
+/** Adds the squares of a derivative along a row, times \a weight. Both pointers are at the first pixel that has a
+ * derivative. */
 template <std::size_t VStencil>
 void
 AddSquares(const double * row, std::size_t width, double weight, double * bounds)

@@ -16,28 +16,31 @@ struct MotionSeries;
 struct ReferenceFrame;
 
 /** \class MotionLeverage
- * \brief By how much the motion, which was estimated from the pixels' own series, follows a pixel's noise:
- * D' G^-1 D of its derivatives D, over the noise's variance [DN^2].
+ * \brief Leverage of a pixel in the estimate of the motion, times its noise variance: D' G^-1 D, with its derivatives D
+ * [DN^2].
  *
- * It counts in the few pixels that dominate the regression; that it does not in the others is told, row by row, by the
- * bound K sum_k D_k^2 (G^-1)_kk for K series. The references must outlive the object. */
+ * The motion was estimated from the same pixels, so the estimate follows the noise of each of them. This matters only
+ * in the few pixels that dominate the regression. A bound, K sum_k D_k^2 (G^-1)_kk for K components, excludes the other
+ * pixels row by row. The references must outlive the object. */
 class SensorNoise_EXPORT MotionLeverage
 {
 public:
+  /** Prepares the weights of the bound. */
   MotionLeverage(const ReferenceFrame & frame, const MotionSeries & motion);
 
-  /** Sets bounds[x] to that of pixel x of row \a y, but for those next to the border, StencilMargin of them. */
+  /** Sets bounds[x] to the bound of pixel x of row \a y [DN^2]. It is 0 at the StencilMargin pixels next to the left
+   * and the right border. */
   void
   FillBounds(std::size_t y, double * bounds) const;
 
-  /** Of pixel \a p. */
+  /** Returns the leverage of pixel \a p times its noise variance [DN^2]. */
   double
   At(std::size_t p) const;
 
 private:
   const ReferenceFrame &               m_Frame;
   const MotionSeries &                 m_Motion;
-  std::array<double, NumberOfStencils> m_Weights{}; // of the squares of the derivatives in the bound
+  std::array<double, NumberOfStencils> m_Weights{}; // of the squared derivatives in the bound
 };
 
 } // namespace sensornoise

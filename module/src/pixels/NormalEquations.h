@@ -8,11 +8,11 @@
 namespace sensornoise
 {
 
-/** Inverts a symmetric matrix of normal equations in place; false, with the matrix half way, where isPivot(k, pivot) is
- * false of the pivot of a row k: they do not determine that term.
+/** Inverts a symmetric matrix of normal equations in place. Returns false, and leaves the matrix incomplete, if
+ * isPivot(k, pivot) is false for the pivot of a row k: then the equations do not determine this term.
  *
- * In plain loops (Gauss and Jordan), because Eigen's decompositions and products of matrices as small as these end in
- * other bits from version to version. */
+ * Plain Gauss-Jordan loops are used because the last bits of Eigen's decompositions and products of small matrices
+ * differ between its versions. */
 template <typename TMatrix, typename TIsPivot>
 bool
 InvertNormalEquations(TMatrix & matrix, TIsPivot isPivot)
@@ -41,7 +41,7 @@ InvertNormalEquations(TMatrix & matrix, TIsPivot isPivot)
   return true;
 }
 
-/** Matrix times vector, in plain loops as well. */
+/** Returns matrix times vector, computed in plain loops for the same reason. */
 template <typename TMatrix, typename TVector>
 TVector
 ProductInLoops(const TMatrix & matrix, const TVector & vector)

@@ -10,8 +10,8 @@ namespace sensornoise
 
 struct PixelLight;
 
-/** Whether the further series of light are one line a + b mean over the whole frame: then a common offset drifts, and
- * no second light changes. */
+/** Returns whether each further illumination component is one line a + b mean over the whole frame. Then a common
+ * offset drifts, and there is no second light source that changes. */
 SensorNoise_EXPORT bool
 IsOffsetDrift(const PixelLight & data);
 

@@ -17,7 +17,7 @@ namespace sensornoise
 
 namespace
 {
-/** The sums of low and of high weights times values. */
+/** Sums of low and of high weights times values. */
 struct PairSums
 {
   alignas(32) std::int32_t low[FramePairs::MostPixels];
@@ -34,7 +34,7 @@ AddTo(double * sums, const PairSums & products, double more, std::size_t pixels)
 }
 
 #if defined(__GNUC__) && defined(__x86_64__)
-/** One instruction multiplies sixteen values and adds those of a pixel; compilers do not find it by themselves. */
+/** A single instruction multiplies sixteen values and adds the products of each pixel; compilers do not generate it. */
 __attribute__((target("avx2"))) void
 AddPairProductsAvx2(const FramePairs &               frames,
                     const std::vector<PairWeights> & weights,
@@ -69,7 +69,7 @@ AddPairProductsAvx2(const FramePairs &               frames,
 }
 #endif
 
-/** The quickest for this processor. */
+/** Returns the fastest version for this processor. */
 auto
 FindAddPairProducts()
 {

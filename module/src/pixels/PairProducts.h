@@ -13,8 +13,9 @@
 namespace sensornoise
 {
 
-/** Integer weights of two frames, |w| <= 2^20, as w = low + 2048 high: products of the halves and 16-bit values stay
- * below 2^25, so that 32 bits hold the sums over 32 frames. Each pair is there eight times, as vectors need it. */
+/** Integer weights of two frames, |w| <= 2^20, split as w = low + 2048 high. Products of the halves and of 16-bit
+ * values stay below 2^25, so that 32 bits hold the sums over 32 frames. Each pair is stored eight times, as SIMD
+ * instructions need it. */
 struct PairWeights
 {
   static constexpr double Step = 2048.0;
@@ -22,6 +23,7 @@ struct PairWeights
   alignas(32) std::int16_t low[16]{};
   alignas(32) std::int16_t high[16]{};
 
+  /** Splits two whole numbers of at most 2^20. */
   PairWeights(double first, double second)
   {
     const double weights[2] = { first, second };
@@ -34,14 +36,14 @@ struct PairWeights
   }
 };
 
-/** Values of up to 32 frames in up to 256 pixels: of each pair of frames the two values of a pixel lie side by side.
- * Beyond the last pixel of Padded() there may be any values. */
+/** Values of up to 32 frames in up to 256 pixels. For each pair of frames, the two values of a pixel are adjacent.
+ * Values beyond Padded() pixels are not used. */
 struct FramePairs
 {
   static constexpr std::size_t MostPairs = 16;
   static constexpr std::size_t MostPixels = 256;
 
-  /** Pixels that are worked on for \a pixels. */
+  /** Returns the number of pixels that are computed for \a pixels: the next multiple of 32. */
   static constexpr std::size_t
   Padded(std::size_t pixels)
   {
@@ -51,8 +53,8 @@ struct FramePairs
   alignas(32) std::int16_t values[MostPairs][2 * MostPixels];
 };
 
-/** Adds \a more, and the sum over the pairs of frames of weights times values, to \a sums of \a pixels pixels. Whole
- * numbers: the same bits on every processor, which does many products at once if it can. */
+/** Adds to \a sums of \a pixels pixels \a more and the sum over the pairs of frames of weights times values. All
+ * numbers are whole, so the result has the same bits on every processor, with or without SIMD instructions. */
 SensorNoise_EXPORT void
 AddPairProducts(const FramePairs &               frames,
                 const std::vector<PairWeights> & weights,
@@ -60,7 +62,8 @@ AddPairProducts(const FramePairs &               frames,
                 std::size_t                      pixels,
                 double *                         sums);
 
-/** The same by one product after the other: for processors that are not known, and to test the others by. */
+/** Adds the same sums as AddPairProducts(), without SIMD instructions: for unknown processors, and to test the other
+ * versions. */
 SensorNoise_EXPORT void
 AddPairProductsOneByOne(const FramePairs &               frames,
                         const std::vector<PairWeights> & weights,

@@ -28,7 +28,7 @@ Legendre(double place)
   return values;
 }
 
-/** The terms of every tile, which the rounds of a regression share. */
+/** Returns the terms of every tile, which all rounds of a regression use. */
 std::vector<PartRegression::Terms>
 TermsOf(const std::vector<TileExcess> & tiles, const PartRegression & fit)
 {
@@ -40,7 +40,7 @@ TermsOf(const std::vector<TileExcess> & tiles, const PartRegression & fit)
   return terms;
 }
 
-/** The residuals, in standard deviations of sampling. */
+/** Returns the residuals in units of the sampling error [1]. */
 std::vector<double>
 ResidualsOf(const std::vector<TileExcess> &            tiles,
             const std::vector<PartRegression::Terms> & terms,
@@ -59,8 +59,8 @@ ResidualsOf(const std::vector<TileExcess> &            tiles,
   return residuals;
 }
 
-/** Standard deviations of what is known of the coefficients beforehand: weak, so that only what the tiles do not
- * determine follows it. */
+/** Returns the prior precision of the coefficients: weak, so that it matters only for coefficients that the tiles do
+ * not determine. */
 Eigen::VectorXd
 PriorPrecision(const PartRegression & fit)
 {
@@ -73,7 +73,7 @@ PriorPrecision(const PartRegression & fit)
   return precision;
 }
 
-/** A step of re-weighted least squares; the inverse of the normal equations becomes the covariance. */
+/** Solves one step of re-weighted least squares. The inverse of the normal equations becomes the covariance. */
 void
 Solve(const std::vector<TileExcess> &            tiles,
       const std::vector<PartRegression::Terms> & terms,
@@ -110,7 +110,7 @@ ScaleOf(const std::vector<double> & residuals)
   return std::max(1.0, Quantile(sizes, 0.5) / MedianOfNormal);
 }
 
-/** Least absolute deviations first, which any half of the tiles withstands, then Tukey's bisquare. */
+/** Minimizes absolute deviations first, which tolerates outliers in up to half of the tiles, then Tukey's bisquare. */
 void
 FitRobustly(const std::vector<TileExcess> & tiles, PartRegression & fit, std::size_t knots = InParts.knots)
 {
@@ -198,7 +198,7 @@ PartRegression::Criterion(const std::vector<TileExcess> & tiles, double common) 
     const double left = std::max(0.0, 1.0 - residual * residual / (common * common * limit));
     loss += limit / 3.0 * (1.0 - left * left * left);
   }
-  const std::size_t ofStep = stepDn ? 2 : 0; // its height and its level
+  const std::size_t ofStep = stepDn ? 2 : 0; // height and level of the step
   const std::size_t ofCurve = std::max(knotsDn.size(), InParts.knots) - InParts.knots;
   return loss + std::log(static_cast<double>(tiles.size())) * static_cast<double>(gains + darks + ofStep + ofCurve);
 }

@@ -19,62 +19,64 @@ namespace sensornoise
 {
 
 /** \class PartRegression
- * \brief A robust regression of the excess of the variance, tile by tile, on the parts of a frame.
+ * \brief Robust regression of the excess variance of tiles on the parts of a frame.
  *
- * excess = s d_part + (1 - s) h_part + curve(level), with s the part of the common line's variance that is shot noise:
- * d is the relative excess of the part's gain, h that of its variance without signal, and the curve is what all parts
- * have in common at a level. Estimator.md, 3.15. */
+ * The model is excess = s d_part + (1 - s) h_part + curve(level). s is the fraction of the common line's variance that
+ * is shot noise. d is the relative excess of the part's gain, and h the relative excess of its variance without signal.
+ * The curve is common to all parts. Estimator.md, 3.15. */
 struct SensorNoise_EXPORT PartRegression
 {
   Partition             partition{ Partition::LeftRight };
-  Eigen::Index          gains{ 0 }; ///< the first coefficients are d
-  Eigen::Index          darks{ 0 }; ///< the next ones h
-  std::vector<double>   knotsDn;    ///< levels of the curve's coefficients, which are the next
-  std::optional<double> stepDn;     ///< level at which the curve has a step, the last coefficient; null: it has none
-  Eigen::VectorXd       theta;
-  Eigen::MatrixXd       covariance; ///< of theta, with the scatter of the tiles
-  double                scale{ 1.0 };
+  Eigen::Index          gains{ 0 };   ///< number of coefficients d, which come first
+  Eigen::Index          darks{ 0 };   ///< number of coefficients h, which follow
+  std::vector<double>   knotsDn;      ///< levels of the coefficients of the curve, which follow [DN]
+  std::optional<double> stepDn;       ///< level of a step of the curve, the last coefficient [DN]; null: no step
+  Eigen::VectorXd       theta;        ///< the coefficients [1]
+  Eigen::MatrixXd       covariance;   ///< of theta, scaled by the dispersion of the tiles [1]
+  double                scale{ 1.0 }; ///< dispersion of the tiles over their sampling error, 1 or more [1]
   bool                  isDetermined{ false };
 
+  /** Returns whether the gain is a smooth field over the frame. */
   bool
   IsSmooth() const
   {
     return partition == Partition::SmoothField && gains > 1;
   }
 
-  /** Products of Legendre polynomials of the place, up to the fourth degree together. */
+  /** Returns the products of Legendre polynomials at a place of the frame, of a total degree up to 4. \a x and \a y are
+   * in units of the frame's width and height [1]. */
   static Eigen::VectorXd
   FieldAt(double x, double y);
 
-  /** The excess of the gain of each part, as a matrix times theta. */
+  /** Returns the matrix that gives the excess of the gain of each part when it is multiplied by theta. */
   Eigen::MatrixXd
   ToParts(const std::vector<TileExcess> & tiles) const;
 
-  /** Schwarz' criterion: the robust loss with a common \a scale, and the logarithm of the number of tiles for every
-   * coefficient of the parts. The model of the lowest criterion is the best. */
+  /** Returns the Schwarz criterion: the robust loss with the dispersion \a common [1], plus the logarithm of the number
+   * of tiles for each coefficient of the parts. The best model has the lowest criterion. */
   double
   Criterion(const std::vector<TileExcess> & tiles, double common) const;
 
   using Terms = std::vector<std::pair<Eigen::Index, double>>;
-  /** The columns of a tile that are not 0. */
+  /** Sets \a terms to the nonzero columns of a tile, with their values. */
   void
   FillTerms(const TileExcess & tile, Terms & terms) const;
 };
 
-/** What the parts have of their own. */
+/** Quantities that may differ between parts. */
 enum class PartsDiffer : std::uint8_t
 {
-  InBoth,
-  InGain,
-  InTheDark ///< in the variance without signal, as by their read noise
+  InBoth,   ///< gain and variance without signal
+  InGain,   ///< gain
+  InTheDark ///< variance without signal, as by the read noise
 };
 
-/** Fits the parts of \a partition. A smooth field differs in its gain. */
+/** Fits the parts of \a partition. In a smooth field only the gain differs. */
 SensorNoise_EXPORT PartRegression
 FitParts(Partition partition, PartsDiffer differ, const std::vector<TileExcess> & tiles);
 
-/** Fits one part, all pixels. With \a stepDn the curve has a step at that level, as between two amplifiers that read
- * every pixel; of more \a knots it follows a response that is strongly non-linear. */
+/** Fits one part that has all pixels. With \a stepDn the curve has a step at that level [DN], as with two amplifiers
+ * that read every pixel. With more \a knots the curve follows a strongly non-linear response. */
 SensorNoise_EXPORT PartRegression
 FitUniform(const std::vector<TileExcess> & tiles,
            std::optional<double>           stepDn = std::nullopt,

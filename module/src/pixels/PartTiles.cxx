@@ -17,7 +17,7 @@ namespace
 {
 constexpr std::size_t Phases = LargestPeriod * LargestPeriod;
 
-/** The side of a tile, a multiple of the largest period [pixels]. */
+/** Returns the side of a tile, a multiple of the largest period [pixel]. */
 std::size_t
 SideOfTile(const FrameGeometry & geometry)
 {
@@ -57,8 +57,9 @@ SumTile(const VarianceData &           data,
   }
 }
 
-/** The phases of larger tiles: several tiles of \a side pixels together, \a across of which lie side by side. Phases do
- * not differ from place to place, and each tile has 16 of them. */
+/** Returns the excess of each phase in larger tiles. A larger tile joins several tiles of \a side pixels; \a across is
+ * the number of tiles in a row of the frame. Larger tiles suffice because phases do not differ from place to place, and
+ * each tile has 16 of them. */
 std::vector<TileExcess>
 PhasesOf(const std::vector<std::array<PartSums, Phases>> & sums,
          std::size_t                                       across,

@@ -13,15 +13,15 @@
 namespace sensornoise
 {
 
-/** Ways to divide a burst into parts that may have gains of their own: the pixels by their place or by their position
- * in a pattern that repeats (the phase), and the frames. */
+/** Ways to divide a burst into parts that may differ in their gain: the pixels by place or by phase, which is their
+ * position in a repeating pattern, and the frames. */
 enum class Partition : std::uint8_t
 {
   LeftRight,
   UpperLower,
   Quadrants,
   Blocks,
-  SmoothField, ///< a polynomial of the place, reported by the parts of Blocks
+  SmoothField, ///< a polynomial of the place; reported for the parts of Blocks
   Columns2,
   Rows2,
   Phases2,
@@ -33,7 +33,7 @@ enum class Partition : std::uint8_t
   FrameParities
 };
 
-/** What a partition divides. */
+/** Objects that a partition divides. */
 enum class Divided : std::uint8_t
 {
   Places,
@@ -41,20 +41,20 @@ enum class Divided : std::uint8_t
   Frames
 };
 
-/** An entry of the table of partitions. */
+/** Entry of the table of partitions. */
 struct PartitionKind
 {
   Partition    partition;
-  const char * name; ///< in the record; stable, for programs
-  const char * words;
-  std::size_t  parts;
+  const char * name;  ///< name in the record, stable for programs
+  const char * words; ///< description of the parts in messages
+  std::size_t  parts; ///< number of parts
   Divided      divided;
 };
 
-/** Blocks along either axis, and the largest period of a phase [pixels]. */
+/** Blocks along either axis, and the longest period of a pattern of phases [pixel]. */
 inline constexpr std::size_t BlocksAcross = 4;
 inline constexpr std::size_t LargestPeriod = 4;
-/** Quarters of the burst, each with its even and its odd frames. */
+/** Groups of frames: the quarters of the burst, each divided into its even and its odd frames. */
 inline constexpr std::size_t FrameGroups = 8;
 
 inline constexpr std::array<PartitionKind, 14> PartitionTable{ {
@@ -78,18 +78,19 @@ inline constexpr std::array<PartitionKind, 14> PartitionTable{ {
   { Partition::FrameParities, "frame-parities", "even and odd frames", 2, Divided::Frames },
 } };
 
+/** Returns the entry of \a partition. */
 constexpr const PartitionKind &
 KindOf(Partition partition)
 {
   return PartitionTable[static_cast<std::size_t>(partition)];
 }
 
-/** The part of a pixel: \a x and \a y in units of the frame's width and height, from 0 to 1 [1]; \a phase is
- * 4 (row mod 4) + (column mod 4), or, of a frame, 2 quarter + (frame mod 2). */
+/** Returns the part of a pixel or frame, from 0. \a x and \a y are in units of the frame's width and height, from 0 to
+ * 1 [1]. \a phase is 4 (row mod 4) + (column mod 4) for a pixel, and 2 quarter + (frame mod 2) for a frame. */
 SensorNoise_EXPORT std::size_t
 PartOf(Partition partition, double x, double y, std::size_t phase);
 
-/** The part in words, such as "left half", or "column 1, row 0 of 2 x 2". */
+/** Returns the part in words, such as "left half" or "column 1, row 0 of 2 x 2". */
 SensorNoise_EXPORT std::string
 NameOfPart(Partition partition, std::size_t part);
 

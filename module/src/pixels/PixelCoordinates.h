@@ -16,20 +16,20 @@ namespace sensornoise
 class TemporalBasis;
 
 /** \class PixelCoordinates
- * \brief The coordinates S_j of every pixel's time series in the TemporalBasis: how the pixel responds to each series
+ * \brief Coordinates S_j of every pixel's time series in the TemporalBasis: the pixel's response to each component
  * [DN].
  *
- * They take the place of the sums over time, in the same memory. */
+ * The coordinates replace the sums over time in the same memory. */
 class SensorNoise_EXPORT PixelCoordinates
 {
 public:
-  /** Pixels whose coordinates on one series lie side by side. */
+  /** Number of pixels whose coordinates of one component are adjacent. */
   static constexpr std::size_t BlockPixels = ProjectionSums::BlockPixels;
 
-  /** Of no pixels. */
+  /** Holds no pixels. */
   PixelCoordinates() = default;
 
-  /** Takes \a sums over; \a mean is that of every pixel over time [DN]. */
+  /** Takes \a sums over and converts them to coordinates. \a mean is the map of means over time [DN]. */
   explicit PixelCoordinates(ProjectionSums &&           sums,
                             const TemporalBasis &       basis,
                             const std::vector<double> & mean,
@@ -37,7 +37,7 @@ public:
   /** Takes over sums that are coordinates already. */
   explicit PixelCoordinates(ProjectionSums && coordinates);
 
-  /** The pixels [first, last) whose coordinates are held. */
+  /** Returns the first pixel, and the end, of the range whose coordinates are held. */
   std::size_t
   FirstPixel() const
   {
@@ -49,13 +49,13 @@ public:
     return m_Coordinates.LastPixel();
   }
 
-  /** The coordinate of pixel \a p on series \a j. */
+  /** Returns the coordinate of pixel \a p in component \a j [DN]. */
   double
   At(std::size_t p, std::size_t j) const
   {
     return m_Coordinates.At(p, j);
   }
-  /** The coordinates on series \a j of the pixels of a block, from its pixel \a first on. */
+  /** Returns the coordinates in component \a j of the pixels of a block, from its pixel \a first on [DN]. */
   const double *
   Of(std::size_t first, std::size_t j) const
   {
@@ -63,7 +63,7 @@ public:
   }
 
 private:
-  ProjectionSums m_Coordinates; // no longer the sums
+  ProjectionSums m_Coordinates; // converted in place
 };
 
 } // namespace sensornoise

@@ -20,9 +20,10 @@ namespace sensornoise
 namespace
 {
 constexpr std::size_t Derivatives = 5;
-constexpr std::size_t Side = 8; // of a tile
+constexpr std::size_t Side = 8; // of a tile [pixel]
 
-/** The frame in bands, each a row of tiles. A pixel's variables are its derivatives and its responses to light. */
+/** Division of the frame into bands, each one row of tiles. The variables of a pixel are its derivatives and its
+ * responses to the illumination. */
 class Bands
 {
 public:
@@ -84,7 +85,7 @@ private:
   std::size_t            m_Light;
 };
 
-/** Sums over a tile: of the weight w times powers of I, the mean minus the centre. */
+/** Sums over a tile of the weight w times powers of I, the mean minus the centre. */
 struct TileWeights
 {
   double pixels{ 0.0 };
@@ -92,14 +93,15 @@ struct TileWeights
   double wI{ 0.0 };
   double wII{ 0.0 };
 };
-/** And of w times a variable, and times I. */
+/** Sums over a tile of w times a variable, and of w I times a variable. */
 struct TileProducts
 {
   double wZ{ 0.0 };
   double wIZ{ 0.0 };
 };
 
-/** The derivatives of a band, freed of the tiles' lines, times themselves and times the responses. */
+/** Returns the products of the derivatives with themselves and with the responses over a band, after the line of each
+ * tile was subtracted. */
 Eigen::MatrixXd
 ProductsOfBand(const Bands & bands, std::size_t band)
 {
@@ -139,7 +141,7 @@ ProductsOfBand(const Bands & bands, std::size_t band)
   return result;
 }
 
-/** kappa: a row for each derivative, a column for each series of light. */
+/** Returns kappa, with a row for each derivative and a column for each illumination component. */
 Eigen::MatrixXd
 FindLeak(const Bands & bands, const ParallelFor & parallelFor)
 {

@@ -17,27 +17,27 @@ class PixelCoordinates;
 struct ReferenceFrame;
 struct VarianceLine;
 
-/** The projected stack and what is known of it when the light is looked at, pixel by pixel. */
+/** The projected stack and the quantities needed to analyse the illumination pixel by pixel. */
 struct PixelLight
 {
   const ReferenceFrame &            frame;
   const PixelCoordinates &          coordinates;
-  std::size_t                       factors; ///< of light: the first coordinates
+  std::size_t                       factors; ///< number of illumination components, which are the first coordinates
   const VarianceLine &              line;
   const std::vector<std::uint8_t> & mask;
-  double                            centreDn;  ///< the level that is subtracted from the means [DN]
-  double                            darkestDn; ///< quantile of the means [DN]
-  double                            rangeDn;   ///< from the darkest to the brightest quantile [DN]
+  double                            centreDn;  ///< level that is subtracted from the means [DN]
+  double                            darkestDn; ///< darkest quantile of the means [DN]
+  double                            rangeDn;   ///< brightest minus darkest quantile of the means [DN]
 };
 
-/** A way to cut the frame into tiles, within which local light has one pattern. */
+/** Division of the frame into tiles within which local illumination has one pattern. */
 struct Tiles
 {
-  std::size_t height; ///< of a tile [pixels]
-  std::size_t width;  ///< of a tile [pixels]
-  std::size_t across; ///< tiles side by side
+  std::size_t height; ///< height of a tile [pixel]
+  std::size_t width;  ///< width of a tile [pixel]
+  std::size_t across; ///< number of tiles in a row of tiles
 
-  /** The tile of pixel \a p of frames of \a frameWidth columns. */
+  /** Returns the tile of pixel \a p of frames of \a frameWidth columns. */
   std::size_t
   Of(std::size_t p, std::size_t frameWidth) const
   {
@@ -45,10 +45,11 @@ struct Tiles
   }
 };
 
-/** Removes what motion leaked by chance into the responses: kappa_k times the derivatives, kappa common to the frame.
- * It is estimated against lines in the mean that are free in every 8 x 8 tile (Frisch & Waugh 1933), so that light
- * that differs over the frame does not bias it. Even derivatives resemble the mean locally and would shift the offset.
- * Returns a map for each series of light; 0 outside the mask. */
+/** Returns a map of the responses to each illumination component, without the part that motion leaked into them by
+ * chance [DN]. They are 0 outside the mask. The leakage is kappa_k times the derivatives, with kappa common to the
+ * frame. It is estimated against lines in the mean that are free in every 8 x 8 tile (Frisch & Waugh 1933), so that
+ * local illumination does not bias it. Even derivatives resemble the mean locally, so their leakage would shift the
+ * offset. */
 SensorNoise_EXPORT std::vector<std::vector<double>>
 ResponsesWithoutMotion(const PixelLight & data, const ParallelFor & parallelFor);
 

@@ -16,14 +16,15 @@ namespace sensornoise
 
 namespace
 {
-/** Frames of integers that are added together. */
+/** Largest number of integer frames that are added together. */
 constexpr std::size_t MostTogether = 2 * FramePairs::MostPairs;
 
-/** What is taken off a value, so that 16 bits with a sign hold it. */
+/** Offset that is subtracted from a value, so that 16 bits with a sign hold it. */
 template <typename TPixel>
 constexpr int Middle = std::is_same_v<TPixel, unsigned short> ? 32768 : 0;
 
-/** Takes the values of the pixels [begin, end) of \a count frames; where that is odd, the last is its own partner. */
+/** Copies the values of the pixels [begin, end) of \a count frames. If the count is odd, the last frame is its own
+ * partner. */
 template <typename TPixel>
 void
 TakePairs(const TPixel *      frames,

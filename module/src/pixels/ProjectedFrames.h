@@ -17,38 +17,39 @@ namespace sensornoise
 class TemporalBasis;
 
 /** \class ProjectedFrames
- * \brief Frames that are multiplied by the series of a TemporalBasis, a block of pixels at a time.
+ * \brief Frames that are multiplied by the components of a TemporalBasis, one block of pixels at a time.
  *
- * Integers are multiplied and summed in whole numbers, up to 32 frames at once: in any order the same sums. They are
- * held in doubles, and below 2^53 for up to 2^34 frames: the series have the norm 2^20, and a pixel's values one of at
- * most 2^16 times the root of the frames. Floating-point frames are added one by one, in their order. */
+ * Integer frames are multiplied and summed in whole numbers, up to 32 frames at once, so that the order of the frames
+ * does not change the sums. Doubles hold the sums exactly, because they stay below 2^53 for up to 2^34 frames: the
+ * components have the norm 2^20, and a pixel's values have a norm of at most 2^16 times the square root of the number
+ * of frames. Floating-point frames are added one by one, in their order. */
 template <typename TPixel>
 class ProjectedFrames
 {
 public:
-  /** Pixels of a block, whose sums with one series lie side by side; they stay in the first-level cache. */
+  /** Number of pixels of a block, whose sums with one component are adjacent and stay in the first-level cache. */
   static constexpr std::size_t BlockPixels = FramePairs::MostPixels;
 
-  /** Frames firstFrame ... firstFrame + count - 1, whose pixels stand as \a layout says, and which must outlive the
-   * object, as must \a basis. */
+  /** Prepares the frames firstFrame ... firstFrame + count - 1, whose pixels lie as \a layout describes. \a frames and
+   * \a basis must outlive the object. */
   ProjectedFrames(const TemporalBasis & basis,
                   const TPixel *        frames,
                   const PixelLayout &   layout,
                   std::size_t           firstFrame,
                   std::size_t           count);
 
-  /** Adds the sums of the pixels [begin, end), at most those of a block, to sums[j BlockPixels + i], i from 0, of each
-   * series j. Meanwhile the memory of the pixels [end, ahead) of the frames is asked for, and that of \a next, their
-   * sums, if there are any. */
+  /** Adds the sums of the pixels [begin, end), at most a block, to sums[j BlockPixels + i], with i from 0 for each
+   * component j. Meanwhile the pixels [end, ahead) of the frames and the block of sums at \a next, if not null, are
+   * prefetched. */
   void
   AddTo(double * sums, std::size_t begin, std::size_t end, std::size_t ahead, const double * next = nullptr) const;
 
 private:
-  /** What the frames that are added together are multiplied by, of one series. */
+  /** Weights of frames that are added together, in one component. */
   struct Weights
   {
     std::vector<PairWeights> pairs;
-    double                   ofMiddle{ 0.0 }; // what was taken off all values, times the weights
+    double                   ofMiddle{ 0.0 }; // offset that was subtracted from all values, times the weights
   };
 
   Weights
@@ -63,7 +64,7 @@ private:
   PixelLayout                       m_Layout;
   std::size_t                       m_First;
   std::size_t                       m_Count;
-  std::vector<std::vector<Weights>> m_Weights; // of frames that are added together, and series
+  std::vector<std::vector<Weights>> m_Weights; // by groups of frames that are added together, and by component
 };
 
 #define SensorNoise_EXTERN(TPixel) extern template class SensorNoise_EXPORT ProjectedFrames<TPixel>

@@ -86,7 +86,8 @@ ProjectedVariance::Compute(double gain)
       [=, mask = m_Mask.data(), skew = m_Skew.data(), divisor = m_Divisor.data(), own = m_Variance.data()] {
         for (std::size_t p = begin; p < end; ++p)
         {
-          const double added = more * skew[p] / divisor[p]; // outside of the condition, or no vectors
+          // Outside of the condition, so that SIMD instructions are used.
+          const double added = more * skew[p] / divisor[p];
           own[p] += mask[p] != 0 ? added : 0.0;
         }
       });

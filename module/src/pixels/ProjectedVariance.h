@@ -25,34 +25,37 @@ struct ProvisionalModel;
 struct ReferenceFrame;
 
 /** \class ProjectedVariance
- * \brief Every pixel's variance after what is not sensor noise has been taken out of its time series.
+ * \brief Variance of every pixel over time, without the variation that is not sensor noise.
  *
- * With the coordinates S_j of the time series in the basis, J of them, and the sum of squares SS about the mean,
+ * With the J coordinates S_j of the time series in the basis, and the sum of squares SS about the mean,
  *
  *     RSS = SS - sum_j S_j^2,   K_ij = sum_t Q_tj^2 Q_ti,
  *
  *     V = (RSS + g sum_i S_i sum_j K_ij) / ((T - 1 - J) (1 - h)).
  *
- * The pixel's response to each series is free: the projection is exact on edges, for any optics and interpolation, for
- * pixels of different sensitivity, and for light that differs over the frame. Estimator.md, 3.5, which this simplifies:
+ * The response of a pixel to each component is free. The projection is therefore exact on edges, for any optics and
+ * interpolation, for pixels of different sensitivity, and for local illumination. This is a simple form of
+ * Estimator.md, 3.5:
  *
- * - The noise changes with the light, so a series that lives on the frames in which a pixel is bright takes out more
- *   than its share. The coordinates themselves tell how the pixel's light changes, by flicker or by motion: the second
- *   term, 0.1 to 0.5 % of g.
- * - The motion series were estimated from the same pixels and follow their noise by the pixel's leverage,
- *   h = w D' G^-1 D, which counts in the few pixels that dominate the regression.
- * - With both, every series can be projected out of every pixel, for 5 to 15 % of the degrees of freedom; no class of
- *   pixels need be told which series it pays for, and no bias below a threshold is left.
- * - The squares are divided by (T - 1 - J) (1 - h); how precise the variance is, is another number where the
- *   illumination changes strongly, see FrameFreedom.
+ * - The noise changes with the signal. A component that is large in the frames in which a pixel is bright removes more
+ *   noise than its number of degrees of freedom. The second term corrects this, by 0.1 to 0.5 % of g: the coordinates
+ *   contain the change of the pixel's signal by flicker and by motion.
+ * - The motion components were estimated from the same pixels. They follow the noise of a pixel by its leverage
+ *   h = w D' G^-1 D, which matters in the few pixels that dominate the regression.
+ * - With both corrections, every component can be projected out of every pixel. This takes 5 to 15 % of the degrees of
+ *   freedom, needs no selection of components by class of pixels, and leaves no bias below a threshold.
+ * - The divisor of the squares is (T - 1 - J) (1 - h). The degrees of freedom by which the variance scatters are a
+ *   different number where the illumination changes strongly, see FrameFreedom.
  *
  * Pixels are sorted into RoughnessClasses for the test of fit (JudgeClasses). */
 class SensorNoise_EXPORT ProjectedVariance
 {
 public:
+  /** Number of roughness classes. */
   static constexpr std::size_t Classes = RoughnessClasses;
 
-  /** \a squares are those of the basis' coordinates. All references must outlive the object. */
+  /** Computes the variance with the gain 0. \a squares are the residual squares for the components of \a basis. All
+   * references must outlive the object. */
   ProjectedVariance(const ReferenceFrame &            frame,
                     const TemporalBasis &             basis,
                     const MotionSeries &              motion,
@@ -61,93 +64,95 @@ public:
                     const std::vector<std::uint8_t> & mask,
                     const ParallelFor &               parallelFor);
 
-  /** Takes off what of the noise of rounding is no line. */
+  /** Subtracts the remainder of the quantization noise that is not a line in the level, see CodeNoise. */
   void
   TakeOffRest(const CodeNoise & noise);
 
-  /** Other squares of pixel \a p of the mask, whose expectation is \a freedom times its variance: that of a frame's
-   * tiles may be known with what their rows share taken off. Before SetIllumination() and Compute(). */
+  /** Replaces the squares of pixel \a p of the mask by \a squares [DN^2], whose expectation is \a freedom times the
+   * variance of the pixel. Squares without the noise that is common to a row are an example. To be called before
+   * SetIllumination() and Compute(). */
   void
   ReplaceSquares(std::size_t p, double squares, double freedom);
 
-  /** Allows for frames of different noise: \a gamma + 1 is the illumination factor of each frame, for which \a offsetDn
-   * is the dark offset. The shot noise of the pixels is that of the provisional model, until Compute(line); if it is
-   * not \a isShotNoiseKnown, all of their noise, with the least degrees of freedom that these frames allow. */
+  /** Allows for noise that differs from frame to frame. \a gamma + 1 is the illumination factor of each frame, and
+   * \a offsetDn the dark offset. The fraction of shot noise is taken from the initial noise model until Compute(line)
+   * is called. If not \a isShotNoiseKnown, all noise is taken to be shot noise, which gives the fewest degrees of
+   * freedom. */
   void
   SetIllumination(const std::vector<double> & gamma, double offsetDn, bool isShotNoiseKnown = true);
 
-  /** Computes the variance with another gain [DN/e-], which serves the noise that changes with the light; at first it
-   * is 0. */
+  /** Computes the variance with another gain [DN/e-] for the correction of noise that changes with the signal. */
   void
   Compute(double gain);
-  /** The same, and the degrees of freedom with the shot noise that \a line has. */
+  /** Computes the variance with the gain of \a line, and the degrees of freedom with its fraction of shot noise. */
   void
   Compute(const VarianceLine & line);
 
-  /** Divides the variance of every pixel by its ratio to that of a common sensor, see MapOfRatios() [1]; empty: leaves
-   * the variance as it is. What was set before is undone. */
+  /** Divides the variance of every pixel by its ratio to the variance of a uniform sensor, see MapOfRatios() [1].
+   * Empty: the variance is not divided. Earlier ratios are undone first. */
   void
   SetRatios(std::vector<float> ratios);
-  /** Whether the variance is divided by ratios. */
+  /** Returns whether the variance is divided by ratios. */
   bool
   HasRatios() const
   {
     return !m_Ratios.empty();
   }
-  /** The variance as it was measured, without the ratios [DN^2]. */
+  /** Returns the measured variance, which is not divided by ratios [DN^2]. */
   std::vector<double>
   MeasuredVariance() const;
 
-  /** The gain of the last Compute() [DN/e-]. */
+  /** Returns the gain of the last Compute() [DN/e-]; at first 0. */
   double
   GetGain() const
   {
     return m_Gain;
   }
-  /** [DN^2]; 0 outside the mask. */
+  /** Returns the variance of every pixel [DN^2]; 0 outside the mask. */
   const std::vector<double> &
   GetVariance() const
   {
     return m_Variance;
   }
-  /** Gives the measured variance away. */
+  /** Moves the measured variance out of the object. */
   std::vector<double>
   TakeVariance()
   {
     this->SetRatios({});
     return std::move(m_Variance);
   }
-  /** Effective degrees of freedom of every pixel's variance, by which it scatters; 0 outside the mask. */
+  /** Returns the effective degrees of freedom of every pixel's variance; 0 outside the mask. */
   const std::vector<float> &
   GetFreedom() const
   {
     return m_Freedom.empty() ? m_Divisor : m_Freedom;
   }
-  /** What every pixel's squares are divided by: (T - 1 - J) (1 - h); 0 outside the mask. */
+  /** Returns the divisor of every pixel's squares, (T - 1 - J) (1 - h); 0 outside the mask. */
   const std::vector<float> &
   GetDivisor() const
   {
     return m_Divisor;
   }
-  /** The fraction of the degrees of freedom that the change of the illumination leaves to pixels of a level [1]. */
+  /** Returns the fraction of the degrees of freedom that a change of the illumination leaves to pixels of a level
+   * [1]. */
   double
   FreedomFractionAt(double levelDn) const
   {
     return m_FrameFreedom.IsEqual() ? 1.0 : m_FrameFreedom.FractionAt(this->ShotFractionAt(levelDn));
   }
-  /** Whether frames differ in their noise by as much as counts. */
+  /** Returns whether the noise differs from frame to frame by as much as matters, see FrameFreedom::IsEqual(). */
   bool
   HasUnequalFrames() const
   {
     return !m_FrameFreedom.IsEqual();
   }
-  /** What the gain is multiplied by in the squares of each pixel: sum_i S_i sum_j K_ij [DN]. */
+  /** Returns the factor of the gain in the corrected squares of each pixel, sum_i S_i sum_j K_ij [DN]. */
   const std::vector<float> &
   GetSkew() const
   {
     return m_Skew;
   }
-  /** The class of roughness of pixel \a p, from 0, flat, to Classes - 1. */
+  /** Returns the roughness class of pixel \a p, from 0 (flat) to Classes - 1. */
   std::uint8_t
   ClassOf(std::size_t p) const
   {
@@ -172,13 +177,13 @@ public:
   GetData(const std::vector<std::uint8_t> & mask) const;
 
 private:
-  /** Divides the squares of the mask's pixels. */
+  /** Divides the squares of the mask's pixels by their divisors. */
   void
   DivideSquares(const MotionSeries & motion, const ProvisionalModel & model);
-  /** The effective degrees of freedom of the mask's pixels. */
+  /** Computes the effective degrees of freedom of the mask's pixels. */
   void
   CountFreedom();
-  /** The fraction of the variance that is shot noise, by the neighbours' mean [1]. */
+  /** Returns the fraction of the variance at a level of the neighbours' mean that is shot noise [1]. */
   double
   ShotFractionAt(double levelDn) const
   {
@@ -190,14 +195,14 @@ private:
   const std::vector<std::uint8_t> & m_Mask;
   ParallelFor                       m_ParallelFor;
   double                            m_Gain{ 0.0 };
-  CodeNoise                         m_CodeNoise; // of which the rest is taken off
+  CodeNoise                         m_CodeNoise; // its remainder is subtracted from the variance
   std::vector<double>               m_Variance;
-  std::vector<float>                m_Skew; // sum_i S_i sum_j K_ij
+  std::vector<float>                m_Skew; // sum_i S_i sum_j K_ij [DN]
   std::vector<float>                m_Divisor;
-  std::vector<float>                m_Ratios;  // empty: 1
-  std::vector<float>                m_Freedom; // empty: equal to the divisor
+  std::vector<float>                m_Ratios;  // variance relative to a uniform sensor [1]; empty: 1
+  std::vector<float>                m_Freedom; // effective degrees of freedom; empty: equal to the divisor
   FrameFreedom                      m_FrameFreedom;
-  VarianceLine                      m_NoiseLine; // by which m_Freedom was counted
+  VarianceLine                      m_NoiseLine; // gives the fraction of shot noise for m_Freedom
   double                            m_OffsetDn{ 0.0 };
   bool                              m_IsShotNoiseKnown{ true };
   std::vector<std::uint8_t>         m_ClassOf;

@@ -41,7 +41,7 @@ ProjectionSums::ProjectionSums(std::size_t         pixels,
     Eigen::ArrayXd &  sums = m_Slabs[slab];
     sums.resize(static_cast<Eigen::Index>((own + BlockPixels - 1) / BlockPixels * BlockPixels * series));
   }
-  this->Clear(parallelFor); // the memory's first use is slow: all threads share it
+  this->Clear(parallelFor); // by all threads, because the first use of the memory is slow
 }
 
 void

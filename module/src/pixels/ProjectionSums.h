@@ -19,37 +19,38 @@ namespace sensornoise
 {
 
 /** \class ProjectionSums
- * \brief The third pass: the sums over time of every pixel with each series of a TemporalBasis.
+ * \brief Third pass: the sum over time of every pixel's values times each component of a TemporalBasis.
  *
- * With moments and these sums, the residual sum of squares of any pixel about any of the series follows without reading
- * the stack again (estimator.md, 6). For integer pixels they are exact, see ProjectedFrames, so frames may be added and
- * parts merged in any order, with the same bits. Floating-point frames are added one by one in time order.
+ * Moments and these sums give the residual sum of squares of any pixel about any of the components without another pass
+ * over the stack (estimator.md, 6). For integer pixels the sums are exact, see ProjectedFrames, so the order of frames
+ * and of merged parts does not change a bit. Floating-point frames are added one by one in the order of time.
  *
- * Memory: 8 bytes a pixel and series, in slabs that can be given back one by one. Of a large frame the sums of some
- * slabs can be made by themselves. */
+ * Memory: 8 bytes per pixel and component, in slabs that can be released one by one. For a large frame, an object can
+ * hold the sums of some slabs only. */
 class SensorNoise_EXPORT ProjectionSums
 {
 public:
-  /** Pixels whose sums with one series lie side by side. */
+  /** Number of pixels whose sums with one component are adjacent. */
   static constexpr std::size_t BlockPixels = ProjectedFrames<float>::BlockPixels;
-  /** Pixels of a slab. Set by hand: with one series it has 4 MiB, which the system takes back at once. */
+  /** Number of pixels of a slab. Chosen empirically: with one component a slab has 4 MiB, which the operating system
+   * takes back at once. */
   static constexpr std::size_t SlabPixels = std::size_t{ 1 } << 19;
 
-  /** The sums of the slabs [firstSlab, lastSlab) of frames of \a pixels pixels; those that the frame does not have are
-   * left out. */
+  /** Allocates the sums, all 0, of the slabs [firstSlab, lastSlab) of frames of \a pixels pixels. Slabs beyond the
+   * frame are left out. \a series is the number of components. */
   explicit ProjectionSums(std::size_t         pixels = 0,
                           std::size_t         series = 0,
                           const ParallelFor & parallelFor = SerialFor,
                           std::size_t         firstSlab = 0,
                           std::size_t         lastSlab = std::numeric_limits<std::size_t>::max());
 
-  /** The number of slabs of frames of \a pixels pixels. */
+  /** Returns the number of slabs of frames of \a pixels pixels. */
   static std::size_t
   NumberOfSlabs(std::size_t pixels)
   {
     return (pixels + SlabPixels - 1) / SlabPixels;
   }
-  /** The pixels [first, last) whose sums are held, and were not given back. */
+  /** Returns the first pixel, and the end, of the range whose sums are held and not yet released. */
   std::size_t
   FirstPixel() const
   {
@@ -60,24 +61,25 @@ public:
   {
     return std::min(m_Pixels, m_LastSlab * SlabPixels);
   }
-  /** Makes all sums 0. */
+  /** Sets all sums to 0. */
   void
   Clear(const ParallelFor & parallelFor);
 
-  /** Gives the memory of the first slab that is held back. */
+  /** Releases the memory of the first slab that is held. */
   void
   ReleaseFirstSlab()
   {
     m_Slabs[m_FirstSlab++].resize(0);
   }
 
-  /** Adds frames of the same size, projected on the same number of series, for the pixels [begin, end), which must be
-   * held. Different ranges may be added at the same time. */
+  /** Adds \a frames of the same size and number of components for the pixels [begin, end), which must be held.
+   * Different ranges may be added at the same time. */
   template <typename TPixel>
   void
   AddFrames(const ProjectedFrames<TPixel> & frames, std::size_t begin, std::size_t end);
 
-  /** Adds the sums of other frames of the same pixels. */
+  /** Adds the sums of other frames. Throws std::invalid_argument if the numbers of pixels or components, or the slabs,
+   * differ. */
   void
   Merge(const ProjectionSums & other);
 
@@ -85,8 +87,8 @@ public:
   void
   Save(std::ostream & out) const;
 
-  /** Replaces the sums by those of a stream, which must be of the same slabs. Throws std::runtime_error, and changes
-   * nothing, if it holds other sums, or those of other numbers of pixels or series, or ends early. */
+  /** Replaces the sums by the sums in a stream, which must have the same slabs. Throws std::runtime_error, and changes
+   * nothing, if the stream holds other sums, has another number of pixels or components, or ends early. */
   void
   Restore(std::istream & in);
 
@@ -95,7 +97,7 @@ public:
   {
     return m_Series;
   }
-  /** The sum of pixel \a p with series \a j. Those of the next pixels of its block follow. */
+  /** Returns the sum of pixel \a p with component \a j. The sums of the next pixels of its block follow. */
   double &
   At(std::size_t p, std::size_t j)
   {
@@ -118,7 +120,7 @@ private:
   std::size_t                 m_Series;
   std::size_t                 m_FirstSlab;
   std::size_t                 m_LastSlab;
-  std::vector<Eigen::ArrayXd> m_Slabs; // unlike std::vector, not filled by one thread
+  std::vector<Eigen::ArrayXd> m_Slabs; // unlike std::vector, not filled by one thread when resized
 };
 
 } // namespace sensornoise

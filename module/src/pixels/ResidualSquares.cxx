@@ -21,7 +21,8 @@ namespace sensornoise
 namespace detail
 {
 /** \class SquaresOfBlocks
- * \brief Fills the squares of the pixels of a block from its coordinates, those on each series side by side. */
+ * \brief Computes the residual squares of the pixels of a block from its coordinates, which are adjacent for each
+ * component. */
 class SquaresOfBlocks
 {
 public:
@@ -41,7 +42,7 @@ public:
   Fill(const double * coordinates, std::size_t first, std::size_t pixels) const
   {
     WithWideVectors([&] {
-      double               squares[BlockPixels]; // no pointer can point into them
+      double               squares[BlockPixels]; // a copy that no pointer can alias
       float                skews[BlockPixels] = {};
       const double * const variance = m_Variance + first;
       for (std::size_t i = 0; i < pixels; ++i)
@@ -67,7 +68,7 @@ private:
   const double *      m_Variance;
   ResidualSquares &   m_Squares;
   double              m_Freedom;
-  std::vector<double> m_Factors; // of the coordinates in the skew
+  std::vector<double> m_Factors; // weights of the coordinates in the skew
 };
 } // namespace detail
 

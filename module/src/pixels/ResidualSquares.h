@@ -18,17 +18,16 @@ template <typename TPixel>
 class ProjectedFrames;
 struct ReferenceFrame;
 
-/** What is left of every pixel's squared deviations when the series of a basis are taken out of its time series: all
- * that the variance needs of its coordinates S_j, see ProjectedVariance. */
+/** Squared deviations of every pixel without the components of a basis: all that ProjectedVariance needs of the
+ * coordinates S_j. */
 struct ResidualSquares
 {
-  std::vector<double> rss;  ///< sum of squares about the mean - sum_j S_j^2 [DN^2]
+  std::vector<double> rss;  ///< sum of squares about the mean minus sum_j S_j^2 [DN^2]
   std::vector<float>  skew; ///< sum_i S_i sum_j K_ij, K_ij = sum_t Q_tj^2 Q_ti [DN]
 };
 
-/** Appends the squares of the pixels whose \a sums are held, which follow those that \a squares has already. Their
- * coordinates take the place of the sums if they are to be kept, else the sums are given back one slab after the other.
- */
+/** Appends the squares of the pixels whose \a sums are held, which must follow the pixels that \a squares has already.
+ * With \a keepCoordinates the coordinates replace the sums, else the sums are released slab by slab. */
 SensorNoise_EXPORT void
 AppendResidualSquares(const ReferenceFrame & frame,
                       const TemporalBasis &  basis,
@@ -37,9 +36,10 @@ AppendResidualSquares(const ReferenceFrame & frame,
                       const ParallelFor &    parallelFor,
                       ResidualSquares &      squares);
 
-/** Fills \a squares, which are of all pixels, at those of [begin, end), with the same bits, from \a frames that are all
- * of a stack: no sums are held. \a begin must be a multiple of ProjectionSums::BlockPixels. \a coordinates, of as many
- * of the first series as it has, are filled there, too. Different pixels may be filled at the same time. */
+/** Fills \a squares, which has a place for every pixel, for the pixels [begin, end). \a frames are all frames of a
+ * stack; no sums are held, and the bits are the same. \a begin must be a multiple of ProjectionSums::BlockPixels.
+ * \a coordinates is filled too, for as many of the first components as it has. Different pixels may be filled at the
+ * same time. */
 template <typename TPixel>
 void
 FillResidualSquares(const ReferenceFrame &          frame,

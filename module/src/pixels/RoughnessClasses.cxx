@@ -21,10 +21,12 @@ namespace sensornoise
 
 namespace
 {
-/** Rising; those of no pixels are infinite, so that all are of class 0. */
+/** Limits of the classes in rising order. They are infinite if there are no pixels, so that all pixels are of class
+ * 0. */
 using ClassEdges = std::array<double, RoughnessClasses - 1>;
 
-/** What a motion would do to every usable pixel, 0 for others. */
+/** Returns the energy of the derivatives of every usable pixel, which a motion turns into variance; 0 for other
+ * pixels. */
 std::vector<float>
 EnergyMap(const ReferenceFrame & frame, const ParallelFor & parallelFor)
 {
@@ -47,7 +49,7 @@ EnergyMap(const ReferenceFrame & frame, const ParallelFor & parallelFor)
   return energy;
 }
 
-/** The sum of a map over the square about a pixel, cut at the frame's border. */
+/** Returns the sum of a map over the square about a pixel, cut at the frame's border. */
 double
 SumAbout(const std::vector<float> & map, const FrameGeometry & geometry, std::size_t p, std::size_t radius)
 {
@@ -66,7 +68,7 @@ SumAbout(const std::vector<float> & map, const FrameGeometry & geometry, std::si
   return sum;
 }
 
-/** 15 classes up to the quantile 0.9, then 8 to 0.995. */
+/** Returns the limits of 15 classes up to the quantile 0.9 and of 9 classes above, 8 of them up to 0.995. */
 ClassEdges
 EdgesOf(std::vector<double> roughness)
 {
@@ -81,7 +83,7 @@ EdgesOf(std::vector<double> roughness)
   return edges;
 }
 
-/** The classes of a row of pixels with these sums of the energy: all edges are compared, without branches. */
+/** Sets the classes of a row of pixels from their sums of the energy. All limits are compared, without branches. */
 void
 ClassifyRow(const double *           sums,
             const double *           neighbourMean,
@@ -95,7 +97,7 @@ ClassifyRow(const double *           sums,
   {
     const std::size_t pixels = std::min(together, width - first);
     double            roughness[together] = {};
-    double            below[together] = {}; // edges
+    double            below[together] = {}; // number of limits below the roughness
     for (std::size_t k = 0; k < pixels; ++k)
     {
       roughness[k] = sums[first + k] / model.NoiseVariance(neighbourMean[first + k]);

@@ -16,11 +16,12 @@ namespace sensornoise
 struct ProvisionalModel;
 struct ReferenceFrame;
 
-/** Classes into which pixels are sorted by the roughness of their surroundings: the energy of the derivatives in a
- * neighbourhood that is as wide as the motion, over the noise. */
+/** Number of classes into which pixels are sorted by the roughness of their surroundings: the energy of the derivatives
+ * in a neighbourhood as wide as the motion, over the noise. */
 inline constexpr std::size_t RoughnessClasses = 24;
 
-/** The class of every pixel, from 0, flat, to RoughnessClasses - 1; their edges are quantiles of the mask's pixels. */
+/** Returns the roughness class of every pixel, from 0 (flat) to RoughnessClasses - 1. The limits are quantiles of the
+ * mask's pixels. */
 SensorNoise_EXPORT std::vector<std::uint8_t>
 ClassifyRoughness(const ReferenceFrame &            frame,
                   const ProvisionalModel &          model,

@@ -15,15 +15,16 @@ namespace sensornoise
 {
 
 /** \class SampledVariance
- * \brief The maps of VarianceData at evenly spread pixels of the mask: what draws a line that judges pixels, or from
- * which a fit of all pixels starts. Its cost does not grow with the frame. */
+ * \brief Copies of the maps of VarianceData at evenly spread pixels of the mask. A line that pixels are tested against,
+ * and the start of a fit of all pixels, are fitted to them. The cost does not grow with the size of the frame. */
 class SensorNoise_EXPORT SampledVariance
 {
 public:
-  /** All pixels of the mask, or of twice as many as \a most or more, between \a most and twice as many. */
+  /** Copies all pixels of the mask. If it has twice \a most or more, copies evenly spread ones, between \a most and
+   * twice as many. */
   SampledVariance(const VarianceData & data, std::size_t most, const ParallelFor & parallelFor);
 
-  /** All of its pixels count. Stays as long as the object. */
+  /** Returns the maps, all of whose pixels count. They are valid as long as the object. */
   VarianceData
   GetData() const;
 

@@ -27,14 +27,14 @@ namespace
 constexpr std::size_t Classes = ProjectedVariance::Classes;
 constexpr std::size_t FlatClasses = Classes / 2;
 
-/** The sums over the pixels of a class. */
+/** Sums over the pixels of a class. */
 enum ClassSum : std::size_t
 {
   Pixels,
   Kept,          // pixels that are no outliers
-  Weight,        // of those that are kept
-  WeightedRatio, // of the variance to the line's
-  SquaredErrors, // of the weighted ratios, by sampling and by the pixels' own noise
+  Weight,        // weights of kept pixels
+  WeightedRatio, // variance over the model, times the weight
+  SquaredErrors, // sampling variance and dispersion of the weighted ratios
   ClassSums
 };
 using SumsOfClasses = std::array<double, ClassSums * Classes>;
@@ -88,16 +88,16 @@ SumClasses(const ProjectedVariance &         projected,
     });
 }
 
-/** What the classes are judged by. */
+/** Quantities by which the classes are tested. */
 struct ClassTable
 {
-  std::array<double, Classes> kept{};     // pixels
-  std::array<double, Classes> outliers{}; // their share
-  std::array<double, Classes> excess{};   // mean of variance over line, relative to the flat classes', minus 1
-  std::array<double, Classes> error{};    // its standard error
+  std::array<double, Classes> kept{};     // number of pixels without outliers
+  std::array<double, Classes> outliers{}; // fraction of outliers [1]
+  std::array<double, Classes> excess{};   // mean of variance over model, relative to the flat classes, minus 1 [1]
+  std::array<double, Classes> error{};    // standard error of the excess [1]
 };
 
-/** Fills in \a ratio, too. */
+/** Computes the table and \a ratio, the mean of variance over model of each class. */
 ClassTable
 MakeTable(const SumsOfClasses & sums, std::vector<double> & ratio)
 {

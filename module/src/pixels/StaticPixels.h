@@ -16,27 +16,30 @@ namespace sensornoise
 
 struct JudgingLine;
 
-/** Which of the 24 classes of roughness the model explains. */
+/** Result of the test of the roughness classes against a rejection model. */
 struct ClassFit
 {
-  std::size_t         firstBad{ ProjectedVariance::Classes }; ///< this class and all rougher ones are left out
-  std::vector<double> pixels;                                 ///< of each class
-  std::vector<double> ratio;                                  ///< mean of variance over line
-  double              reducedChi2{ 1.0 };                     ///< of the ratios of the classes that are kept
+  /** First rejected class; all rougher classes are rejected, too. */
+  std::size_t         firstBad{ ProjectedVariance::Classes };
+  std::vector<double> pixels; ///< number of pixels of each class
+  /** Mean of variance over model of each class, without outliers [1]. */
+  std::vector<double> ratio;
+  /** Reduced chi-square of the ratios of the classes that are kept [1]. */
+  double reducedChi2{ 1.0 };
 };
 
-/** Compares the classes' mean variance with the flat classes'. A class is bad if it deviates upwards by more than 2.5
- * standard errors and 0.15 %, or holds 1 % more outliers; the first class of two bad ones in a row, and all rougher
- * ones, are left out. Estimator.md, 3.5. */
+/** Compares the mean variance of each roughness class with the flat classes. A class fails if its mean is higher by
+ * more than 3 standard errors and 0.15 %, or if its fraction of outliers is higher by 1 %. The first of two failing
+ * classes in a row, and all rougher ones, are rejected. Estimator.md, 3.5. */
 SensorNoise_EXPORT ClassFit
 JudgeClasses(const ProjectedVariance &         projected,
              const JudgingLine &               line,
              const std::vector<std::uint8_t> & mask,
              const ParallelFor &               parallelFor);
 
-/** Marks pixels whose neighbourhood does not fit: about a core of 15 x 15 pixels whose mean variance exceeds the line
- * by 5 standard deviations and 4 %, or that hold 15 % outliers. Single noisy pixels are not its business: they are
- * trimmed. Estimator.md, 3.5. */
+/** Marks the pixels of neighbourhoods that do not fit the rejection model. A neighbourhood is rejected if the mean
+ * variance of its 15 x 15 pixels exceeds the model by 5 standard deviations and 4 %, or if it holds 15 % outliers.
+ * Single noisy pixels are not marked; the fit trims them. Estimator.md, 3.5. */
 SensorNoise_EXPORT std::vector<std::uint8_t>
 FindLocalMisfit(const ProjectedVariance &         projected,
                 const JudgingLine &               line,

@@ -31,7 +31,7 @@ namespace sensornoise
 
 namespace
 {
-/** A line without errors, good enough to judge pixels by. */
+/** Fits a line without errors to a sample of the pixels: precise enough to test pixels. */
 VarianceLine
 DrawLine(const VarianceData & data, const std::optional<VarianceLine> & start, const ParallelFor & parallelFor)
 {
@@ -41,7 +41,8 @@ DrawLine(const VarianceData & data, const std::optional<VarianceLine> & start, c
   return fit.GetLine();
 }
 
-/** What the line of the pixels of \a mask owes to the gain that was put in; nothing where frames are about equal. */
+/** Returns how the line of the pixels of \a mask depends on the gain that was put in; no dependence if the frames are
+ * about equal. */
 GainFeedback
 FeedbackOf(const ProjectedVariance &         projected,
            const VarianceLine &              line,
@@ -52,7 +53,8 @@ FeedbackOf(const ProjectedVariance &         projected,
                                                            : GainFeedback();
 }
 
-/** DrawLine() by the pixels of \a mask, again until the gain that corrects the variances is that of the line. */
+/** Fits a line to the pixels of \a mask, again until the gain that corrects the variances equals the gain of the
+ * line. */
 VarianceLine
 DrawSettledLine(ProjectedVariance &                 projected,
                 const std::vector<std::uint8_t> &   mask,
@@ -75,8 +77,8 @@ DrawSettledLine(ProjectedVariance &                 projected,
   return line;
 }
 
-/** The line of the \a mask of flat pixels. If a scene is flat in its dark parts alone, brighter pixels join the mask,
- * provided that their variance is on one line with that of the dark pixels. */
+/** Fits the first line to the flat pixels of \a mask. If only dark areas of the scene are flat, brighter pixels are
+ * added to the mask, provided that their variance lies on one line with the variance of the dark pixels. */
 VarianceLine
 DrawFirstLine(ProjectedVariance &               projected,
               const std::vector<std::uint8_t> & usable,
@@ -95,7 +97,7 @@ DrawFirstLine(ProjectedVariance &               projected,
   return DrawSettledLine(projected, mask, std::nullopt, parallelFor);
 }
 
-/** The line of all pixels of the data, with its errors. */
+/** Fits the line of all pixels of the data, with its errors. */
 VarianceFit
 FitAllPixels(const VarianceData & data, const VarianceLine & start, double blackDn, const ParallelFor & parallelFor)
 {
@@ -108,7 +110,8 @@ FitAllPixels(const VarianceData & data, const VarianceLine & start, double black
   return fit;
 }
 
-/** Files classes, mask and use of the pixels as \a line tells; returns the number of pixels that do not fit. */
+/** Sets classes, mask and use of the pixels by the rejection model \a line. Returns the number of pixels in rejected
+ * neighbourhoods. */
 std::size_t
 SelectPixels(const ProjectedVariance &         projected,
              const JudgingLine &               line,
@@ -155,9 +158,9 @@ ComparePartsOf(const ProjectedVariance &         projected,
   return CompareParts(MakePartTiles(data, projected.GetFrame().geometry, reference, parallelFor));
 }
 
-/** Divides the variance by the ratios of parts whose gains differ much, before pixels are rejected for it, and draws
- * the line \a drawn anew. Leaves all as it is unless most pixels then follow the line: what else makes parts differ,
- * such as a response that is not linear, is left to the fit. */
+/** Divides the variance by the ratios of parts whose gains differ much, so that their pixels are not rejected, and fits
+ * \a drawn again. Changes nothing unless most pixels then follow the line: other causes of differences between parts,
+ * such as a non-linear response, are left to the fit. */
 void
 AllowForParts(ProjectedVariance &               projected,
               const PartReference &             reference,
@@ -188,8 +191,8 @@ AllowForParts(ProjectedVariance &               projected,
   drawn = line;
 }
 
-/** The mean has noise of its own, and it is correlated with the variance as the noise is skewed. Both together bias
- * the slope's equation by -g sigma^2 / T a unit of weight. Estimator.md, 3.6. */
+/** Corrects the slope for the noise of the means, and for the correlation of this noise with the variance, which skewed
+ * noise has. Together they bias the slope's equation by -g sigma^2 / T per unit of weight. Estimator.md, 3.6. */
 void
 CorrectForNoisyMeans(VarianceLine & line, double offsetDn, std::size_t frames)
 {
@@ -198,7 +201,7 @@ CorrectForNoisyMeans(VarianceLine & line, double offsetDn, std::size_t frames)
   line.gain -= bias;
   line.intercept += bias * line.pivotDn;
 }
-/** What FitStaticVariance() is told of the levels and the noise. */
+/** Levels and variance inflation that FitStaticVariance() is called with, see there. */
 struct FitPremises
 {
   double slopeDn;
@@ -207,7 +210,7 @@ struct FitPremises
   double sharedSquares;
 };
 
-/** FitStaticVariance(), once. \a mayDivide: the variance may be divided by the ratios of parts. */
+/** Computes FitStaticVariance() once. With \a mayDivide the variance may be divided by the ratios of parts. */
 StaticVariance
 FitOnce(ProjectedVariance &               projected,
         const std::vector<std::uint8_t> & usable,
@@ -220,7 +223,7 @@ FitOnce(ProjectedVariance &               projected,
   StaticVariance found;
   found.sharedSquares = sharedSquares;
   found.pixelUse = std::move(pixelUse);
-  // The line of the flat classes tells which neighbourhoods fit, and among these, which classes do.
+  // The line of the flat classes rejects neighbourhoods, and then classes among the others.
   projected.SetRatios({});
   projected.Compute(slopeDn);
   found.mask = MaskOfFlatClasses(projected, usable, parallelFor);
@@ -300,7 +303,8 @@ FitStaticVariance(ProjectedVariance &               projected,
   StaticVariance    found = FitOnce(projected, usable, pixelUse, premises, true, parallelFor);
   if (projected.HasRatios() && found.parts.Larger() == nullptr)
   {
-    // The pixels that fit do not confirm the parts: a response that is not linear, on a chart, looks like them.
+    // The pixels that fit do not confirm the differences between parts: a non-linear response, on a chart, looks like
+    // them.
     found = FitOnce(projected, usable, std::move(pixelUse), premises, false, parallelFor);
   }
   return found;

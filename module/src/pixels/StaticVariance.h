@@ -21,45 +21,50 @@ namespace sensornoise
 
 class ProjectedVariance;
 
-/** What the third pass tells: the pixels that fit a static scene, and the line of their variance. */
+/** Result of the third pass: the pixels that fit a static scene, and the line of their variance. */
 struct StaticVariance
 {
-  /** Corrected for the noise of the means. Not determined: too few pixels are left, or pixels of one intensity only. */
+  /** The variance line, corrected for the noise of the means. Not determined: too few pixels are left, or they have one
+   * intensity. */
   VarianceLine line;
-  /** How much of the levels may be the pixels' own. */
+  /** Largest fraction of the levels' variance that can be fixed-pattern noise. */
   LevelPattern pattern;
-  /** The line by light alone; not determined where no pattern is large enough to matter. */
+  /** The line by instrumental variables, see FitLightLine(); not determined where the pattern is negligible. */
   VarianceLine fromLight;
-  /** The line by frames of unequal illumination, and how they deviate from it, see FitFramePhotonTransfer(); not
-   * determined where they are about equal. */
+  /** The line from frames of unequal illumination, and their deviation from it, see FitFramePhotonTransfer(). Not
+   * determined where the frames are about equal. */
   VarianceCurve fromFrames;
-  ClassFit      classes;
-  /** About the line, or that of light alone. */
+  /** Result of the test of the roughness classes. */
+  ClassFit classes;
+  /** Deviation of the variance from fromLight, or from line where fromLight is not determined. */
   VarianceCurve curve;
-  /** The same of pixels sorted by their own levels, which decide between two amplifiers; without bins where \a curve
-   * follows its line. */
+  /** Deviation from the same line with the pixels sorted by their own levels, by which two amplifiers differ. It has no
+   * bins if \a curve follows its line. */
   VarianceCurve ofOwnLevels;
-  /** The parts of the frame whose gains differ; the lines are then of the variance over the ratios of these parts. */
+  /** The parts of the frame whose gains differ. The lines then describe the variance divided by the ratios of these
+   * parts. */
   GainByParts parts;
-  /** What rounding to companded codes adds; where it is not zero, it has been taken off all of the above. */
+  /** Quantization noise of companded data; it has been subtracted from all of the above. */
   CodeNoise codeNoise;
-  /** 1: a pixel that fits a static scene; outliers among them, too, which a fit trims by itself. */
+  /** 1: a pixel that fits a static scene. Includes outliers, which a fit trims. */
   std::vector<std::uint8_t> mask;
-  /** Values of PixelUse; the pixels of the mask that the final fit trims are PixelUse::Outlier. */
+  /** Values of PixelUse. Pixels of the mask that the final fit trims are PixelUse::Outlier. */
   std::vector<std::uint8_t> pixelUse;
-  /** Pixels whose use is PixelUse::NotStatic. */
+  /** Number of pixels whose use is PixelUse::NotStatic. */
   std::size_t notStatic{ 0 };
-  /** See JudgingLine [1]. */
+  /** Variance inflation by the spatial noise correlation, see JudgingLine [1]. */
   double sharedSquares{ 1.0 };
 };
 
-/** Finds the pixels that fit a static scene and the line of their variance, from the flat classes outwards.
- * Neighbourhoods are judged before classes: a thing that moves across the frame lies in all of them.
+/** Finds the pixels that fit a static scene, and fits the line of their variance, from the flat classes to the rough
+ * ones. Neighbourhoods are tested before classes, because an object that moves across the frame has pixels in all
+ * classes.
  *
- * \a pixelUse is what is known of the pixels before; that of the \a usable ones is found out here. \a slopeDn is about
- * the gain, \a offsetDn the offset, or the darkest level where it is not known; \a blackDn is the offset, or a level
- * that it is not below; \a sharedSquares tells how much noise neighbours share, see JudgingLine. If too few pixels are
- * left, the line is not determined, and what would have followed is missing. */
+ * \a pixelUse is the use of the pixels as known before; the use of the \a usable pixels is set. \a slopeDn is the
+ * approximate gain [DN/e-]. \a offsetDn is the dark offset, or the darkest level if the offset is not known [DN];
+ * \a blackDn is the dark offset, or a level that it is not below [DN]. \a sharedSquares is the variance inflation by
+ * the spatial noise correlation, see JudgingLine [1]. If too few pixels are left, the line is not determined, and the
+ * results that depend on it are missing. */
 SensorNoise_EXPORT StaticVariance
 FitStaticVariance(ProjectedVariance &               projected,
                   const std::vector<std::uint8_t> & usable,

@@ -81,7 +81,7 @@ VarianceCurve::DarkestShare(double blackDn) const
 VarianceCurve::Slope
 VarianceCurve::SlopeOf(std::size_t first, std::size_t last) const
 {
-  // Between the bins alone: within them pixels differ by their own pattern, too.
+  // Only differences between bins are used: within a bin, levels also differ by fixed-pattern noise.
   const CurveBin all = this->SumOf(first, last);
   const double   centre = all.weight > 0.0 ? all.x / all.weight : 0.0;
   double         information = 0.0;

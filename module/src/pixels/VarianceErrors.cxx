@@ -12,19 +12,19 @@
 #include <vector>
 
 /** \file
- * What VarianceFit knows of its line: the errors, the curvature, and what a part of the pixels says by itself. */
+ * Errors and curvature of the line of VarianceFit. */
 
 namespace sensornoise
 {
 
 namespace
 {
-/** The covariance of (gain, intercept) by the sums of the squared weighted residuals times 1, x and its square, x the
- * mean above the line's pivot. */
+/** Returns the covariance of (gain, intercept) from the sums of the squared weighted residuals times 1, x and x
+ * squared, where x is the mean above the line's pivot. */
 Eigen::Matrix2d
 Sandwich(const VarianceLine & line, double squaresXX, double squaresX, double squares)
 {
-  // In coordinates (gain, value at pivotDn) the information is diagonal.
+  // In the coordinates (gain, value at pivotDn) the information is diagonal.
   Eigen::Matrix2d inverse;
   inverse << 1.0 / line.spreadDn2, 0.0, 0.0, 1.0 / line.weightSum;
   Eigen::Matrix2d meat;
@@ -42,8 +42,8 @@ VarianceFit::FillErrors()
   {
     return;
   }
-  // Sums of the weight and the residual R squared, times powers of x, the mean above the pivot; and of the weight times
-  // powers of x and R.
+  // Sums of the squared weight times the squared residual R times powers of x, the mean above the pivot, and sums of
+  // the weight times powers of x and R.
   enum : std::size_t
   {
     WWRR,
@@ -68,7 +68,7 @@ VarianceFit::FillErrors()
   });
   m_Line.covariance = Sandwich(m_Line, s[WWRRXX], s[WWRRX], s[WWRR]);
   const auto pixels = static_cast<double>(m_Freedoms.values);
-  // The parabola's third column, freed of the first two: q = x^2 - a x - b.
+  // Quadratic column of the parabola, orthogonal to the first two columns: q = x^2 - a x - b.
   const double a = s[WX3] / s[WXX];
   const double b = s[WXX] / s[W];
   const double quadratic = s[WX4] - a * s[WX3] - b * s[WXX];

@@ -33,8 +33,8 @@ RangeOfFreedoms(const VarianceData & data, const ParallelFor & parallelFor)
     [&data](std::size_t p) { return static_cast<double>(data.freedom[p]); });
 }
 
-/** The highest degrees of freedom of the pixels at and above a level, where a strong change of the illumination leaves
- * fewest; or \a otherwise, where there are none. */
+/** Returns the highest degrees of freedom of the pixels at and above a level, where a strong change of the illumination
+ * leaves the fewest. Returns \a otherwise if there are no such pixels. */
 double
 FreedomAbove(double levelDn, const VarianceData & data, double otherwise, const ParallelFor & parallelFor)
 {

@@ -23,78 +23,82 @@
 namespace sensornoise
 {
 
-/** Which pixels a fit takes for outliers and trims. */
+/** Rule by which a fit trims outliers. */
 enum class TrimRule : std::uint8_t
 {
-  /** Those beyond the tails of chi-square at their own level: a line that strangers cannot draw, to judge pixels by. In
-   * the dark it takes the noisier pixels of a sensor for strangers, in the light it cannot see them. */
+  /** Trims pixels beyond the tails of chi-square at their own level. Outliers cannot change this line, and pixels are
+   * tested against it. It rejects the noisier pixels of a sensor in the dark, but cannot detect them in bright
+   * areas. */
   Level,
-  /** Those that are farther from the line than one distance, at whatever level: what is kept is the same everywhere,
-   * the pixels' own read noise included, and the line is that of the mean. */
+  /** Trims pixels that are farther from the line than one distance, the same at all levels. The same part of the read
+   * noise of single pixels is then kept at every level, and the line describes the mean variance. */
   Distance
 };
 
 /** \class VarianceFit
- * \brief The regression of the variance on the mean, by re-weighted least squares.
+ * \brief Regression of the variance on the mean, by iteratively re-weighted least squares.
  *
- * The weights 1 / (2 V^2 / freedom + S) take V at the neighbours' mean, which is independent of the pixel's own noise;
- * S is the variance of the pixels' own noise, found with TrimRule::Distance. Outliers on either side are trimmed, with
- * the exact correction of the mean where chi-square's tails are cut. Estimator.md, 3.6. */
+ * The weights 1 / (2 V^2 / freedom + S) use V at the neighbours' mean, which is independent of the pixel's own noise. S
+ * is the dispersion of the noise variance from pixel to pixel, which is measured with TrimRule::Distance. Outliers on
+ * either side are trimmed. With TrimRule::Level the bias of the mean by trimming is corrected exactly. Estimator.md,
+ * 3.6. */
 class SensorNoise_EXPORT VarianceFit
 {
 public:
-  /** Starts from \a start, or from the medians of bins of the intensity. The data must outlive the object. The line's
-   * value at \a blackDn, if it is above 0 there, is the typical read noise, by which TrimRule::Distance tells defects.
-   */
+  /** Starts from \a start, or from the medians of intensity bins if it is null. The data must outlive the object. The
+   * line's value at \a blackDn [DN], if it is above 0, is the variance of the typical read noise, which
+   * TrimRule::Distance compares defective pixels with. */
   VarianceFit(const VarianceData &                data,
               const ParallelFor &                 parallelFor,
               const std::optional<VarianceLine> & start,
               TrimRule                            rule = TrimRule::Level,
               double                              blackDn = 0.0);
 
-  /** Starts from the line, the spread and the limits that a sample of the \a data gave. With TrimRule::Level its pixels
-   * must have degrees of freedom as the data's. */
+  /** Starts from the line, the dispersion and the limits of a fit of a sample of the \a data. With TrimRule::Level the
+   * sample must have the same degrees of freedom as the data. */
   VarianceFit(const VarianceData & data, const VarianceFit & ofSample);
 
-  /** Fits the line, without its errors. Not determined with fewer than 10 pixels or one intensity. */
+  /** Fits the line, without its errors, in at most \a iterations iterations. The line is not determined with fewer than
+   * 10 pixels or with one intensity. */
   void
   Iterate(int iterations);
 
-  /** Fills in the covariance, by the sandwich, which stands whether or not the weights are right, and the curvature. */
+  /** Computes the sandwich covariance, which is valid even if the weights are not optimal, and the curvature. */
   void
   FillErrors();
 
-  /** How far above the line a pixel may be, TrimRule::Distance [DN^2]. */
+  /** Returns the largest excess over the line that is kept with TrimRule::Distance [DN^2]. */
   double
   GetReachDn2() const
   {
     return m_ReachDn2;
   }
 
-  /** 1 at the pixels of the mask that the line trims: they have no weight in it. */
+  /** Returns a map that is 1 at the pixels of the mask that the fit trims: they have no weight in the line. */
   std::vector<std::uint8_t>
   FindTrimmed() const;
 
-  /** What sorts the pixels of a curve: the mean of the neighbours, which is free of the pixel's own pattern and noise,
-   * or the pixel's own mean. */
+  /** Level by which the pixels of a curve are sorted. The neighbours' mean is independent of the pixel's own pattern
+   * and noise. */
   enum class SortedBy : std::uint8_t
   {
     Neighbours,
     OwnLevel
   };
 
-  /** The excess of the variance over \a line, along the intensity, of the pixels that the fit keeps. */
+  /** Returns the excess of the variance over \a line as a function of the intensity, of the pixels that the fit
+   * keeps. */
   VarianceCurve
   CurveAbout(const VarianceLine & line, SortedBy sortedBy = SortedBy::Neighbours) const;
 
-  /** What a pixel of the mask counts for. */
+  /** Weight and value of a pixel of the mask. */
   struct Weighed
   {
     double weight; ///< [1/DN^4]; 0: trimmed
-    double value;  ///< the variance, freed of the trimming's bias [DN^2]
+    double value;  ///< the variance, corrected for the bias by trimming [DN^2]
   };
 
-  /** SumOverBlocks() of the pixels of the mask: function(pixel, what it counts for, sums). */
+  /** Returns the sums over the pixels of the mask that function(pixel, weighed, sums) adds to. */
   template <std::size_t VSums, typename TFunction>
   std::array<double, VSums>
   SumWeighed(TFunction function) const
@@ -103,7 +107,7 @@ public:
       this->ForWeighed(begin, end, function, sums);
     });
   }
-  /** The same of sums whose number is known at run time. */
+  /** Returns the same sums where their number is known only at run time. */
   template <typename TFunction>
   std::vector<double>
   SumWeighed(std::size_t size, TFunction function) const
@@ -120,14 +124,14 @@ public:
   }
 
 private:
-  /** What pixels that lie one after the other count for, of the mask or not: weighed together, in vectors. */
+  /** Weights and values of a run of pixels, inside and outside the mask. */
   struct Run
   {
     OfRun weight;
     OfRun value;
   };
 
-  /** The same of those of the mask that are not trimmed, with their means above the pivot; at the others all is 0. */
+  /** Weights, means above the pivot, and values of a run of pixels; all 0 outside the mask and at trimmed pixels. */
   struct KeptRun
   {
     OfRun weight;
@@ -135,7 +139,7 @@ private:
     OfRun value;
   };
 
-  /** Weighs the pixels from \a first on. */
+  /** Sets the weights and values of \a pixels pixels from \a first on. */
   void
   WeighRun(std::size_t first, std::size_t pixels, Run & run) const;
   void
@@ -145,12 +149,12 @@ private:
   void
   KeepRun(std::size_t first, std::size_t pixels, Run & run, KeptRun & kept) const;
 
-  /** Adds up terms(a[i], b[i], c[i]) of a run, in vectors. */
+  /** Adds the sums of terms(a[i], b[i], c[i]) over a run, with SIMD instructions. */
   template <std::size_t VSums, typename TTerms>
   static void
   AddTerms(const OfRun & a, const OfRun & b, const OfRun & c, TTerms terms, std::array<double, VSums> & sums)
   {
-    constexpr std::size_t lanes = 4; // each with sums of its own, which wait for none of the others
+    constexpr std::size_t lanes = 4; // independent sums, so that no addition waits for another
     WithWideVectors([&a, &b, &c, &sums, terms] {
       double own[VSums][lanes] = {};
       for (std::size_t i = 0; i < PixelsPerRun; i += lanes)
@@ -171,7 +175,7 @@ private:
     });
   }
 
-  /** Calls function(first, pixels, what is kept of them) for the runs of [begin, end). */
+  /** Calls function(first, pixels, kept) for the runs of the pixels [begin, end). */
   template <typename TFunction>
   void
   ForKept(std::size_t begin, std::size_t end, TFunction function) const
@@ -184,8 +188,8 @@ private:
     });
   }
 
-  /** The sums of terms(weight, mean above the pivot, variance) over the pixels of the mask. For those that are trimmed
-   * all three are 0, and so have to be the terms. */
+  /** Returns the sums of terms(weight, mean above the pivot, variance) over the pixels of the mask. For trimmed pixels
+   * all three are 0, and the terms must then be 0, too. */
   template <std::size_t VSums, typename TTerms>
   std::array<double, VSums>
   SumTerms(TTerms terms) const
@@ -197,12 +201,12 @@ private:
     });
   }
 
-  /** Adds the shares of the pixels [begin, end) of the mask. */
+  /** Adds the contributions of the pixels [begin, end) of the mask. */
   template <typename TFunction, typename TSums>
   void
   ForWeighed(std::size_t begin, std::size_t end, TFunction & function, TSums & sums) const
   {
-    TSums own = sums; // in registers, if they are few
+    TSums own = sums; // in registers if they are few
     Run   run{};
     ForRuns(begin, end, [&](std::size_t first, std::size_t pixels) {
       this->WeighRun(first, pixels, run);
@@ -217,12 +221,12 @@ private:
     sums = own;
   }
 
-  /** What pixels that lie one after the other add to the sums of SetNoiseSpread(). */
+  /** Contributions of a run of pixels to the sums of SetNoiseSpread(). */
   struct SpreadTerms
   {
-    OfRun weight; // 0: trimmed, or not of the mask
-    OfRun more;
-    OfRun chance;
+    OfRun weight; // 0: trimmed, or outside the mask
+    OfRun more;   // squared excess minus its sampling variance, times the weight
+    OfRun chance; // sampling variance, times the weight
   };
   void
   FindSpread(std::size_t first, std::size_t pixels, SpreadTerms & terms) const;
@@ -230,28 +234,28 @@ private:
   ChiSquareTrim
   MakeTrim() const;
 
-  /** The neighbours' means of a sample of the pixels [DN]. */
+  /** Returns the neighbours' means of a sample of the pixels [DN]. */
   std::vector<double>
   SampleLevels() const;
-  /** Finds how far from the line pixels may be, TrimRule::Distance. */
+  /** Computes the distances from the line at which pixels are trimmed with TrimRule::Distance. */
   void
   SetReach();
-  /** Finds the pixels' own noise, about the line as it is. */
+  /** Computes the dispersion of the noise variance from pixel to pixel about the present line. */
   void
   SetNoiseSpread();
 
   VarianceData                 m_Data;
   ParallelFor                  m_ParallelFor;
-  ValueRange                   m_Freedoms; // degrees of freedom of the mask's pixels
+  ValueRange                   m_Freedoms; // number of the mask's pixels, and the range of their degrees of freedom
   VarianceLine                 m_Line;
   std::optional<ChiSquareTrim> m_Trim;
   TrimRule                     m_Rule;
   double                       m_BlackDn;
-  double                       m_DarkestDn{ 0.0 }; // quantiles of the levels
-  double                       m_BrightestDn{ 0.0 };
+  double                       m_DarkestDn{ 0.0 };     // quantile of the levels [DN]
+  double                       m_BrightestDn{ 0.0 };   // quantile of the levels [DN]
   double                       m_BrightFreedom{ 1.0 }; // highest degrees of freedom of the brightest pixels
-  double                       m_ReachDn2{ 0.0 };
-  double                       m_ReachBelowDn2{ 0.0 };
+  double                       m_ReachDn2{ 0.0 };      // largest excess that is kept [DN^2]
+  double                       m_ReachBelowDn2{ 0.0 }; // largest deficit that is kept [DN^2]
 };
 
 } // namespace sensornoise

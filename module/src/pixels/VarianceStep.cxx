@@ -32,13 +32,13 @@ ExcessesOf(const VarianceCurve & curve)
   return bins;
 }
 
-/** A level at which the variance may step, and the fit of a line with that step. */
+/** Level at which the variance may have a step, and the fit of a line with that step. */
 struct StepCandidate
 {
-  double                   x{ 0.0 };         // [DN]
-  double                   halfWidth{ 0.0 }; // [DN]
-  std::vector<ExcessOfBin> bins;             // without those about the step
-  CurveRegression<3>       fit;              // of 1, x, and the step
+  double                   x{ 0.0 };         // level of the step above the pivot [DN]
+  double                   halfWidth{ 0.0 }; // half width of the interval without bins [DN]
+  std::vector<ExcessOfBin> bins;             // bins outside of this interval
+  CurveRegression<3>       fit;              // on 1, x and the step
 };
 
 CurveRegression<3>
@@ -47,7 +47,7 @@ FitStep(const std::vector<ExcessOfBin> & bins, double at)
   return RegressCurve<3>(bins, [at](double x) { return Eigen::Vector3d{ 1.0, x, x > at ? 1.0 : 0.0 }; });
 }
 
-/** The candidate that gains most against a line. */
+/** Returns the candidate that reduces chi-square most compared with a line. */
 std::optional<StepCandidate>
 FindBestStep(const VarianceCurve & curve, const std::vector<ExcessOfBin> & bins)
 {
@@ -75,7 +75,8 @@ FindBestStep(const VarianceCurve & curve, const std::vector<ExcessOfBin> & bins)
     if (tried.fit.isDetermined)
     {
       const double size = tried.fit.coefficients(2);
-      const double gained = size * size / tried.fit.covariance(2, 2); // chi-square of a line less that of the step
+      // Chi-square of a line minus chi-square with the step.
+      const double gained = size * size / tried.fit.covariance(2, 2);
       if (gained > most)
       {
         most = gained;
@@ -86,7 +87,7 @@ FindBestStep(const VarianceCurve & curve, const std::vector<ExcessOfBin> & bins)
   return best;
 }
 
-/** The least chi-square of what has no step, and as many parameters: a cubic, and lines that bend at any level. */
+/** Returns the smallest chi-square of models without a step: a cubic, and broken lines with the break at any bin. */
 double
 LeastSmoothChi2(const std::vector<ExcessOfBin> & bins)
 {
@@ -105,7 +106,7 @@ LeastSmoothChi2(const std::vector<ExcessOfBin> & bins)
   return least;
 }
 
-/** Whether the step stands beside a parabola, which takes the bend of a response. */
+/** Returns whether the step remains if a parabola, which describes a smooth non-linearity, is fitted too. */
 bool
 StandsBesideCurve(const StepCandidate & step, double scatter)
 {
@@ -116,14 +117,15 @@ StandsBesideCurve(const StepCandidate & step, double scatter)
          std::abs(fit.coefficients(3)) > Significance.manyTests * std::sqrt(scatter * fit.covariance(3, 3));
 }
 
-/** The slope of one side above the common one, and its error [DN/e-]. */
+/** Slope of one side minus the common slope, and its standard error [DN/e-]. */
 struct SlopeOfSide
 {
   double value{ 0.0 };
   double error{ 0.0 };
 };
 
-/** By the bins of that side, and by what is known beforehand, \a prior [DN/e-]. */
+/** Estimates the slope of one side from its bins and from the prior standard deviation \a prior [DN/e-]. \a scatter is
+ * the dispersion of the bins, which multiplies the variance [1]. */
 SlopeOfSide
 FitSide(const StepCandidate & step, bool isAbove, double prior, double scatter)
 {
@@ -182,9 +184,10 @@ FindVarianceStep(const VarianceCurve & curve)
     return std::nullopt;
   }
   const CurveRegression<3> & fit = found->fit;
-  const double               dof = static_cast<double>(found->bins.size()) - 4.0; // the level was fitted, too
-  const double               scatter = std::max(1.0, fit.chi2 / std::max(1.0, dof));
-  VarianceStep               step;
+  // Four parameters, including the level of the step.
+  const double dof = static_cast<double>(found->bins.size()) - 4.0;
+  const double scatter = std::max(1.0, fit.chi2 / std::max(1.0, dof));
+  VarianceStep step;
   step.levelDn = curve.line.pivotDn + found->x;
   step.halfWidthDn = std::max(found->halfWidth, 1e-9 * std::abs(step.levelDn));
   step.sizeDn2 = fit.coefficients(2);

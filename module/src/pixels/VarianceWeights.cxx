@@ -18,15 +18,15 @@
 #include <vector>
 
 /** \file
- * What a pixel counts for in VarianceFit: the weights, what is trimmed, and the pixels' own noise. */
+ * Weights, trimming and the dispersion of the noise in VarianceFit. */
 
 namespace sensornoise
 {
 
 namespace
 {
-/** Leaves the weights where the pixel counts, 0 elsewhere. A loop of its own: where a division is in a branch, neither
- * becomes a vector instruction. */
+/** Sets the weights of pixels that do not count to 0. This is a separate loop, because a branch around a division
+ * prevents SIMD instructions for both. */
 template <typename TNumbers>
 void
 TakeWeights(const TNumbers & counts, std::size_t pixels, TNumbers & weights)
@@ -38,7 +38,7 @@ TakeWeights(const TNumbers & counts, std::size_t pixels, TNumbers & weights)
   }
 }
 
-/** Sets the numbers behind the first \a pixels of a run to 0, which add nothing. */
+/** Sets the numbers after the first \a pixels of a run to 0, so that they add nothing. */
 template <typename... TNumbers>
 void
 ClearBehind(std::size_t pixels, TNumbers &... numbers)
@@ -46,40 +46,42 @@ ClearBehind(std::size_t pixels, TNumbers &... numbers)
   (std::fill(numbers.begin() + static_cast<std::ptrdiff_t>(pixels), numbers.end(), 0.0), ...);
 }
 
-/** The weight of a variance, half of whose degrees of freedom are given, where \a expected is due [1/DN^4]. */
+/** Returns the weight of a variance with the degrees of freedom 2 \a halfFreedom and the expectation \a expected
+ * [1/DN^4]. */
 double
 WeightAt(const VarianceLine & line, double halfFreedom, double expected)
 {
   return halfFreedom / (expected * expected + halfFreedom * line.noiseSpreadDn4);
 }
 
-/** 1 between two limits, else 0: as numbers, which become vector instructions. */
+/** Returns 1 between two limits, else 0: numbers, for SIMD instructions. */
 double
 IsBetween(double value, double low, double high)
 {
   return (value > low ? 1.0 : 0.0) * (value < high ? 1.0 : 0.0);
 }
 
-/** What variances depart from a line by. Made of copies, which no pointer can point into. */
+/** Deviation of variances from a line. The members are copies that no pointer can alias. */
 struct Departure
 {
   VarianceLine line{};
   VarianceData data{};
-  double       reach{};      ///< above the line [DN^2]
-  double       reachBelow{}; ///< [DN^2]
+  double       reach{};      ///< largest excess that is kept [DN^2]
+  double       reachBelow{}; ///< largest deficit that is kept [DN^2]
 
-  /** By the level of the pixel's neighbours. */
+  /** Returns the variance by the line at the level of the pixel's neighbours [DN^2]. */
   double
   Expected(std::size_t p) const
   {
     return line.At(data.neighbourMean[p]);
   }
+  /** Returns the excess of the variance over the line at the pixel's own level [DN^2]. */
   double
   Excess(std::size_t p) const
   {
     return data.variance[p] - line.At(data.mean[p]);
   }
-  /** 1 or 0. */
+  /** Returns 1 if \a excess is kept, else 0. */
   double
   IsWithinReach(double excess) const
   {
@@ -115,7 +117,7 @@ void
 VarianceFit::WeighByLevel(std::size_t first, std::size_t pixels, Run & run) const
 {
   WithWideVectors([&] {
-    const VarianceLine line = m_Line; // copies, here too
+    const VarianceLine line = m_Line; // copies that no pointer can alias
     const VarianceData data = m_Data;
     OfRun              freedom;
     OfRun              ratio;
@@ -211,7 +213,7 @@ VarianceFit::FindSpread(std::size_t first, std::size_t pixels, SpreadTerms & ter
       const double weight = terms.weight[i];
       const double more = weight * terms.more[i];
       const double chance = weight * terms.chance[i];
-      terms.more[i] = weight > 0.0 ? more : 0.0; // without freedom it is infinite
+      terms.more[i] = weight > 0.0 ? more : 0.0; // the term is infinite without degrees of freedom
       terms.chance[i] = weight > 0.0 ? chance : 0.0;
     }
   });
@@ -221,7 +223,8 @@ VarianceFit::FindSpread(std::size_t first, std::size_t pixels, SpreadTerms & ter
 void
 VarianceFit::SetNoiseSpread()
 {
-  // Sums of squared weights, times what the squared residuals have more than sampling noise, and times that noise.
+  // Sums of the squared weight, of its product with the squared excess beyond sampling noise, and of its product with
+  // the sampling variance.
   enum : std::size_t
   {
     WW,
