@@ -22,25 +22,26 @@ namespace sensornoise
 
 namespace
 {
-/** The power of 2 of which the series' values are multiples: 53 bits hold every sum of values times pixels of 16 bits,
- * for it is at most the product of both norms (Cauchy and Schwarz); \a norm is that of the longest series. */
+/** Returns the power of 2 to whose multiples the centred flicker is rounded. Then 53 bits hold every sum of flicker
+ * times pixels of 16 bits, because the sum is at most the product of both norms (Cauchy-Schwarz). \a norm is the
+ * largest norm of a row's flicker [1]. */
 double
 StepOfSeries(double norm, std::size_t frames)
 {
   constexpr int    bitsOfSums = 53;
   constexpr int    bitsOfPixels = 16;
-  constexpr double rounded = 1.001; // the values are rounded, which may lengthen the series
+  constexpr double rounded = 1.001; // rounding may increase the norm
   int              exponent = 0;
-  std::frexp(rounded * norm * std::sqrt(static_cast<double>(frames)), &exponent); // that is <= 2^exponent
+  std::frexp(rounded * norm * std::sqrt(static_cast<double>(frames)), &exponent); // the product is <= 2^exponent
   return std::ldexp(1.0, exponent - (bitsOfSums - bitsOfPixels));
 }
 
-/** Frames that are added to sums while these are in registers. Set by hand: with half of them, or twice, it takes a
- * tenth longer. */
+/** Number of frames that are added while the sums are in registers. Chosen empirically: half and twice this number take
+ * a tenth longer. */
 constexpr std::size_t FramesInRegisters = 8;
 
 /** Adds the factors of VFrames frames times every \a TStep-th of their pixels, frame by frame. The step is a constant
- * of the loop, for vector instructions. */
+ * so that SIMD instructions are used. */
 template <std::size_t TStep, typename TPixel, std::size_t... VFrames>
 void
 AddFramesTimes(const double * factors,
@@ -59,7 +60,7 @@ AddFramesTimes(const double * factors,
   }
 }
 
-/** The same for as many frames as there are \a factors. */
+/** Adds as many frames as there are \a factors in the same way. */
 template <std::size_t TStep, typename TPixel>
 void
 AddTimes(const std::vector<double> & factors,
@@ -111,7 +112,7 @@ CorrectedVariance::CorrectedVariance(const FlickerEstimate & flicker,
       centred = flicker.Gamma(t, row) - mean;
       square += centred * centred;
     }
-    longest = std::isfinite(square) ? std::max(longest, square) : longest; // not known in every row
+    longest = std::isfinite(square) ? std::max(longest, square) : longest; // NaN in rows whose flicker is not known
   }
   const double step = StepOfSeries(std::sqrt(longest), frames);
   for (std::size_t t = 0; t < frames; ++t)
@@ -157,7 +158,7 @@ CorrectedVariance::AddRow(const TPixel *      frames,
   const std::size_t    width = m_Geometry.width;
   double * const       cross = m_Cross.data() + y * width;
   const TPixel * const row = frames + layout.At(0, y);
-  if (m_Rows > 1 && m_Geometry.shutterAxis == 0) // each pixel of the row has a series of its own
+  if (m_Rows > 1 && m_Geometry.shutterAxis == 0) // each pixel of the row has a flicker of its own
   {
     for (std::size_t k = 0; k < count; ++k)
     {

@@ -36,15 +36,15 @@ SampleVariance(const std::vector<double> & values)
 
 namespace
 {
-/** The regression of v_* on v^*: offsetDn = mu (3.16), and what tells whether it holds. */
+/** Regression of v_* on v^*, which gives offsetDn = mu (3.16). */
 struct OffsetLine
 {
   double meanBright{ 0.0 }; ///< mean of v^* [1]
   double meanDark{ 0.0 };   ///< mean of v_* [DN]
   double sxx{ 0.0 };        ///< sum of squares of v^* about its mean [1]
-  double slopeDn{ 0.0 };    ///< K
-  double offsetDn{ 0.0 };   ///< mu; 0 if isWild
-  bool   isWild{ false };   ///< no flicker to speak of: v^* - 1 itself serves as gamma_t
+  double slopeDn{ 0.0 };    ///< K, slope [DN]
+  double offsetDn{ 0.0 };   ///< mu [DN]; 0 if isWild
+  bool   isWild{ false };   ///< no significant flicker: v^* - 1 itself serves as gamma_t
 };
 
 OffsetLine
@@ -74,7 +74,8 @@ FitOffsetLine(const std::vector<double> & brightRatio,
   return line;
 }
 
-/** Does the flicker stand out of the noise, and do v_* and v^* lie on one line? Sets flickerZ and offsetLinePhi. */
+/** Tests whether the flicker exceeds the noise, and whether v_* and v^* lie on one line. Sets flickerZ and
+ * offsetLinePhi. */
 void
 JudgeFlicker(FlickerEstimate & estimate, const OffsetLine & line, const FlickerSums & sums, double darkDn)
 {
@@ -83,7 +84,7 @@ JudgeFlicker(FlickerEstimate & estimate, const OffsetLine & line, const FlickerS
   const double      ratioVariance = line.sxx / dof;
   const double      noise = sums.GetBrightRatioNoise();
   estimate.flickerZ = !line.isWild && noise > 0.0           ? (ratioVariance / noise - 1.0) / std::sqrt(2.0 / dof)
-                      : !line.isWild && ratioVariance > 0.0 ? std::numeric_limits<double>::infinity() // no noise at all
+                      : !line.isWild && ratioVariance > 0.0 ? std::numeric_limits<double>::infinity() // no noise
                                                             : 0.0;
   double residual = 0.0;
   for (std::size_t t = 0; t < frames; ++t)
@@ -92,12 +93,12 @@ JudgeFlicker(FlickerEstimate & estimate, const OffsetLine & line, const FlickerS
       estimate.darkResidualDn[t] - line.meanDark - line.slopeDn * (estimate.brightRatio[t] - line.meanBright);
     residual += deviation * deviation;
   }
-  const double lever = darkDn + line.slopeDn; // noise of v^* enters v_* and the abscissa
+  const double lever = darkDn + line.slopeDn; // the noise of v^* enters v_* and the abscissa
   const double expected = sums.GetDarkResidualNoiseDn2() + lever * lever * noise;
   estimate.offsetLinePhi = expected > 0.0 ? residual / (dof - 1.0) / expected : 1.0;
 }
 
-/** Sets gamma_t(y) with the width estimate.sigmaRows, and the flicker's root mean square over the known rows. */
+/** Sets gamma_t(y) with the width estimate.sigmaRows, and the root mean square of the flicker over the known rows. */
 void
 EstimateRows(FlickerEstimate & estimate, const FlickerSums & sums, double gammaPerRatio)
 {

@@ -16,18 +16,18 @@
 namespace sensornoise
 {
 
-/** The mean: of at least 1 value. */
+/** Returns the mean of at least 1 value. */
 SensorNoise_EXPORT double
 Mean(const std::vector<double> & values);
 
-/** The unbiased variance: of at least 2 values. */
+/** Returns the unbiased variance of at least 2 values. */
 SensorNoise_EXPORT double
 SampleVariance(const std::vector<double> & values);
 
-/** K, mu and gamma_t from the sums over S^* and S_*, (3.8) to (3.17); with \a mode also gamma_t(y), (3.28).
+/** Computes K, mu and gamma_t from the sums over S^* and S_*, (3.8) to (3.17); with \a mode also gamma_t(y), (3.28).
  *
- * K is the slope of the ordinary regression of v_* on v^* - 1; both have mean 0 by construction. K and mu always come
- * from the whole frames (section 3.5 keeps the image-wide procedure). \a sigmaRows is sigma_y for the mode Fixed. */
+ * K is the slope of the ordinary regression of v_* on v^* - 1. Both have mean 0 by construction. K and mu always come
+ * from the whole frames, as in section 3.5 of the paper. \a sigmaRows is sigma_y [rows] for RollingShutter::Fixed. */
 SensorNoise_EXPORT FlickerEstimate
 EstimateFlicker(const FlickerSums &     sums,
                 const IsoIntensitySet & bright,

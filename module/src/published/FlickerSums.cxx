@@ -35,8 +35,9 @@ void
 FlickerSums::WeightedPixels::ForRunsOf(const TPixel * frame, TValue value, TFunction function) const
 {
   ForRuns(0, pixels.size(), [&](std::size_t first, std::size_t count) {
-    OfRun             values{};
-    const std::size_t ahead = std::min(count, pixels.size() - first - count); // whose memory is asked for meanwhile
+    OfRun values{};
+    // Number of pixels of the next run, which are prefetched.
+    const std::size_t ahead = std::min(count, pixels.size() - first - count);
     for (std::size_t i = 0; i < count; ++i)
     {
       values[i] = static_cast<double>(frame[pixels[first + i]]);
@@ -128,7 +129,7 @@ FlickerSums::AddFrame(const TPixel * frame, std::size_t t)
   double * const rows = m_RowSums.data() + t * m_Rows;
   m_RowSet.ForRunsOf(frame, ratio, [&](std::size_t first, std::size_t count, const OfRun & values) {
     std::size_t row = m_RowOf[first];
-    double      sum = rows[row]; // of the row of the pixels that come one after the other
+    double      sum = rows[row]; // sum of the row of consecutive pixels
     for (std::size_t i = 0; i < count; ++i)
     {
       if (m_RowOf[first + i] != row)

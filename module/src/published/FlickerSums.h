@@ -19,21 +19,20 @@ namespace sensornoise
 {
 
 /** \class FlickerSums
- * \brief Sums of each frame over the bright and the dark set, all that flicker and offset are estimated from.
+ * \brief Sums of each frame over the bright and the dark set, from which flicker and offset are estimated.
  *
  * Sur & Gredi\'ac 2015, https://doi.org/10.1137/140977035. For every frame t, with v = u / ubar (3.2) and the weights
  * of Remark 1:
- * - v^*(t), (3.8), and v_*(t), (3.14), with the spread of the pixels about them;
- * - if asked for, the sum of w v over the row set in each row y, for (3.28).
+ * - v^*(t), (3.8), and v_*(t), (3.14), with the variance of the pixels about them;
+ * - if requested, the sum of w v over the row set in each row y, for (3.28).
  *
- * Rows are those that the shutter sees: columns of the frame where it travels along x, see FrameGeometry.
- * Frames are independent: each is added once, whole, by one thread, so that chunks and threads change no bit.
- * Memory: 32 bytes a frame, 8 bytes a frame and row, plus the sets.
- */
+ * Rows are the lines of pixels that are exposed at one time: columns of the frame if the shutter travels along x, see
+ * FrameGeometry. Frames are independent: one thread adds each frame once and as a whole, so that the number of chunks
+ * and threads does not change a bit. Memory: 32 bytes per frame, 8 bytes per frame and row, and the sets. */
 class SensorNoise_EXPORT FlickerSums
 {
 public:
-  /** \a mean is the frame-sized map of temporal means [DN]. Without a \a rowSet there are no sums by row. */
+  /** \a mean is the map of temporal means [DN]. Without a \a rowSet there are no sums by row. */
   FlickerSums(const IsoIntensitySet & bright,
               const IsoIntensitySet & dark,
               const double *          mean,
@@ -41,7 +40,8 @@ public:
               std::size_t             frames,
               const IsoIntensitySet & rowSet = {});
 
-  /** The pixels of the frames to come stand as \a layout says; without it, one after the other. To be told once. */
+  /** Sets the layout of the pixels of all frames; without it they are adjacent. To be called at most once, before the
+   * first frame. */
   void
   SetLayout(const PixelLayout & layout);
 
@@ -50,14 +50,15 @@ public:
   void
   AddFrame(const TPixel * frame, std::size_t t);
 
-  /** No frame has been added: all sums are 0. */
+  /** Sets all sums to 0. */
   void
   Forget();
 
-  /** Writes the sums of the frames, see BinaryStream; those of a frame that was not added are 0. */
+  /** Writes the sums of the frames, see BinaryStream. The sums of frames that were not added are 0. */
   void
   Save(std::ostream & out) const;
-  /** Adds the sums of other frames from a stream. Throws std::runtime_error, and changes nothing, if it ends early. */
+  /** Adds the sums of other frames from a stream. Throws std::runtime_error, and changes nothing, if the stream ends
+   * early. */
   void
   Merge(std::istream & in);
 
@@ -67,49 +68,49 @@ public:
     return m_Frames;
   }
 
-  /** v^*(t), (3.8): the mean of u / ubar over S^*. */
+  /** Returns v^*(t), (3.8): the mean of u / ubar over S^* [1]. */
   double
   GetBrightRatio(std::size_t t) const
   {
     return m_BrightRatios[t];
   }
 
-  /** v_*(t), (3.14): the mean of u - v^*(t) ubar over S_* [DN]. */
+  /** Returns v_*(t), (3.14): the mean of u - v^*(t) ubar over S_* [DN]. */
   double
   GetDarkResidualDn(std::size_t t) const
   {
     return m_DarkResiduals[t];
   }
 
-  /** Variance that pixel noise gives to v^*(t) [1], and to v_*(t) with v^*(t) held [DN^2].
-   *
-   * From the spread of the pixels within each frame, which flicker, being common to them, does not touch. */
+  /** Returns the variance of v^*(t) by pixel noise [1]. It is measured by the dispersion of the pixels within each
+   * frame, which flicker does not change because it is common to them. */
   double
   GetBrightRatioNoise() const
   {
     return m_Bright.NoiseOfAverage(m_BrightSpreads);
   }
+  /** Returns the variance of v_*(t) by pixel noise for a given v^*(t) [DN^2], measured in the same way. */
   double
   GetDarkResidualNoiseDn2() const
   {
     return m_Dark.NoiseOfAverage(m_DarkSpreads);
   }
 
-  /** 0 without a row set. */
+  /** Returns the number of rows; 0 without a row set. */
   std::size_t
   GetNumberOfRows() const
   {
     return m_Rows;
   }
 
-  /** Sum of the weights of the row set in \a row; over all rows it is 1. */
+  /** Returns the sum of the weights of the row set in \a row; the sum over all rows is 1. */
   double
   GetRowWeight(std::size_t row) const
   {
     return m_RowWeights[row];
   }
 
-  /** Sum of w v over the row set in \a row of frame \a t. */
+  /** Returns the sum of w v over the row set in \a row of frame \a t. */
   double
   GetRowSum(std::size_t t, std::size_t row) const
   {
@@ -117,33 +118,33 @@ public:
   }
 
 private:
-  /** A set with the means of its pixels. */
+  /** Iso-intensity set with the means of its pixels. */
   struct WeightedPixels
   {
     WeightedPixels(const IsoIntensitySet & set, const double * mean);
 
-    /** Calls function(first, count, values) for the runs of pixels, one after the other, with their values: value(u,
-     * mean). */
+    /** Calls function(first, count, values) for runs of pixels, where the values are value(u, mean). */
     template <typename TPixel, typename TValue, typename TFunction>
     void
     ForRunsOf(const TPixel * frame, TValue value, TFunction function) const;
 
-    /** Weighted average and variance over the set of \a value(u, mean). */
+    /** Computes the weighted average and variance of \a value(u, mean) over the set. */
     template <typename TPixel, typename TValue>
     void
     Average(const TPixel * frame, TValue value, double & average, double & spread) const;
 
-    /** With q = sum w^2 the spread has the expectation (1 - q) N, and the average the variance q N. */
+    /** Returns the variance of the average. With q = sum w^2 and the noise N of a pixel, \a spreads have the
+     * expectation (1 - q) N, and the average has the variance q N. */
     double
     NoiseOfAverage(const std::vector<double> & spreads) const;
 
-    std::vector<std::uint32_t> pixels; // where they stand in the frame
+    std::vector<std::uint32_t> pixels; // place in the frame
     std::vector<double>        weights;
     std::vector<double>        means;
-    double                     effectivePixels;
+    double                     effectivePixels; // 1 / sum of the squared weights
   };
 
-  /** All that is made of frames. */
+  /** Returns all numbers that are computed from frames. */
   std::array<std::vector<double> *, 5>
   OfFrames()
   {
@@ -162,7 +163,7 @@ private:
   WeightedPixels             m_Bright;
   WeightedPixels             m_Dark;
   WeightedPixels             m_RowSet;
-  std::vector<std::uint32_t> m_RowOf; // of each pixel of the row set
+  std::vector<std::uint32_t> m_RowOf; // for each pixel of the row set
 };
 
 } // namespace sensornoise

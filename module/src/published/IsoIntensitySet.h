@@ -15,12 +15,12 @@
 namespace sensornoise
 {
 
-/** Finds the iso-intensity set at a quantile. */
+/** Finds iso-intensity sets. */
 class SensorNoise_EXPORT IsoIntensitySetFinder
 {
 public:
-  /** Frame-sized maps of \a pixels pixels: mean [DN], temporal variance [DN^2], mask; they must outlive the finder.
-   * \a frames is T. Throws NothingToMeasure if the mask keeps fewer than MinimumPixels. */
+  /** \a mean [DN], \a variance over time [DN^2] and \a mask are maps of \a pixels pixels, which must outlive the
+   * object. \a frames is T. Throws NothingToMeasure if the mask keeps fewer than MinimumPixels. */
   IsoIntensitySetFinder(const double *       mean,
                         const double *       variance,
                         const std::uint8_t * mask,
@@ -28,17 +28,17 @@ public:
                         std::size_t          frames,
                         const ParallelFor &  parallelFor = SerialFor);
 
-  /** The set at \a quantile (0 to 1); where it is too small the quantile moves towards 1/2 (Remark 3). Throws
-   * NothingToMeasure if no width of the band gives enough pixels. */
+  /** Returns the set at \a quantile (0 to 1). If it is too small, the quantile moves towards 1/2 (Remark 3), then the
+   * band widens. Throws NothingToMeasure if the widest band has too few pixels. */
   IsoIntensitySet
   Find(double quantile) const;
 
-  /** The pixels within 6 sigma_u of \a bright's level, equally weighted: the set from which gamma_t(y) is estimated
-   * row by row, (3.28).
+  /** Returns the pixels within 6 sigma_u of the level of \a bright, with equal weights. From this set gamma_t(y) is
+   * estimated row by row, (3.28).
    *
-   * The paper takes S^* itself. But where the flicker differs from row to row, so does a row's mean over T frames,
-   * by about sigma_u; and u^* is the level of the brightest rows, so that S^* misses whole rows. As v = u / ubar is
-   * relative to each pixel's own mean, the pixels need not be of one intensity. */
+   * The paper uses S^* itself. But if the flicker differs from row to row, the mean of a row over T frames differs by
+   * about sigma_u. As u^* is the level of the brightest rows, S^* then misses whole rows. The pixels need not have one
+   * intensity, because v = u / ubar is relative to the mean of each pixel. */
   IsoIntensitySet
   FindRowSet(const IsoIntensitySet & bright) const;
 

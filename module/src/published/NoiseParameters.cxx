@@ -13,7 +13,7 @@ namespace sensornoise
 
 namespace
 {
-/** Offset and read noise without their brackets. */
+/** Sets offset and read noise without their bounds. */
 void
 FillOffset(Report & report, const PolynomialFit & line, std::optional<double> offsetDn)
 {

@@ -12,25 +12,26 @@
 namespace sensornoise
 {
 
-/** Fills gain, intercept, offset and read noise from the line through the corrected variance, section 3.3 of
- * Sur & Gredi\'ac 2015 (https://doi.org/10.1137/140977035): g is the slope, sigma^2 - g mu the intercept, and
- * sigma^2 = intercept + g mu once mu is known.
+/** Sets gain, intercept, offset and read noise from the line through the corrected variance, as in section 3.3 of Sur &
+ * Gredi\'ac 2015 (https://doi.org/10.1137/140977035): g is the slope, sigma^2 - g mu is the intercept, and
+ * sigma^2 = intercept + g mu if mu is known.
  *
- * \a offsetDn is mu where the flicker identifies it, else null: then offset and read noise are not-identifiable, with
- * the bracket that sigma^2 >= 0 and flux >= 0 leave, -intercept/g <= mu <= \a darkestDn. A gain that is not positive
- * contradicts the model: everything is failed, with the warning `variance-not-affine`.
+ * \a offsetDn is mu [DN], or null if the flicker does not determine it. In that case offset and read noise are
+ * not-identifiable. They have bounds from sigma^2 >= 0 and flux >= 0: -intercept/g <= mu <= \a darkestDn [DN]. A gain
+ * that is not positive contradicts the model: all parameters become failed, with the warning `variance-not-affine`.
  *
- * Nothing is removed for the codes: intercept and total intercept are the same, as in the paper. */
+ * Quantization noise is not subtracted: intercept and total intercept are equal, as in the paper. */
 SensorNoise_EXPORT void
 FillNoiseParameters(Report &              report,
                     const PolynomialFit & line,
                     std::optional<double> offsetDn,
                     std::optional<double> darkestDn);
 
-/** A line that the corrected variance leaves by more than this many times its sampling noise is no line. */
+/** Largest reduced chi-square of the corrected variance about its line that is accepted [1]. */
 inline constexpr double LargestReducedChi2 = 10.0;
 
-/** Files how well the line fits; a gross misfit fails every parameter, with the warning `variance-not-affine`. */
+/** Sets the quality of the fit. If the reduced chi-square is above LargestReducedChi2, all parameters become failed,
+ * with the warning `variance-not-affine`. */
 SensorNoise_EXPORT void
 FillFit(Report & report, const FitQuality & quality);
 

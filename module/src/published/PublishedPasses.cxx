@@ -113,7 +113,7 @@ PublishedPasses<TPixel>::FinishSums()
   if (m_Sums)
   {
     m_Flicker = EstimateFlicker(*m_Sums, m_Scene.bright, m_Scene.dark, m_Settings.rollingShutter, m_Settings.sigmaRows);
-    m_Sums.reset(); // their memory
+    m_Sums.reset(); // gives the memory back
     m_Correction.emplace(m_Flicker, m_Geometry, m_Distinct.Count(), m_ParallelFor);
     return;
   }
@@ -121,7 +121,7 @@ PublishedPasses<TPixel>::FinishSums()
   if (m_IsDone)
   {
     m_Corrected = this->EndCorrection();
-    m_Correction.reset(); // their memory
+    m_Correction.reset(); // gives the memory back
     m_Report = MakePublishedReport({ m_Settings, m_Geometry, m_Distinct.Count(), m_Scene, m_Flicker, m_Corrected },
                                    m_ParallelFor);
     FileStatuses(m_Report);

@@ -28,19 +28,19 @@ namespace sensornoise
 {
 
 /** \class PublishedPasses
- * \brief The algorithm of Figure 2 of Sur & Gredi\'ac 2015 in three passes over the stack.
+ * \brief Algorithm of Figure 2 of Sur & Gredi\'ac 2015 (https://doi.org/10.1137/140977035) in three passes over the
+ * stack.
  *
- * https://doi.org/10.1137/140977035. Pass 1 gathers the temporal moments, which give mean, variance, clip levels, the
- * vibration mask and the iso-intensity sets; pass 2 each frame's sums over the sets, which give flicker and offset;
- * pass 3 the sums of the corrected variance, which gives gain and intercept. Usage, also by several processes, as
- * StackPasses: their sums have 32 bytes a frame and 8 a frame and row in pass 2, and 8 bytes a pixel in pass 3.
+ * Pass 1 sums the temporal moments, which give mean, variance, clip levels, the vibration mask and the iso-intensity
+ * sets. Pass 2 sums each frame over the sets, which gives flicker and offset. Pass 3 sums the corrected variance, which
+ * gives gain and intercept. Usage, also by several processes, as StackPasses. The sums of a process have 32 bytes per
+ * frame and 8 bytes per frame and row in pass 2, and 8 bytes per pixel in pass 3.
  *
- * Frames that are equal are counted once, see DistinctFrames; flicker is reported for all of them.
+ * Equal frames count once, see DistinctFrames; the flicker is reported for all frames.
  *
- * Same bits for any number of threads and any chunks. Memory: 40 bytes a pixel, 8 bytes a frame and row.
- * A stack that cannot be measured ends in a report whose quantities are `failed`, with a warning that says why; wrong
- * use throws std::invalid_argument.
- */
+ * The number of threads and chunks does not change a bit. Memory: 40 bytes per pixel, and 8 bytes per frame and row. If
+ * a stack cannot be measured, all quantities of the report are `failed`, and a warning says why. Wrong use throws
+ * std::invalid_argument. */
 template <typename TPixel>
 class PublishedPasses final : public StackPasses<TPixel>
 {
@@ -48,25 +48,25 @@ public:
   using typename StackPasses<TPixel>::Passes;
   using Settings = PublishedSettings;
 
-  /** Whether the third pass has more than one sum of a pixel. */
+  /** Whether the third pass has more than one sum per pixel. */
   static constexpr bool HasManySums = false;
 
-  /** \a mask, if given, has a nonzero value at the pixels to be used; \a parallelFor spreads the work. Throws
-   * std::invalid_argument for settings out of range, see PublishedSettings::Validate(), and for a stack or a mask that
-   * RequireStack() refuses. */
+  /** \a mask, if not empty, is nonzero at the pixels to be used. \a parallelFor distributes the work over threads.
+   * Throws std::invalid_argument if settings are out of range, see PublishedSettings::Validate(), or if RequireStack()
+   * rejects the stack or the mask. */
   PublishedPasses(const PublishedSettings &         settings,
                   const FrameGeometry &             geometry,
                   std::size_t                       frames,
                   const std::vector<std::uint8_t> & mask = {},
                   ParallelFor                       parallelFor = SerialFor);
 
-  /** Whether the last pass has ended. */
+  /** Returns whether the last pass has ended. */
   bool
   IsDone() const override
   {
     return m_IsDone;
   }
-  /** The report and maps of a frame's size are there when the last pass has ended. */
+  /** Returns the report, which is complete when the last pass has ended. The same holds for the maps below. */
   const Report &
   GetReport() const override
   {
@@ -82,20 +82,21 @@ public:
   {
     return m_Scene.variance;
   }
-  /** NaN where the flicker is not known; empty if the stack cannot be measured. */
+  /** Returns the corrected variance [DN^2]: NaN where the flicker is not known; empty if the stack cannot be
+   * measured. */
   const std::vector<double> &
   GetCorrectedVariance() const override
   {
     return m_Corrected.variance;
   }
-  /** Values of PixelUse. */
+  /** Returns a map of values of PixelUse. */
   const std::vector<std::uint8_t> &
   GetPixelUse() const override
   {
     return m_Corrected.pixelUse;
   }
 
-  /** Give the maps away, after which they are empty here. */
+  /** Moves the map of means out of the object. The following functions do the same for the other maps. */
   std::vector<double>
   TakeMean() override
   {
@@ -157,11 +158,11 @@ private:
 
   PublishedSettings m_Settings;
 
-  // What passes 2 and 3 gather, one of them at a time; neither if the stack cannot be measured.
+  // Sums of pass 2 or of pass 3; neither if the stack cannot be measured.
   std::optional<FlickerSums>       m_Sums;
   std::optional<CorrectedVariance> m_Correction;
 
-  // What the passes find, one after the other.
+  // Results of the passes, in their order.
   PublishedScene  m_Scene;
   FlickerEstimate m_Flicker;
   CorrectedMaps   m_Corrected;

@@ -131,7 +131,8 @@ ContrastDn(const PublishedScene & scene)
   return scene.bright.levelDn - scene.dark.levelDn;
 }
 
-/** Whether the even areas span enough intensities for a line; else every parameter is not identifiable. */
+/** Returns whether the even areas have enough different intensities for a line. If not, all parameters become
+ * not-identifiable. */
 bool
 HasRange(Report & report, const PublishedScene & scene)
 {
@@ -148,7 +149,7 @@ HasRange(Report & report, const PublishedScene & scene)
   return false;
 }
 
-/** The parameters of the sensor, from the line through the corrected variance. */
+/** Sets the parameters of the sensor from the line through the corrected variance. */
 void
 FillNoise(Report &                  report,
           const PublishedFindings & found,
@@ -166,13 +167,14 @@ FillNoise(Report &                  report,
                   ". Record more flicker or more frames, or use --method refined with dark frames "
                   "(--dark)");
   }
-  // The darkest mean bounds the offset (flux >= 0); being a mean of noise it may lie below it by some of its errors.
+  // The darkest mean bounds the offset (flux >= 0). As it is the mean of noisy values, it may be below the offset by
+  // some of its errors.
   const IntensityIndex index(scene.mean.data(), scene.valid.data(), corrected.pixels, parallelFor);
   const double         darkestDn = index.QuantileDn(0.001, parallelFor) + 3.0 * scene.dark.levelSdDn;
   FillNoiseParameters(report, line, isIdentified ? std::optional<double>(flicker.offsetDn) : std::nullopt, darkestDn);
 }
 
-/** How well the line fits. */
+/** Sets the quality of the fit of the line. */
 void
 FillQuality(Report &                  report,
             const PublishedFindings & found,
@@ -185,7 +187,8 @@ FillQuality(Report &                  report,
   FillFit(report, quality);
   report.fit.offsetLinePhi = found.flicker.offsetLinePhi;
   const double contrastDn = ContrastDn(scene);
-  const double bendDn2 = quality.curvature * contrastDn * contrastDn / 8.0; // parabola from chord, half way
+  // Parabola minus chord, half way between both levels.
+  const double bendDn2 = quality.curvature * contrastDn * contrastDn / 8.0;
   const double middleDn2 = line.intercept + line.slope * 0.5 * (scene.bright.levelDn + scene.dark.levelDn);
   if (std::abs(quality.curvatureZ) > 5.0 && std::abs(bendDn2) > 0.03 * middleDn2)
   {

@@ -19,14 +19,14 @@ struct FrameGeometry;
 struct PublishedScene;
 struct PublishedSettings;
 
-/** What pass 3 of the published method finds: maps of a frame's size. */
+/** Result of pass 3 of the published method. */
 struct CorrectedMaps
 {
-  std::vector<double>       variance; ///< of the corrected stack [DN^2]; empty: the stack cannot be measured
+  std::vector<double>       variance; ///< variance of the corrected stack [DN^2]; empty: the stack cannot be measured
   std::vector<std::uint8_t> pixelUse; ///< values of PixelUse
 };
 
-/** All that the published method found out, pass by pass, from which its report is made. */
+/** Results of all passes of the published method, from which its report is made. */
 struct PublishedFindings
 {
   const PublishedSettings & settings;
@@ -37,8 +37,8 @@ struct PublishedFindings
   const CorrectedMaps &     corrected;
 };
 
-/** The report of the published method: values and statuses, no standard errors and no intervals (the paper has none for
- * a stack, and those of ordinary regression would hide its bias). */
+/** Returns the report of the published method. It has values and statuses, but no standard errors or intervals: the
+ * paper gives none for a stack, and the errors of an ordinary regression would hide its bias. */
 SensorNoise_EXPORT Report
 MakePublishedReport(const PublishedFindings & found, const ParallelFor & parallelFor);
 

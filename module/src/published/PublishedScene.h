@@ -19,24 +19,23 @@
 namespace sensornoise
 {
 
-/** What pass 1 of the published method finds: maps of a frame's size, and the sets from which pass 2 tells the flicker.
- */
+/** Result of pass 1 of the published method: maps of a frame, and the sets from which pass 2 estimates the flicker. */
 struct PublishedScene
 {
   StackSummary                    summary;
   std::vector<double>             mean;     ///< [DN]
-  std::vector<double>             variance; ///< of the stack as it is, flicker included [DN^2]
+  std::vector<double>             variance; ///< variance of the uncorrected stack, flicker included [DN^2]
   std::vector<std::uint8_t>       valid;    ///< 1: finite, never clipped and not masked by the user
-  std::vector<std::uint8_t>       kept;     ///< the vibration mask
-  std::vector<std::uint8_t>       pixelUse; ///< values of PixelUse, as far as pass 1 tells
+  std::vector<std::uint8_t>       kept;     ///< 1: kept by the vibration mask
+  std::vector<std::uint8_t>       pixelUse; ///< values of PixelUse, as far as pass 1 determines them
   IsoIntensitySet                 bright;   ///< S^*
   IsoIntensitySet                 dark;     ///< S_*
-  IsoIntensitySet                 rowSet;   ///< of gamma_t(y); empty with RollingShutter::Off
-  std::optional<NothingToMeasure> obstacle; ///< why the stack cannot be measured; null: it can
+  IsoIntensitySet                 rowSet;   ///< set for gamma_t(y); empty with RollingShutter::Off
+  std::optional<NothingToMeasure> obstacle; ///< reason why the stack cannot be measured; null: it can
 };
 
-/** Sets valid (of which the pixels that \a mask leaves out are taken), kept and pixelUse of a scene whose mean,
- * variance and valid are those of the moments. An empty \a mask leaves out none. */
+/** Sets valid, kept and pixelUse of a scene that has mean, variance and valid of the moments. Pixels that are 0 in
+ * \a mask become invalid. An empty \a mask excludes no pixels. */
 SensorNoise_EXPORT void
 SortPixels(PublishedScene &                  scene,
            const PublishedSettings &         settings,
@@ -45,7 +44,7 @@ SortPixels(PublishedScene &                  scene,
            const std::vector<std::uint8_t> & mask,
            const ParallelFor &               parallelFor);
 
-/** Sets the iso-intensity sets of a scene whose pixels are sorted, or its obstacle. */
+/** Sets the iso-intensity sets of a scene after SortPixels(), or its obstacle. */
 SensorNoise_EXPORT void
 FindSets(PublishedScene &          scene,
          const PublishedSettings & settings,

@@ -12,7 +12,7 @@ namespace sensornoise
 
 namespace
 {
-/** Gaussian weights of (3.28) at distances 0, 1, ... up to 4 sigma. */
+/** Returns the Gaussian weights of (3.28) at the distances 0, 1, ... up to 4 sigma [rows]. */
 std::vector<double>
 RowKernel(double sigmaRows)
 {
@@ -25,7 +25,8 @@ RowKernel(double sigmaRows)
   return kernel;
 }
 
-/** The smoothed ratio of \a row in frame \a t, without the row itself if \a leaveOut. NaN: no weight within reach. */
+/** Returns the smoothed ratio of \a row in frame \a t, with \a leaveOut without the row itself. NaN: the rows within
+ * reach have no weight. */
 double
 SmoothedRatio(const FlickerSums &         sums,
               const std::vector<double> & kernel,
@@ -50,8 +51,8 @@ SmoothedRatio(const FlickerSums &         sums,
   return weights > 0.0 ? sum / weights : std::numeric_limits<double>::quiet_NaN();
 }
 
-/** Mean squared error of predicting each row's ratio from the other rows', weighted by the rows' weights, over every
- * \a stride th frame. An infinite sigma predicts by the whole frame. */
+/** Returns the squared error of the prediction of each row's ratio from the other rows, weighted by the rows' weights
+ * and summed over every \a stride th frame. An infinite \a sigmaRows predicts by the whole frame. */
 double
 CrossValidationError(const FlickerSums & sums, double sigmaRows, std::size_t stride)
 {

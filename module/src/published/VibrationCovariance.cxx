@@ -21,17 +21,17 @@ namespace
 using Matrix = Eigen::Matrix<double, 6, 6>;
 using Vector = Eigen::Matrix<double, 6, 1>;
 
-/** The frame-sized maps of the regression. */
+/** Maps for the regression. */
 struct Maps
 {
   const double *       mean;
   const double *       variance;
-  const std::uint8_t * valid; ///< null: all are
+  const std::uint8_t * valid; ///< null: all pixels are valid
   std::size_t          width;
   std::size_t          height;
 };
 
-/** Calls function(p, gradient) for each of the pixels [begin, end) that takes part, in order. */
+/** Calls function(p, gradient) in order for the pixels [begin, end) that the regression uses. */
 template <typename TFunction>
 void
 ForInnerPixels(const Maps & maps, std::size_t begin, std::size_t end, TFunction function)
@@ -53,12 +53,12 @@ ForInnerPixels(const Maps & maps, std::size_t begin, std::size_t end, TFunction 
   }
 }
 
-/** Divisors that make the regression's columns of order 1: the Gram matrix keeps its digits. */
+/** Divisors that make the regression's columns of order 1, so that rounding errors of the Gram matrix stay small. */
 struct Scales
 {
-  double      mean{ 0.0 };     ///< [DN]
-  double      gradient{ 0.0 }; ///< [DN/pixel]
-  std::size_t pixels{ 0 };
+  double      mean{ 0.0 };     ///< largest mean [DN]
+  double      gradient{ 0.0 }; ///< largest component of a gradient [DN/pixel]
+  std::size_t pixels{ 0 };     ///< number of pixels used
 };
 
 Scales
@@ -83,8 +83,8 @@ FindScales(const Maps & maps, const ParallelFor & parallelFor)
 }
 
 /** \class ProductSums
- * \brief Sums over pixels of the products of the scaled columns 1, u, u^2, gx^2, gy^2, gx gy, and of these with the
- * variance: a run of pixels at a time, in vectors. */
+ * \brief Sums over pixels of the products of the scaled columns 1, u, u^2, gx^2, gy^2 and gx gy with each other and
+ * with the variance. A run of pixels is added at a time, with SIMD instructions. */
 class ProductSums
 {
 public:
@@ -95,6 +95,7 @@ public:
     : m_Products(products)
   {}
 
+  /** Adds the columns of a pixel to the present run. */
   void
   Add(double u, double gx, double gy, double variance)
   {
@@ -109,7 +110,7 @@ public:
     }
   }
 
-  /** Adds what is not yet in the products: those of each column with the next ones. */
+  /** Adds the products of the present run, of each column with itself and the next ones. */
   void
   Fold()
   {
@@ -133,7 +134,7 @@ private:
   std::size_t                m_Pixels{ 0 };
 };
 
-/** The coefficients of the scaled columns; none if the scene does not tell them apart. */
+/** Returns the coefficients of the scaled columns; null if the scene does not determine all of them. */
 std::optional<Vector>
 FitCoefficients(const Maps & maps, const Scales & scales, const ParallelFor & parallelFor)
 {

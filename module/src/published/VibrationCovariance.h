@@ -13,13 +13,14 @@
 namespace sensornoise
 {
 
-/** Multiple ordinary regression (2.20) of Sur & Gredi\'ac 2015 (https://doi.org/10.1137/140977035):
+/** Fits the multiple ordinary regression (2.20) of Sur & Gredi\'ac 2015 (https://doi.org/10.1137/140977035):
  *
  *     Var(u) = c0 + c1 ubar + sigma_gamma^2 ubar^2 + (1 + sigma_gamma^2) grad ubar' Cov(alpha, beta) grad ubar
  *
- * over all inner pixels that are \a valid (null: all) and finite, those moved by vibrations included. \a mean [DN] and
- * \a variance [DN^2] are frame-sized maps of the stack as it is, flicker included. \a flickerSd is sigma_gamma where it
- * is known from the flicker itself; below 0: the root of this regression's own coefficient (0 if that is negative). */
+ * over all inner pixels that are \a valid (null: all) and finite, including those moved by vibrations. \a mean [DN] and
+ * \a variance [DN^2] are maps of the uncorrected stack, flicker included. \a flickerSd is sigma_gamma if it is known
+ * from the flicker itself [1]. Below 0 it is the square root of this regression's own coefficient (0 if the coefficient
+ * is negative). */
 SensorNoise_EXPORT VibrationCovariance
 FitVibrationCovariance(const double *       mean,
                        const double *       variance,
