@@ -33,7 +33,7 @@ CheckCramerRaoInput(const CramerRaoInput & input)
   }
 }
 
-/** What all rows say of the parameters, summed in eight parts. */
+/** Returns the information of all rows, summed in eight parts. */
 CramerRaoInformation
 SumInformation(const CramerRaoInput & input, double meanFluxDn, const ParallelFor & parallelFor)
 {
@@ -49,7 +49,7 @@ SumInformation(const CramerRaoInput & input, double meanFluxDn, const ParallelFo
   return std::move(information.front());
 }
 
-/** Errors of functions of the parameters, to first order: sd^2 = gradient' covariance gradient. */
+/** Standard errors of functions of the parameters, to first order: sd^2 = gradient' covariance gradient. */
 class ParameterErrors
 {
 public:
@@ -75,7 +75,8 @@ public:
     return SdOfVariance(gradient.dot(m_Covariance * gradient), gradient.cwiseProduct(m_Units).squaredNorm());
   }
 
-  /** Of a frame's number less the mean over the frames; root mean square. Series 0 is gamma, 1 alpha, 2 beta. */
+  /** Returns the root mean square over the frames of the standard error of a frame's number minus the mean over the
+   * frames. \a series is 0 for gamma, 1 for alpha, 2 for beta. */
   double
   SdOfFrame(Eigen::Index series) const
   {
@@ -86,7 +87,7 @@ public:
                         m_Units.segment(first, m_Frames).squaredNorm());
   }
 
-  /** Of the standard deviation, \a spread, of the series' \a values. */
+  /** Returns the standard error of \a spread, the standard deviation of the \a values of a series. */
   double
   SdOfSpread(Eigen::Index series, const std::vector<double> & values, double spread) const
   {
@@ -104,7 +105,8 @@ public:
   }
 
 private:
-  /** No limit where the variance is that of a direction of which the stack says nothing. */
+  /** Returns the square root, or PrecisionLimit::None for the variance of a direction on which the stack has no
+   * information. */
   static double
   SdOfVariance(double variance, double unitsSquared)
   {

@@ -10,7 +10,7 @@ namespace sensornoise
 {
 namespace
 {
-// Columns of the frame's own parameters; before them those that all frames share.
+// Columns of the parameters of a frame. The parameters that are common to all frames come before.
 constexpr Eigen::Index OfFlicker = CramerRaoInformation::FirstSeries;
 constexpr Eigen::Index OfShiftX = CramerRaoInformation::FirstSeries + 1;
 constexpr Eigen::Index OfShiftY = CramerRaoInformation::FirstSeries + 2;
@@ -48,7 +48,7 @@ CramerRaoInformation::GetDerivatives(std::size_t y, std::size_t frame) const
   const auto              q = [&](double dx, double dy) {
     return this->ShiftedFlux(y, truth.series.alpha[frame] + dx, truth.series.beta[frame] + dy);
   };
-  // The mean is mu + L and the variance V = g (L - mean L) + c0, where L = (1 + gamma) q(alpha, beta).
+  // The mean is mu + L and the variance is V = g (L - mean L) + c0, where L = (1 + gamma) q(alpha, beta).
   Derivatives derivatives{ SixColumns::Zero(columns, 6), {} };
   auto & [ofMean, ofVariance] = derivatives;
   ofMean.col(Offset) = 1.0;
@@ -68,7 +68,7 @@ CramerRaoInformation::AddRow(std::size_t y)
   const double            g = truth.settings.camera.gainDnPerElectron;
   const auto              columns = static_cast<Eigen::Index>(m_Input.width);
   const Eigen::ArrayXd    isUsed = this->GetUse(y);
-  Eigen::MatrixXd         cross = Eigen::MatrixXd::Zero(columns, m_Schur.rows()); // c_x, a row a pixel
+  Eigen::MatrixXd         cross = Eigen::MatrixXd::Zero(columns, m_Schur.rows()); // c_x, one row per pixel
   Eigen::ArrayXd          ofFlux = Eigen::ArrayXd::Zero(columns);                 // I_xx
   for (Eigen::Index t = 0; t < m_Frames; ++t)
   {
@@ -76,7 +76,7 @@ CramerRaoInformation::AddRow(std::size_t y)
     const double f = 1.0 + truth.normalisedFlicker[frame];
     const auto [ofMean, ofVariance] = this->GetDerivatives(y, frame);
 
-    // What a datum tells of a and b: m_a m_b / V + V_a V_b / (2 V^2).
+    // Information of a datum on a and b: m_a m_b / V + V_a V_b / (2 V^2).
     const Eigen::ArrayXd meanWeight = isUsed / (g * f * ofMean.col(OfFlicker) + m_Input.TotalReadVarianceDn2());
     const Eigen::ArrayXd varianceWeight = 0.5 * meanWeight.square();
     const SixColumns     mean = ofMean.colwise() * meanWeight;
@@ -128,7 +128,7 @@ CramerRaoInformation::GetCovariance() const
     information.middleRows(first, m_Frames).rowwise() -= meanRow;
     const Eigen::VectorXd meanColumn = information.middleCols(first, m_Frames).rowwise().mean();
     information.middleCols(first, m_Frames).colwise() -= meanColumn;
-    // Whatever is said of the sum: the functions of interest are free of it.
+    // Any information on the sum will do, because the functions of interest do not depend on the sum.
     information.block(first, first, m_Frames, m_Frames).array() +=
       m_Direct.segment(first, m_Frames).mean() / static_cast<double>(m_Frames);
   }

@@ -12,10 +12,10 @@
 namespace sensornoise
 {
 
-/** Information of rows of a frame about the parameters that all pixels share, in the order g, c0, mu, gamma_1..T,
- * alpha_1..T, beta_1..T. A pixel's flux q_x is unknown too and is eliminated: the pixel adds the Schur complement
- * I - c_x c_x' / I_xx of its arrow matrix. c0 is the noise variance at the mean level, V = g (level - mean level) + c0:
- * less correlated with g than the intercept is, and free of mu. */
+/** Fisher information of rows of a frame on the parameters that all pixels have in common, in the order g, c0, mu,
+ * gamma_1..T, alpha_1..T, beta_1..T. The flux q_x of each pixel is unknown, too, and is eliminated: a pixel adds the
+ * Schur complement I - c_x c_x' / I_xx of its arrow matrix. c0 is the noise variance at the mean level,
+ * V = g (level - mean level) + c0. It is less correlated with g than the intercept, and does not depend on mu. */
 class SensorNoise_EXPORT CramerRaoInformation
 {
 public:
@@ -24,28 +24,30 @@ public:
   static constexpr Eigen::Index Offset = 2;
   static constexpr Eigen::Index FirstSeries = 3;
 
-  /** \a meanFluxDn is the mean level less mu. */
+  /** Prepares the information, all 0. \a meanFluxDn is the mean level minus mu [DN]. */
   CramerRaoInformation(const CramerRaoInput & input, double meanFluxDn);
 
-  /** Adds what row \a y says, in all frames. */
+  /** Adds the information of row \a y in all frames. */
   void
   AddRow(std::size_t y);
 
-  /** Adds what other rows say. */
+  /** Adds the information of other rows. */
   void
   Add(const CramerRaoInformation & other);
 
-  /** Standard deviations that the parameters would have if each were the only one not known; 1 where there is none. */
+  /** Returns the standard errors that the parameters would have if each were the only unknown; 1 where there is no
+   * information. */
   Eigen::VectorXd
   GetUnits() const;
 
-  /** Covariance of the parameters' errors where sum gamma = sum alpha = sum beta = 0, which fixes the scale and the
-   * position of the scene. A direction of which the rows say nothing has a variance of 1e20 units. */
+  /** Returns the covariance of the parameters' errors under the constraints sum gamma = sum alpha = sum beta = 0, which
+   * fix the scale and the position of the scene. A direction without information has a variance of 1e20 units. */
   Eigen::MatrixXd
   GetCovariance() const;
 
 private:
-  /** Derivatives of a row's data with g, c0, mu and the frame's own gamma, alpha and beta: a row a pixel. */
+  /** Derivatives of a row's data with respect to g, c0, mu and the frame's own gamma, alpha and beta, one row per
+   * pixel. */
   using SixColumns = Eigen::Array<double, Eigen::Dynamic, 6>;
   struct Derivatives
   {
@@ -53,14 +55,14 @@ private:
     SixColumns ofVariance;
   };
 
-  /** 1 where a pixel of row \a y is used, 0 elsewhere. */
+  /** Returns 1 where a pixel of row \a y is used, 0 elsewhere. */
   Eigen::ArrayXd
   GetUse(std::size_t y) const;
 
   Derivatives
   GetDerivatives(std::size_t y, std::size_t frame) const;
 
-  /** q(alpha, beta) of row \a y [DN], interpolated as StackSimulator does. */
+  /** Returns q(alpha, beta) of row \a y, interpolated as in StackSimulator [DN]. */
   Eigen::ArrayXd
   ShiftedFlux(std::size_t y, double alpha, double beta) const;
 
@@ -69,7 +71,7 @@ private:
   double          m_MeanFluxDn;
   Eigen::Index    m_Frames;
   Eigen::MatrixXd m_Schur;  // lower triangle
-  Eigen::VectorXd m_Direct; // diagonal, pixels' fluxes known
+  Eigen::VectorXd m_Direct; // diagonal for known fluxes of the pixels
 };
 
 } // namespace sensornoise

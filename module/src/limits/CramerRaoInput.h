@@ -12,21 +12,21 @@
 namespace sensornoise
 {
 
-/** What the Cram\'er-Rao bound of a simulated stack depends on. */
+/** Input for the Cram\'er-Rao bound of a simulated stack. */
 struct SensorNoise_EXPORT CramerRaoInput
 {
-  const double *          electrons;                 ///< p: the scene at rest, blurred by the optics [e-]
+  const double *          electrons;                 ///< p, the scene at rest, blurred by the optics [e-]
   const std::uint8_t *    mask;                      ///< nonzero where the pixel is used; null: everywhere
-  std::size_t             width;                     ///< columns
-  std::size_t             height;                    ///< rows
+  std::size_t             width;                     ///< number of columns
+  std::size_t             height;                    ///< number of rows
   const SimulationTruth * truth;                     ///< camera, flicker and shifts of the stack
-  double                  quantisationStepDn{ 1.0 }; ///< distance of the codes; 0: grey levels are not rounded [DN]
+  double                  quantisationStepDn{ 1.0 }; ///< quantization step [DN]; 0: no quantization
 
-  /** sigma^2 + step^2 / 12 [DN^2]. */
+  /** Returns sigma^2 + step^2 / 12 [DN^2]. */
   double
   TotalReadVarianceDn2() const;
 
-  /** g times the mean of 1 + gamma: the mean flux of a pixel per electron of the scene [DN]. */
+  /** Returns g times the mean of 1 + gamma: the mean flux of a pixel per electron of the scene [DN/e-]. */
   double
   MeanFluxPerElectronDn() const;
 };

@@ -10,8 +10,8 @@ namespace sensornoise
 {
 namespace
 {
-/** sd of sigma from the errors of g, c = sigma^2 - g mu and mu, to first order: sigma^2 = c + g mu, and mu has no error
- * in common with g and c. Infinite for sigma = 0. */
+/** Returns the standard error of sigma from the errors of g, c = sigma^2 - g mu and mu, to first order:
+ * sigma^2 = c + g mu, and the error of mu is independent of the errors of g and c. Infinite for sigma = 0. */
 double
 ReadNoiseLimit(const PrecisionLimit & limit, double gainDnPerElectron, double offsetDn, double readVarianceDn2)
 {
@@ -22,7 +22,7 @@ ReadNoiseLimit(const PrecisionLimit & limit, double gainDnPerElectron, double of
   return readVarianceDn2 > 0.0 ? std::sqrt(variance / (4.0 * readVarianceDn2)) : PrecisionLimit::None;
 }
 
-/** Sums over the pixels used: the flux is q = mean - mu, the noise variance V = g q + s. */
+/** Sums over the pixels used. The flux is q = mean - mu, the noise variance V = g q + s. */
 struct PrecisionSums
 {
   double a0{ 0.0 };         ///< sum 1/V
@@ -34,7 +34,7 @@ struct PrecisionSums
   double gradientsY{ 0.0 }; ///< sum (d mean/dy)^2/V
 };
 
-/** Calls \a visit(p, flux, variance) for every pixel used whose noise variance is positive. */
+/** Calls \a visit(p, flux, variance) for every pixel that is used and has a positive noise variance. */
 template <typename TVisit>
 void
 ForEachUsedPixel(const PrecisionInput & input, TVisit visit)
@@ -78,15 +78,15 @@ SumPrecision(const PrecisionInput & input)
   return sums;
 }
 
-/** Sums of squared deviations over the pixels used: of the levels from m, and of the fluxes from being all alike. */
+/** Sums over the pixels used of the squared deviations of the levels from m, and of the fluxes from a constant flux. */
 struct DeviationSums
 {
   double levelSpread{ 0.0 };    ///< sum (ubar - m)^2 / V^2
-  double contrast{ 0.0 };       ///< A0 - A1^2/A2 = sum (1 - q A1/A2)^2 / V, without the cancellation
+  double contrast{ 0.0 };       ///< A0 - A1^2/A2 = sum (1 - q A1/A2)^2 / V, without cancellation
   double levelMagnitude{ 0.0 }; ///< sum ubar^2 / V^2
 };
 
-/** \a centreDn is m, \a fluxRatio is A1/A2. */
+/** Computes the sums. \a centreDn is m [DN], \a fluxRatio is A1/A2 [1/DN]. */
 DeviationSums
 SumDeviations(const PrecisionInput & input, double centreDn, double fluxRatio)
 {

@@ -12,54 +12,55 @@
 namespace sensornoise
 {
 
-/** The smallest standard deviations that an unbiased estimate from one stack can have (Cram\'er-Rao). Infinity:
- * the stack does not identify the quantity. "Flicker" and "vibration" are those that the stack really had, not the
- * population's that they were drawn from: gamma_t = (1 + gamma_t) / mean(1 + gamma) - 1 and the shifts less their
+/** Smallest standard errors of an unbiased estimate from one stack (Cram\'er-Rao). Infinity: the stack does not
+ * identify the quantity. The quantities are those of this stack, not of the population from which its flicker and
+ * vibration were drawn: the flicker is (1 + gamma_t) / mean(1 + gamma) - 1, and the shifts are relative to their
  * mean. */
 struct PrecisionLimit
 {
   static constexpr double None = std::numeric_limits<double>::infinity();
 
-  double gain{ None };                     ///< g [DN/e-]
-  double intercept{ None };                ///< sigma^2 - g mu [DN^2]
-  double offset{ None };                   ///< mu [DN]
-  double readNoise{ None };                ///< sigma [DN]
-  double flickerOfFrame{ None };           ///< gamma_t [1]; root mean square over the frames
-  double flickerSd{ None };                ///< sigma_gamma [1]
-  double vibrationXOfFrame{ None };        ///< alpha_t [pixel]; root mean square over the frames
-  double vibrationYOfFrame{ None };        ///< beta_t [pixel]; root mean square over the frames
-  double vibrationSdX{ None };             ///< sigma_alpha [pixel]
-  double vibrationSdY{ None };             ///< sigma_beta [pixel]
-  double gainInterceptCorrelation{ -1.0 }; ///< of the errors of g and sigma^2 - g mu
+  double gain{ None };              ///< g [DN/e-]
+  double intercept{ None };         ///< sigma^2 - g mu [DN^2]
+  double offset{ None };            ///< mu [DN]
+  double readNoise{ None };         ///< sigma [DN]
+  double flickerOfFrame{ None };    ///< gamma_t [1]; root mean square over the frames
+  double flickerSd{ None };         ///< sigma_gamma [1]
+  double vibrationXOfFrame{ None }; ///< alpha_t [pixel]; root mean square over the frames
+  double vibrationYOfFrame{ None }; ///< beta_t [pixel]; root mean square over the frames
+  double vibrationSdX{ None };      ///< sigma_alpha [pixel]
+  double vibrationSdY{ None };      ///< sigma_beta [pixel]
+  /** Correlation of the errors of g and sigma^2 - g mu [1]; -1 as long as they are not computed. */
+  double gainInterceptCorrelation{ -1.0 };
 };
 
-/** What the precision of a stack depends on. */
+/** Properties of a stack on which its precision depends. */
 struct PrecisionInput
 {
   const double *       mean;   ///< expected level of every pixel, offset included [DN]
   const std::uint8_t * mask;   ///< nonzero where the pixel is used; null: everywhere
-  std::size_t          width;  ///< columns
-  std::size_t          height; ///< rows
+  std::size_t          width;  ///< number of columns
+  std::size_t          height; ///< number of rows
 
-  double gainDnPerElectron;
-  double offsetDn;
-  /** sigma^2, and step^2 / 12 where the grey levels are whole codes [DN^2]. */
+  double gainDnPerElectron; ///< g, above 0 [DN/e-]
+  double offsetDn;          ///< mu [DN]
+  /** sigma^2, plus step^2 / 12 if the data are quantized [DN^2]. */
   double totalReadVarianceDn2;
-  /** Distance of the codes [DN]; 0: the grey levels are not rounded. */
+  /** Quantization step [DN]; 0: no quantization. */
   double      quantisationStepDn;
   std::size_t frames;    ///< T, at least 2
   double      flickerSd; ///< sigma_gamma of the frames themselves [1]
 };
 
-/** The precision limit in closed form, from sums over the pixels: enough to plan an experiment with, and to judge an
- * estimator by. With the model of Sur & Gredi\'ac 2015 (https://doi.org/10.1137/140977035), (2.1), in its normal
- * approximation,
+/** Computes the precision limit in closed form from sums over the pixels. It serves to plan an experiment and to
+ * evaluate an estimator. The model is the normal approximation of (2.1) in Sur & Gredi\'ac 2015
+ * (https://doi.org/10.1137/140977035),
  *
- *   u_xt ~ N(mu + L_xt, g L_xt + s),   L_xt = (1 + gamma_t) q_x(alpha_t, beta_t),   s = sigma^2 + step^2 / 12,
+ *   u_xt ~ N(mu + L_xt, g L_xt + s),   L_xt = (1 + gamma_t) q_x(alpha_t, beta_t),   s = sigma^2 + step^2 / 12.
  *
- * the Fisher information of a datum for two parameters a, b is m_a m_b / V + V_a V_b / (2 V^2), m and V being its mean
- * and variance (Kay, Fundamentals of Statistical Signal Processing, vol. 1, 1993, (3.31)). With q_x, gamma_t and the
- * shifts all unknown and only the leading terms kept, it inverts to
+ * The Fisher information of a datum of mean m and variance V on two parameters a, b is m_a m_b / V + V_a V_b / (2 V^2)
+ * (Kay, Fundamentals of Statistical Signal Processing, vol. 1, 1993, (3.31)). If q_x, gamma_t and the shifts are all
+ * unknown, the leading terms of its inverse are
  *
  *   var(g)           = 2 / ((T-1) sum (ubar - m)^2 / V^2),   m = sum (ubar/V^2) / sum (1/V^2)
  *   var(c)           = 2 / ((T-1) sum 1/V^2) + m^2 var(g),   c = sigma^2 - g mu,   cov(g, c) = -m var(g)
@@ -69,8 +70,8 @@ struct PrecisionInput
  *   var(sigma_gamma) = 1 / ((T-1) A2) + (sigma_gamma (A1/A2) sd(mu))^2
  *   var(alpha_t)     = 1 / sum (d ubar/dx)^2 / V,   var(sigma_alpha) = var(alpha_t) / (T-1);   beta_t likewise.
  *
- * With 100 frames and vibrations below a pixel these agree with ComputeCramerRaoBound() within 3 % but for the
- * vibrations, which can differ by 25 %. Twice the flicker halves sd(mu); the dark pixels, of small V, make A0 large.
+ * With 100 frames and vibrations below a pixel, these agree with ComputeCramerRaoBound() within 3 %, except for the
+ * vibrations, which can differ by 25 %. Twice the flicker halves sd(mu). Dark pixels have a small V and make A0 large.
  *
  * \throws std::invalid_argument if there are fewer than 2 frames, or the gain is not positive. */
 SensorNoise_EXPORT PrecisionLimit
