@@ -26,7 +26,7 @@ Formatted(const char * format, TArguments... arguments)
   return buffer;
 }
 
-/** A level with as many figures as people want, and commas: 3,000. */
+/** Returns a level with as many digits as a reader needs, with commas: 3,000. */
 std::string
 LevelText(double levelDn)
 {
@@ -43,7 +43,7 @@ LevelText(double levelDn)
   return text;
 }
 
-/** Bands next to each other, as one: "1.00 +- 0.01 from 20 to 3,000 DN". */
+/** Describes adjacent bands as one: "1.00 +- 0.01 from 20 to 3,000 DN". */
 std::string
 DescribeRange(const Band * begin, const Band * end)
 {
@@ -70,7 +70,8 @@ DescribeRange(const Band * begin, const Band * end)
   return Formatted(error < 0.095 ? "%.2f +- %.2f" : "%.1f +- %.1f", mean, error) + range;
 }
 
-/** What is said of all bands that fit, or of all that do not; those without variance by themselves. */
+/** Describes all bands that fit, or all that do not fit. Bands in which the model has no variance are described
+ * separately. */
 std::string
 DescribeBands(const std::vector<Band> & bands, bool fits)
 {

@@ -10,9 +10,9 @@
 namespace sensornoise
 {
 
-/** What a check found, in one sentence: the ranges of levels in which the variance is what the model says, and those in
- * which it is not, each with its ratio and the larger of its error and what its bands differ by. \a frames tells why
- * nothing was measured. */
+/** Returns the result of a check in one sentence: the ranges of levels in which the variance agrees with the model, and
+ * those in which it does not. Each range has its ratio, with the larger of the ratio's error and the scatter of its
+ * bands. The warnings of \a frames give the reason if nothing was measured. */
 std::string
 MakeCheckSentence(const NoiseModelCheck & check, const Report & frames);
 

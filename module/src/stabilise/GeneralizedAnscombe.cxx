@@ -15,15 +15,15 @@ namespace sensornoise
 
 namespace
 {
-/** Values that are worked on together. A block is always computed whole, by loops of a known length that the compiler
- * makes vectors of: no value meets another code, and other bits, because of where it stands. */
+/** Number of values that are computed together. A block is always computed as a whole, by loops of a constant length
+ * with SIMD instructions. The place of a value therefore does not change the code that computes it, nor its bits. */
 constexpr std::size_t ValuesPerBlock = 128;
 using ValueBlock = std::array<double, ValuesPerBlock>;
 
-/** The smallest mean of a stabilised value, that of no light and no read noise. */
+/** Smallest mean of a stabilised value: no signal and no read noise. */
 const double LeastMean = std::sqrt(1.5);
 
-/** Reads a block; what is missing at its end is NaN, which is never counted as negative. */
+/** Reads a block. Missing values at its end become NaN, which is never counted as negative. */
 template <typename TValue>
 void
 ReadBlock(const TValue * values, std::size_t count, ValueBlock & block)
@@ -40,7 +40,7 @@ ReadBlock(const TValue * values, std::size_t count, ValueBlock & block)
   }
 }
 
-/** Replaces a block's values by those of a function. */
+/** Replaces the values of a block by function(value). */
 template <typename TFunction>
 void
 Transform(ValueBlock & block, TFunction function)
@@ -51,7 +51,7 @@ Transform(ValueBlock & block, TFunction function)
   }
 }
 
-/** How many of a block's values are as \a isCounted says. In lanes, which the compiler can add as vectors. */
+/** Returns the number of values of a block for which \a isCounted is true. Four sums permit SIMD instructions. */
 template <typename TFunction>
 std::size_t
 CountIn(const ValueBlock & block, TFunction isCounted)
@@ -68,7 +68,7 @@ CountIn(const ValueBlock & block, TFunction isCounted)
   return static_cast<std::size_t>(counted[0] + counted[1] + counted[2] + counted[3]);
 }
 
-/** D to E, see AnscombeInverse. Comparisons are such that NaN stays. */
+/** Converts D to E, see AnscombeInverse. The comparisons keep NaN. */
 void
 InvertBlock(AnscombeInverse inverse, ValueBlock & block)
 {
@@ -91,7 +91,7 @@ InvertBlock(AnscombeInverse inverse, ValueBlock & block)
   });
 }
 
-/** Writes the first values of a block, of which \a convert makes \a TValue. */
+/** Writes the first \a count values of a block, converted by \a convert. */
 template <typename TValue, typename TFunction>
 void
 WriteBlock(const ValueBlock & block, std::size_t count, TValue * values, TFunction convert)
@@ -104,7 +104,7 @@ WriteBlock(const ValueBlock & block, std::size_t count, TValue * values, TFuncti
   std::copy_n(converted.begin(), count, values);
 }
 
-/** The nearest whole number in the range of \a TPixel, half up; of NaN the lowest. */
+/** Returns the nearest whole number in the range of \a TPixel, half up; for NaN the lowest number. */
 template <typename TPixel>
 TPixel
 Rounded(double level)
@@ -113,7 +113,8 @@ Rounded(double level)
   constexpr double high = std::numeric_limits<TPixel>::max();
   const double     above = level > low ? level : low;
   const double     inside = above < high ? above : high;
-  // Above 0 the conversion rounds down; through 32 bits there are vectors. NOLINTNEXTLINE(bugprone-incorrect-roundings)
+  // Above 0 the conversion rounds down; SIMD instructions convert to 32 bits.
+  // NOLINTNEXTLINE(bugprone-incorrect-roundings)
   return static_cast<TPixel>(static_cast<std::int32_t>(inside - low + 0.5) + static_cast<std::int32_t>(low));
 }
 } // namespace
@@ -163,7 +164,7 @@ GeneralizedAnscombe::Stabilise(const TPixel * levelsDn, std::size_t count, TReal
     negative += CountIn(block, [](double argument) { return argument < 0.0; });
     Transform(block, [](double argument) { return argument < 0.0 ? 0.0 : argument; });
     WriteBlock(block, size, stabilised + begin, [scale](double argument) {
-      return scale * std::sqrt(static_cast<TReal>(argument)); // single is twice as fast
+      return scale * std::sqrt(static_cast<TReal>(argument)); // single precision is twice as fast
     });
   }
   return negative;

@@ -17,21 +17,22 @@ namespace sensornoise
 
 namespace
 {
-/** Bands of equal width in the root of the level, so that each spans as much of the noise. */
+/** Number of bands. They have equal widths in the square root of the level, so that each spans a similar multiple of
+ * the noise. */
 constexpr std::size_t Bands = 12;
-/** What a band may depart by, whatever its error [1]. */
+/** Deviation of a band's ratio from 1 that is accepted, whatever its error [1]. */
 constexpr double Tolerance = 0.02;
-// At three, one of a dozen bands of a right model would fail by chance in every 30th check, and the model has errors,
-// too.
+// Deviation in standard errors that is accepted. With three, one of a dozen bands of a correct model would fail by
+// chance in every 30th check, and the model has errors, too.
 constexpr double StandardErrors = 4.0;
-/** From this error on a ratio tells nothing [1]. */
+/** Error of a ratio from which on it does not count as measured [1]. */
 constexpr double LargestError = 0.05;
-/** Electrons above which the transform makes a variance of 1 within 0.016, whatever the read noise. */
+/** Number of electrons above which the variance after the transform is 1 within 0.016 for any read noise [e-]. */
 constexpr double EnoughElectrons = 10.0;
 /** Median of chi-square with one degree of freedom. */
 constexpr double MedianOfSquare = 0.4549364;
 
-/** Variance of the error of each bin's ratio over ratio^2. */
+/** Returns the variance of the error of each bin's ratio, relative to the square of the ratio. */
 std::vector<double>
 RelativeErrors2(const Report & frames)
 {
@@ -44,7 +45,8 @@ RelativeErrors2(const Report & frames)
   return errors2;
 }
 
-/** What neighbouring bins differ by, over what the number of pixels and frames makes of it, squared; at least 1. */
+/** Returns the squared difference of the ratios of neighbouring bins over its expectation from the number of pixels and
+ * frames, as a median over the bins; at least 1. */
 double
 ExcessScatter(const Report::Scatter & scatter, const NoiseModel & model, const std::vector<double> & errors2)
 {
@@ -64,7 +66,7 @@ ExcessScatter(const Report::Scatter & scatter, const NoiseModel & model, const s
   return squares.size() < least ? 1.0 : std::max(1.0, QuantileOf(std::move(squares), 0.5) / MedianOfSquare);
 }
 
-/** The bins from \a begin to \a end as one band. */
+/** Returns the bins [begin, end) as one band. */
 NoiseModelCheck::Band
 MakeBand(const Report::Scatter &     scatter,
          std::size_t                 begin,
@@ -96,8 +98,9 @@ MakeBand(const Report::Scatter &     scatter,
   return band;
 }
 
-/** Pixels are sorted by means that have noise: at both ends of the range, those are gathered whose mean came out too
- * low, or too high. What one standard deviation of a mean makes of the ratio, for an end's band of so many bins [1]. */
+/** Returns the error that sorting adds to the ratio of the first and the last band, for one standard deviation of a
+ * mean and a band of \a bins bins [1]. The means by which pixels are sorted have noise. The first and the last bin hold
+ * the pixels whose mean is lower, or higher, by chance. */
 double
 SortingError(const NoiseModelCheck::Band & band, const NoiseModel & model, double frames, std::size_t bins)
 {
@@ -105,7 +108,7 @@ SortingError(const NoiseModelCheck::Band & band, const NoiseModel & model, doubl
   return variance > 0.0 ? model.varianceSlopeDn / std::sqrt(variance * frames) / static_cast<double>(bins) : 0.0;
 }
 
-/** Whether a band's ratio is near 1; \a sortingError for the bands at both ends. */
+/** Returns whether a band's ratio is near 1. \a sortingError is 0 except for the first and the last band. */
 bool
 Fits(const NoiseModelCheck::Band & band, double sortingError)
 {
@@ -113,7 +116,7 @@ Fits(const NoiseModelCheck::Band & band, double sortingError)
   return band.ratio && (departure <= Tolerance + sortingError || departure <= StandardErrors * band.standardError);
 }
 
-/** Variance after the transform at a level, if the model is right [1]. */
+/** Returns the variance after the transform at a level for a correct model [1]; null if it cannot be computed. */
 std::optional<double>
 TransformVariance(const NoiseModel & model, double levelDn, std::optional<double> readNoiseElectrons)
 {
@@ -123,7 +126,7 @@ TransformVariance(const NoiseModel & model, double levelDn, std::optional<double
     return std::nullopt;
   }
   const double readNoise = std::clamp(readNoiseElectrons.value_or(0.0), 0.0, std::min(1000.0, std::sqrt(electrons2)));
-  const double electrons = std::clamp(electrons2 - readNoise * readNoise, 0.0, 1e6); // rounding could leave less than 0
+  const double electrons = std::clamp(electrons2 - readNoise * readNoise, 0.0, 1e6); // rounding could make it negative
   return MomentsOfStabilised(electrons, readNoise).variance;
 }
 

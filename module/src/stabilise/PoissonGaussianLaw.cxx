@@ -14,7 +14,8 @@ namespace sensornoise
 
 namespace
 {
-/** A normal law is integrated over so many standard deviations to either side: what is left out is below 1e-23. */
+/** Limit of the integration of a normal distribution [standard deviations]: the probability beyond is less than
+ * 1e-23. */
 constexpr double Reach = 10.0;
 
 double
@@ -29,9 +30,9 @@ NormalDistribution(double n)
   return 0.5 * std::erfc(-n * 0.70710678118654752);
 }
 
-/** E sqrt(max(0, m + s n)) for standard normal n. The trapezoidal rule is exact to rounding for integrands that are
- * analytic and vanish at both ends: over n where the root's branch point is out of reach, else over w = sqrt(m + s n),
- * in which the integrand is even and analytic. */
+/** Returns E sqrt(max(0, m + s n)) for standard normal n. The trapezoidal rule is exact but for rounding if the
+ * integrand is analytic and vanishes at both ends. The integral is over n if the branch point of the root is out of
+ * reach, else over w = sqrt(m + s n), in which the integrand is even and analytic. */
 double
 MeanRoot(double m, double s)
 {
@@ -61,7 +62,7 @@ MeanRoot(double m, double s)
   return sum * step;
 }
 
-/** E max(0, m + s n). */
+/** Returns E max(0, m + s n) for standard normal n. */
 double
 MeanArgument(double m, double s)
 {
@@ -82,7 +83,7 @@ MomentsOfStabilised(double electrons, double readNoiseElectrons)
   const double reach = 9.0 * std::sqrt(electrons) + 40.0;
   const double first = std::max(0.0, std::floor(electrons - reach));
   const double last = electrons > 0.0 ? std::ceil(electrons + reach) : 0.0;
-  // Sums about the middle, so that the variance does not cancel.
+  // Sums about the middle, so that the variance is not lost by cancellation.
   const double middle = std::sqrt(electrons + least);
   double       total = 0.0;
   double       root = 0.0;
@@ -90,7 +91,7 @@ MomentsOfStabilised(double electrons, double readNoiseElectrons)
   double       negative = 0.0;
   for (double k = first; k <= last; ++k)
   {
-    // The sign that lgamma keeps for all threads is not looked at. NOLINTNEXTLINE(concurrency-mt-unsafe)
+    // The sign that lgamma stores for all threads is not used. NOLINTNEXTLINE(concurrency-mt-unsafe)
     const double logFactorial = std::lgamma(k + 1.0);
     const double probability = electrons > 0.0 ? std::exp(k * std::log(electrons) - electrons - logFactorial) : 1.0;
     const double meanRoot = MeanRoot(k + least, s);
@@ -99,7 +100,7 @@ MomentsOfStabilised(double electrons, double readNoiseElectrons)
     square += probability * (MeanArgument(k + least, s) - 2.0 * middle * meanRoot + middle * middle);
     negative += s == 0.0 ? 0.0 : probability * NormalDistribution(-(k + least) / s);
   }
-  root /= total; // lgamma's rounding is common to all terms
+  root /= total; // the rounding error of lgamma is common to all terms
   square /= total;
   return { 2.0 * (middle + root), 4.0 * (square - root * root), negative / total };
 }
@@ -112,7 +113,7 @@ ExactUnbiasedInverse(double stabilisedMean, double readNoiseElectrons)
   {
     return 0.0;
   }
-  // Newton's steps from the asymptotic inverse; dD/dlambda is close to 1/sqrt(lambda + s^2 + 3/8), which suffices.
+  // Newton's method from the asymptotic inverse. dD/dlambda is close to 1/sqrt(lambda + s^2 + 3/8), which suffices.
   double electrons = std::max(0.0, 0.25 * stabilisedMean * stabilisedMean - 0.125 - s * s);
   for (int i = 0; i < 60; ++i)
   {

@@ -9,26 +9,27 @@ namespace sensornoise
 {
 
 /** \file
- * What the generalized Anscombe transform makes of a pixel's law, by numerical integration: the yardstick for its
+ * Moments of a pixel after the generalized Anscombe transform, by numerical integration: the reference for its
  * closed-form inverse and for measured variances.
  *
- * The law, in electrons, is z = N + sigma n with N of Poisson's law with mean lambda, and n standard normal;
- * f = 2 sqrt(max(0, z + 3/8 + sigma^2)). Errors below 1e-10 of D and of the variance. */
+ * A value in electrons is z = N + sigma n, where N has a Poisson distribution of mean lambda and n is standard normal.
+ * Its transform is f = 2 sqrt(max(0, z + 3/8 + sigma^2)). The errors of D and of the variance are below 1e-10. */
 
-/** Of one pixel's stabilised values. */
+/** Moments of the stabilised values of one pixel. */
 struct StabilisedMoments
 {
   double mean;          ///< D = E f
-  double variance;      ///< var f; 1 were the transform perfect
-  double negativeShare; ///< probability that the argument of the root is negative, and f 0
+  double variance;      ///< var f; 1 for a perfect transform
+  double negativeShare; ///< probability that the argument of the root is negative, so that f = 0 [1]
 };
 
-/** Moments of the stabilised values of a pixel with a mean of \a electrons, 0 to 1e6, and a read noise of
- * \a readNoiseElectrons, 0 to 1000. Throws std::invalid_argument outside. */
+/** Returns the moments for a pixel with a mean of \a electrons, 0 to 1e6 [e-], and a read noise of
+ * \a readNoiseElectrons, 0 to 1000 [e-]. Throws std::invalid_argument outside of these ranges. */
 SensorNoise_EXPORT StabilisedMoments
 MomentsOfStabilised(double electrons, double readNoiseElectrons);
 
-/** The exact unbiased inverse: lambda [e-] of a mean D; 0 where D is not above that of no light. */
+/** Returns the exact unbiased inverse: lambda for a mean D [e-]; 0 if D is not above its value without signal.
+ * \a readNoiseElectrons is 0 to 1000 [e-]. */
 SensorNoise_EXPORT double
 ExactUnbiasedInverse(double stabilisedMean, double readNoiseElectrons);
 
