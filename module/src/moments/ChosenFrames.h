@@ -13,9 +13,9 @@
 namespace sensornoise
 {
 
-/** Calls function(frames, number) with the frames that \a isChosen, one after the other in memory: in place if all are,
- * else copies of some at a time, of at most 32 MiB or one frame, in order. \a frames holds as many frames as
- * \a isChosen has flags. */
+/** Calls function(frames, number) with the frames that \a isChosen selects, in order and contiguous in memory. If all
+ * frames are chosen, they are passed in place. Otherwise copies are passed, at most 32 MiB or one frame at a time.
+ * \a frames holds as many frames as \a isChosen has flags. */
 template <typename TPixel, typename TFunction>
 void
 ForChosenFrames(const TPixel *                    frames,

@@ -17,10 +17,10 @@ namespace sensornoise
 
 namespace
 {
-/** Local steps of the table, about; they overlap by three quarters. */
+/** Approximate number of local steps in the table; neighbouring ones share three quarters of their distances. */
 constexpr std::size_t StepsInTable = 256;
 
-/** Two neighbouring codes. */
+/** Distance between two neighbouring codes. */
 struct CodeDistance
 {
   double levelDn; ///< halfway between them
@@ -42,7 +42,7 @@ DistancesOf(const std::vector<SeenCode> & codes)
   return distances;
 }
 
-/** What all distances are multiples of [DN]. */
+/** Returns the greatest common divisor of all distances [DN]. */
 double
 UnitOf(const std::vector<CodeDistance> & distances)
 {
@@ -54,12 +54,12 @@ UnitOf(const std::vector<CodeDistance> & distances)
   return unit;
 }
 
-/** Steps along the level, of some neighbouring distances. */
+/** Quantization step as a linear function of the level, from some neighbouring distances. */
 struct Stretch
 {
   CodeSteps::Local middle{};
-  double           slope{ 0.0 };    ///< of the step [1]
-  double           addedDn2{ 0.0 }; ///< by rounding to the unit after the codes were expanded
+  double           slope{ 0.0 };    ///< change of the step with the level [1]
+  double           addedDn2{ 0.0 }; ///< variance added by rounding to the unit after the codes were expanded [DN^2]
 
   CodeSteps::Local
   At(double levelDn) const
@@ -69,8 +69,8 @@ struct Stretch
   }
 };
 
-/** Of \a count distances. Where they differ, the codes were rounded to the unit after they were expanded, which adds
- * its own noise. */
+/** Fits a Stretch to \a count distances. Where they differ, the codes were rounded to the unit after they were
+ * expanded, which adds noise. */
 Stretch
 StretchOf(const CodeDistance * first, std::size_t count, double unitDn)
 {
@@ -105,8 +105,8 @@ StretchOf(const CodeDistance * first, std::size_t count, double unitDn)
   return stretch;
 }
 
-/** Whether the steps differ by more than rounding makes of steps that are the same everywhere. Few at either end of
- * the sizes may be anything. */
+/** Returns whether the steps differ by more than rounding explains for equal steps. A few steps at either end of the
+ * sorted table are ignored. */
 bool
 Differ(const std::vector<CodeSteps::Local> & table, double unitDn)
 {

@@ -13,16 +13,18 @@
 namespace sensornoise
 {
 
-/** A code, and of how many pixels it is an extreme over time. */
+/** A digital number [DN], and the number of pixels that have it as an extreme over time. */
 struct SeenCode
 {
   std::int32_t  code;
   std::uint32_t pixels;
 };
 
-/** Finds the steps of \a codes, all that occur, ascending. Only neighbours tell that are the extreme of at least 8
- * pixels each: between such, no code is missing by chance. Averages over 12 and more of them are compared, so that
- * rescaled data, whose steps are irregular but the same everywhere, have no table. */
+/** Finds the local quantization steps of \a codes: all digital numbers that occur, ascending.
+ *
+ * Only neighbouring codes that are the extreme of at least 8 pixels each are used: between them no code is missing by
+ * chance. Means of at least 12 distances are compared. Rescaled data, whose steps are irregular but the same
+ * everywhere, therefore have no table. */
 SensorNoise_EXPORT CodeSteps
 FindCodeSteps(const std::vector<SeenCode> & codes);
 

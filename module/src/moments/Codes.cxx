@@ -61,7 +61,7 @@ FindQuantisationStep(const std::vector<std::int32_t> & codes, bool & regular)
   std::int32_t step = majority->first;
   if (2 * majority->second < codes.size())
   {
-    // No majority: few codes, far apart. What all spacings are multiples of is a step.
+    // No majority: few codes, far apart. The greatest common divisor of all spacings is a step.
     step = 0;
     for (const auto & spacing : spacings)
     {
@@ -86,7 +86,8 @@ FindQuantisationStep(const std::vector<std::int32_t> & codes, bool & regular)
 namespace
 {
 
-/** Whether the extreme code \a end is a pile-up; \a inwards is -step at the upper end and +step at the lower. */
+/** Returns whether the extreme code \a end is a pile-up. \a inwards is -step at the upper end and +step at the lower
+ * end [DN]. */
 bool
 CodePilesUp(const CodeHistogram & extremes, std::int32_t end, std::int32_t inwards)
 {
@@ -98,7 +99,8 @@ CodePilesUp(const CodeHistogram & extremes, std::int32_t end, std::int32_t inwar
   return IsPileUp(extremes.Count(end), inside);
 }
 
-/** The same of companded codes, which are not evenly spaced: compared with the next \a occupied codes inside. */
+/** Returns whether the extreme code \a end of companded data is a pile-up. Their codes are not evenly spaced, so that
+ * it is compared with the next \a occupied codes inside. */
 bool
 CompandedPileUp(const CodeHistogram &             extremes,
                 const std::vector<std::int32_t> & occupied,
@@ -119,7 +121,7 @@ CompandedPileUp(const CodeHistogram &             extremes,
   return IsPileUp(extremes.Count(end), inside);
 }
 
-/** The codes that are an extreme of a pixel, ascending. */
+/** Returns the codes that are an extreme of a pixel, ascending. */
 std::vector<std::int32_t>
 OccupiedCodes(const CodeHistogram & minima, const CodeHistogram & maxima)
 {
@@ -141,7 +143,7 @@ WithCounts(const std::vector<std::int32_t> & codes, const CodeHistogram & minima
   return seen;
 }
 
-/** What all distances between the codes are multiples of [DN]. */
+/** Returns the greatest common divisor of all distances between the codes [DN]; at least 1. */
 double
 CommonDivisor(const std::vector<std::int32_t> & codes)
 {
@@ -153,7 +155,8 @@ CommonDivisor(const std::vector<std::int32_t> & codes)
   return std::max(divisor, 1);
 }
 
-/** Sets the bit depth, given or found, and returns where the codes end [DN]. */
+/** Sets the bit depth, given or found, and returns the largest code [DN]. Throws std::invalid_argument if \a highest
+ * exceeds it. */
 double
 SetBitDepth(std::int32_t highest, double step, const CodeSettings & settings, CodeRange & range)
 {
@@ -205,19 +208,20 @@ FindEndOfCodes(const CodeHistogram & extremes, bool isHigh, double step)
 
 namespace
 {
-/** The extremes of the pixels, and what tells whether they may be trusted, see FindCodes(). */
+/** The extremes of the pixels, and the quantities that decide whether they are evidence of clipping, see FindCodes().
+ */
 struct Extremes
 {
   const CodeHistogram &     minima;
   const CodeHistogram &     maxima;
-  std::vector<std::int32_t> codes; ///< that occur, ascending
-  std::int32_t              low;   ///< their ends, see FindEndOfCodes()
+  std::vector<std::int32_t> codes; ///< codes that occur, ascending
+  std::int32_t              low;   ///< ends of the codes, see FindEndOfCodes() [DN]
   std::int32_t              high;
   double                    typicalVarianceDn2;
   const ExtremeDepths &     depths;
 };
 
-/** Whether an end of the codes, of spacing \a step and ending at \a top, is a pile-up. */
+/** Returns whether an end of the codes is a pile-up. \a step is their quantization step [DN]. */
 bool
 EndPilesUp(const Extremes & extremes, bool isHigh, double step, const CodeSteps & steps)
 {
@@ -234,7 +238,7 @@ EndPilesUp(const Extremes & extremes, bool isHigh, double step, const CodeSteps 
          CodePilesUp(histogram, end, isHigh ? -stride : stride);
 }
 
-/** Sets the clip levels, given or found; the codes end at \a top. */
+/** Sets the clip levels, given or found. \a top is the largest code [DN]. */
 void
 SetClipLevels(const Extremes & extremes, double step, double top, const CodeSettings & settings, CodeRange & range)
 {
@@ -247,7 +251,7 @@ SetClipLevels(const Extremes & extremes, double step, double top, const CodeSett
   if (!range.clipLowDn)
   {
     const bool found = lowest < highest && lowest != 0 && EndPilesUp(extremes, false, step, range.steps);
-    // Codes below 0 end where their type does, which is no level of the sensor.
+    // Negative codes end where their integer type does, which is no level of the sensor.
     const bool isSigned = extremes.codes.front() < 0;
     range.clipLowDn = found ? std::optional<double>(lowest) : isSigned ? std::nullopt : std::optional<double>(0.0);
     lowSource = found ? "pile-up" : isSigned ? "none" : "code range";

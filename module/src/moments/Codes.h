@@ -16,7 +16,7 @@
 namespace sensornoise
 {
 
-/** How many pixels have which code as their extreme over time. */
+/** Histogram of the extremes of the pixels over time: the number of pixels by digital number. */
 class SensorNoise_EXPORT CodeHistogram
 {
 public:
@@ -27,17 +27,17 @@ public:
   {
     ++m_Counts[static_cast<std::size_t>(static_cast<std::int32_t>(code) + LowestCode)];
   }
-  /** Pixels whose extreme is \a code. */
+  /** Returns the number of pixels whose extreme is \a code. */
   std::uint32_t
   Count(std::int32_t code) const
   {
     const std::int32_t i = code + LowestCode;
     return i < 0 || i >= static_cast<std::int32_t>(m_Counts.size()) ? 0 : m_Counts[static_cast<std::size_t>(i)];
   }
-  /** The codes that occur, ascending. */
+  /** Returns the codes that occur, ascending. */
   std::vector<std::int32_t>
   Occupied() const;
-  /** Whether Add() takes a value. */
+  /** Returns whether Add() accepts \a value. */
   static bool
   IsCode(double value)
   {
@@ -49,28 +49,31 @@ private:
   std::vector<std::uint32_t>    m_Counts;
 };
 
-/** The spacing of the codes: the majority of the distances between neighbouring codes that occur.
+/** Returns the quantization step [DN]: the most frequent distance between neighbouring codes that occur.
  *
- * 12 bits left-aligned in 16 have the spacing 16. Data that were rescaled (for example by 65535/4095) have spacings of
- * 16 and 17, so that their codes drift through all remainders: more than 2 % of the codes off the grid, and \a regular
- * is false. A few stray codes do not matter. */
+ * 12 bits left-aligned in 16 bits have the step 16. Rescaled data (for example by 65535/4095) have distances of 16 and
+ * 17, so that more than 2 % of the codes lie off the grid and \a regular is set to false. A few stray codes do not
+ * matter. */
 SensorNoise_EXPORT double
 FindQuantisationStep(const std::vector<std::int32_t> & codes, bool & regular);
 
-/** The outermost code of extremes that is the extreme of more than stray pixels. It is the highest or the lowest code,
- * unless that lies beyond a pile-up, see IsPileUp(), apart from it, and so do all other codes beyond: a stuck pixel
- * does not hide the level at which all others saturate. \a step is the spacing of the codes. Some pixel was added. */
+/** Returns the outermost code of \a extremes that is not due to stray pixels [DN].
+ *
+ * This is the highest or the lowest code, unless there is a pile-up inside, see IsPileUp(), with a gap between it and
+ * the codes beyond, and these are the extremes of few pixels. Then the pile-up is the end: a stuck pixel does not hide
+ * the saturation level of the others. \a step is the quantization step [DN]. The histogram must not be empty. */
 SensorNoise_EXPORT std::int32_t
 FindEndOfCodes(const CodeHistogram & extremes, bool isHigh, double step);
 
-/** Finds bit depth, code step and clip levels of integer data from every pixel's extremes over time.
+/** Finds the bit depth, the quantization step and the clip levels of integer data from the extremes of every pixel over
+ * time.
  *
- * Given values win. The bit depth is the smallest of 8, 10, 12, 14 and 16 that holds the codes. A clip level is a
- * pile-up of the extremes, else the end of the code range (design: a sensor that saturates at 3,400 of 4,095, or rests
- * on a floor above 0, is common). \a typicalVarianceDn2 is the median temporal variance of the pixels that vary: where
- * a pile-up says nothing, see CanTellPileUp(), only the code range is trusted.
+ * Given values take precedence. The bit depth is the smallest of 8, 10, 12, 14 and 16 that holds the codes. A clip
+ * level is a pile-up of the extremes, else the end of the DN range: many sensors saturate below it, for example at
+ * 3,400 of 4,095, or never fall to 0. \a typicalVarianceDn2 is the median temporal variance of the pixels that vary
+ * [DN^2]. Where a pile-up is not evidence of clipping, see CanTellPileUp(), the end of the DN range is used.
  *
- * Throws std::invalid_argument if the data pass what was given. */
+ * Throws std::invalid_argument if the stack holds no pixel, or a level above the bit depth. */
 SensorNoise_EXPORT CodeRange
 FindCodes(const CodeHistogram & minima,
           const CodeHistogram & maxima,
@@ -78,7 +81,7 @@ FindCodes(const CodeHistogram & minima,
           const CodeSettings &  settings,
           const ExtremeDepths & depths = {});
 
-/** What is given, and nothing else: floating-point data have no codes. */
+/** Returns the given settings only: floating-point data have no codes. */
 SensorNoise_EXPORT CodeRange
 GivenCodes(const CodeSettings & settings);
 

@@ -14,12 +14,12 @@
 namespace sensornoise
 {
 
-/** Returns whether the values of a stack are counts: 0 is not the level at which a sensor is clipped, but nothing.
+/** Returns whether the values of a stack are counts, so that 0 means no event and not a clip level.
  *
- * The variance of counts is in proportion to their mean, down to a fraction of one. A sensor whose offset is near 0 has
- * the noise of its read-out there, and of rounding, less what 0 cuts off: its variance over its mean changes. The ratio
- * is compared between pixels of a mean below one step, of 1 to 3, of 3 to 10, and above; \a stepDn is the step of the
- * values [DN]. */
+ * The variance of counts is proportional to their mean, down to a fraction of one. A sensor whose offset is near 0 has
+ * read noise and quantization noise there, clipped at 0, so that the ratio of variance to mean changes. The ratio is
+ * compared between pixels with a mean below one step, of 1 to 3, of 3 to 10, and above 10 steps. \a stepDn is the
+ * quantization step [DN]. */
 template <typename TPixel>
 bool
 AreCountsFromZero(const TemporalMaps<TPixel> & maps, double stepDn)
@@ -27,7 +27,7 @@ AreCountsFromZero(const TemporalMaps<TPixel> & maps, double stepDn)
   constexpr std::size_t      groups = 4;
   std::array<double, groups> mean{};
   std::array<double, groups> variance{};
-  std::array<double, groups> squares{}; // of the variances
+  std::array<double, groups> squares{}; // sum of the squared variances
   std::array<double, groups> pixels{};
   const std::size_t          stride = std::max<std::size_t>(1, maps.GetNumberOfPixels() / InMoments.pixelsOfCounts);
   for (std::size_t p = 0; p < maps.GetNumberOfPixels(); p += stride)
@@ -43,7 +43,7 @@ AreCountsFromZero(const TemporalMaps<TPixel> & maps, double stepDn)
       pixels[group] += 1.0;
     }
   }
-  // The error of a group's mean variance is sqrt(spread) over the pixels.
+  // The standard error of the mean variance of a group is sqrt(spread) / pixels.
   double      least = 0.0;
   double      largest = 0.0;
   std::size_t told = 0;

@@ -21,7 +21,7 @@ namespace sensornoise
 namespace
 {
 
-/** The values of some pixels of a frame that are finite [DN]. */
+/** Returns the finite values of the pixels \a sample of a frame [DN]. */
 template <typename TPixel>
 std::vector<double>
 FiniteValues(const TPixel * frame, const std::vector<std::size_t> & sample)
@@ -79,7 +79,7 @@ void
 DarkDrift::Start(const TPixel * frame)
 {
   std::vector<double> values = FiniteValues(frame, m_Sample);
-  // At least a code, so that rounding does not cut the reach to nothing.
+  // At least one DN, so that rounding does not reduce the reach to 0.
   const double leastDn = std::is_integral_v<TPixel> ? 1.0 : 0.0;
   m_ReachDn =
     values.empty() ? 0.0 : InMoments.levelReach * std::max(leastDn, Quantile(values, 0.84) - Quantile(values, 0.16));
@@ -129,7 +129,7 @@ DarkDrift::SquaresWithoutDrift(std::size_t p, double sumOfSquaresDn2, double mea
     return sumOfSquaresDn2;
   }
   const double products = m_ProductsDn2[p] - (meanDn - m_LevelsDn[0]) * m_SumDn;
-  // A frame's level holds a share of the pixel's own noise.
+  // The level of a frame contains a part of the noise of the pixel itself.
   const double share = m_LevelPixels / (m_LevelPixels - 1.0);
   return std::max(0.0, sumOfSquaresDn2 - 2.0 * products + GetSumOfSquaresDn2()) * share;
 }

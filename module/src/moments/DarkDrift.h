@@ -14,39 +14,42 @@ namespace sensornoise
 {
 
 /** \class DarkDrift
- * \brief The level that all pixels of dark frames share, frame by frame, and what it adds to a pixel's variance.
+ * \brief Common level of the pixels of dark frames, frame by frame, and the variance that its drift adds to a pixel.
  *
- * A black level that drifts adds its variance to that of every pixel. Beside the pixel's sum of squares it needs the
- * pixel's products with the frames' levels: then the pixel's deviations from the frames' levels have exactly the
- * distribution of noise alone, and not a variance that may be negative after a subtraction.
+ * A black level that drifts adds its variance to the variance of every pixel. To remove it, this class sums the
+ * products of every pixel with the levels of the frames. The deviations of a pixel from these levels then have exactly
+ * the distribution of noise alone. A subtracted variance could be negative.
  *
- * A frame's level is the mean of its pixels within 6 standard deviations of their median, as the offset is: a pixel
- * that blinks does not move it. Frames are added one by one in time order, so that threads and chunks change no bit.
+ * The level of a frame is the mean of its pixels within 6 standard deviations of their median, like the offset: a
+ * pixel that blinks does not move it. Frames are added one by one in time order, so that the numbers of threads and of
+ * frames per call do not change the result.
  *
- * Memory: 8 bytes a pixel. */
+ * Memory: 8 bytes per pixel. */
 class SensorNoise_EXPORT DarkDrift
 {
 public:
-  /** No drift is known, and none is taken off. */
+  /** Constructs a drift that is not known; nothing is subtracted. */
   DarkDrift() = default;
 
-  /** \param pixels of a frame
-   * \param mask nonzero at the pixels that make a frame's level; empty: all do */
+  /** \param pixels number of pixels of a frame
+   * \param mask nonzero at the pixels that define the level of a frame; empty: all pixels */
   explicit DarkDrift(std::size_t pixels, std::vector<std::uint8_t> mask = {});
 
-  /** Adds the next \a count frames, stored one after the other, of one of the five types of a stack. */
+  /** Adds the next \a count frames, stored one after the other. The pixel type is one of the five types of a stack. */
   template <typename TPixel>
   void
   AddFrames(const TPixel * frames, std::size_t count, const ParallelFor & parallelFor);
 
-  /** What is left of the sum of squared deviations of pixel \a p from its mean without the drift [DN^2].
-   * \param sumOfSquaresDn2 that of the pixel as it is [DN^2]
-   * \param meanDn its mean [DN] */
+  /** Returns the sum of squared deviations of pixel \a p from its mean, without the drift [DN^2].
+   * \param p number of the pixel
+   * \param sumOfSquaresDn2 sum of squared deviations of the pixel with the drift [DN^2]
+   * \param meanDn mean of the pixel over time [DN] */
   double
   SquaresWithoutDrift(std::size_t p, double sumOfSquaresDn2, double meanDn) const;
 
-  /** Variance over time of the level that all pixels share [DN^2]; 0 below two frames.
-   * \param pixelVarianceDn2 of the typical pixel without the drift: its share of the levels' variance is taken off */
+  /** Returns the variance over time of the level that all pixels share [DN^2]; 0 below two frames.
+   * \param pixelVarianceDn2 variance of a typical pixel without the drift [DN^2]; its contribution to the variance of
+   * the levels is subtracted */
   double
   GetVarianceDn2(double pixelVarianceDn2) const;
 
@@ -63,14 +66,14 @@ private:
   double
   GetSumOfSquaresDn2() const;
 
-  std::vector<std::uint8_t> m_Mask;                   // nonzero at the pixels that make the level
-  std::vector<std::size_t>  m_Sample;                 // pixels that tell the median
-  std::vector<double>       m_LevelsDn;               // of the frames
+  std::vector<std::uint8_t> m_Mask;                   // nonzero at the pixels that define the level
+  std::vector<std::size_t>  m_Sample;                 // pixels from which the median is computed
+  std::vector<double>       m_LevelsDn;               // levels of the frames
   std::vector<double>       m_ProductsDn2;            // sum over time of (u - first level) (level - first level)
-  double                    m_SumDn{ 0.0 };           // of level - first level
-  double                    m_SumOfSquaresDn2{ 0.0 }; // of the same
-  double                    m_ReachDn{ 0.0 };         // about the median
-  double                    m_LevelPixels{ 0.0 };     // that make the first frame's level
+  double                    m_SumDn{ 0.0 };           // sum of level - first level
+  double                    m_SumOfSquaresDn2{ 0.0 }; // sum of its squares
+  double                    m_ReachDn{ 0.0 };         // largest distance from the median
+  double                    m_LevelPixels{ 0.0 };     // number of pixels that define the level of the first frame
 };
 
 } // namespace sensornoise

@@ -35,7 +35,7 @@ namespace sensornoise
 namespace
 {
 
-/** What is found of all pixels, whether they are used or not. */
+/** Result for all pixels, whether they are used or not. */
 struct DarkSurvey
 {
   DarkMaps    maps;
@@ -44,8 +44,8 @@ struct DarkSurvey
   std::size_t clipped{ 0 };
 };
 
-/** Offsets, variances without the drift, and the pixels that are finite, never clipped and not masked. Takes mean and
- * variance. */
+/** Computes the offsets, the variances without the drift, and the pixels that are finite, never clipped and not masked.
+ * Moves the mean and the variance out of \a ofStack. */
 template <typename TPixel>
 DarkSurvey
 SurveyPixels(TemporalMaps<TPixel> &            ofStack,
@@ -80,11 +80,11 @@ SurveyPixels(TemporalMaps<TPixel> &            ofStack,
   return survey;
 }
 
-/** Throws std::invalid_argument if the pixels do not tell the offset. */
+/** Throws std::invalid_argument if the pixels do not determine the offset. */
 void
 RequireDarkLevel(const DarkSurvey & survey)
 {
-  // Some dead pixels do no harm, nor does a sample in a thousand.
+  // Some dead pixels do no harm, nor does a clipped sample in a thousand.
   const auto   frames = static_cast<double>(survey.maps.frames);
   const auto   clipped = static_cast<double>(survey.clipped);
   const double clippedFraction = clipped / (clipped + static_cast<double>(survey.usable));
@@ -107,7 +107,7 @@ RequireDarkLevel(const DarkSurvey & survey)
   }
 }
 
-/** The values of the usable pixels. */
+/** Returns the values of the usable pixels. */
 std::vector<double>
 UsableValues(const std::vector<double> & values, const std::vector<std::uint8_t> & usable)
 {
@@ -122,21 +122,22 @@ UsableValues(const std::vector<double> & values, const std::vector<std::uint8_t>
   return used;
 }
 
-/** The chance that a pixel of this noise holds one code in all frames, at worst: its level lies on the code. */
+/** Returns the probability that a pixel of this noise holds one code in all frames, in the worst case: its level lies
+ * on the code. */
 double
 ChanceOfOneCode(double noiseDn, double stepDn, double frames)
 {
   return std::pow(std::erf(stepDn / (noiseDn * std::sqrt(8.0))), frames - 1.0);
 }
 
-/** Takes the defective pixels out of the usable ones. Returns how many they are. */
+/** Marks the defective pixels as not usable. Returns their number. */
 template <typename TPixel>
 std::size_t
 ExcludeDefective(DarkMaps & maps, const TemporalMaps<TPixel> & ofStack)
 {
   const double freedom = static_cast<double>(maps.frames) - 1.0;
   const double share = MedianShareOfVariance(freedom);
-  // Less than the noise of rounding is not known to be less.
+  // A variance below the quantization noise is not significant.
   const double medianDn2 =
     std::max(QuantileOf(UsableValues(maps.varianceDn2, maps.usable), 0.5), share * maps.stepDn * maps.stepDn / 12.0);
   if (!(medianDn2 > 0.0))

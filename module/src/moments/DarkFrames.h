@@ -22,26 +22,29 @@ struct MeanOfPixels
   double standardError{ 0.0 };
 };
 
-/** The mean of those values that are from \a low to \a high. */
+/** Returns the mean of the values from \a low to \a high, both included. */
 SensorNoise_EXPORT MeanOfPixels
 MeanWithin(const std::vector<double> & values, double low, double high);
 
-/** Offset and read noise from frames taken without light, at the exposure, gain and temperature of the others.
+/** Measures the offset and the read noise from frames taken without light, at the exposure, gain and temperature of the
+ * others.
  *
- * The offset is the mean of the pixels' means that lie within 6 standard deviations (half the distance of the 16 % and
- * the 84 % quantile) of their median: hot and dead pixels do not carry it off. Its standard error holds temporal noise,
- * fixed pattern, the drift of the level that all pixels share, and what rounding to codes hides of a level with hardly
- * any noise.
+ * The offset is the mean of the temporal means of the pixels within 6 standard deviations of their median (a standard
+ * deviation is half the distance between the quantiles 0.16 and 0.84). Hot and dead pixels are thus excluded. Its
+ * standard error contains temporal noise, fixed-pattern noise, the drift of the common level, and the error by
+ * rounding to codes of a level with hardly any noise.
  *
- * Two frames or more tell every pixel's variance over time, too. The mean is that of all pixels that are not defective,
- * the noisy ones among them: their noise is in the bright frames as well. Defective is a pixel of more than
- * InMoments.defectiveNoiseFactor times the typical noise, or one that never changed where a typical pixel would have,
- * with a chance of 1e-6 of being wrong. Its standard error is the pixels' scatter. The median pixel's read noise, see
- * MedianReadNoiseOf(), stands beside it.
+ * Two frames or more also yield the temporal variance of every pixel. The mean variance is over all pixels that are
+ * not defective. It includes noisy pixels, because their noise is in the bright frames as well. A pixel is defective
+ * if its noise exceeds InMoments.defectiveNoiseFactor times the typical noise. It is also defective if it never
+ * changed although a typical pixel does with a probability of at least 1 - 1e-6. The standard error of the mean is the
+ * scatter of the pixels. The read noise of the median pixel, see MedianReadNoiseOf(), is returned with it.
  *
- * The moments are given away, their memory serves for the maps. \a drift, of the same frames, is taken off all
- * variances; without it a level that drifts adds to them. \a mask, if given, has a nonzero value at the pixels to be
- * used. Throws std::invalid_argument if fewer than 30 pixels are left, or if the frames are cut off at a clip level. */
+ * The moments are consumed: their memory holds the maps.
+ * \param drift of the same frames: it is removed from all variances; without it a level that drifts adds to them
+ * \param mask if not empty, nonzero at the pixels to be used
+ *
+ * Throws std::invalid_argument if fewer than 30 pixels are left, or if the frames are clipped. */
 template <typename TPixel>
 SensorNoise_EXPORT KnownOffset
 MeasureDarkFrames(TemporalMoments<TPixel>           moments,

@@ -10,15 +10,15 @@
 namespace sensornoise
 {
 
-/** What two or more dark frames tell of every pixel of the frame. */
+/** Maps of every pixel from dark frames; the variance needs two or more frames. */
 struct DarkMaps
 {
   std::vector<double> offsetDn;            ///< mean over time [DN]; NaN: not finite, clipped or masked
-  std::vector<double> varianceDn2;         ///< over time, without the frames' common drift, with the noise of rounding
-                                           ///< to codes [DN^2]; NaN as above
+  std::vector<double> varianceDn2;         ///< variance over time, without the common drift of the frames, with
+                                           ///< quantization noise [DN^2]; NaN as above
   std::vector<std::uint8_t> usable;        ///< 0: not finite, clipped, masked or defective, see DefectivePixels.h
-  std::size_t               frames{ 0 };   ///< a variance has one degree of freedom less
-  double                    stepDn{ 0.0 }; ///< spacing of the codes [DN]; 0: the data have no codes
+  std::size_t               frames{ 0 };   ///< number of frames; the degrees of freedom of a variance are one less
+  double                    stepDn{ 0.0 }; ///< quantization step [DN]; 0: the data have no codes
 };
 
 } // namespace sensornoise

@@ -9,7 +9,7 @@
 namespace sensornoise
 {
 
-/** What the median of the variances of pixels with the same noise is of their expectation [1].
+/** Returns the ratio of the median of the variances of pixels with the same noise to their expectation [1].
  * \param freedom degrees of freedom of a variance, above 0 */
 inline double
 MedianShareOfVariance(double freedom)
@@ -17,13 +17,14 @@ MedianShareOfVariance(double freedom)
   return ChiSquareQuantile(0.5, freedom) / freedom;
 }
 
-/** The variance above which a pixel is defective [DN^2].
+/** Returns the variance above which a pixel is defective [DN^2].
  *
- * That of InMoments.defectiveNoiseFactor times the typical noise, times 1 + 2/freedom. Of pixels whose noise is near
- * the limit some stay below it by chance and some come to lie above; those that are lost are the ones of large
- * variance. With this factor as much variance is gained as is lost, exactly so where the density of the true variances
- * falls as their third power, and to some per cent of what lies near the limit for other tails.
- * \param medianDn2 median of the pixels' variances [DN^2]
+ * The limit is the variance of InMoments.defectiveNoiseFactor times the typical noise, times 1 + 2/freedom. Of the
+ * pixels whose noise is near the limit, some stay below it by chance and some exceed it; the excluded ones have the
+ * larger variances. With this factor the gained and the lost variance are equal, exactly so where the density of the
+ * true variances falls as their third power. For other tails they agree to some per cent of the variance near the
+ * limit.
+ * \param medianDn2 median of the variances of the pixels [DN^2]
  * \param freedom degrees of freedom of a variance, above 0 */
 inline double
 DefectiveVarianceDn2(double medianDn2, double freedom)

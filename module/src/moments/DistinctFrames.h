@@ -17,54 +17,55 @@ namespace sensornoise
 {
 
 /** \class DistinctFrames
- * \brief Which frames of a stack are counted: of those that are equal the first one alone, its original, and none that
- * is left out.
+ * \brief The frames of a stack that are counted. Of equal frames only the first one, the original, is counted; frames
+ * that are left out are not.
  *
- * What is computed of the stack knows the distinct frames only, by their place among each other. */
+ * All later computations use the distinct frames only, numbered by their place among each other. */
 class SensorNoise_EXPORT DistinctFrames
 {
 public:
-  /** The place of a frame that is left out. */
+  /** Place of a frame that is left out. */
   static constexpr std::size_t None = std::numeric_limits<std::size_t>::max();
 
-  /** \a originals holds, for each frame, the first frame that it equals: itself, or an earlier one. */
+  /** Constructs the distinct frames. \a originals holds, for each frame, the first frame that it equals: itself or an
+   * earlier one. */
   explicit DistinctFrames(std::vector<std::size_t> originals = {});
 
-  /** The same without the frames \a leftOut and those that equal them. */
+  /** Returns the distinct frames without the frames \a leftOut and the frames that equal them. */
   DistinctFrames
   Without(const std::vector<std::size_t> & leftOut) const;
 
-  /** Frames of the stack as given. */
+  /** Number of frames of the stack as given. */
   std::size_t
   Given() const
   {
     return m_Originals.size();
   }
-  /** Frames that are counted. */
+  /** Number of frames that are counted. */
   std::size_t
   Count() const
   {
     return m_Count;
   }
-  /** The first frame that frame \a t of the stack as given equals, from 0. */
+  /** Number, from 0, of the first frame that frame \a t of the stack as given equals. */
   std::size_t
   OriginalOf(std::size_t t) const
   {
     return m_Originals[t];
   }
-  /** Frames that equal an earlier one. */
+  /** Number of frames that equal an earlier one. */
   std::size_t
   Repeated() const
   {
     return m_Repeated;
   }
-  /** Whether frame \a t itself is counted. */
+  /** Returns whether frame \a t itself is counted. */
   bool
   IsCounted(std::size_t t) const
   {
     return m_Originals[t] == t && m_Places[t] != None;
   }
-  /** The frames that are counted, in their order. */
+  /** Returns the numbers of the frames that are counted, ascending. */
   std::vector<std::size_t>
   Counted() const
   {
@@ -78,7 +79,8 @@ public:
     }
     return counted;
   }
-  /** Whether all of the frames first ... first + count - 1 that there are are counted. */
+  /** Returns whether all of the frames first ... first + count - 1 are counted; frames beyond the end of the stack are
+   * ignored. */
   bool
   AreDistinct(std::size_t first, std::size_t count) const
   {
@@ -91,7 +93,7 @@ public:
     }
     return true;
   }
-  /** The place of frame \a t's original among the distinct frames, from 0; None: it is left out. */
+  /** Returns the place of the original of frame \a t among the distinct frames, from 0; None: it is left out. */
   std::size_t
   PlaceOf(std::size_t t) const
   {
@@ -103,7 +105,7 @@ public:
     return m_Places;
   }
 
-  /** Of values of all frames those of the distinct ones. */
+  /** Selects the values of the distinct frames from values of all given frames. */
   template <typename TValue>
   std::vector<TValue>
   OfDistinct(const std::vector<TValue> & ofGiven) const
@@ -119,7 +121,8 @@ public:
     return values;
   }
 
-  /** For every frame its original's value, of those of the distinct frames; \a ofLeftOut for those left out. */
+  /** Expands values of the distinct frames to all given frames: each frame has the value of its original. Frames that
+   * are left out have \a ofLeftOut. */
   template <typename TValue>
   std::vector<TValue>
   OfGiven(const std::vector<TValue> & ofDistinct, const TValue & ofLeftOut) const
@@ -132,7 +135,7 @@ public:
     return values;
   }
 
-  /** Calls function(first, count) for the longest runs of frames that are counted among first ... first + count - 1. */
+  /** Calls function(first, count) for the longest runs of counted frames among first ... first + count - 1. */
   template <typename TFunction>
   void
   ForRuns(std::size_t first, std::size_t count, TFunction function) const
@@ -152,8 +155,8 @@ public:
     }
   }
 
-  /** Calls function(frames, place of the first, number) with the distinct ones of the frames first ... first + count -
-   * 1, one after the other, see ForChosenFrames(). */
+  /** Calls function(frames, place of the first, number) with the counted frames among first ... first + count - 1,
+   * contiguous in memory, see ForChosenFrames(). */
   template <typename TPixel, typename TFunction>
   void
   ForDistinct(const TPixel *      frames,

@@ -17,7 +17,7 @@ namespace
 {
 using Places = std::vector<std::size_t>;
 
-/** Mean of a cell over the frames with exposures from \a low to \a high [DN]. */
+/** Returns the mean of a cell over the frames with exposures from \a low to \a high [DN]. */
 double
 MeanBetween(const FrameThumbnails &     thumbnails,
             const Places &              counted,
@@ -42,10 +42,10 @@ MeanBetween(const FrameThumbnails &     thumbnails,
 /** Levels of the finite cells [DN]. */
 struct CellLevels
 {
-  Places              cells;         ///< their numbers
-  std::vector<double> means;         ///< over all frames
-  std::vector<double> atZero;        ///< at exposure 0, by the lowest and the highest exposure
-  double              zeroDn{ 0.0 }; ///< the median of these
+  Places              cells;         ///< numbers of the cells
+  std::vector<double> means;         ///< means over all frames
+  std::vector<double> atZero;        ///< levels at exposure 0, extrapolated from the lowest and the highest exposure
+  double              zeroDn{ 0.0 }; ///< median of the levels at exposure 0
 };
 
 CellLevels

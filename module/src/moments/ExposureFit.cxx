@@ -33,8 +33,8 @@ struct WeightedFit
   MatrixXd columns;
   MatrixXd operatorOnLevels;
 
-  /** \a scales are what the deviations are relative to [DN]. Exposures in units of the largest one keep the equations
-   * well conditioned. */
+  /** \a scales are the signals to which the deviations are relative [DN]. Exposures in units of the largest one keep
+   * the equations well conditioned. */
   WeightedFit(const Levels & levels, const VectorXd & scales, Index coefficients)
     : columns(scales.size(), coefficients)
   {
@@ -66,7 +66,7 @@ MeansOf(const Levels & levels)
 }
 
 /** Returns the scales of the deviations in the fit [DN]: y, or the exposure where no dark offset was measured. The line
- * less its own intercept is in proportion to the exposure. */
+ * minus its own intercept is proportional to the exposure. */
 VectorXd
 ScalesOf(const Levels & levels, const std::optional<double> & darkDn)
 {
@@ -77,7 +77,7 @@ ScalesOf(const Levels & levels, const std::optional<double> & darkDn)
   return scales;
 }
 
-/** The range of levels that the linearity error is measured in. */
+/** Range of levels in which the linearity error is measured. */
 struct FitRange
 {
   double saturationDn;
@@ -106,8 +106,8 @@ LevelsWithin(const Levels & bright, const FitRange & range, double offsetDn)
   return within;
 }
 
-/** The levels within the range. Without dark frames the range depends on the offset, and that on the levels: a few
- * rounds settle both. */
+/** Returns the levels within the range. Without dark frames the range depends on the offset, and the offset on the
+ * levels: a few iterations make both consistent. */
 Levels
 FindLevels(const Levels & bright, const FitRange & range, const std::optional<double> & darkDn)
 {
@@ -136,12 +136,12 @@ FindLevels(const Levels & bright, const FitRange & range, const std::optional<do
 /** A variance and its degrees of freedom. */
 struct Scatter
 {
-  double variance{ 0.0 }; ///< relative [1]
+  double variance{ 0.0 }; ///< relative variance [1]
   double dof{ 0.0 };
 };
 
-/** Estimates the scatter of the illumination from frames of equal exposure: beside it, the noise of the pixels moves a
- * frame. The mean squares are weighed by their own variances, which depend on the result. */
+/** Estimates the scatter of the illumination from frames of equal exposure, without the noise of the pixels. The mean
+ * squares are weighted by their variances, which depend on the result. */
 Scatter
 ScatterOfRepeats(const Levels & levels, const VectorXd & signals)
 {
@@ -167,8 +167,8 @@ ScatterOfRepeats(const Levels & levels, const VectorXd & signals)
   return scatter;
 }
 
-/** Estimates the scatter from the deviations from a parabola, where no exposure has two frames. It holds the noise of
- * pixels. */
+/** Estimates the scatter from the deviations from a parabola, for stacks in which no exposure has two frames. It
+ * includes the noise of the pixels. */
 Scatter
 ScatterAboutParabola(const Levels & levels, const VectorXd & scales, const VectorXd & signals)
 {
@@ -183,7 +183,7 @@ ScatterAboutParabola(const Levels & levels, const VectorXd & scales, const Vecto
   return { rest.cwiseQuotient(signals).squaredNorm() / dof, dof };
 }
 
-/** Variance of each level [DN^2]. */
+/** Returns the variance of each level [DN^2]. */
 VectorXd
 VariancesOf(const Levels & levels, const VectorXd & signals, const Scatter & scatter)
 {
@@ -198,13 +198,15 @@ VariancesOf(const Levels & levels, const VectorXd & signals, const Scatter & sca
   return variances;
 }
 
-/** The square of the linearity error and its standard error. \a deviations have the covariance \a covariance.
+/** Returns the square of the linearity error and its standard error. \a deviations have the covariance \a covariance.
  *
- * Noise adds the trace of C to the sum of the squares of the deviations d. Without it, the mean square has the variance
- * (4 d'Cd + 2 tr C^2) / n^2, to which the error of the scatter adds 2 (tr C)^2 / dof / n^2. With measured deviations
- * d'Cd is too large by tr C^2. The square of the mean of absolute values is the mean square times their ratio by the
- * deviations; large deviations move it by the signs' sum instead, whose error is the larger one. Where the interval
- * holds 0, the noise determines the ratio, and the upper bound of the ratio, 1, is used. */
+ * Noise adds the trace of the covariance C to the sum of the squares of the deviations d. Without noise, the mean
+ * square has the variance (4 d'Cd + 2 tr C^2) / n^2; the error of the scatter adds 2 (tr C)^2 / dof / n^2. With
+ * measured deviations d'Cd is too large by tr C^2.
+ *
+ * The square of the mean of absolute values is the mean square times their ratio, which is computed from the
+ * deviations. Large deviations change it through the sum of their signs instead; the larger of the two errors is used.
+ * Where the interval contains 0, the noise determines the ratio, and the upper bound of the ratio, 1, is used. */
 FittedNumber
 SquaredError(const VectorXd & deviations, const MatrixXd & covariance, double dof)
 {
@@ -223,8 +225,9 @@ SquaredError(const VectorXd & deviations, const MatrixXd & covariance, double do
   return { factor * (squares - trace), factor * error };
 }
 
-/** The offset where there are no dark frames. A line through a curved response misses it: what a parabola would say
- * instead, or the error of that, whichever is larger, belongs to the standard error. */
+/** Returns the offset where there are no dark frames. A line through a curved response is biased there. The larger of
+ * the difference to the offset of a parabola and the error of this difference is therefore added to the standard
+ * error. */
 FittedNumber
 OffsetOfLine(const Levels & levels, const VectorXd & scales, const WeightedFit & line, const VectorXd & variances)
 {

@@ -42,10 +42,10 @@ struct ExposureFit
    * the absolute relative deviations, as a fraction. Null: not identifiable, see `reason`. */
   std::optional<FittedNumber> squaredError;
   double                      dof{ 0.0 }; ///< degrees of freedom of the scatter that its standard error is derived from
-  std::string                 reason;     ///< sentence that says why there is no linearity error; "": there is one
+  std::string                 reason;     ///< reason why there is no linearity error, as a sentence; "": there is one
 
-  /** Dark offset [DN]: of frames of exposure 0 the mean, else the line at exposure 0, with an error that allows for a
-   * curved response. Null: there are too few levels. */
+  /** Dark offset [DN]: the mean of the frames of exposure 0, else the line at exposure 0, with an error that allows for
+   * a curved response. Null: there are too few levels. */
   std::optional<FittedNumber> offsetDn;
   bool                        isOffsetOfDarkFrames{ false };
   std::optional<FittedNumber> responsivity; ///< slope of the line [DN per unit of exposure]

@@ -22,7 +22,7 @@ namespace
 {
 using FramesByExposure = std::map<double, std::vector<std::size_t>>;
 
-/** Mean of a cell over some frames [DN]. */
+/** Returns the mean of a cell over some frames [DN]. */
 double
 CellMean(const FrameThumbnails & thumbnails, const std::vector<std::size_t> & frames, std::size_t cell)
 {
@@ -34,7 +34,7 @@ CellMean(const FrameThumbnails & thumbnails, const std::vector<std::size_t> & fr
   return sum / static_cast<double>(frames.size());
 }
 
-/** A cell and its signal, from the lowest to the highest exposure [DN]. */
+/** A cell and its signal: the rise of its mean from the lowest to the highest exposure [DN]. */
 struct CellSignal
 {
   std::size_t cell;
@@ -50,7 +50,7 @@ BrightSignal(const std::vector<CellSignal> & cells)
   return signals.empty() ? 0.0 : Quantile(signals, InMoments.brightCellsQuantile);
 }
 
-/** Finds the cells whose levels are followed, see FindExposureLevels(). */
+/** Finds the cells whose levels are used, see FindExposureLevels(). */
 std::vector<std::size_t>
 FindBrightCells(const FrameThumbnails &           thumbnails,
                 const FramesByExposure &          frames,
@@ -90,7 +90,8 @@ FindBrightCells(const FrameThumbnails &           thumbnails,
   return cells;
 }
 
-/** Variance of the mean of one frame that the noise of its pixels makes, by how the cells move apart [DN^2]. */
+/** Returns the variance of the mean of one frame due to the noise of its pixels, from the differences between the
+ * motions of the cells [DN^2]. */
 double
 PixelNoise(const std::vector<std::vector<double>> & deviations)
 {

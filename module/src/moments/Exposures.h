@@ -14,8 +14,9 @@ namespace sensornoise
 
 class FrameThumbnails;
 
-/** Throws std::invalid_argument unless all exposures are finite and 0 or more, and at least 3 of them differ: a line
- * passes through any two levels, so that two say nothing about linearity. An empty list, no exposures, is allowed. */
+/** Throws std::invalid_argument unless all exposures are finite and 0 or more, and at least 3 of them differ. A line
+ * passes through any two levels, so that two levels contain no information about linearity. An empty list, no
+ * exposures, is allowed. */
 SensorNoise_EXPORT void
 ValidateExposures(const std::vector<double> & exposures);
 
@@ -30,23 +31,24 @@ struct ExposureLevel
   std::size_t frames{ 0 };          ///< different frames of this exposure
   double      meanDn{ 0.0 };        ///< mean over pixels and frames
   double      squaresDn2{ 0.0 };    ///< sum over the frames of (level of the frame - meanDn)^2
-  double      pixelNoiseDn2{ 0.0 }; ///< variance of the level of one frame that the noise of its pixels makes
-  double      patternDn2{ 0.0 };    ///< variance of the mean that differences between cells make, noise included
+  double      pixelNoiseDn2{ 0.0 }; ///< variance of the level of one frame due to the noise of its pixels
+  double      patternDn2{ 0.0 };    ///< variance of the mean due to differences between cells, including noise
 };
 
-/** Returns the levels by exposure, in rising order, of the brightest cells of the frames.
+/** Returns the levels of the brightest cells of the frames by exposure, in rising order.
  *
- * The signal of a cell is what its mean rises by from the lowest to the highest exposure, which holds no offset. The
- * brightest cells are those with nearly the signal of the quantile 0.95 (MomentsConstants): almost all of a flat field,
- * the brightest places of a scene, where the levels cover the largest range. Cells with a clipped pixel (0 in \a valid,
- * of a frame's size) are left out, unless what is left reaches less than half as far: a flat field that is driven into
- * saturation is clipped everywhere, and its saturated levels are outside of the range that EMVA 1288 takes.
+ * The signal of a cell is the rise of its mean from the lowest to the highest exposure, so that it contains no offset.
+ * The brightest cells are those near the quantile 0.95 of the signal (MomentsConstants): almost all cells of a flat
+ * field, or the brightest places of a scene, where the levels cover the largest range. Cells with a clipped pixel (0
+ * in \a valid, of a frame's size) are left out, unless the remaining cells have less than half of the signal. A flat
+ * field driven into saturation is clipped everywhere, and its saturated levels are outside of the range of EMVA 1288.
  *
- * The noise of pixels moves each cell by itself, the illumination moves all of them together. So the scatter over time
- * of the cells about their common motion, over their number, is \c pixelNoiseDn2; of an exposure with a single frame it
- * is what neighbouring pixels differ by, an upper bound.
+ * The noise of pixels moves each cell independently, the illumination moves all cells together. The scatter over time
+ * of the cells about their common motion, divided by their number, is therefore \c pixelNoiseDn2. For an exposure with
+ * a single frame it is estimated from the differences of neighbouring pixels, an upper bound.
  *
- * \a counted are the frames that count, \a exposures those of all frames. Empty if fewer than two cells are finite. */
+ * \a counted holds the frames that are counted, \a exposures the exposures of all frames. The result is empty if fewer
+ * than two cells are finite. */
 SensorNoise_EXPORT std::vector<ExposureLevel>
 FindExposureLevels(const FrameThumbnails &           thumbnails,
                    const std::vector<std::size_t> &  counted,

@@ -13,7 +13,7 @@ namespace sensornoise
 namespace
 {
 
-/** Whether the outermost of \a levels is a pile-up; \a stepDn is their spacing, if it is known. */
+/** Returns whether the outermost of \a levels is a pile-up. \a stepDn is their spacing, if it is known [DN]. */
 bool
 PilesUp(const OutermostLevels & levels, std::optional<double> stepDn, double typicalVarianceDn2, double depth)
 {
@@ -21,7 +21,7 @@ PilesUp(const OutermostLevels & levels, std::optional<double> stepDn, double typ
   return CanTellPileUp(typicalVarianceDn2, step, depth) && IsPileUp(levels.Pixels(), levels.MostInside(step));
 }
 
-/** "given", "pile-up" or "none". */
+/** Returns "given", "pile-up" or "none". */
 std::string
 SourceOf(bool isGiven, bool isPileUp)
 {

@@ -12,16 +12,16 @@
 namespace sensornoise
 {
 
-/** Finds the clip levels of floating-point data from every pixel's extremes over time, as FindCodes() those of
- * integers: a clip level is a pile-up of the extremes, that is, many pixels whose extreme is exactly the outermost
- * value.
+/** Finds the clip levels of floating-point data from the extremes of every pixel over time, as FindCodes() does for
+ * integers. A clip level is a pile-up of the extremes: many pixels have exactly the outermost value as extreme.
  *
- * Given values win. There are no codes, and so no end of a code range: where nothing is given and nothing piles up, no
- * pixel is clipped. Frames of codes that were converted, or scaled by one number, pile up as the codes did, and are
- * compared with the levels one step apart. A flat field that is divided out spreads a clip level over many values: then
- * it cannot be found and must be given. \a typicalVarianceDn2 is the median temporal variance of the pixels that vary,
- * see CanTellPileUp().
- * \a minima or \a maxima may be empty where they are known not to pile up. */
+ * Given values take precedence. Floating-point data have no DN range: where nothing is given and nothing piles up, no
+ * pixel is clipped. Converted codes, and codes scaled by one number, pile up like the codes, and are compared with the
+ * levels one step apart. The division by a flat field spreads a clip level over many values; then it cannot be found
+ * and must be given.
+ *
+ * \a typicalVarianceDn2 is the median temporal variance of the pixels that vary [DN^2], see CanTellPileUp(). \a minima
+ * or \a maxima may be empty if they are known to have no pile-up. */
 SensorNoise_EXPORT CodeRange
 FindLevels(const OutermostLevels & minima,
            const OutermostLevels & maxima,

@@ -20,7 +20,7 @@ namespace sensornoise
 namespace
 {
 
-/** Name of the sums in a stream. */
+/** Returns the name of the sums in a stream. */
 template <typename TPixel>
 std::string
 FloatingStreamName()
@@ -46,7 +46,7 @@ FloatingMoments<TPixel>::AddFrames(const TPixel *      firstFrame,
                                    std::size_t         begin,
                                    std::size_t         end)
 {
-  constexpr std::size_t blockSize = 512; // the block's sums stay in the first-level cache
+  constexpr std::size_t blockSize = 512; // the sums of a block stay in the first-level cache
   TPixel                room[blockSize];
   for (std::size_t block = begin; block < end; block += blockSize)
   {

@@ -23,16 +23,16 @@ namespace sensornoise
  * \brief Running moments over time of every pixel of a stack of floating-point frames: mean, variance, minimum,
  * maximum.
  *
- * Welford's recurrence adds the frames one by one in time order, so that chunks and threads change no bit. Sums made
- * separately are merged by the formula of Chan, Golub & LeVeque (1983), which agrees to 1e-12 with adding the frames.
- * A pixel that was NaN or infinite once is not finite any more: IsFinite() tells.
+ * Welford's recurrence adds the frames one by one in time order, so that the numbers of threads and of frames per call
+ * do not change the result. Sums made separately are merged by the formula of Chan, Golub & LeVeque (1983), which
+ * agrees with adding the frames to 1e-12. A pixel with a NaN or an infinity in any frame is not finite, see
+ * IsFinite().
  *
  * Usage as IntegerMoments: AddFrames() for ranges of pixels that cover the frame once, then AdvanceFrames().
  *
- * Memory: 32 bytes a pixel, whatever the number of frames.
+ * Memory: 32 bytes per pixel, for any number of frames.
  *
- * \tparam TPixel float or double.
- */
+ * \tparam TPixel float or double. */
 template <typename TPixel>
 class FloatingMoments
 {
@@ -48,7 +48,7 @@ public:
   {
     this->AddFrames(firstFrame, PixelLayout::OfPixels(m_Mean.size(), stride), frames, begin, end);
   }
-  /** The same for frames whose pixels stand as \a layout says. */
+  /** Adds \a frames frames whose pixels lie as \a layout specifies. */
   void
   AddFrames(const TPixel *      firstFrame,
             const PixelLayout & layout,
@@ -56,14 +56,15 @@ public:
             std::size_t         begin,
             std::size_t         end);
 
-  /** Tells that \a frames frames have been added for every pixel. */
+  /** Counts \a frames frames, which have been added for every pixel. */
   void
   AdvanceFrames(std::size_t frames)
   {
     m_Frames += frames;
   }
 
-  /** Adds the sums of later frames of the same pixels. */
+  /** Adds the moments of later frames of the same pixels. Throws std::invalid_argument if the number of pixels differs.
+   */
   void
   Merge(const FloatingMoments & later);
 
@@ -71,12 +72,12 @@ public:
   void
   Save(std::ostream & out) const;
 
-  /** Replaces the moments by those of a stream. Throws std::runtime_error, and changes nothing, if it holds other sums,
-   * or those of another type or number of pixels, or ends early. */
+  /** Replaces the moments by the moments of a stream. Throws std::runtime_error, and changes nothing, if the stream
+   * ends early or holds other sums, another type or another number of pixels. */
   void
   Restore(std::istream & in);
 
-  /** Mean, variance and extremes as maps, in the memory of the moments, which are given away. */
+  /** Moves mean, variance and extremes into maps, which take the memory of the moments. */
   TemporalMaps<TPixel>
   TakeMaps(const ParallelFor & parallelFor = SerialFor);
 
@@ -91,7 +92,7 @@ public:
     return m_Frames;
   }
 
-  /** Whether pixel \a p was finite in every frame. */
+  /** Returns whether pixel \a p was finite in every frame. */
   bool
   IsFinite(std::size_t p) const
   {
@@ -119,7 +120,7 @@ public:
     return m_Squares[p] / static_cast<double>(m_Frames - 1);
   }
 
-  /** Lowest and highest value of pixel \a p over time [DN]; frames that are NaN are passed over. */
+  /** Lowest and highest value of pixel \a p over time [DN]; frames where it is NaN are ignored. */
   double
   GetMinimum(std::size_t p) const
   {

@@ -18,57 +18,60 @@ namespace sensornoise
 {
 
 /** \class FrameFingerprints
- * \brief The fingerprints of the frames of a stack, which tell those that are equal, bit by bit: NaN are bits, too, and
- * 0 and -0 differ.
+ * \brief Fingerprints of the frames of a stack, which identify frames that are equal bit by bit: NaN are compared as
+ * bits, and 0 and -0 differ.
  *
- * A recorder that runs faster than its camera writes equal frames. Their noise is the same: counted as often as they
- * are there, they would make errors too small, and no two exposures of any camera are equal in all pixels by chance.
+ * A recorder that runs faster than its camera writes equal frames. They have the same noise; if each was counted, the
+ * estimated errors would be too small. Two exposures of a camera are never equal in all pixels by chance.
  *
- * Memory: about 90 bytes a frame. */
+ * Memory: about 90 bytes per frame. */
 class SensorNoise_EXPORT FrameFingerprints
 {
 public:
   explicit FrameFingerprints(std::size_t frames);
 
-  /** Frames where \a areCountedElsewhere, of a value for each, is not 0 are taken up and not counted: they equal one
-   * that another process counts. Throws std::invalid_argument if there are not as many values as frames. */
+  /** Marks frames that another process counts. Frames with a nonzero value in \a areCountedElsewhere are registered and
+   * not counted: they equal a frame that another process counts. Throws std::invalid_argument if there are not as many
+   * values as frames. */
   void
   SetCountedElsewhere(const std::vector<std::uint8_t> & areCountedElsewhere);
 
-  /** Takes up the fingerprints of frame \a first and those that follow. Returns 1 for the frames that are to be
-   * counted, as they equal none that was counted before, 0 for the others. */
+  /** Registers the fingerprints of frame \a first and those that follow. Returns 1 for the frames that are to be
+   * counted, as they equal none that was counted before, and 0 for the others. */
   std::vector<std::uint8_t>
   Add(std::size_t first, const std::vector<BytesFingerprint> & fingerprints);
 
-  /** Throws std::runtime_error if a frame equals one of \a other: both have counted it. */
+  /** Throws std::runtime_error if both this object and \a other have counted the same frame, or equal ones. */
   void
   RequireApart(const FrameFingerprints & other) const;
 
-  /** Takes up the frames of \a other, of the same stack. */
+  /** Registers the frames of \a other, of the same stack. */
   void
   Merge(const FrameFingerprints & other);
 
-  /** Writes the frames that were taken up and their fingerprints, see BinaryStream. */
+  /** Writes the registered frames and their fingerprints, see BinaryStream. */
   void
   Save(std::ostream & out) const;
-  /** Those of a stream, of the same stack. Throws std::runtime_error if it ends early or does not hold them. */
+  /** Returns the fingerprints that a stream holds, of the same stack. Throws std::runtime_error if it ends early or
+   * does not hold them. */
   FrameFingerprints
   ReadOther(std::istream & in) const;
 
-  /** Those that were taken up, by their frames. */
+  /** Returns the registered fingerprints by frame number. */
   const std::map<std::size_t, BytesFingerprint> &
   GetAll() const
   {
     return m_OfFrame;
   }
 
-  /** Which frames are equal, when all have been taken up. It does not depend on who took up which. Throws
-   * std::logic_error if one was left to another process, and none counted it. */
+  /** Returns which frames are equal, after all have been registered. The result does not depend on which process
+   * registered which frame. Throws std::logic_error if a frame was left to another process, and no process counted it.
+   */
   DistinctFrames
   FindDistinct() const;
 
 private:
-  /** Frames that are equal. */
+  /** Frames that are equal: the number of the first one, and whether one of them is counted. */
   struct Equal
   {
     std::size_t first;
@@ -81,7 +84,7 @@ private:
   std::size_t                             m_Frames;
   std::map<std::size_t, BytesFingerprint> m_OfFrame;
   std::map<BytesFingerprint, Equal>       m_Equal;
-  std::vector<std::uint8_t>               m_CountedElsewhere; // of each frame; empty: none
+  std::vector<std::uint8_t>               m_CountedElsewhere; // one value for each frame; empty: none
 };
 
 } // namespace sensornoise

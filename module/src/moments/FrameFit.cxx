@@ -56,7 +56,7 @@ FitMostCells(const std::vector<double> & mean, const std::vector<double> & frame
     return difference(a) < difference(b) || (!(difference(b) < difference(a)) && a < b);
   });
   cells.resize(cells.size() - static_cast<std::size_t>(few));
-  std::sort(cells.begin(), cells.end()); // the same sums, whatever the library's order
+  std::sort(cells.begin(), cells.end()); // the same order of summation with every standard library
   return FitCells(mean, frame, cells);
 }
 

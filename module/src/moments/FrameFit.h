@@ -11,15 +11,15 @@
 namespace sensornoise
 {
 
-/** A frame as a level plus a factor times the mean frame, by its means over cells. */
+/** Fit of a frame by a level plus a factor times the mean frame, from its means over cells. */
 struct FrameFit
 {
   double centre{ 0.0 }; ///< mean over the cells of the mean frame [DN]
   double level{ 0.0 };  ///< mean over the cells of the frame [DN]
-  double factor{ 0.0 }; ///< [1]
-  double misfit{ 0.0 }; ///< mean square over the cells of the difference [DN^2]
+  double factor{ 0.0 }; ///< factor of the mean frame [1]
+  double misfit{ 0.0 }; ///< mean square over the cells of the deviation from the fit [DN^2]
 
-  /** How far a cell is from the fit [DN]. */
+  /** Returns the deviation of a cell from the fit [DN]. */
   double
   DifferenceOf(double mean, double frame) const
   {
@@ -27,15 +27,15 @@ struct FrameFit
   }
 };
 
-/** Fits by least squares over the cells \a used of \a mean and \a frame [DN]. */
+/** Fits the cells \a used of \a frame to \a mean by least squares [DN]. */
 SensorNoise_EXPORT FrameFit
 FitCells(const std::vector<double> & mean, const std::vector<double> & frame, const std::vector<std::size_t> & used);
 
-/** Fits all cells, and then those again that differ least: all but InMoments.fewCells of them. */
+/** Fits all cells, then again without the fraction InMoments.fewCells of them that deviates most. */
 SensorNoise_EXPORT FrameFit
 FitMostCells(const std::vector<double> & mean, const std::vector<double> & frame);
 
-/** 0 ... count - 1. */
+/** Returns the numbers 0 ... count - 1. */
 SensorNoise_EXPORT std::vector<std::size_t>
 AllBelow(std::size_t count);
 

@@ -23,10 +23,11 @@ namespace sensornoise
 
 namespace
 {
-/** The variances over the cells of a frame [DN^2]. */
+/** Variances over the cells of a frame [DN^2]. */
 struct FrameVariances
 {
-  double changed{ 0.0 }; ///< of what is not as in the mean frame, up to a factor and a level; by the median cell
+  double changed{ 0.0 }; ///< variance of the deviation from the mean frame, up to a factor and a level; from the median
+                         ///< cell
   double whole{ 0.0 };
 };
 
@@ -49,9 +50,9 @@ VariancesOf(const std::vector<double> & mean, const std::vector<double> & frame)
 struct RunSums
 {
   double pixels{ 0.0 };
-  double sum{ 0.0 }; ///< [DN]
+  double sum{ 0.0 }; ///< sum of the levels [DN]
   double pairs{ 0.0 };
-  double steps{ 0.0 }; ///< of the squares of differences of neighbours [DN^2]
+  double steps{ 0.0 }; ///< sum of the squared differences of neighbours [DN^2]
 
   RunSums &
   operator+=(const RunSums & other)
@@ -64,7 +65,8 @@ struct RunSums
   }
 };
 
-/** Of \a count pixels that all count: integers, whose sums are the same in any order and become vector instructions. */
+/** Computes the sums of \a count integer pixels that are all used. Integer sums do not depend on the order, and are
+ * compiled to SIMD instructions. */
 template <typename TPixel>
 RunSums
 SumCodes(const TPixel * from, std::size_t count)
@@ -87,7 +89,7 @@ SumCodes(const TPixel * from, std::size_t count)
            static_cast<double>(steps) };
 }
 
-/** Of those that are finite, and not 0 in \a mask if that is not null. */
+/** Computes the sums of the pixels that are finite, and nonzero in \a mask if that is not null. */
 template <typename TPixel>
 RunSums
 SumUsable(const TPixel * from, const std::uint8_t * mask, std::size_t count)
@@ -209,7 +211,7 @@ FrameThumbnails::AddFrames(const TPixel *      frames,
     for (std::size_t i = 0; i < m_Cells; ++i)
     {
       const RunSums & cell = cells[i];
-      m_Means[(first + k) * m_Cells + i] = cell.sum / cell.pixels; // NaN: nothing there
+      m_Means[(first + k) * m_Cells + i] = cell.sum / cell.pixels; // NaN: no finite pixel
       if (cell.pairs > 0.0)
       {
         noise += cell.steps / (2.0 * cell.pairs * cell.pixels);

@@ -17,24 +17,25 @@
 namespace sensornoise
 {
 
-/** How much of what frames show differs from frame to frame, without flicker and noise: by the median cell, as if the
- * differences were normal, so that things which cross a smaller part count little; medians over the frames. */
+/** Change of the scene from frame to frame, without flicker and noise. It is computed from the median cell, as if the
+ * differences were normally distributed, so that objects that cross a smaller part of the frame have little effect.
+ * The values are medians over the frames. */
 struct SceneChange
 {
-  double share{ 0.0 };      ///< of the variance over the cells of a frame, at most 1 [1]
-  double ofTheLevel{ 0.0 }; ///< root of that variance over the mean level of the frames [1]
+  double share{ 0.0 };      ///< fraction of the variance over the cells of a frame, at most 1 [1]
+  double ofTheLevel{ 0.0 }; ///< square root of the changed variance over the mean level of the frames [1]
 
-  /** Whether the frames show one scene no more, or never did. */
+  /** Returns whether the frames do not show one static scene. */
   bool
   IsLarge() const;
 };
 
 /** \class FrameThumbnails
- * \brief The means of each frame over up to 16 x 16 cells: whether all frames show one scene.
+ * \brief Means of each frame over up to 16 x 16 cells, from which it is tested whether all frames show one scene.
  *
- * Of a static scene the cells of a frame follow those of the mean frame, up to flicker, a level, noise, and light that
- * is not the same everywhere. Where another axis was taken for time, or the scene changes, or the camera moves by many
- * pixels, they do not. Two rows of each cell are looked at. */
+ * In a static scene the cells of a frame follow the cells of the mean frame, except for flicker, a level, noise, and
+ * local changes of the illumination. This fails if the stack runs along another axis than time, if the scene changes,
+ * or if the camera moves by many pixels. Two rows of each cell are sampled. */
 class SensorNoise_EXPORT FrameThumbnails
 {
 public:
@@ -48,7 +49,7 @@ public:
   {
     this->AddFrames(frames, PixelLayout::OfPixels(m_Pixels, m_Pixels), first, count, parallelFor);
   }
-  /** The same for frames whose pixels stand as \a layout says. */
+  /** Adds frames first ... first + count - 1, whose pixels lie as \a layout specifies. */
   template <typename TPixel>
   void
   AddFrames(const TPixel *      frames,
@@ -59,19 +60,20 @@ public:
 
   void
   Save(std::ostream & out) const;
-  /** What Save() wrote of other frames. Throws std::runtime_error if the stream ends early. */
+  /** Reads thumbnails of other frames, written by Save(). Throws std::runtime_error if the stream ends early. */
   FrameThumbnails
   ReadOther(std::istream & in) const;
-  /** Adds frames that were not added here. */
+  /** Adds the frames of \a other, which were not added here. */
   void
   Merge(const FrameThumbnails & other);
 
-  /** Over the \a frames, when all have been added. Nothing changes where fewer than 5 frames or 9 cells tell. */
+  /** Returns the change of the scene over the \a frames, after all frames have been added; 0 if fewer than 5 frames or
+   * 9 cells are usable. */
   SceneChange
   FindChange(const std::vector<std::size_t> & frames) const;
 
-  /** The relative standard deviation of the illumination factor over the \a frames [1], see
-   * ComputeIlluminationChange(); 0 where fewer than 5 frames or 9 cells tell. When all frames have been added. */
+  /** Returns the relative standard deviation of the illumination factor over the \a frames [1], after all frames have
+   * been added, see ComputeIlluminationChange(); 0 if fewer than 5 frames or 9 cells are usable. */
   double
   FindIlluminationChange(const std::vector<std::size_t> & frames) const;
 
@@ -85,28 +87,29 @@ public:
   {
     return m_Cells;
   }
-  /** Pixels of a cell that are looked at, of the average cell. */
+  /** Returns the mean number of sampled pixels of a cell. */
   double
   PixelsOfCell() const;
-  /** Mean of a cell in frame \a t [DN]; NaN: nothing finite is there. */
+  /** Mean of a cell in frame \a t [DN]; NaN: it has no finite pixel. */
   double
   MeanOf(std::size_t t, std::size_t cell) const
   {
     return m_Means[t * m_Cells + cell];
   }
-  /** The means of \a cells in frame \a t [DN]. */
+  /** Returns the means of \a cells in frame \a t [DN]. */
   std::vector<double>
   MeansOf(std::size_t t, const std::vector<std::size_t> & cells) const;
-  /** Returns, for each cell, whether all of its pixels that are looked at are nonzero in \a mask, of a frame's size. */
+  /** Returns, for each cell, whether all of its sampled pixels are nonzero in \a mask, of a frame's size. */
   std::vector<bool>
   FindCellsWithin(const std::vector<std::uint8_t> & mask) const;
-  /** Variance of the cells' means in frame \a t by what neighbouring pixels differ by: noise and texture [DN^2]. */
+  /** Variance of the means of the cells in frame \a t, estimated from the differences of neighbouring pixels: noise and
+   * texture [DN^2]. */
   double
   NoiseOf(std::size_t t) const
   {
     return m_Noise[t];
   }
-  /** Share of the cells of frame \a t in which no two neighbours differ [1]. */
+  /** Fraction of the cells of frame \a t in which no two neighbours differ [1]. */
   double
   EvenShareOf(std::size_t t) const
   {
@@ -114,7 +117,8 @@ public:
   }
 
 private:
-  /** The cells that tell, and their means over the frames [DN]; none where frames or cells are too few. */
+  /** The cells that are finite in all frames, and their means over the frames [DN]; empty if frames or cells are too
+   * few. */
   struct MeanFrame
   {
     std::vector<std::size_t> cells;
@@ -128,7 +132,7 @@ private:
   struct Run
   {
     std::size_t cell;
-    std::size_t begin; ///< pixels of a frame
+    std::size_t begin; ///< range of pixels of a frame
     std::size_t end;
   };
 
@@ -137,8 +141,8 @@ private:
   std::size_t               m_Cells;
   std::vector<Run>          m_Runs;
   std::vector<std::uint8_t> m_Mask;
-  std::vector<double>       m_Means; // of the cells, frame by frame [DN]; NaN: nothing finite
-  std::vector<double>       m_Noise; // of these means, the mean over the cells [DN^2]
+  std::vector<double>       m_Means; // means of the cells, frame by frame [DN]; NaN: no finite pixel
+  std::vector<double>       m_Noise; // variance of these means by noise and texture, mean over the cells [DN^2]
   std::vector<double>       m_EvenShares;
 };
 

@@ -15,12 +15,12 @@ namespace sensornoise
 
 namespace
 {
-/** How the cells of a frame differ from those of the mean frame: by a level and a slope, and beside them. */
+/** Difference between the cells of a frame and the cells of the mean frame: a level, a slope, and the rest. */
 struct FrameDifference
 {
   double level;      ///< mean over the cells [DN]
-  double slope;      ///< about the mean over the cells [1]
-  double slopeError; ///< standard error of the slope, by what is unexplained [1]
+  double slope;      ///< relative change about the mean over the cells [1]
+  double slopeError; ///< standard error of the slope, from the unexplained difference [1]
   bool   isExplained;
 };
 

@@ -22,7 +22,7 @@ namespace sensornoise
 namespace
 {
 
-/** Name of the sums in a stream. */
+/** Returns the name of the sums in a stream. */
 template <typename TPixel>
 std::string
 IntegerStreamName()
@@ -44,30 +44,30 @@ RequireExact(std::size_t frames, std::size_t most)
 
 namespace detail
 {
-/** Frames whose values are added in registers, before they are to the sums of a block, which have more memory than the
- * first-level cache. Set by hand: with half of them the sums take a quarter longer, with a quarter of them two thirds.
- */
+/** Number of frames whose values are added in registers before they are added to the sums of a block, which need more
+ * memory than the first-level cache has. Chosen empirically: with half of them the sums take a quarter longer, with a
+ * quarter of them two thirds. */
 constexpr std::size_t FramesInRegisters = 8;
 
-// As many frames as the block's 32-bit sums hold, signed: |sum s| <= 2^15 2^15, and 2^14 pairs of squares' lower
-// halves.
+// Largest number of frames that the signed 32-bit sums of a block hold: |sum s| <= 2^15 2^15, and 2^14 pairs of the
+// lower halves of squares.
 constexpr std::size_t FramesPerFlush = 32768;
 
 struct BlockSums
 {
-  // They stay in the second-level cache while all frames pass by. A block is long enough for the processor to see,
-  // within a frame, what it will be asked for next: shorter ones wait for the memory.
+  // Number of pixels of a block. The sums stay in the second-level cache while all frames are added. The block is long
+  // enough for the processor to prefetch within a frame; with shorter blocks it waits for the memory.
   static constexpr std::size_t Pixels = 4096;
 
   std::int32_t  sum[Pixels] = {};
   std::uint32_t low[Pixels] = {};  // sum of the lower 16 bits of the squares of two frames
-  std::uint32_t high[Pixels] = {}; // and of the upper 16 bits: 32-bit sums vectorise, 64-bit ones hardly do
+  std::uint32_t high[Pixels] = {}; // sum of the upper 16 bits: 32-bit sums vectorise, 64-bit ones hardly do
   std::int16_t  minimum[Pixels] = {};
   std::int16_t  maximum[Pixels] = {};
 };
 
-/** Adds as many pairs of frames as there are VPairs, of every VStep-th value, to the sums from \a offset on. Of the
- * second frame of each pair what \a keep has: all bits, or none. */
+/** Adds as many pairs of frames as there are VPairs, of every VStep-th value, to the sums from \a offset on. The second
+ * frame of each pair is masked by \a keep: all bits, or none. */
 template <std::int32_t VCentre, std::size_t VStep, typename TPixel, std::size_t... VPairs>
 void
 AddPairs(const TPixel * first,
@@ -106,7 +106,7 @@ AddPairs(const TPixel * first,
   }
 }
 
-/** Adds \a frames frames, whose first one's values begin at \a first, to the sums from \a offset on. */
+/** Adds \a frames frames to the sums from \a offset on. The values of the first frame begin at \a first. */
 template <std::int32_t VCentre, std::size_t VStep, typename TPixel>
 void
 AddRun(const TPixel * first,
@@ -124,7 +124,7 @@ AddRun(const TPixel * first,
   }
   for (; t < frames; t += 2)
   {
-    const bool isPaired = t + 1 < frames; // an odd last frame is its own partner, of which nothing is added
+    const bool isPaired = t + 1 < frames; // an odd last frame is paired with itself, masked to 0
     AddPairs<VCentre, VStep>(
       first + t * stride, isPaired ? stride : 0, isPaired ? -1 : 0, size, offset, block, std::index_sequence<0>());
   }
@@ -160,7 +160,7 @@ IntegerMoments<TPixel>::AddBlock(const TPixel *      firstFrame,
     for (std::size_t i = 0; i < size; ++i)
     {
       m_Sum[begin + i] += block.sum[i];
-      // As signed numbers, which they fit: their conversion is an instruction.
+      // As signed numbers, which they fit: their conversion is a single instruction.
       m_SumOfSquares[begin + i] +=
         static_cast<std::int32_t>(block.low[i]) + 65536.0 * static_cast<std::int32_t>(block.high[i]);
       m_Minimum[begin + i] = block.minimum[i];

@@ -21,26 +21,26 @@ namespace sensornoise
 /** \class IntegerMoments
  * \brief Exact sums over time of every pixel of a stack of 8- or 16-bit frames: mean, variance, minimum, maximum.
  *
- * Each value u [DN] is held as s = u - centre, which fits a signed 16-bit number, and the sums S = sum s and
- * Q = sum s^2 are exact: doubles hold integers up to 2^53, and the maps of mean and variance can take their memory. So
- * frames may be added, and parts merged, in any order and in any number of threads: the result has the same bits. The
- * variance is unbiased (section 2.3.1 of Sur & Gredi\'ac 2015, https://doi.org/10.1137/140977035) and what is
- * subtracted for it is exact, too.
+ * Each value u [DN] is held as s = u - centre, which fits a signed 16-bit number. The sums S = sum s and Q = sum s^2
+ * are exact: doubles hold integers up to 2^53, and the maps of mean and variance can take their memory. Frames may be
+ * added, and parts merged, in any order and in any number of threads: the result has the same bits. The variance is
+ * unbiased (section 2.3.1 of Sur & Gredi\'ac 2015, https://doi.org/10.1137/140977035), and the terms of its difference
+ * are exact, too.
  *
- * Usage: for each run of frames, call AddFrames() for ranges of pixels that cover the frame once (ranges may be added
- * at the same time by different threads), then AdvanceFrames() once.
+ * Usage: for each run of frames, call AddFrames() for ranges of pixels that cover the frame once (different threads
+ * may add ranges at the same time), then AdvanceFrames() once.
  *
- * Memory: 20 bytes a pixel, whatever the number of frames, of which there may be MostFrames.
+ * Memory: 20 bytes per pixel, for any number of frames up to MostFrames.
  *
- * \tparam TPixel unsigned char, signed char, unsigned short or short.
- */
+ * \tparam TPixel unsigned char, signed char, unsigned short or short. */
 template <typename TPixel>
 class IntegerMoments
 {
   static_assert(std::is_integral_v<TPixel> && sizeof(TPixel) <= 2, "IntegerMoments holds 8- and 16-bit pixels");
 
 public:
-  /** With them S^2 / n and Q are at most 2^52, and so are the terms of which the variance is the difference. */
+  /** Largest number of frames: up to it S^2 / n and Q, and the terms whose difference is the variance, are at most
+   * 2^52. */
   static constexpr std::size_t MostFrames = std::size_t{ 1 } << 22;
 
   explicit IntegerMoments(std::size_t pixels = 0, const ParallelFor & parallelFor = SerialFor);
@@ -52,7 +52,7 @@ public:
   {
     this->AddFrames(firstFrame, PixelLayout::OfPixels(m_Sum.size(), stride), frames, begin, end);
   }
-  /** The same for frames whose pixels stand as \a layout says. */
+  /** Adds \a frames frames whose pixels lie as \a layout specifies. */
   void
   AddFrames(const TPixel *      firstFrame,
             const PixelLayout & layout,
@@ -60,13 +60,13 @@ public:
             std::size_t         begin,
             std::size_t         end);
 
-  /** Tells that \a frames frames have been added for every pixel. Throws std::invalid_argument if there are more than
-   * MostFrames. */
+  /** Counts \a frames frames, which have been added for every pixel. Throws std::invalid_argument if there are more
+   * than MostFrames in all. */
   void
   AdvanceFrames(std::size_t frames);
 
-  /** Adds the sums of other frames of the same pixels: exact, in any order. Throws std::invalid_argument if these have
-   * another number of pixels, or both together more than MostFrames. */
+  /** Adds the sums of other frames of the same pixels: exact, in any order. Throws std::invalid_argument if the number
+   * of pixels differs, or if both together have more than MostFrames. */
   void
   Merge(const IntegerMoments & other);
 
@@ -74,12 +74,12 @@ public:
   void
   Save(std::ostream & out) const;
 
-  /** Replaces the sums by those of a stream. Throws std::runtime_error, and changes nothing, if it holds other sums, or
-   * those of another type or number of pixels, or ends early. */
+  /** Replaces the sums by the sums of a stream. Throws std::runtime_error, and changes nothing, if the stream ends
+   * early or holds other sums, another type or another number of pixels. */
   void
   Restore(std::istream & in);
 
-  /** Mean, variance and extremes as maps, in the memory of the sums, which are given away. */
+  /** Moves mean, variance and extremes into maps, which take the memory of the sums. */
   TemporalMaps<TPixel>
   TakeMaps(const ParallelFor & parallelFor = SerialFor);
 
@@ -94,7 +94,7 @@ public:
     return m_Frames;
   }
 
-  /** Integers are always finite. */
+  /** Returns true: integers are always finite. */
   bool
   IsFinite(std::size_t) const
   {
@@ -110,8 +110,9 @@ public:
 
   /** Sum of the squared deviations of pixel \a p from its mean [DN^2].
    *
-   * With S = q n + r, the sum about the integer q is A = Q - q (S + r), exact; about the mean it is A - r^2/n. S / n is
-   * no integer by rounding: |S| <= 2^37 is further from the next multiple of n <= 2^22 than 2^-53 of it. */
+   * With S = q n + r, the sum of squares about the integer q is A = Q - q (S + r), exactly; about the mean it is A -
+   * r^2/n. Rounding does not make S / n an integer: the distance of |S| <= 2^37 from the next multiple of n <= 2^22 is
+   * more than 2^-53 of it. */
   double
   GetSumOfSquaredDeviations(std::size_t p) const
   {

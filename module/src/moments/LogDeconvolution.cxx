@@ -44,10 +44,10 @@ MakeLogBinning(std::vector<double> variances, double cellDn2)
 {
   const double median = Quantile(variances, 0.5);
   const double quarters = std::log(Quantile(variances, 0.75) / std::max(Quantile(variances, 0.25), 1e-9 * median));
-  // Narrow enough for any shape, and wide enough that 60 bins on either side hold noise 6 times as large.
+  // Narrow enough for any shape, and wide enough that 60 bins on either side cover noise 6 times as large.
   const double width = std::clamp(quarters / 8.0, 0.005, 0.1);
   LogBinning   binning{ std::log(median) - 0.5 * NumberOfLogBins * width, width, 0 };
-  // The first few of them lie where they lie by chance: they are held together.
+  // The positions of the lowest variances are arbitrary: one bin holds all of them.
   binning.first = binning.BinOf(std::min(2.0 * cellDn2, median / 8.0));
   return binning;
 }
@@ -57,7 +57,8 @@ ChiSquareKernel(double freedom, const LogBinning & binning)
 {
   std::vector<LogBins>  kernel(NumberOfLogBins);
   constexpr std::size_t edges = 2 * NumberOfLogBins;
-  std::vector<double>   below(edges); // an edge between measured bins, by its distance from the middle of a true one
+  std::vector<double>   below(edges); // probability below an edge between measured bins, by its distance from the
+                                      // middle of a true bin
   for (std::size_t k = 0; k < edges; ++k)
   {
     const double bins = static_cast<double>(k) - NumberOfLogBins + 0.5;
@@ -86,7 +87,7 @@ LogDeconvolution::LogDeconvolution(const LogBins & counts, const std::vector<Log
   for (std::size_t b = 0; b < counts.size(); ++b)
   {
     m_Measured[b] = counts[b] / total;
-    m_True[b] = m_Measured[b] + 1e-6; // what is 0 at first would stay 0
+    m_True[b] = m_Measured[b] + 1e-6; // a value of 0 would stay 0 in all iterations
   }
 }
 

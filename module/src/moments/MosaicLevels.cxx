@@ -14,9 +14,10 @@ namespace sensornoise
 
 namespace
 {
-constexpr std::size_t BlockSize = 32; // [pixel]
+constexpr std::size_t BlockSize = 32; // width and height of a block [pixel]
 
-/** Weights that fall to 0 at both ends, Hann's: patterns of the scene leave nothing at the borders of a block. */
+/** Returns a Hann window: weights that fall to 0 at both ends, so that patterns of the scene have no effect at the
+ * borders of a block. */
 std::vector<double>
 MakeWindow(std::size_t size)
 {
@@ -32,10 +33,10 @@ MakeWindow(std::size_t size)
 /** Weighted means over the pixels of a block that have a finite neighbourhood. */
 struct BlockLevels
 {
-  double rough{ 0.0 };       ///< of a pixel to the mean of its four neighbours, without sign [DN]
-  double main{ 0.0 };        ///< upper left less lower right pixel of the 2 x 2 [DN]
-  double anti{ 0.0 };        ///< upper right less lower left pixel [DN]
-  double ofDiagonals{ 0.0 }; ///< main diagonal less the other [DN]
+  double rough{ 0.0 };       ///< absolute difference of a pixel to the mean of its four neighbours [DN]
+  double main{ 0.0 };        ///< upper left minus lower right pixel of the 2 x 2 [DN]
+  double anti{ 0.0 };        ///< upper right minus lower left pixel [DN]
+  double ofDiagonals{ 0.0 }; ///< main diagonal minus the other [DN]
   bool   isKnown{ false };
 };
 
@@ -47,7 +48,8 @@ LevelsOfBlock(const std::vector<double> & frame,
               const std::vector<double> & window)
 {
   const std::size_t size = window.size();
-  // by phase, 2 * (y % 2) + x % 2: how much more than the mean of the four neighbours aslant, and beside
+  // by phase, 2 * (y % 2) + x % 2: difference to the mean of the four diagonal neighbours, and of the four adjacent
+  // ones
   std::array<double, 4> aslant{};
   std::array<double, 4> beside{};
   std::array<double, 4> weight{};
@@ -87,7 +89,8 @@ LevelsOfBlock(const std::vector<double> & frame,
   return block;
 }
 
-/** All blocks that lie in the frame with their neighbours; one smaller one where the frame has no room for more. */
+/** Returns the levels of all blocks that lie in the frame with their neighbours. A frame that is too small for one has
+ * a single smaller block. */
 std::vector<BlockLevels>
 LevelsOfBlocks(const std::vector<double> & frame,
                std::size_t                 width,
@@ -137,22 +140,23 @@ RecogniseMosaic(const std::vector<double> & frameDn,
     anti += std::abs(block.anti);
   }
   const bool isGreenMain = main < anti;
-  double     contrast = 0.0; // of green to the mean of the others
+  double     contrast = 0.0; // difference of green to the mean of the others
   double     rough = 0.0;
-  double     sumOfOne = 0.0; // of green to the colour beside the main diagonal's pixel, and to the other one
-  double     sumOfOther = 0.0;
-  double     oneLessOther = 0.0;
+  double     sumOfOne = 0.0; // difference of green to the colour beside the pixel of the main diagonal, and to the
+                             // other one
+  double sumOfOther = 0.0;
+  double oneLessOther = 0.0;
   for (const BlockLevels & block : blocks)
   {
     const double green = isGreenMain ? block.ofDiagonals : -block.ofDiagonals;
-    const double colours = isGreenMain ? block.anti : block.main; // one less the other
+    const double colours = isGreenMain ? block.anti : block.main; // one colour minus the other
     contrast += std::abs(green);
     rough += block.rough;
     sumOfOne += std::abs(green - 0.5 * colours);
     sumOfOther += std::abs(green + 0.5 * colours);
     oneLessOther += colours;
   }
-  // The greens differ by what noise leaves: a colour is another one if it differs by more than that, too.
+  // The greens differ by noise only: another colour must differ by more than that.
   const double greens = std::min(main, anti);
   const double least = std::max(InMoments.leastColourDifference * contrast, InMoments.leastColourOverNoise * greens);
   const bool   isMosaic = contrast > 0.0 && contrast >= InMoments.leastMosaicContrast * rough &&
@@ -162,7 +166,7 @@ RecogniseMosaic(const std::vector<double> & frameDn,
   {
     return std::nullopt;
   }
-  // One is the upper right pixel where green is on the main diagonal, else the upper left.
+  // The first colour is the upper right pixel where green is on the main diagonal, else the upper left.
   if (isGreenMain)
   {
     return oneLessOther > 0.0 ? BayerPattern::GRBG : BayerPattern::GBRG;

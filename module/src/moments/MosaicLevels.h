@@ -14,15 +14,15 @@
 namespace sensornoise
 {
 
-/** The pattern of a frame, one exposure or the mean of many [DN], if its levels alternate as those behind a Bayer
- * mosaic do: on one diagonal of the 2 x 2 pixels alike, everywhere, and of three different levels in all. Null: they do
- * not, as those of a monochrome sensor or of a mosaic that sees no light.
+/** Returns the Bayer pattern of a frame, one exposure or the mean of many [DN], if its levels alternate as behind a
+ * Bayer mosaic. There must be three different levels, one of them on both pixels of a diagonal of the 2 x 2 pixels,
+ * everywhere. Null: the levels do not alternate in this way, as with a monochrome sensor or a dark mosaic.
  *
- * In blocks of 32 x 32 pixels every pixel is compared with its neighbours of another phase on both sides, so that edges
- * and slopes of the scene cancel. A fine checkerboard has two levels, stripes have no alike diagonal. A grid of dots
- * with a period of exactly two pixels all over the frame cannot be told from a mosaic.
+ * In blocks of 32 x 32 pixels every pixel is compared with its neighbours of another phase on both sides, so that
+ * edges and slopes of the scene cancel. A fine checkerboard has two levels, stripes have no diagonal of equal levels.
+ * A grid of dots with a period of exactly two pixels in the whole frame cannot be distinguished from a mosaic.
  *
- * Which of the two colours that are not green is red the levels cannot tell: the brighter one is called so. */
+ * The levels do not determine which of the two colours that are not green is red: the brighter one is called red. */
 SensorNoise_EXPORT std::optional<BayerPattern>
 RecogniseMosaic(const std::vector<double> & frameDn,
                 std::size_t                 width,

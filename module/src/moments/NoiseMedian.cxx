@@ -23,19 +23,20 @@ namespace
 
 constexpr std::size_t NumberOfGroups = 20;
 
-/** The logarithm of a variance. */
+/** Median of the logarithm of the variances [log DN^2]. */
 struct LogMedian
 {
   double value{ 0.0 };
   double standardError{ 0.0 };
 };
 
-/** \param stepDn spacing of the codes [DN] */
+/** Estimates the median of the true variances.
+ * \param stepDn quantization step [DN] */
 LogMedian
 MedianOfTrueVariances(const std::vector<double> & variances, double freedom, double stepDn)
 {
-  // T squares of whole numbers have a sum that is even where the numbers' sum is even: the sums of squared deviations
-  // of pixels with the same mean lie 2 step^2 apart. Each is spread over its cell, for a smooth distribution.
+  // The sum of the squares of T integers is even where their sum is even. The sums of squared deviations of pixels with
+  // the same mean are therefore 2 step^2 apart. Each is spread over this distance, for a smooth distribution.
   const double                        cellDn2 = stepDn * stepDn / freedom;
   const LogBinning                    binning = MakeLogBinning(variances, cellDn2);
   std::array<LogBins, NumberOfGroups> groups{};
@@ -47,7 +48,7 @@ MedianOfTrueVariances(const std::vector<double> & variances, double freedom, dou
   }
   const std::vector<LogBins> kernel = ChiSquareKernel(freedom, binning);
   LogDeconvolution           whole(all, kernel);
-  // For 6 to 100 frames: fewer are biased by a per cent, more follow the noise of the counts.
+  // Chosen for 6 to 100 frames: fewer iterations are biased by 1 %, more follow the noise of the counts.
   constexpr int iterations = 30;
   whole.Iterate(iterations);
   const double median = whole.GetMedianBin();
@@ -72,7 +73,7 @@ MedianOfTrueVariances(const std::vector<double> & variances, double freedom, dou
     scatter += (other - mean) * (other - mean) * (NumberOfGroups - 1.0) / NumberOfGroups;
   }
   const double value = binning.low + binning.width * median;
-  // What the cells' own width does to the logarithm.
+  // Bias of the logarithm by the width of the intervals.
   const double spreading = std::pow(cellDn2 / std::exp(value), 2) / 3.0;
   return { value, std::hypot(binning.width * std::sqrt(scatter), binning.width * unsettled, spreading) };
 }

@@ -12,21 +12,23 @@
 namespace sensornoise
 {
 
-/** The read noise that half of the pixels stay below, from the pixels' variances over a few frames.
+/** Returns the median read noise of the pixels, estimated from their variances over a few frames.
  *
- * The median of the variances is that of noise alone only where all pixels are alike: chi-square is skewed, and its
- * median lies below its mean by another share than that of chi-square times a wide distribution (8 frames, log-normal
- * noise of spread 0.6: 2 %). So the distribution of the logarithm of the true variances is found first, see
- * LogDeconvolution, whatever its shape, and its median taken. The standard error is a jackknife's over 20 groups of
- * pixels, twice what more iterations would change, and what rounding to codes hides. Measured on pixels that are alike,
- * log-normal of spread 0.3 to 0.6 and with tails: within 0.4 % for 8 frames and noise of a code or more, 2.5 % for
- * noise of 0.6 codes.
+ * The median of the variances equals the median for noise alone only if all pixels have the same noise. The chi-square
+ * distribution is skewed: its median lies below its mean, by another fraction than for chi-square times a wide
+ * distribution (2 % for 8 frames and log-normal noise of standard deviation 0.6). The distribution of the logarithm of
+ * the true variances is therefore estimated first, for any shape, see LogDeconvolution, and its median is taken.
  *
- * \param variancesDn2 of the pixels, rounding to codes included [DN^2]
+ * The standard error combines a jackknife over 20 groups of pixels, twice the change by further iterations, and the
+ * error by rounding to codes. Tested with equal pixels and with log-normal noise of standard deviation 0.3 to 0.6,
+ * also with tails: the error is below 0.4 % for 8 frames and noise of one code or more, and 2.5 % for noise of 0.6
+ * codes.
+ *
+ * \param variancesDn2 variances of the pixels, quantization noise included [DN^2]
  * \param freedom degrees of freedom of a variance
- * \param stepDn spacing of the codes, whose noise step^2/12 is taken off [DN]; 0: none
- * \return null: fewer than 5 degrees of freedom or 100 pixels, or a median below half a step, of which rounding leaves
- * nothing to measure */
+ * \param stepDn quantization step [DN], whose noise step^2/12 is subtracted; 0: none
+ * \return null: fewer than 5 degrees of freedom or 100 pixels, or a median so small that rounding hides it (below half
+ * a step) */
 SensorNoise_EXPORT std::optional<MedianReadNoise>
 MedianReadNoiseOf(const std::vector<double> & variancesDn2, double freedom, double stepDn);
 

@@ -13,11 +13,11 @@ namespace sensornoise
 {
 
 /** \class OutermostLevels
- * \brief How many pixels have which value as their extreme over time: the 64 lowest or highest values of a
- * floating-point stack.
+ * \brief Histogram of the extremes of the pixels over time, for the 64 lowest or highest values of a floating-point
+ * stack.
  *
- * Values are the same level if they are equal exactly. The counts are exact in whatever order the pixels are added: a
- * level that left the table has 64 others beyond it and cannot come back. */
+ * Values are the same level only if they are exactly equal. The counts are exact for any order of the pixels: a level
+ * that left the table has 64 others beyond it and cannot return. */
 class SensorNoise_EXPORT OutermostLevels
 {
 public:
@@ -38,7 +38,7 @@ public:
     const double outwards = m_Sign * value;
     if (!m_Counts.empty() && outwards == m_Counts.begin()->first)
     {
-      ++m_Counts.begin()->second; // where a level clips, this is every second pixel
+      ++m_Counts.begin()->second; // shortcut: at a clip level this is every second pixel
     }
     else if (m_Counts.size() < MostLevels || outwards >= m_Innermost)
     {
@@ -46,11 +46,11 @@ public:
     }
   }
 
-  /** The outermost level [DN], and how many pixels have it. Some pixel has been added. */
+  /** Outermost level [DN]; the table must not be empty. */
   double
   Level() const
   {
-    return m_Sign * m_Counts.begin()->first + 0.0; // never -0
+    return m_Sign * m_Counts.begin()->first + 0.0; // + 0.0 turns -0 into 0
   }
   std::size_t
   Pixels() const
@@ -58,34 +58,34 @@ public:
     return m_Counts.empty() ? 0 : m_Counts.begin()->second;
   }
 
-  /** Forgets the outermost levels that lie beyond a pile-up and apart from it, as FindEndOfCodes() does: those of stuck
-   * pixels. \a stepDn is the spacing of the levels. */
+  /** Removes the outermost levels that lie beyond a pile-up and apart from it, as FindEndOfCodes() does: the levels of
+   * stuck pixels. \a stepDn is the spacing of the levels [DN]. */
   void
   LeaveOutStray(double stepDn);
 
-  /** The spacing of the levels [DN]: that which 1 in 10 of the distances between neighbours does not pass. Codes that
-   * no pixel has make most distances longer, and stray values make a few shorter. 0: fewer than two levels. */
+  /** Returns the spacing of the levels [DN]: the quantile 0.1 of the distances between neighbours. Codes that no pixel
+   * has make most distances longer; stray values make a few shorter. 0: fewer than two levels. */
   double
   Step() const;
 
-  /** The most pixels of one level among those at most 16 steps inside of the outermost one. */
+  /** Returns the largest number of pixels on one of the levels at most 16 steps inside of the outermost one. */
   std::size_t
   MostInside(double stepDn) const;
 
 private:
   static constexpr std::size_t MostLevels = 64;
 
-  using Counts = std::map<double, std::size_t, std::greater<double>>; // outermost first
+  using Counts = std::map<double, std::size_t, std::greater<double>>; // outermost level first
 
   void
   Insert(double outwards);
 
-  /** The most pixels of one level among those at most 16 steps inside of \a end. */
+  /** Returns the largest number of pixels on one of the levels at most 16 steps inside of \a end. */
   std::size_t
   MostInside(Counts::const_iterator end, double stepDn) const;
 
   double m_Sign;
-  double m_Innermost{ 0.0 }; // of the table
+  double m_Innermost{ 0.0 }; // innermost level of the table
   Counts m_Counts;
 };
 

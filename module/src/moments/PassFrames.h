@@ -15,55 +15,55 @@ namespace sensornoise
 {
 
 /** \class PassFrames
- * \brief Which frames of the current pass over a stack have been added, here or elsewhere. */
+ * \brief The frames of the current pass over a stack that have been added, in this or another process. */
 class SensorNoise_EXPORT PassFrames
 {
 public:
   explicit PassFrames(std::size_t frames);
 
-  /** The current pass, from 0. */
+  /** Number of the current pass, from 0. */
   unsigned int
   GetPass() const
   {
     return m_Pass;
   }
 
-  /** The frame that is to be added next. */
+  /** Number of the frame that is to be added next. */
   std::size_t
   GetNext() const
   {
     return m_Next;
   }
 
-  /** The next \a count frames are added: returns the first. Throws std::logic_error if there are not so many left, or
+  /** Marks the next \a count frames as added and returns the first. Throws std::logic_error if fewer are left, or if
    * one has been added before. */
   std::size_t
   Add(std::size_t count);
 
-  /** The next \a count frames are added elsewhere. */
+  /** Passes over the next \a count frames, which another process adds. Throws std::logic_error if fewer are left. */
   void
   Skip(std::size_t count);
 
-  /** Frame \a t is the next one. Throws std::logic_error if there is none. */
+  /** Makes frame \a t the next one. Throws std::logic_error if there is no such frame. */
   void
   GoTo(std::size_t t);
 
-  /** No frame of the pass has been added. */
+  /** Marks all frames of the pass as not added, and goes to frame 0. */
   void
   Forget();
 
-  /** For every frame, 1 if it has been added. */
+  /** Returns 1 for every frame that has been added, else 0. */
   const std::vector<std::uint8_t> &
   GetHas() const
   {
     return m_Has;
   }
 
-  /** Throws std::runtime_error if \a other has frames that are here, too. */
+  /** Throws std::runtime_error if a frame has been added both here and to \a other. */
   void
   RequireApart(const PassFrames & other) const;
 
-  /** Takes over the frames of \a other. */
+  /** Marks the frames of \a other as added. Throws std::runtime_error if one has been added here, too. */
   void
   Merge(const PassFrames & other);
 
@@ -74,7 +74,7 @@ public:
   /** Writes the pass and its frames, see BinaryStream. */
   void
   Save(std::ostream & out) const;
-  /** The frames of a stream, of the same pass. Throws std::runtime_error if it is another one. */
+  /** Reads the frames of a stream, of the same pass. Throws std::runtime_error if it is of another pass. */
   PassFrames
   ReadOther(std::istream & in) const;
 

@@ -13,30 +13,30 @@ namespace sensornoise
 {
 
 /** \file
- * What a pile-up is: the mark that a level leaves which the sensor cannot pass. Noise alone puts few pixels' extremes
- * on the outermost level, fewer than on the levels inside of it. A clip level gathers the extremes of all pixels that
- * would have passed it. */
+ * Pile-up: saturation level found from repeated extreme values. Noise alone makes the outermost level the extreme of
+ * few pixels, of fewer than the levels inside. At a clip level, the extremes of all pixels that would exceed it
+ * accumulate. */
 
-/** Whether \a atEnd pixels whose extreme is the outermost level are a pile-up, if each of the levels inside is the
- * extreme of at most \a mostInside pixels: at least 8, and more than 3 times as many. */
+/** Returns whether the \a atEnd pixels whose extreme is the outermost level are a pile-up: at least 8, and more than 3
+ * times \a mostInside. \a mostInside is the largest number of pixels on one of the levels inside. */
 inline bool
 IsPileUp(std::size_t atEnd, std::size_t mostInside)
 {
   return atEnd >= std::max(InMoments.fewestPixelsOfPileUp, InMoments.pileUpRatio * mostInside + 1);
 }
 
-/** How far the outermost levels lie from the mean of the pixels that attain them, in these pixels' temporal standard
- * deviations, as a median. What a clip level cuts off is near the mean or beyond it; where it is just rare noise, or
- * codes as coarse as the noise, that is some standard deviations away. */
+/** Distance of the outermost levels from the mean of the pixels that attain them, in temporal standard deviations of
+ * these pixels: the median over the pixels [1]. Pixels that a clip level cuts off have a mean near that level. If the
+ * level is rare noise, or the quantization is as coarse as the noise, the distance is some standard deviations. */
 struct ExtremeDepths
 {
   double low{ 0.0 };
   double high{ 0.0 };
 };
 
-/** Whether a pile-up says anything: where the noise, of the median variance \a typicalVarianceDn2 of the pixels that
- * vary, is below half a step of the levels, every level piles up. So it is where \a depth, see ExtremeDepths, is 2.5 or
- * more. */
+/** Returns whether a pile-up is evidence of clipping. It is not if the noise is below half a step of the levels,
+ * because then every level piles up. Nor is it if \a depth, see ExtremeDepths, is 2.5 or more. \a typicalVarianceDn2
+ * is the median variance of the pixels that vary [DN^2], \a stepDn the spacing of the levels [DN]. */
 inline bool
 CanTellPileUp(double typicalVarianceDn2, double stepDn, double depth)
 {

@@ -22,14 +22,14 @@ namespace sensornoise
 namespace
 {
 
-/** What all pixels have in common. */
+/** Factors that are the same for all pixels. */
 struct IntervalFactors
 {
-  double student; ///< half the offset's interval, in standard errors
-  double low;     ///< the variance interval's ends, in units of the variance
-  double high;    ///< as above
-  double frames;  ///< T
-  double stepDn;  ///< of the codes
+  double student; ///< half width of the interval of the offset, in standard errors
+  double low;     ///< lower bound of the interval of the variance, in units of the variance
+  double high;    ///< upper bound, in the same unit
+  double frames;  ///< number of frames T
+  double stepDn;  ///< quantization step
 };
 
 IntervalFactors
@@ -44,7 +44,7 @@ IntervalFactorsOf(const DarkMaps & dark)
            dark.stepDn };
 }
 
-/** Standard deviation of noise whose variance together with that of rounding is \a varianceDn2. */
+/** Returns the standard deviation of noise [DN] whose variance together with quantization noise is \a varianceDn2. */
 double
 NoiseWithoutRounding(double varianceDn2, double stepDn)
 {
@@ -61,7 +61,7 @@ EmptyIntervalMap(std::size_t pixels)
 void
 FillPixel(PixelCalibration & maps, std::size_t p, double offsetDn, double varianceDn2, const IntervalFactors & factors)
 {
-  constexpr double worst = 1.57079632679489661923; // see RoundingErrorDn()
+  constexpr double worst = 1.57079632679489661923; // pi/2, see RoundingErrorDn()
   const double     half =
     factors.student * std::sqrt(varianceDn2 / factors.frames) + worst * RoundingErrorDn(factors.stepDn, varianceDn2);
   maps.offset.value[p] = offsetDn;

@@ -9,9 +9,10 @@
 namespace sensornoise
 {
 
-/** How far rounding to codes moves the mean of values whose variance, that of rounding included, is \a varianceDn2: by
- * up to step/pi exp(-2 pi^2 variance/step^2), the first harmonic, which is nothing once the spread is half a step [DN].
- * Without any noise it is up to half a step, pi/2 times as much. */
+/** Returns the largest shift by rounding to codes of the mean of values with the variance \a varianceDn2, quantization
+ * noise included [DN]. It is step/pi exp(-2 pi^2 variance/step^2), the first harmonic, where the variance is without
+ * quantization noise. The shift is negligible if the standard deviation is half a step or more. Without any noise the
+ * shift is up to half a step, pi/2 times this value. */
 inline double
 RoundingErrorDn(double stepDn, double varianceDn2)
 {

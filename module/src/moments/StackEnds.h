@@ -17,7 +17,7 @@
 namespace sensornoise
 {
 
-/** The value of a stack that lies farthest to one side, and of how many pixels it is the extreme over time. */
+/** The highest or the lowest value of a stack, and the number of pixels whose extreme over time it is. */
 struct StackEnd
 {
   double      outwards{ -std::numeric_limits<double>::infinity() }; ///< the highest value, or minus the lowest [DN]
@@ -34,7 +34,7 @@ struct StackEnd
   }
 };
 
-/** Both ends of a stack, of the pixels that are finite; the same in whatever order they are added. */
+/** Both ends of a stack, over the pixels that are finite; the order of adding has no effect. */
 struct StackEnds
 {
   StackEnd low;
@@ -66,7 +66,8 @@ struct StackEnds
   }
 };
 
-/** How far the end \a level of a stack lies from the mean of the pixels that attain it, see ExtremeDepths. */
+/** Returns the distance of the end \a level of a stack from the mean of the pixels that attain it, see ExtremeDepths.
+ */
 template <typename TPixel>
 double
 MedianDepth(const TemporalMaps<TPixel> & maps, OutermostLevels::End end, const StackEnd & level)
@@ -84,7 +85,7 @@ MedianDepth(const TemporalMaps<TPixel> & maps, OutermostLevels::End end, const S
   return Quantile(depths, 0.5);
 }
 
-/** The levels next to an end of a stack. */
+/** Returns the levels next to an end of a stack. */
 template <typename TPixel>
 OutermostLevels
 LevelsAt(OutermostLevels::End end, const TemporalMaps<TPixel> & maps)
@@ -96,7 +97,8 @@ LevelsAt(OutermostLevels::End end, const TemporalMaps<TPixel> & maps)
       levels.Add(end == OutermostLevels::End::High ? maps.GetMaximum(p) : maps.GetMinimum(p));
     }
   };
-  // Some pixels of everywhere first: then most of the others are seen at once to lie inside of the levels kept.
+  // Pixels from the whole frame come first: most of the others are then rejected at once, because they lie inside of
+  // the levels kept.
   const std::size_t pixels = maps.GetNumberOfPixels();
   const std::size_t stride = std::max<std::size_t>(1, pixels / 8192);
   for (std::size_t first = 0; first < pixels; first += stride)

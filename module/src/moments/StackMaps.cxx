@@ -33,8 +33,8 @@ namespace sensornoise
 namespace
 {
 
-/** The median temporal variance [DN^2] of the pixels that vary: some thousand, evenly spread, tell the typical noise.
- * Pixels that a clip level holds fast do not vary, and may be most of them. */
+/** Returns the median temporal variance of the pixels that vary [DN^2], from a sample of some thousand evenly spaced
+ * pixels. Clipped pixels do not vary, and may be the majority. */
 template <typename TPixel>
 double
 TypicalVariance(const TemporalMaps<TPixel> & maps)
@@ -51,7 +51,7 @@ TypicalVariance(const TemporalMaps<TPixel> & maps)
   return variances.empty() ? 0.0 : Quantile(variances, 0.5);
 }
 
-/** The codes of a stack of whole numbers, from every finite pixel's extremes. */
+/** Finds the codes of a stack of integers, from the extremes of every finite pixel. */
 template <typename TPixel>
 CodeRange
 FindCodesOfWhole(const TemporalMaps<TPixel> & maps, const CodeSettings & settings, const ParallelFor & parallelFor)
@@ -78,20 +78,20 @@ FindCodesOfWhole(const TemporalMaps<TPixel> & maps, const CodeSettings & setting
   if (!settings.clipLowDn && codes.clipLowDn == 0.0 && minima.Count(0) > 0 &&
       AreCountsFromZero(maps, std::max(1.0, codes.quantisationStepDn)))
   {
-    // Nothing is below 0, so that nothing is cut off there, and counts are not rounded.
+    // Counts have no value below 0, so that none is clipped there, and counts are not rounded.
     codes.clipLowDn.reset();
     codes.SetClipSources("none", codes.clipSource == "code range" ? "code range" : "pile-up");
     codes.quantisationStepDn = settings.quantisationStepDn.value_or(0.0);
   }
-  // A signed 16-bit number ends at 32767, whatever 16 bits would hold.
+  // A signed 16-bit number ends at 32767, whatever the bit depth is.
   const double largest = std::numeric_limits<TPixel>::max();
   codes.clipHighDn = std::min(codes.clipHighDn.value_or(largest), largest);
   return codes;
 }
 
-/** The spacing of the levels of a floating-point stack, of codes that were multiplied by one number; 0: they have none.
- * All of some thousand pixels' minima lie on one grid then. A grid that is not much wider than the type's own digits is
- * no other than theirs. */
+/** Returns the spacing of the levels of a floating-point stack whose codes were multiplied by one number [DN]; 0: no
+ * such spacing. It is found if all of some thousand minima of pixels lie on one grid. A grid that is not much wider
+ * than the last digits of the type is the grid of the type itself. */
 template <typename TPixel>
 double
 FindStepOfFloating(const TemporalMaps<TPixel> & maps)
@@ -119,7 +119,7 @@ FindStepOfFloating(const TemporalMaps<TPixel> & maps)
     const double spacing = levels[i] - levels[i - 1];
     least = spacing > InMoments.leastStepInDigits * digits ? std::min(least, spacing) : least;
   }
-  double steps = 0.0; // counted from level to level: the digits round the least spacing
+  double steps = 0.0; // counted from level to level, because the digits round the smallest spacing
   for (std::size_t i = 1; i < levels.size(); ++i)
   {
     steps += std::round((levels[i] - levels[i - 1]) / least);
@@ -132,7 +132,7 @@ FindStepOfFloating(const TemporalMaps<TPixel> & maps)
   return isGrid ? step : 0.0;
 }
 
-/** The clip levels of a floating-point stack, from every finite pixel's extremes. */
+/** Finds the clip levels of a floating-point stack, from the extremes of every finite pixel. */
 template <typename TPixel>
 CodeRange
 FindLevelsOfFloating(const TemporalMaps<TPixel> & maps, const CodeSettings & settings, const ParallelFor & parallelFor)
@@ -197,7 +197,7 @@ SummariseStack(const TemporalMaps<TPixel> & maps,
   const std::size_t pixels = maps.GetNumberOfPixels();
   const StackEnds   ends = FindEnds(maps, parallelFor);
   StackSummary      summary;
-  // Whole numbers are codes, whatever the type that they are stored in.
+  // Integers are codes, whatever the type that they are stored in.
   const bool areCodes = std::is_integral_v<TPixel> || (ends.high.pixels > 0 && ends.areWhole);
   summary.codes =
     areCodes ? FindCodesOfWhole(maps, settings, parallelFor) : FindLevelsOfFloating(maps, settings, parallelFor);

@@ -17,9 +17,12 @@
 namespace sensornoise
 {
 
-/** What was found of a stack of these \a maps; to \a valid, which has room for a frame's pixels, goes 1 where a pixel
- * is finite and never at a clip level, else 0. Codes and clip levels are given or found, see FindCodes() and
- * FindLevels(). Throws std::invalid_argument if the data pass the given bit depth. */
+/** Summarises a stack with these \a maps. The codes and clip levels are given or found, see FindCodes() and
+ * FindLevels().
+ * \param valid has room for the pixels of a frame; it receives 1 where a pixel is finite and never at a clip level,
+ * else 0
+ *
+ * Throws std::invalid_argument if the data exceed the given bit depth. */
 template <typename TPixel>
 SensorNoise_EXPORT StackSummary
 SummariseStack(const TemporalMaps<TPixel> & maps,
@@ -27,16 +30,16 @@ SummariseStack(const TemporalMaps<TPixel> & maps,
                const ParallelFor &          parallelFor,
                std::uint8_t *               valid);
 
-/** The maps of a stack, of a frame's size, and what was found of it. */
+/** Maps of a stack, of a frame's size, and their summary. */
 struct StackMaps
 {
   StackSummary              summary;
-  std::vector<double>       mean;     ///< [DN]; NaN where a pixel was not finite in a frame
-  std::vector<double>       variance; ///< unbiased [DN^2]; of a single frame 0
+  std::vector<double>       mean;     ///< mean over time [DN]; NaN where a pixel was not finite in a frame
+  std::vector<double>       variance; ///< unbiased variance over time [DN^2]; 0 for a single frame
   std::vector<std::uint8_t> valid;    ///< see SummariseStack()
 };
 
-/** Of the moments, which are given away: mean and variance take the memory of the sums. */
+/** Makes the maps from the moments, which are consumed: mean and variance take the memory of the sums. */
 template <typename TPixel>
 SensorNoise_EXPORT StackMaps
 MakeStackMaps(TemporalMoments<TPixel> moments, const CodeSettings & settings, const ParallelFor & parallelFor);

@@ -29,8 +29,8 @@ namespace sensornoise
 namespace
 {
 
-/** Sum of the finite ones of \a count pixels, at most those of a block of fingerprints: 32 bits hold that of integers.
- */
+/** Returns the sum of the finite ones of \a count pixels, at most a block of fingerprints: 32 bits hold the sum of its
+ * integers. */
 template <typename TPixel>
 double
 SumOfPixels(const TPixel * pixels, std::size_t count)
@@ -55,14 +55,15 @@ SumOfPixels(const TPixel * pixels, std::size_t count)
   }
 }
 
-/** Of a frame of a plane. */
+/** Mean and fingerprint of a frame of a plane. */
 struct MeanAndFingerprint
 {
   double           mean;
   BytesFingerprint fingerprint;
 };
 
-/** Of every frame, frame by frame of each of the planes: their pixels pass the cache once. */
+/** Computes the mean and the fingerprint of every frame of every plane. The order is by plane, then by frame. Each
+ * pixel is loaded into the cache once. */
 template <typename TPixel>
 std::vector<MeanAndFingerprint>
 FindMeansAndFingerprints(const std::vector<PixelLayout> & planes,

@@ -22,13 +22,14 @@ namespace sensornoise
 {
 
 /** \class StackMoments
- * \brief The first pass: the temporal moments of every pixel, the mean of every frame, and which frames are equal.
+ * \brief Result of the first pass: the temporal moments of every pixel, the mean of every frame, and the frames that
+ * are equal.
  *
- * A frame that equals one before is not summed: the moments are those of the distinct frames.
+ * A frame that equals an earlier one is not summed: the moments are over the distinct frames.
  *
- * Frames may be added in parts, here and in other processes, and the parts merged. Integers are summed exactly, in any
- * order. Parts with floating-point pixels are kept and merged in the order of their first frames: the same bits whoever
- * merges what first. */
+ * Frames may be added in parts, in several processes, and the parts merged. Integers are summed exactly, in any order.
+ * Parts with floating-point pixels are kept and merged in the order of their first frames, so that the result has the
+ * same bits for any order of merges. */
 template <typename TPixel>
 class StackMoments
 {
@@ -42,13 +43,13 @@ public:
     AddFrames({ { this, PixelLayout::OfPixels(m_Pixels, m_Pixels) } }, frames, first, count, parallelFor);
   }
 
-  /** The moments of one of the planes of a mosaic, and how its pixels stand there. */
+  /** The moments of one of the planes of a mosaic, and the layout of its pixels. */
   struct Plane
   {
     StackMoments * moments;
     PixelLayout    layout;
   };
-  /** Adds the frames to all \a planes, of one size: what one has read of a row is near when the next comes to it. */
+  /** Adds the frames to all \a planes, of one size. A row is read for all planes while it is in the cache. */
   static void
   AddFrames(const std::vector<Plane> & planes,
             const TPixel *             frames,
@@ -56,15 +57,15 @@ public:
             std::size_t                count,
             const ParallelFor &        parallelFor);
 
-  /** What to do with frames that another process counts, see FrameFingerprints. Before they are added. */
+  /** Marks the frames that another process counts, see FrameFingerprints. To be called before they are added. */
   void
   SetCountedElsewhere(const std::vector<std::uint8_t> & areCountedElsewhere)
   {
     m_Fingerprints.SetCountedElsewhere(areCountedElsewhere);
   }
 
-  /** Merges the parts with floating-point pixels that are kept, which gives back their memory: from now on the order of
-   * merges counts. */
+  /** Merges the parts with floating-point pixels, which releases their memory. From then on the bits of the result
+   * depend on the order of merges. */
   void
   Fold();
 
@@ -78,22 +79,23 @@ public:
   void
   Save(std::ostream & out) const;
 
-  /** Adds the moments and means of other frames from a stream. Throws std::runtime_error, and changes nothing, if it
-   * ends early, does not hold them, or summed a frame that equals one summed here: that one cannot be taken off. */
+  /** Adds the moments and means of other frames from a stream. Throws std::runtime_error, and changes nothing, if the
+   * stream ends early or holds something else. The same happens if both parts have summed the same frame or equal
+   * frames, because a frame cannot be subtracted. */
   void
   Merge(std::istream & in);
 
-  /** The moments of the distinct frames. What was added is given away. */
+  /** Returns the moments of the distinct frames. The object is empty afterwards. */
   TemporalMoments<TPixel>
   Take();
 
-  /** Of all frames, also of those that were not summed. */
+  /** Means of all frames, also of the frames that were not summed [DN]. */
   const std::vector<double> &
   GetFrameMeans() const
   {
     return m_FrameMeans;
   }
-  /** Which frames are equal, when all have been added. */
+  /** Returns which frames are equal, after all have been added. */
   DistinctFrames
   FindDistinct() const
   {
@@ -109,12 +111,12 @@ private:
               const ParallelFor &        parallelFor);
 
   std::size_t             m_Pixels;
-  std::vector<double>     m_FrameMeans; // 0 where a frame was not added
+  std::vector<double>     m_FrameMeans; // means of the frames [DN]; 0 where a frame was not added
   FrameFingerprints       m_Fingerprints;
   TemporalMoments<TPixel> m_Own;
-  std::size_t             m_First{ std::numeric_limits<std::size_t>::max() }; // frame of m_Own
+  std::size_t             m_First{ std::numeric_limits<std::size_t>::max() }; // number of the first frame in m_Own
 
-  std::map<std::size_t, TemporalMoments<TPixel>> m_Others; // by their first frames
+  std::map<std::size_t, TemporalMoments<TPixel>> m_Others; // by the numbers of their first frames
 };
 
 #define SensorNoise_EXTERN(TPixel) extern template class SensorNoise_EXPORT StackMoments<TPixel>

@@ -53,7 +53,7 @@ StackPasses<TPixel>::AddFrames(const std::vector<StackPasses *> & planes,
   }
   if (count == 0)
   {
-    return; // there may be no next frame, whose place would be asked for
+    return; // there may be no next frame, so that PlaceOf() would fail
   }
   std::vector<Plane> together;
   for (StackPasses * const plane : planes)
@@ -87,7 +87,7 @@ StackPasses<TPixel>::AddToMoments(const std::vector<StackPasses *> & planes,
 {
   std::vector<typename StackMoments<TPixel>::Plane> moments;
   moments.reserve(planes.size());
-  std::size_t first = 0; // the same of all
+  std::size_t first = 0; // the same for all planes
   for (StackPasses * const plane : planes)
   {
     const bool isFirst = plane->IsFirstPass();
@@ -165,7 +165,7 @@ StackPasses<TPixel>::MergeSums(std::istream & in)
   {
     const FrameThumbnails thumbnails = m_Thumbnails.ReadOther(in);
     m_Moments.Merge(in);
-    if (this->IsFirstPass()) // in another one both have all of them
+    if (this->IsFirstPass()) // in another pass both have all thumbnails
     {
       m_Thumbnails.Merge(thumbnails);
     }

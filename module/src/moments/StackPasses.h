@@ -30,11 +30,12 @@ namespace sensornoise
 class Fingerprint;
 
 /** \class StackPasses
- * \brief The passes of a method over a stack, in one process or in several: what is behind StackMethod.
+ * \brief The passes of a method over a stack, in one process or in several: the implementation of StackMethod.
  *
- * The first pass is that of every method: the temporal moments, the frames that are equal, bit by bit, and those that
- * are unlike the others. Equal frames are counted once. Unlike frames are left out: if there are any, the next pass is
- * for the moments of the others. What is made of these, and what later passes sum, is the method's. */
+ * The first pass is common to all methods: it computes the temporal moments and finds the frames that are equal bit by
+ * bit, and the frames that are unlike the others. Equal frames are counted once. Unlike frames are left out: if there
+ * are any, the next pass computes the moments of the others. The sums of the later passes, and the results, belong to
+ * the method. */
 template <typename TPixel>
 class StackPasses
 {
@@ -46,52 +47,52 @@ public:
   /** See StackMethod. */
   static constexpr unsigned int NumberOfPasses = 3;
 
-  /** The pixels of the frames to come stand as \a layout says; without it, one frame after the other. To be told once,
-   * before the first pass ends. */
+  /** Sets the layout of the pixels of the frames to come; without it, the frames are stored one after the other. To be
+   * called once, before the first pass ends. */
   void
   SetLayout(const PixelLayout & layout)
   {
     m_Layout = layout;
   }
 
-  /** Adds the next \a frames frames of the current pass, stored one after the other or as the layout says. Throws
-   * std::logic_error if there are not so many left. */
+  /** Adds the next \a frames frames of the current pass, stored one after the other or as the layout specifies. Throws
+   * std::logic_error if fewer are left. */
   void
   AddFrames(const TPixel * chunk, std::size_t frames);
 
-  /** Adds the next \a count frames of the current pass, which are mosaics, to all \a planes of theirs, of one method
-   * and size and each with its layout: what one has read of a row is near when the next comes to it. */
+  /** Adds the next \a count frames of the current pass, which are mosaics, to all of their \a planes. The planes have
+   * one method, one size, and each its own layout. A row is read for all planes while it is in the cache. */
   static void
   AddFrames(const std::vector<StackPasses *> & planes,
             const TPixel *                     mosaics,
             std::size_t                        count,
             const ParallelFor &                parallelFor);
 
-  /** The next \a frames frames of the current pass are added by other processes. */
+  /** Passes over the next \a frames frames of the current pass, which other processes add. */
   void
   SkipFrames(std::size_t frames)
   {
     m_InPass.Skip(frames);
   }
 
-  /** Frame \a t, from 0, is the next one of the current pass: frames may be added in any order. Floating-point ones are
-   * summed in the order in which they come. Throws std::logic_error if there is none. */
+  /** Makes frame \a t, from 0, the next one of the current pass: frames may be added in any order. Floating-point
+   * frames are summed in the order of adding. Throws std::logic_error if there is no such frame. */
   void
   GoTo(std::size_t t)
   {
     m_InPass.GoTo(t);
   }
 
-  /** For every frame, 1 if it was added, or merged, in the current pass. */
+  /** Returns 1 for every frame that was added or merged in the current pass, else 0. */
   const std::vector<std::uint8_t> &
   GetHas() const
   {
     return m_InPass.GetHas();
   }
 
-  /** Pass 1: what two processes would count, as the fingerprints of their frames are equal, one of them is told to
-   * leave to the other: \a areCountedElsewhere has a value for each frame, 0 where it is counted. Before they are
-   * added. */
+  /** Pass 1: marks the frames that another process counts. Where two processes have frames with equal fingerprints, one
+   * of them leaves its frames to the other. \a areCountedElsewhere has a value for each frame, 0 where it is counted
+   * here. To be called before the frames are added. */
   void
   SetCountedElsewhere(const std::vector<std::uint8_t> & areCountedElsewhere)
   {
@@ -103,25 +104,26 @@ public:
     return m_Moments.GetFingerprints();
   }
 
-  /** Takes back all that was added in the current pass. */
+  /** Removes all that was added in the current pass. */
   void
   ForgetSums();
 
-  /** Gives back memory that merged floating-point sums of pass 1 take, 32 bytes a pixel each: then the bits depend on
-   * the order of merges. */
+  /** Releases the memory of merged floating-point sums of pass 1, 32 bytes per pixel each. From then on the bits of the
+   * result depend on the order of merges. */
   void
   FoldSums()
   {
     m_Moments.Fold();
   }
 
-  /** Writes the sums over the frames of the current pass that have been added or merged so far, see BinaryStream: 20
-   * (integers) or 32 bytes a pixel in pass 1. */
+  /** Writes the sums over the frames of the current pass that have been added or merged so far, see BinaryStream. In
+   * pass 1 they have 20 (integers) or 32 bytes per pixel. */
   void
   SaveSums(std::ostream & out) const;
 
   /** Adds the sums that another object, with the same arguments, saved in the same pass. Throws std::runtime_error, and
-   * changes nothing, if the stream is no such sums, or holds a frame that is here, too, or equals one that is. */
+   * changes nothing, if the stream holds something else. The same happens if it holds a frame that has been added
+   * here, or one that equals such a frame. */
   void
   MergeSums(std::istream & in);
 
@@ -129,7 +131,7 @@ public:
   void
   EndPass();
 
-  /** What the method finds, see StackMethod. */
+  /** Results of the method, see StackMethod. */
   virtual bool
   IsDone() const = 0;
   virtual const Report &
@@ -151,19 +153,19 @@ public:
   virtual std::vector<std::uint8_t>
   TakePixelUse() = 0;
 
-  /** Whether the current pass is the first one, in which unlike frames are found. */
+  /** Returns whether the current pass is the first one, in which unlike frames are found. */
   bool
   IsFirstPass() const
   {
     return m_InPass.GetPass() == 0;
   }
-  /** All frames of the first pass are in: those that are unlike the others. */
+  /** Returns the frames that are unlike the others, after all frames of the first pass have been added. */
   std::vector<LeftOutFrame>
   FindUnlike() const
   {
     return FindUnlikeFrames(m_Thumbnails);
   }
-  /** The first pass ends by leaving out these frames, in order, instead of what FindUnlike() says. */
+  /** Sets the frames that the first pass leaves out, in ascending order, instead of those that FindUnlike() returns. */
   void
   LeaveOut(std::vector<LeftOutFrame> frames)
   {
@@ -171,7 +173,7 @@ public:
   }
 
 protected:
-  /** \a method is its name in saved sums. Throws std::invalid_argument for what RequireStack() refuses. */
+  /** \a method is the name of the method in saved sums. Throws std::invalid_argument in the cases of RequireStack(). */
   StackPasses(const std::string &               method,
               const FrameGeometry &             geometry,
               std::size_t                       frames,
@@ -188,29 +190,32 @@ protected:
     return m_InPass.GetPass();
   }
 
-  /** One of the frames that frames are added to together. */
+  /** One of the planes to which frames are added together. */
   struct Plane
   {
-    StackPasses * passes; ///< of the method that is asked
-    std::size_t   place;  ///< of the first frame among the distinct ones
+    StackPasses * passes; ///< plane, of the method that receives the call
+    std::size_t   place;  ///< place of the first frame among the distinct ones
   };
 
-  /** The frames that are left out, when the first pass has ended. */
+  /** Returns the frames that are left out, after the first pass has ended. */
   std::vector<LeftOutFrame>
   GetLeftOut() const
   {
     return m_LeftOut.value_or(std::vector<LeftOutFrame>());
   }
 
-  /** A later pass found that the frames at these places among the distinct ones are unlike the others: the next pass
-   * is for the moments of the rest, and all that the method found is to be found anew. Returns whether it is so: not if
-   * they are too many, all together more than \a largestShare of the frames (JoinUnlikeFrames). */
+  /** Leaves out further frames and starts again, if a later pass has found that they are unlike the others. The next
+   * pass computes the moments of the rest, and the method computes all results anew.
+   * \param places places of the frames among the distinct ones
+   * \param fault reason why they are left out
+   * \param largestShare largest fraction of the frames that may be left out in all [1], see JoinUnlikeFrames()
+   * \return false, without any change, if there are none or too many of them */
   bool
   StartAgainWithout(const std::vector<std::size_t> & places,
                     FrameFault                       fault,
                     double                           largestShare = InMoments.largestLeftOutShare);
 
-  /** Whether the current pass gathers moments. */
+  /** Returns whether the current pass sums moments. */
   bool
   IsOfMoments() const
   {
@@ -223,7 +228,7 @@ protected:
   ParallelFor               m_ParallelFor;
   StackMoments<TPixel>      m_Moments;
   FrameThumbnails           m_Thumbnails;
-  DistinctFrames            m_Distinct; // when the first pass has ended; without those left out
+  DistinctFrames            m_Distinct; // set when the first pass has ended; without the frames that are left out
 
 private:
   /** Adds \a count frames to the moments. */
@@ -233,12 +238,12 @@ private:
                std::size_t                        count,
                const ParallelFor &                parallelFor);
 
-  /** Whether the method sums in the current pass: not while moments are gathered, nor if the stack cannot be measured.
-   */
+  /** Returns whether the method sums in the current pass. It does not while moments are summed, nor if the stack cannot
+   * be measured. */
   virtual bool
   HasSums() const = 0;
-  /** What follows is only asked for where it has sums. Adds \a count distinct frames to \a planes, this one or all of
-   * a mosaic's. */
+  /** Adds \a count distinct frames to \a planes, this one or all planes of a mosaic. This function and the next three
+   * are only called where HasSums() is true. */
   virtual void
   AddDistinct(const std::vector<Plane> & planes,
               const TPixel *             frames,
@@ -251,30 +256,31 @@ private:
   virtual void
   MergeOwnSums(std::istream & in) = 0;
 
-  /** Adds what the method found in the passes before. */
+  /** Adds the findings of the method in earlier passes to \a fingerprint. */
   virtual void
   AddFindings(Fingerprint & fingerprint) const = 0;
-  /** The moments are complete. */
+  /** Called when the moments are complete. */
   virtual void
   FinishMoments() = 0;
-  /** All frames of a later pass are in. */
+  /** Called when all frames of a later pass have been added. */
   virtual void
   FinishSums() = 0;
 
-  /** The next pass is for the moments of the frames that are not left out. */
+  /** Makes the next pass sum the moments of the frames that are not left out. */
   void
   StartMomentsAgain();
 
-  /** Of all that the sums of the current pass depend on beside the frames. */
+  /** Returns a fingerprint of all data, apart from the frames, on which the sums of the current pass depend. */
   std::uint64_t
   FingerprintOfPass() const;
 
   std::string                              m_Name;
   std::size_t                              m_Frames;
   PassFrames                               m_InPass;
-  bool                                     m_IsOfMoments{ true }; // the current pass
-  std::optional<std::vector<LeftOutFrame>> m_LeftOut;             // none: not looked for
-  mutable std::optional<std::uint64_t>     m_Fingerprint; // of the pass: takes a while, and is asked for at every merge
+  bool                                     m_IsOfMoments{ true }; // whether the current pass sums moments
+  std::optional<std::vector<LeftOutFrame>> m_LeftOut;             // none: not searched yet
+  mutable std::optional<std::uint64_t>     m_Fingerprint; // result of FingerprintOfPass(), which is slow to compute and
+                                                          // needed at every merge
 };
 
 #define SensorNoise_EXTERN(TPixel) extern template class SensorNoise_EXPORT StackPasses<TPixel>

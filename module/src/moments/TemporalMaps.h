@@ -12,16 +12,18 @@
 namespace sensornoise
 {
 
-/** What the temporal moments of a stack become when all of its frames are in: a map of a frame's size each. */
+/** Maps of the temporal moments of a stack, each of a frame's size, after all of its frames have been added. */
 template <typename TPixel>
 struct TemporalMaps
 {
   using Extreme = std::conditional_t<std::is_integral_v<TPixel>, std::int16_t, double>;
-  /** Extremes are held less this [DN]: only unsigned 16-bit values need to be shifted to fit a signed 16-bit number. */
+  /** Centre that is subtracted from the stored extremes [DN]: only unsigned 16-bit values need it to fit a signed
+   * 16-bit number. */
   static constexpr std::int32_t Centre = std::is_unsigned_v<TPixel> && sizeof(TPixel) == 2 ? 32768 : 0;
 
-  std::vector<double>  mean;     ///< [DN]; NaN where the pixel was not finite in a frame
-  std::vector<double>  variance; ///< unbiased [DN^2]; of a single frame 0; not finite where the mean is not
+  std::vector<double> mean;     ///< mean over time [DN]; NaN where the pixel was not finite in a frame
+  std::vector<double> variance; ///< unbiased variance over time [DN^2]; 0 for a single frame; not finite where the
+                                ///< mean is not
   std::vector<Extreme> minimum;
   std::vector<Extreme> maximum;
 
@@ -30,13 +32,13 @@ struct TemporalMaps
   {
     return mean.size();
   }
-  /** Whether pixel \a p was finite in every frame. */
+  /** Returns whether pixel \a p was finite in every frame. */
   bool
   IsFinite(std::size_t p) const
   {
     return std::is_integral_v<TPixel> || std::isfinite(mean[p]);
   }
-  /** Lowest and highest value of pixel \a p over time [DN]; frames that are NaN are passed over. */
+  /** Lowest and highest value of pixel \a p over time [DN]; frames where it is NaN are ignored. */
   double
   GetMinimum(std::size_t p) const
   {

@@ -22,7 +22,7 @@ namespace
 {
 using Indices = std::vector<std::size_t>;
 
-/** Those of \a cells that hold finite pixels in all of the frames \a kept. */
+/** Returns the cells, of \a cells, that have finite pixels in all of the frames \a kept. */
 Indices
 FiniteCells(const FrameThumbnails & thumbnails, const Indices & cells, const Indices & kept)
 {
@@ -34,7 +34,7 @@ FiniteCells(const FrameThumbnails & thumbnails, const Indices & cells, const Ind
   return finite;
 }
 
-/** The cells that hold finite pixels in most frames. */
+/** Returns the cells that have finite pixels in more than half of the frames. */
 Indices
 CellsThatTell(const FrameThumbnails & thumbnails)
 {
@@ -54,7 +54,7 @@ CellsThatTell(const FrameThumbnails & thumbnails)
   return cells;
 }
 
-using Faults = std::map<std::size_t, FrameFault>; // of the frames that are left out
+using Faults = std::map<std::size_t, FrameFault>; // reasons by the numbers of the frames that are left out
 
 bool
 IsEmpty(FrameFault fault)
@@ -62,8 +62,8 @@ IsEmpty(FrameFault fault)
   return fault == FrameFault::NotFinite || fault == FrameFault::NoNoise;
 }
 
-/** Whether so few of so many frames are left out that the others are the burst. Empty frames are no burst, however many
- * they are; of the others at most \a share may be left out [1]. */
+/** Returns whether so few of the frames are left out that the others are the burst. Empty frames are not part of a
+ * burst, however many they are. Of the other frames at most the fraction \a share may be left out [1]. */
 bool
 AreFew(const Faults & faults, std::size_t frames, double share)
 {
@@ -73,7 +73,7 @@ AreFew(const Faults & faults, std::size_t frames, double share)
   return static_cast<double>(faults.size() - empty) <= share * full && faults.size() + MinimumFrames <= frames;
 }
 
-/** In their order; none if they are too many of so many frames. */
+/** Returns the frames in ascending order; an empty list if they are too many of \a frames. */
 std::vector<LeftOutFrame>
 AsList(const Faults & faults, std::size_t frames, double share = InMoments.largestLeftOutShare)
 {
@@ -88,7 +88,7 @@ AsList(const Faults & faults, std::size_t frames, double share = InMoments.large
   return leftOut;
 }
 
-/** The frames with nothing in most of their cells, where the others have something. */
+/** Finds the frames without content in most of their cells, where the other frames have content. */
 Faults
 FindEmptyFrames(const FrameThumbnails & thumbnails, const Indices & cells)
 {
@@ -115,7 +115,7 @@ FindEmptyFrames(const FrameThumbnails & thumbnails, const Indices & cells)
   return faults;
 }
 
-/** The mean of the frames \a chosen over the \a cells. */
+/** Returns the mean of the frames \a chosen over the \a cells [DN]. */
 std::vector<double>
 MeanOfFrames(const FrameThumbnails & thumbnails, const Indices & cells, const Indices & chosen)
 {
@@ -130,8 +130,9 @@ MeanOfFrames(const FrameThumbnails & thumbnails, const Indices & cells, const In
   return mean;
 }
 
-/** Misfits of frames [DN^2], also in two units in which the frames of one scene have similar ones: vibration and local
- * light change a frame in proportion to its light; noise is there without light, too. */
+/** Mean square deviations of frames from the mean frame [DN^2], also in two units in which the frames of one scene have
+ * similar values. Vibration and local changes of the illumination change a frame in proportion to its signal; noise
+ * exists without signal, too. */
 struct Misfits
 {
   std::vector<double> all;
@@ -139,7 +140,7 @@ struct Misfits
   std::vector<double> ofBoth;
 };
 
-/** How the frames \a kept are not as \a mean. */
+/** Computes the deviations of the frames \a kept from \a mean. */
 Misfits
 FindMisfits(const FrameThumbnails &     thumbnails,
             const Indices &             cells,
@@ -158,8 +159,9 @@ FindMisfits(const FrameThumbnails &     thumbnails,
   return misfits;
 }
 
-/** How far each of \a values is above their median, in units of their spread [1]: of the median deviation, or of what
- * chance makes of a mean square over so many cells. */
+/** Returns the distance of each of \a values above their median, in units of their standard deviation [1]. The standard
+ * deviation is the larger of that from the median deviation and the statistical one of a mean square over so many
+ * cells. */
 std::vector<double>
 HowFar(const std::vector<double> & values, std::size_t cells)
 {
@@ -175,7 +177,7 @@ HowFar(const std::vector<double> & values, std::size_t cells)
   return far;
 }
 
-/** How far the frames are from the others in both units [1]. */
+/** Returns the distance of the frames from the others, the smaller one in both units [1]. */
 std::vector<double>
 HowUnlike(const Misfits & misfits, std::size_t cells)
 {
@@ -186,7 +188,7 @@ HowUnlike(const Misfits & misfits, std::size_t cells)
   return far;
 }
 
-/** Finds the frames among \a kept whose shape is not that of the mean of the others. */
+/** Finds the frames among \a kept whose shape differs from the mean of the others. */
 Indices
 FindOtherShapes(const FrameThumbnails & thumbnails, const Indices & cells, const Indices & kept)
 {
@@ -195,7 +197,7 @@ FindOtherShapes(const FrameThumbnails & thumbnails, const Indices & cells, const
   std::vector<double> unlike = HowUnlike(misfits, cells.size());
   for (int round = 0; round < InMoments.roundsOfUnlikeFrames; ++round)
   {
-    // The mean of those that are most alike: as many as could be others do not count in it.
+    // Mean of the frames that are most alike: as many frames as may be left out are excluded.
     const double edge = QuantileOf(unlike, 1.0 - InMoments.largestLeftOutShare);
     Indices      alike;
     for (std::size_t k = 0; k < kept.size(); ++k)
@@ -214,7 +216,7 @@ FindOtherShapes(const FrameThumbnails & thumbnails, const Indices & cells, const
   {
     noise.push_back(thumbnails.NoiseOf(t));
   }
-  // Both are upper bounds of the noise of a cell's mean: texture adds to the first, vibration to the second.
+  // Both are upper bounds of the noise of the mean of a cell: texture adds to the first, vibration to the second.
   const double cellVariance = std::min(QuantileOf(noise, 0.5), QuantileOf(misfits.ofBoth, 0.5));
   const double pixelVariance = thumbnails.PixelsOfCell() * cellVariance;
   const double least = InMoments.leastUnlikeEffect * pixelVariance * static_cast<double>(kept.size());

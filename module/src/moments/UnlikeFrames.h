@@ -16,23 +16,24 @@ namespace sensornoise
 
 class FrameThumbnails;
 
-/** Finds the frames that are unlike the others, in their order; none if fewer than MinimumFrames would be left, or if
- * more than a fifth of the frames that have something in them are unlike.
+/** Finds the frames that are unlike the others, in ascending order. The list is empty if fewer than MinimumFrames would
+ * be left, or if more than a fifth of the frames with content are unlike.
  *
- * A frame of the burst is a level plus a factor times the mean frame, but for noise, vibration, and light that is not
- * the same everywhere, of which the others have as much. A dark frame has the factor 0: it belongs to the burst.
+ * A frame of the burst is a level plus a factor times the mean frame, except for noise, vibration and local changes of
+ * the illumination, which are as large in the others. A dark frame has the factor 0: it belongs to the burst.
  * Estimator.md, 3.1. */
 SensorNoise_EXPORT std::vector<LeftOutFrame>
 FindUnlikeFrames(const FrameThumbnails & thumbnails);
 
-/** Joins the unlike frames of several parts of \a frames, as the planes of a mosaic; none if those that have something
- * in them are more than \a largestShare. */
+/** Joins the unlike frames of several parts of \a frames, such as the planes of a mosaic. The list is empty if the
+ * unlike frames with content are more than the fraction \a largestShare [1], or if fewer than MinimumFrames would be
+ * left. */
 SensorNoise_EXPORT std::vector<LeftOutFrame>
 JoinUnlikeFrames(const std::vector<std::vector<LeftOutFrame>> & ofParts,
                  std::size_t                                    frames,
                  double                                         largestShare = InMoments.largestLeftOutShare);
 
-/** The numbers of the frames. */
+/** Returns the numbers of the frames. */
 SensorNoise_EXPORT std::vector<std::size_t>
 NumbersOf(const std::vector<LeftOutFrame> & frames);
 
