@@ -10,96 +10,102 @@
 namespace sensornoise
 {
 
-/** The numbers of the room `scene`. Estimator.md, 3.2. */
+/** The numbers of the component `scene`. Estimator.md, 3.2. */
 struct SceneConstants
 {
-  /** \name The provisional model */
+  /** \name Initial noise model */
   ///@{
-  /** Pixels to which a model is fitted, of all or of a part of the frame, at least. Set by hand. */
+  /** Least number of pixels to which a model is fitted, in the whole frame or in a part of it. Chosen empirically. */
   std::size_t fewestPixels{ 100 };
-  /** Ratio of raw to modelled variance above which a pixel is not explained, beside chance [1]. Set by hand: weights
-   * and masks need the model to some 10 %. */
+  /** Ratio of raw to modelled variance above which the model does not explain a pixel, apart from chance [1]. Chosen
+   * empirically: weights and masks need the model to some 10 %. */
   double largestRatio{ 2.5 };
-  /** Ratio to the median of its bin from which a pixel is left out of the first fit [1]: of the smoother half, where
-   * motion adds little, and of the rougher. Set by hand. */
+  /** Ratio to the median of its intensity bin from which a pixel is excluded from the first fit [1]: for the smoother
+   * half of the pixels, where motion adds little, and for the rougher half. Chosen empirically. */
   double startRatioSmooth{ 2.5 };
   double startRatioRough{ 30.0 };
-  /** Part of the darkest levels' variance below which no variance is expected [1]. Set by hand: a fit may go below 0.
-   */
+  /** Lower bound of the predicted variance, as a fraction of the variance of the darkest levels [1]. Chosen
+   * empirically: a fit may become negative. */
   double leastShareOfDarkest{ 0.2 };
-  /** The intercept is at least this part of that quantile of the raw variances [1]. Set by hand, for the same reason.
-   */
+  /** The intercept is at least this fraction of this quantile of the raw variances [1]. Chosen empirically, for the
+   * same reason. */
   double leastIntercept{ 0.3 };
   double quantileOfIntercept{ 0.001 };
-  /** Where the fit's slope is not positive, that part of the median variance over the mean light takes its place [1].
-   * Set by hand. */
+  /** Where the slope of the fit is not positive, it is replaced by this fraction of the ratio of the median variance to
+   * the mean signal [1]. Chosen empirically. */
   double fallbackSlope{ 0.1 };
   ///@}
 
-  /** \name Which pixels serve */
+  /** \name Usable pixels */
   ///@{
-  /** Standard deviations of noise and motion by which a pixel must stay away from a clip level [1]. Set by hand: beyond
-   * it is one of 3 10^5 values. */
+  /** Distance of a pixel from a clip level, in standard deviations of noise and motion [1]. Chosen empirically: one in
+   * 3 10^5 values exceeds it. */
   double guardBandSds{ 4.5 };
-  /** Standard deviations of the flicker that a frame may have in any case, for the guard band [1]. Set by hand. */
+  /** Flicker of the brightest and the darkest frame that the guard band allows for in any case, in standard deviations
+   * of the flicker [1]. Chosen empirically. */
   double typicalFlickerSds{ 1.5 };
-  /** Share of the pixels whose noise the codes may hide [1]. Chosen: 8-bit frames have 4 to 10 %; with half, the gain
-   * of codes of 2.3 standard deviations of the brightest pixels' noise was 5 to 8 % too high. */
+  /** Largest fraction of pixels whose noise is hidden by quantization [1]. Chosen empirically: 8-bit frames have 4 to
+   * 10 %. With half, the gain was 5 to 8 % too high for a quantization step of 2.3 standard deviations of the noise of
+   * the brightest pixels. */
   double largestCoarseShare{ 0.2 };
   ///@}
 
-  /** \name What crosses the frame */
+  /** \name Moving objects that cross the frame */
   ///@{
-  /** Cells along either axis, at most: a band of a third of the frame is 8 cells wide. Set by hand: with 32 the medians
-   * of 32 pixels scatter more, and still cells are lost; with 12 the neighbours of a region are half of such a band. */
+  /** Largest number of cells along either axis: a band of a third of the frame is 8 cells wide. Chosen empirically:
+   * with 32 the medians of 32 pixels scatter more, and static cells are lost. With 12 the neighbours of a region are
+   * half of such a band. */
   std::size_t mostCells{ 24 };
-  /** Width of a cell, at least [pixels], and pixels of the sample without which it tells nothing. Set by hand. */
+  /** Least width of a cell [pixels], and least number of sampled pixels of a cell that is used. Chosen empirically. */
   std::size_t leastCellWidth{ 8 };
   std::size_t fewestPixelsOfCell{ 8 };
-  /** A median that is off by this factor does not fit [1]. Set by hand: the noise of 60 frames and pixels moves it by 3
-   * %, and light may differ over the frame. 1.2 gives the same where something crosses, but little room to light; 1.8
-   * leaves more cells in which the crossing is faint. */
+  /** Ratio of medians from which a cell does not fit a model [1]. Chosen empirically: the noise of 60 frames and pixels
+   * changes a median by 3 %, and the illumination may change locally. 1.2 gives the same result for moving objects,
+   * but leaves little room for the illumination; 1.8 leaves more cells that an object crosses faintly. */
   double largestMedianRatio{ 1.4 };
-  /** Nothing crosses a frame whose model has this score [1], see Candidate in CrossedRegion.cxx. Set by hand: static
-   * scenes, rolling shutters and vibration give 0.98 to 1, a disk that crosses a quarter of the frame 0.75. At 0.7 that
-   * disk is left to the later passes: the same gain from a tenth more pixels, but at strong vibration flicker and
-   * offset are then off. At 0.92 things that cross a tenth of the frame are left out here. */
+  /** Score of the model, see Candidate in CrossedRegion.cxx, from which no object is searched [1]. Chosen empirically:
+   * static scenes, rolling shutters and vibration give 0.98 to 1, a disk that crosses a quarter of the frame gives
+   * 0.75. With 0.7 that disk is left to the later passes. The gain is then the same, from a tenth more pixels, but
+   * flicker and offset are wrong under strong vibration. With 0.92 objects that cross a tenth of the frame are
+   * excluded here. */
   double enoughScore{ 0.85 };
-  /** What a share of cells below a model counts in units of a share that fits [1]. Below a model of what is still lies
-   * nothing; a model of the thing itself may fit two thirds of the frame, and lie above the rest. Set by hand: half and
-   * twice find the same regions; without a cost, light that differs over the frame is taken for a thing. */
+  /** Cost in the score of a fraction of cells below a model, in units of a fraction that fits [1]. No cell is below a
+   * model of the static scene. A model of the object itself may fit two thirds of the frame and exceed the variance of
+   * the rest. Chosen empirically: half and twice find the same regions. Without a cost, local changes of the
+   * illumination are taken for an object. */
   double costOfBelow{ 2.0 };
-  /** Cells above the model are light if one flicker a cell explains this share of them, and it is at most so large, rms
-   * and relative [1]. Set by hand: where half of the light bleaches by 20 % it is 1.0 and 0.06, for things on charts
-   * and textures 0.35 to 0.95 and 0.2 to 0.6. With 0.2 for the size a faint thing is taken for a lamp, with 0.05 that
-   * bleaching for a thing. */
+  /** Cells above the model are due to the illumination if a separate flicker of every cell explains at least this
+   * fraction of them, and its relative rms is at most the second number [1]. Chosen empirically: where half of the
+   * signal bleaches by 20 % the two numbers are 1.0 and 0.06; for objects on charts and textures they are 0.35 to 0.95
+   * and 0.2 to 0.6. With 0.2 for the second number a faint object is taken for a lamp, with 0.05 this bleaching is
+   * taken for an object. */
   double leastLightShare{ 0.8 };
   double largestLight{ 0.1 };
-  /** Share of the pixels that must be left [1]. Below, all of the frame moves, and the later passes must see what they
-   * can. Set by hand. */
+  /** Least fraction of pixels outside of the region [1]. If fewer are left, the whole frame moves, and all pixels are
+   * left to the later passes. Chosen empirically. */
   double leastStill{ 0.05 };
   ///@}
 
   /** \name Masked borders */
   ///@{
-  /** Sides of a frame [pixels], and part of its columns or rows that a strip may take [1]. Chosen empirically: sensors
-   * have up to a tenth, and the middle of the frame must be left. */
+  /** Least width and height of a frame [pixels], and largest fraction of its columns or rows in a strip [1]. Chosen
+   * empirically: strips of sensors have up to a tenth, and the middle of the frame must be left. */
   std::size_t leastBorderedSide{ 32 };
   double      largestBorder{ 0.25 };
-  /** Pixels by which a column or row is judged, about, and at least: the medians of so many bound the time. */
+  /** Approximate and least number of pixels sampled in a column or row. The medians of the samples bound the time. */
   std::size_t pixelsOfBorderLine{ 128 };
   std::size_t leastPixelsOfBorderLine{ 8 };
-  /** Part of the pixels beside a strip that must differ from it [1]: a scene may have its level in places. */
+  /** Fraction of the pixels beside a strip that must differ from it [1]: parts of a scene may have the same level. */
   double leastBorderShare{ 0.95 };
-  /** Part of the step at the end of a strip by which pixels of the next lines may differ, as medians [1], and its last
-   * line from its first one [1]. The image of an edge is not as sharp: a Gaussian of 0.4 pixels leaves 0.16 in the
-   * pixel before. Chosen empirically for the former. */
+  /** Largest difference between the pixels of the next lines, as a median, and between the last and the first line of a
+   * strip; both relative to the step at its end [1]. The image of an edge is not as sharp: with a Gaussian of 0.4
+   * pixels, 0.16 of the step falls into the pixel before. The first was chosen empirically. */
   double largestBorderSlope{ 0.34 };
   double largestBlur{ 0.08 };
-  /** Standard deviation of the levels beside a strip, in units of that in the strip, from which on the structure of the
-   * scene ends with the strip [1]. Chosen empirically. */
+  /** Ratio of the standard deviation of the levels beside a strip to that in the strip from which the structure of the
+   * scene ends at the strip [1]. Chosen empirically. */
   double leastStructure{ 8.0 };
-  /** Quantile of the levels of the scene below which the strip is without light [1]. */
+  /** Quantile of the levels of the scene below which the level of a strip is dark [1]. */
   double darkestOfScene{ 0.02 };
   ///@}
 };

@@ -19,7 +19,7 @@ namespace
 {
 using Coefficients = VarianceSample::Coefficients;
 
-/** A model of the variance, and how the cells of the frame compare. */
+/** A model of the variance, and the comparison of the cells of the frame with it. */
 struct Candidate
 {
   VariancePrediction prediction;
@@ -32,7 +32,7 @@ struct Candidate
   }
 };
 
-/** Variance has no negative part. */
+/** Sets negative variance components to 0. */
 Coefficients
 NotNegative(Coefficients theta)
 {
@@ -52,7 +52,7 @@ CoefficientsOf(const ProvisionalModel & model, double scaleDn)
   return theta;
 }
 
-/** Part of a frame, in units of its width and height. */
+/** A rectangle of a frame, in units of its width and height. */
 struct FramePart
 {
   double left, right, top, bottom;
@@ -93,7 +93,8 @@ PixelsOfPart(const std::vector<std::size_t> & pixels, const FrameGeometry & geom
   return own;
 }
 
-/** The best of the models that start from one drawn by \a part and follow the cells that fit. */
+/** Fits a model to \a part of the frame, extends it several times to all cells that fit it, and returns the best of
+ * these models. */
 Candidate
 FollowPart(const VarianceSample & part, const VarianceSample & whole, const VarianceCells & cells, double largestRatio)
 {
@@ -128,7 +129,7 @@ FollowPart(const VarianceSample & part, const VarianceSample & whole, const Vari
   return best;
 }
 
-/** Number of cells of \a region within \a radius of a cell, and of all cells there. */
+/** Returns the number of cells of \a region within \a radius of a cell, and the number of all cells there. */
 std::pair<std::size_t, std::size_t>
 CountNear(const std::vector<std::uint8_t> & region, const VarianceCells & cells, std::size_t c, std::size_t radius)
 {
@@ -147,8 +148,8 @@ CountNear(const std::vector<std::uint8_t> & region, const VarianceCells & cells,
   return { count, all };
 }
 
-/** Adds the neighbours, which the thing touches, and then, until no more are found, cells most of whose 5 x 5
- * neighbours belong to the region: where a thing is as bright as what it hides, it does not show. */
+/** Adds the neighbours, which the object touches. Then adds cells most of whose 5 x 5 neighbours belong to the region,
+ * until there are no more: where an object is as bright as its background, its variance is not visible. */
 std::vector<std::uint8_t>
 Close(const std::vector<std::uint8_t> & region, const VarianceCells & cells)
 {

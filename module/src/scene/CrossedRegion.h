@@ -13,18 +13,19 @@
 namespace sensornoise
 {
 
-/** Finds the part of the frame that something crosses: 1 there, by cells of the frame; empty if there is none.
+/** Finds the part of the frame that a moving object crosses. Returns 1 there, by cells of the frame; empty if there is
+ * none.
  *
- * A person who walks through a burst disturbs all that they pass, which may be most of the frame. A model of the
- * variance that the majority draws is then one of the person, and flicker and motion found with it are wrong. But what
- * moves can only add variance: the model of what is still is the one with no cells of the frame below it, and with as
- * many that fit it as possible; a third of the frame is enough, or less.
+ * A person who walks through a burst disturbs all pixels on the way, which may be most of the frame. A model of the
+ * variance fitted to the majority then describes the person, and flicker and motion found with it are wrong. But a
+ * moving object only adds variance. The model of the static scene is therefore the one with no cells below it and with
+ * as many cells as possible that fit it; a third of the frame or less is enough.
  *
- * Where \a model, which all usable pixels drew, explains 85 % of the frame, and little lies below it, nothing is looked
- * for: smaller things are left to FindUnexplained and to the third pass. Else models are drawn by parts of the frame:
- * halves, thirds and ninths, each then followed over all cells that fit it. The cells that are above the best one are
- * the region, closed: their neighbours, and narrow islands between them, belong to it. Light that changes in some
- * places more than in others is no thing: see FindLocalIllumination. */
+ * Nothing is searched where \a model, which was fitted to all usable pixels, explains 85 % of the frame and few cells
+ * lie below it: smaller objects are left to FindUnexplained() and to the third pass. Otherwise models are fitted to
+ * parts of the frame: halves, thirds and ninths. Each is then extended over all cells that fit it. The cells above the
+ * best model are the region, with their neighbours and the narrow islands between them. Local changes of the
+ * illumination are not an object, see FindLocalIllumination(). */
 SensorNoise_EXPORT std::vector<std::uint8_t>
 FindCrossedRegion(const ReferenceFrame & frame, const ProvisionalModel & model);
 

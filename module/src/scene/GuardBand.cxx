@@ -15,7 +15,8 @@ namespace sensornoise
 
 namespace
 {
-/** Levels that the noise must not reach, and how far light and noise go. */
+/** Clip levels and their guard: levels that the noise must not reach [DN], relative brightness of the brightest and the
+ * darkest frame [1], and distance in standard deviations [1]. */
 struct GuardedLevels
 {
   double lowDn;
@@ -36,8 +37,8 @@ LevelsOf(const CodeRange & codes, double brightest, double darkest, double sds)
            sds };
 }
 
-/** Marks the usable pixels of [begin, end) that reach a level. What is read once by value: what is written could else
- * be that, and no vectors be made. */
+/** Marks the usable pixels of [begin, end) that reach a clip level. Small arguments are passed by value: by reference
+ * they could alias the output, which prevents vectorization. */
 void
 MarkGuarded(const ReferenceFrame & frame,
             ProvisionalModel       model,
@@ -60,12 +61,13 @@ MarkGuarded(const ReferenceFrame & frame,
     const double high =
       level + guard.brightest * flux + guard.sds * std::sqrt(noise * (1.0 + guard.brightest) + motion);
     const double low = level + guard.darkest * flux - guard.sds * std::sqrt(noise + motion);
-    const bool   isReached = (high >= guard.highDn) | (low <= guard.lowDn); // both: no branch
+    const bool   isReached = (high >= guard.highDn) | (low <= guard.lowDn); // no short-circuit, to avoid a branch
     guarded[p] = usable[p] != 0 && isReached ? 1 : 0;
   }
 }
 
-/** The same about an offset, each end with the noise of the level that is reached: in a dark frame little. */
+/** Marks the usable pixels of [begin, end) that reach a clip level, if the signal scales about \a offsetDn. The noise
+ * is evaluated at the levels that are reached, so that in a dark frame it is small. */
 void
 MarkGuardedAbout(double                 offsetDn,
                  double                 lowestNoiseDn2,

@@ -16,12 +16,12 @@
 namespace sensornoise
 {
 
-/** Marks the pixels that clipping could touch, whether it did or not: those whose expected extreme, in the brightest
- * or darkest frame and \a sds standard deviations out, reaches a clip level.
+/** Marks the pixels that clipping could affect, whether it did or not: those whose expected extreme reaches a clip
+ * level. The expected extreme is in the brightest or darkest frame, \a sds standard deviations from the level.
  *
- * Leaving out only the pixels that happened to clip would select on the noise: the others' variance is too small
- * (estimator.md, 3.2). \a brightest and \a darkest are the extreme relative brightness of a frame, above -1; 0: the
- * mean's. */
+ * Excluding only the pixels that happened to clip would select by the noise: the variance of the others would be too
+ * small (estimator.md, 3.2). \a brightest and \a darkest are the extreme relative changes of the brightness of a
+ * frame, above -1 [1]; 0 is the brightness of the mean frame. */
 SensorNoise_EXPORT std::vector<std::uint8_t>
 FindGuardBand(const ReferenceFrame &   frame,
               const ProvisionalModel & model,
@@ -31,18 +31,18 @@ FindGuardBand(const ReferenceFrame &   frame,
               const ParallelFor &      parallelFor,
               double                   sds = InScene.guardBandSds);
 
-/** How far the illumination and the offset go, as far as the frames' levels and a rough model tell. */
+/** Range of the illumination and the offset, estimated from the levels of the frames and a rough model. */
 struct IlluminationRange
 {
-  double lowestDn;        ///< mean of the darkest frame less that of all frames [DN]
-  double highestDn;       ///< of the brightest frame [DN]
-  double lowestOffsetDn;  ///< [DN]
-  double highestOffsetDn; ///< at most the mean of the darkest frame [DN]
-  double lowestNoiseDn2;  ///< variance that the noise of the darkest frame has at most, whatever the model says [DN^2]
+  double lowestDn;        ///< mean of the darkest frame minus the mean of all frames [DN]
+  double highestDn;       ///< mean of the brightest frame minus the mean of all frames [DN]
+  double lowestOffsetDn;  ///< smallest possible offset [DN]
+  double highestOffsetDn; ///< largest possible offset, at most the mean of the darkest frame [DN]
+  double lowestNoiseDn2;  ///< upper bound of the noise variance in the darkest frame, for any model [DN^2]
 };
 
-/** The same where the illumination changes strongly: marks the pixels that reach a clip level about the lowest or the
- * highest offset, with the noise that they have at the level that they reach. */
+/** Marks the pixels that clipping could affect where the illumination changes strongly. A pixel is marked if it reaches
+ * a clip level with the lowest or the highest offset, with the noise at the level that is reached. */
 SensorNoise_EXPORT std::vector<std::uint8_t>
 FindGuardBand(const ReferenceFrame &    frame,
               const ProvisionalModel &  model,

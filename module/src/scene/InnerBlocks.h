@@ -13,11 +13,10 @@
 namespace sensornoise
 {
 
-/** Calls function(begin, end) for blocks of the pixels of all rows but those next to the border, in any order and
- * possibly at the same time: there a stencil reads nothing behind the map, not even at the ends of the rows, where what
- * it gives is of no meaning. So loops over whole blocks need not ask, and become vectors, for which they are compiled
- * wide.
- */
+/** Calls function(begin, end) for blocks of the pixels of all rows except those next to the border, in any order and
+ * possibly at the same time. Within these blocks a stencil reads nothing outside of the map, not even at the ends of
+ * the rows, where its value has no meaning. Loops over whole blocks therefore need no test, and are compiled to SIMD
+ * instructions (AVX2). */
 template <typename TFunction>
 void
 ForInnerBlocks(const FrameGeometry & geometry, const ParallelFor & parallelFor, TFunction function)

@@ -23,14 +23,14 @@ struct BorderLines
 {
   const std::vector<double> &       mean;
   const std::vector<std::uint8_t> & valid;
-  std::size_t                       first;  // pixel at the corner
-  std::ptrdiff_t                    inward; // from a line to the next one
-  std::ptrdiff_t                    along;  // from a pixel of a line to the next one
+  std::size_t                       first;  // number of the pixel at the corner
+  std::ptrdiff_t                    inward; // distance from a line to the next one [pixels in memory]
+  std::ptrdiff_t                    along;  // distance from a pixel of a line to the next one [pixels in memory]
   std::size_t                       lines;
   std::size_t                       length;
 
-  /** Levels of about InScene.pixelsOfBorderLine pixels of the middle half of a line: strips of the other borders hold
-   * its ends. NaN: not valid. */
+  /** Returns the levels of about InScene.pixelsOfBorderLine pixels in the middle half of a line [DN]. The ends are left
+   * out, because strips of the other borders may cover them. NaN: not valid. */
   std::vector<double>
   LevelsOf(std::size_t line) const
   {
@@ -48,7 +48,7 @@ struct BorderLines
   }
 };
 
-/** Of the levels of a line [DN]; null: too few of its pixels are valid. */
+/** Returns the centre of the levels of a line [DN]; null: too few of its pixels are valid. */
 std::optional<RobustCentre>
 LevelsOfLine(std::vector<double> levels)
 {
@@ -61,7 +61,7 @@ LevelsOfLine(std::vector<double> levels)
   return CentreOf(std::move(levels));
 }
 
-/** Median of the differences between \a levels and \a others, without their signs; infinite where there are none. */
+/** Returns the median absolute difference between \a levels and \a others [DN]; infinite if there is none. */
 double
 MedianDifference(const std::vector<double> & levels, const std::vector<double> & others)
 {
@@ -77,7 +77,7 @@ MedianDifference(const std::vector<double> & levels, const std::vector<double> &
   return differences.empty() ? std::numeric_limits<double>::infinity() : Quantile(differences, 0.5);
 }
 
-/** Part of the levels that are farther from \a level than \a distance [1]. */
+/** Returns the fraction of the levels whose distance from \a level exceeds \a distance [1]. */
 double
 ShareBeyond(const std::vector<double> & levels, double level, double distance)
 {
@@ -91,8 +91,8 @@ ShareBeyond(const std::vector<double> & levels, double level, double distance)
   return static_cast<double>(beyond) / static_cast<double>(std::max<std::size_t>(1, counted));
 }
 
-/** Whether the strip of \a count lines ends within one pixel, and is darker than nearly all of the scene or has nothing
- * of the structure that the scene has beside it. */
+/** Returns whether the strip of \a count lines ends within one pixel, and is either darker than nearly all of the scene
+ * or without the structure of the scene beside it. */
 bool
 EndsSharply(const BorderLines & border, const RobustCentre & outermost, std::size_t count)
 {
@@ -120,7 +120,7 @@ EndsSharply(const BorderLines & border, const RobustCentre & outermost, std::siz
   }
   const bool          hasStructure = first->sd > InScene.leastStructure * outermost.sd;
   std::vector<double> scene;
-  const std::size_t   middle = border.lines - border.lines / 4; // the other border may have a strip, too
+  const std::size_t   middle = border.lines - border.lines / 4; // the opposite border may have a strip, too
   for (std::size_t line = count; line < middle; line += std::max<std::size_t>(1, border.lines / 64))
   {
     const std::vector<double> own = border.LevelsOf(line);
@@ -132,7 +132,7 @@ EndsSharply(const BorderLines & border, const RobustCentre & outermost, std::siz
   return hasStructure || outermost.median + distance < darkest;
 }
 
-/** The lines of the strip that begins with line 0; 0: there is none. */
+/** Returns the number of lines of the strip that begins with line 0; 0: there is none. */
 std::size_t
 CountLines(const BorderLines & border, const RobustCentre & outermost)
 {

@@ -14,19 +14,19 @@
 namespace sensornoise
 {
 
-/** A strip along a border of the frame that is no part of the scene. */
+/** A strip along a border of the frame that is not part of the scene. */
 struct MaskedStrip
 {
-  const char * words{ "" };     ///< such as "leftmost columns"
-  std::size_t  lines{ 0 };      ///< columns or rows; 0: there is no strip
-  double       levelDn{ 0.0 };  ///< its median
-  double       besideDn{ 0.0 }; ///< median of the line of the scene next to it
+  const char * words{ "" };     ///< description, such as "leftmost columns"
+  std::size_t  lines{ 0 };      ///< number of columns or rows; 0: there is no strip
+  double       levelDn{ 0.0 };  ///< median level of the strip [DN]
+  double       besideDn{ 0.0 }; ///< median of the line of the scene next to it [DN]
 };
 
-/** The strips of the four borders. Estimator.md, 3.2. */
+/** The strips of the four borders, and the numbers of their columns or rows. Estimator.md, 3.2. */
 struct SensorNoise_EXPORT MaskedBorder
 {
-  std::vector<MaskedStrip> strips; ///< of left, right, top and bottom those that were found
+  std::vector<MaskedStrip> strips; ///< strips that were found, in the order left, right, top, bottom
   std::size_t              left{ 0 };
   std::size_t              right{ 0 };
   std::size_t              top{ 0 };
@@ -37,7 +37,7 @@ struct SensorNoise_EXPORT MaskedBorder
   {
     return x < left || y < top || x + right >= geometry.width || y + bottom >= geometry.height;
   }
-  /** Pixels of all strips. */
+  /** Returns the number of pixels of all strips. */
   std::size_t
   Pixels(const FrameGeometry & geometry) const
   {
@@ -45,9 +45,8 @@ struct SensorNoise_EXPORT MaskedBorder
   }
 };
 
-/** Finds the optical-black columns and rows, and other border regions without light, in the \a mean levels of the \a
- * valid pixels: strips of one level that end along a whole border within one pixel, which an image of a scene does not.
- */
+/** Finds the optical-black columns and rows, and other dark border regions, in the \a mean levels [DN] of the \a valid
+ * pixels. They are strips of one level that end along a whole border within one pixel, unlike the image of a scene. */
 SensorNoise_EXPORT MaskedBorder
 FindMaskedBorder(const std::vector<double> &       mean,
                  const std::vector<std::uint8_t> & valid,

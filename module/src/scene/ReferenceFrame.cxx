@@ -15,7 +15,7 @@ namespace sensornoise
 
 namespace
 {
-/** The mean of the neighbours of a pixel that have one; 0 if none has. */
+/** Returns the mean of the finite neighbours of a pixel [DN]; 0 if there is none. */
 double
 MeanOfNeighbours(const std::vector<double> & mean, const FrameGeometry & geometry, std::size_t x, std::size_t y)
 {
@@ -36,8 +36,8 @@ MeanOfNeighbours(const std::vector<double> & mean, const FrameGeometry & geometr
   return count > 0 ? sum / count : 0.0;
 }
 
-/** The neighbours' means of row \a y. Where all neighbours are there, and most pixels are of that kind, their sum is
- * made without a look at each: it is not finite if one of them is not. */
+/** Computes the means of the neighbours in row \a y. Most pixels have 8 finite neighbours: their sum is computed
+ * without a test of each one. If it is not finite, the mean is computed again from the finite ones. */
 void
 FillNeighbourMeans(const std::vector<double> & mean, const FrameGeometry & geometry, std::size_t y, double * means)
 {
@@ -63,7 +63,7 @@ FillNeighbourMeans(const std::vector<double> & mean, const FrameGeometry & geome
   }
 }
 
-/** Marks the pixels of row \a y, which is not next to the border, that are usable. */
+/** Marks the usable pixels of row \a y, which is not next to the border. */
 void
 FillUsable(const std::vector<double> &       variance,
            const std::vector<std::uint8_t> & valid,
@@ -75,7 +75,7 @@ FillUsable(const std::vector<double> &       variance,
   const std::uint8_t * const here = valid.data() + y * width;
   const std::uint8_t * const above = here - width;
   const std::uint8_t * const below = here + width;
-  // Numbers, not truths: without branches.
+  // Integers instead of booleans avoid branches.
   const auto column = [&](std::size_t x) { return above[x] != 0 && here[x] != 0 && below[x] != 0 ? 1U : 0U; };
   for (std::size_t x = StencilMargin; x + StencilMargin < width; ++x)
   {
@@ -124,7 +124,7 @@ UncoverUnknown(ReferenceFrame & frame, const ParallelFor & parallelFor)
 void
 FillNeighbourMean(ReferenceFrame & frame, const ParallelFor & parallelFor)
 {
-  UncoverUnknown(frame, parallelFor); // what was filled in for a pixel is no neighbour's mean
+  UncoverUnknown(frame, parallelFor); // a value filled in for a pixel must not enter the mean of its neighbours
   frame.neighbourMean = MakeMap<double>(frame.mean.size(), parallelFor);
   parallelFor(frame.geometry.height, [&](std::size_t y) {
     double * const means = frame.neighbourMean.data() + y * frame.geometry.width;

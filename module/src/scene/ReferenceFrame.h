@@ -14,22 +14,24 @@
 namespace sensornoise
 {
 
-/** What one pass over the stack tells of the scene: the frame against which all others are compared. */
+/** Reference frame from one pass over the stack, with which all frames are compared: mean and variance of every pixel.
+ */
 struct ReferenceFrame
 {
   FrameGeometry       geometry;
   std::size_t         frames{ 0 };
-  std::vector<double> mean;          ///< over time [DN]; a pixel without one has its neighbours'
+  std::vector<double> mean;          ///< mean over time [DN]; a pixel without one has the mean of its neighbours
   std::vector<double> neighbourMean; ///< mean of the 8 neighbours, without the pixel itself [DN]
-  std::vector<double> variance;      ///< over time, unbiased, flicker and motion included; NaN: unknown [DN^2]
+  std::vector<double> variance;      ///< unbiased variance over time, flicker and motion included [DN^2]; NaN: unknown
   /** 1: the pixel and its 8 neighbours are valid, it varies, and it is StencilMargin pixels from the border. */
   std::vector<std::uint8_t> usable;
 };
 
-/** Makes the reference frame of maps of mean and unbiased variance, which it takes over; NaN at pixels without them.
+/** Makes the reference frame from maps of the mean and the unbiased variance, which are moved; NaN at pixels without
+ * them.
  *
- * Weights are functions of the neighbours' mean, never of the pixel's own: weights that know the pixel's noise bias the
- * variance by a fraction of order 1/T at the darkest pixels (estimator.md, 3.2). */
+ * Weights are functions of the mean of the neighbours, never of the pixel itself. Weights that depend on the noise of
+ * the pixel bias the variance by a fraction of order 1/T at the darkest pixels (estimator.md, 3.2). */
 SensorNoise_EXPORT ReferenceFrame
 MakeReferenceFrame(std::vector<double>               mean,
                    std::vector<double>               variance,
@@ -38,13 +40,13 @@ MakeReferenceFrame(std::vector<double>               mean,
                    std::size_t                       frames,
                    const ParallelFor &               parallelFor = SerialFor);
 
-/** Gives the memory of the neighbours' means back, which FillNeighbourMean() makes again of the means. */
+/** Releases the memory of the means of the neighbours, which FillNeighbourMean() computes again. */
 SensorNoise_EXPORT void
 ReleaseNeighbourMean(ReferenceFrame & frame);
 SensorNoise_EXPORT void
 FillNeighbourMean(ReferenceFrame & frame, const ParallelFor & parallelFor = SerialFor);
 
-/** Makes the means that are not known NaN again, as those of a map that is shown. */
+/** Sets the unknown means to NaN again, as in a map for display. */
 SensorNoise_EXPORT void
 UncoverUnknown(ReferenceFrame & frame, const ParallelFor & parallelFor = SerialFor);
 

@@ -16,7 +16,7 @@ namespace sensornoise
 
 namespace
 {
-/** Makes the pixels of the border that are no part of the scene invalid: no neighbour is to see them. */
+/** Marks the pixels of the masked border as not valid, so that they are no neighbours of other pixels. */
 void
 LeaveOutBorder(std::vector<std::uint8_t> & valid, const MaskedBorder & border, const FrameGeometry & geometry)
 {
@@ -26,7 +26,7 @@ LeaveOutBorder(std::vector<std::uint8_t> & valid, const MaskedBorder & border, c
   }
 }
 
-/** Names the pixels of the border that are no part of the scene, and those beside, which have no centred difference. */
+/** Sets the use of the pixels of the masked border, and of the pixels beside it, which have no centred difference. */
 void
 NameBorder(StillScene & scene)
 {
@@ -50,7 +50,7 @@ NameBorder(StillScene & scene)
   }
 }
 
-/** Leaves out what something crosses; false: nothing does. */
+/** Excludes the region that a moving object crosses. Returns false if there is none. */
 bool
 LeaveOutCrossed(StillScene & scene)
 {
@@ -87,7 +87,7 @@ MakeStillScene(const StackSummary &              summary,
   scene.frame = MakeReferenceFrame(std::move(mean), std::move(variance), valid, geometry, frames, parallelFor);
   scene.pixelUse = FindPixelUse(scene.frame, valid, userMask, parallelFor);
   NameBorder(scene);
-  // After the reference frame: a masked pixel is a good neighbour.
+  // After the reference frame: a masked pixel may serve as a neighbour.
   for (std::size_t p = 0; p < userMask.size(); ++p)
   {
     valid[p] = userMask[p] == 0 ? 0 : valid[p];
@@ -102,7 +102,8 @@ MakeStillScene(const StackSummary &              summary,
     {
       scene.model = FitProvisionalModel(scene.frame);
     }
-    // How far strong changes of the light take a pixel is known roughly only: of a flat field all or none are guarded.
+    // Under strong changes of the illumination the range of a pixel is known only roughly: in a flat field all pixels
+    // or none are in the guard band.
     const CodeRange codes = scene.changesStrongly ? summary.AttainedCodes() : summary.codes;
     UsablePixels    found = LeaveOutCoarseAndGuarded(
       scene.frame, scene.model, codes, frameMeans, std::move(scene.pixelUse), parallelFor, darkestNoiseDn2);

@@ -19,29 +19,33 @@
 namespace sensornoise
 {
 
-/** The result of the first pass: the mean image, a rough model of its noise, and which pixels can serve. */
+/** Static scene, the result of the first pass: the mean image, a rough model of its noise, and the usable pixels. */
 struct StillScene
 {
-  StackSummary              summary;
-  MaskedBorder              border;     ///< strips that are no part of the scene, which are left out
-  std::size_t               valid{ 0 }; ///< pixels that are finite, never at a clip level, and not masked by the user
-  ReferenceFrame            frame;      ///< its `usable` pixels are those that serve
+  StackSummary summary;
+  MaskedBorder border;             ///< strips that are not part of the scene, which are excluded
+  std::size_t  valid{ 0 };         ///< number of pixels that are finite, never at a clip level, and not masked by
+                                   ///< the user
+  ReferenceFrame            frame; ///< its `usable` pixels are the usable ones of the scene
   ProvisionalModel          model;
-  std::vector<std::uint8_t> pixelUse;                 ///< values of PixelUse, as far as one pass can tell
-  double                    usable{ 0.0 };            ///< pixels that serve
-  std::size_t               nearClip{ 0 };            ///< pixels that clipping could touch
-  std::size_t               coarse{ 0 };              ///< pixels whose noise is below half a code step
-  bool                      changesStrongly{ false }; ///< the illumination does
+  std::vector<std::uint8_t> pixelUse;      ///< values of PixelUse, as far as one pass determines them
+  double                    usable{ 0.0 }; ///< number of usable pixels
+  std::size_t               nearClip{ 0 }; ///< number of pixels that clipping could affect
+  std::size_t               coarse{ 0 };   ///< number of pixels whose noise is below half a quantization
+                                           ///< step
+  bool changesStrongly{ false };           ///< whether the illumination changes strongly
 
-  /** Why the stack cannot be measured: then the model may be missing. Null: it can. */
+  /** Reason why the stack cannot be measured; the model may then be missing. Null: it can be measured. */
   std::optional<NothingToMeasure> obstacle;
 };
 
-/** Makes the scene of the maps of a stack of \a frames distinct frames: \a mean, \a variance and \a valid as of
- * MakeStackMaps().
- * \a userMask, if not empty, has a nonzero value at the pixels to be used; \a frameMeans are the frames' means [DN].
- * \a darkestNoiseDn2, if given: the illumination changes strongly, \a variance is without these changes
- * (LevelProjection), and that is the variance that the noise of the darkest frame has at most [DN^2]. */
+/** Makes the scene from the maps of a stack.
+ * \param mean, variance, valid maps of MakeStackMaps()
+ * \param userMask if not empty, nonzero at the pixels to be used
+ * \param frames number of distinct frames
+ * \param frameMeans means of the frames [DN]
+ * \param darkestNoiseDn2 if given, the illumination changes strongly and \a variance is without these changes
+ * (LevelProjection); it is an upper bound of the noise variance in the darkest frame [DN^2] */
 SensorNoise_EXPORT StillScene
 MakeStillScene(const StackSummary &              summary,
                std::vector<double>               mean,

@@ -16,8 +16,8 @@ namespace sensornoise
 
 namespace
 {
-/** Marks the pixels [begin, end) whose variance \a model does not explain. The model by value: what is written could
- * else be its numbers, and no vectors be made. */
+/** Marks the pixels [begin, end) whose variance \a model does not explain. The model is passed by value: by reference
+ * it could alias the output, which prevents vectorization. */
 void
 MarkUnexplained(const ReferenceFrame & frame,
                 ProvisionalModel       model,

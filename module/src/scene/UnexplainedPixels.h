@@ -14,8 +14,8 @@
 namespace sensornoise
 {
 
-/** Marks the pixels that are no part of a static scene, as far as one pass can tell: 1 if their variance is far above
- * the model's, 2 if that of many of their 7 x 7 neighbours is. */
+/** Marks outlier pixels, which are no part of a static scene as far as one pass determines it. Returns 1 where the
+ * variance is far above the model, 2 where many of the 7 x 7 neighbours are such pixels, else 0. */
 SensorNoise_EXPORT std::vector<std::uint8_t>
 FindUnexplained(const ReferenceFrame & frame, const ProvisionalModel & model, const ParallelFor & parallelFor);
 

@@ -21,7 +21,7 @@ namespace sensornoise
 
 namespace
 {
-/** Of pixel \a p, which the user did not mask. */
+/** Returns the use of pixel \a p, which the user did not mask. */
 PixelUse
 UseOf(const ReferenceFrame & frame, const std::vector<std::uint8_t> & valid, std::size_t p)
 {
@@ -44,8 +44,8 @@ UseOf(const ReferenceFrame & frame, const std::vector<std::uint8_t> & valid, std
   return isInner ? PixelUse::NearClip : PixelUse::Border;
 }
 
-/** The least and the largest brightness of a frame relative to the average, from its mean or from the model of the
- * variance. */
+/** Returns the smallest and the largest change of the brightness of a frame relative to the average, from the means of
+ * the frames or from the model of the variance [1]. */
 std::pair<double, double>
 ExtremesOfLight(const ReferenceFrame & frame, const ProvisionalModel & model, const std::vector<double> & frameMeans)
 {
@@ -58,8 +58,8 @@ ExtremesOfLight(const ReferenceFrame & frame, const ProvisionalModel & model, co
   return { darkest, brightest };
 }
 
-/** The same in levels, and the offsets that the data allow: no frame's mean is below the offset, and the noise is no
- * less than 0 there. */
+/** Returns the range of the illumination in levels, and the range of the offset. No mean of a frame is below the
+ * offset, and the variance at the offset is not negative. */
 IlluminationRange
 RangeOfIllumination(const ReferenceFrame &      frame,
                     const ProvisionalModel &    model,

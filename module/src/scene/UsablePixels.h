@@ -17,30 +17,32 @@
 namespace sensornoise
 {
 
-/** Whether each pixel can be used, or why not, before any model of the noise: values of PixelUse. \a valid is the
- * map of which \a frame was made; \a userMask, if not empty, is 0 at pixels that are masked. */
+/** Returns whether each pixel can be used, or the reason why not, before any model of the noise: values of PixelUse.
+ * \a valid is the map from which \a frame was made; \a userMask, if not empty, is 0 at pixels that are masked. */
 SensorNoise_EXPORT std::vector<std::uint8_t>
 FindPixelUse(const ReferenceFrame &            frame,
              const std::vector<std::uint8_t> & valid,
              const std::vector<std::uint8_t> & userMask,
              const ParallelFor &               parallelFor = SerialFor);
 
-/** The usable pixels of a frame that are free of clipping, its guard band and coarse codes. */
+/** The usable pixels of a frame: without clipping, guard band and coarse quantization. */
 struct UsablePixels
 {
-  std::vector<std::uint8_t> usable;        ///< 1: the pixel serves
+  std::vector<std::uint8_t> usable;        ///< 1: the pixel is usable
   std::vector<std::uint8_t> pixelUse;      ///< values of PixelUse
-  double                    count{ 0.0 };  ///< pixels that serve
-  std::size_t               nearClip{ 0 }; ///< usable pixels of the frame in the guard band
-  std::size_t               coarse{ 0 };   ///< usable pixels of the frame whose noise is below half a code step
-  /** Of the coarse pixels, the brighter ones of companded codes: the others tell the line without them. */
+  double                    count{ 0.0 };  ///< number of usable pixels
+  std::size_t               nearClip{ 0 }; ///< number of excluded pixels in the guard band
+  std::size_t               coarse{ 0 };   ///< number of excluded pixels whose noise is below half a quantization step
+  /** Number of the coarse pixels of companded codes that are brighter than the centre; the fit does not need them. */
   std::size_t coarseInLight{ 0 };
 };
 
-/** Leaves out what clipping could touch (FindGuardBand), and pixels whose noise is below half a code step, where the
- * codes hide it. \a frameMeans are the frames' means, for the brightest and the darkest one; \a pixelUse is that of
- * FindPixelUse. \a darkestNoiseDn2, if given: the illumination changes strongly, the frame's variance is without
- * these changes, and that is the variance that the noise of the darkest frame has at most [DN^2]. */
+/** Excludes the pixels that clipping could affect (FindGuardBand), and pixels whose noise is below half a quantization
+ * step, which hides it.
+ * \param frameMeans means of the frames [DN], for the brightest and the darkest one
+ * \param pixelUse result of FindPixelUse()
+ * \param darkestNoiseDn2 if given, the illumination changes strongly and the variance of \a frame is without these
+ * changes; it is an upper bound of the noise variance in the darkest frame [DN^2] */
 SensorNoise_EXPORT UsablePixels
 LeaveOutCoarseAndGuarded(const ReferenceFrame &        frame,
                          const ProvisionalModel &      model,
@@ -50,8 +52,8 @@ LeaveOutCoarseAndGuarded(const ReferenceFrame &        frame,
                          const ParallelFor &           parallelFor,
                          const std::optional<double> & darkestNoiseDn2 = std::nullopt);
 
-/** Throws NothingToMeasure, CodesTooCoarse, if codes of spacing \a stepDn hide the noise of more than a fifth of the
- * pixels. */
+/** Throws NothingToMeasure, CodesTooCoarse, if the quantization step \a stepDn [DN] hides the noise of more than a
+ * fifth of the pixels, without the bright ones of companded codes. */
 SensorNoise_EXPORT void
 RequireFineCodes(const UsablePixels & pixels, double stepDn);
 

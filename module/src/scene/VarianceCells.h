@@ -14,38 +14,40 @@
 namespace sensornoise
 {
 
-/** How the raw variance of a cell's pixels compares with a model's. */
+/** Comparison of the raw variance of the pixels of a cell with a model. */
 enum class CellFit : std::uint8_t
 {
   Unknown, ///< fewer than 8 pixels of the sample lie in it
   Fits,
-  Below, ///< it varies less than the model says
-  Above  ///< it varies more, or a crowd of its pixels does
+  Below, ///< the variance is below the model
+  Above  ///< the median variance, or the variance of many of its pixels, is above the model
 };
 
-/** All cells, compared with a model. The shares are of the pixels of the cells that tell, and add up to 1. */
+/** All cells, compared with a model. The fractions are of the pixels of the known cells, and add up to 1. */
 struct JudgedCells
 {
-  std::vector<CellFit> fits;           ///< row after row of cells
-  double               fitting{ 0.0 }; ///< [1]
-  double               below{ 0.0 };   ///< [1]
-  double               above{ 0.0 };   ///< [1]
+  std::vector<CellFit> fits;           ///< row by row
+  double               fitting{ 0.0 }; ///< fraction that fits [1]
+  double               below{ 0.0 };   ///< fraction below the model [1]
+  double               above{ 0.0 };   ///< fraction above the model [1]
 };
 
-/** How the cells above a model change, if it is by light: every pixel in proportion to its level. */
+/** Test whether changes of the illumination explain the cells above a model: the signal of every pixel changes by the
+ * same factor. */
 struct LightOfCells
 {
-  double explained{ 0.0 };  ///< share of the cells whose pixels one flicker a cell explains
-  double modulation{ 0.0 }; ///< root of what they vary above the model over their squared level, above the darkest [1]
+  double explained{ 0.0 };  ///< fraction of the cells whose pixels are explained by one flicker per cell [1]
+  double modulation{ 0.0 }; ///< square root of the ratio of the variance above the model to the squared level above the
+                            ///< darkest one [1]
 };
 
 /** \class VarianceCells
- * \brief The rectangles of the frame, at most 24 x 24 and at least 8 pixels wide, by which the raw variance is compared
- * with a model: the median of some 60 pixels tells a cell's variance to a few per cent. */
+ * \brief Rectangles of the frame, at most 24 x 24 and at least 8 pixels wide, by which the raw variance is compared
+ * with a model. The median of some 60 pixels yields the variance of a cell to a few per cent. */
 class SensorNoise_EXPORT VarianceCells
 {
 public:
-  /** \a pixels are those of \a sample, which must outlive the object; \a frames is their number T. */
+  /** \a pixels are the pixels of \a sample, which must outlive the object; \a frames is the number of frames T. */
   VarianceCells(const VarianceSample &           sample,
                 const std::vector<std::size_t> & pixels,
                 const FrameGeometry &            geometry,
@@ -61,7 +63,7 @@ public:
   {
     return m_Rows;
   }
-  /** The cell of pixel \a p of the frame. */
+  /** Returns the cell of pixel \a p of the frame. */
   std::size_t
   CellOfPixel(std::size_t p) const
   {
@@ -69,28 +71,29 @@ public:
     const std::size_t y = p / m_Geometry.width;
     return y * m_Rows / m_Geometry.height * m_Columns + x * m_Columns / m_Geometry.width;
   }
-  /** The cell of pixel \a i of the sample. */
+  /** Returns the cell of pixel \a i of the sample. */
   std::size_t
   CellOf(std::size_t i) const
   {
     return m_CellOf[i];
   }
-  /** Compares the cells with what a model predicts. */
+  /** Compares the cells with the variance that a model predicts. */
   JudgedCells
   Judge(const VariancePrediction & prediction) const;
 
-  /** Whether light could make the cells of \a judged that are above: a flicker of its own in every cell. Pixels that
-   * are \a largestRatio times off are not explained. */
+  /** Tests whether changes of the illumination explain the cells of \a judged that are above the model: a separate
+   * flicker in every cell. A pixel is not explained if its variance differs by more than the factor \a largestRatio. */
   LightOfCells
   FindLight(const JudgedCells & judged, const VariancePrediction & prediction, double largestRatio) const;
 
 private:
-  const VarianceSample &   m_Sample;
-  FrameGeometry            m_Geometry;
-  std::size_t              m_Columns;
-  std::size_t              m_Rows;
-  double                   m_MedianRatio; // of a variance of T - 1 degrees of freedom to its expectation
-  std::vector<std::size_t> m_CellOf;      // of the sample's pixels
+  const VarianceSample & m_Sample;
+  FrameGeometry          m_Geometry;
+  std::size_t            m_Columns;
+  std::size_t            m_Rows;
+  double                 m_MedianRatio; // ratio of the median of a variance with T - 1 degrees of freedom to its
+                                        // expectation
+  std::vector<std::size_t> m_CellOf;    // cells of the pixels of the sample
 };
 
 } // namespace sensornoise

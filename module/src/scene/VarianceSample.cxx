@@ -15,7 +15,7 @@ namespace sensornoise
 
 namespace
 {
-constexpr std::size_t Bins = 32; // of intensity
+constexpr std::size_t Bins = 32; // number of intensity bins
 } // namespace
 
 VarianceSample

@@ -16,19 +16,19 @@ namespace sensornoise
 
 struct ProvisionalModel;
 
-/** The pixels to which a ProvisionalModel is fitted: their raw variance, and the terms that it is made of. */
+/** The pixels to which a ProvisionalModel is fitted: their raw variance, and the terms of the model. */
 struct VarianceSample
 {
-  static constexpr int Terms = 6; ///< intercept, x, x^2, gx^2, gy^2, gx gy
+  static constexpr int Terms = 6; ///< number of terms: intercept, x, x^2, gx^2, gy^2, gx gy
 
   using Coefficients = Eigen::Matrix<double, Terms, 1>;
 
   Eigen::Matrix<double, Eigen::Dynamic, Terms, Eigen::RowMajor> design;
 
-  std::vector<double> level;        ///< neighbours' mean [DN]
+  std::vector<double> level;        ///< mean of the neighbours [DN]
   std::vector<double> raw;          ///< variance [DN^2]
-  std::vector<double> energy;       ///< square of the gradient [DN^2/pixel^2]
-  double              scale{ 1.0 }; ///< of x in the design [DN]
+  std::vector<double> energy;       ///< squared gradient [DN^2/pixel^2]
+  double              scale{ 1.0 }; ///< unit of x in the design [DN]
 
   std::size_t
   Size() const
@@ -42,29 +42,29 @@ struct VarianceSample
   }
 };
 
-/** The sample of \a pixels; \a model tells the darkest and the brightest level. */
+/** Samples \a pixels. The darkest and the brightest level are taken from \a model. */
 SensorNoise_EXPORT VarianceSample
 SampleVariance(const ReferenceFrame & frame, const std::vector<std::size_t> & pixels, const ProvisionalModel & model);
 
-/** What a fit predicts of every pixel, and which pixels it keeps. */
+/** Variance that a fit predicts for every pixel, and the pixels that the fit keeps. */
 struct VariancePrediction
 {
-  std::vector<double>       variance;      ///< [DN^2]
-  std::vector<std::uint8_t> keep;          ///< 1: the pixel is not far above
-  double                    lowest{ 0.0 }; ///< median of a bin [DN^2]
+  std::vector<double>       variance;      ///< predicted variance [DN^2]
+  std::vector<std::uint8_t> keep;          ///< 1: the variance of the pixel is not far above
+  double                    lowest{ 0.0 }; ///< smallest median of an intensity bin [DN^2]
 };
 
-/** Starts a fit from the medians over 32 bins of intensity of the smoother half of the pixels, where motion adds
- * little.
+/** Starts a fit from the medians over 32 intensity bins of the smoother half of the pixels, where motion adds little.
  */
 SensorNoise_EXPORT VariancePrediction
 StartFromMedians(const VarianceSample & sample);
 
-/** Weighted least squares over the pixels that are kept. */
+/** Fits the coefficients by weighted least squares over the pixels that are kept. */
 SensorNoise_EXPORT VarianceSample::Coefficients
 SolveKept(const VarianceSample & sample, const VariancePrediction & prediction);
 
-/** Sets what \a theta predicts; keeps the pixels up to \a largestRatio times that. */
+/** Sets the prediction for the coefficients \a theta. Keeps the pixels whose raw variance is below \a largestRatio
+ * times the prediction [1]. */
 SensorNoise_EXPORT void
 Predict(const VarianceSample &               sample,
         const VarianceSample::Coefficients & theta,
