@@ -15,7 +15,7 @@ namespace sensornoise
  * \brief Initial noise model: the uncorrected temporal variance, from the maps of the first pass alone. It is (2.20)
  * of Sur & Gredi\'ac 2015, fitted robustly and with weights.
  *
- * variance = intercept + slope x + sigma_gamma^2 x^2 + sigma_a^2 gx^2 + sigma_b^2 gy^2 + 2 sigma_ab gx gy
+ *     variance = intercept + slope x + sigma_gamma^2 x^2 + sigma_a^2 gx^2 + sigma_b^2 gy^2 + 2 sigma_ab gx gy
  *
  * with x the neighbours' mean above the darkest level, gx and gy the derivatives of the mean. The model yields the
  * weights of all later steps, the guard band at the clip levels, and the pixels that are no part of a static scene. No
