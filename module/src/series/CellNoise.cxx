@@ -14,15 +14,16 @@ namespace sensornoise
 {
 namespace
 {
-/** Variance of a frame of relative illumination 1 + \a gamma over that at the mean illumination. The illumination is
- * not below 0: what an estimated gamma_t of a dark frame has below -1 is noise. */
+/** Returns the ratio of the variance of a frame of relative illumination 1 + \a gamma to the variance at the mean
+ * illumination [1]. The illumination is not below 0: where the estimated gamma_t of a dark frame is below -1, the
+ * excess is noise. */
 double
 VarianceAt(double fraction, double gamma)
 {
   return std::max(InSeries.leastFrameVariance, 1.0 - fraction + fraction * std::max(0.0, 1.0 + gamma));
 }
 
-/** A cell's series divided by its noise, in coordinates whose first ones are those of the columns. */
+/** Series of a cell divided by its noise, in coordinates whose first ones are the coordinates of the columns. */
 struct WhitenedCell
 {
   Eigen::VectorXd                       weight; ///< 1 / standard deviation of every frame
@@ -47,8 +48,8 @@ WithConstant(const Eigen::MatrixXd & basis)
   return columns;
 }
 
-/** Twice the negative restricted log-likelihood of a cell's series, up to a constant: of normal noise whose scale is
- * the one of the greatest likelihood, and of any coefficients of the columns. */
+/** Returns twice the negative restricted log-likelihood of the series of a cell, up to a constant. The noise is normal,
+ * with the scale of the greatest likelihood; the coefficients of the columns are free. */
 double
 DevianceOf(const WhitenedCell & cell, Eigen::Index columns)
 {
@@ -65,8 +66,8 @@ FractionsAt(double shotOverRead, const Eigen::VectorXd & signal)
   return shot / (1.0 + shot);
 }
 
-/** Deviance of the cells as a function of the ratio of shot variance to read variance in the brightest of them, whose
- * powers of 2 are asked for; the least one stands for 0. */
+/** Deviance of the cells as a function of the ratio of shot variance to read variance in the brightest cell. The
+ * arguments are powers of 2 of this ratio; the least one stands for a ratio of 0. */
 class DevianceByPower
 {
 public:
@@ -101,7 +102,7 @@ public:
     return *known;
   }
 
-  /** The power of the least deviance: every second one is tried, then the neighbours of the best. */
+  /** Returns the power of the least deviance: every second one is tried, then the neighbours of the best. */
   int
   Best()
   {
@@ -118,7 +119,7 @@ public:
     return best;
   }
 
-  /** Signal that has as much shot variance as read variance, inverse. */
+  /** Returns k = g / sigma^2: the inverse of the signal at which the shot variance equals the read variance. */
   double
   ShotOverRead(double power) const
   {

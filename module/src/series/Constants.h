@@ -11,97 +11,103 @@
 namespace sensornoise
 {
 
-/** The numbers of the room `series`. Estimator.md, 3.3 and 3.4. */
+/** The numbers of the component `series`. Estimator.md, 3.3 and 3.4. */
 struct SeriesConstants
 {
   /** \name Equations of the frames */
   ///@{
-  /** Quantiles of the roughness that part the gradient classes [1]. Set by hand: the flat classes hold most pixels. */
+  /** Quantiles of the roughness that separate the gradient classes [1]. Chosen empirically: the flat classes hold most
+   * pixels. */
   std::array<double, 5> classEdges{ { 0.4, 0.6, 0.75, 0.87, 0.95 } };
-  /** Part of a derivative's square sum that must be signal, not noise of the mean, for it to be a column [1]. Set by
-   * hand. Half: the same; twice: no derivative is left, and gains are up to 1.3 % off. */
+  /** A derivative is a column only if at least this fraction of its sum of squares is signal, not noise of the mean
+   * [1]. Chosen empirically. Half: the same results; twice: no derivative is left, and gains are up to 1.3 % off. */
   double leastSignalShare{ 0.5 };
-  /** Share of a column that others may leave of it for it to be told from them [1]. Set by hand: what is less is within
-   * what vignetting makes of a ramp, and an offset by it would be ten times as uncertain as by levels. */
+  /** Fraction of a column that must remain beside the other columns for it to be identifiable [1]. Chosen empirically:
+   * a smaller fraction is within the effect of vignetting on a ramp, and the offset would be ten times as uncertain as
+   * from levels. */
   double leastOwnShare{ 0.01 };
-  /** Frames from which derivatives of the third order are tried. Set by hand. */
+  /** Number of frames from which derivatives of the third order are tried. Chosen empirically. */
   std::size_t framesForThirdOrder{ 20 };
   ///@}
 
-  /** Contrast below which noise is taken for levels, and looks like flicker [1]. Set by hand: natural scenes have 0.99;
-   * at 0.5 flats with an offset pattern pass, 0.95 asks 100 frames of a flat field with a shading of 3 %. */
+  /** Contrast below which noise is taken for levels, and resembles flicker [1]. Chosen empirically: natural scenes have
+   * 0.99. With 0.5 flat fields with an offset pattern are accepted; 0.95 requires 100 frames of a flat field with a
+   * shading of 3 %. */
   double leastContrast{ 0.9 };
 
   /** \name Frames of another dark offset */
   ///@{
-  /** Offsets that are tried over the possible ones, and as many twice about the best. Chosen empirically: 4000 DN are
-   * then known to 0.02 DN. */
+  /** Number of offsets that are tried over the possible range, and the same number twice about the best. Chosen
+   * empirically: within 4000 DN the offset is then known to 0.02 DN. */
   int offsetsTried{ 200 };
-  /** Ratio of the spread of the densest half of the frames to the least, up to which an offset fits as well [1]. Chosen
-   * empirically: chance makes 1.2 of it for 20 frames. */
+  /** Ratio of the dispersion of the densest half of the frames to the smallest one, up to which an offset fits equally
+   * well [1]. Chosen empirically: chance makes 1.2 for 20 frames. */
   double likelyOffset{ 1.3 };
-  /** Step of the offset, relative to the noise of the darkest pixels [1]. Chosen by the size of the effect: a fifth of
-   * the frames that differ by it change the read noise by 0.5 %. */
+  /** Least step of the offset, relative to the noise of the darkest pixels [1]. Chosen by the size of the effect: if a
+   * fifth of the frames differ by it, the read noise changes by 0.5 %. */
   double leastOffsetStep{ 0.25 };
-  /** The same relative to the change of the signal of the darkest pixels to the centre in that frame [1]: a response
-   * that is bent by a few per cent makes less. */
+  /** Least step of the offset, relative to the change in that frame of the signal of the darkest pixels to the centre
+   * [1]: a response with a non-linearity of a few per cent makes a smaller step. */
   double leastStepOfChange{ 0.05 };
   ///@}
 
   /** \name Instruments of the shifts */
   ///@{
-  /** Half width of the box that smooths the derivatives twice along each axis [pixels]: a triangle of standard
-   * deviation 2.8 pixels, whose instruments see long wavelengths only. Set by hand. */
+  /** Half width of the box that smooths the derivatives twice along each axis [pixels]. The result is a triangle of
+   * standard deviation 2.8 pixels, so that the instruments contain only long wavelengths. Chosen empirically. */
   static constexpr std::size_t instrumentRadius{ 3 };
-  /** Half width of the box over which the weights fall to 0 where pixels are missing, and of that over which the noise
-   * is averaged [pixels]. Set by hand. */
+  /** Half width of the box over which the weights fall to 0 where pixels are missing, and half width of the box over
+   * which the noise is averaged [pixels]. Chosen empirically. */
   std::size_t missingRadius{ 4 };
   std::size_t noiseRadius{ 8 };
-  /** Determinant of the instruments' equations relative to its diagonal, below which too little of the scene is whole
-   * [1]. Set by hand. */
+  /** Determinant of the equations of the instruments relative to its diagonal, below which too little of the scene is
+   * free of missing pixels [1]. Chosen empirically. */
   double leastDeterminant{ 0.01 };
   ///@}
 
-  /** Illumination of a frame, relative to that of the mean frame, below which it has no shift of its own [1]. Set by
-   * hand: the shift of such a frame is ten times as uncertain as at the mean illumination, and moves the frame by a
-   * tenth. */
+  /** Illumination of a frame, relative to the mean frame, below which no separate shift is used [1]. Chosen
+   * empirically: the shift of this frame is ten times as uncertain as at the mean illumination, and changes the frame
+   * by a tenth. */
   double leastIlluminationOfShift{ 0.1 };
 
-  /** \name Local light, and the basis */
+  /** \name Local illumination, and the temporal basis */
   ///@{
-  /** Part of the variance by motion that derivatives do not explain, which is noise to the light of cells [1]. Set by
-   * hand. */
+  /** Fraction of the variance by motion that derivatives do not explain, which is noise of the signal of cells [1].
+   * Chosen empirically. */
   double motionLeftInCells{ 0.2 };
-  /** Pixels of a cell that tells. Set by hand. */
+  /** Least number of pixels of a cell that is used. Chosen empirically. */
   double fewestPixelsOfCell{ 20.0 };
-  /** Relative difference between the noise of frames below which it counts as equal [1]: the edge below has 25 % for
+  /** Relative difference between the noise of frames below which it counts as equal [1]: `edgeOfNoise` allows 25 % for
    * it. Chosen empirically, on simulated changes of illumination. */
   double equalFrameNoise{ 0.1 };
-  /** Least variance of a frame relative to that at the mean illumination [1]; a guard against division by 0. */
+  /** Least variance of a frame relative to the variance at the mean illumination [1]; a guard against division by 0. */
   double leastFrameVariance{ 1e-6 };
-  /** Cells by which the ratio of shot noise to read noise is estimated, where there are as many, and values of theirs
-   * in all frames, by which there are more. They bound the time. 60 frames of 175 cells determine the ratio to 5 %. */
+  /** The ratio of shot noise to read noise is estimated from at least this many cells, if there are as many, and from
+   * more if they have fewer values than this in all frames. The numbers bound the time. 60 frames of 175 cells
+   * determine the ratio to 5 %. */
   std::ptrdiff_t cellsOfShotFraction{ 32 };
   std::ptrdiff_t valuesOfShotFraction{ 16384 };
-  /** Powers of 2 that are tried as the ratio of shot variance to read variance in the brightest cell; the least one
-   * stands for 0. The largest one is a million electrons and a read noise of one. */
+  /** Range of the powers of 2 that are tried as the ratio of shot variance to read variance in the brightest cell; the
+   * least one stands for 0. The largest one is a million electrons and a read noise of one electron. */
   int leastShotPower{ -6 };
   int largestShotPower{ 20 };
-  /** Frames that the known series must leave free for a search of local light. Set by hand. */
-  std::ptrdiff_t leastFreedomOfCells{ 4 };
-  /** What a squared singular value must have of the edge of the noise, by Marchenko and Pastur, to be light [1]. Set by
-   * hand. Half: noise that neighbours share is taken for light, gains of smoothed frames are 2 % low; twice: the same.
+  /** Least degrees of freedom that the known series must leave for a search of local illumination. Chosen empirically.
    */
+  std::ptrdiff_t leastFreedomOfCells{ 4 };
+  /** Ratio to the edge of the noise, by Marchenko and Pastur, above which an eigenvalue is due to the illumination [1].
+   * Chosen empirically. Half: spatially correlated noise is taken for illumination, and gains of smoothed frames are 2
+   * % low; twice: the same results. */
   double edgeOfNoise{ 1.25 };
-  /** Standard deviation of a frame's cells over that of a typical frame, from which it is scaled down where light that
-   * frames share is looked for [1]. Chosen: between frames of four times the noise variance, 2, and the scatter of
-   * frames with light of their own, 0.5 to 1.2 in a real burst. */
+  /** Ratio of the standard deviation of the cells of a frame to the same of a typical frame, from which the frame is
+   * scaled down in the search for factors that frames have in common [1]. Chosen between 2, for frames of four times
+   * the noise variance, and the scatter of frames with local illumination, 0.5 to 1.2 in a real burst. */
   double noisyFrame{ 1.5 };
-  /** Series of local light, at most, and frames that each needs. Set by hand. */
+  /** Largest number of series of local illumination, and number of frames that each needs. Chosen empirically. */
   std::size_t mostLocalSeries{ 12 };
   std::size_t framesPerLocalSeries{ 6 };
-  /** Series of the basis relative to the frames but two, at most [1]: a short burst leaves out the last of the
-   * motion's. Set by hand: with 0.4 vibrations of 0.3 pixels bias the gain of 20 frames of texture by 0.15 %. */
+  /** Largest number of series of the basis, relative to the number of frames minus two [1]: a short burst leaves out
+   * the last series of the motion. Chosen empirically: with 0.4, vibrations of 0.3 pixels bias the gain of 20 frames
+   * of texture by 0.15 %. */
   double mostSeriesOfFrames{ 0.6 };
   ///@}
 };

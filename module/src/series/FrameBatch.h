@@ -23,7 +23,7 @@ namespace detail
 using WeightedColumns = FrameRegressors::WeightedColumns;
 using ClassColumns = std::array<WeightedColumns, GradientClasses>;
 
-inline constexpr std::size_t BandPixels = 4096; // the band's columns stay in the second-level cache
+inline constexpr std::size_t BandPixels = 4096; // size of a band: its columns stay in the second-level cache
 
 /** Calls function() after \a band was moved to each band of a row of cells, in order. */
 template <typename TFunction>
@@ -43,8 +43,8 @@ ForBands(const FrameGeometry & geometry,
   }
 }
 
-/** Adds the sums of \a count series over a band to theirs over the classes, and calls function(cell of the band,
- * series, sum of w, sum of w I) for the cells, group by group. */
+/** Adds the sums of \a count series over a band to the sums over the classes. Calls function(cell of the band, series,
+ * sum of w, sum of w I) for the cells, group by group. */
 template <typename TFunction>
 void
 AddToClasses(const RegressorBand &                    band,
@@ -68,7 +68,7 @@ AddToClasses(const RegressorBand &                    band,
 }
 } // namespace detail
 
-/** Frames on their way into the sums. */
+/** Frames that are being added to the sums. */
 template <typename TPixel>
 struct FrameSums::Batch
 {
@@ -76,10 +76,10 @@ struct FrameSums::Batch
   const TPixel *                                 frames{ nullptr };
   std::size_t                                    first{ 0 };
   std::size_t                                    count{ 0 };
-  std::vector<std::vector<detail::ClassColumns>> parts;     // of each cell row, and frame
-  std::vector<ColumnSums>                        ofColumns; // of each cell row; none: they are known
+  std::vector<std::vector<detail::ClassColumns>> parts;     // for each row of cells and each frame
+  std::vector<ColumnSums>                        ofColumns; // for each row of cells; empty: they are known
 
-  /** Different rows may be added at the same time. */
+  /** Adds the sums over a row of cells. Different rows may be added at the same time. */
   void
   AddCellRow(std::size_t cellRow)
   {
@@ -89,7 +89,7 @@ struct FrameSums::Batch
     parts[cellRow].resize(count);
     detail::ForBands(sums->GetFrame().geometry, cellRow, sums->m_CellRows, band, [&] {
       room.resize(layout.AreSideBySide() ? 0 : band.Pixels());
-      if (!ofColumns.empty()) // the band need not be made again for them
+      if (!ofColumns.empty()) // uses the same band, so that it need not be computed again
       {
         sums->AddColumns(band, cellRow, ofColumns[cellRow]);
       }
@@ -123,7 +123,7 @@ struct FrameSums::Batch
     });
   }
 
-  /** The frames from \a next on will be needed soon: their pixels are asked for, a share with every group. */
+  /** Prefetches the pixels of the frames from \a next on, a part with every group. */
   void
   AskFor(const RegressorBand & band, std::size_t group, std::size_t next) const
   {
@@ -136,7 +136,7 @@ struct FrameSums::Batch
     }
   }
 
-  /** All rows are in. */
+  /** Adds the sums of all rows of cells to the FrameSums. */
   void
   End()
   {

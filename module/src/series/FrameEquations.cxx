@@ -15,7 +15,7 @@ namespace sensornoise
 
 namespace
 {
-/** What white noise of variance 1 in the mean adds to the Gram matrix. */
+/** Returns the contribution to the Gram matrix of white noise of variance 1 in the mean. */
 FrameSums::ClassMatrix
 KernelGram()
 {
@@ -49,7 +49,7 @@ Select(const Eigen::MatrixXd & matrix, const std::vector<std::size_t> & rows, co
   return part;
 }
 
-/** The light, and the derivatives whose signal exceeds their noise. */
+/** Returns the columns 0 and 1, and the derivatives whose signal exceeds their noise. */
 std::vector<std::size_t>
 FindCandidates(const Eigen::MatrixXd & rawGram, const Eigen::MatrixXd & gram, int largestOrder)
 {
@@ -66,8 +66,9 @@ FindCandidates(const Eigen::MatrixXd & rawGram, const Eigen::MatrixXd & gram, in
   return active;
 }
 
-/** Share by which a column must differ from those of the first derivatives in \a active, whose noise chance leaves in
- * the Gram matrix: relative to their signal, sqrt(3 / pixels) of it, as neighbours share half of theirs. */
+/** Returns the least fraction by which a column must differ from the first derivatives in \a active. Their noise leaves
+ * a statistical error in the Gram matrix: relative to their signal, sqrt(3 / pixels) of the noise, because neighbours
+ * have half of their noise in common. */
 double
 LeastShareBeside(const Eigen::MatrixXd &          rawGram,
                  const Eigen::MatrixXd &          gram,
@@ -87,8 +88,8 @@ LeastShareBeside(const Eigen::MatrixXd &          rawGram,
                   noise > 0.0 ? Significance.severalTests * noise * std::sqrt(3.0 / pixels) : 0.0);
 }
 
-/** Leaves out the weaker of the first derivatives, if the other says the same: then only motion along the gradient is
- * seen. */
+/** Removes the weaker of the first derivatives if both are proportional: then only motion along the gradient is
+ * identifiable. */
 void
 DropTwin(const Eigen::MatrixXd &    rawGram,
          const Eigen::MatrixXd &    gram,
@@ -108,7 +109,7 @@ DropTwin(const Eigen::MatrixXd &    rawGram,
   }
 }
 
-/** Smallest eigenvalue of the matrix whose rows and columns are scaled to a diagonal of 1. */
+/** Returns the smallest eigenvalue of the matrix whose rows and columns are scaled to a diagonal of 1. */
 double
 SmallestEigenvalue(const Eigen::MatrixXd & a)
 {
@@ -116,14 +117,15 @@ SmallestEigenvalue(const Eigen::MatrixXd & a)
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(unit.asDiagonal() * a * unit.asDiagonal()).eigenvalues()(0);
 }
 
-/** How much of the series of a column is expected of noise, and its standard deviation: of the sum of squares over the
- * frames, in units of the variance at the mean illumination. */
+/** Expected contribution of noise to the series of a column, and its standard deviation: for the sum of squares over
+ * the frames, in units of the variance at the mean illumination. */
 class SeriesEnergy
 {
 public:
-  /** \a gamma: relative illumination of the frames, less 1, by the regression. If it hardly changes, the noise of all
-   * frames is equal. Else it is as that of shot noise, in proportion to 1 + gamma; and what follows gamma is no
-   * motion: it is in the basis, and bright frames share more noise with the mean than dark ones. */
+  /** \a gamma: relative illumination of the frames minus 1, from the regression [1]. If it hardly changes, all frames
+   * have equal noise. Otherwise the noise is taken as shot noise, proportional to 1 + gamma. A component that follows
+   * gamma is then no motion: it is in the basis, and the noise of bright frames is more strongly correlated with the
+   * mean than the noise of dark frames. */
   explicit SeriesEnergy(const Eigen::VectorXd & gamma)
     : m_Expected(static_cast<double>(gamma.size() - 1))
     , m_Spread(std::sqrt(2.0 * m_Expected))
@@ -142,7 +144,7 @@ public:
     }
   }
 
-  /** Standard deviations by which a \a series exceeds noise of \a variance. */
+  /** Returns the number of standard deviations by which a \a series exceeds noise of \a variance. */
   double
   Significance(const Eigen::VectorXd & series, double variance) const
   {
@@ -151,13 +153,13 @@ public:
   }
 
 private:
-  Eigen::MatrixXd m_Known; ///< the constant and gamma, orthonormal; empty if the noise of the frames is equal
+  Eigen::MatrixXd m_Known; ///< the constant and gamma, orthonormal; empty if all frames have equal noise
   double          m_Expected;
   double          m_Spread;
 };
 
-/** Place among the active ones of the column of higher order whose series over the frames is the least significant, the
- * third order first; 0 if all are significant. */
+/** Returns the place among the active columns of the column of higher order whose series over the frames is the least
+ * significant, the third order first; 0 if all are significant. */
 std::size_t
 FindInsignificant(const Eigen::MatrixXd &          rawGram,
                   const Eigen::MatrixXd &          a,
@@ -196,8 +198,8 @@ FindInsignificant(const Eigen::MatrixXd &          rawGram,
   return worst;
 }
 
-/** Columns that the data support: those of the first order whose signal exceeds their noise, and those of higher order
- * whose series over the frames is also significant; eliminated one by one, the third order first. */
+/** Returns the columns that the data support. The first order needs a signal that exceeds its noise; higher orders also
+ * need a significant series over the frames. Insignificant columns are eliminated one by one, the third order first. */
 std::vector<std::size_t>
 FindActiveColumns(const Eigen::MatrixXd & rawGram,
                   const Eigen::MatrixXd & gram,
@@ -227,7 +229,7 @@ FindActiveColumns(const Eigen::MatrixXd & rawGram,
   }
 }
 
-/** Sets the equations of the light alone. */
+/** Sets the equations of the illumination, with the motion partialled out. */
 void
 PartialOutMotion(FrameEquations & equations)
 {
@@ -243,7 +245,7 @@ PartialOutMotion(FrameEquations & equations)
   }
 }
 
-/** Takes the level out of the light, where it cannot be told from motion. */
+/** Removes the level from the equations of the illumination, where it is not identifiable beside motion. */
 void
 PartialOutLevel(FrameEquations & equations, double leastShare)
 {
@@ -297,7 +299,8 @@ MakeFrameEquations(const FrameSums &           sums,
     }
   }
 
-  const double   pixels = variance * static_cast<double>(frames); // about: variances have been divided by the model's
+  const double pixels = variance * static_cast<double>(frames); // approximately: variances have been divided by the
+                                                                // variances of the model
   FrameEquations equations;
   equations.active = FindActiveColumns(rawGram, gram, right, frames < InSeries.framesForThirdOrder ? 2 : 3, pixels);
   std::vector<std::size_t> rows(frames);

@@ -15,12 +15,12 @@ namespace sensornoise
 
 namespace
 {
-/** The levels of the frames where there is no signal, for an offset. */
+/** Levels of the frames without signal, for an assumed offset. */
 struct DarkLevels
 {
-  Eigen::VectorXd stepDn; ///< of each frame from the middle of the densest half [DN]
+  Eigen::VectorXd stepDn; ///< difference of each frame to the middle of the densest half [DN]
   double          errorDn{ 0.0 };
-  double          spread{ 0.0 }; ///< of that half, in units of the error [1]
+  double          spread{ 0.0 }; ///< standard deviation of the densest half, in units of the error [1]
 
   double
   UnitDn() const
@@ -45,7 +45,7 @@ LevelsAbout(double offset, const Eigen::MatrixX2d & changes, const Eigen::Matrix
   return levels;
 }
 
-/** The levels about the possible offsets: a grid over all, and a finer one about the best. */
+/** Returns the levels for the possible offsets: a grid over all, and two finer ones about the best. */
 std::vector<DarkLevels>
 LevelsOfOffsets(const ValueRange & offsets, const Eigen::MatrixX2d & changes, const Eigen::Matrix2d & covariance)
 {
@@ -92,7 +92,8 @@ FindFrameOffsets(const OffsetLine & line, const ValueRange & offsets, double lea
     least = std::min(least, levels.spread);
   }
   Eigen::VectorXd smallest =
-    Eigen::VectorXd::Constant(changes.rows(), std::numeric_limits<double>::infinity()); // over those that fit
+    Eigen::VectorXd::Constant(changes.rows(), std::numeric_limits<double>::infinity()); // smallest step over the
+                                                                                        // offsets that fit
   Eigen::VectorXd far = smallest;
   for (const DarkLevels & levels : all)
   {

@@ -13,20 +13,20 @@
 namespace sensornoise
 {
 
-/** Frames whose dark offset is not that of the others. */
+/** Frames whose dark offset differs from the others. */
 struct FrameOffsets
 {
-  std::vector<std::size_t> unlike;        ///< from 0
-  double                   stepDn{ 0.0 }; ///< their median difference from the others [DN]
+  std::vector<std::size_t> unlike;        ///< numbers of the frames, from 0
+  double                   stepDn{ 0.0 }; ///< median difference of their offset from the others [DN]
 };
 
-/** Finds the frames that lie beside the line of the others by a level that is the same at all signals.
+/** Finds the frames whose dark offset differs from the others: their level deviates by the same amount at all signals.
  *
- * A frame of other illumination changes the level at the centre by -gamma m, m the offset minus the centre; one of
- * another dark offset does not follow that. Half of the frames or more are about one line, which is found for the
- * \a offsets that are possible, minus the centre [DN]; a frame is unlike if it is for all of those that fit about as
- * well. \a leastStepDn is the step that counts. None where levels do not differ, or the level could be motion.
- * Estimator.md, 3.3. */
+ * Under another illumination the level of a frame at the centre changes by -gamma m, m the offset minus the centre. A
+ * frame of another dark offset deviates from this line. At least half of the frames are about one line, which is
+ * fitted for all possible \a offsets minus the centre [DN]. A frame is unlike the others if it is so for all offsets
+ * that fit about equally well. \a leastStepDn is the smallest step that is reported [DN]. The result is empty where
+ * levels do not differ, or where the level could be due to motion. Estimator.md, 3.3. */
 SensorNoise_EXPORT FrameOffsets
 FindFrameOffsets(const OffsetLine & line, const ValueRange & offsets, double leastStepDn);
 

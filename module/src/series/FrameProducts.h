@@ -17,26 +17,27 @@
 namespace sensornoise
 {
 
-/** The frames are regressed on these columns: 1, the mean, and its derivatives (MotionStencils). */
+/** Number of columns on which the frames are regressed: 1, the mean, and its derivatives (MotionStencils). */
 inline constexpr std::size_t FrameColumns = 2 + NumberOfStencils;
 
-/** How rough the surroundings of a pixel are, in classes from flat to rough; the regressions admit classes in turn. */
+/** Number of classes of the roughness of the surroundings of a pixel, from flat to rough. The regressions include the
+ * classes one after the other. */
 inline constexpr std::size_t GradientClasses = 6;
 
 /** \class FrameProducts
- * \brief The numbers of FrameSums that are made of frames: its inner products, frame by frame.
+ * \brief The sums of FrameSums that depend on the frames: their inner products, frame by frame.
  *
- * Those of a frame that was not added are 0. So sums of other frames are merged by addition, which keeps every bit: 0
- * is added to each number (which is never -0, for it was added to 0 itself). */
+ * The products of a frame that was not added are 0. Sums of other frames are therefore merged by addition, which keeps
+ * every bit: 0 is added to each number. (No number is -0, because each was added to 0 itself.) */
 class SensorNoise_EXPORT FrameProducts
 {
 public:
   using ColumnVector = Eigen::Matrix<double, FrameColumns, 1>;
 
-  /** Of frames of \a pixels pixels, parted into \a cells cells; all products are 0. */
+  /** Constructs products of frames of \a pixels pixels, divided into \a cells cells; all products are 0. */
   FrameProducts(std::size_t pixels, std::size_t frames, std::size_t cells);
 
-  /** The products of frame \a t with the columns over the pixels of a gradient class: R[t][class][k] of FrameSums. */
+  /** Products of frame \a t with the columns over the pixels of a gradient class: R[t][class][k] of FrameSums. */
 
   ColumnVector &
   OfClass(std::size_t t, std::size_t gradientClass)
@@ -48,7 +49,7 @@ public:
   {
     return m_ClassSums[t * GradientClasses + gradientClass];
   }
-  /** The products of frame \a t with the two instruments, over all pixels: see SolveShifts(). */
+  /** Products of frame \a t with the two instruments, over all pixels: see SolveShifts(). */
   std::array<double, 2> &
   OfInstruments(std::size_t t)
   {
@@ -59,7 +60,7 @@ public:
   {
     return m_InstrumentSums[t];
   }
-  /** The products of frame \a t with 1 and the mean minus the centre over cell \a c: see LocalIllumination. */
+  /** Products of frame \a t with 1 and the mean minus the centre over cell \a c: see LocalIllumination. */
   std::array<double, 2> &
   OfCell(std::size_t t, std::size_t c)
   {
@@ -75,15 +76,15 @@ public:
   void
   Merge(const FrameProducts & other);
 
-  /** No frame has been added. */
+  /** Sets all products to 0: no frame has been added. */
   void
   Forget();
 
   /** Writes the products, see BinaryStream. */
   void
   Save(std::ostream & out) const;
-  /** Replaces the products by those of a stream. Throws std::runtime_error, and changes nothing, if it holds other sums
-   * or ends early. */
+  /** Replaces the products by the products of a stream. Throws std::runtime_error, and changes nothing, if it holds
+   * other sums or ends early. */
   void
   Restore(std::istream & in);
 

@@ -17,8 +17,8 @@ namespace
 {
 using Edges = std::array<double, GradientClasses - 1>;
 
-/** The classes of those pixels of [first, last) that \a take has, whose roughness is parted by \a edges. By value: what
- * is written could else be theirs, and no vectors be made. */
+/** Sets the classes of the pixels of [first, last) that \a take selects, whose roughness is separated by \a edges.
+ * Small arguments are passed by value: by reference they could alias the output, which prevents vectorization. */
 void
 FillClasses(const ReferenceFrame & frame,
             ProvisionalModel       model,
@@ -33,7 +33,7 @@ FillClasses(const ReferenceFrame & frame,
   const std::size_t    width = frame.geometry.width;
   for (std::size_t p = first; p < last; ++p)
   {
-    // All edges are compared: a search would branch by chance, which costs more.
+    // All edges are compared: a search would have unpredictable branches, which cost more.
     const double rough = StencilEnergyAt(mean, width, p) / model.NoiseVariance(neighbourMean[p]);
     unsigned int above = 0;
     for (const double edge : edges)

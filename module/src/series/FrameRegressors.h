@@ -20,12 +20,12 @@ namespace sensornoise
 {
 
 /** \class FrameRegressors
- * \brief What the frames are multiplied with in the second pass: the columns of every pixel, times their weights.
+ * \brief The weighted columns of every pixel, with which the frames are multiplied in the second pass.
  *
- * Column 0 is 1 and column 1 the mean minus the model's centre, for conditioning; then follow the derivatives of the
- * mean, with the inverse of the provisional noise as weight; two instruments for the shifts; and 1 and the mean again,
- * with weights for the sums of cells. Each pixel has a class, from flat to rough surroundings. Memory: 25 bytes a
- * pixel. */
+ * Column 0 is 1 and column 1 the mean minus the centre of the model, for conditioning. The derivatives of the mean
+ * follow. The weight of these columns is the inverse noise of the initial model. Then follow two instruments for the
+ * shifts, and 1 and the mean again, with weights for the sums of cells. Each pixel has a class, from flat to rough
+ * surroundings. Memory: 25 bytes per pixel. */
 class SensorNoise_EXPORT FrameRegressors
 {
 public:
@@ -34,17 +34,17 @@ public:
   static constexpr std::size_t  Columns = FrameColumns + Instruments + CellColumns;
   static constexpr std::uint8_t Unused = 255;
 
-  using WeightedColumns = std::array<double, 16>; // Columns, padded for the vector units
+  using WeightedColumns = std::array<double, 16>; // Columns, padded for SIMD
   static_assert(Columns + 1 == std::tuple_size_v<WeightedColumns>, "the array holds all columns");
 
-  /** \a take has a nonzero value at the pixels that serve; they must be usable. The object and its copies hold the
-   * address of \a frame, which must outlive them at its place. */
+  /** \a take has a nonzero value at the pixels to be used; they must be usable. The object and its copies hold the
+   * address of \a frame, which must outlive them without being moved. */
   FrameRegressors(const ReferenceFrame &            frame,
                   const ProvisionalModel &          model,
                   const std::vector<std::uint8_t> & take,
                   ShiftInstruments                  instruments,
                   const ParallelFor &               parallelFor = SerialFor);
-  /** A temporary frame would be gone at once. */
+  /** Deleted: a temporary frame would be destroyed at once. */
   FrameRegressors(const ReferenceFrame &&,
                   const ProvisionalModel &,
                   const std::vector<std::uint8_t> &,
@@ -61,7 +61,7 @@ public:
   {
     return m_Model;
   }
-  /** Gradient class of pixel \a p; Unused if it does not serve. */
+  /** Returns the gradient class of pixel \a p; Unused if it is not used. */
   std::uint8_t
   ClassOf(std::size_t p) const
   {
@@ -72,13 +72,13 @@ public:
   {
     return m_Instruments;
   }
-  /** Pixels of a gradient class that serve. */
+  /** Returns the number of used pixels of a gradient class. */
   double
   PixelsOfClass(std::size_t gradientClass) const
   {
     return m_PixelsOfClass[gradientClass];
   }
-  /** Gives the memory of the instruments back, which are nowhere from then on. */
+  /** Releases the memory of the instruments, which do not exist from then on. */
   void
   ReleaseInstruments()
   {

@@ -16,9 +16,10 @@ namespace sensornoise
 
 namespace
 {
-/** Bytes of a plane's sums, by rows of cells, of frames that are added together: 170 frames of 512 rows or more. A
- * plane's columns are made anew for every batch, which takes as long as a dozen frames. Set by hand: half makes two
- * batches of 100 frames; twice as much makes one of 200 and takes 4 MiB more. */
+/** Size of the sums of a plane, by rows of cells, over the frames that are added together [bytes]: 170 frames of 512
+ * rows or more. The columns of a plane are computed again for every batch, which takes as long as a dozen frames.
+ * Chosen empirically: half makes two batches of 100 frames; twice as much makes one batch of 200 and takes 4 MiB more.
+ */
 constexpr std::size_t BytesOfBatch = std::size_t{ 4 } << 20;
 } // namespace
 
@@ -37,7 +38,7 @@ FrameSums::FrameSums(FrameRegressors regressors, const ParallelFor & parallelFor
 void
 FrameSums::EndFrames(const ParallelFor & parallelFor)
 {
-  if (!m_HasColumns) // no frame has been added here
+  if (!m_HasColumns) // no frame has been added in this process
   {
     std::vector<ColumnSums> columns = this->StartColumns();
     parallelFor(m_CellRows, [&](std::size_t cellRow) {
@@ -87,7 +88,7 @@ FrameSums::AddFrames(const std::vector<Plane> & planes,
   }
 }
 
-/** For every cell row, unless they are there already. */
+/** Returns empty sums for every row of cells; an empty list if the columns are known already. */
 std::vector<FrameSums::ColumnSums>
 FrameSums::StartColumns()
 {
@@ -99,7 +100,7 @@ FrameSums::StartColumns()
   return std::vector<ColumnSums>(m_CellRows);
 }
 
-/** What needs no frame: a band's weighted columns times the columns' own values. */
+/** Adds the sums that need no frame: the weighted columns of a band times the values of the columns. */
 void
 FrameSums::AddColumns(RegressorBand & band, std::size_t cellRow, ColumnSums & columns)
 {
@@ -139,7 +140,8 @@ FrameSums::TakeColumns(const std::vector<ColumnSums> & ofCellRows)
   m_HasColumns = true;
 }
 
-/** Noise is a line of the level: sums with 1 and with the level give what any line does to the instruments. */
+/** Computes the noise of the instruments. The variance is a linear function of the level: the sums with 1 and with the
+ * level yield it for any line. */
 void
 FrameSums::SumInstruments(const ParallelFor & parallelFor)
 {

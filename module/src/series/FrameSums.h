@@ -22,8 +22,8 @@ namespace sensornoise
 
 class RegressorBand;
 
-/** Sums of what noise of variance V does to the instruments: of w V, and of z z' V, z the instruments with their
- * weights. */
+/** Noise of the instruments for noise of variance V of the pixels: the sums of w V, and of z z' V, z the instruments
+ * with their weights. */
 struct InstrumentNoise
 {
   double          variance{ 0.0 };
@@ -31,19 +31,20 @@ struct InstrumentNoise
 };
 
 /** \class FrameSums
- * \brief The second pass: weighted inner products of every frame with the mean image and its derivatives.
+ * \brief Sums of the second pass: weighted inner products of every frame with the mean image and its derivatives.
  *
  * With d_t = u_t - mean, over the pixels x of each gradient class:
  *
  *     R[t][class][k] = sum_x w X_k(x) d_t(x),   X = (1, mean - centre, derivatives of the mean),   w = 1 / variance,
  *
- * over all pixels two sums with smoothed derivatives for the shifts (see SolveShifts), and over each of up to 1024
- * rectangular cells the sums of w d_t and w (mean - centre) d_t, for light that differs over the frame (see
- * LocalIllumination). Estimator.md, 3.3.
+ * Over all pixels, two sums with smoothed derivatives are added for the shifts (see SolveShifts()). Over each of up to
+ * 1024 rectangular cells, the sums of w d_t and w (mean - centre) d_t are added for local changes of the illumination
+ * (see LocalIllumination). Estimator.md, 3.3.
  *
- * A frame's sums are made row by row in bands of a fixed height: they do not depend on the chunks or the threads.
- * Sums of different frames are separate numbers, so parts of a stack are merged with the same bits. What needs no frame
- * is made together with the first frames, or by EndFrames(). Memory: 16 kB a frame. */
+ * The sums of a frame are computed row by row in bands of a fixed height: they do not depend on the number of threads
+ * or of frames per call. Sums of different frames are separate numbers, so that merged parts of a stack have the same
+ * bits. The sums that need no frame are computed together with the first frames, or by EndFrames(). Memory: 16 kB per
+ * frame. */
 class SensorNoise_EXPORT FrameSums
 {
 public:
@@ -52,7 +53,7 @@ public:
   using ClassMatrix = Eigen::Matrix<double, FrameColumns, FrameColumns>;
   using ColumnVector = FrameProducts::ColumnVector;
 
-  /** Sums that need no frame, over one cell: of w X_k and w I X_k, I the mean minus the centre. */
+  /** Sums over one cell that need no frame: of w X_k and of w I X_k, I the mean minus the centre. */
   struct Cell
   {
     std::size_t                      pixels{ 0 };
@@ -60,10 +61,10 @@ public:
     std::array<double, FrameColumns> sumI{};
   };
 
-  /** The frame of \a regressors must outlive the object and its copies, at its place. */
+  /** The frame of \a regressors must outlive the object and its copies, without being moved. */
   explicit FrameSums(FrameRegressors regressors, const ParallelFor & parallelFor = SerialFor);
 
-  /** The pixels of the frames to come stand as \a layout says; without it, one frame after the other. */
+  /** Sets the layout of the pixels of the frames to come; without it, the frames are stored one after the other. */
   void
   SetLayout(const PixelLayout & layout)
   {
@@ -78,14 +79,13 @@ public:
     AddFrames({ { this, first } }, frames, count, parallelFor);
   }
 
-  /** The sums of one of the planes of a mosaic, and the number of the first frame among its own. */
+  /** The sums of one of the planes of a mosaic, and the number of the first frame among its frames. */
   struct Plane
   {
     FrameSums * sums;
     std::size_t first;
   };
-  /** Adds \a count frames to the sums of all \a planes: what one has read of a row is near when the next comes to it.
-   */
+  /** Adds \a count frames to the sums of all \a planes. A row is read for all planes while it is in the cache. */
   template <typename TPixel>
   static void
   AddFrames(const std::vector<Plane> & planes,
@@ -99,13 +99,13 @@ public:
   {
     m_Products.Merge(products);
   }
-  /** No frame has been added: the products are 0. */
+  /** Sets the products to 0: no frame has been added. */
   void
   Forget()
   {
     m_Products.Forget();
   }
-  /** Writes, or replaces, the sums of the frames that were added: see FrameProducts. */
+  /** Writes or replaces the sums of the frames that were added, see FrameProducts. */
   void
   Save(std::ostream & out) const
   {
@@ -132,11 +132,11 @@ public:
   {
     return m_Regressors.GetFrame();
   }
-  /** All frames have been added: gives the memory of the instruments back. Before it, there may be no cells and no
-   * Grams. */
+  /** Ends the second pass, after all frames have been added. Releases the memory of the instruments. GetCells() and the
+   * Gram matrices are complete only afterwards. */
   void
   EndFrames(const ParallelFor & parallelFor);
-  /** For the variance V = \a intercept + \a gain mean. */
+  /** Returns the noise of the instruments for the variance V = \a intercept + \a gain mean [DN^2]. */
   InstrumentNoise
   NoiseOfInstruments(double gain, double intercept) const
   {
@@ -176,7 +176,7 @@ public:
   }
 
 private:
-  /** Of a cell row: the sums of every column's weighted values times the values of each. */
+  /** Sums over a row of cells: the weighted values of every column times the values of each column. */
   using ColumnSums = std::array<std::array<FrameRegressors::WeightedColumns, GradientClasses>, FrameColumns>;
 
   std::vector<ColumnSums>
@@ -197,12 +197,12 @@ private:
   std::size_t     m_CellsPerRow;
 
   FrameProducts                                    m_Products;
-  bool                                             m_HasColumns{ false }; // the next three are there
+  bool                                             m_HasColumns{ false }; // whether the next three members are set
   std::vector<ClassMatrix>                         m_ClassGram;
   Eigen::Matrix<double, Instruments, FrameColumns> m_InstrumentGram;
   std::vector<Cell>                                m_Cells;
-  InstrumentNoise                                  m_OfOne;   // of the variance 1
-  InstrumentNoise                                  m_OfLevel; // of a variance that is the neighbours' mean
+  InstrumentNoise                                  m_OfOne;   // for the variance 1
+  InstrumentNoise                                  m_OfLevel; // for a variance that equals the mean of the neighbours
 };
 
 } // namespace sensornoise

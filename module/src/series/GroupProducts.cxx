@@ -13,7 +13,7 @@ namespace sensornoise
 
 namespace
 {
-/** Sums over the pixels of \a group, a few columns at a time: theirs stay in registers. */
+/** Computes the sums over the pixels of \a group for a few columns at a time, so that the sums stay in registers. */
 void
 MultiplyGroupAnywhere(const RegressorBand::Group & group, const GroupFactors & of, RegressorBand::Sums & sums)
 {
@@ -38,8 +38,8 @@ MultiplyGroupAnywhere(const RegressorBand::Group & group, const GroupFactors & o
 }
 
 #if defined(__GNUC__) && defined(__x86_64__)
-/** The same with vectors of four: the same products and sums in the same order, so the same bits. The target has no
- * fused multiplication and addition, which would round differently. */
+/** Does the same with AVX2 vectors of four: the products and sums are the same, in the same order, and so are the bits.
+ * The target has no fused multiplication and addition, which would round differently. */
 __attribute__((target("avx2"))) void
 MultiplyGroupAvx2(const RegressorBand::Group & group, const GroupFactors & of, RegressorBand::Sums & sums)
 {
@@ -68,7 +68,7 @@ MultiplyGroupAvx2(const RegressorBand::Group & group, const GroupFactors & of, R
 }
 #endif
 
-/** The quickest for this processor. */
+/** Returns the fastest function for this processor. */
 auto
 FindMultiplyGroup()
 {

@@ -12,17 +12,17 @@
 namespace sensornoise
 {
 
-/** What the sums of a group are made of. */
+/** Factors of the products that are summed over a group. */
 struct GroupFactors
 {
-  const FrameRegressors::WeightedColumns * columns; ///< of the pixels, group by group
-  const std::uint32_t *                    order;   ///< the pixels' places in a series
-  const double *                           series;  ///< RegressorBand::Together of them
-  std::size_t                              pixels;  ///< from one series to the next
+  const FrameRegressors::WeightedColumns * columns; ///< columns of the pixels, group by group
+  const std::uint32_t *                    order;   ///< places of the pixels in a series
+  const double *                           series;  ///< RegressorBand::Together series
+  std::size_t                              pixels;  ///< distance from one series to the next
 };
 
-/** Sums over the pixels of \a group of their columns times the values of the series, by the vectors that the processor
- * has. Same bits on each. */
+/** Computes the sums over the pixels of \a group of their columns times the values of the series, with the SIMD
+ * instructions of the processor. The bits are the same on all processors. */
 void
 MultiplyGroup(const RegressorBand::Group & group, const GroupFactors & of, RegressorBand::Sums & sums);
 

@@ -15,14 +15,14 @@ namespace sensornoise
 {
 
 /** \class InstrumentRun
- * \brief A few pixels' terms of what noise does to the instruments, side by side for vectors. */
+ * \brief The terms of the noise of the instruments for some pixels, stored for SIMD. */
 class InstrumentRun
 {
 public:
   static constexpr std::size_t Pixels = 256;
-  static constexpr std::size_t Terms = 4; ///< w, and of the instruments times their weights w: xx, xy, yy
+  static constexpr std::size_t Terms = 4; ///< w, and the products of the instruments times their weights w: xx, xy, yy
 
-  /** Takes the pixels [first, last); those that do not serve have 0. */
+  /** Computes the terms of the pixels [first, last); pixels that are not used have 0. */
   void
   Fill(const FrameRegressors & regressors, std::size_t first, std::size_t last)
   {

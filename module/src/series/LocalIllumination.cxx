@@ -16,8 +16,8 @@ namespace sensornoise
 
 namespace
 {
-/** The cells that tell: which, and the inverse variance of one frame's light over each, v' G v with v = (-offset, 1).
- */
+/** The cells that are used, and for each the inverse variance of the illumination of one frame, v' G v with v =
+ * (-offset, 1). */
 struct UsedCells
 {
   std::vector<std::size_t> cells;
@@ -57,7 +57,8 @@ FindUsedCells(const FrameSums & sums, double offset)
   return used;
 }
 
-/** What global flicker and motion leave of the cells' light, frames x cells, in units of its noise. */
+/** Returns the residuals of the signal of the cells after global flicker and motion, frames x cells, in units of their
+ * noise. */
 Eigen::MatrixXd
 RestOfCells(const FrameSums &           sums,
             const UsedCells &           used,
@@ -88,8 +89,8 @@ RestOfCells(const FrameSums &           sums,
   return whole;
 }
 
-/** Scales each cell by its own typical size, if that is above the average: one noisy cell must not make a factor.
- * \a rest is \a whole without the part that resembles flicker and motion. */
+/** Scales each cell by its typical size, if that is above the median of the cells: a single noisy cell must not make a
+ * factor. \a rest is \a whole without the part that resembles flicker and motion. */
 void
 ScaleCells(Eigen::MatrixXd & rest, Eigen::MatrixXd & whole)
 {
@@ -114,8 +115,8 @@ ScaleCells(Eigen::MatrixXd & rest, Eigen::MatrixXd & whole)
   }
 }
 
-/** The eigenvalues of the products of the cells' series, the largest first, and the edge of those of noise (Marchenko
- * and Pastur), by their median. */
+/** The eigenvalues of the products of the series of the cells, the largest first, and the edge of the eigenvalues of
+ * noise (Marchenko and Pastur), from their median. */
 struct Eigenvalues
 {
   std::vector<double> values;
@@ -136,7 +137,7 @@ struct Eigenvalues
   }
 };
 
-/** The products of the shorter side of \a rest with itself. */
+/** Returns the Gram matrix of the shorter side of \a rest. */
 Eigen::MatrixXd
 GramOf(const Eigen::MatrixXd & rest)
 {
@@ -144,8 +145,9 @@ GramOf(const Eigen::MatrixXd & rest)
                                    : Eigen::MatrixXd(rest * rest.transpose());
 }
 
-/** Whether several frames have a factor in common: one is above the edge also where much noisier frames count as a
- * typical one. The noise of a few frames of another gain is above it by its size alone, but they share nothing. */
+/** Returns whether several frames have a factor in common: an eigenvalue is above the edge also if much noisier frames
+ * are scaled to a typical size. A few frames of another gain exceed the edge by the size of their noise alone, but
+ * have no factor in common. */
 bool
 DoFramesShareFactors(Eigen::MatrixXd rest, Eigen::Index freedom)
 {
@@ -167,7 +169,8 @@ DoFramesShareFactors(Eigen::MatrixXd rest, Eigen::Index freedom)
   return found.values.front() > found.edge;
 }
 
-/** The factors of \a rest above the noise's edge, at most \a most; \a freedom is its number of free frames. */
+/** Finds the factors of \a rest above the edge of the noise, at most \a most; \a freedom is its degrees of freedom over
+ * the frames. */
 LocalIllumination
 FindFactors(const Eigen::MatrixXd & rest, const Eigen::MatrixXd & whole, Eigen::Index freedom, std::size_t most)
 {
@@ -198,15 +201,16 @@ FindFactors(const Eigen::MatrixXd & rest, const Eigen::MatrixXd & whole, Eigen::
   for (Eigen::Index j = 0; j < factors; ++j)
   {
     const Eigen::VectorXd vector = eigen.eigenvectors().col(gram.rows() - 1 - j);
-    // The cells' pattern, and what all of the cells' series, motion's look-alike part too, show in that pattern.
+    // Projects all series of the cells, including the part that resembles motion, onto the spatial pattern of the
+    // factor.
     found.series.col(j) = whole * (isTall ? vector : Eigen::VectorXd(rest.transpose() * vector));
   }
   return found;
 }
 
-/** As FindFactors(), of cells whose noise differs from frame to frame. The factors are found one by one, the strongest
- * first: each is free in the next estimate of the noise, and is projected out of each cell before the next search.
- * Weights differ from cell to cell, and what they leave of one factor is more than one. */
+/** Finds factors like FindFactors(), for cells whose noise differs from frame to frame. The factors are found one by
+ * one, the strongest first: each is free in the next estimate of the noise, and is projected out of each cell before
+ * the next search. Weights differ from cell to cell, so that the residuals of one factor form more than one. */
 LocalIllumination
 FindFactorsOfUnequalFrames(const Eigen::MatrixXd & whole,
                            const Eigen::MatrixXd & basis,
@@ -221,7 +225,8 @@ FindFactorsOfUnequalFrames(const Eigen::MatrixXd & whole,
   found.series.resize(frames, 0);
   while (columns.cols() <= largest)
   {
-    const bool      isLast = found.series.cols() == static_cast<Eigen::Index>(most); // only to see what is left
+    const bool isLast = found.series.cols() == static_cast<Eigen::Index>(most); // only to find what exceeds the
+                                                                                // edge
     Eigen::MatrixXd scaled = whole;
     Eigen::MatrixXd rest =
       WhitenedResiduals(whole, columns, gamma, EstimateShotFractions(whole, columns, gamma, signal));

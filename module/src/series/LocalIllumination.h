@@ -14,36 +14,40 @@
 namespace sensornoise
 {
 
-/** Orthonormal columns that span those of \a columns and the constant, the constant left out; in order, so that a
- * column's direction is what it adds to those before. Columns that add less than 1e-6 of themselves are dropped, as
- * are those beyond \a most. */
+/** Returns orthonormal columns that span \a columns without the constant. The order is kept, so that each direction is
+ * the part of a column that is orthogonal to the columns before. Columns that add less than 1e-6 of their length are
+ * dropped, and so are columns beyond \a most. */
 SensorNoise_EXPORT Eigen::MatrixXd
 Orthonormalise(const Eigen::MatrixXd & columns, Eigen::Index most);
 
-/** Median of the eigenvalues of Z'Z / long side, Z of white noise of variance 1, \a ratio = short / long side: by the
- * law of Marchenko and Pastur. */
+/** Returns the median of the eigenvalues of Z'Z / long side, Z white noise of variance 1, \a ratio = short / long side,
+ * by the law of Marchenko and Pastur. */
 SensorNoise_EXPORT double
 MedianNoiseEigenvalue(double ratio);
 
-/** Light that changes in some places in another way than in others: a rolling shutter's bands, a second lamp, a
- * spot that bleaches, or an offset that drifts. */
+/** Local changes of the illumination, which differ over the frame: bands of a rolling shutter, a second lamp, a spot
+ * that bleaches, or an offset that drifts. */
 struct LocalIllumination
 {
   Eigen::MatrixXd series; ///< frames x factors
-  /** How much more the cells' light varies than one global series and noise allow: largest eigenvalue over the edge. */
+  /** Ratio of the largest eigenvalue to the edge of the noise [1]: the variation of the signal of the cells relative to
+   * one global series and noise. */
   double excess{ 0.0 };
-  /** Where as many series as may be were found: the largest eigenvalue that is left over the edge; 0: fewer were found,
-   * or none is left. */
+  /** Ratio to the edge of the largest eigenvalue that is left [1], if the largest allowed number of series was found;
+   * 0: fewer were found, or none is left. */
   double beyond{ 0.0 };
 };
 
-/** Finds the temporal series of local light.
+/** Finds the temporal series of local changes of the illumination.
  *
- * Each cell of the frame gives its own gamma_t: what the global flicker and the motion leave of it is noise, or a few
- * common series. Singular values above the noise's edge, by the law of Marchenko and Pastur and 25 %, tell which. The
- * response of every pixel to the series is free later on, so that bands, lamps and spots of any shape are the same to
- * the method. What resembles motion (\a motionColumns) does not count as light. At most \a most series; \a offset is
- * minus the centre of the regression. Estimator.md, 3.4. */
+ * Each cell of the frame yields its own gamma_t. After global flicker and motion, the residuals are noise, or a few
+ * common series. These are the ones whose eigenvalues exceed the edge of the noise by 25 %, by the law of Marchenko
+ * and Pastur. The response of every pixel to the series is free in later steps, so that the method handles bands,
+ * lamps and spots of any shape alike. Components that resemble motion (\a motionColumns) do not count as illumination.
+ * \param offset offset minus the centre of the regression [DN]
+ * \param most largest number of series
+ *
+ * Estimator.md, 3.4. */
 SensorNoise_EXPORT LocalIllumination
 FindLocalIllumination(const FrameSums &           sums,
                       const MotionSeries &        motion,

@@ -17,17 +17,18 @@ namespace
 {
 using InstrumentGram = Eigen::Matrix<double, FrameSums::Instruments, FrameColumns>;
 
-/** Part of the third central difference D, at most, that a first one d lacks of the derivative: with a band-limited
- * scene p' = d - D / 6 + ..., as k = sin k + k^3 / 6 - ... of a wave. */
+/** Largest part of the third central difference D by which a first difference d deviates from the derivative: for a
+ * band-limited scene p' = d - D / 6 + ..., as k = sin k + k^3 / 6 - ... for a wave. */
 constexpr double LargestThirdDifference = 1.0 / 6.0;
 
-/** The products of the instruments with the columns, without the noise that they share. */
+/** Returns the products of the instruments with the columns, without their common noise. */
 InstrumentGram
 GramWithoutNoise(const FrameSums & sums, const InstrumentNoise & noise)
 {
-  // The triangle of two boxes of side s has the height 1 / s, and (s - 2) / s^2 two pixels away; a central difference
-  // smoothed by it and the plain one share (height - that) / 2 of the noise, along the other axis the height again. It
-  // is the same at one pixel and at two, so that the third difference shares as much, with the other sign.
+  // The triangle of two boxes of side s has the height 1 / s, and (s - 2) / s^2 two pixels away. A central difference
+  // smoothed by it and the plain one have (height - that) / 2 of the noise in common; along the other axis the factor
+  // is the height. The value is the same at one pixel and at two, so that the third difference has the same covariance
+  // with the other sign.
   const double   side = 2.0 * static_cast<double>(InSeries.instrumentRadius) + 1.0;
   const double   shared = 0.5 * (1.0 / side - (side - 2.0) / (side * side)) / side;
   const auto     frames = sums.GetFrame().frames;
@@ -40,18 +41,19 @@ GramWithoutNoise(const FrameSums & sums, const InstrumentNoise & noise)
   return gram;
 }
 
-/** A number that is known to be in an interval, and how well [1]. */
+/** Mean and standard deviation of a number that is known to be in an interval [1]. */
 struct Bounded
 {
   double mean;
   double sd;
 };
 
-/** What a normal estimate says of a number that is equally likely anywhere between -LargestThirdDifference and 0. */
+/** Returns the posterior of a number with a normal estimate, whose prior is uniform between -LargestThirdDifference and
+ * 0. */
 Bounded
 WithinThirdDifferences(double estimate, double standardError)
 {
-  constexpr int points = 65; // of the mean: to a hundredth of the interval, whatever the standard error
+  constexpr int points = 65; // the mean is accurate to a hundredth of the interval, for any standard error
   const double  nearest = std::clamp(estimate, -LargestThirdDifference, 0.0) - estimate;
   double        sum = 0.0;
   double        first = 0.0;
@@ -67,15 +69,15 @@ WithinThirdDifferences(double estimate, double standardError)
   }
   if (!(sum > 0.0) || !std::isfinite(sum))
   {
-    return { estimate + nearest, 0.0 }; // far narrower than the points are apart
+    return { estimate + nearest, 0.0 }; // far narrower than the distance of the points
   }
   const double mean = first / sum;
   return { mean, std::sqrt(std::max(0.0, second / sum - mean * mean)) };
 }
 
-/** The coefficient of a third difference over that of the first one, \a k, both over time and without their noise. A
- * band-limited scene has -1/6; what is interpolated between pixels by cubics has 0. Least squares depends on sharp
- * edges, and goes beyond. */
+/** Returns the coefficient of a third difference divided by the coefficient of the first difference \a k, both over
+ * time and without their noise. A band-limited scene has -1/6; a scene interpolated between pixels by cubics has 0.
+ * Least squares depends on sharp edges, and exceeds this range. */
 Bounded
 ThirdDifference(const FrameEquations &      equations,
                 const std::vector<double> & gamma,
@@ -128,7 +130,7 @@ ThirdDifference(const FrameEquations &      equations,
   return WithinThirdDifferences(ratio, std::sqrt(residual / square));
 }
 
-/** What the noise of the sums over a frame is: of its columns that are active and, last, of the two instruments. */
+/** Returns the covariance of the noise of the sums over a frame: the active columns and, last, the two instruments. */
 Eigen::MatrixXd
 NoiseOfSums(const FrameEquations & equations, const InstrumentGram & gram, const InstrumentNoise & noise)
 {
@@ -216,10 +218,10 @@ SolveShifts(const FrameSums &           sums,
   if (!(gradient.diagonal().prod() > 0.0 &&
         gradient.determinant() > InSeries.leastDeterminant * gradient.diagonal().prod()))
   {
-    return std::nullopt; // too little of the scene is whole
+    return std::nullopt; // too little of the scene is free of missing pixels
   }
   const Eigen::Matrix2d inverse = gradient.inverse();
-  const Eigen::Vector2d direction(-offset, 1.0); // of the flicker, in the columns of the light
+  const Eigen::Vector2d direction(-offset, 1.0); // direction of the flicker in the columns 0 and 1
   InstrumentShifts      shifts;
   shifts.ofLight = inverse * gram.leftCols<2>();
   shifts.scaleErrors << alongX.sd * std::abs(gram(0, 2 + StencilXXX) / gradient(0, 0)),
@@ -240,8 +242,8 @@ SolveShifts(const FrameSums &           sums,
     }
     shifts.coefficients.row(static_cast<Eigen::Index>(t)) = inverse * rest;
   }
-  // The shifts are linear in the sums of the frame: so is the flicker that is taken off, v' r / v' G v of the light's
-  // sums without the motion's, and so are the coefficients of second order.
+  // The shifts are linear in the sums of the frame. So is the flicker that is subtracted, v' r / v' G v from the sums
+  // of the illumination without motion, and so are the coefficients of second order.
   const Eigen::MatrixXd ofSums = NoiseOfSums(equations, sums.GetInstrumentGram(), noise);
   const auto            columns = static_cast<Eigen::Index>(equations.active.size());
   const auto            size = static_cast<Eigen::Index>(motion.stencils.size());

@@ -15,7 +15,7 @@ namespace sensornoise
 
 namespace
 {
-/** The standard error of the offset, from the flicker's energy above its noise. */
+/** Sets the standard error of the offset, from the energy of the flicker above its noise. */
 void
 SetStandardError(OffsetLine & line, double frames)
 {
@@ -34,7 +34,7 @@ SetStandardError(OffsetLine & line, double frames)
   }
 }
 
-/** The interval {m: J(m) >= max J - t^2 phi}; \a energy is sum r r', \a larger the maximum of J. */
+/** Sets the interval {m: J(m) >= max J - t^2 phi}; \a energy is sum r r', \a larger the maximum of J. */
 void
 SetInterval(OffsetLine & line, const Eigen::Matrix2d & energy, double larger, double frames)
 {
@@ -103,8 +103,8 @@ ContrastOf(const FrameEquations & equations)
   return std::clamp(equations.gram(1, 1) / equations.rawGram(1, 1), 0.0, 1.0);
 }
 
-/** The flicker of a scene of one level, whose offset it cannot tell; null if the levels are one and the same, or their
- * gram has no part left for light. */
+/** Returns the flicker of a scene of one level, which does not determine the offset. Null if the offset is at this
+ * level, or if the Gram matrix of the level is not positive. */
 std::optional<OffsetLine>
 LineOfOneLevel(const FrameEquations & equations, double offset)
 {
@@ -121,7 +121,8 @@ LineOfOneLevel(const FrameEquations & equations, double offset)
   return line;
 }
 
-/** The flicker of a ramp, by what its slope changes. Any offset goes with it: a level can be motion. */
+/** Returns the flicker of a ramp, from the changes of its slope. It is consistent with any offset, because a level can
+ * be due to motion. */
 OffsetLine
 LineOfRamp(const FrameEquations & equations, double offset)
 {

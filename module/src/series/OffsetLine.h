@@ -20,60 +20,65 @@
 namespace sensornoise
 {
 
-/** Offset and flicker, from the line on which the frames' changes of light lie. */
+/** Offset and flicker, from the line on which the changes of the frames with the illumination lie. */
 struct SensorNoise_EXPORT OffsetLine
 {
-  double offset{ 0.0 };                                            ///< mu minus the centre of the regression [DN]
+  double offset{ 0.0 };                                            ///< dark offset minus the centre of the regression
+                                                                   ///< [DN]
   double standardError{ std::numeric_limits<double>::infinity() }; ///< of the offset [DN]
-  double low{ -std::numeric_limits<double>::infinity() };          ///< 95 % interval, may be unbounded [DN]
-  double high{ std::numeric_limits<double>::infinity() };          ///< its other end [DN]
-  double phi{ 1.0 };                                               ///< dispersion about the line; 1: nothing but noise
-  double flickerZ{ 0.0 };  ///< how far the flicker exceeds its noise, in standard deviations
+  double low{ -std::numeric_limits<double>::infinity() };          ///< lower bound of the 95 % interval, may be
+                                                                   ///< unbounded [DN]
+  double high{ std::numeric_limits<double>::infinity() };          ///< upper bound [DN]
+  double phi{ 1.0 };                                               ///< dispersion about the line [1]; 1: noise alone
+  double flickerZ{ 0.0 };  ///< excess of the flicker over its noise, in standard deviations [1]
   double precision{ 0.0 }; ///< inverse variance of one gamma_t [1]
-  /** Of what the levels differ by, the share that is not the noise of their means [1]; 0: the scene has one level. */
+  /** Fraction of the variance of the levels that is not the noise of their means [1]; 0: the scene has one level. */
   double              contrast{ 0.0 };
   double              sensitivity{ 0.0 }; ///< relative change of gamma_t with the offset [1/DN]
-  std::vector<double> gamma;              ///< of every frame [1]
-  std::size_t         lastClass{ 0 };     ///< roughest gradient class that was admitted
-  /** The scene is a ramp, and the flicker was taken from its slope alone, see FrameEquations::isLevelMotion. */
+  std::vector<double> gamma;              ///< illumination factor of every frame minus 1 [1]
+  std::size_t         lastClass{ 0 };     ///< roughest gradient class that was included
+  /** Whether the scene is a ramp, so that the flicker was estimated from its slope alone, see
+   * FrameEquations::isLevelMotion. */
   bool isLevelMotion{ false };
 
-  Eigen::Matrix2d  light;    ///< of the equations that were used
-  Eigen::MatrixX2d response; ///< frames x 2
+  Eigen::Matrix2d  light;    ///< see FrameEquations::light, of the equations that were used
+  Eigen::MatrixX2d response; ///< see FrameEquations::response, frames x 2
 
-  /** Whether the flicker tells the offset: it is seen, and so are levels that differ. */
+  /** Returns whether the flicker determines the offset: the flicker is significant, and levels differ. */
   bool
   TellsOffset() const
   {
     return flickerZ > Significance.everyPixel && contrast > InSeries.leastContrast && std::isfinite(low);
   }
 
-  /** What the dispersion widens variances by [1]; 1: by nothing, chance makes it smaller at times. */
+  /** Returns the factor by which the dispersion increases variances [1], at least 1: a smaller dispersion is due to
+   * chance. */
   double
   Widening() const
   {
     return std::max(1.0, phi);
   }
 
-  /** Computes the flicker, v' r_t / v' G v with v = (-m, 1), for the offset \a m (minus the centre). */
+  /** Computes the flicker, v' r_t / v' G v with v = (-m, 1), for the offset \a m minus the centre [DN]. */
   void
   UseOffset(double m);
 };
 
-/** Fits the line. With frame t's change of light u_t - mean = a_t + d_t mean, flicker about the offset means
- * a_t = -mu d_t: the maximum over m of
+/** Fits the line. With the change of frame t by the illumination u_t - mean = a_t + d_t mean, flicker about the offset
+ * means a_t = -mu d_t. The maximum over m of
  *
  *     J(m) = sum_t (v' r_t)^2 / (v' G v),   v = (-m, 1),
  *
  * is the maximum-likelihood line with errors in both variables, a generalised eigenvector of sum r r' and G. The
- * second eigenvalue over T - 2 is the dispersion phi, and {m: J(m) >= max J - t^2 phi} the interval, which may be
- * unbounded; t is Student's quantile for T - 2 degrees of freedom. Estimator.md, 3.3. Null if G is not positive, or the
- * level cannot be told from motion. */
+ * second eigenvalue over T - 2 is the dispersion phi. The interval is {m: J(m) >= max J - t^2 phi}, which may be
+ * unbounded; t is Student's quantile for T - 2 degrees of freedom. Estimator.md, 3.3. Null if G is not positive, or if
+ * the level is not identifiable beside motion. */
 SensorNoise_EXPORT std::optional<OffsetLine>
 FitOffsetLine(const FrameEquations & equations);
 
-/** The best line over the gradient classes: rougher ones are admitted while they reduce the standard error that the
- * dispersion widens. On a ramp the flicker tells no offset, and on a scene of one level neither. */
+/** Fits the line to the gradient classes 0 ... c for every c, and returns the line with the smallest standard error,
+ * widened by the dispersion. If there is none, because the scene is a ramp or has one level, the flicker alone is
+ * estimated, about the darkest level. Null if this fails, too. */
 SensorNoise_EXPORT std::optional<OffsetLine>
 FitOffsetLine(const FrameSums & sums, const RegressorNoise & noise, const std::vector<double> & gamma = {});
 

@@ -20,8 +20,9 @@ namespace sensornoise
 
 namespace
 {
-/** The derivatives of MotionStencils() at \a count pixels from \a mean on, each in a row of \a rows that \a stride
- * numbers lie between. One after the other: each loop becomes vectors. */
+/** Computes the derivatives of MotionStencils() at \a count pixels from \a mean on. Each fills a row of \a rows; the
+ * rows are \a stride numbers apart. The derivatives are computed one after the other, so that each loop is vectorized.
+ */
 template <std::size_t... VStencils>
 void
 FillDerivatives(const double * mean,
@@ -47,7 +48,7 @@ RegressorBand::RegressorBand(const FrameRegressors & regressors, std::size_t cel
   , m_Cells(cells)
 {}
 
-/** Calls function(pixel of the band, group) for the pixels that serve, row by row. */
+/** Calls function(pixel of the band, group) for the used pixels, row by row. */
 template <typename TFunction>
 void
 RegressorBand::ForUsed(TFunction function) const
@@ -86,7 +87,7 @@ RegressorBand::MoveTo(std::size_t firstRow, std::size_t rows)
   });
 }
 
-/** Orders the pixels that serve by group. */
+/** Orders the used pixels by group. */
 void
 RegressorBand::FindOrder()
 {
@@ -108,7 +109,8 @@ RegressorBand::FindOrder()
     [this](std::size_t i, std::size_t group) { m_Order[m_Places[group]++] = static_cast<std::uint32_t>(i); });
 }
 
-/** 1, the mean minus the centre, and its derivatives, which at the border are of no meaning. */
+/** Computes the values of the columns: 1, the mean minus the centre, and its derivatives, which have no meaning at the
+ * border. */
 void
 RegressorBand::FillValues()
 {
@@ -132,11 +134,11 @@ RegressorBand::FillValues()
   }
 }
 
-/** The inverse noise, that of cells, and the weighted instruments. */
+/** Computes the inverse noise of pixels and of cells, and the weighted instruments. */
 void
 RegressorBand::FillWeights()
 {
-  const ProvisionalModel   model = m_Regressors.GetModel(); // its own: no number below can be one of its
+  const ProvisionalModel   model = m_Regressors.GetModel(); // a copy: it cannot alias the numbers written below
   const ShiftInstruments & instruments = m_Regressors.GetInstruments();
   const double * const     level = m_Regressors.GetFrame().neighbourMean.data() + m_First;
   const double * const     gx = this->RowOf(2 + StencilX);
@@ -144,7 +146,7 @@ RegressorBand::FillWeights()
   const double * const     weight = instruments.weight.data() + m_First;
   double * const           ofPixel = this->RowOf(Weight);
   double * const           ofCell = this->RowOf(CellWeight);
-  // Motion that the derivatives do not explain is noise to the light's local changes.
+  // Motion that the derivatives do not explain is noise in the local changes of the illumination.
   const double motionLeft = InSeries.motionLeftInCells;
   for (std::size_t i = 0; i < m_Pixels; ++i)
   {
@@ -160,7 +162,7 @@ RegressorBand::FillWeights()
   weigh(instruments.y, this->RowOf(InstrumentY));
 }
 
-/** The weighted columns of each pixel side by side, group by group. */
+/** Stores the weighted columns of each pixel contiguously, group by group. */
 void
 RegressorBand::FillColumns()
 {

@@ -18,14 +18,15 @@ namespace sensornoise
  * \brief The weighted columns of FrameRegressors over a few rows of the image, ordered by cell and class, and their
  * inner products with series.
  *
- * Whole rows are read from memory in one piece; the columns stay in the second-level cache while all frames pass, and
- * the sums of one group in registers. A band is moved from rows to rows, for its memory is made once. */
+ * Whole rows are read from memory in one piece. The columns stay in the second-level cache while all frames are
+ * processed, and the sums of one group in registers. A band is moved from rows to rows, so that its memory is
+ * allocated once. */
 class SensorNoise_EXPORT RegressorBand
 {
 public:
-  static constexpr std::size_t Together = FramesTogether; // series whose sums stay in registers
+  static constexpr std::size_t Together = FramesTogether; // number of series whose sums stay in registers
 
-  /** Of one group: sums[series][column]. */
+  /** Sums of one group: sums[series][column]. */
   using Sums = std::array<FrameRegressors::WeightedColumns, Together>;
 
   /** The pixels of one class in one cell of the band. */
@@ -37,14 +38,14 @@ public:
     std::size_t end;
   };
 
-  /** The image is cut into \a cells cells side by side. \a regressors must outlive the object. */
+  /** Divides the image into \a cells cells side by side. \a regressors must outlive the object. */
   RegressorBand(const FrameRegressors & regressors, std::size_t cells);
 
-  /** The band becomes the rows \a firstRow ... \a firstRow + \a rows - 1 of the image. */
+  /** Moves the band to the rows \a firstRow ... \a firstRow + \a rows - 1 of the image. */
   void
   MoveTo(std::size_t firstRow, std::size_t rows);
 
-  /** The band's pixels are First() ... First() + Pixels() - 1. */
+  /** Pixels of the band: First() ... First() + Pixels() - 1. */
   std::size_t
   First() const
   {
@@ -60,21 +61,22 @@ public:
   {
     return m_Groups;
   }
-  /** The pixels that serve, counted from First() and ordered by group. */
+  /** Returns the used pixels, counted from First() and ordered by group. */
   const std::vector<std::uint32_t> &
   GetOrder() const
   {
     return m_Order;
   }
 
-  /** Where the values of series \a k of Together at all pixels of the band are to be put. */
+  /** Memory for the values of series \a k of Together at all pixels of the band, to be filled before Multiply(). */
   double *
   Series(std::size_t k)
   {
     return m_Series.data() + k * m_Pixels;
   }
-  /** Sums over the pixels of every group of their columns times the values of the series, until the next call. A
-   * series' bits do not depend on those beside it. Calls meanwhile(g) before each group g. */
+  /** Computes the sums over the pixels of every group of their columns times the values of the series. The result is
+   * valid until the next call. The bits of a series do not depend on the other series. Calls meanwhile(g) before each
+   * group g. */
   template <typename TFunction>
   const std::vector<Sums> &
   Multiply(TFunction meanwhile)
@@ -86,8 +88,8 @@ public:
     }
     return m_Sums;
   }
-  /** The same where the series are Together of the pixels' own values from column \a first on; those behind the last
-   * column are of no meaning. */
+  /** Computes the sums as Multiply() does, with the values of the columns from \a first on as the Together series. The
+   * sums behind the last column have no meaning. */
   const std::vector<Sums> &
   MultiplyByValues(std::size_t first)
   {
@@ -99,8 +101,7 @@ public:
   }
 
 private:
-  /** Numbers of the pixels, each kind in a row by itself, so that vectors make them: the columns' values, and behind
-   * them these. */
+  /** Rows of numbers of the pixels, each kind separately for SIMD: the values of the columns, followed by these. */
   enum Row : std::size_t
   {
     InstrumentX = FrameColumns,

@@ -20,7 +20,7 @@ MakeSceneRegressors(const StillScene & scene, const ParallelFor & parallelFor)
   const std::vector<std::uint8_t> unexplained = FindUnexplained(scene.frame, scene.model, parallelFor);
   const std::size_t               pixels = unexplained.size();
   std::vector<std::uint8_t>       take(pixels);
-  std::vector<std::uint8_t>       whole(pixels); // holes of single pixels would roughen the instruments
+  std::vector<std::uint8_t>       whole(pixels); // missing single pixels would roughen the instruments
   ForBlocks(pixels, parallelFor, [&](std::size_t begin, std::size_t end) {
     const std::uint8_t * const why = unexplained.data();
     const std::uint8_t * const usable = scene.frame.usable.data() + begin;

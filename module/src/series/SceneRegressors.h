@@ -11,8 +11,8 @@
 namespace sensornoise
 {
 
-/** The regressors of the second pass, of all usable pixels but those that one pass cannot explain (FindUnexplained()).
- * They hold the address of the scene's frame, which must outlive them at its place. */
+/** Makes the regressors of the second pass, over all usable pixels except outlier pixels, see FindUnexplained(). They
+ * hold the address of the frame of \a scene, which must outlive them without being moved. */
 SensorNoise_EXPORT FrameRegressors
 MakeSceneRegressors(const StillScene & scene, const ParallelFor & parallelFor);
 

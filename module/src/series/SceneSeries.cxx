@@ -19,7 +19,7 @@ namespace sensornoise
 
 namespace
 {
-/** The level of the darkest frame, minus the centre [DN]: the highest offset that the frames allow. */
+/** Returns the level of the darkest frame, minus the centre [DN]: the highest offset that the frames allow. */
 double
 LevelOfDarkestFrame(OffsetLine line, double offset)
 {
@@ -65,7 +65,7 @@ FindSceneSeries(const FrameSums &             sums,
   SceneSeries found;
   found.line = *line;
   const ProvisionalModel & model = sums.GetRegressors().GetModel();
-  if (!changesStrongly) // a response that is not linear departs from the line by more, then
+  if (!changesStrongly) // the deviations of a non-linear response from the line are larger then
   {
     found.frameOffsets =
       FindFrameOffsets(*line,
@@ -73,7 +73,7 @@ FindSceneSeries(const FrameSums &             sums,
                        InSeries.leastOffsetStep * std::sqrt(model.NoiseVariance(model.darkestDn)));
   }
   FrameEquations equations = MakeFrameEquations(sums, noise, GradientClasses - 1);
-  // Patterns of a flat field's pixels have contrast, too.
+  // Fixed-pattern noise of a flat field has contrast, too.
   const bool isPrecise =
     line->standardError < InCommon.largestRelativeError * std::max(0.0, -line->offset) || !changesStrongly;
   found.isOffsetTold = line->TellsOffset() && isPrecise;

@@ -19,27 +19,30 @@
 namespace sensornoise
 {
 
-/** The result of the second pass: what changes from frame to frame beside the noise. */
+/** The result of the second pass: the temporal components of the frames apart from noise. */
 struct SceneSeries
 {
   OffsetLine        line; ///< offset and flicker
   MotionSeries      motion;
   LocalIllumination local;
-  double            offset{ 0.0 }; ///< minus the centre: of the line, or what is known, or the darkest level [DN]
-  bool              isOffsetTold{ false }; ///< whether the offset is the line's: the flicker tells it
-  TemporalBasis     basis;                 ///< of the third pass
-  FrameOffsets      frameOffsets;          ///< frames of another dark offset
+  double            offset{ 0.0 }; ///< offset minus the centre: from the line, or as given, or the darkest level [DN]
+  bool              isOffsetTold{ false }; ///< whether the flicker determines the offset, so that it is the offset of
+                                           ///< the line
+  TemporalBasis basis;                     ///< temporal basis of the third pass
+  FrameOffsets  frameOffsets;              ///< frames of another dark offset
 };
 
-/** The noise by the provisional model itself, by which w V = 1. */
+/** Returns the noise according to the initial noise model, for which w V = 1. */
 SensorNoise_EXPORT RegressorNoise
 NoiseOfModel(const FrameRegressors & regressors);
 
-/** Finds flicker, local light and motion in the sums of the second pass. The noise is the provisional model's. Throws
- * NothingToMeasure if the pixels have one intensity. \a knownOffsetDn serves where the flicker does not tell the
- * offset; without it the darkest level, or, if the scene has one level only, \a blackDn, which the offset is hardly
- * below. \a changesStrongly: the illumination does; a scene of one level
- * then has no model for the noise of each frame, and neither local light nor motion is looked for. */
+/** Finds flicker, local illumination and motion from the sums of the second pass, with the noise of the initial noise
+ * model. Throws NothingToMeasure if the pixels have one intensity.
+ * \param knownOffsetDn offset that is used where the flicker does not determine it; without it the darkest level is
+ * used, or \a blackDn if the scene has one level only [DN]
+ * \param blackDn level that the offset is hardly below [DN]
+ * \param changesStrongly whether the illumination changes strongly; a scene of one level then has no model for the
+ * noise of each frame, and neither local illumination nor motion is searched */
 SensorNoise_EXPORT SceneSeries
 FindSceneSeries(const FrameSums &             sums,
                 RollingShutter                rollingShutter,

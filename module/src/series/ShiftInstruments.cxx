@@ -15,8 +15,8 @@ namespace sensornoise
 namespace
 {
 /** \class DerivativeRows
- * \brief The derivative of the mean by a stencil over the pixels of two boxes, row by row; 0 where it reaches over the
- * border. */
+ * \brief Returns the derivative of the mean by a stencil, divided by the number of pixels of two boxes, row by row; 0
+ * where it exceeds the border. */
 class DerivativeRows
 {
 public:
@@ -60,8 +60,8 @@ private:
 };
 
 /** \class BoxedRows
- * \brief The box sums of a source as the source of the rows [first, last) of another BoxRows of that radius, which asks
- * for each row twice: those between are kept. */
+ * \brief The box sums of a source, as the source of the rows [first, last) of another BoxRows of the same radius,
+ * which reads each row twice: the rows between are kept. */
 template <typename TSource>
 class BoxedRows
 {
@@ -141,7 +141,7 @@ InstrumentWeight(const ReferenceFrame &            frame,
   };
   const auto noiseRows = [&] {
     return [&, row = std::vector<double>(width)](std::size_t y) mutable {
-      const ProvisionalModel own = model; // no number of the row can be one of its: vectors
+      const ProvisionalModel own = model; // a copy: it cannot alias the row, so that the loop is vectorized
       const double * const   level = frame.neighbourMean.data() + y * width;
       std::transform(level, level + width, row.begin(), [&own](double mean) { return own.NoiseVariance(mean); });
       return row.data();

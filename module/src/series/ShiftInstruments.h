@@ -16,19 +16,20 @@
 namespace sensornoise
 {
 
-/** The derivative of the mean by stencil \a k, smoothed [DN/pixel for the first derivatives], of all pixels. */
+/** Returns the derivative of the mean by stencil \a k, smoothed, for all pixels [DN/pixel for the first derivatives].
+ */
 SensorNoise_EXPORT std::vector<double>
 SmoothedDerivative(const ReferenceFrame & frame, StencilIndex k, const ParallelFor & parallelFor);
 
-/** Weights of the instruments: the inverse noise, smoothed, and falling smoothly to 0 where pixels are missing from
- * \a mask. Rough weights, or an edge of which half is missing, would bring the short wavelengths back. */
+/** Returns the weights of the instruments: the inverse noise, smoothed, and falling smoothly to 0 where pixels are
+ * missing from \a mask. Rough weights, or an edge that is half missing, would add short wavelengths. */
 SensorNoise_EXPORT std::vector<double>
 InstrumentWeight(const ReferenceFrame &            frame,
                  const ProvisionalModel &          model,
                  const std::vector<std::uint8_t> & mask,
                  const ParallelFor &               parallelFor);
 
-/** Instruments for the shifts along x and y: derivatives of long wavelengths, and their weights (see SolveShifts). */
+/** Instruments for the shifts along x and y: derivatives of long wavelengths, and their weights (see SolveShifts()). */
 struct ShiftInstruments
 {
   std::vector<double> x;
@@ -36,7 +37,7 @@ struct ShiftInstruments
   std::vector<double> weight;
 };
 
-/** Instruments over the pixels of \a mask. */
+/** Makes the instruments over the pixels of \a mask. */
 SensorNoise_EXPORT ShiftInstruments
 MakeShiftInstruments(const ReferenceFrame &            frame,
                      const ProvisionalModel &          model,

@@ -38,7 +38,7 @@ MotionColumns(const MotionSeries & motion, const std::vector<double> & gamma)
       {
         const auto   i = static_cast<std::size_t>(t);
         const double illumination = 1.0 + gamma[i];
-        const double both = motion.Get(i, a) * motion.Get(i, b); // of a dark frame nothing but noise
+        const double both = motion.Get(i, a) * motion.Get(i, b); // only noise in a dark frame
         product(t) = illumination < InSeries.leastIlluminationOfShift ? 0.0 : both / illumination;
       }
       columns.push_back(product);

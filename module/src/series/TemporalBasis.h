@@ -13,26 +13,26 @@
 namespace sensornoise
 {
 
-/** The time series of the motion: the coefficients of the derivatives, and their products up to the second order of
- * both axes, which is the basis of a shift whose kernel is separable, whatever the interpolation or the optics.
+/** Returns the time series of the motion: the coefficients of the derivatives, and their products up to the second
+ * order of both axes. They are the basis of a shift with a separable kernel, for any interpolation or optics.
  * Estimator.md, 3.4. */
 SensorNoise_EXPORT Eigen::MatrixXd
 MotionColumns(const MotionSeries & motion, const std::vector<double> & gamma);
 
 /** \class TemporalBasis
- * \brief The few series over time that are not sensor noise: flicker, local light and motion, orthonormal, and
+ * \brief The temporal components that are not sensor noise: flicker, local illumination and motion, orthonormal, and
  * orthogonal to the constant.
  *
- * They are held as integers of 20 bits, so that their products with integer pixels are summed exactly; the basis is
- * what the rounded series span. The first NumberOfLightFactors() are light. */
+ * They are held as integers of 20 bits, so that their products with integer pixels are summed exactly; the basis spans
+ * the rounded series. The first NumberOfLightFactors() components are illumination. */
 class SensorNoise_EXPORT TemporalBasis
 {
 public:
   static constexpr double Unit = 1048576.0; // 2^20
 
   TemporalBasis() = default;
-  /** At most mostSeriesOfFrames (T - 2) series, and all of the light's: a short burst leaves out the last of the
-   * motion's. */
+  /** Makes a basis of at most mostSeriesOfFrames (T - 2) series, but of all series of the illumination: a short burst
+   * leaves out the last series of the motion. */
   TemporalBasis(const std::vector<double> & gamma, const Eigen::MatrixXd & local, const Eigen::MatrixXd & motion);
 
   std::size_t
@@ -45,7 +45,8 @@ public:
   {
     return m_LightFactors;
   }
-  /** The series of light alone. The coordinates on them are those of the whole basis, by its triangular form. */
+  /** Returns the basis of the illumination alone. The coordinates on its series are the same as in the whole basis,
+   * because of its triangular form. */
   TemporalBasis
   OfLight() const;
 
@@ -55,15 +56,15 @@ public:
   {
     return m_Basis;
   }
-  /** The integer series times 2^20 of frame \a t, factor \a j. */
+  /** Returns the integer series times 2^20, for frame \a t and factor \a j. */
   double
   Rounded(std::size_t t, std::size_t j) const
   {
     return m_Rounded(static_cast<Eigen::Index>(t), static_cast<Eigen::Index>(j));
   }
-  /** Turns the sums over time of rounded series times pixel value, in place, into the coordinates of the pixels' time
-   * series in the basis, for \a pixels pixels: sums[j stride + i] is that of pixel i with series j, means[i] the mean
-   * of its values. */
+  /** Converts sums over time of rounded series times pixel value, in place, into the coordinates of the time series of
+   * \a pixels pixels in the basis. sums[j stride + i] is the sum for pixel i and series j, means[i] the mean of the
+   * values of pixel i. */
   void
   ToCoordinates(double * sums, std::size_t stride, const double * means, std::size_t pixels) const;
 
@@ -72,7 +73,7 @@ private:
   Eigen::MatrixXd    m_Rounded;
   Eigen::MatrixXd    m_Series;
   Eigen::MatrixXd    m_Basis;
-  Eigen::MatrixXd    m_Inverse; // of the lower triangle that turns coordinates into centred sums
+  Eigen::MatrixXd    m_Inverse; // inverse of the lower triangle that converts coordinates into centred sums
   Eigen::RowVectorXd m_Means;
 };
 
