@@ -57,7 +57,7 @@ BayerPlaneOf(const std::string & name)
 std::array<std::size_t, 2>
 CornerOf(BayerPattern pattern, BayerPlane plane)
 {
-  // Of RGGB; the other patterns begin one column, one row, or both, further on.
+  // Position in RGGB; the other patterns begin one column, one row, or both, further on.
   const std::size_t column = plane == BayerPlane::G1 || plane == BayerPlane::B ? 1 : 0;
   const std::size_t row = plane == BayerPlane::G2 || plane == BayerPlane::B ? 1 : 0;
   const std::size_t shiftX = pattern == BayerPattern::GRBG || pattern == BayerPattern::BGGR ? 1 : 0;

@@ -87,7 +87,7 @@ ReadSumsHeader(std::istream & in, const std::string & name, std::uint64_t pixels
 
 namespace
 {
-/** Mark and version of a seal, in the bytes that they have. */
+/** Mark of a seal, and the number of bytes of the mark and of the version. */
 constexpr char        SealMark[] = "SensorNoise sums";
 constexpr std::size_t SealMarkBytes = 16;
 constexpr std::size_t SealVersionBytes = 32;
@@ -104,7 +104,7 @@ FingerprintOf(const unsigned char * bytes, std::size_t size)
   return FingerprintOfBlocks(blocks.data(), blocks.data() + blocks.size());
 }
 
-/** "5 of module 1.2.3": the two versions of sums. */
+/** Returns "5 of module 1.2.3": the version of the sums and the version of the module. */
 std::string
 NameOfVersions(std::uint32_t ofSums, const std::string & ofModule)
 {

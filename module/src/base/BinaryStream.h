@@ -19,17 +19,17 @@
 #include <vector>
 
 /** \file
- * Sums on their way to another process, or to a file: a header that names the class, then the numbers as they lie in
- * memory, which is little-endian and IEEE 754 on every platform of ITK. They are meant for the same version of the
- * module on the same kind of machine, not for an archive. */
+ * Transfer of sums to another process or a file: a header that names the class, then the numbers as they lie in
+ * memory. They are little-endian and IEEE 754 on every platform of ITK. The format is meant for the same version of
+ * the module on the same kind of machine, not for an archive. */
 
 namespace sensornoise
 {
 
-/** Version of what follows the header; a machine that is not little-endian reads another one. */
+/** Version of the data after the header; a big-endian machine reads another number. */
 inline constexpr std::uint32_t SumsVersion = 5;
 
-/** Writes \a count numbers. Throws std::runtime_error if the stream does not take them. */
+/** Writes \a count numbers. Throws std::runtime_error if the stream does not accept them. */
 template <typename TNumber>
 void
 WriteNumbers(std::ostream & out, const TNumber * numbers, std::size_t count)
@@ -53,7 +53,7 @@ WriteNumbers(std::ostream & out, const std::vector<TNumber> & numbers)
 SensorNoise_EXPORT void
 WriteCount(std::ostream & out, std::uint64_t count);
 
-/** Reads \a count numbers. Throws std::runtime_error if the stream ends before. */
+/** Reads \a count numbers. Throws std::runtime_error if the stream ends early. */
 template <typename TNumber>
 void
 ReadNumbers(std::istream & in, TNumber * numbers, std::size_t count)
@@ -68,7 +68,7 @@ ReadNumbers(std::istream & in, TNumber * numbers, std::size_t count)
   }
 }
 
-/** Reads as many numbers as the vector has. */
+/** Reads as many numbers as the vector has elements. */
 template <typename TNumber>
 void
 ReadNumbers(std::istream & in, std::vector<TNumber> & numbers)
@@ -80,44 +80,46 @@ ReadNumbers(std::istream & in, std::vector<TNumber> & numbers)
 SensorNoise_EXPORT std::uint64_t
 ReadCount(std::istream & in);
 
-/** Throws std::runtime_error unless the \a found number of \a what is the \a expected one. */
+/** Throws std::runtime_error unless the \a found number of \a what equals the \a expected number. */
 SensorNoise_EXPORT void
 RequireCount(const char * what, std::uint64_t found, std::uint64_t expected);
 
-/** Throws std::runtime_error unless two processes went on from the same data: their fingerprints. */
+/** Throws std::runtime_error unless the fingerprints of two processes agree, because they continue from different data.
+ */
 SensorNoise_EXPORT void
 RequireSameStart(std::uint64_t found, std::uint64_t expected);
 
-/** Writes the header of a class's sums; \a frames: how many were summed, 0 where the class does not count them. */
+/** Writes the header of the sums of a class. \a frames is the number of frames that were summed, 0 where the class does
+ * not count them. */
 SensorNoise_EXPORT void
 WriteSumsHeader(std::ostream & out, const std::string & name, std::uint64_t pixels, std::uint64_t frames);
 
-/** Reads a header and returns the number of frames. Throws std::runtime_error if it is that of another class, another
- * version or other frames' size. */
+/** Reads a header and returns the number of frames. Throws std::runtime_error if the class, the version or the number
+ * of pixels differs. */
 SensorNoise_EXPORT std::uint64_t
 ReadSumsHeader(std::istream & in, const std::string & name, std::uint64_t pixels);
 
-/** Bytes of what SealSums() returns. */
+/** Size of the result of SealSums() [bytes]. */
 inline constexpr std::size_t SumsSealBytes = 80;
 
-/** Returns what has to stand before \a bytes of sums for UnsealSums() to accept them: a mark, SumsVersion, \a version,
- * that of the module, the length and a fingerprint of the bytes. */
+/** Returns the seal that must precede \a bytes of sums for UnsealSums() to accept them: a mark, \a version of the
+ * module, SumsVersion, the length and a fingerprint of the bytes. */
 SensorNoise_EXPORT std::vector<unsigned char>
 SealSums(const unsigned char * bytes, std::size_t size, const std::string & version);
 
-/** The sums behind a seal: a part of the bytes that UnsealSums() was given. */
+/** The sums behind a seal: a part of the bytes that were passed to UnsealSums(). */
 struct UnsealedSums
 {
   const unsigned char * bytes{ nullptr };
   std::size_t           size{ 0 };
 };
 
-/** Checks a seal and all bytes behind it, and returns these. Throws std::runtime_error if the bytes are no sums, sums
- * of another version, which it names, incomplete, too many, or damaged. */
+/** Checks a seal and all bytes behind it, and returns these. Throws std::runtime_error if the bytes are no sums, are
+ * incomplete, too many or damaged, or have another version, which the message names. */
 SensorNoise_EXPORT UnsealedSums
 UnsealSums(const unsigned char * bytes, std::size_t size, const std::string & version);
 
-/** "uint16", "float" ...: part of the name of sums that depend on it. */
+/** Returns the name of a pixel type, "uint16", "float" ...: part of the name of sums that depend on it. */
 template <typename TPixel>
 std::string
 PixelName()
@@ -130,7 +132,8 @@ PixelName()
 }
 
 /** \class Fingerprint
- * \brief One number that tells whether two processes go on from the same data, bit by bit; all NaN are alike. */
+ * \brief Number from which it is decided whether two processes continue from the same data, bit by bit; all NaN are
+ * equal. */
 class Fingerprint
 {
 public:
@@ -147,7 +150,7 @@ public:
       }
       std::uint64_t bits = 0;
       std::memcpy(&bits, &number, sizeof(number));
-      m_Value = MixBits((m_Value ^ bits) + 0x9e3779b97f4a7c15ULL); // the golden ratio: else zeros would not count
+      m_Value = MixBits((m_Value ^ bits) + 0x9e3779b97f4a7c15ULL); // the golden ratio, so that zeros change the value
     }
   }
   std::uint64_t

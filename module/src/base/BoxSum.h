@@ -17,18 +17,20 @@ namespace sensornoise
 {
 
 /** \class BoxRows
- * \brief Sums of a map over a square of 2 radius + 1 pixels about each pixel, cut at the frame's border, row by row.
+ * \brief Sums of a map over a square of 2 radius + 1 pixels about each pixel, cut at the border of the frame, row by
+ * row.
  *
- * Running sums along the columns, then along the rows: the cost does not depend on the radius. No map is held:
- * source(y) points at the values of row y until it is called again, and each row is asked for twice.
+ * Running sums are computed along the columns, then along the rows: the cost does not depend on the radius. No map is
+ * stored: source(y) returns the address of the values of row y, which are valid until the next call, and each row is
+ * read twice.
  *
- * Running sums carry their rounding along: rows are summed in bands (ForBoxBands()), which makes them the same for any
- * number of threads. */
+ * Running sums accumulate rounding errors. Rows are therefore summed in bands (ForBoxBands()), so that the result is
+ * the same for any number of threads. */
 template <typename TSource>
 class BoxRows
 {
 public:
-  /** For the rows [first, last). */
+  /** Prepares the sums of the rows [first, last). */
   BoxRows(TSource     source,
           std::size_t width,
           std::size_t height,
@@ -52,7 +54,7 @@ public:
     }
   }
 
-  /** The sums of the next row; they are there until this is called again. */
+  /** Returns the sums of the next row, which are valid until the next call. */
   const double *
   Next()
   {
@@ -66,7 +68,7 @@ public:
   }
 
 private:
-  static constexpr std::size_t Together = 4; // rows that are summed along at once
+  static constexpr std::size_t Together = 4; // number of rows that are summed along at once
 
   void
   Add(std::size_t y, double sign)
@@ -104,8 +106,8 @@ private:
     }
   }
 
-  /** Running sums of neighbours along \a VRows rows, cut at their ends. Each sum waits for the one before it: rows side
-   * by side fill the time. */
+  /** Computes running sums of neighbours along \a VRows rows, cut at their ends. Each sum depends on the previous one,
+   * so that several rows are processed at the same time. */
   template <std::size_t VRows>
   void
   SumAlong(std::size_t first)
@@ -140,22 +142,22 @@ private:
   std::size_t         m_First;
   std::size_t         m_Last;
   std::size_t         m_Next;
-  std::vector<double> m_Columns;  // sums down the columns, about the row at work
-  std::vector<double> m_Columns4; // those of the last few rows
+  std::vector<double> m_Columns;  // sums along the columns, about the current row
+  std::vector<double> m_Columns4; // these sums for the last few rows
   std::vector<double> m_Sums;
 };
 
-/** Calls function(first, last) for the bands of rows whose box sums are made together, compiled for wide vectors. */
+/** Calls function(first, last) for the bands of rows whose box sums are computed together, compiled for SIMD (AVX2). */
 template <typename TFunction>
 void
 ForBoxBands(std::size_t height, const ParallelFor & parallelFor, TFunction function)
 {
-  constexpr std::size_t band = 64; // rows
+  constexpr std::size_t band = 64; // number of rows
   parallelFor((height + band - 1) / band,
               [&](std::size_t b) { WithWideVectors([&] { function(b * band, std::min(height, (b + 1) * band)); }); });
 }
 
-/** Calls use(y, sums) with the box sums of every row; \a makeSource() makes the source of a BoxRows. */
+/** Calls use(y, sums) with the box sums of every row; \a makeSource() returns the source of a BoxRows. */
 template <typename TMakeSource, typename TUse>
 void
 ForBoxRows(TMakeSource         makeSource,
@@ -174,7 +176,7 @@ ForBoxRows(TMakeSource         makeSource,
   });
 }
 
-/** The source of a map's rows: \a map has rows of \a width values. */
+/** Returns a source of the rows of \a map, which have \a width values. */
 template <typename TValue>
 auto
 RowsOf(const std::vector<TValue> & map, std::size_t width)

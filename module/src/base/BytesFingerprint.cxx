@@ -19,7 +19,7 @@ constexpr std::size_t BytesPerRound = sizeof(Lanes);
 constexpr std::uint64_t Prime1 = 0x9e3779b185ebca87ULL;
 constexpr std::uint64_t Prime2 = 0xc2b2ae3d27d4eb4fULL;
 
-/** One round: each lane takes in its word, one to one. */
+/** Performs one round: each lane includes its word, one to one. */
 inline void
 TakeIn(const unsigned char * bytes, Lanes & lanes)
 {
@@ -32,7 +32,7 @@ TakeIn(const unsigned char * bytes, Lanes & lanes)
   }
 }
 
-/** Both numbers are made of all lanes. */
+/** Combines the lanes into two numbers, each from all lanes. */
 BytesFingerprint
 FingerprintOfLanes(const Lanes & lanes)
 {

@@ -35,14 +35,15 @@ CheckProbability(double probability)
   }
 }
 
-/** The x at which a tail holds `probability` of the distribution of a positive number.
+/** Returns the x at which a tail holds `probability` of the distribution of a positive number.
  *
- * Newton's method for the logarithm of the tail as a function of log x, both of them concave for chi-square and for
- * Student's |t|, so it converges from anywhere; the interval known to hold the solution guards against overflow.
+ * Newton's method is applied to the logarithm of the tail as a function of log x. It is concave for chi-square and for
+ * Student's |t|, so that the method converges from any start. The interval known to contain the solution guards
+ * against overflow.
  * \param isUpper which tail
  * \param start first guess, above 0
- * \param tails gives both tails at x
- * \param slope gives x times the density at x */
+ * \param tails returns both tails at x
+ * \param slope returns x times the density at x */
 template <typename TTails, typename TSlope>
 double
 SolveTail(double probability, bool isUpper, double start, TTails tails, TSlope slope)
@@ -75,7 +76,7 @@ SolveTail(double probability, bool isUpper, double start, TTails tails, TSlope s
   return std::exp(logX);
 }
 
-/** The quantile of chi-square at which the smaller of its two tails is met. */
+/** Returns the quantile of chi-square, from the smaller of its two tails. */
 double
 SolveChiSquare(double lower, double upper, double dof)
 {
@@ -85,8 +86,8 @@ SolveChiSquare(double lower, double upper, double dof)
     return lower == 0.0 ? 0.0 : std::numeric_limits<double>::infinity();
   }
   const bool isUpper = upper < lower;
-  // Start: Wilson and Hilferty, PNAS 17(12), 1931, DOI 10.1073/pnas.17.12.684: (chi-square/dof)^(1/3) is nearly normal;
-  // or where the first term of the series holds all of the lower tail, which is to the left of the solution.
+  // Start: Wilson and Hilferty, PNAS 17(12), 1931, DOI 10.1073/pnas.17.12.684: (chi-square/dof)^(1/3) is nearly normal.
+  // Or the x at which the first term of the series equals the lower tail, which is to the left of the solution.
   const double a = 0.5 * dof;
   const double variance = 2.0 / (9.0 * dof);
   const double z = isUpper ? NormalUpperQuantile(upper) : NormalQuantile(lower);
@@ -146,7 +147,7 @@ NormalUpperQuantile(double probability)
   {
     return std::numeric_limits<double>::infinity();
   }
-  // The tail is below exp(-z^2/2)/2 and its logarithm is concave: from here Newton's method comes down to the solution.
+  // The tail is below exp(-z^2/2)/2 and its logarithm is concave: from here Newton's method descends to the solution.
   constexpr double sqrtHalf = 0.70710678118654752440;
   constexpr double inverseSqrtTwoPi = 0.39894228040143267794;
   double           z = std::sqrt(-2.0 * std::log(2.0 * probability));

@@ -8,9 +8,9 @@
 /** \file
  * Chi-square, Student's and normal distributions, for any real number of degrees of freedom above 0.
  *
- * Each tail is computed directly, so a small one keeps its digits: for 0.1 to 1e6 degrees of freedom probabilities are
- * good to 1e-10 relative down to 1e-300, and quantiles likewise as far as a double reaches. Any thread may call
- * these functions; std::lgamma is not used because it may write a global variable. */
+ * Each tail is computed directly, so that a small one keeps its digits. For 0.1 to 1e6 degrees of freedom the relative
+ * error of probabilities is below 1e-10 down to 1e-300, and so is the error of quantiles within the range of a double.
+ * Any thread may call these functions; std::lgamma is not used because it may write a global variable. */
 
 namespace sensornoise
 {

@@ -4,8 +4,8 @@
 #define sensornoise_base_Constant_h
 
 /** \def SENSORNOISE_CONSTANT
- * Before a struct of the methods' numbers: it is known when the library is compiled. With SENSORNOISE_VARY_CONSTANTS it
- * is a variable, which a program may change before it measures, to study what a number does (measure-varied-cases). */
+ * Precedes a struct of the numbers of the methods, which is a constant. With SENSORNOISE_VARY_CONSTANTS it is a
+ * variable, which a program may change before a measurement, to study what a number does (measure-varied-cases). */
 #ifdef SENSORNOISE_VARY_CONSTANTS
 #  define SENSORNOISE_CONSTANT inline
 #else

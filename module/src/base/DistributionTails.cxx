@@ -10,7 +10,8 @@ namespace sensornoise
 namespace
 {
 
-/** log Gamma(z) - ((z - 1/2) log z - z + log sqrt(2 pi)), for z >= StirlingLeast (https://dlmf.nist.gov/5.11.E1). */
+/** Returns log Gamma(z) - ((z - 1/2) log z - z + log sqrt(2 pi)), for z >= StirlingLeast
+ * (https://dlmf.nist.gov/5.11.E1). */
 double
 StirlingRemainder(double z)
 {
@@ -19,7 +20,7 @@ StirlingRemainder(double z)
   return inverse * (1.0 / 12.0 - w * (1.0 / 360.0 - w * (1.0 / 1260.0 - w * (1.0 / 1680.0 - w / 1188.0))));
 }
 
-/** Value of b0 + a1 / (b1 + a2 / (b2 + ...)), from the products of ratios of successive convergents (modified Lentz;
+/** Returns b0 + a1 / (b1 + a2 / (b2 + ...)), from the products of ratios of successive convergents (modified Lentz;
  * Thompson and Barnett, J. Comput. Phys. 64, 1986, DOI 10.1016/0021-9991(86)90046-X). `numerator(n)` is a_n and
  * `denominator(n)` is b_n. */
 template <typename TNumerator, typename TDenominator>

@@ -6,12 +6,12 @@
 #include "SensorNoiseExport.h"
 
 /** \file
- * Incomplete gamma and beta functions: what ChiSquare is made of. */
+ * Incomplete gamma and beta functions, on which ChiSquare is based. */
 
 namespace sensornoise
 {
 
-/** From here on Stirling's series gives all digits. */
+/** Least argument for which Stirling's series yields all digits. */
 inline constexpr double StirlingLeast = 16.0;
 
 /** Both tails of a distribution at one point. */
@@ -21,8 +21,8 @@ struct Tails
   double upper;
 };
 
-/** x^a exp(-x) / Gamma(a + 1), for x > 0. For large a the huge factors are never formed: with x = a (1 + u) their
- * product is exp(-a (u - log(1 + u))) / sqrt(2 pi a), up to Stirling's remainder. */
+/** Returns x^a exp(-x) / Gamma(a + 1), for x > 0. For large a the huge factors are never computed: with x = a (1 + u)
+ * their product is exp(-a (u - log(1 + u))) / sqrt(2 pi a), up to Stirling's remainder. */
 SensorNoise_EXPORT double
 GammaTerm(double a, double x);
 
@@ -31,12 +31,12 @@ GammaTerm(double a, double x);
 SensorNoise_EXPORT Tails
 GammaTails(double a, double x);
 
-/** t times the density of Student's t, for t > 0. */
+/** Returns t times the density of Student's t, for t > 0. */
 SensorNoise_EXPORT double
 StudentTerm(double t, double dof);
 
-/** Probability that |t| is below (lower) and above (upper) a t > 0: the regularised incomplete beta functions
- * I_x(1/2, dof/2) and I_1-x(dof/2, 1/2) at x = t^2 / (dof + t^2), by https://dlmf.nist.gov/8.17.E22. */
+/** Returns the probability that |t| is below (lower) and above (upper) a t > 0. These are the regularised incomplete
+ * beta functions I_x(1/2, dof/2) and I_1-x(dof/2, 1/2) at x = t^2 / (dof + t^2), by https://dlmf.nist.gov/8.17.E22. */
 SensorNoise_EXPORT Tails
 StudentTails(double t, double dof);
 

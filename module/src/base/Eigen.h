@@ -3,7 +3,7 @@
 #ifndef sensornoise_base_Eigen_h
 #define sensornoise_base_Eigen_h
 
-// ITK carries its own copy of Eigen; a program must never see two. Without ITK, the system's Eigen serves.
+// ITK includes its own copy of Eigen; a program must not contain two. Without ITK, the Eigen of the system is used.
 #if defined(__has_include) && __has_include("itk_eigen.h")
 #  include "itk_eigen.h"
 #  include ITK_EIGEN(Dense)

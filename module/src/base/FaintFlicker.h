@@ -11,8 +11,8 @@
 namespace sensornoise
 {
 
-/** That the flicker does not tell the offset, as a sentence without its end. \a flickerZ is by how many standard
- * deviations of its noise's variance the flicker's exceeds it. */
+/** Returns a clause that says why the flicker does not determine the offset. \a flickerZ is the excess of the variance
+ * of the flicker over its noise, in standard deviations [1]. */
 inline std::string
 TextOfFaintFlicker(double flickerZ)
 {

@@ -12,9 +12,8 @@
 namespace sensornoise
 {
 
-/** Makes a map, for which memory is reserved, \a count pixels long, not shorter than it is; the new ones are \a value.
- * The system makes a page of memory when it is first written to, which takes longer than all that is written to it
- * later: here the threads share that. */
+/** Extends a map, which has enough capacity, to \a count pixels; the new ones are \a value. The system allocates a page
+ * of memory when it is first written to, which takes longer than later writes: here the threads share this work. */
 template <typename TNumber>
 void
 GrowMap(std::vector<TNumber> & map, std::size_t count, const ParallelFor & parallelFor, TNumber value = TNumber{})
@@ -31,7 +30,7 @@ GrowMap(std::vector<TNumber> & map, std::size_t count, const ParallelFor & paral
   map.resize(count, value);
 }
 
-/** A map of \a count pixels, all of them \a value. */
+/** Returns a map of \a count pixels, all of them \a value. */
 template <typename TNumber>
 std::vector<TNumber>
 MakeMap(std::size_t count, const ParallelFor & parallelFor, TNumber value = TNumber{})

@@ -12,8 +12,8 @@
 namespace sensornoise
 {
 
-/** Calls function(k) for 0 ... count-1 as \a parallelFor does, all of them, and then throws what the first of them, in
- * that order, has thrown: whatever the threads, the same error. */
+/** Calls function(k) for all of 0 ... count - 1 as \a parallelFor does. Then throws the exception of the smallest k
+ * that has thrown one, so that the error does not depend on the threads. */
 template <typename TFunction>
 void
 ForAll(std::size_t count, const ParallelFor & parallelFor, TFunction function)

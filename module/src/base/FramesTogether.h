@@ -8,8 +8,8 @@
 namespace sensornoise
 {
 
-/** Frames that the second pass multiplies together, at the cost of one: their sums fill the vector registers. So many
- * are handed on at a time at least, however large they are. */
+/** Number of frames that the second pass multiplies together, at the cost of one: their sums fill the SIMD registers.
+ * At least so many frames are passed on at a time, however large they are. */
 inline constexpr std::size_t FramesTogether = 4;
 
 } // namespace sensornoise

@@ -22,7 +22,7 @@ namespace sensornoise
 {
 namespace
 {
-/** The sum of the numbers behind these words, each at the beginning of a line; null if none is there. */
+/** Returns the sum of the numbers after these words, each at the beginning of a line; null if there is none. */
 std::optional<double>
 SumOf(const std::string & file, const std::initializer_list<const char *> & words)
 {
@@ -41,7 +41,7 @@ SumOf(const std::string & file, const std::initializer_list<const char *> & word
   return sum;
 }
 
-/** The number in a file; null where it is "max" or there is none. */
+/** Returns the number in a file; null if it is "max" or there is none. */
 std::optional<double>
 NumberIn(const std::string & file)
 {
@@ -51,7 +51,8 @@ NumberIn(const std::string & file)
 }
 
 #ifdef __linux__
-/** What the process's control group leaves it. The cache of files counts as used, but gives way. */
+/** Returns the memory that the control group leaves to the process [bytes]. The cache of files counts as used, but can
+ * be released. */
 std::optional<double>
 LeftByControlGroup()
 {
@@ -66,7 +67,7 @@ LeftByControlGroup()
     }
     const std::string root = isV2 ? "/sys/fs/cgroup" : "/sys/fs/cgroup/memory";
     const std::string own = line.substr(path + (isV2 ? 2 : 8));
-    for (const std::string & folder : { root + own + "/", root + "/" }) // a container sees its own as the root
+    for (const std::string & folder : { root + own + "/", root + "/" }) // a container has its own group as the root
     {
       const auto limit = NumberIn(folder + (isV2 ? "memory.max" : "memory.limit_in_bytes"));
       const auto used = NumberIn(folder + (isV2 ? "memory.current" : "memory.usage_in_bytes"));

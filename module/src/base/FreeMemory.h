@@ -11,22 +11,23 @@
 namespace sensornoise
 {
 
-/** Memory that this process can still get [bytes]: what the machine has available, swap included, or less where a limit
- * of the process (ulimit -v) or of its control group (a container) is closer. Null where the system does not tell. */
+/** Returns the memory that this process can still allocate [bytes]: the available memory of the machine, swap included,
+ * or less where a limit of the process (ulimit -v) or of its control group (a container) is smaller. Null where the
+ * system does not provide it. */
 SensorNoise_EXPORT std::optional<double>
 FreeMemoryBytes();
 
-/** Throws std::runtime_error, "<what> needs N GB of memory, but M GB are free", if \a bytes are more than that. A
- * double: a product of sizes from a header may be beyond every integer. */
+/** Throws std::runtime_error, "<what> needs N GB of memory, but M GB are free", if \a bytes exceed the free memory. The
+ * argument is a double, because a product of sizes from a header may exceed every integer. */
 SensorNoise_EXPORT void
 RequireMemory(double bytes, const std::string & what);
 
-/** Gives memory that was freed, but is kept by the C library between pieces that are in use, back to the system; where
- * the library is not known, nothing is done. */
+/** Returns freed memory, which the C library keeps between pieces in use, to the system. Does nothing with C libraries
+ * other than glibc. */
 SensorNoise_EXPORT void
 GiveBackFreedMemory();
 
-/** A number of bytes as people read it, for example "2.4 GB". */
+/** Returns a number of bytes as readable text, for example "2.4 GB". */
 SensorNoise_EXPORT std::string
 TextOfBytes(double bytes);
 

@@ -28,7 +28,8 @@ IntensityIndex::IntensityIndex(const double *       mean,
     pixels, parallelFor, [mask](std::size_t p) { return mask[p] != 0; }, [mean](std::size_t p) { return mean[p]; });
   m_Lowest = range.lowest;
   m_CellsPerDn = range.highest > range.lowest ? static_cast<double>(Cells) / (range.highest - range.lowest) : 0.0;
-  constexpr std::size_t                   fewest = std::size_t{ 1 } << 17; // pixels that are worth a histogram
+  constexpr std::size_t fewest = std::size_t{ 1 } << 17; // least number of pixels for which a
+                                                         // separate histogram saves time
   const std::size_t                       parts = std::clamp<std::size_t>(pixels / fewest, 1, 8);
   std::vector<std::vector<std::uint32_t>> counts(parts);
   parallelFor(parts, [&](std::size_t part) {
@@ -106,7 +107,7 @@ IntensityIndex::ReachDn(double levelDn, std::size_t count) const
   {
     margin *= 2;
   }
-  // A cell's pixels may all be at its far side; one more cell, as the edges of cells are rounded.
+  // The pixels of a cell may all be at its far side; one more cell, because the edges of cells are rounded.
   const double        limit = m_CellsPerDn > 0.0 ? static_cast<double>(margin + 2) / m_CellsPerDn : 1.0;
   std::vector<double> distances;
   for (std::size_t p = 0; p < m_Pixels; ++p)

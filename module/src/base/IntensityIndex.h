@@ -17,10 +17,9 @@ namespace sensornoise
 /** \class IntensityIndex
  * \brief Finds quantiles, neighbours in intensity and bins of equal count among the pixels of a mask without sorting.
  *
- * A histogram of 65,536 cells between the lowest and the highest mean narrows each question down to a few cells, whose
- * pixels are then ordered exactly; only the bins of equal count are equal up to one cell. The maps and the mask must
- * outlive the index and must not change.
- */
+ * A histogram of 65,536 cells between the lowest and the highest mean reduces each search to a few cells, whose pixels
+ * are then ordered exactly. Only the bins of equal count are accurate to one cell. The maps and the mask must outlive
+ * the index and must not change. */
 class SensorNoise_EXPORT IntensityIndex
 {
 public:
@@ -36,22 +35,22 @@ public:
     return m_Cumulative[Cells];
   }
 
-  /** The quantile \a q (0 to 1) of the mean [DN]. */
+  /** Returns the quantile \a q (0 to 1) of the mean [DN]. Throws std::invalid_argument if the mask is empty. */
   double
   QuantileDn(double q, const ParallelFor & parallelFor = SerialFor) const;
 
-  /** The distance from \a levelDn within which the \a count nearest pixels lie [DN]. */
+  /** Returns the distance from \a levelDn within which the \a count nearest pixels lie [DN]. */
   double
   ReachDn(double levelDn, std::size_t count) const;
 
   /** \class Bins
-   * \brief Bins of equal count, one cell after the other. */
+   * \brief Intensity bins of equal count, made of whole cells. */
   class SensorNoise_EXPORT Bins
   {
   public:
     Bins(const IntensityIndex & index, std::size_t bins);
 
-    /** Which of them holds a pixel of mean \a meanDn. */
+    /** Returns the number of the bin that contains a pixel of mean \a meanDn. */
     std::size_t
     Of(double meanDn) const
     {
@@ -82,7 +81,7 @@ private:
   std::size_t              m_Pixels;
   double                   m_Lowest;
   double                   m_CellsPerDn;
-  std::vector<std::size_t> m_Cumulative; // pixels below each cell
+  std::vector<std::size_t> m_Cumulative; // number of pixels below each cell
 };
 
 } // namespace sensornoise

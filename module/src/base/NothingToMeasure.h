@@ -13,13 +13,14 @@ namespace sensornoise
 {
 
 /** \class NothingToMeasure
- * \brief A stack that is read without error, but cannot be measured: it ends in a report that says why.
+ * \brief Exception for a stack that is read without error, but cannot be measured: the result is a report with the
+ * reason.
  *
- * Every other exception is an error of its own and passes through the methods. */
+ * Every other exception is an error and passes through the methods. */
 class SensorNoise_EXPORT NothingToMeasure : public std::runtime_error
 {
 public:
-  /** \a code is that of the report's warning, \a message one sentence for people. */
+  /** \a code is the code of the warning in the report, \a message one sentence for the user. */
   explicit NothingToMeasure(const std::string & message, WarningCode code = WarningCode::NothingToMeasure)
     : std::runtime_error(message)
     , m_Code(code)

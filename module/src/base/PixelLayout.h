@@ -13,22 +13,23 @@
 namespace sensornoise
 {
 
-/** Where the pixels of frames stand in memory: one after the other, or every second one, as a plane of a mosaic. */
+/** Layout of the pixels of frames in memory: contiguous, or every second one, as in a plane of a mosaic. All distances
+ * are in pixels. */
 struct PixelLayout
 {
   std::size_t first{ 0 }; ///< place of the first pixel
-  std::size_t step{ 1 };  ///< from a pixel to the next one of its row: 1 or 2
-  std::size_t row{ 0 };   ///< from a row to the next one
-  std::size_t frame{ 0 }; ///< from a frame to the next one
-  std::size_t width{ 0 }; ///< pixels of a row
+  std::size_t step{ 1 };  ///< distance from a pixel to the next one of its row: 1 or 2
+  std::size_t row{ 0 };   ///< distance from a row to the next one
+  std::size_t frame{ 0 }; ///< distance from a frame to the next one
+  std::size_t width{ 0 }; ///< number of pixels of a row
 
-  /** Frames of \a pixels pixels side by side, \a stride from one to the next. */
+  /** Layout of frames of \a pixels contiguous pixels, \a stride from one to the next. */
   static PixelLayout
   OfPixels(std::size_t pixels, std::size_t stride)
   {
     return { 0, 1, pixels, stride, pixels };
   }
-  /** Frames one after the other. */
+  /** Layout of contiguous frames. */
   static PixelLayout
   OfFrames(const FrameGeometry & geometry)
   {
@@ -41,22 +42,22 @@ struct PixelLayout
   {
     return first + y * row + x * step;
   }
-  /** Of pixel \a p, counted row by row. */
+  /** Place of pixel \a p of the first frame, counted row by row. */
   std::size_t
   At(std::size_t p) const
   {
     return this->At(p % width, p / width);
   }
 
-  /** Whether a frame's pixels stand side by side, all of them. */
+  /** Returns whether all pixels of a frame are contiguous. */
   bool
   AreSideBySide() const
   {
     return step == 1 && row == width;
   }
 
-  /** Calls function(p, place, count) for the runs of the pixels [begin, end), counted row by row, that stand at equal
-   * distances: the first one of each, its place in a frame, and how many they are. */
+  /** Calls function(p, place, count) for the runs of the pixels [begin, end), counted row by row, that lie at equal
+   * distances. The arguments are the first pixel of the run, its place in a frame, and the number of pixels. */
   template <typename TFunction>
   void
   ForRuns(std::size_t begin, std::size_t end, TFunction function) const
@@ -69,7 +70,7 @@ struct PixelLayout
     }
   }
 
-  /** Asks for the memory of the pixels [begin, end) of the frame that begins at \a start, which will be needed soon. */
+  /** Prefetches the pixels [begin, end) of the frame that begins at \a start, which will be needed soon. */
   template <typename TPixel>
   void
   Prefetch(const TPixel * start, std::size_t begin, std::size_t end) const
@@ -79,8 +80,8 @@ struct PixelLayout
     });
   }
 
-  /** The pixels [begin, end) of the frame that begins at \a start: side by side, where they stand or copied to
-   * \a room, which has room for them. */
+  /** Returns the address of the pixels [begin, end) of the frame that begins at \a start, contiguously: in place, or
+   * copied to \a room, which has room for them. */
   template <typename TPixel>
   const TPixel *
   SideBySide(const TPixel * start, std::size_t begin, std::size_t end, TPixel * room) const
@@ -98,7 +99,7 @@ struct PixelLayout
   }
 
 private:
-  /** The step is a constant, so that vectors are sorted in the processor. */
+  /** The step is a constant, so that the loop is compiled to SIMD shuffles. */
   template <std::size_t VStep, typename TPixel>
   static void
   CopyEvery(const TPixel * from, std::size_t count, TPixel * to)

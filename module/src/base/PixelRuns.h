@@ -10,10 +10,11 @@
 namespace sensornoise
 {
 
-/** Pixels of a run, which are worked on at once, in vectors: what is made of them stays in the caches. */
+/** Number of pixels of a run, which are processed together with SIMD, so that intermediate results stay in the caches.
+ */
 inline constexpr std::size_t PixelsPerRun = 512;
 
-/** A number of each pixel of a run. */
+/** One number for each pixel of a run. */
 using OfRun = std::array<double, PixelsPerRun>;
 
 /** Calls function(first, pixels) for the runs of the pixels [begin, end), one after the other. */
@@ -27,7 +28,7 @@ ForRuns(std::size_t begin, std::size_t end, TFunction function)
   }
 }
 
-/** The sum of term(i) for i = 0 ... count - 1: in four lanes, which become vectors. */
+/** Returns the sum of term(i) for i = 0 ... count - 1, in four lanes for SIMD. */
 template <typename TTerm>
 double
 SumOfRun(std::size_t count, TTerm term)

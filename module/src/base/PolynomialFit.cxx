@@ -19,8 +19,8 @@ namespace sensornoise
 
 namespace
 {
-/** Of what the normal equations in x = (mean - centre) / scale are made, which is within -1 and 1, so that they are
- * well conditioned. Those of a polynomial of lower degree are among them. */
+/** Sums of the normal equations in x = (mean - centre) / scale, which is within -1 and 1, so that they are well
+ * conditioned. They contain the sums of polynomials of lower degree. */
 template <int VDegree>
 struct NormalSums
 {
@@ -29,15 +29,15 @@ struct NormalSums
   double                              centre{ 0.0 };
   double                              scale{ 1.0 };
   std::size_t                         pixels{ 0 };
-  bool                                isSpread{ false }; // over more than one intensity
+  bool                                isSpread{ false }; // whether the pixels have more than one intensity
 };
 
-/** Mean and variance of the pixels of a run, 0 where they do not take part. */
+/** Mean and variance of the pixels of a run, 0 for pixels that are not used. */
 struct RegressionRun
 {
   OfRun mean;
   OfRun variance;
-  OfRun has; ///< not 0: takes part
+  OfRun has; ///< not 0: the pixel is used
 
   void
   Take(const RegressionData & data, std::size_t first, std::size_t count)
@@ -48,7 +48,7 @@ struct RegressionRun
       const double level = data.mean[first + i];
       const double own = data.variance[first + i];
       const double inMask = has[i];
-      const double taken = own - own == 0.0 ? inMask : 0.0; // unlike std::isfinite(), a vector instruction
+      const double taken = own - own == 0.0 ? inMask : 0.0; // unlike std::isfinite(), this is vectorized
       has[i] = taken;
       mean[i] = taken != 0.0 ? level : 0.0;
       variance[i] = taken != 0.0 ? own : 0.0;
@@ -56,7 +56,7 @@ struct RegressionRun
   }
 };
 
-/** Sums over all pixels; \a weight(mean) weighs a pixel. */
+/** Computes the sums over all pixels; \a weight(mean) is the weight of a pixel. */
 template <int VDegree, typename TWeight>
 NormalSums<VDegree>
 SumNormal(const RegressionData & data, const ParallelFor & parallelFor, TWeight weight)
@@ -109,7 +109,7 @@ SumNormal(const RegressionData & data, const ParallelFor & parallelFor, TWeight 
   return total;
 }
 
-/** The polynomial of degree 1 or 2 of sums for that degree or more. */
+/** Solves for the polynomial of degree 1 or 2, from sums for this degree or more. */
 template <int VDegree, int VDegreeOfSums>
 PolynomialFit
 Solve(const NormalSums<VDegreeOfSums> & sums)
@@ -150,7 +150,7 @@ Solve(const NormalSums<VDegreeOfSums> & sums)
   return fit;
 }
 
-/** Of an ordinary regression. */
+/** Weight of an ordinary regression. */
 constexpr auto WeighAlike = [](double /*mean*/) { return 1.0; };
 
 } // namespace
@@ -198,7 +198,7 @@ JudgeLine(const RegressionData & data, const PolynomialFit & line, std::size_t f
     })[0];
   };
   const auto onLine = [&line](double mean) { return line.intercept + line.slope * mean; };
-  // Where the line passes zero it says nothing of the noise; 1 % of the line's mean height bounds the weights.
+  // Where the line passes zero it does not describe the noise; 1 % of the mean height of the line bounds the weights.
   const double height = sumOf([&](double mean, double) { return onLine(mean); });
   const double lowest = 0.01 * std::abs(height) / static_cast<double>(line.pixels);
   const auto   varianceOf = [&](double mean) { return std::max(lowest, onLine(mean)); };

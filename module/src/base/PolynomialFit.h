@@ -21,7 +21,7 @@ struct RegressionData
   const std::uint8_t * mask;
   std::size_t          pixels;
 
-  /** A pixel takes part if it is in the mask and its variance is known (not NaN). */
+  /** Returns whether a pixel is used: it is in the mask and its variance is finite. */
   bool
   Has(std::size_t p) const
   {
@@ -37,19 +37,21 @@ struct PolynomialFit
   double curvature{ 0.0 };       ///< [1]; 0 for a line
   double curvatureUnitSd{ 0.0 }; ///< standard error of the curvature if the residuals, times root weight, have sd 1
   std::size_t pixels{ 0 };
-  bool        isDetermined{ false }; ///< false: too few pixels or one intensity only
+  bool        isDetermined{ false }; ///< false: too few pixels, or one intensity only
 };
 
-/** Ordinary regression of the variance on the mean, with the same bits for any number of threads: the slope is the gain
- * g and the intercept sigma^2 - g mu, (3.24) of Sur & Gredi\'ac 2015 (https://doi.org/10.1137/140977035). */
+/** Fits a line by ordinary regression of the variance on the mean. The slope is the gain g and the intercept sigma^2 -
+ * g mu, (3.24) of Sur & Gredi\'ac 2015 (https://doi.org/10.1137/140977035). The result has the same bits for any
+ * number of threads. */
 SensorNoise_EXPORT PolynomialFit
 FitLine(const RegressionData & data, const ParallelFor & parallelFor = SerialFor);
 
-/** Ordinary quadratic regression: (2.21), whose curvature is sigma_gamma^2 where the variance is not corrected. */
+/** Fits a parabola by ordinary regression: (2.21), whose curvature is sigma_gamma^2 where the variance is not
+ * corrected. */
 SensorNoise_EXPORT PolynomialFit
 FitParabola(const RegressionData & data, const ParallelFor & parallelFor = SerialFor);
 
-/** Both, in one walk over the maps. */
+/** Line and parabola, from one pass over the maps. */
 struct LineAndParabola
 {
   PolynomialFit line;
@@ -58,15 +60,17 @@ struct LineAndParabola
 SensorNoise_EXPORT LineAndParabola
 FitLineAndParabola(const RegressionData & data, const ParallelFor & parallelFor = SerialFor);
 
-/** How well a line describes the corrected variance. */
+/** Quality of the fit of a line to the corrected variance. */
 struct FitQuality
 {
-  double reducedChi2{ 1.0 }; ///< mean of (v - V)^2 / (2 V^2 / (T-1)); 1 if only the sampling noise is left
+  double reducedChi2{ 1.0 }; ///< mean of (v - V)^2 / (2 V^2 / (T-1)) [1]; 1: sampling noise alone
   double curvature{ 0.0 };   ///< quadratic coefficient, weights 1/V^2 [1]
-  double curvatureZ{ 0.0 };  ///< the same over its standard error, widened by the root of reducedChi2 if that is > 1
+  double curvatureZ{ 0.0 };  ///< curvature over its standard error, which is multiplied by the square root of
+                             ///< reducedChi2 if that is > 1 [1]
 };
 
-/** Judges \a line. A sample variance of T frames has the variance 2 V^2 / (T-1), with V the line's value. */
+/** Computes the quality of the fit of \a line. A sample variance of T frames has the variance 2 V^2 / (T-1), with V the
+ * value of the line. */
 SensorNoise_EXPORT FitQuality
 JudgeLine(const RegressionData & data,
           const PolynomialFit &  line,

@@ -8,7 +8,7 @@
 namespace sensornoise
 {
 
-/** Asks for memory that will be needed soon. */
+/** Prefetches memory that will be needed soon. */
 template <typename TValue>
 void
 PrefetchValues(const TValue * values, std::size_t count)

@@ -15,10 +15,10 @@ namespace sensornoise
 
 namespace
 {
-/** Bytes of a mask that are counted at once. */
+/** Number of bytes of a mask that are counted at once. */
 constexpr std::size_t Group = sizeof(std::uint64_t);
 
-/** How many bytes of a group are not zero. */
+/** Returns the number of bytes of a group that are not zero. */
 std::size_t
 CountGroup(const std::uint8_t * mask)
 {
@@ -27,7 +27,7 @@ CountGroup(const std::uint8_t * mask)
   std::memcpy(&bytes, mask, Group);
   for (const int shift : { 4, 2, 1 })
   {
-    bytes |= bytes >> shift; // the lowest bit of a byte becomes 1 where any of its bits is
+    bytes |= bytes >> shift; // the lowest bit of a byte becomes 1 if any of its bits is
   }
   return static_cast<std::size_t>(((bytes & ones) * ones) >> 56U); // their sum is the highest byte of the product
 }
@@ -106,7 +106,7 @@ SamplePixels(const std::uint8_t * mask, std::size_t pixels, std::size_t most)
   const std::size_t stride = std::max<std::size_t>(1, count / most);
   std::vector<std::size_t> sample;
   sample.reserve((count + stride - 1) / stride);
-  std::size_t skip = 0; // pixels of the mask before the next one
+  std::size_t skip = 0; // number of pixels of the mask before the next one
   for (std::size_t p = 0; p < pixels;)
   {
     const std::size_t ofGroup = p + Group <= pixels ? CountGroup(mask + p) : Group;
@@ -154,7 +154,7 @@ EdgesOfEqualCount(std::vector<double> values, std::size_t bins)
   const auto [least, largest] = std::minmax_element(values.begin(), values.end());
   const double        below = 1e-9 * (*largest - *least);
   std::vector<double> edges(bins - 1);
-  // Values are sorted as far as their bins: the middle edge parts them, and so on in both halves.
+  // Values are sorted only as far as their bins: the middle edge separates them, and so on in both halves.
   const auto part = [&](std::size_t firstBin, std::size_t lastBin, const auto & again) -> void {
     if (lastBin - firstBin > 1)
     {

@@ -13,22 +13,23 @@
 namespace sensornoise
 {
 
-/** The quantile \a q (0 to 1) of \a values, linear between order statistics. Reorders \a values. */
+/** Returns the quantile \a q (0 to 1) of \a values, linear between order statistics. Reorders \a values. Throws
+ * std::invalid_argument if there is none. */
 SensorNoise_EXPORT double
 Quantile(std::vector<double> & values, double q);
 
-/** Quantile() that leaves the order of the values alone. */
+/** Returns the quantile as Quantile() does, and leaves the order of the values unchanged. */
 SensorNoise_EXPORT double
 QuantileOf(std::vector<double> values, double q);
 
-/** The same of values in rising order. */
+/** Returns the quantile as Quantile() does, for values in rising order. */
 SensorNoise_EXPORT double
 SortedQuantile(const std::vector<double> & sorted, double q);
 
 /** Median of the absolute value of a normal number of standard deviation 1. */
 inline constexpr double MedianOfNormal = 0.6745;
 
-/** The median of values, and their standard deviation by the median difference from it, if they are normal. */
+/** Median of values, and their standard deviation estimated from the median absolute deviation, for normal values. */
 struct RobustCentre
 {
   double median{ 0.0 };
@@ -37,11 +38,13 @@ struct RobustCentre
 SensorNoise_EXPORT RobustCentre
 CentreOf(std::vector<double> values);
 
-/** Where in \a sorted values the shortest interval begins that holds half of them, (n + 1) / 2 of n. */
+/** Returns the index at which the shortest interval of the \a sorted values begins that contains half of them, (n + 1)
+ * / 2 of n. */
 SensorNoise_EXPORT std::size_t
 FindDensestHalf(const std::vector<double> & sorted);
 
-/** Pixels among which quantiles and rough fits are taken: all of the mask, or evenly spread ones of a large frame. */
+/** Returns pixels for quantiles and rough fits: all of the mask, or evenly spaced ones of a large frame, fewer than
+ * twice \a most. */
 SensorNoise_EXPORT std::vector<std::size_t>
 SamplePixels(const std::uint8_t * mask, std::size_t pixels, std::size_t most = 32768);
 inline std::vector<std::size_t>
@@ -50,16 +53,17 @@ SamplePixels(const std::vector<std::uint8_t> & mask)
   return SamplePixels(mask.data(), mask.size());
 }
 
-/** Median of the values of each of \a bins; NaN where a bin is empty. */
+/** Returns the median of the values of each of \a bins; NaN where a bin is empty. */
 SensorNoise_EXPORT std::vector<double>
 MediansOfBins(const std::vector<double> & values, const std::vector<std::size_t> & binOf, std::size_t bins);
 
-/** Edges between bins of equal count; a little below a value, so that rounding does not part equal values. */
+/** Returns the edges between bins of equal count. They are slightly below a value, so that rounding does not separate
+ * equal values. */
 SensorNoise_EXPORT std::vector<double>
 EdgesOfEqualCount(std::vector<double> values, std::size_t bins);
 
-/** How many of the rising \a edges fulfil \a isBefore, as the first ones do. No branch of std::partition_point() is to
- * be foretold, and each that is guessed wrongly takes longer than the whole search. */
+/** Returns the number of the rising \a edges that fulfil \a isBefore, as the first ones do. The branches of
+ * std::partition_point() are unpredictable, and each misprediction takes longer than this whole search. */
 template <typename TPredicate>
 std::size_t
 CountEdges(const std::vector<double> & edges, TPredicate isBefore)
@@ -75,14 +79,14 @@ CountEdges(const std::vector<double> & edges, TPredicate isBefore)
   return static_cast<std::size_t>(first - edges.data()) + (size == 1 && isBefore(*first) ? 1 : 0);
 }
 
-/** The bin between \a edges in which a value lies. */
+/** Returns the number of the bin between \a edges in which a value lies. */
 inline std::size_t
 BinOf(const std::vector<double> & edges, double value)
 {
   return CountEdges(edges, [value](double edge) { return !(value < edge); });
 }
 
-/** Bins of equal count: the bin of each value. */
+/** Returns the bin of each value, for bins of equal count. */
 SensorNoise_EXPORT std::vector<std::size_t>
 BinsOfEqualCount(const std::vector<double> & values, std::size_t bins);
 

@@ -17,7 +17,7 @@ struct StencilTap
   int    dy;
   double weight;
 
-  /** From a pixel to this one, in a map of \a width columns. */
+  /** Returns the distance from the pixel to this weight, in a map of \a width columns [pixels in memory]. */
   constexpr std::ptrdiff_t
   Offset(std::size_t width) const
   {
@@ -53,8 +53,8 @@ private:
 /** A central difference on 5 x 5 pixels. */
 struct Stencil
 {
-  const char * name{ nullptr }; ///< the derivatives that it takes: "x", "yy", "xxy", ...
-  int          order{ 0 };      ///< of the derivative, 1 to 3
+  const char * name{ nullptr }; ///< the derivatives: "x", "yy", "xxy", ...
+  int          order{ 0 };      ///< order of the derivative, 1 to 3
   StencilTaps  taps;
 
   constexpr double
@@ -71,7 +71,7 @@ struct Stencil
   }
 };
 
-/** Pixels next to the frame's border for which the stencils are not defined. */
+/** Width of the border of the frame in which the stencils are not defined [pixels]. */
 inline constexpr std::size_t StencilMargin = 2;
 
 inline constexpr std::size_t NumberOfStencils = 9;
@@ -106,8 +106,8 @@ inline constexpr std::array<Stencil, NumberOfStencils> Stencils{
 };
 } // namespace detail
 
-/** The derivatives of the mean into which a small motion of the scene is expanded, up to the third order. First the two
- * of the first order. */
+/** The derivatives of the mean into which a small motion of the scene is expanded, up to the third order. The first two
+ * are of the first order. */
 constexpr const std::array<Stencil, NumberOfStencils> &
 MotionStencils()
 {
@@ -126,7 +126,8 @@ enum StencilIndex : std::size_t
   StencilYYY = 6
 };
 
-/** The stencil's value at pixel \a p of a map of \a width columns; \a p is StencilMargin pixels from the border. */
+/** Returns the value of the stencil at pixel \a p of a map of \a width columns; \a p is at least StencilMargin pixels
+ * from the border. */
 inline double
 ApplyStencil(const Stencil & stencil, const double * map, std::size_t width, std::size_t p)
 {
@@ -161,7 +162,7 @@ ValuesOfStencils(const double * pixel, std::ptrdiff_t width, std::index_sequence
 }
 } // namespace detail
 
-/** All of MotionStencils() at pixel \a p. */
+/** Returns the values of all of MotionStencils() at pixel \a p. */
 inline std::array<double, NumberOfStencils>
 ApplyStencils(const double * map, std::size_t width, std::size_t p)
 {
@@ -169,7 +170,7 @@ ApplyStencils(const double * map, std::size_t width, std::size_t p)
     map + p, static_cast<std::ptrdiff_t>(width), std::make_index_sequence<NumberOfStencils>());
 }
 
-/** The two of the first order alone, along x and y. */
+/** Returns the first derivatives along x and y at pixel \a p. */
 inline std::array<double, 2>
 ApplyGradient(const double * map, std::size_t width, std::size_t p)
 {
@@ -177,15 +178,15 @@ ApplyGradient(const double * map, std::size_t width, std::size_t p)
     map + p, static_cast<std::ptrdiff_t>(width), std::index_sequence<StencilX, StencilY>());
 }
 
-/** What a motion of about a pixel would do to the pixel: the square of the gradient and a quarter of the curvature's.
- */
+/** Returns the squared effect of a motion of about one pixel: the squared gradient, plus a quarter of the squared
+ * second derivatives along x and y. */
 inline double
 StencilEnergy(const std::array<double, NumberOfStencils> & d)
 {
   return d[StencilX] * d[StencilX] + d[StencilY] * d[StencilY] +
          0.25 * (d[StencilXX] * d[StencilXX] + d[StencilYY] * d[StencilYY]);
 }
-/** The same of pixel \a p of a map, without the derivatives that do not count. */
+/** Returns the StencilEnergy() of pixel \a p of a map. Only the derivatives that it needs are computed. */
 inline double
 StencilEnergyAt(const double * map, std::size_t width, std::size_t p)
 {
@@ -194,8 +195,8 @@ StencilEnergyAt(const double * map, std::size_t width, std::size_t p)
   return d[0] * d[0] + d[1] * d[1] + 0.25 * (d[2] * d[2] + d[3] * d[3]);
 }
 
-/** Sum of the products of two stencils' weights: what white noise of variance 1 in the map puts on the product of
- * their values. */
+/** Returns the sum of the products of the weights of two stencils: the expected product of their values for white noise
+ * of variance 1. */
 inline double
 InnerProduct(const Stencil & a, const Stencil & b)
 {

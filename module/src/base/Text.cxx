@@ -34,7 +34,7 @@ RoundedApart(double number, double bound)
 {
   const std::string other = Rounded(bound);
   std::string       text = Rounded(number);
-  constexpr int     most = 15; // digits that a double has
+  constexpr int     most = 15; // number of digits of a double
   for (int digits = 4; text == other && number != bound && digits <= most; ++digits)
   {
     std::ostringstream longer;
@@ -60,12 +60,12 @@ PercentApart(double share, double bound)
 std::string
 Measured(double value, double standardError)
 {
-  constexpr double least = 1e-300; // smaller numbers may have fewer digits than two, which std::stod does not read
+  constexpr double least = 1e-300; // smaller numbers may have fewer than two digits, which std::stod does not read
   if (!(standardError > least) || !std::isfinite(standardError) || !std::isfinite(value))
   {
     return Text(value) + " +- " + Text(standardError);
   }
-  // The place of the error's second digit, after rounding it to two: 0.0996 is 0.10.
+  // Place of the second digit of the error, after rounding it to two digits: 0.0996 is 0.10.
   std::ostringstream twoDigits;
   twoDigits << std::scientific << std::setprecision(1) << standardError;
   const int  place = static_cast<int>(std::floor(std::log10(std::stod(twoDigits.str())) + 1e-9)) - 1;

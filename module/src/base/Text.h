@@ -10,28 +10,28 @@
 namespace sensornoise
 {
 
-/** A number that was given, to six digits. */
+/** Returns a number that was given, to six digits. */
 SensorNoise_EXPORT std::string
 Text(double number);
 
-/** A number that was found, to three digits, or to whole ones where there are more. */
+/** Returns a number that was found, to three digits, or to integers where there are more. */
 SensorNoise_EXPORT std::string
 Rounded(double number);
 
-/** A number that was found to be beside \a bound, which is written by Rounded(): to as many more digits as the two need
- * to read differently. */
+/** Returns a number that was compared with \a bound. \a bound is written by Rounded(); the number gets as many more
+ * digits as are needed for both to differ. */
 SensorNoise_EXPORT std::string
 RoundedApart(double number, double bound);
 
-/** A share as "4.43 %". */
+/** Returns a fraction as "4.43 %". */
 SensorNoise_EXPORT std::string
 Percent(double share);
 
-/** A share that was found to be beside \a bound, which is written by Percent(): "12.003 %" beside "12 %". */
+/** Returns a fraction that was compared with \a bound, which is written by Percent(): "12.003 %" beside "12 %". */
 SensorNoise_EXPORT std::string
 PercentApart(double share, double bound);
 
-/** "0.1660 +- 0.0038": both to two digits of the error. */
+/** Returns "0.1660 +- 0.0038": both to two digits of the error. */
 SensorNoise_EXPORT std::string
 Measured(double value, double standardError);
 

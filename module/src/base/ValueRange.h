@@ -12,7 +12,7 @@
 namespace sensornoise
 {
 
-/** The lowest and the highest of some values, and how many there are. */
+/** The lowest and the highest of some values, and their number. */
 struct ValueRange
 {
   double      lowest{ std::numeric_limits<double>::infinity() };
@@ -33,7 +33,7 @@ struct ValueRange
   }
 };
 
-/** The range of value(pixel) over those of \a count pixels that has(pixel) takes. */
+/** Returns the range of value(pixel) over those of \a count pixels for which has(pixel) is true. */
 template <typename THas, typename TValue>
 ValueRange
 RangeOverPixels(std::size_t count, const ParallelFor & parallelFor, THas has, TValue value)

@@ -6,8 +6,7 @@
 namespace sensornoise
 {
 
-/** Whether loops may take what this processor has beyond what every one of its kind has: on x86-64 vectors of 32 bytes,
- * not of 16. */
+/** Returns whether loops may use AVX2: on x86-64, SIMD vectors of 32 bytes instead of 16. */
 inline bool
 HasWideVectors()
 {
@@ -21,8 +20,8 @@ HasWideVectors()
 namespace detail
 {
 #if defined(__GNUC__) && defined(__x86_64__)
-/** Compiled once more, together with all that function calls. The target has no fused multiplication and addition,
- * which would round differently: sums and products are the same in the same order, so the bits are. */
+/** Calls function() and all functions that it calls, compiled for AVX2. The target has no fused multiplication and
+ * addition, which would round differently: sums and products are the same, in the same order, and so are the bits. */
 template <typename TFunction>
 __attribute__((target("avx2"), flatten)) void
 CallWithWideVectors(const TFunction & function)
@@ -32,8 +31,8 @@ CallWithWideVectors(const TFunction & function)
 #endif
 } // namespace detail
 
-/** Calls function(), a loop whose time goes into arithmetic, compiled for the processor that is there; see
- * HasWideVectors(). Same bits on each. */
+/** Calls function(), a loop whose time is spent in arithmetic, compiled for the SIMD instructions of the processor; see
+ * HasWideVectors(). The bits are the same on all processors. */
 template <typename TFunction>
 void
 WithWideVectors(const TFunction & function)

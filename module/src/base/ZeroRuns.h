@@ -12,23 +12,23 @@
 #include <vector>
 
 /** \file
- * Bytes without their long runs of zeros. Sums that are kept frame by frame are 0 where a frame was not added: a
- * process that read few of many frames sends little of them. */
+ * Compression of bytes with long runs of zeros. Sums that are kept frame by frame are 0 where a frame was not added: a
+ * process that has read few of many frames sends only a small part of them. */
 
 namespace sensornoise
 {
 
 /** \class ZeroRunWriter
- * \brief Takes bytes and packs them: blocks of 64 bytes that are all 0 are counted, the others kept.
+ * \brief Packs bytes: blocks of 64 bytes that are all 0 are counted, the others kept.
  *
- * What is packed is a list of runs: two counts of 8 bytes, of the blocks that are 0 and of those that follow and are
- * kept, and these. It costs a look at each byte: 5 GB/s or so. */
+ * The packed data are a list of runs. Each run has two counts of 8 bytes, of the zero blocks and of the kept blocks
+ * that follow, and then the kept blocks. The rate is about 5 GB/s. */
 class SensorNoise_EXPORT ZeroRunWriter : public std::streambuf
 {
 public:
   static constexpr std::size_t BlockBytes = 64;
 
-  /** What was written, packed; its last block is filled up with zeros. The writer is then empty. */
+  /** Returns the packed bytes that were written; the last block is filled up with zeros. The writer is then empty. */
   std::vector<unsigned char>
   Take();
 
@@ -41,20 +41,20 @@ protected:
 private:
   void
   TakeBlock(const unsigned char * block);
-  /** Writes the counts of the run that ends, where their place is. */
+  /** Writes the counts of the current run to their place. */
   void
   EndRun();
 
   std::vector<unsigned char>            m_Packed;
-  std::array<unsigned char, BlockBytes> m_Block{}; // not full
+  std::array<unsigned char, BlockBytes> m_Block{}; // block that is not full
   std::size_t                           m_InBlock{ 0 };
-  std::size_t                           m_Place{ 0 }; // of the counts of the run
+  std::size_t                           m_Place{ 0 }; // place of the counts of the current run
   std::uint64_t                         m_Zeros{ 0 };
   std::uint64_t                         m_Kept{ 0 };
 };
 
 /** \class ZeroRunReader
- * \brief Gives back what a ZeroRunWriter took. Bytes that it did not pack end early, and do no harm. */
+ * \brief Unpacks the bytes of a ZeroRunWriter. Invalid packed bytes end early, without a memory error. */
 class SensorNoise_EXPORT ZeroRunReader : public std::streambuf
 {
 public:
@@ -70,7 +70,7 @@ protected:
   uflow() override;
 
 private:
-  /** Goes on to the next run that holds anything. Returns false at the end. */
+  /** Goes on to the next run that is not empty. Returns false at the end. */
   bool
   FindRun();
 
