@@ -14,7 +14,7 @@ namespace
 constexpr std::size_t Side = 8;
 using Block = std::array<double, Side * Side>;
 
-/** Table K.1 of T.81: steps of the luminance at quality 50, in codes of 8 bits. */
+/** Table K.1 of T.81: quantization steps of the luminance at quality 50, in 8-bit DN. */
 constexpr std::array<unsigned int, Side * Side> LuminanceSteps{ 16, 11, 10, 16, 24,  40,  51,  61,  //
                                                                 12, 12, 14, 19, 26,  58,  60,  55,  //
                                                                 14, 13, 16, 24, 40,  57,  69,  56,  //
@@ -24,7 +24,7 @@ constexpr std::array<unsigned int, Side * Side> LuminanceSteps{ 16, 11, 10, 16, 
                                                                 49, 64, 78, 87, 103, 121, 120, 101, //
                                                                 72, 92, 95, 98, 112, 100, 103, 99 };
 
-/** The orthonormal transform along one axis: row k has the cosine of frequency k. */
+/** Returns the orthonormal cosine transform along one axis: row k has the cosine of frequency k. */
 const Block &
 CosineRows()
 {
@@ -44,12 +44,13 @@ CosineRows()
   return rows;
 }
 
-/** Along both axes. \param isInverse from coefficients to pixels: the transposed rows */
+/** Transforms a block along both axes.
+ * \param isInverse whether coefficients are transformed to pixels, with the transposed rows */
 Block
 Transform(const Block & in, bool isInverse)
 {
   const Block & cosines = CosineRows();
-  const auto    along = [&](const Block & from) { // each row of `from`, and the result transposed
+  const auto    along = [&](const Block & from) { // transforms each row of `from`; the result is transposed
     Block to{};
     for (std::size_t row = 0; row < Side; ++row)
     {

@@ -14,20 +14,21 @@
 namespace sensornoise
 {
 
-/** A step for each coefficient [DN], row after row: vertical frequency 0 to 7, in it horizontal frequency 0 to 7. */
+/** Quantization step of each coefficient [DN], row by row: vertical frequency 0 to 7, within it horizontal frequency 0
+ * to 7. */
 using BlockStepsDn = std::array<double, 64>;
 
 /** \throws std::invalid_argument if the setting cannot be used with a converter of \a bitDepth bits. */
 SensorNoise_EXPORT void
 CheckSettings(const BlockSettings & settings, unsigned int bitDepth);
 
-/** The luminance table of T.81, Table K.1, scaled by the quality and rounded as libjpeg's jpeg_quality_scaling() and
- * jpeg_add_quant_table() do for baseline JPEG, in units of (2^bitDepth - 1) / 255. */
+/** Returns the luminance table of T.81, Table K.1, in units of (2^bitDepth - 1) / 255 [DN]. It is scaled by the quality
+ * and rounded as libjpeg's jpeg_quality_scaling() and jpeg_add_quant_table() do for baseline JPEG. */
 SensorNoise_EXPORT BlockStepsDn
 StepsOfQuality(const BlockSettings & settings, unsigned int bitDepth);
 
-/** \a codesDn with the coefficients of each block at multiples of \a stepsDn, all above 0 [DN]. A block that the edge
- * cuts is filled with copies of its last column and row. */
+/** Returns \a codesDn with the coefficients of each block rounded to multiples of \a stepsDn, all above 0 [DN]. A block
+ * that the edge of the frame cuts is filled with copies of its last column and row. */
 SensorNoise_EXPORT DoubleFrame
 QuantiseBlocks(const DoubleFrame & codesDn, const BlockStepsDn & stepsDn, const ParallelFor & parallelFor);
 

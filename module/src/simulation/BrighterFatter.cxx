@@ -12,7 +12,7 @@ void
 CheckSettings(const BrighterFatterSettings & settings, double electrons)
 {
   RequireNotNegative(settings.perElectron, "brighter-fatter coefficient");
-  // A bright pixel among dark ones gives away up to twice this fraction; beyond, the first order says little.
+  // A bright pixel among dark ones loses up to twice this fraction; beyond it the first order is not accurate.
   RequireSetting(settings.perElectron * electrons <= 0.1,
                  "brighter-fatter coefficient times the electrons of the brightest pixel",
                  settings.perElectron * electrons,

@@ -11,12 +11,12 @@
 namespace sensornoise
 {
 
-/** \throws std::invalid_argument naming the first setting that cannot be used with \a electrons in the brightest
- * pixel. */
+/** \throws std::invalid_argument that names the first setting that cannot be used with \a electrons in the brightest
+ * pixel [e-]. */
 SensorNoise_EXPORT void
 CheckSettings(const BrighterFatterSettings & settings, double electrons);
 
-/** The charges [e-] that are collected where \a charge would be without the effect [e-]. */
+/** Returns the collected charges [e-]; \a charge are the charges without the effect [e-]. */
 SensorNoise_EXPORT DoubleFrame
 SpreadCharge(const DoubleFrame & charge, const BrighterFatterSettings & settings, const ParallelFor & parallelFor);
 

@@ -11,7 +11,7 @@ namespace sensornoise
 void
 CheckSettings(const CouplingSettings & settings)
 {
-  // At 0.2 a pixel would keep no more than each of its neighbours gets.
+  // At 0.2 a pixel keeps no more charge than each of its neighbours receives.
   RequireSetting(
     settings.fraction >= 0.0 && settings.fraction <= 0.2, "coupling of charge", settings.fraction, "0 to 0.2");
 }

@@ -11,11 +11,11 @@
 namespace sensornoise
 {
 
-/** \throws std::invalid_argument naming the first setting that cannot be used. */
+/** \throws std::invalid_argument that names the first setting that cannot be used. */
 SensorNoise_EXPORT void
 CheckSettings(const CouplingSettings & settings);
 
-/** The signals [e-] that are read where the charges are \a charge [e-]. */
+/** Returns the signals that are read for the charges \a charge [e-]. */
 SensorNoise_EXPORT DoubleFrame
 CoupleCharge(const DoubleFrame & charge, const CouplingSettings & settings, const ParallelFor & parallelFor);
 

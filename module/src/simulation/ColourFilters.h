@@ -23,8 +23,8 @@ CheckSettings(const ColourFilterSettings & settings)
   RequireFraction(settings.transmissionB, "transmission of the blue filter");
 }
 
-/** Multiplies each pixel of \a efficiency by the transmission of its filter; an empty map holds 1 everywhere, and stays
- * empty where there are no filters. */
+/** Multiplies each pixel of \a efficiency by the transmission of its filter. An empty map stands for 1 everywhere, and
+ * stays empty where there are no filters. */
 SensorNoise_EXPORT void
 ApplyFilters(const ColourFilterSettings & settings,
              std::size_t                  width,

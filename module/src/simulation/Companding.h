@@ -15,7 +15,8 @@ namespace sensornoise
 SensorNoise_EXPORT void
 CheckSettings(const CompandingSettings & settings, unsigned int bitDepth);
 
-/** Companded and expanded again, in place [DN]. \param codesDn cut to 0 and 2^bitDepth - 1 first */
+/** Compands the codes and expands them again, in place [DN].
+ * \param codesDn codes, which are clamped to 0 and 2^bitDepth - 1 first */
 SensorNoise_EXPORT void
 Compand(double * codesDn, std::size_t count, const CompandingSettings & settings, unsigned int bitDepth);
 

@@ -11,9 +11,9 @@
 namespace sensornoise
 {
 
-/** Cubic interpolation at position + shift along one axis of \a size pixels, edge pixels replicated: the four weights
- * of Keys 1981 (IEEE Trans. ASSP 29, DOI 10.1109/TASSP.1981.1163711) with a = -1/2, exact for polynomials of degree
- * 2. They sum to 1; at half a pixel they are -1/16, 9/16, 9/16, -1/16. */
+/** Cubic interpolation at position + shift along one axis of \a size pixels, edge pixels replicated. The four weights
+ * of Keys 1981 (IEEE Trans. ASSP 29, DOI 10.1109/TASSP.1981.1163711) with a = -1/2 are exact for polynomials up to
+ * degree 2. They sum to 1; at half a pixel they are -1/16, 9/16, 9/16, -1/16. */
 class CubicShift
 {
 public:
@@ -30,7 +30,7 @@ public:
                   1.0 - 2.5 * back * back + 1.5 * back * back * back,
                   -0.5 * back * f * f };
   }
-  /** The pixel that tap \a k, 0 to 3, reads. */
+  /** Returns the pixel that tap \a k, 0 to 3, reads. */
   std::size_t
   Tap(std::size_t position, std::size_t k) const
   {

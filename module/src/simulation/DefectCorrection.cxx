@@ -13,7 +13,7 @@ namespace sensornoise
 {
 namespace
 {
-/** What surrounds a pixel. */
+/** The pixels that surround a pixel, sorted by value. */
 struct Neighbourhood
 {
   std::array<double, 8> values{};

@@ -11,11 +11,11 @@
 namespace sensornoise
 {
 
-/** \throws std::invalid_argument naming the first setting that cannot be used. */
+/** \throws std::invalid_argument that names the first setting that cannot be used. */
 SensorNoise_EXPORT void
 CheckSettings(const DefectCorrectionSettings & settings);
 
-/** \a codesDn corrected [DN]; every decision looks at the frame as it came in. */
+/** Returns \a codesDn with corrected defects [DN]; every decision uses the uncorrected frame. */
 SensorNoise_EXPORT DoubleFrame
 CorrectDefects(const DoubleFrame & codesDn, const DefectCorrectionSettings & settings, const ParallelFor & parallelFor);
 

@@ -9,7 +9,7 @@
 namespace sensornoise
 {
 
-/** One frame, row after row, of charges [e-] or of codes before they are rounded [DN]. */
+/** One frame, row by row, of charges [e-] or of codes before they are rounded [DN]. */
 struct DoubleFrame
 {
   std::size_t         width{ 0 };

@@ -15,7 +15,7 @@ namespace sensornoise
 {
 namespace
 {
-/** valueOf(random) for every pixel; empty unless \a isNeeded. */
+/** Returns valueOf(random) for every pixel; empty unless \a isNeeded. */
 template <typename TFunction>
 std::vector<double>
 DrawMap(std::uint64_t seed, FixedPatternKind kind, std::size_t pixels, bool isNeeded, TFunction valueOf)
@@ -26,7 +26,8 @@ DrawMap(std::uint64_t seed, FixedPatternKind kind, std::size_t pixels, bool isNe
   return map;
 }
 
-/** combine(pixel's, column's) in every pixel; an empty \a map holds \a neutral everywhere. */
+/** Replaces every pixel by combine(its value, the value of its column); an empty \a map stands for \a neutral
+ * everywhere. */
 template <typename TFunction>
 void
 CombineWithColumns(std::vector<double> &       map,

@@ -10,21 +10,24 @@
 #include <vector>
 
 /** \file
- * What differs from pixel to pixel and stays the same from frame to frame, all causes together. The maps depend on the
- * seed, not on the frames or on the light; a map is empty where nothing differs. */
+ * Fixed-pattern noise of all causes together: maps that differ from pixel to pixel and stay the same from frame to
+ * frame. They depend on the seed, not on the frames or on the illumination; a map is empty where all pixels are equal.
+ */
 
 namespace sensornoise
 {
 
-/** Efficiency of every pixel in units of the camera's: prnuSd and columnEfficiencySd [1]. */
+/** Returns the efficiency of every pixel in units of the camera's efficiency: prnuSd, columnEfficiencySd and the colour
+ * filters [1]. */
 SensorNoise_EXPORT std::vector<double>
 DrawEfficiency(const SimulationSettings & settings, std::size_t width, std::size_t height);
 
-/** Offset of every pixel about the camera's: dsnuSdDn and columnOffsetSdDn [DN]. */
+/** Returns the offset of every pixel relative to the camera's offset: dsnuSdDn and columnOffsetSdDn [DN]. */
 SensorNoise_EXPORT std::vector<double>
 DrawOffsetDn(const SimulationSettings & settings, std::size_t width, std::size_t height);
 
-/** Read noise of every pixel before its own gain and its response: hot pixels and ReadNoiseSettings [DN]. */
+/** Returns the read noise of every pixel before its relative gain and its response: hot pixels and ReadNoiseSettings
+ * [DN]. */
 SensorNoise_EXPORT std::vector<double>
 DrawReadNoiseDn(const SimulationSettings & settings, std::size_t width, std::size_t height);
 

@@ -10,8 +10,8 @@
 namespace sensornoise
 {
 
-/** The settings of the flaws, a member for each piece, by the names of the settings without their units: DN, electrons,
- * pixels and rows as there. */
+/** Writes the settings of the flaws, a member for each of them. The members have the names of the settings without the
+ * units, which are DN, electrons, pixels and rows as there. */
 SensorNoise_EXPORT void
 WriteJson(JsonWriter & json, const SensorFlaws & flaws);
 

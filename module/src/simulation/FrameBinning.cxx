@@ -37,7 +37,8 @@ MeanOfSquares(const DoubleFrame & frame, std::size_t side, const ParallelFor & p
   return means;
 }
 
-/** The two squares along an axis whose centres a pixel lies between, and how far it is from the first to the second. */
+/** The two squares along an axis between whose centres a pixel lies, and its distance from the first one in units of
+ * their distance. */
 struct BetweenSquares
 {
   std::size_t first;

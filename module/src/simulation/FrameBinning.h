@@ -11,11 +11,11 @@
 namespace sensornoise
 {
 
-/** \throws std::invalid_argument naming the first setting that cannot be used. */
+/** \throws std::invalid_argument that names the first setting that cannot be used. */
 SensorNoise_EXPORT void
 CheckSettings(const BinningSettings & settings);
 
-/** \a codesDn binned, in its old size [DN]. Where whole squares fill the frame, its mean is kept. */
+/** Returns \a codesDn binned, in the original size [DN]. Where whole squares fill the frame, its mean is kept. */
 SensorNoise_EXPORT DoubleFrame
 BinFrame(const DoubleFrame & codesDn, const BinningSettings & settings, const ParallelFor & parallelFor);
 

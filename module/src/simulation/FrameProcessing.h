@@ -9,12 +9,12 @@
 #include "sensornoise/SensorFlaws.h"
 
 /** \file
- * The order of the pieces that look at a whole frame. */
+ * The processing of whole frames, in order. */
 
 namespace sensornoise
 {
 
-/** Whether a row depends on other rows of its frame, or on other frames. */
+/** Returns whether a row depends on other rows of its frame, or on other frames. */
 inline bool
 NeedsWholeFrames(const SensorFlaws & flaws)
 {
@@ -23,16 +23,16 @@ NeedsWholeFrames(const SensorFlaws & flaws)
          flaws.resampling.IsOn() || flaws.blocks.IsOn();
 }
 
-/** What happens to the charges [e-] between collection and read-out: brighter-fatter, then coupling. */
+/** Redistributes the charges [e-] between collection and read-out: brighter-fatter effect, then coupling. */
 SensorNoise_EXPORT DoubleFrame
 MoveCharge(DoubleFrame charge, const SensorFlaws & flaws, const ParallelFor & parallelFor);
 
-/** What the camera does to its codes [DN] before the temporal filter: the correction of defects. */
+/** Processes the codes [DN] before the temporal filter: correction of defects. */
 SensorNoise_EXPORT DoubleFrame
 ProcessBeforeTemporalFilter(DoubleFrame codesDn, const SensorFlaws & flaws, const ParallelFor & parallelFor);
 
-/** What it does after it: median, smoothing, binning, resampling, and last the compression in blocks, which needs the
- * converter's \a bitDepth. */
+/** Processes the codes [DN] after the temporal filter: median, smoothing, binning, resampling, and last the compression
+ * in blocks, which needs the \a bitDepth of the converter. */
 SensorNoise_EXPORT DoubleFrame
 ProcessAfterTemporalFilter(DoubleFrame         codesDn,
                            const SensorFlaws & flaws,

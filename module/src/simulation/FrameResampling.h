@@ -11,11 +11,11 @@
 namespace sensornoise
 {
 
-/** \throws std::invalid_argument naming the first setting that cannot be used. */
+/** \throws std::invalid_argument that names the first setting that cannot be used. */
 SensorNoise_EXPORT void
 CheckSettings(const ResamplingSettings & settings);
 
-/** \a codesDn moved [DN]. */
+/** Returns \a codesDn shifted [DN]. */
 SensorNoise_EXPORT DoubleFrame
 ResampleFrame(const DoubleFrame & codesDn, const ResamplingSettings & settings, const ParallelFor & parallelFor);
 

@@ -11,11 +11,11 @@
 namespace sensornoise
 {
 
-/** \throws std::invalid_argument naming the first setting that cannot be used. */
+/** \throws std::invalid_argument that names the first setting that cannot be used. */
 SensorNoise_EXPORT void
 CheckSettings(const SmoothingSettings & settings);
 
-/** \a codesDn smoothed [DN]. */
+/** Returns \a codesDn smoothed [DN]. */
 SensorNoise_EXPORT DoubleFrame
 SmoothFrame(DoubleFrame codesDn, const SmoothingSettings & settings, const ParallelFor & parallelFor);
 

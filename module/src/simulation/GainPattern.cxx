@@ -13,7 +13,7 @@ namespace sensornoise
 {
 namespace
 {
-/** Normal numbers about \a mean. */
+/** Returns \a count normal numbers with mean \a mean and standard deviation \a sd. */
 std::vector<double>
 DrawNormal(std::uint64_t seed, FixedPatternKind kind, std::size_t count, double mean, double sd)
 {
@@ -33,7 +33,7 @@ DivideByMean(std::vector<double> & values)
 void
 RequireRelativeSpread(double sd, const char * name)
 {
-  // Beyond, a normal number comes near -1, and a pixel would have no gain.
+  // Beyond it, a normal number may be near -1, and a pixel would have no gain.
   RequireSetting(sd >= 0.0 && sd < 0.2, name, sd, "0 or more and below 0.2");
 }
 } // namespace

@@ -40,7 +40,8 @@ HasPeriod(IlluminationShape shape)
   return shape == IlluminationShape::Pulses || shape == IlluminationShape::Sine;
 }
 
-/** Splits the text at colons, and returns the numbers behind the first one. */
+/** Splits the text at colons, and returns the numbers after the first one. Throws std::invalid_argument if one is not a
+ * number. */
 std::vector<double>
 NumbersOf(const std::string & text)
 {
@@ -53,7 +54,7 @@ NumbersOf(const std::string & text)
     {
       numbers.push_back(std::stod(word, &used));
     }
-    catch (const std::logic_error &) // no number, or one that is out of range
+    catch (const std::logic_error &) // not a number, or out of range
     {
       used = std::string::npos;
     }

@@ -14,11 +14,11 @@
 namespace sensornoise
 {
 
-/** \throws std::invalid_argument naming the first setting that cannot be used for a stack of `frames` frames. */
+/** \throws std::invalid_argument that names the first setting that cannot be used for a stack of `frames` frames. */
 SensorNoise_EXPORT void
 CheckSettings(const IlluminationSettings & illumination, std::size_t frames);
 
-/** Returns the illumination factor of a frame [1]. A random one depends on the seed and on the frame alone. */
+/** Returns the illumination factor of a frame [1]. A random factor depends on the seed and on the frame alone. */
 SensorNoise_EXPORT double
 IlluminationFactor(const IlluminationSettings & illumination,
                    std::size_t                  frame,

@@ -57,7 +57,7 @@ LineNoise::AddTo(double * codesDn, std::size_t width, std::size_t frame, std::si
     return;
   }
   const double rowDn = OfRow(frame, y);
-  // The columns' numbers are drawn again for every row: a row needs nothing but its own counters.
+  // The numbers of the columns are drawn again for every row, so that a row depends on its own counters only.
   CounterSeededRandom random(m_Seed, StreamNumber(RandomStream::ColumnNoise, m_IsDark), frame);
   for (std::size_t x = 0; x < width; ++x)
   {

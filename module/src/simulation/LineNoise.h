@@ -12,12 +12,13 @@
 namespace sensornoise
 {
 
-/** \throws std::invalid_argument naming the first setting that cannot be used. */
+/** \throws std::invalid_argument that names the first setting that cannot be used. */
 SensorNoise_EXPORT void
 CheckSettings(const LineNoiseSettings & settings);
 
 /** \class LineNoise
- * A pure function of settings, seed, frame and row; frames with the shutter closed have noise of their own. */
+ * \brief Noise of rows and columns: a pure function of settings, seed, frame and row. Frames with the shutter closed
+ * have independent noise. */
 class SensorNoise_EXPORT LineNoise
 {
 public:
@@ -29,7 +30,7 @@ public:
     return m_Settings.rowNoiseSdDn > 0.0 || m_Settings.columnNoiseSdDn > 0.0 || m_Settings.bandingAmplitudeDn > 0.0;
   }
 
-  /** What all pixels of row \a y of frame \a frame share: row noise and banding [DN]. */
+  /** Returns the noise that all pixels of row \a y of frame \a frame have in common: row noise and banding [DN]. */
   double
   OfRow(std::size_t frame, std::size_t y) const;
 

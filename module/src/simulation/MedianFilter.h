@@ -11,11 +11,11 @@
 namespace sensornoise
 {
 
-/** \throws std::invalid_argument naming the first setting that cannot be used. */
+/** \throws std::invalid_argument that names the first setting that cannot be used. */
 SensorNoise_EXPORT void
 CheckSettings(const MedianSettings & settings);
 
-/** \a codesDn filtered [DN]. */
+/** Returns \a codesDn filtered [DN]. */
 SensorNoise_EXPORT DoubleFrame
 FilterByMedian(const DoubleFrame & codesDn, const MedianSettings & settings, const ParallelFor & parallelFor);
 

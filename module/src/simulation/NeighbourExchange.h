@@ -11,8 +11,8 @@
 namespace sensornoise
 {
 
-/** Every pixel takes inflow(own charge, neighbour's charge) from each of its four neighbours; a pixel at the edge has
- * fewer. With inflow(a, b) = -inflow(b, a) the frame keeps its charge. */
+/** Adds inflow(charge of the pixel, charge of the neighbour) to every pixel for each of its four neighbours; a pixel at
+ * the edge has fewer. If inflow(a, b) = -inflow(b, a), the total charge of the frame is conserved. */
 template <typename TInflow>
 DoubleFrame
 ExchangeWithNeighbours(const DoubleFrame & frame, const ParallelFor & parallelFor, TInflow inflow)

@@ -12,7 +12,7 @@ namespace sensornoise
 CounterSeededRandom::CounterSeededRandom(std::uint64_t seed, std::uint64_t stream, std::uint64_t a, std::uint64_t b)
 {
   constexpr std::uint64_t golden = 0x9e3779b97f4a7c15ULL;
-  // Each step is one to one in the counter it takes in, so no two rows of one frame share a generator.
+  // Each step is one to one in its counter, so that no two rows of one frame have the same generator.
   std::uint64_t hash = MixBits(seed + golden);
   for (const std::uint64_t counter : { stream, a, b })
   {

@@ -12,26 +12,26 @@ namespace sensornoise
 {
 
 /** \class CounterSeededRandom
- * Random numbers that depend on a seed and on three counters, and on nothing else.
+ * \brief Random numbers that depend on a seed and three counters only.
  *
- * A simulation gives each row of each frame its own generator, `CounterSeededRandom(seed, stream, frame, row)`, so any
- * row can be drawn by any thread, in any order, with the same result. The counters are hashed into the 256 bits of
- * state of xoshiro256++ (Blackman and Vigna, ACM TOMS 47(4), 2021, DOI 10.1145/3460772). Making a generator costs
- * about as much as ten draws.
+ * A simulation gives each row of each frame a separate generator, `CounterSeededRandom(seed, stream, frame, row)`, so
+ * that any thread can draw any row, in any order, with the same result. The counters are hashed into the 256 bits of
+ * state of xoshiro256++ (Blackman and Vigna, ACM TOMS 47(4), 2021, DOI 10.1145/3460772). The construction of a
+ * generator costs about as much as ten draws.
  *
- * Bits() and Uniform() are integer arithmetic: the same bits on every platform. Normal() and Poisson() go through
- * log, exp and sqrt, whose last digit belongs to the C library: of numbers rounded to whole grey levels, about one in
- * 1e12 can differ from platform to platform; on one platform none does. */
+ * Bits() and Uniform() use integer arithmetic: the same bits on every platform. Normal() and Poisson() use log, exp
+ * and sqrt, whose last digit depends on the C library. Of numbers rounded to integer DN, about one in 1e12 can differ
+ * between platforms; on one platform none does. */
 class SensorNoise_EXPORT CounterSeededRandom
 {
 public:
   /** \param seed chosen by the user, any value
-   * \param stream what the numbers are for: different streams of one seed are independent
+   * \param stream purpose of the numbers: different streams of one seed are independent
    * \param a first counter, for example the frame
    * \param b second counter, for example the row */
   explicit CounterSeededRandom(std::uint64_t seed, std::uint64_t stream = 0, std::uint64_t a = 0, std::uint64_t b = 0);
 
-  /** 64 random bits (xoshiro256++). */
+  /** Returns 64 random bits (xoshiro256++). */
   std::uint64_t
   Bits()
   {
@@ -46,15 +46,16 @@ public:
     return result;
   }
 
-  /** Uniform in the open interval (0, 1): the midpoints of 2^52 equal cells, never 0 and never 1. */
+  /** Returns a number uniform in the open interval (0, 1): the midpoint of one of 2^52 equal cells, never 0 and never
+   * 1. */
   double
   Uniform()
   {
     return (static_cast<double>(Bits() >> 12) + 0.5) * 0x1p-52;
   }
 
-  /** Normal with mean 0 and standard deviation 1 (polar method: Marsaglia and Bray, SIAM Review 6(3), 1964,
-   * DOI 10.1137/1006063). The method gives pairs; the second number waits for the next call. */
+  /** Returns a normal number with mean 0 and standard deviation 1 (polar method: Marsaglia and Bray, SIAM Review 6(3),
+   * 1964, DOI 10.1137/1006063). The method yields pairs; the second number is kept for the next call. */
   double
   Normal()
   {
@@ -78,19 +79,20 @@ public:
     return u * factor;
   }
 
-  /** Poisson number, exact (no normal approximation).
+  /** Returns a Poisson number, exact (no normal approximation).
    *
    * \param mean expected number, from 0 to 1e9; 0 or less gives 0
    *
-   * Below 10: as many factors as keep a product of uniforms above exp(-mean) (Knuth, The Art of Computer Programming,
-   * vol. 2, 3.4.1). From 10 on: transformed rejection, algorithm PTRS (Hormann, Insurance: Mathematics and Economics
-   * 12(1), 1993, DOI 10.1016/0167-6687(93)90997-4), about 1.15 tries a number whatever the mean. */
+   * For means below 10, the result is the number of uniform factors that keep their product above exp(-mean) (Knuth,
+   * The Art of Computer Programming, vol. 2, 3.4.1). From 10 on, it is drawn by transformed rejection, algorithm PTRS
+   * (Hormann, Insurance: Mathematics and Economics 12(1), 1993, DOI 10.1016/0167-6687(93)90997-4), with about 1.15
+   * tries per number for any mean. */
   std::int64_t
   Poisson(double mean);
 
-  /** Natural logarithm of k! for a whole number k >= 0, to 1e-11 absolute or double precision, whichever is larger.
-   * From 16 on Stirling's series, whose first term left out is 1/(1680 k^7) < 3e-12. std::lgamma is not used because it
-   * may write a global variable, which threads would race for. */
+  /** Returns the natural logarithm of k! for an integer k >= 0, to 1e-11 absolute or double precision, whichever is
+   * larger. From 16 on it uses Stirling's series, whose first omitted term is 1/(1680 k^7) < 3e-12. std::lgamma is not
+   * used because it may write a global variable, which would be a data race. */
   static double
   LogFactorial(double k);
 

@@ -8,21 +8,21 @@
 namespace sensornoise
 {
 
-/** What the random numbers of a simulated stack are for: the stream of a CounterSeededRandom. A number once given never
- * changes its meaning, or a seed would give another stack. Streams from 100 on are free for programs that add to the
- * simulator. */
+/** Purpose of the random numbers of a simulated stack: the stream of a CounterSeededRandom. The meaning of a number
+ * never changes, because a seed would otherwise yield another stack. Streams from 100 on are free for programs that
+ * extend the simulator. */
 enum class RandomStream : std::uint64_t
 {
   Series = 1,       ///< flicker, shifts and phase; counter: frame
   Pixels = 2,       ///< electrons and read noise; counters: frame, row
-  FixedPattern = 3, ///< what stays from frame to frame; counter: FixedPatternKind
+  FixedPattern = 3, ///< fixed-pattern noise; counter: FixedPatternKind
   RowNoise = 4,     ///< counter: frame
   ColumnNoise = 5,  ///< counter: frame
   Banding = 6,      ///< counter: frame
   Illumination = 7  ///< counter: frame
 };
 
-/** The maps of the stream FixedPattern. */
+/** Maps of the stream FixedPattern. */
 enum class FixedPatternKind : std::uint64_t
 {
   Efficiency = 0,
@@ -35,8 +35,8 @@ enum class FixedPatternKind : std::uint64_t
   ReadNoise = 7
 };
 
-/** The number of a stream. Frames with the shutter closed have noise of their own, but the fixed patterns of the bright
- * ones, so that both come from one sensor. */
+/** Returns the number of a stream. Frames with the shutter closed have independent temporal noise, but the
+ * fixed-pattern noise of the bright frames, so that both come from one sensor. */
 inline std::uint64_t
 StreamNumber(RandomStream stream, bool isDark = false)
 {

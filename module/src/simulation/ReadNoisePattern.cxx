@@ -35,7 +35,7 @@ DrawReadNoisePattern(const ReadNoiseSettings & settings, std::uint64_t seed, std
     seed, StreamNumber(RandomStream::FixedPattern), static_cast<std::uint64_t>(FixedPatternKind::ReadNoise));
   std::vector<double> factors(pixels);
   std::generate(factors.begin(), factors.end(), [&] {
-    // Three numbers a pixel whatever the settings: with more spread the same pixels have the greater noise.
+    // Three numbers per pixel for any settings: with a larger spread the same pixels have the larger noise.
     const double core = settings.spread * random.Normal();
     const double tail = settings.tailSpread * std::abs(random.Normal());
     const bool   isInTail = random.Uniform() < settings.tailFraction;

@@ -13,11 +13,12 @@
 namespace sensornoise
 {
 
-/** \throws std::invalid_argument naming the first setting that cannot be used. */
+/** \throws std::invalid_argument that names the first setting that cannot be used. */
 SensorNoise_EXPORT void
 CheckSettings(const ReadNoiseSettings & settings);
 
-/** Read noise of every pixel in units of the median of those that are not in the tail. Empty if all are alike. */
+/** Returns the read noise of every pixel in units of the median of the pixels that are not in the tail [1]. Empty if
+ * all pixels are equal. */
 SensorNoise_EXPORT std::vector<double>
 DrawReadNoisePattern(const ReadNoiseSettings & settings, std::uint64_t seed, std::size_t pixels);
 

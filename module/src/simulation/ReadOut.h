@@ -15,34 +15,35 @@ namespace sensornoise
 {
 
 /** \class ReadOut
- * From charge to code, not yet rounded or clipped:
+ * \brief Conversion of charge to codes, not yet rounded or clipped:
  *
  *   code = mu_p + g_p S R(s / S) + line noise   [DN],   s = electrons + sigma_p / g normal   [e-]
  *
- * with the pixel's offset mu_p, gain g_p and read noise sigma_p, and the response R with its full scale S; R(u) = u
- * unless the response is bent. */
+ * with the offset mu_p, gain g_p and read noise sigma_p of the pixel, and the response R with its full scale S. A
+ * linear response has R(u) = u. */
 class SensorNoise_EXPORT ReadOut
 {
 public:
-  /** \a settings have been checked. */
+  /** \a settings must have been checked by CheckSettings(). */
   ReadOut(const SimulationSettings & settings, std::size_t width, std::size_t height);
 
-  /** Codes of row \a y of frame \a frame [DN].
+  /** Computes the codes of row \a y of frame \a frame [DN].
    * \param electrons charge of each pixel [e-]
-   * \param normals one normal number for the read noise of each pixel; may be the same place as \a codesDn */
+   * \param normals one standard normal number for the read noise of each pixel; may be the same memory as \a codesDn */
   void
   ReadRow(std::size_t frame, std::size_t y, const double * electrons, const double * normals, double * codesDn) const;
 
-  /** d(code) / d(electron) of a pixel that holds \a electrons [DN/e-]. */
+  /** Returns d(code) / d(electron) of a pixel that holds \a electrons [DN/e-]. */
   double
   LocalGainAt(std::size_t pixel, double electrons) const;
 
-  /** Standard deviation of a pixel's code without light, before rounding and without line noise [DN]: sigma_p, times
-   * the pixel's gain, times the slope of the response in the dark. */
+  /** Returns the standard deviation of the code of a pixel without light, before rounding and without line noise [DN].
+   * It is sigma_p, times the relative gain of the pixel, times the slope of the response in the dark. */
   double
   PixelReadNoiseDn(std::size_t pixel) const;
 
-  /** Mean code of a pixel without light [DN]; under Gamma above mu_p, for that curve cuts noise below 0 off. */
+  /** Returns the mean code of a pixel without light [DN]. Under Gamma it is above mu_p, because this curve clips noise
+   * below 0. */
   double
   PixelOffsetDn(std::size_t pixel) const;
 
@@ -52,7 +53,7 @@ public:
     double medianDn;
   };
 
-  /** Root mean square and median of PixelReadNoiseDn over all pixels [DN]. */
+  /** Returns the root mean square and the median of PixelReadNoiseDn() over all pixels [DN]. */
   ReadNoise
   SummariseReadNoise() const;
 
@@ -62,19 +63,19 @@ private:
   {
     return m_RelativeGain.empty() ? 1.0 : m_RelativeGain[pixel];
   }
-  /** mu_p [DN]. */
+  /** Returns mu_p [DN]. */
   double
   OffsetDn(std::size_t pixel) const
   {
     return m_Camera.offsetDn + (m_OffsetDn.empty() ? 0.0 : m_OffsetDn[pixel]);
   }
-  /** sigma_p [DN]. */
+  /** Returns sigma_p [DN]. */
   double
   ReadNoiseDn(std::size_t pixel) const
   {
     return m_ReadNoiseDn.empty() ? m_Camera.readNoiseDn : m_ReadNoiseDn[pixel];
   }
-  /** What the response makes of sigma_p alone, in units of the full scale. */
+  /** Returns the mean and the standard deviation of the response to sigma_p alone, in units of the full scale [1]. */
   ResponseCurve::Moments
   InTheDark(std::size_t pixel) const;
 

@@ -23,7 +23,7 @@ constexpr std::array<std::pair<ResponseShape, const char *>, 6> ShapeNames{ { { 
                                                                               { ResponseShape::Gamma, "gamma" },
                                                                               { ResponseShape::SCurve, "s-curve" } } };
 
-/** The angle of the shoulder's half cosine [rad]. */
+/** Returns the angle of the half cosine of the shoulder [rad]. */
 double
 ShoulderAngle(double u)
 {
@@ -150,7 +150,7 @@ ResponseCurve::InTheDark(double sd) const
   {
     return { 0.0, InnerSlope(0.0) * sd };
   }
-  // Of a normal number n, E[n^p; n > 0] = 2^(p/2 - 1) Gamma((p + 1) / 2) / sqrt(pi).
+  // For a normal number n, E[n^p; n > 0] = 2^(p/2 - 1) Gamma((p + 1) / 2) / sqrt(pi).
   const auto halfMoment = [](double p) {
     return std::pow(2.0, 0.5 * p - 1.0) * std::tgamma(0.5 * (p + 1.0)) / std::sqrt(CurvePi);
   };

@@ -11,13 +11,15 @@
 namespace sensornoise
 {
 
-/** \throws std::invalid_argument naming the first setting that cannot be used. */
+/** \throws std::invalid_argument that names the first setting that cannot be used. */
 SensorNoise_EXPORT void
 CheckSettings(const ResponseSettings & settings);
 
 /** \class ResponseCurve
- * R(u), with R(0) = 0: the mean code is offset + gain S R(signal / S). Every shape but Gamma runs from 0 to 1. Below
- * u = 0 and above u = 1 the curve goes on straight, with the slope of its end; Gamma is 0 below 0. */
+ * \brief Response R(u), with R(0) = 0: the mean code is offset + gain S R(signal / S).
+ *
+ * Every shape but Gamma runs from 0 to 1. Below u = 0 and above u = 1 the curve continues linearly, with the slope at
+ * its end; Gamma is 0 below 0. */
 class SensorNoise_EXPORT ResponseCurve
 {
 public:
@@ -29,24 +31,25 @@ public:
     return m_Shape == ResponseShape::Straight;
   }
 
-  /** R(u) [1]. */
+  /** Returns R(u) [1]. */
   double
   Value(double u) const;
 
-  /** R'(u) [1]; of Gamma 0 at u = 0, the slope from the left. */
+  /** Returns R'(u) [1]. For Gamma it is 0 at u = 0, the slope from the left. */
   double
   Slope(double u) const;
 
-  /** Mean and standard deviation of a curve's value. */
+  /** Mean and standard deviation of the value of a curve. */
   struct Moments
   {
     double mean;
     double sd;
   };
 
-  /** Mean and standard deviation of R(noise), noise normal about 0 with standard deviation \a sd [1]: what read noise
-   * looks like in the dark. Exact for a straight curve and, up to noise of the order of the full scale, for Gamma,
-   * which cuts one half of the noise off; to first order in \a sd for the others. */
+  /** Returns the mean and the standard deviation of R(noise), for normal noise about 0 with standard deviation \a sd
+   * [1]: the effect of the response on read noise in the dark. The result is exact for a linear response. For Gamma,
+   * which clips one half of the noise, it is exact for noise below the order of the full scale. For the others it is
+   * of first order in \a sd. */
   Moments
   InTheDark(double sd) const;
 

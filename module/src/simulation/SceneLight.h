@@ -13,9 +13,11 @@ namespace sensornoise
 {
 
 /** \class SceneLight
- * The electrons that a pixel expects: the reference image, blurred by the optics, scaled to [0, electrons] (a constant
- * image: `electrons` everywhere), shifted and brightened as the truth of the stack says, times the efficiency of the
- * pixel. None where the shutter is closed. */
+ * \brief Expected number of electrons of each pixel.
+ *
+ * The reference image is blurred by the optics, and scaled to [0, electrons] (a constant image: `electrons`
+ * everywhere). It is then shifted and brightened as in the truth of the stack, and multiplied by the efficiency of the
+ * pixel. The number is 0 where the shutter is closed. */
 class SensorNoise_EXPORT SceneLight
 {
 public:
@@ -25,12 +27,13 @@ public:
              std::size_t                 height,
              const SimulationSettings &  settings);
 
-  /** (1 + gamma) p(x + alpha, y + beta) of row \a y of frame \a frame, times the efficiency, cut at 0; linear between
-   * pixels, edge pixels replicated [e-]. */
+  /** Computes (1 + gamma) p(x + alpha, y + beta) for row \a y of frame \a frame, times the efficiency, at least 0;
+   * linear between pixels, edge pixels replicated [e-]. */
   void
   ExpectedElectronsRow(const SimulationTruth & truth, std::size_t frame, std::size_t y, double * electrons) const;
 
-  /** The same for a pixel at rest under light of \a brightness [e-]. */
+  /** Returns the expected number of electrons of a pixel without a shift, for an illumination factor \a brightness
+   * [e-]. */
   double
   ElectronsAtRest(std::size_t pixel, double brightness) const;
 

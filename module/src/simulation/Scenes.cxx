@@ -30,12 +30,12 @@ CheckSceneSize(const char * scene,
                                 " x " + std::to_string(height) + " pixels; it needs at least " +
                                 std::to_string(leastWidth) + " x " + std::to_string(leastHeight));
   }
-  RequireMemory(16.0 * static_cast<double>(width) * static_cast<double>(height), // itself, and a copy of it
+  RequireMemory(16.0 * static_cast<double>(width) * static_cast<double>(height), // the scene, and a copy of it
                 std::string("the ") + scene + " scene of " + std::to_string(width) + " x " + std::to_string(height) +
                   " pixels");
 }
 
-/** The levels 0, 1/15, ..., 1 in an order drawn from the seed (Fisher-Yates). */
+/** Returns the levels 0, 1/15, ..., 1 in an order drawn from the seed (Fisher-Yates). */
 std::array<double, 16>
 ShuffledLevels(std::uint64_t seed)
 {
@@ -52,8 +52,9 @@ ShuffledLevels(std::uint64_t seed)
   return levels;
 }
 
-/** Value noise with a 1/f spectrum, in [-1, 1]: octaves of wavelength 2, 4, ..., 32 pixels and of equal amplitude (in
- * two dimensions equal power per octave is an amplitude spectrum of 1/f). Each key has noise of its own. */
+/** Returns value noise with a 1/f spectrum, in [-1, 1]. It has octaves of wavelength 2, 4, ..., 32 pixels and of equal
+ * amplitude. (In two dimensions equal power per octave is an amplitude spectrum of 1/f.) Different keys have
+ * independent noise. */
 double
 FractalNoise(std::uint64_t key, std::size_t x, std::size_t y)
 {
@@ -185,7 +186,7 @@ MakeTextureScene(std::size_t width, std::size_t height, std::uint64_t seed)
   std::vector<double> image(width * height);
   std::vector<char>   isCovered(image.size(), 0);
   CounterSeededRandom random(seed);
-  // From the front leaf to the back: a pixel keeps the first leaf that reaches it, until no pixel is bare.
+  // From the front leaf to the back: a pixel keeps the first leaf that covers it, until no pixel is uncovered.
   for (std::size_t bare = image.size(); bare > 0;)
   {
     const double radius = 1.0 / std::sqrt(leastPower - random.Uniform() * (leastPower - greatestPower));

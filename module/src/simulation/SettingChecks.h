@@ -9,7 +9,7 @@
 #include <string>
 
 /** \file
- * How the simulator refuses a setting: what was found, what was expected. */
+ * Checks of the settings of the simulator. The messages contain the value that was found and the expected range. */
 
 namespace sensornoise
 {
@@ -24,8 +24,8 @@ RequireSetting(bool isGood, const char * name, double found, const char * expect
   }
 }
 
-/** \throws std::invalid_argument unless \a value is from 0 to 1e9: more is nonsense in any unit, and its square, or a
- * product of two, would soon not be finite. */
+/** \throws std::invalid_argument unless \a value is from 0 to 1e9: larger values have no meaning in any unit, and their
+ * products might not be finite. */
 inline void
 RequireNotNegative(double value, const char * name)
 {

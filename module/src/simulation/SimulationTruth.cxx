@@ -17,7 +17,7 @@ namespace
 {
 constexpr double TwoPi = 6.283185307179586476925;
 
-/** Returns gamma of a frame with this illumination factor and flicker. A factor of 1 leaves the flicker's bits. */
+/** Returns gamma of a frame with this illumination factor and flicker. A factor of 1 keeps the bits of the flicker. */
 double
 Brightened(double factor, double flicker)
 {
@@ -41,7 +41,7 @@ DrawSeries(const SimulationSettings & settings)
   return series;
 }
 
-/** Mean over the frames of valueOf(frame). */
+/** Returns the mean over the frames of valueOf(frame). */
 template <typename TFunction>
 double
 MeanOf(std::size_t frames, TFunction valueOf)
@@ -54,7 +54,7 @@ MeanOf(std::size_t frames, TFunction valueOf)
   return sum / static_cast<double>(frames);
 }
 
-/** Variance over the frames of valueOf(frame), divisor T - 1; NaN for one frame. */
+/** Returns the variance over the frames of valueOf(frame), divisor T - 1; NaN for one frame. */
 template <typename TFunction>
 double
 VarianceOf(std::size_t frames, TFunction valueOf)
@@ -86,7 +86,7 @@ DrawTruth(const SimulationSettings & settings, std::size_t height)
   truth.settings = settings;
   truth.series = DrawSeries(settings);
   SimulatedSeries & series = truth.series;
-  // A global shutter is the case of one row that stands for all.
+  // With a global shutter one row represents all rows.
   const std::size_t   rows = settings.rollingShutterPeriodRows > 0.0 ? height : 1;
   std::vector<double> frameMeans(frames, 0.0);
   double              flickerVariance = 0.0;

@@ -27,7 +27,7 @@
 namespace sensornoise
 {
 
-/** The scene on the sensor, the read-out, and the memory of the temporal filter. */
+/** The scene on the sensor, the read-out, and the state of the temporal filter. */
 struct StackSimulator::Sensor
 {
   SceneLight                      light;

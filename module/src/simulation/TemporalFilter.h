@@ -16,13 +16,15 @@
 namespace sensornoise
 {
 
-/** \throws std::invalid_argument naming the first setting that cannot be used. */
+/** \throws std::invalid_argument that names the first setting that cannot be used. */
 SensorNoise_EXPORT void
 CheckSettings(const TemporalFilterSettings & settings);
 
 /** \class TemporalFilter
- * Frames in any order, with the same bits: the last output is kept, so that frames one after the other cost one input
- * each; an earlier frame starts again from frame 0. May be called by several threads. */
+ * \brief Recursive temporal filter, which outputs frames in any order with the same bits.
+ *
+ * The last output is kept, so that consecutive frames need one input each; an earlier frame starts again from frame 0.
+ * Several threads may call it. */
 class SensorNoise_EXPORT TemporalFilter
 {
 public:
@@ -30,7 +32,8 @@ public:
 
   explicit TemporalFilter(const TemporalFilterSettings & settings);
 
-  /** Frame \a frame of the output; \a inputOf makes a frame of the input and is asked for each at most once. */
+  /** Returns frame \a frame of the output. \a inputOf makes a frame of the input; it is called at most once for each.
+   */
   DoubleFrame
   OutputFrame(std::size_t frame, const InputFrame & inputOf, const ParallelFor & parallelFor);
 
@@ -42,7 +45,7 @@ private:
   };
 
   double                       m_Weight;
-  std::mutex                   m_Mutex; ///< of the pointer below; never held while a frame is made
+  std::mutex                   m_Mutex; ///< protects the pointer below; never held while a frame is computed
   std::shared_ptr<const State> m_Last;
 };
 
