@@ -21,7 +21,7 @@ struct Tails
   double upper;
 };
 
-/** Returns x^a exp(-x) / Gamma(a + 1), for x > 0. For large a the huge factors are never computed: with x = a (1 + u)
+/** Returns x^a exp(-x) / Gamma(a + 1), for x > 0. For large a the huge factors are never computed. With x = a (1 + u)
  * their product is exp(-a (u - log(1 + u))) / sqrt(2 pi a), up to Stirling's remainder. */
 SensorNoise_EXPORT double
 GammaTerm(double a, double x);

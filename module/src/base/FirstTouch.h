@@ -13,7 +13,7 @@ namespace sensornoise
 {
 
 /** Extends a map, which has enough capacity, to \a count pixels; the new ones are \a value. The system allocates a page
- * of memory when it is first written to, which takes longer than later writes: here the threads share this work. */
+ * of memory when it is first written to, which takes longer than later writes: here the threads do this in parallel. */
 template <typename TNumber>
 void
 GrowMap(std::vector<TNumber> & map, std::size_t count, const ParallelFor & parallelFor, TNumber value = TNumber{})

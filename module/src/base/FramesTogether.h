@@ -9,7 +9,7 @@ namespace sensornoise
 {
 
 /** Number of frames that the second pass multiplies together, at the cost of one: their sums fill the SIMD registers.
- * At least so many frames are passed on at a time, however large they are. */
+ * At least this number of frames is passed on at a time, for any size of frames. */
 inline constexpr std::size_t FramesTogether = 4;
 
 } // namespace sensornoise

@@ -11,8 +11,8 @@
 namespace sensornoise
 {
 
-/** Returns the memory that this process can still allocate [bytes]: the available memory of the machine, swap included,
- * or less where a limit of the process (ulimit -v) or of its control group (a container) is smaller. Null where the
+/** Returns the memory that this process can still allocate [bytes]. This is the available memory of the machine, swap
+ * included, or the smaller limit of the process (ulimit -v) or of its control group (a container). Null where the
  * system does not provide it. */
 SensorNoise_EXPORT std::optional<double>
 FreeMemoryBytes();

@@ -33,7 +33,7 @@ struct ValueRange
   }
 };
 
-/** Returns the range of value(pixel) over those of \a count pixels for which has(pixel) is true. */
+/** Returns the range of value(pixel) over the pixels below \a count for which has(pixel) is true. */
 template <typename THas, typename TValue>
 ValueRange
 RangeOverPixels(std::size_t count, const ParallelFor & parallelFor, THas has, TValue value)

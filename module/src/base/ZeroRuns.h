@@ -70,7 +70,7 @@ protected:
   uflow() override;
 
 private:
-  /** Goes on to the next run that is not empty. Returns false at the end. */
+  /** Moves to the next run that is not empty. Returns false at the end. */
   bool
   FindRun();
 

@@ -17,7 +17,8 @@ namespace sensornoise
 
 namespace
 {
-/** Approximate number of local steps in the table; neighbouring ones share three quarters of their distances. */
+/** Approximate number of local steps in the table; neighbouring ones have three quarters of their distances in common.
+ */
 constexpr std::size_t StepsInTable = 256;
 
 /** Distance between two neighbouring codes. */

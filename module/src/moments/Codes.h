@@ -52,16 +52,16 @@ private:
 /** Returns the quantization step [DN]: the most frequent distance between neighbouring codes that occur.
  *
  * 12 bits left-aligned in 16 bits have the step 16. Rescaled data (for example by 65535/4095) have distances of 16 and
- * 17, so that more than 2 % of the codes lie off the grid and \a regular is set to false. A few stray codes do not
+ * 17, so that more than 2 % of the codes lie off the grid. Then \a regular is set to false. A few stray codes do not
  * matter. */
 SensorNoise_EXPORT double
 FindQuantisationStep(const std::vector<std::int32_t> & codes, bool & regular);
 
 /** Returns the outermost code of \a extremes that is not due to stray pixels [DN].
  *
- * This is the highest or the lowest code, unless there is a pile-up inside, see IsPileUp(), with a gap between it and
- * the codes beyond, and these are the extremes of few pixels. Then the pile-up is the end: a stuck pixel does not hide
- * the saturation level of the others. \a step is the quantization step [DN]. The histogram must not be empty. */
+ * This is the highest or the lowest code, unless only few pixels have a code beyond a pile-up, see IsPileUp(),
+ * separated from it by a gap. Then the pile-up is the end: a stuck pixel does not hide the saturation level of the
+ * others. \a step is the quantization step [DN]. The histogram must not be empty. */
 SensorNoise_EXPORT std::int32_t
 FindEndOfCodes(const CodeHistogram & extremes, bool isHigh, double step);
 
@@ -69,8 +69,8 @@ FindEndOfCodes(const CodeHistogram & extremes, bool isHigh, double step);
  * time.
  *
  * Given values take precedence. The bit depth is the smallest of 8, 10, 12, 14 and 16 that holds the codes. A clip
- * level is a pile-up of the extremes, else the end of the DN range: many sensors saturate below it, for example at
- * 3,400 of 4,095, or never fall to 0. \a typicalVarianceDn2 is the median temporal variance of the pixels that vary
+ * level is a pile-up of the extremes, else the end of the DN range. Many sensors saturate below this end, for example
+ * at 3,400 of 4,095, or never fall to 0. \a typicalVarianceDn2 is the median temporal variance of the pixels that vary
  * [DN^2]. Where a pile-up is not evidence of clipping, see CanTellPileUp(), the end of the DN range is used.
  *
  * Throws std::invalid_argument if the stack holds no pixel, or a level above the bit depth. */

@@ -15,10 +15,10 @@ namespace sensornoise
 struct MomentsConstants
 {
   /** A pixel is defective if its read noise is more than this many times the read noise of a typical pixel [1]. Chosen
-   * empirically on the noise of an sCMOS sensor (log-normal, standard deviation 0.4, a tail of 10 %): 4 removes 9 % of
-   * the rms noise, 8 removes 3 %, 16 removes less than 1 %. But 16 keeps pixels of ten times the noise; if they are a
-   * hundredth of all pixels, their variance is larger than the variance of all others. With 1 % of such pixels, half
-   * of this factor makes the error of the gain 1.1 times as large, twice this factor 12 times. */
+   * empirically on the noise of an sCMOS sensor (log-normal, standard deviation 0.4, a tail of 10 %): a factor of 4
+   * removes 9 % of the rms noise, 8 removes 3 %, 16 less than 1 %. But 16 keeps pixels of ten times the noise; if they
+   * are a hundredth of all pixels, their variance is larger than the variance of all others. If 1 % of the pixels are
+   * so noisy, half of this factor makes the error of the gain 1.1 times as large, twice this factor 12 times. */
   double defectiveNoiseFactor{ 8.0 };
 
   /** \name Pile-ups: saturation levels found from repeated extreme values */
@@ -159,8 +159,8 @@ struct MomentsConstants
   /** Fraction of the cells of a frame that are uniform or hold no finite value, from which the frame is no picture with
    * noise [1]. Chosen empirically: half. */
   double largestEmptyShare{ 0.5 };
-  /** Fraction of the cells, those of the largest deviation, that are ignored in the test of a frame [1]: a hot pixel, a
-   * cosmic ray, a bird. Chosen empirically. */
+  /** Fraction of the cells, with the largest deviations, that the test of a frame ignores [1]: a hot pixel, a cosmic
+   * ray, a bird. Chosen empirically. */
   double fewCells{ 0.05 };
   /** A frame is unlike the others if its deviation exceeds the median deviation by this many standard deviations [1].
    * Chosen empirically: a vibration along two axes makes exponentially distributed squares, one in 5 10^12 of them so
@@ -206,7 +206,7 @@ struct MomentsConstants
   double brightCellsShare{ 0.8 };
   /** Largest ratio of the signals of the pixels in uniform cells to their centre [1], and least number of cells for a
    * level. Chosen empirically: the signals then differ by 10 % rms at most, which changes the curvature of the mean
-   * level by 1 %. Textured scenes have 4 such cells near their brightest places. */
+   * level by 1 %. Textured scenes have 4 of these cells near their brightest places. */
   double      evenCellsRatio{ 1.25 };
   std::size_t fewestEvenCells{ 4 };
   /** Ratio of successive centres in the search [1]. */

@@ -47,7 +47,7 @@ public:
   double
   SquaresWithoutDrift(std::size_t p, double sumOfSquaresDn2, double meanDn) const;
 
-  /** Returns the variance over time of the level that all pixels share [DN^2]; 0 below two frames.
+  /** Returns the variance over time of the common level of all pixels [DN^2]; 0 below two frames.
    * \param pixelVarianceDn2 variance of a typical pixel without the drift [DN^2]; its contribution to the variance of
    * the levels is subtracted */
   double

@@ -29,10 +29,10 @@ MeanWithin(const std::vector<double> & values, double low, double high);
 /** Measures the offset and the read noise from frames taken without light, at the exposure, gain and temperature of the
  * others.
  *
- * The offset is the mean of the temporal means of the pixels within 6 standard deviations of their median (a standard
- * deviation is half the distance between the quantiles 0.16 and 0.84). Hot and dead pixels are thus excluded. Its
- * standard error contains temporal noise, fixed-pattern noise, the drift of the common level, and the error by
- * rounding to codes of a level with hardly any noise.
+ * The offset is the mean of the temporal means of the pixels within 6 standard deviations of their median. (Half the
+ * distance between the quantiles 0.16 and 0.84 is taken as a standard deviation.) Hot and dead pixels are thus
+ * excluded. Its standard error contains temporal noise, fixed-pattern noise, the drift of the common level, and the
+ * error by rounding to codes of a level with hardly any noise.
  *
  * Two frames or more also yield the temporal variance of every pixel. The mean variance is over all pixels that are
  * not defective. It includes noisy pixels, because their noise is in the bright frames as well. A pixel is defective

@@ -227,7 +227,7 @@ SquaredError(const VectorXd & deviations, const MatrixXd & covariance, double do
 
 /** Returns the offset where there are no dark frames. A line through a curved response is biased there. The larger of
  * the difference to the offset of a parabola and the error of this difference is therefore added to the standard
- * error. */
+ * error, in quadrature. */
 FittedNumber
 OffsetOfLine(const Levels & levels, const VectorXd & scales, const WeightedFit & line, const VectorXd & variances)
 {

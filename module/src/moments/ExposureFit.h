@@ -58,8 +58,8 @@ struct ExposureFit
 
 /** Fits the line and measures the linearity error, by EMVA Standard 1288, Release 4.0 Linear, 6.7 (equations 62, 63).
  *
- * With y the level less the dark offset, the line minimises the sum of ((level - line) / y)^2 over the levels with y
- * from 5 % to 95 % of its value at saturation. The deviations are (level - line) / (line - dark offset), and the
+ * Let y be the level minus the dark offset. The line minimises the sum of ((level - line) / y)^2 over the levels with
+ * y from 5 % to 95 % of its value at saturation. The deviations are (level - line) / (line - dark offset), and the
  * linearity error is the mean of their absolute values. Without frames of exposure 0 the dark offset is the line's
  * intercept. Where no clip level is known, the largest level is taken for the saturation, and belongs to the range.
  *

@@ -72,8 +72,9 @@ public:
   SceneChange
   FindChange(const std::vector<std::size_t> & frames) const;
 
-  /** Returns the relative standard deviation of the illumination factor over the \a frames [1], after all frames have
-   * been added, see ComputeIlluminationChange(); 0 if fewer than 5 frames or 9 cells are usable. */
+  /** Returns the relative standard deviation of the illumination factor over the \a frames [1], see
+   * ComputeIlluminationChange(). All frames must have been added. Returns 0 if fewer than 5 frames or 9 cells are
+   * usable. */
   double
   FindIlluminationChange(const std::vector<std::size_t> & frames) const;
 

@@ -15,14 +15,15 @@ namespace sensornoise
 /** Returns the median read noise of the pixels, estimated from their variances over a few frames.
  *
  * The median of the variances equals the median for noise alone only if all pixels have the same noise. The chi-square
- * distribution is skewed: its median lies below its mean, by another fraction than for chi-square times a wide
- * distribution (2 % for 8 frames and log-normal noise of standard deviation 0.6). The distribution of the logarithm of
- * the true variances is therefore estimated first, for any shape, see LogDeconvolution, and its median is taken.
+ * distribution is skewed: its median lies below its mean. The fraction is another one if the true variances have a
+ * wide distribution (by 2 % for 8 frames and log-normal noise of standard deviation 0.6). The distribution of the
+ * logarithm of the true variances is therefore estimated first, for any shape, see LogDeconvolution, and its median is
+ * taken.
  *
  * The standard error combines a jackknife over 20 groups of pixels, twice the change by further iterations, and the
- * error by rounding to codes. Tested with equal pixels and with log-normal noise of standard deviation 0.3 to 0.6,
- * also with tails: the error is below 0.4 % for 8 frames and noise of one code or more, and 2.5 % for noise of 0.6
- * codes.
+ * error by rounding to codes. It was tested with equal pixels and with log-normal noise of standard deviation 0.3 to
+ * 0.6, also with tails. For 8 frames the error is below 0.4 % if the noise is one code or more, and 2.5 % for noise of
+ * 0.6 codes.
  *
  * \param variancesDn2 variances of the pixels, quantization noise included [DN^2]
  * \param freedom degrees of freedom of a variance

@@ -83,15 +83,15 @@ FindCodesOfWhole(const TemporalMaps<TPixel> & maps, const CodeSettings & setting
     codes.SetClipSources("none", codes.clipSource == "code range" ? "code range" : "pile-up");
     codes.quantisationStepDn = settings.quantisationStepDn.value_or(0.0);
   }
-  // A signed 16-bit number ends at 32767, whatever the bit depth is.
+  // A signed 16-bit number ends at 32767, for any bit depth.
   const double largest = std::numeric_limits<TPixel>::max();
   codes.clipHighDn = std::min(codes.clipHighDn.value_or(largest), largest);
   return codes;
 }
 
-/** Returns the spacing of the levels of a floating-point stack whose codes were multiplied by one number [DN]; 0: no
- * such spacing. It is found if all of some thousand minima of pixels lie on one grid. A grid that is not much wider
- * than the last digits of the type is the grid of the type itself. */
+/** Returns the spacing of the levels of a floating-point stack whose codes were multiplied by one number [DN]; 0: there
+ * is none. It is found if all of some thousand minima of pixels lie on one grid. A grid that is not much wider than
+ * the last digits of the type is the grid of the type itself. */
 template <typename TPixel>
 double
 FindStepOfFloating(const TemporalMaps<TPixel> & maps)
@@ -197,7 +197,7 @@ SummariseStack(const TemporalMaps<TPixel> & maps,
   const std::size_t pixels = maps.GetNumberOfPixels();
   const StackEnds   ends = FindEnds(maps, parallelFor);
   StackSummary      summary;
-  // Integers are codes, whatever the type that they are stored in.
+  // Integers are codes, even if they are stored as floating-point numbers.
   const bool areCodes = std::is_integral_v<TPixel> || (ends.high.pixels > 0 && ends.areWhole);
   summary.codes =
     areCodes ? FindCodesOfWhole(maps, settings, parallelFor) : FindLevelsOfFloating(maps, settings, parallelFor);

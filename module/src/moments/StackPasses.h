@@ -123,7 +123,7 @@ public:
 
   /** Adds the sums that another object, with the same arguments, saved in the same pass. Throws std::runtime_error, and
    * changes nothing, if the stream holds something else. The same happens if it holds a frame that has been added
-   * here, or one that equals such a frame. */
+   * here, or a frame that equals one of these. */
   void
   MergeSums(std::istream & in);
 

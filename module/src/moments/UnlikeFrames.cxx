@@ -160,8 +160,8 @@ FindMisfits(const FrameThumbnails &     thumbnails,
 }
 
 /** Returns the distance of each of \a values above their median, in units of their standard deviation [1]. The standard
- * deviation is the larger of that from the median deviation and the statistical one of a mean square over so many
- * cells. */
+ * deviation is estimated from the median deviation, and is at least the statistical error of a mean square over the
+ * number of \a cells. */
 std::vector<double>
 HowFar(const std::vector<double> & values, std::size_t cells)
 {

@@ -20,7 +20,7 @@ class FrameThumbnails;
  * be left, or if more than a fifth of the frames with content are unlike.
  *
  * A frame of the burst is a level plus a factor times the mean frame, except for noise, vibration and local changes of
- * the illumination, which are as large in the others. A dark frame has the factor 0: it belongs to the burst.
+ * the illumination. These are as large in the other frames. A dark frame has the factor 0: it belongs to the burst.
  * Estimator.md, 3.1. */
 SensorNoise_EXPORT std::vector<LeftOutFrame>
 FindUnlikeFrames(const FrameThumbnails & thumbnails);

@@ -20,8 +20,9 @@ struct SceneConstants
   /** Ratio of raw to modelled variance above which the model does not explain a pixel, apart from chance [1]. Chosen
    * empirically: weights and masks need the model to some 10 %. */
   double largestRatio{ 2.5 };
-  /** Ratio to the median of its intensity bin from which a pixel is excluded from the first fit [1]: for the smoother
-   * half of the pixels, where motion adds little, and for the rougher half. Chosen empirically. */
+  /** Ratio of the variance of a pixel to the median of its intensity bin from which the first fit excludes the pixel
+   * [1]. The first is for the smoother half of the pixels, where motion adds little, the second for the rougher half.
+   * Chosen empirically. */
   double startRatioSmooth{ 2.5 };
   double startRatioRough{ 30.0 };
   /** Lower bound of the predicted variance, as a fraction of the variance of the darkest levels [1]. Chosen
@@ -54,14 +55,14 @@ struct SceneConstants
   ///@{
   /** Largest number of cells along either axis: a band of a third of the frame is 8 cells wide. Chosen empirically:
    * with 32 the medians of 32 pixels scatter more, and static cells are lost. With 12 the neighbours of a region are
-   * half of such a band. */
+   * half of this band. */
   std::size_t mostCells{ 24 };
   /** Least width of a cell [pixels], and least number of sampled pixels of a cell that is used. Chosen empirically. */
   std::size_t leastCellWidth{ 8 };
   std::size_t fewestPixelsOfCell{ 8 };
   /** Ratio of medians from which a cell does not fit a model [1]. Chosen empirically: the noise of 60 frames and pixels
-   * changes a median by 3 %, and the illumination may change locally. 1.2 gives the same result for moving objects,
-   * but leaves little room for the illumination; 1.8 leaves more cells that an object crosses faintly. */
+   * changes a median by 3 %, and the illumination may change locally. With 1.2 the result for moving objects is the
+   * same, but the margin for the illumination is small. With 1.8 more cells that an object crosses faintly are left. */
   double largestMedianRatio{ 1.4 };
   /** Score of the model, see Candidate in CrossedRegion.cxx, from which no object is searched [1]. Chosen empirically:
    * static scenes, rolling shutters and vibration give 0.98 to 1, a disk that crosses a quarter of the frame gives
@@ -75,10 +76,10 @@ struct SceneConstants
    * illumination are taken for an object. */
   double costOfBelow{ 2.0 };
   /** Cells above the model are due to the illumination if a separate flicker of every cell explains at least this
-   * fraction of them, and its relative rms is at most the second number [1]. Chosen empirically: where half of the
-   * signal bleaches by 20 % the two numbers are 1.0 and 0.06; for objects on charts and textures they are 0.35 to 0.95
-   * and 0.2 to 0.6. With 0.2 for the second number a faint object is taken for a lamp, with 0.05 this bleaching is
-   * taken for an object. */
+   * fraction of them [1]. The relative rms of the flicker must be at most the second number [1]. Chosen empirically:
+   * where half of the signal bleaches by 20 % the two numbers are 1.0 and 0.06. For objects on charts and textures
+   * they are 0.35 to 0.95 and 0.2 to 0.6. With 0.2 for the second number a faint object is taken for a lamp, with 0.05
+   * this bleaching is taken for an object. */
   double leastLightShare{ 0.8 };
   double largestLight{ 0.1 };
   /** Least fraction of pixels outside of the region [1]. If fewer are left, the whole frame moves, and all pixels are
@@ -97,9 +98,9 @@ struct SceneConstants
   std::size_t leastPixelsOfBorderLine{ 8 };
   /** Fraction of the pixels beside a strip that must differ from it [1]: parts of a scene may have the same level. */
   double leastBorderShare{ 0.95 };
-  /** Largest difference between the pixels of the next lines, as a median, and between the last and the first line of a
-   * strip; both relative to the step at its end [1]. The image of an edge is not as sharp: with a Gaussian of 0.4
-   * pixels, 0.16 of the step falls into the pixel before. The first was chosen empirically. */
+  /** Largest median difference between the pixels of the lines after a strip, and largest difference between its last
+   * and its first line. Both are relative to the step at its end [1]. The image of an edge is not as sharp: with a
+   * Gaussian of 0.4 pixels, 0.16 of the step falls into the pixel before. The first was chosen empirically. */
   double largestBorderSlope{ 0.34 };
   double largestBlur{ 0.08 };
   /** Ratio of the standard deviation of the levels beside a strip to that in the strip from which the structure of the

@@ -149,7 +149,7 @@ CountNear(const std::vector<std::uint8_t> & region, const VarianceCells & cells,
 }
 
 /** Adds the neighbours, which the object touches. Then adds cells most of whose 5 x 5 neighbours belong to the region,
- * until there are no more: where an object is as bright as its background, its variance is not visible. */
+ * until none is left. Where an object is as bright as its background, its variance is not visible. */
 std::vector<std::uint8_t>
 Close(const std::vector<std::uint8_t> & region, const VarianceCells & cells)
 {

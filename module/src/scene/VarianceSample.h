@@ -51,7 +51,8 @@ struct VariancePrediction
 {
   std::vector<double>       variance;      ///< predicted variance [DN^2]
   std::vector<std::uint8_t> keep;          ///< 1: the variance of the pixel is not far above
-  double                    lowest{ 0.0 }; ///< smallest median of an intensity bin [DN^2]
+  double                    lowest{ 0.0 }; ///< smallest median of an intensity bin, or another estimate of the darkest
+                                           ///< variance [DN^2]
 };
 
 /** Starts a fit from the medians over 32 intensity bins of the smoother half of the pixels, where motion adds little.

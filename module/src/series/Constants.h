@@ -31,8 +31,8 @@ struct SeriesConstants
   ///@}
 
   /** Contrast below which noise is taken for levels, and resembles flicker [1]. Chosen empirically: natural scenes have
-   * 0.99. With 0.5 flat fields with an offset pattern are accepted; 0.95 requires 100 frames of a flat field with a
-   * shading of 3 %. */
+   * 0.99. With 0.5, flat fields with DSNU are accepted; 0.95 requires 100 frames of a flat field with a shading of 3
+   * %. */
   double leastContrast{ 0.9 };
 
   /** \name Frames of another dark offset */
@@ -46,8 +46,8 @@ struct SeriesConstants
   /** Least step of the offset, relative to the noise of the darkest pixels [1]. Chosen by the size of the effect: if a
    * fifth of the frames differ by it, the read noise changes by 0.5 %. */
   double leastOffsetStep{ 0.25 };
-  /** Least step of the offset, relative to the change in that frame of the signal of the darkest pixels to the centre
-   * [1]: a response with a non-linearity of a few per cent makes a smaller step. */
+  /** Least step of the offset, relative to the change of the signal between the darkest pixels and the centre in that
+   * frame [1]. A non-linearity of the response of a few per cent makes a smaller step. */
   double leastStepOfChange{ 0.05 };
   ///@}
 
@@ -82,9 +82,9 @@ struct SeriesConstants
   double equalFrameNoise{ 0.1 };
   /** Least variance of a frame relative to the variance at the mean illumination [1]; a guard against division by 0. */
   double leastFrameVariance{ 1e-6 };
-  /** The ratio of shot noise to read noise is estimated from at least this many cells, if there are as many, and from
-   * more if they have fewer values than this in all frames. The numbers bound the time. 60 frames of 175 cells
-   * determine the ratio to 5 %. */
+  /** The ratio of shot noise to read noise is estimated from this many cells, if there are as many. More cells are used
+   * if these have fewer values than the second number in all frames. The numbers bound the time. 60 frames of 175
+   * cells determine the ratio to 5 %. */
   std::ptrdiff_t cellsOfShotFraction{ 32 };
   std::ptrdiff_t valuesOfShotFraction{ 16384 };
   /** Range of the powers of 2 that are tried as the ratio of shot variance to read variance in the brightest cell; the
@@ -98,9 +98,9 @@ struct SeriesConstants
    * Chosen empirically. Half: spatially correlated noise is taken for illumination, and gains of smoothed frames are 2
    * % low; twice: the same results. */
   double edgeOfNoise{ 1.25 };
-  /** Ratio of the standard deviation of the cells of a frame to the same of a typical frame, from which the frame is
-   * scaled down in the search for factors that frames have in common [1]. Chosen between 2, for frames of four times
-   * the noise variance, and the scatter of frames with local illumination, 0.5 to 1.2 in a real burst. */
+  /** Standard deviation of the cells of a frame, relative to a typical frame, from which the frame is scaled down [1].
+   * It is used in the search for factors that frames have in common. Chosen between 2, for frames of four times the
+   * noise variance, and the scatter of frames with local illumination, 0.5 to 1.2 in a real burst. */
   double noisyFrame{ 1.5 };
   /** Largest number of series of local illumination, and number of frames that each needs. Chosen empirically. */
   std::size_t mostLocalSeries{ 12 };

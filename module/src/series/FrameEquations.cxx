@@ -124,7 +124,7 @@ class SeriesEnergy
 public:
   /** \a gamma: relative illumination of the frames minus 1, from the regression [1]. If it hardly changes, all frames
    * have equal noise. Otherwise the noise is taken as shot noise, proportional to 1 + gamma. A component that follows
-   * gamma is then no motion: it is in the basis, and the noise of bright frames is more strongly correlated with the
+   * gamma is then no motion. It is in the basis, and the noise of bright frames is more strongly correlated with the
    * mean than the noise of dark frames. */
   explicit SeriesEnergy(const Eigen::VectorXd & gamma)
     : m_Expected(static_cast<double>(gamma.size() - 1))
@@ -245,7 +245,7 @@ PartialOutMotion(FrameEquations & equations)
   }
 }
 
-/** Removes the level from the equations of the illumination, where it is not identifiable beside motion. */
+/** Removes the level from the equations of the illumination, where it cannot be distinguished from motion. */
 void
 PartialOutLevel(FrameEquations & equations, double leastShare)
 {

@@ -37,7 +37,7 @@ struct SensorNoise_EXPORT FrameEquations
   Eigen::MatrixXd          allRight;   ///< right-hand sides of all columns, frames x columns
   Eigen::Matrix2d          light;      ///< Gram matrix of columns 0 and 1, the motion partialled out (Schur complement)
   Eigen::MatrixX2d         response;   ///< right-hand sides of columns 0 and 1, the motion partialled out, frames x 2
-  /** Whether a level that all pixels have in common is not identifiable beside motion: the scene is a ramp, with the
+  /** Whether a level that all pixels have in common cannot be distinguished from motion: the scene is a ramp, with the
    * same derivatives everywhere. Then `light` and `response` hold column 1 alone, all else partialled out. */
   bool isLevelMotion{ false };
 

@@ -132,8 +132,8 @@ public:
   {
     return m_Regressors.GetFrame();
   }
-  /** Ends the second pass, after all frames have been added. Releases the memory of the instruments. GetCells() and the
-   * Gram matrices are complete only afterwards. */
+  /** Ends the second pass, after all frames have been added. Releases the memory of the instruments. Before it,
+   * GetCells() and the Gram matrices may be empty. */
   void
   EndFrames(const ParallelFor & parallelFor);
   /** Returns the noise of the instruments for the variance V = \a intercept + \a gain mean [DN^2]. */

@@ -17,8 +17,8 @@ namespace
 {
 using InstrumentGram = Eigen::Matrix<double, FrameSums::Instruments, FrameColumns>;
 
-/** Largest part of the third central difference D by which a first difference d deviates from the derivative: for a
- * band-limited scene p' = d - D / 6 + ..., as k = sin k + k^3 / 6 - ... for a wave. */
+/** Largest part of the third central difference D by which a first difference d deviates from the derivative. A
+ * band-limited scene has p' = d - D / 6 + ..., because a wave has k = sin k + k^3 / 6 - ... */
 constexpr double LargestThirdDifference = 1.0 / 6.0;
 
 /** Returns the products of the instruments with the columns, without their common noise. */

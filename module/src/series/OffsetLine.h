@@ -37,7 +37,7 @@ struct SensorNoise_EXPORT OffsetLine
   double              sensitivity{ 0.0 }; ///< relative change of gamma_t with the offset [1/DN]
   std::vector<double> gamma;              ///< illumination factor of every frame minus 1 [1]
   std::size_t         lastClass{ 0 };     ///< roughest gradient class that was included
-  /** Whether the scene is a ramp, so that the flicker was estimated from its slope alone, see
+  /** True if the scene is a ramp, so that the flicker was estimated from its slope alone, see
    * FrameEquations::isLevelMotion. */
   bool isLevelMotion{ false };
 
@@ -72,7 +72,7 @@ struct SensorNoise_EXPORT OffsetLine
  * is the maximum-likelihood line with errors in both variables, a generalised eigenvector of sum r r' and G. The
  * second eigenvalue over T - 2 is the dispersion phi. The interval is {m: J(m) >= max J - t^2 phi}, which may be
  * unbounded; t is Student's quantile for T - 2 degrees of freedom. Estimator.md, 3.3. Null if G is not positive, or if
- * the level is not identifiable beside motion. */
+ * the level cannot be distinguished from motion. */
 SensorNoise_EXPORT std::optional<OffsetLine>
 FitOffsetLine(const FrameEquations & equations);
 

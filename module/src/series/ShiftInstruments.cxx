@@ -15,7 +15,7 @@ namespace sensornoise
 namespace
 {
 /** \class DerivativeRows
- * \brief Returns the derivative of the mean by a stencil, divided by the number of pixels of two boxes, row by row; 0
+ * \brief Returns the derivative of the mean by a stencil, divided by the numbers of pixels of two boxes, row by row; 0
  * where it exceeds the border. */
 class DerivativeRows
 {
@@ -60,8 +60,8 @@ private:
 };
 
 /** \class BoxedRows
- * \brief The box sums of a source, as the source of the rows [first, last) of another BoxRows of the same radius,
- * which reads each row twice: the rows between are kept. */
+ * \brief The box sums of a source, as the source of the rows [first, last) of another BoxRows of the same radius. That
+ * one reads each row twice: the rows between are kept. */
 template <typename TSource>
 class BoxedRows
 {

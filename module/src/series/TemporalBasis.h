@@ -63,7 +63,7 @@ public:
     return m_Rounded(static_cast<Eigen::Index>(t), static_cast<Eigen::Index>(j));
   }
   /** Converts sums over time of rounded series times pixel value, in place, into the coordinates of the time series of
-   * \a pixels pixels in the basis. sums[j stride + i] is the sum for pixel i and series j, means[i] the mean of the
+   * \a pixels pixels in the basis. The sum for pixel i and series j is sums[j stride + i]; means[i] is the mean of the
    * values of pixel i. */
   void
   ToCoordinates(double * sums, std::size_t stride, const double * means, std::size_t pixels) const;
