@@ -16,10 +16,10 @@ namespace sensornoise
 /** Frame-sized maps of a regression: variance [DN^2] against mean [DN] over the pixels of the mask. */
 struct RegressionData
 {
-  const double *       mean;
-  const double *       variance;
-  const std::uint8_t * mask;
-  std::size_t          pixels;
+  const double *       mean;     ///< means over time [DN]
+  const double *       variance; ///< variances over time [DN^2]; not finite: unknown
+  const std::uint8_t * mask;     ///< nonzero at the pixels to be used
+  std::size_t          pixels;   ///< number of pixels of a map
 
   /** Returns whether a pixel is used: it is in the mask and its variance is finite. */
   bool
@@ -32,11 +32,11 @@ struct RegressionData
 /** variance = intercept + slope mean + curvature mean^2. */
 struct PolynomialFit
 {
-  double intercept{ 0.0 };       ///< [DN^2]
-  double slope{ 0.0 };           ///< [DN]
-  double curvature{ 0.0 };       ///< [1]; 0 for a line
-  double curvatureUnitSd{ 0.0 }; ///< standard error of the curvature if the residuals, times root weight, have sd 1
-  std::size_t pixels{ 0 };
+  double intercept{ 0.0 };           ///< variance at the mean 0 [DN^2]
+  double slope{ 0.0 };               ///< slope at the mean 0 [DN]
+  double curvature{ 0.0 };           ///< quadratic coefficient [1]; 0 for a line
+  double curvatureUnitSd{ 0.0 };     ///< standard error of the curvature if the residuals, times root weight, have sd 1
+  std::size_t pixels{ 0 };           ///< number of pixels that were used
   bool        isDetermined{ false }; ///< false: too few pixels, or one intensity only
 };
 

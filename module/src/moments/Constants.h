@@ -132,7 +132,7 @@ struct MomentsConstants
   double leastMosaicContrast{ 0.12 };
   ///@}
 
-  /** \name Whether the frames show one scene */
+  /** \name Test whether the frames show one scene */
   ///@{
   /** Largest number of cells of a frame along each axis. Chosen empirically: a motion of a few pixels changes 16 x 16
    * cells little. */

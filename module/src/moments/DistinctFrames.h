@@ -99,6 +99,7 @@ public:
   {
     return m_Places[t];
   }
+  /** Returns the places of all given frames, see PlaceOf(). */
   const std::vector<std::size_t> &
   Places() const
   {

@@ -32,14 +32,15 @@ struct ExposureFit
   /** A level, and its relative deviation from the line [1]; null: the level is outside of the range of the fit. */
   struct Level
   {
-    double                exposure{ 0.0 };
-    std::size_t           frames{ 0 };
-    double                meanDn{ 0.0 };
-    std::optional<double> deviation;
+    double                exposure{ 0.0 }; ///< in the user's unit
+    std::size_t           frames{ 0 };     ///< number of different frames
+    double                meanDn{ 0.0 };   ///< mean over pixels and frames [DN]
+    std::optional<double> deviation;       ///< (level - line) / (line - dark offset) [1]
   };
 
-  /** The square of the linearity error [1], without what noise adds to it, and its standard error: EMVA 1288's mean of
-   * the absolute relative deviations, as a fraction. Null: not identifiable, see `reason`. */
+  /** Square of the linearity error [1], without the contribution of noise, and its standard error. The linearity error
+   * of EMVA 1288 is the mean of the absolute relative deviations, as a fraction. Null: not identifiable, see `reason`.
+   */
   std::optional<FittedNumber> squaredError;
   double                      dof{ 0.0 }; ///< degrees of freedom of the scatter that its standard error is derived from
   std::string                 reason;     ///< reason why there is no linearity error, as a sentence; "": there is one

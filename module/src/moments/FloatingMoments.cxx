@@ -76,7 +76,7 @@ FloatingMoments<TPixel>::TakeMaps(const ParallelFor & parallelFor)
     for (std::size_t p = begin; p < end; ++p)
     {
       m_Mean[p] = this->GetMean(p);
-      m_Squares[p] = m_Frames > 1 ? this->GetVariance(p) : 0.0 * m_Mean[p]; // not finite: NaN
+      m_Squares[p] = m_Frames > 1 ? this->GetVariance(p) : 0.0 * m_Mean[p]; // NaN where the pixel is not finite
     }
   });
   m_Frames = 0;

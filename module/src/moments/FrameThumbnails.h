@@ -58,6 +58,7 @@ public:
             std::size_t         count,
             const ParallelFor & parallelFor);
 
+  /** Writes the means, the noise and the fractions of uniform cells, see BinaryStream. */
   void
   Save(std::ostream & out) const;
   /** Reads thumbnails of other frames, written by Save(). Throws std::runtime_error if the stream ends early. */

@@ -28,6 +28,7 @@ struct LogBinning
   double      width; ///< width of a bin, in the same logarithm
   std::size_t first; ///< lowest bin in use; also holds all smaller values
 
+  /** Returns the bin of a variance [DN^2]. */
   std::size_t
   BinOf(double variance) const;
 
@@ -58,6 +59,7 @@ public:
    * \param kernel see ChiSquareKernel(); it is kept by reference and must outlive this object */
   LogDeconvolution(const LogBins & counts, const std::vector<LogBins> & kernel);
 
+  /** Performs \a times iterations. */
   void
   Iterate(int times);
 

@@ -52,6 +52,7 @@ public:
   {
     return m_Sign * m_Counts.begin()->first + 0.0; // + 0.0 turns -0 into 0
   }
+  /** Number of pixels whose extreme is the outermost level; 0 if the table is empty. */
   std::size_t
   Pixels() const
   {

@@ -30,8 +30,8 @@ IsPileUp(std::size_t atEnd, std::size_t mostInside)
  * level is rare noise, or the quantization is as coarse as the noise, the distance is some standard deviations. */
 struct ExtremeDepths
 {
-  double low{ 0.0 };
-  double high{ 0.0 };
+  double low{ 0.0 };  ///< depth of the lowest level [1]
+  double high{ 0.0 }; ///< depth of the highest level [1]
 };
 
 /** Returns whether a pile-up is evidence of clipping. It is not if the noise is below half a step of the levels,

@@ -24,8 +24,8 @@ struct TemporalMaps
   std::vector<double> mean;     ///< mean over time [DN]; NaN where the pixel was not finite in a frame
   std::vector<double> variance; ///< unbiased variance over time [DN^2]; 0 for a single frame; not finite where the
                                 ///< mean is not
-  std::vector<Extreme> minimum;
-  std::vector<Extreme> maximum;
+  std::vector<Extreme> minimum; ///< lowest value over time, minus Centre [DN]
+  std::vector<Extreme> maximum; ///< highest value over time, minus Centre [DN]
 
   std::size_t
   GetNumberOfPixels() const

@@ -19,7 +19,7 @@ namespace sensornoise
 struct ReferenceFrame
 {
   FrameGeometry       geometry;
-  std::size_t         frames{ 0 };
+  std::size_t         frames{ 0 };   ///< number of distinct frames T
   std::vector<double> mean;          ///< mean over time [DN]; a pixel without one has the mean of its neighbours
   std::vector<double> neighbourMean; ///< mean of the 8 neighbours, without the pixel itself [DN]
   std::vector<double> variance;      ///< unbiased variance over time, flicker and motion included [DN^2]; NaN: unknown

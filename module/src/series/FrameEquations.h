@@ -21,8 +21,8 @@ namespace sensornoise
  * part that scales with the illumination). */
 struct RegressorNoise
 {
-  std::array<double, GradientClasses> variance{};
-  std::array<double, GradientClasses> shot{};
+  std::array<double, GradientClasses> variance{}; ///< sum of w V [1]
+  std::array<double, GradientClasses> shot{};     ///< sum of w g q [1]
 };
 
 /** Normal equations of the regression of every frame on the active columns. */

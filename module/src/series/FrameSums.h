@@ -26,8 +26,8 @@ class RegressorBand;
  * with their weights. */
 struct InstrumentNoise
 {
-  double          variance{ 0.0 };
-  Eigen::Matrix2d squares{ Eigen::Matrix2d::Zero() };
+  double          variance{ 0.0 };                    ///< sum of w V
+  Eigen::Matrix2d squares{ Eigen::Matrix2d::Zero() }; ///< sum of z z' V
 };
 
 /** \class FrameSums
@@ -56,9 +56,9 @@ public:
   /** Sums over one cell that need no frame: of w X_k and of w I X_k, I the mean minus the centre. */
   struct Cell
   {
-    std::size_t                      pixels{ 0 };
-    std::array<double, FrameColumns> sum{};
-    std::array<double, FrameColumns> sumI{};
+    std::size_t                      pixels{ 0 }; ///< number of used pixels of the cell
+    std::array<double, FrameColumns> sum{};       ///< sums of w X_k
+    std::array<double, FrameColumns> sumI{};      ///< sums of w I X_k
   };
 
   /** The frame of \a regressors must outlive the object and its copies, without being moved. */

@@ -25,7 +25,7 @@ struct SensorNoise_EXPORT OffsetLine
 {
   double offset{ 0.0 };                                            ///< dark offset minus the centre of the regression
                                                                    ///< [DN]
-  double standardError{ std::numeric_limits<double>::infinity() }; ///< of the offset [DN]
+  double standardError{ std::numeric_limits<double>::infinity() }; ///< standard error of the offset [DN]
   double low{ -std::numeric_limits<double>::infinity() };          ///< lower bound of the 95 % interval, may be
                                                                    ///< unbounded [DN]
   double high{ std::numeric_limits<double>::infinity() };          ///< upper bound [DN]

@@ -22,9 +22,9 @@ namespace sensornoise
 /** The result of the second pass: the temporal components of the frames apart from noise. */
 struct SceneSeries
 {
-  OffsetLine        line; ///< offset and flicker
-  MotionSeries      motion;
-  LocalIllumination local;
+  OffsetLine        line;          ///< offset and flicker
+  MotionSeries      motion;        ///< coefficients of the motion
+  LocalIllumination local;         ///< local changes of the illumination
   double            offset{ 0.0 }; ///< offset minus the centre: from the line, or as given, or the darkest level [DN]
   bool              isOffsetTold{ false }; ///< whether the flicker determines the offset, so that it is the offset of
                                            ///< the line

@@ -32,9 +32,9 @@ InstrumentWeight(const ReferenceFrame &            frame,
 /** Instruments for the shifts along x and y: derivatives of long wavelengths, and their weights (see SolveShifts()). */
 struct ShiftInstruments
 {
-  std::vector<double> x;
-  std::vector<double> y;
-  std::vector<double> weight;
+  std::vector<double> x;      ///< smoothed derivative along x [DN/pixel]
+  std::vector<double> y;      ///< smoothed derivative along y [DN/pixel]
+  std::vector<double> weight; ///< see InstrumentWeight() [1/DN^2]
 };
 
 /** Makes the instruments over the pixels of \a mask. */

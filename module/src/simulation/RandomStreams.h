@@ -10,13 +10,13 @@ namespace sensornoise
 
 /** Purpose of the random numbers of a simulated stack: the stream of a CounterSeededRandom. The meaning of a number
  * never changes, because a seed would otherwise yield another stack. Streams from 100 on are free for programs that
- * extend the simulator. */
+ * extend the simulator. The counter "frame" is the number of the exposure, where frames are repeated. */
 enum class RandomStream : std::uint64_t
 {
   Series = 1,       ///< flicker, shifts and phase; counter: frame
   Pixels = 2,       ///< electrons and read noise; counters: frame, row
   FixedPattern = 3, ///< fixed-pattern noise; counter: FixedPatternKind
-  RowNoise = 4,     ///< counter: frame
+  RowNoise = 4,     ///< counters: frame, row
   ColumnNoise = 5,  ///< counter: frame
   Banding = 6,      ///< counter: frame
   Illumination = 7  ///< counter: frame
