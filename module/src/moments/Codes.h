@@ -49,7 +49,8 @@ private:
   std::vector<std::uint32_t>    m_Counts;
 };
 
-/** Returns the quantization step [DN]: the most frequent distance between neighbouring codes that occur.
+/** Returns the quantization step [DN]: the most frequent distance between neighbouring codes that occur. Without a
+ * majority it is the greatest common divisor of the distances.
  *
  * 12 bits left-aligned in 16 bits have the step 16. Rescaled data (for example by 65535/4095) have distances of 16 and
  * 17, so that more than 2 % of the codes lie off the grid. Then \a regular is set to false. A few stray codes do not

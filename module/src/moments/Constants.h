@@ -95,7 +95,7 @@ struct MomentsConstants
   /** \name Dark frames */
   ///@{
   /** Largest fraction of pixels that may reach a clip level [1]: the first in any case, or the fraction that follows
-   * from one clipped sample in a thousand and the number of frames. Such a sample moves the mean by 0.003 standard
+   * from one clipped sample in a thousand and the number of frames. A clipped sample moves the mean by 0.003 standard
    * deviations. */
   double largestClippedShare{ 0.01 };
   double leastShareOfSamples{ 0.999 };

@@ -31,8 +31,8 @@ MeanWithin(const std::vector<double> & values, double low, double high);
  *
  * The offset is the mean of the temporal means of the pixels within 6 standard deviations of their median. (Half the
  * distance between the quantiles 0.16 and 0.84 is taken as a standard deviation.) Hot and dead pixels are thus
- * excluded. Its standard error contains temporal noise, fixed-pattern noise, the drift of the common level, and the
- * error by rounding to codes of a level with hardly any noise.
+ * excluded. The standard error of the offset contains temporal noise, fixed-pattern noise, the drift of the common
+ * level, and the error by rounding to codes of a level with hardly any noise.
  *
  * Two frames or more also yield the temporal variance of every pixel. The mean variance is over all pixels that are
  * not defective. It includes noisy pixels, because their noise is in the bright frames as well. A pixel is defective
@@ -41,7 +41,8 @@ MeanWithin(const std::vector<double> & values, double low, double high);
  * scatter of the pixels. The read noise of the median pixel, see MedianReadNoiseOf(), is returned with it.
  *
  * The moments are consumed: their memory holds the maps.
- * \param drift of the same frames: it is removed from all variances; without it a level that drifts adds to them
+ * \param drift drift of the same frames, which is removed from all variances; without it a level that drifts adds to
+ * them
  * \param mask if not empty, nonzero at the pixels to be used
  *
  * Throws std::invalid_argument if fewer than 30 pixels are left, or if the frames are clipped. */

@@ -23,7 +23,7 @@ namespace sensornoise
 struct ProvisionalModel
 {
   double darkestDn{ 0.0 };   ///< darkest quantile of the mean of the usable pixels [DN]
-  double brightestDn{ 0.0 }; ///< brightest quantile of it [DN]
+  double brightestDn{ 0.0 }; ///< brightest quantile of the mean of the usable pixels [DN]
   double centreDn{ 0.0 };    ///< mean of the usable pixels, about which the regressions are centred [DN]
 
   double interceptDn2{ 0.0 };      ///< variance at the darkest level [DN^2]
