@@ -15,7 +15,7 @@ namespace sensornoise
 
 namespace
 {
-/** The coefficients of the phases less the mean of their axis. */
+/** Returns the correlation coefficient of each phase, less the mean of the coefficients along the same axis. */
 Eigen::VectorXd
 Differences(const BlockPhases & sums)
 {
@@ -31,7 +31,8 @@ Differences(const BlockPhases & sums)
   return coefficients;
 }
 
-/** \a products: of the pixels of the tile with their neighbours along the axis. */
+/** Adds the pairs of neighbours along \a axis (0: columns, 1: rows) of a tile to \a sums. \a products are the products
+ * of the tile's pixels with these neighbours, as returned by SumProducts(). */
 void
 AddAxis(const NoiseResiduals &     residuals,
         std::size_t                tile,

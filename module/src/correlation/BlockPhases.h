@@ -15,27 +15,28 @@ namespace sensornoise
 {
 
 /** \struct BlockPhases
- * \brief What nearest neighbours share, by where in a block of 8 pixels they lie: in frames that were compressed in
- * blocks (ITU T.81), neighbours in one block share what it was rounded to, and those in two do not.
+ * \brief Noise covariance of nearest neighbours by their position in a block of 8 pixels.
  *
- * Blocks of 4 and of 16 pixels show, too. */
+ * In frames that were compressed in blocks (ITU T.81), two neighbours in the same block have the rounding of that
+ * block in common, and two neighbours in different blocks do not. Blocks of 4 and of 16 pixels are detected, too. */
 struct BlockPhases
 {
   static constexpr std::size_t Period = 8;
 
-  /** Sums over pairs at each phase of the frame's columns, then of its rows. */
-  std::array<double, 2 * Period> covariance{}; ///< of y / V, as in PairSums
-  std::array<double, 2 * Period> pairs{};
+  /** Sums over pairs at each phase: first the 8 phases of the frame's columns, then the 8 phases of its rows. */
+  std::array<double, 2 * Period> covariance{}; ///< of the relative covariance y / V, as in PairSums [1]
+  std::array<double, 2 * Period> pairs{};      ///< number of pairs
 
   BlockPhases &
   operator+=(const BlockPhases & other);
 };
 
-/** The sums of every tile. */
+/** Returns the sums of every tile. */
 SensorNoise_EXPORT std::vector<BlockPhases>
 SumBlockPhases(const NoiseResiduals & residuals, const ParallelFor & parallelFor);
 
-/** The root mean square by which the phases' coefficients differ, without what chance makes of it [1]. */
+/** Returns the root mean square deviation of the phases' coefficients from the mean of their axis, without the part
+ * that statistical scatter explains [1]. */
 SensorNoise_EXPORT double
 SpreadOfPhases(const std::vector<BlockPhases> & tiles);
 

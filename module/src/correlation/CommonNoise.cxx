@@ -12,8 +12,9 @@ namespace sensornoise
 
 namespace
 {
-/** The part of the light's square, of what is far apart along both axes; what does not depend on the light is another
- * part. Where the levels cannot tell them apart, as in a flat field, all is the light's. */
+/** Returns the coefficient of the squared signal in the covariance of pixels that are far apart along both axes [1]. A
+ * constant is fitted beside it. Where the signals differ too little to separate both, as in a flat field, the
+ * covariance is attributed to the signal alone. */
 double
 LightOf(const DistantSums & far)
 {

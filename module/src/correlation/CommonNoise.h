@@ -12,19 +12,23 @@
 namespace sensornoise
 {
 
-/** What pixels share however far apart they are: it is taken off what neighbours share. */
+/** Noise covariance that does not decrease with the distance of two pixels. It is subtracted before the covariance of
+ * neighbours is evaluated. */
 struct CommonNoise
 {
-  double                                 light{ 0.0 }; ///< times the square of the light: light that is left [1]
-  std::array<double, SharedLight::Lines> rows{};       ///< of pixels as many rows apart, far along them [DN^2]
-  std::array<double, SharedLight::Lines> columns{};    ///< of pixels as many columns apart [DN^2]
+  double light{ 0.0 };                              ///< residual illumination: the coefficient of the squared signal
+                                                    ///< [1]
+  std::array<double, SharedLight::Lines> rows{};    ///< covariance of pixels this many rows apart, and far apart along
+                                                    ///< the rows [DN^2]
+  std::array<double, SharedLight::Lines> columns{}; ///< covariance of pixels this many columns apart, and far apart
+                                                    ///< along the columns [DN^2]
 
-  /** Takes it off the sums of a lag in space. */
+  /** Returns \a sums, the sums of the spatial lag \a lag, without the common covariance. */
   SensorNoise_EXPORT LagSums
   TakeOff(LagSums sums, const Lag & lag) const;
 };
 
-/** Of the sums of tiles. */
+/** Estimates the common noise from the sums over tiles. */
 SensorNoise_EXPORT CommonNoise
 FindCommonNoise(const SharedLight & sums);
 

@@ -51,7 +51,7 @@ LevelWithoutLight(const CorrelationSettings &       settings,
   return ZeroOfLight(darkest, Quantile(levels, InCommon.brightestQuantile), 0.0);
 }
 
-/** The frames of a sample that are not equal to an earlier one. */
+/** Returns the frames of a sample that do not equal an earlier frame. */
 std::vector<std::size_t>
 DistinctOf(const NoiseSample & sample)
 {
@@ -74,7 +74,7 @@ DistinctOf(const NoiseSample & sample)
   return distinct;
 }
 
-/** The means of the frames of a sample, of its pixels as they are and weighted with their light. */
+/** Returns the sums of the sampled pixels in each frame, unweighted and weighted with the signal: frames x 2. */
 Eigen::MatrixXd
 FrameMeansOf(const NoiseSample &               sample,
              const std::vector<double> &       mean,
@@ -104,7 +104,7 @@ FrameMeansOf(const NoiseSample &               sample,
   return means;
 }
 
-/** All series of the frames of a sample. */
+/** Returns the given series and \a means at the frames of a sample: frames x series. */
 Eigen::MatrixXd
 SeriesOf(const CorrelationSettings & settings, const std::vector<std::size_t> & frames, const Eigen::MatrixXd & means)
 {
@@ -121,7 +121,8 @@ SeriesOf(const CorrelationSettings & settings, const std::vector<std::size_t> & 
   return series;
 }
 
-/** What the variance has to be multiplied by, with what is not known of time and of what is beyond the reach. */
+/** Returns the factor from the variance to the total covariance over lags. Its error includes the temporal correlation
+ * and the lags beyond reach. */
 Quantity
 SumOverLags(const NoiseCorrelation & correlation, const MeasuredNumber & space)
 {
@@ -245,7 +246,7 @@ EstimateCorrelation(NoiseSample                       sample,
   return estimate;
 }
 
-/** Beside LightNoise, so that JsonWriter finds it. */
+/** Stands beside LightNoise, where JsonWriter finds it. */
 void
 WriteJson(JsonWriter & json, const LightNoise & noise)
 {

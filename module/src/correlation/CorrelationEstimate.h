@@ -19,27 +19,30 @@
 namespace sensornoise
 {
 
-/** What is known when the correlation of the noise is measured by itself. */
+/** Settings of a measurement of the noise correlation alone. */
 struct SensorNoise_EXPORT CorrelationSettings
 {
-  /** The level without light [DN]; NaN (default): not known, light is measured from the darkest level if that is below
-   * 0.3 of the brightest, else from 0. */
+  /** Dark offset [DN]. NaN (default): not known; the signal is measured from the darkest level if that is below 0.3 of
+   * the brightest level, else from 0. */
   double offsetDn{ std::numeric_limits<double>::quiet_NaN() };
-  /** Spacing of the codes [DN]; 0: none. */
+  /** Quantization step [DN]; 0 (default): no quantization. At least 0 and finite. */
   double quantisationStepDn{ 0.0 };
-  /** What changed from frame to frame in proportion to some pattern of the scene (flicker, motion), a value a frame
-   * each. Any linear combination of them and of the constant is taken out of every pixel. */
+  /** Temporal components: changes from frame to frame in proportion to a pattern of the scene (flicker, motion), with
+   * one value for each frame. Every linear combination of them and of the constant is removed from every pixel. */
   std::vector<std::vector<double>> series;
-  /** Takes out the frames' own means, too, plain and weighted with the light: flicker and a drifting offset. */
+  /** Whether the means of the frames are temporal components, too, both plain and weighted with the signal. They
+   * describe flicker and a drifting offset. */
   bool frameMeans{ true };
 
-  /** Throws std::invalid_argument if a setting is out of range, or a series is not one of \a frames finite numbers. */
+  /** Throws std::invalid_argument if a setting is out of range, or if a series does not have \a frames finite values.
+   */
   void
   Validate(std::size_t frames) const;
 };
 
-/** Measures it on a sample of the whole stack, which it uses up. \a mean of every pixel [DN]; \a take: pixels of value
- * 0 are left out, and those whose mean is not finite; \a series of settings are of all frames. */
+/** Measures the noise correlation on \a sample, which is used up. The sample must be from the whole stack. \a mean is
+ * the mean of every pixel [DN]. Pixels whose \a take is 0 or whose mean is not finite are left out. The series of
+ * \a settings have a value for each frame of the stack. */
 SensorNoise_EXPORT CorrelationEstimate
 EstimateCorrelation(NoiseSample                       sample,
                     const std::vector<double> &       mean,

@@ -10,7 +10,8 @@
 namespace sensornoise
 {
 
-/** The record of what neighbours and frames share. Where it was not measured, the kind alone is filled. */
+/** Returns the record of the spatial and temporal noise correlation. If it was not measured, only the noise class is
+ * filled. */
 SensorNoise_EXPORT NoiseCorrelationRecord
 RecordOf(const NoiseCorrelation & correlation);
 

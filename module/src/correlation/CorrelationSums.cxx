@@ -19,7 +19,7 @@ Ratio(double sum, double count)
   return count > 0.0 ? sum / count : 0.0;
 }
 
-/** Half of the lags at a distance in space. */
+/** Returns half of the spatial lags at a distance; the opposite lags have the same covariance. */
 std::vector<Lag>
 LagsOfRing(int distance)
 {
@@ -217,7 +217,8 @@ CorrelationSums::Autocovariance(const TileSums & sums, const Eigen::MatrixXd & m
   }
   if (!m_Residuals.GetUnequalFrames().AreEqual())
   {
-    // The typical variance is that of the residuals, which bright frames take another part of than dark ones.
+    // The typical variance is the variance of the residuals, which depends differently on bright frames and on dark
+    // ones.
     const PairSums same = sums.lags[0].Total();
     const PairSums own = this->WithoutUnequalFrames(same, 0);
     found /= 1.0 - Ratio(same.covariance - own.covariance, same.pairs);

@@ -21,7 +21,7 @@
 namespace sensornoise
 {
 
-/** All sums of a tile; the lags are those of a CorrelationSums. */
+/** All sums of a tile. The lags are the lags of a CorrelationSums, in the same order. */
 struct TileSums
 {
   std::vector<LagSums> lags;
@@ -33,28 +33,28 @@ struct TileSums
 };
 
 /** \class CorrelationSums
- * \brief The sums of all tiles, at as many lags as are asked for, and the figures that are made of them.
+ * \brief Sums of all tiles at any number of lags, and the quantities that are computed from them.
  *
- * A figure is a function of the sums of some tiles, so that a jackknife tells its error. Lags are indices into
- * GetLag(); the lag 0 is the first. */
+ * A quantity is a function of the sums over some tiles, so that a jackknife over tiles estimates its error. Lags are
+ * indices into GetLag(); index 0 is the zero lag. */
 class SensorNoise_EXPORT CorrelationSums
 {
 public:
   using Lags = std::vector<std::size_t>;
 
-  /** \a codesDn2: noise of the codes' steps, which no filter has seen. The lags that are looked at in any case, \a
-   * rings in space and \a timeLags frames, see AddRing() and AddTimeLags(), are summed while a tile is in the cache.
-   * The references must outlive the object. */
+  /** Computes the sums at the lags that are always needed: \a rings in space, see AddRing(), and \a timeLags in time,
+   * see AddTimeLags(). All of them are summed while a tile is in the cache. \a codesDn2 is the variance of the
+   * quantization noise, which was added after any filter [DN^2]. The references must outlive the object. */
   CorrelationSums(const NoiseResiduals & residuals,
                   double                 codesDn2,
                   int                    rings,
                   int                    timeLags,
                   const ParallelFor &    parallelFor);
 
-  /** Adds half of the lags in space at a distance: the other half is the same. */
+  /** Adds half of the spatial lags at a distance [pixels]; the opposite lags have the same covariance. */
   void
   AddRing(int distance);
-  /** Adds the lags in time up to \a last frames, at most a third of the frames. */
+  /** Adds the temporal lags up to \a last frames, at most a third of the frames. */
   void
   AddTimeLags(int last);
 
@@ -63,23 +63,26 @@ public:
   {
     return m_Lags[k];
   }
-  /** The lags in space at distances from \a first to \a last. */
+  /** Returns the spatial lags at distances from \a first to \a last [pixels]. */
   Lags
   Ring(int first, int last) const;
-  /** The lags of the neighbour to the right and the one below. */
+  /** Returns the lags of the neighbour to the right and of the neighbour below. */
   Lags
   Nearest() const;
+  /** Returns the temporal lags, in increasing order. */
   Lags
   TimeLags() const;
 
+  /** Returns the sums of every tile. */
   const std::vector<TileSums> &
   GetTiles() const
   {
     return m_Tiles;
   }
+  /** Returns the sums over all tiles. */
   TileSums
   Total() const;
-  /** What nearest neighbours share, by their place in a block, of every tile. */
+  /** Returns the covariance of nearest neighbours by their position in a block, for every tile. */
   std::vector<BlockPhases>
   SumPhases() const
   {
@@ -90,39 +93,42 @@ public:
   {
     return m_Residuals;
   }
+  /** Returns the variance of the quantization noise [DN^2]. */
   double
   GetCodesDn2() const
   {
     return m_CodesDn2;
   }
 
-  /** Correlation coefficient of a lag in space, without what is common to all pixels [1]. */
+  /** Returns the correlation coefficient of a spatial lag, without the noise that is common to all pixels [1]. */
   double
   CoefficientOf(const TileSums & sums, const CommonNoise & common, std::size_t lag) const;
-  /** What a pixel shares with all neighbours at some lags, and at the opposite ones, over the variance, in the bins of
-   * the light [1]. */
+  /** Returns the covariance of a pixel with its neighbours at the given and the opposite lags, summed and relative to
+   * the variance, in each intensity bin [1]. */
   Eigen::VectorXd
   SharedInBins(const TileSums & sums, const Lags & lags) const;
-  /** What they are compared with; \a unfilteredDn2 as in ShapesOfShared. */
+  /** Returns the shapes to which the covariances are compared; \a unfilteredDn2 as in ShapesOfShared [DN^2]. */
   ShapesOfShared
   ShapesOf(const TileSums & sums, double unfilteredDn2) const
   {
     return { sums.lags[0], m_Residuals.GetLeastLight(), unfilteredDn2 };
   }
-  /** The standard errors of SharedInBins() of all tiles. */
+  /** Returns the standard errors of SharedInBins() for all tiles together. */
   Eigen::VectorXd
   ErrorsInBins(const Lags & lags) const;
-  /** Autocovariances over time over the typical variance, at 0 and the lags in time; \a mixing of TemporalMixing(). */
+  /** Returns the temporal autocovariances at the zero lag and at the temporal lags, relative to the typical variance
+   * [1]. \a mixing is the matrix of TemporalMixing(). */
   Eigen::VectorXd
   Autocovariance(const TileSums & sums, const Eigen::MatrixXd & mixing) const;
 
 private:
   void
   AddLags(const std::vector<Lag> & lags);
-  /** The sums of a lag in time, less the covariance that white noise has because frames differ in their noise. */
+  /** Returns the sums of a temporal lag without the covariance that white noise has because its variance differs
+   * between frames. */
   PairSums
   WithoutUnequalFrames(PairSums sums, int frames) const;
-  /** The lags in time from the first that is not there up to \a last. */
+  /** Returns the temporal lags from the first one that is missing up to \a last. */
   std::vector<Lag>
   NextTimeLags(int last) const;
 
@@ -131,7 +137,7 @@ private:
   const ParallelFor &    m_ParallelFor;
   std::vector<TileSums>  m_Tiles;
   std::vector<Lag>       m_Lags;
-  Eigen::VectorXd        m_OfUnequalFrames; // of lags in time, the covariance over the light [DN]
+  Eigen::VectorXd        m_OfUnequalFrames; // covariance over signal, by temporal lag [DN]
 };
 
 } // namespace sensornoise

@@ -12,8 +12,8 @@ namespace sensornoise
 
 namespace
 {
-/** Slope along the light, and the value without light; both are relative to the variance in the sums, so that bins
- * count alike. */
+/** Returns the slope of the covariance along the signal, and its value at zero signal. Both are divided by the variance
+ * in the sums, so that the bins have equal weight. */
 Eigen::Vector2d
 FitLineOf(const LagSums & sums)
 {

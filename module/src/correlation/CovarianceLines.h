@@ -12,8 +12,8 @@
 namespace sensornoise
 {
 
-/** The line through the covariance of each of \a lags, of the four bins of the light, and of the lag 0, which is first:
- * slope times level + intercept. Filters leave lines, whatever part of the read noise they share. */
+/** Fits the covariance at the zero lag, and then at each of \a lags, by a line through the four intensity bins: slope
+ * times level + intercept. Filtered noise has linear covariances, whichever part of the read noise was filtered. */
 SensorNoise_EXPORT std::vector<CovarianceLine>
 FitCovarianceLines(const CorrelationSums & sums, const CorrelationSums::Lags & lags);
 

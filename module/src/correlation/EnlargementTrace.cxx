@@ -18,13 +18,13 @@ namespace sensornoise
 
 namespace
 {
-/** Pixels and their neighbours at one place of an axis, in one bin of the light. */
+/** Sums over the pixels at one position along an axis, and over their neighbours, in one intensity bin. */
 struct PlaceSums
 {
   double pairs{ 0.0 };
-  double product{ 0.0 };    // of both
-  double square{ 0.0 };     // of the pixels
-  double neighbours{ 0.0 }; // of their neighbours
+  double product{ 0.0 };    // pixel times neighbour
+  double square{ 0.0 };     // pixel squared
+  double neighbours{ 0.0 }; // neighbour squared
 
   PlaceSums &
   operator+=(const PlaceSums & other)
@@ -35,7 +35,7 @@ struct PlaceSums
     neighbours += other.neighbours;
     return *this;
   }
-  /** What the product would be if both were equal. */
+  /** Returns the value that the product would have if both were equal. */
   double
   Scale() const
   {
@@ -53,25 +53,26 @@ AddBins(const PlaceBins & bins, PlaceBins & sum)
   }
 }
 
-/** By the parity of the line, then by the place along the axis. */
+/** Sums by the parity of the line, then by the position along the axis. */
 using AxisSums = std::array<std::vector<PlaceBins>, 2>;
 
 constexpr int LargestLag = 2;
 
-/** The sums along both axes, at each lag: the place in a tile. */
+/** Sums along both axes at each lag, by the position in a tile. */
 struct TraceSums
 {
   std::array<AxisSums, 2 * LargestLag> axes;
 };
 
-/** \a axis 0: along x. */
+/** Returns the index into TraceSums::axes; \a axis is 0 along x, 1 along y. */
 std::size_t
 IndexOf(int lag, std::size_t axis)
 {
   return 2 * static_cast<std::size_t>(lag - 1) + axis;
 }
 
-/** The sums of a tile along one axis; \a squares are of its pixels, \a products of those with their neighbours. */
+/** Returns the sums of a tile along one axis. \a squares are the products of its pixels with themselves, \a products
+ * with their neighbours \a apart pixels away. */
 AxisSums
 SumAxis(const NoiseResiduals &     residuals,
         std::size_t                tile,
@@ -126,7 +127,7 @@ SumTraces(const NoiseResiduals & residuals, std::size_t tile)
   return sums;
 }
 
-/** The sums at every place of the frame. */
+/** Returns the sums at every position of the frame. */
 AxisSums
 SumsOfFrame(const NoiseResiduals & residuals, const std::vector<TraceSums> & tiles, std::size_t index)
 {
@@ -153,14 +154,14 @@ SumsOfFrame(const NoiseResiduals & residuals, const std::vector<TraceSums> & til
   return frame;
 }
 
-/** A coefficient by its place, without what it is at the light there, and how many pairs tell it. */
+/** Coefficient at each position, less its typical value at the signal there, and the number of pairs. */
 struct PlaceCoefficients
 {
   std::vector<double> excess;
   std::vector<double> pairs;
 };
 
-/** The coefficients in lines of one parity. */
+/** Returns the coefficients in the lines of one parity. */
 PlaceCoefficients
 CoefficientsOf(const std::vector<PlaceBins> & sums)
 {
@@ -188,7 +189,7 @@ CoefficientsOf(const std::vector<PlaceBins> & sums)
   return found;
 }
 
-/** The largest of the oscillations of k / (2 extent) cycles a pixel, if it stands out. */
+/** Returns the largest oscillation among the frequencies k / (2 extent) cycles per pixel, if it is significant. */
 std::optional<EnlargementTrace>
 LargestOscillation(const std::vector<double> & values, const std::vector<double> & pairs)
 {
@@ -220,7 +221,7 @@ LargestOscillation(const std::vector<double> & values, const std::vector<double>
   const auto   largest = std::max_element(squares.begin(), squares.end());
   const double peak = *largest;
   const auto   k = first + static_cast<std::size_t>(largest - squares.begin());
-  // The squares of chance are exponentially distributed.
+  // Without an oscillation, the squared amplitudes are exponentially distributed.
   const double     chance = Quantile(squares, 0.5) / std::log(2.0);
   EnlargementTrace trace;
   trace.cyclesPerPixel = 0.5 * static_cast<double>(k) / static_cast<double>(extent);

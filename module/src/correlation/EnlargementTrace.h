@@ -12,18 +12,19 @@
 namespace sensornoise
 {
 
-/** A coefficient of neighbours that oscillates with their place: what a frame of fewer samples than pixels leaves. A
- * filter shares alike at every place (Popescu and Farid 2005). */
+/** Oscillation of a noise correlation coefficient with the position in the frame. Frames with fewer samples than pixels
+ * have it; after a filter the correlation is the same at every position (Popescu and Farid 2005). */
 struct EnlargementTrace
 {
-  int    lag{ 0 };               ///< how far the neighbours are apart [pixels]
-  bool   isAlongX{ false };      ///< along which axis they are apart, and their coefficient oscillates
-  bool   isAlternating{ false }; ///< with the opposite sign in every other line
+  int    lag{ 0 };               ///< distance of the neighbours [pixels]
+  bool   isAlongX{ false };      ///< whether the neighbours lie, and their coefficient oscillates, along x
+  bool   isAlternating{ false }; ///< whether the sign alternates from line to line
   double cyclesPerPixel{ 0.0 };
-  double amplitude{ 0.0 }; ///< [1]
+  double amplitude{ 0.0 }; ///< amplitude of the coefficient [1]
 };
 
-/** The largest oscillation, if it exceeds chance and is of a size that only fewer samples leave. */
+/** Returns the largest oscillation, if it is significant and exceeds InCorrelation.leastOscillation, which only frames
+ * with fewer samples than pixels do. */
 SensorNoise_EXPORT std::optional<EnlargementTrace>
 FindEnlargementTrace(const NoiseResiduals & residuals, const ParallelFor & parallelFor);
 

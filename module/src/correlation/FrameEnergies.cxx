@@ -18,13 +18,13 @@ FrameEnergies::FrameEnergies(const NoiseResiduals &            residuals,
   const SampleTiles & tiles = residuals.GetTiles();
   const std::size_t   count = tiles.origins.size();
   const auto          frames = static_cast<Eigen::Index>(tiles.frames);
-  Eigen::MatrixXd     squares = Eigen::MatrixXd::Zero(frames, static_cast<Eigen::Index>(count)); // a tile is a column
-  Eigen::VectorXd     light = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(count));
-  Eigen::VectorXd     pixels = light;
+  Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(frames, static_cast<Eigen::Index>(count)); // a column for each tile
+  Eigen::VectorXd light = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(count));
+  Eigen::VectorXd pixels = light;
   parallelFor(count, [&](std::size_t i) {
     const auto     tile = static_cast<Eigen::Index>(i);
     const auto     size = static_cast<Eigen::Index>(tiles.Pixels());
-    Eigen::ArrayXf taken(size); // 1: the pixel is taken
+    Eigen::ArrayXf taken(size); // 1: the pixel is used
     for (Eigen::Index p = 0; p < size; ++p)
     {
       const auto pixel = static_cast<std::size_t>(p);

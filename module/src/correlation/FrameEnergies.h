@@ -15,8 +15,8 @@ namespace sensornoise
 {
 
 /** \class FrameEnergies
- * \brief The mean square of the residuals of every frame, tile by tile of the noise sample, and what a noise model
- * makes of it.
+ * \brief Mean squared residuals of every frame in each tile of the noise sample, and their expectation by a noise
+ * model.
  *
  * With P = I - Q Q' the residuals r = P u of a pixel whose noise has the variance V_s in frame s have
  *
@@ -26,14 +26,15 @@ namespace sensornoise
 class SensorNoise_EXPORT FrameEnergies
 {
 public:
-  /** No tiles. */
+  /** Makes an object without tiles. */
   FrameEnergies() = default;
-  /** Sums over the pixels that \a residuals take and for which \a take is not 0; a tile without one is left out. */
+  /** Sums over the pixels that have a weight in \a residuals and whose \a take is not 0. A tile without these pixels is
+   * left out. */
   FrameEnergies(const NoiseResiduals &            residuals,
                 const std::vector<std::uint8_t> & take,
                 const ParallelFor &               parallelFor);
-  /** Takes given numbers: \a squaresDn2 is tiles x frames, \a lightDn and \a pixels of every tile, \a basis the
-   * orthonormal Q, frames x series, with the constant. */
+  /** Takes given numbers. \a squaresDn2 is tiles x frames [DN^2]; \a lightDn [DN] and \a pixels have a value for each
+   * tile. \a basis is the orthonormal Q, frames x series, which includes the constant. */
   FrameEnergies(Eigen::MatrixXd squaresDn2, Eigen::VectorXd lightDn, Eigen::VectorXd pixels, Eigen::MatrixXd basis);
 
   Eigen::Index
@@ -46,29 +47,29 @@ public:
   {
     return m_SquaresDn2.cols();
   }
-  /** Mean squares, tiles x frames [DN^2]. */
+  /** Returns the mean squared residuals, tiles x frames [DN^2]. */
   const Eigen::MatrixXd &
   SquaresDn2() const
   {
     return m_SquaresDn2;
   }
-  /** The mean light of a tile's pixels, above the level from which \a residuals measure light [DN]. */
+  /** Returns the mean signal of each tile's pixels, above the black level of the residuals [DN]. */
   const Eigen::VectorXd &
   LightDn() const
   {
     return m_LightDn;
   }
-  /** How many pixels were taken. */
+  /** Returns the number of pixels in each tile. */
   const Eigen::VectorXd &
   Pixels() const
   {
     return m_Pixels;
   }
-  /** M times \a variances, one for each frame [DN^2]. */
+  /** Returns M times \a variances, the expected squared residuals; \a variances has a value for each frame [DN^2]. */
   Eigen::VectorXd
   ExpectedSquares(const Eigen::VectorXd & variances) const;
-  /** The part 1 - h_t of each frame's noise that is left in its residuals, of noise that is the same in all frames [1].
-   */
+  /** Returns the fraction 1 - h_t of the noise variance that remains in the residuals of each frame, for noise that is
+   * the same in all frames [1]. */
   const Eigen::VectorXd &
   LeftShare() const
   {

@@ -26,12 +26,12 @@ namespace
 {
 constexpr const char * SampleName = "FrameSample";
 
-/** The value above the mean, or 0 where that is not finite. */
+/** Returns the value above the mean, or 0 where the difference is not finite. */
 float
 AboveMean(double value, double mean)
 {
   const double above = value - mean;
-  return static_cast<float>(above - above == 0.0 ? above : 0.0); // a vector instruction, unlike std::isfinite()
+  return static_cast<float>(above - above == 0.0 ? above : 0.0); // vectorizes, unlike std::isfinite()
 }
 } // namespace
 
@@ -108,7 +108,7 @@ FrameSample::Merge(const FrameSample & other)
   {
     throw std::invalid_argument("samples of different stacks cannot be merged");
   }
-  // What is not here is 0, so that no sum is rounded.
+  // Values of frames that are missing are 0, so that no sum is rounded.
   std::transform(
     other.m_Codes.begin(), other.m_Codes.end(), m_Codes.begin(), m_Codes.begin(), [](std::uint16_t a, std::uint16_t b) {
       return static_cast<std::uint16_t>(a + b);
@@ -144,7 +144,7 @@ FrameSample::RepeatedShare(const std::vector<std::uint8_t> & mask, double stepDn
   {
     return 0.0;
   }
-  std::array<double, 3> count{}; // of differences of 0, 1 and 2 steps
+  std::array<double, 3> count{}; // differences of 0, 1 and 2 steps
   double                pairs = 0.0;
   const std::size_t     pixels = m_Tiles.Pixels();
   const std::size_t     every = std::max<std::size_t>(1, m_Tiles.origins.size() / SampleTiles::EnoughTiles);
@@ -161,7 +161,7 @@ FrameSample::RepeatedShare(const std::vector<std::uint8_t> & mask, double stepDn
           const int difference = std::abs(static_cast<int>(now[p]) - static_cast<int>(before[p]));
           pairs += 1.0;
           count[0] += difference == 0 ? 1.0 : 0.0;
-          count[1] += difference == step ? 0.5 : 0.0; // of either sign
+          count[1] += difference == step ? 0.5 : 0.0; // half of the differences of either sign
           count[2] += difference == 2 * step ? 0.5 : 0.0;
         }
       }
@@ -187,7 +187,8 @@ FrameSample::StartNoise()
   {
     return { m_Tiles, m_Width, std::exchange(m_Values, {}) };
   }
-  Eigen::ArrayXf values(static_cast<Eigen::Index>(m_Codes.size())); // each thread touches its tiles first
+  Eigen::ArrayXf values(static_cast<Eigen::Index>(m_Codes.size())); // the thread that fills a tile is the first to
+                                                                    // touch it
   return { m_Tiles, m_Width, std::move(values) };
 }
 
@@ -196,7 +197,7 @@ FrameSample::FillNoise(std::size_t i, const std::vector<double> & mean, NoiseSam
 {
   if (m_Codes.empty())
   {
-    return; // the values were above the mean already
+    return; // the values are above the mean already
   }
   std::vector<double> ofTile(m_Tiles.Pixels());
   std::vector<double> factors(m_Tiles.Pixels()); // 0: the pixel has no mean

@@ -23,17 +23,17 @@ namespace sensornoise
 {
 
 /** \class FrameSample
- * \brief The whole series of some pixels, gathered in the third pass: what frames and neighbours share needs them.
+ * \brief Complete time series of the sampled pixels, which the third pass gathers to measure the noise correlation.
  *
- * Integers are held as they are, in 2 bytes, and floating-point numbers above their pixel's mean, in 4; of these, what
- * is not finite is held as 0. Frames may be added in any order and parts merged in any order, with the same bits.
- * Memory: at most 16 MiB, or 32. */
+ * Integers are stored unchanged in 2 bytes. Floating-point numbers are stored above the mean of their pixel in 4
+ * bytes; values that are not finite are stored as 0. Frames may be added in any order, and samples merged in any
+ * order, with identical results. Memory: at most 16 MiB for integers, 32 MiB for floating-point numbers. */
 class SensorNoise_EXPORT FrameSample
 {
 public:
   FrameSample() = default;
 
-  /** The sample of a stack of \a frames frames of TPixel. */
+  /** Returns the empty sample of a stack of \a frames frames of TPixel. */
   template <typename TPixel>
   static FrameSample
   Of(const FrameGeometry & geometry, std::size_t frames, const ParallelFor & parallelFor = SerialFor)
@@ -47,15 +47,15 @@ public:
                        parallelFor);
   }
 
-  /** The pixels of the frames to come stand as \a layout says; without it, one frame after the other. */
+  /** Sets the memory layout of the pixels in the frames to come. Default: one frame after the other. */
   void
   SetLayout(const PixelLayout & layout)
   {
     m_Layout = layout;
   }
 
-  /** Adds frames firstFrame ... firstFrame + count - 1, of the type that the sample is for; \a mean is that of every
-   * pixel. */
+  /** Adds frames firstFrame ... firstFrame + count - 1, whose pixel type is the type of the sample. \a mean is the mean
+   * of every pixel [DN]. */
   template <typename TPixel>
   void
   AddFrames(const TPixel *              frames,
@@ -64,35 +64,37 @@ public:
             const std::vector<double> & mean,
             const ParallelFor &         parallelFor = SerialFor);
 
-  /** Takes back all frames. */
+  /** Removes all frames. */
   void
   Clear();
 
-  /** Adds the sample of other frames of the same stack. */
+  /** Adds the sample of other frames of the same stack. Throws std::invalid_argument if the stack is another one. */
   void
   Merge(const FrameSample & other);
 
-  /** Writes the sample, see BinaryStream. */
+  /** Writes the sample to a stream, see BinaryStream. */
   void
   Save(std::ostream & out) const;
 
-  /** Replaces the sample by that of a stream. Throws std::runtime_error, and changes nothing, if it holds another one,
-   * or ends early. */
+  /** Replaces the sample by the sample in a stream. Throws std::runtime_error, and changes nothing, if the stream holds
+   * a sample of another stack or ends early. */
   void
   Restore(std::istream & in);
 
-  /** Part of the values at the pixels of \a mask that are those of the frame before, beyond what noise makes [1]; 0 of
-   * floating-point numbers. Differences of noise are log-concave: as many are 0 as the square of those of one
-   * \a stepDn, over those of two, at most. Estimator.md, 3.12. */
+  /** Returns the fraction of the pixels of \a mask that repeat their value in the frame before, beyond the number that
+   * noise explains [1]; 0 for floating-point numbers. Differences of noise are log-concave: the expected number of
+   * zeros is at most the squared number of differences of one \a stepDn [DN], over the number of differences of two.
+   * Estimator.md, 3.12. */
   double
   RepeatedShare(const std::vector<std::uint8_t> & mask, double stepDn) const;
 
-  /** Gives the memory away for the values above \a mean, that of every pixel; the sample is empty after it. */
+  /** Returns the values above \a mean, the mean of every pixel [DN]. The sample hands over its memory and is empty
+   * afterwards. */
   NoiseSample
   TakeNoise(const std::vector<double> & mean, const ParallelFor & parallelFor = SerialFor);
 
-  /** The same in two steps, for one who goes on with a tile while it is in the cache: memory for all values, and then
-   * those of each tile \a i, which are written to \a noise. */
+  /** Do the work of TakeNoise() in two steps, so that a tile can be processed while it is in the cache. StartNoise()
+   * returns the memory of all values; FillNoise() writes the values of tile \a i to \a noise. */
   NoiseSample
   StartNoise();
   void
@@ -105,13 +107,14 @@ private:
               double                lowest,
               const ParallelFor &   parallelFor);
 
-  SampleTiles                m_Tiles;
-  std::size_t                m_Width{ 0 };
-  std::size_t                m_FramePixels{ 0 };
-  PixelLayout                m_Layout;
-  double                     m_Lowest{ 0.0 }; // what code 0 stands for: a frame that is not here is 0 in a merge
-  std::vector<std::uint16_t> m_Codes;         // of integers
-  Eigen::ArrayXf             m_Values;        // of other numbers
+  SampleTiles m_Tiles;
+  std::size_t m_Width{ 0 };
+  std::size_t m_FramePixels{ 0 };
+  PixelLayout m_Layout;
+  double      m_Lowest{ 0.0 };         // value that the stored number 0 means [DN]: frames that are missing are 0 in a
+                                       // merge
+  std::vector<std::uint16_t> m_Codes;  // integers
+  Eigen::ArrayXf             m_Values; // floating-point numbers
 };
 
 } // namespace sensornoise

@@ -13,7 +13,7 @@
 namespace sensornoise
 {
 
-/** Figures and their covariance. */
+/** Estimated values and their covariance. */
 struct JackknifeEstimate
 {
   Eigen::VectorXd value;
@@ -26,9 +26,10 @@ struct JackknifeEstimate
   }
 };
 
-/** Figures of sums over blocks, and their errors from leaving out one block at a time (Tukey 1958): right for sums over
- * pairs that share pixels, where a formula for independent noise is several times too small. \a figuresOf makes a
- * vector of the sums. */
+/** Returns the values that \a figuresOf computes from the sums over all blocks, and their covariance. The covariance is
+ * found by leaving out one block at a time (Tukey 1958). It is right for sums over pairs that have pixels in common,
+ * where a formula for independent noise gives errors several times too small. \a figuresOf maps sums to an
+ * Eigen::VectorXd. */
 template <typename TSums, typename TFunction>
 JackknifeEstimate
 Jackknife(const std::vector<TSums> & blocks, TFunction figuresOf)

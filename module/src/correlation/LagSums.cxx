@@ -18,8 +18,8 @@ namespace sensornoise
 
 namespace
 {
-/** Weights of \a count places in a row that fall off at both ends, so that places two, three or four apart sum up
- * alike wherever one begins: noise of binned or doubled pixels has such a period. */
+/** Returns weights of \a count positions in a row that decrease towards both ends. Positions two, three or four apart
+ * have the same sum of weights, wherever one begins: the noise of binned or doubled pixels has these periods. */
 std::vector<double>
 PeriodlessWeights(std::size_t count)
 {
@@ -45,7 +45,7 @@ PeriodlessWeights(std::size_t count)
   return weights;
 }
 
-/** What the pairs of a row of a tile add to the sums. */
+/** Terms that the pairs of one row of a tile add to the sums. */
 struct PairTerms
 {
   using OfRow = std::array<double, SampleTiles::Side>;
@@ -66,14 +66,15 @@ struct PairTerms
   }
 };
 
-/** One end of the pairs of a row. */
+/** Pixels of one row at one end of the pairs. */
 struct RowOfPixels
 {
-  const double * root; // of the weight
+  const double * root; // square root of the weight
   const float *  light;
 };
 
-/** \a shares: of the places in the row; \a products: over time, of the first end. */
+/** Returns the terms of one row of pairs. \a shares are the weights of the positions in the row, \a ofRow the weight of
+ * the row. \a products are the sums over time of the products of both ends, by the pixel in \a here. */
 PairTerms
 MakeTerms(const RowOfPixels &         here,
           const RowOfPixels &         there,
@@ -98,7 +99,8 @@ MakeTerms(const RowOfPixels &         here,
   return terms;
 }
 
-/** Adds products of \a VTogether frames. \a there is \a shift values from \a here, and both have \a size a frame. */
+/** Adds the products of \a VTogether frames of \a size values. The values of \a there lie \a shift values behind
+ * \a here. */
 template <std::size_t VTogether>
 void
 AddProductsOfFrames(const float * here, const float * there, std::size_t size, std::ptrdiff_t shift, float * products)
@@ -116,8 +118,8 @@ AddProductsOfFrames(const float * here, const float * there, std::size_t size, s
   }
 }
 
-/** Adds to the products of the pixels of a tile with those \a shift places away the covariance that taking off their
- * lines removed. */
+/** Restores the covariance that the regression along lines removed: adds it to the products of a tile's pixels with the
+ * pixels \a shift places behind them. */
 void
 AddShareOfLines(const NoiseResiduals & residuals, std::size_t tile, int shift, std::vector<float> & products)
 {
@@ -142,7 +144,7 @@ SumProducts(const NoiseResiduals & residuals, std::size_t tile, const std::vecto
   constexpr std::size_t           together = 4; // frames: the sums are loaded and stored a quarter as often
   std::vector<std::vector<float>> products(lags.size(), std::vector<float>(size, 0.0F));
   WithWideVectors([&] {
-    // All lags of a few frames, which stay in the first-level cache, and then the next.
+    // All lags of a few frames, which stay in the first-level cache, precede the next frames.
     for (std::size_t first = 0; first < tiles.frames; first += together)
     {
       const float * here = residuals.OfTile(tile) + first * size;
@@ -209,7 +211,7 @@ LagSummation::OfTile(std::size_t tile) const
       const PlaceWeights & weights = m_Weights[k];
       const auto           x = static_cast<std::size_t>(std::max(0, -m_Lags[k].x));
       const auto           firstY = static_cast<std::size_t>(std::max(0, -m_Lags[k].y));
-      LagSums              odd; // two sums side by side, so that not every addition waits for the one before
+      LagSums              odd; // two independent sums, so that an addition need not wait for the previous one
       for (std::size_t y = 0; y < weights.rows.size(); ++y)
       {
         const std::size_t p = (firstY + y) * side + x;

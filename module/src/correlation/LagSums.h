@@ -14,7 +14,7 @@
 namespace sensornoise
 {
 
-/** How far two values are apart, [pixels] and [frames]. */
+/** Distance of two values: \a x and \a y [pixels], \a t [frames]. */
 struct Lag
 {
   int x{ 0 };
@@ -22,38 +22,40 @@ struct Lag
   int t{ 0 };
 };
 
-/** Sums over pairs of pixels: of their covariance y, with V their typical variance and z their light. */
+/** Sums over pairs of pixels, where y is the noise covariance of a pair, V its typical variance, and z its signal. */
 struct PairSums
 {
-  double pairs{ 0.0 };
-  double covariance{ 0.0 }; ///< of y / V
-  double constant{ 0.0 };   ///< of 1 / V
-  double light{ 0.0 };      ///< of z / V
-  double square{ 0.0 };     ///< of z^2 / V
+  double pairs{ 0.0 };      ///< sum of the weights by position
+  double covariance{ 0.0 }; ///< sum of y / V [1]
+  double constant{ 0.0 };   ///< sum of 1 / V [1/DN^2]
+  double light{ 0.0 };      ///< sum of z / V [1/DN]
+  double square{ 0.0 };     ///< sum of z^2 / V [1]
 
   PairSums &
   operator+=(const PairSums & other);
 };
 
-/** The sums of one lag, in the bins of the light. */
+/** Sums of one lag in each intensity bin. */
 struct LagSums
 {
   std::array<PairSums, NoiseResiduals::LightBins> bins;
 
   LagSums &
   operator+=(const LagSums & other);
-  /** Over all bins. */
+  /** Returns the sums over all bins. */
   PairSums
   Total() const;
 };
 
-/** Sums over time of the products of the residuals of tile \a tile with those one of the \a lags away, of the pixels of
- * the tile: [lag][pixel]. Where the other pixel is in another row, the product has no meaning. */
+/** Returns the products of the residuals of tile \a tile with the residuals at each of \a lags, summed over time, for
+ * each pixel of the tile: [lag][pixel]. Where a lag leads beyond the end of a row of the tile, the product has no
+ * meaning. */
 SensorNoise_EXPORT std::vector<std::vector<float>>
 SumProducts(const NoiseResiduals & residuals, std::size_t tile, const std::vector<Lag> & lags);
 
 /** \class LagSummation
- * \brief Makes the sums of a tile, for each lag. y is sum_t r_t(p) r_(t + lag.t)(q), over the freedom.
+ * \brief Computes the sums of a tile for each lag, where y is sum_t r_t(p) r_(t + lag.t)(q) over the degrees of
+ * freedom.
  *
  * The residuals must outlive the object. */
 class SensorNoise_EXPORT LagSummation
@@ -61,11 +63,12 @@ class SensorNoise_EXPORT LagSummation
 public:
   LagSummation(const NoiseResiduals & residuals, std::vector<Lag> lags);
 
+  /** Returns the sums of a tile, in the order of the lags. */
   std::vector<LagSums>
   OfTile(std::size_t tile) const;
 
 private:
-  /** What pairs count by their place in the tile. */
+  /** Weights of pairs by their position in the tile. */
   struct PlaceWeights
   {
     std::vector<double> columns;
@@ -74,10 +77,10 @@ private:
 
   const NoiseResiduals &    m_Residuals;
   std::vector<Lag>          m_Lags;
-  std::vector<PlaceWeights> m_Weights; // of each lag
+  std::vector<PlaceWeights> m_Weights; // for each lag
 };
 
-/** The sums of every tile, for each lag: [tile][lag]. */
+/** Returns the sums of every tile for each lag: [tile][lag]. */
 SensorNoise_EXPORT std::vector<std::vector<LagSums>>
 SumLags(const NoiseResiduals & residuals, const std::vector<Lag> & lags, const ParallelFor & parallelFor);
 

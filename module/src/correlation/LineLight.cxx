@@ -16,19 +16,20 @@ namespace sensornoise
 
 namespace
 {
-/** Parts of the line of a tile; those that are not neighbours share no noise of neighbours. */
+/** Segments of a line in one tile. Segments that are not adjacent have no short-range noise correlation. */
 constexpr std::size_t PartsOfTile = 4;
-/** Blocks of lines, about, for the jackknife. */
+/** Approximate number of blocks of lines for the jackknife. */
 constexpr std::size_t Blocks = 24;
 
-/** Products of sums over two parts of a line, with y a residual, w = 1 / V, and z the light. */
+/** Products of sums over two segments of a line, where y is a residual, w = 1 / V, and z the signal. The covariance of
+ * two pixels is a constant plus a coefficient times the product of their signals. */
 struct LineLightProducts
 {
-  double noise{ 0.0 };      ///< of w y: a covariance that does not depend on the light ...
-  double constant{ 0.0 };   ///< ... times this
-  double mixed{ 0.0 };      ///< of w z: what each makes of the other
-  double lightNoise{ 0.0 }; ///< of w z y: a covariance in proportion to the lights' product ...
-  double square{ 0.0 };     ///< ... times this
+  double noise{ 0.0 };      ///< products of sums of w y
+  double constant{ 0.0 };   ///< products of sums of w: the constant's own normal equation
+  double mixed{ 0.0 };      ///< products of sums of w z: couples both normal equations
+  double lightNoise{ 0.0 }; ///< products of sums of w z y
+  double square{ 0.0 };     ///< products of sums of w z^2: the coefficient's own normal equation
 
   LineLightProducts &
   operator+=(const LineLightProducts & other)
@@ -41,7 +42,7 @@ struct LineLightProducts
     return *this;
   }
 
-  /** The part in proportion to the lights' product. */
+  /** Returns the coefficient of the product of the signals [1]; NaN where it is not identifiable. */
   double
   OfLight() const
   {
@@ -52,12 +53,12 @@ struct LineLightProducts
   }
 };
 
-/** The sum over all pairs of parts that are no neighbours. */
+/** Returns the sum of the products of all pairs of segments that are not adjacent. */
 double
 ProductOfParts(const std::vector<double> & sums)
 {
   double product = 0.0;
-  double before = 0.0; // of all parts but the last
+  double before = 0.0; // sum over all segments before the adjacent one
   for (std::size_t s = 2; s < sums.size(); ++s)
   {
     before += sums[s - 2];
@@ -66,7 +67,7 @@ ProductOfParts(const std::vector<double> & sums)
   return product;
 }
 
-/** A pixel of a line. */
+/** A pixel of a line, with its weight \a w = 1 / V [1/DN^2] and signal \a z [DN]. */
 struct PixelOfLine
 {
   std::size_t part;
@@ -76,7 +77,7 @@ struct PixelOfLine
   double      z;
 };
 
-/** The pixels of line \a line of \a tiles, which lie side by side, in the order of the frame. */
+/** Returns the pixels of line \a line of \a tiles, which lie side by side, in the order of the frame. */
 std::vector<PixelOfLine>
 PixelsOfLine(const NoiseResiduals & residuals, const std::vector<std::size_t> & tiles, LineAxis axis, std::size_t line)
 {
@@ -140,7 +141,7 @@ ProductsOfLine(const NoiseResiduals & residuals, const std::vector<PixelOfLine> 
 MeasuredNumber
 FindLineLight(const NoiseResiduals & residuals, LineAxis axis, const ParallelFor & parallelFor)
 {
-  // Every n-th line: the lines are all over the frame, and some tell enough.
+  // Every n-th line is used: they cover the whole frame, and are enough.
   const SampleTiles & tiles = residuals.GetTiles();
   const auto          groups = TilesInLine(tiles, axis);
   const std::size_t   lines = groups.size() * tiles.side;

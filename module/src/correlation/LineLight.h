@@ -11,12 +11,13 @@
 namespace sensornoise
 {
 
-/** Returns the mean square of the relative changes of the illumination that the pixels of a line share in a frame, and
- * that the series of the scene left in the residuals [1].
+/** Returns the mean square of a relative change of the illumination that is common to the pixels of a line (row or
+ * column) in a frame [1]. It is what the temporal components left in the residuals.
  *
- * A lamp that pulses under a rolling shutter, and interlaced frames, leave it. What the pixels of a line share grows
- * with the square of the light; the noise of lines does not, which tells one from the other. 0, with an infinite error,
- * where the levels do not differ enough for that. Estimator.md, 3.12. */
+ * It is caused by a pulsed lamp under a rolling shutter, or by interlaced frames. The covariance of pixels in a line
+ * that a change of the illumination causes grows with the squared signal. The noise of whole lines does not depend on
+ * the signal, which distinguishes both. Returns 0 with an infinite error where the signals do not differ enough.
+ * Estimator.md, 3.12. */
 SensorNoise_EXPORT MeasuredNumber
 FindLineLight(const NoiseResiduals & residuals, LineAxis axis, const ParallelFor & parallelFor);
 

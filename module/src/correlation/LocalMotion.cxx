@@ -14,13 +14,14 @@ namespace sensornoise
 
 namespace
 {
-/** Pairs of neighbours: what they share over the variance, y, against the product of their slopes over it, x. */
+/** Sums of a regression over pairs of neighbours: y is their noise covariance, x the product of their slopes, both
+ * relative to the variance. */
 struct SlopeSums
 {
-  double xx{ 0.0 }; ///< of the deviations from the mean of a lag in a tile
+  double xx{ 0.0 }; ///< of x, less its mean for a lag in a tile
   double xy{ 0.0 };
   double pixels{ 0.0 };
-  double roughness{ 0.0 }; ///< of the squared slope over the variance
+  double roughness{ 0.0 }; ///< squared slope over the variance
 
   SlopeSums &
   operator+=(const SlopeSums & other)
@@ -33,7 +34,8 @@ struct SlopeSums
   }
 };
 
-/** The slope of the light at the inner pixels of a tile, over the standard deviation of the noise; 0 of the others. */
+/** Returns the slopes of the signal along x and y at the inner pixels of a tile, over the standard deviation of the
+ * noise; 0 at the other pixels. */
 Eigen::ArrayX2d
 SlopesOf(const NoiseResiduals & residuals, std::size_t tile)
 {

@@ -11,10 +11,12 @@
 namespace sensornoise
 {
 
-/** The mean square of what moves in places by itself, along both axes together, in units of the mean variance of the
- * noise [1]: small displacements d that neighbours have in common make the covariance d^2 (grad u(p) . grad u(q)) of
- * two pixels, which depends on the slopes of the scene u at both. A filter knows nothing of them. By pairs of
- * neighbours within the tiles of the sample. Estimator.md, 3.12. */
+/** Returns the fraction of the mean noise variance that is caused by local motion of the scene, along both axes
+ * together [1].
+ *
+ * A small displacement d that neighbours have in common causes the covariance d^2 (grad u(p) . grad u(q)) of two
+ * pixels. It depends on the slopes of the scene u at both pixels; the covariance that a filter causes does not. The
+ * estimate uses pairs of neighbours within the tiles of the sample. Estimator.md, 3.12. */
 SensorNoise_EXPORT MeasuredNumber
 FindLocalMotion(const NoiseResiduals & residuals, const ParallelFor & parallelFor);
 

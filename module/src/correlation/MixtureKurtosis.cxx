@@ -17,10 +17,10 @@ KurtosisOfNormal(const Eigen::MatrixXd & covariance)
 {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
   const double                                         trace = covariance.trace();
-  const Eigen::ArrayXd  scales = solver.eigenvalues().array().max(0.0) / trace; // K has no unit
+  const Eigen::ArrayXd  scales = solver.eigenvalues().array().max(0.0) / trace; // K does not depend on the scale
   const Eigen::MatrixXd squares = solver.eigenvectors().cwiseAbs2();
-  // The trapezoidal rule in y = ln s, whose error falls exponentially: integrand s^2 (...), which is s^2 at 0 and falls
-  // as s^(-n/2) for n degrees of freedom. Checked against the closed form of equal frames: 1e-9.
+  // Trapezoidal rule in y = ln s, whose error decreases exponentially. The integrand s^2 (...) is s^2 near 0 and
+  // decreases as s^(-n/2) for n degrees of freedom. Checked against the closed form for equal frames: 1e-9.
   constexpr double first = -12.0;
   constexpr double last = 24.0;
   constexpr double step = 0.125;

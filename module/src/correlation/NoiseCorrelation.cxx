@@ -24,13 +24,14 @@ namespace sensornoise
 
 namespace
 {
-/** Distance [pixels] and frames that are looked at in any case. */
+/** Spatial distance [pixels] and temporal lags [frames] that are always evaluated. */
 constexpr int FirstRings = 2;
 constexpr int FirstTimeLags = 3;
-/** Rings that there may be at most [pixels]. */
+/** Largest distance of a ring [pixels]. */
 constexpr int AllRings = 16;
 
-/** The variance of lines, with what the jackknife does not see: tiles side by side have the same \a lines. */
+/** Returns the variance of line noise with its complete error. The jackknife does not include the scatter of the lines
+ * themselves, as tiles side by side have the same \a lines. */
 MeasuredNumber
 LineVariance(const MeasuredNumber & ofTiles, double lines, double freedom)
 {
@@ -38,7 +39,7 @@ LineVariance(const MeasuredNumber & ofTiles, double lines, double freedom)
   return { ofTiles.value, std::hypot(ofTiles.standardError, chance, InCorrelation.lostToSeries * ofTiles.value) };
 }
 
-/** How many rows and columns of the frame the tiles cover. */
+/** Returns the numbers of rows and of columns of the frame that the tiles cover. */
 std::pair<double, double>
 LinesOf(const SampleTiles & tiles)
 {
@@ -53,7 +54,7 @@ LinesOf(const SampleTiles & tiles)
   return { side * static_cast<double>(rows.size()), side * static_cast<double>(columns.size()) };
 }
 
-/** Fills in coefficients, lines and kurtosis, with their errors. */
+/** Sets coefficients, variances of line noise and kurtosis, with their errors. */
 void
 FindCoefficients(const CorrelationSums & sums, NoiseCorrelation & found)
 {
@@ -116,8 +117,9 @@ FindCoefficients(const CorrelationSums & sums, NoiseCorrelation & found)
   }
 }
 
-/** The kurtosis of a series is relative to its own variance, whose scatter depends on what its frames share: of normal
- * noise of the covariance S = P R P, E[sum r^4] = 3 sum_t S_tt^2 and E[(sum r^2)^2] = (tr S)^2 + 2 tr S^2. */
+/** Corrects the kurtosis for temporal correlation. The kurtosis of a series is relative to its own variance, whose
+ * scatter depends on the correlation of the frames. For normal noise of the covariance S = P R P, E[sum r^4] = 3 sum_t
+ * S_tt^2 and E[(sum r^2)^2] = (tr S)^2 + 2 tr S^2. */
 void
 AllowForSharedFrames(const Eigen::MatrixXd & basis, NoiseCorrelation & found)
 {
@@ -141,11 +143,11 @@ AllowForSharedFrames(const Eigen::MatrixXd & basis, NoiseCorrelation & found)
   }
 }
 
-/** Whether the distribution is that of normal noise, or of few electrons, after a linear filter. */
+/** Returns whether the distribution agrees with normal noise, or with few electrons, after a linear filter. */
 bool
 IsLinear(const CorrelationSums & sums, const NoiseCorrelation & found)
 {
-  // Rounded numbers have a negative excess, a twelfth of the step's square as variance: -1.2 of its square.
+  // Rounding to a step has the variance q = step^2 / 12, and an excess kurtosis of -1.2 (q / V)^2.
   const TileSums all = sums.Total();
   double         square = 0.0;
   for (const PairSums & bin : all.lags[0].bins)
@@ -160,7 +162,8 @@ IsLinear(const CorrelationSums & sums, const NoiseCorrelation & found)
     return false;
   }
   return std::none_of(found.kurtosis.begin() + 1, found.kurtosis.end(), [&](MeasuredNumber more) {
-    // The fewer electrons or the more the light changes, the larger both are, and that of one value the more so.
+    // Few electrons and a strong change of the illumination increase both kurtoses, and the kurtosis of single pixels
+    // more.
     more.value -= std::max(0.0, own.value);
     return more.value > 0.0 && more.Exceeds(InCorrelation.largestExcess, Significance.severalTests);
   });

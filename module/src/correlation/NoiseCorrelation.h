@@ -20,63 +20,63 @@
 namespace sensornoise
 {
 
-/** What the noise of neighbours and of frames has in common. */
+/** Classes of spatial and temporal noise correlation. */
 enum class NoiseKind : std::uint8_t
 {
-  NotMeasured,    ///< too few pixels or frames
-  White,          ///< nothing, but for whole rows and columns
-  Crosstalk,      ///< nearest neighbours a few per cent, in proportion to the light: charge that is coupled
-  Filtered,       ///< more, or further away: frames were smoothed, resampled or sharpened
+  NotMeasured,    ///< too few pixels, frames or degrees of freedom
+  White,          ///< no correlation, except noise of whole rows and columns
+  Crosstalk,      ///< nearest neighbours by a few per cent, in proportion to the signal: charge coupling
+  Filtered,       ///< stronger or further: frames were smoothed, resampled or sharpened
   Temporal,       ///< frames were mixed
-  Enlarged,       ///< neighbours, by their place: there are fewer samples than pixels, the gain cannot be told
-  BrighterFatter, ///< nearest neighbours, with the square of the light: charge that repels charge
-  NotLinear       ///< its distribution is not what a linear filter leaves: the gain cannot be told
+  Enlarged,       ///< depends on the position: fewer samples than pixels, so that the gain is not identifiable
+  BrighterFatter, ///< nearest neighbours, with the squared signal: brighter-fatter effect
+  NotLinear       ///< not distributed as after a linear filter, so that the gain is not identifiable
 };
 
-/** "white", "crosstalk" ... */
+/** Returns the name of a noise class in a report: "white", "crosstalk" ... */
 SensorNoise_EXPORT const char *
 NameOf(NoiseKind kind);
 
-/** The correlation coefficient of the noise of two values [1]. */
+/** Correlation coefficient of the noise at a lag [1]. */
 struct LagCoefficient
 {
   Lag            lag;
   MeasuredNumber coefficient;
 };
 
-/** How the covariance of two pixels grows with their level. */
+/** Covariance of two pixels at a lag as a line of their level. */
 struct CovarianceLine
 {
   Lag            lag;
   MeasuredNumber slopeDn;      ///< [DN/e-]
-  MeasuredNumber interceptDn2; ///< at the level 0 [DN^2]
+  MeasuredNumber interceptDn2; ///< intercept at level 0 [DN^2]
 };
 
-/** The sum of the squared coefficients over all lags, 0 among them, without what chance makes of it: by how much more a
- * mean variance scatters [1]. \a lags are one half of those other than 0. */
+/** Returns the variance inflation of a mean of sample variances over an area [1]: the sum of the squared coefficients
+ * over all lags, including 0, without their statistical scatter. \a lags are one half of the lags other than 0. */
 SensorNoise_EXPORT double
 SharedSquares(const std::vector<LagCoefficient> & lags);
 
-/** How what neighbours share may depend on the light. */
+/** Dependence of the spatial noise covariance on the signal. */
 enum class ShapeOfShared : std::uint8_t
 {
-  Variance, ///< as the variance but for the codes' noise: a filter after the read-out
-  Light,    ///< in proportion to it: coupled charge
-  Square,   ///< with its square: charge that repels charge
-  Constant, ///< not at all
-  FirstPart ///< a filter before a part of the read noise: this and all further shapes, of larger and larger parts
+  Variance, ///< as the variance without quantization noise: a filter after the read-out
+  Light,    ///< proportional to the signal: charge coupling
+  Square,   ///< proportional to the squared signal: brighter-fatter effect
+  Constant, ///< constant
+  FirstPart ///< a filter before a part of the read noise; the shapes that follow have larger and larger parts
 };
-/** Parts of the variance without light that may have come after the filter, beside none. */
+/** Number of fractions of the variance at zero signal that may have been added after the filter, besides none. */
 inline constexpr std::size_t PartsAfterFilter = 16;
 inline constexpr std::size_t NumberOfShapes = static_cast<std::size_t>(ShapeOfShared::FirstPart) + PartsAfterFilter;
 
-/** What neighbours share as a function of the light z, summed over all neighbours: coefficient times
- * ofVariance (V - q) + ofLight z + ofSquare z^2 + constantDn2, V being the variance and q that of the codes' steps.
- * What does not depend on the light at all adds nothing to what the sensor had, and has none of the four. */
+/** Noise covariance as a function of the signal z, summed over all neighbours: coefficient times ofVariance (V - q) +
+ * ofLight z + ofSquare z^2 + constantDn2. V is the variance and q the variance of the quantization noise [DN^2]. A
+ * constant covariance does not change the variance before the filter; all four factors are 0 for it. */
 struct SharedShape
 {
-  MeasuredNumber coefficient;
-  double         probability{ 0.0 }; ///< that it is this shape, of all shapes
+  MeasuredNumber coefficient;        ///< [1]; of ShapeOfShared::Light [DN], of ShapeOfShared::Constant [DN^2]
+  double         probability{ 0.0 }; ///< probability of this shape among all shapes [1]
   double         ofVariance{ 0.0 };
   double         ofLight{ 0.0 };
   double         ofSquare{ 0.0 };
@@ -84,51 +84,53 @@ struct SharedShape
 };
 
 /** \struct NoiseCorrelation
- * \brief What neighbours and frames share of their noise, and with it the variance that the sensor had before.
+ * \brief Spatial and temporal correlation of the noise, and the factors to the variance before filters.
  *
- * After a linear filter whose weights sum to 1 the covariances summed over all lags are what the variance was before
- * it. */
+ * After a linear filter whose weights sum to 1, the total covariance over lags equals the variance before the filter.
+ */
 struct SensorNoise_EXPORT NoiseCorrelation
 {
-  NoiseKind                   kind{ NoiseKind::NotMeasured };
-  std::vector<LagCoefficient> space; ///< of one half plane of lags
-  std::vector<LagCoefficient> time;
-  /** Of the lag 0 and of those in space that are summed; empty where neighbours share nothing. */
+  NoiseKind                   kind{ NoiseKind::NotMeasured }; ///< noise class
+  std::vector<LagCoefficient> space;                          ///< at one half plane of lags
+  std::vector<LagCoefficient> time;                           ///< at the temporal lags from 1 frame
+  /** Lines at the zero lag and at the spatial lags that are summed; empty without spatial correlation. */
   std::vector<CovarianceLine> covarianceLines;
-  MeasuredNumber              rowsDn2;    ///< variance of the noise of whole rows
-  MeasuredNumber              columnsDn2; ///< of whole columns
-  /** Excess kurtosis, see KurtosisSums [1]. */
+  MeasuredNumber              rowsDn2;    ///< noise variance of whole rows [DN^2]
+  MeasuredNumber              columnsDn2; ///< noise variance of whole columns [DN^2]
+  /** Excess kurtosis of each kind of series, see KurtosisSums [1]. */
   std::array<MeasuredNumber, KurtosisSums::Kinds> kurtosis;
 
+  /** Possible dependences of the spatial covariance on the signal, by ShapeOfShared. */
   std::array<SharedShape, NumberOfShapes> shapes;
-  /** The sum of the covariances over all frames over the variance [1]. */
+  /** Sum of the covariances over all temporal lags, relative to the variance [1]. */
   MeasuredNumber timeFactor{ 1.0, 0.0 };
-  /** What the lags beyond the last may add, relative to the variance [1]. */
+  /** Largest total covariance of the lags beyond reach, relative to the variance [1]. */
   double beyondReach{ 0.0 };
-  /** Part of the values that repeat that of the frame before beyond chance, where the kind is NotLinear for it [1]. */
+  /** Fraction of values that repeat the value in the frame before, beyond statistical scatter, if this makes the class
+   * NotLinear; else 0 [1]. */
   double repeatedShare{ 0.0 };
-  /** Whether what neighbours share grows with the square of the signal and reaches further than charge: the
-   * illumination changes from place to place. The kind is then NotLinear. */
+  /** Whether the spatial covariance grows with the squared signal and reaches further than coupled charge: the
+   * illumination changes from place to place. The class is then NotLinear. */
   bool isOfIllumination{ false };
-  /** See FindLocalMotion(), where neighbours share anything. */
+  /** See FindLocalMotion(); measured only where the noise is spatially correlated. */
   MeasuredNumber localMotion;
-  /** Where frames were enlarged. */
+  /** Position-dependent correlation; only for enlarged frames. */
   std::optional<EnlargementTrace> enlargement;
-  /** Of the lags in space that are summed [pixels]. */
+  /** Largest distance of the spatial lags that are summed [pixels]. */
   int reach{ 1 };
-  /** The sum of the coefficients over all lags in space within reach, that of lag 0 with it [1]: what the variance has
-   * to be multiplied by, whatever its shape along the light. Of all pixels, and of the bins of the light. */
+  /** Sum of the coefficients over all spatial lags within reach, including the zero lag [1]: the factor from the
+   * variance to the total covariance, whatever its shape along the signal. Of all pixels, and of each intensity bin. */
   MeasuredNumber                                        spaceFactor{ 1.0, 0.0 };
   std::array<MeasuredNumber, NoiseResiduals::LightBins> spaceFactorOfBins{};
-  /** Variance of the noise of whole rows and columns, where it is seen [DN^2]. */
+  /** Returns the noise variance of whole rows and columns together, where each is significant [DN^2]. */
   MeasuredNumber
   LineNoise() const;
 
-  /** Whether what neighbours share is, in part, of places that move by themselves. */
+  /** Returns whether local motion of the scene causes a part of the spatial correlation. */
   bool
   HasLocalMotion() const;
 
-  /** Probability that most of the variance without light came after the filter. */
+  /** Returns the probability that most of the variance at zero signal was added after the filter. */
   double
   ProbabilityOfLateNoise() const;
 
@@ -143,7 +145,7 @@ struct SensorNoise_EXPORT NoiseCorrelation
     return shapes[static_cast<std::size_t>(shape)];
   }
 
-  /** Whether the variance is not that of the sensor. */
+  /** Returns whether the total covariance over lags has to replace the variance. */
   bool
   IsShared() const
   {
@@ -151,11 +153,13 @@ struct SensorNoise_EXPORT NoiseCorrelation
   }
 };
 
-/** Measures it. \a codesDn2 is the noise of the codes' steps, which no filter has seen. */
+/** Measures the noise correlation. \a codesDn2 is the variance of the quantization noise, which was added after any
+ * filter [DN^2]. */
 SensorNoise_EXPORT NoiseCorrelation
 MeasureNoiseCorrelation(const NoiseResiduals & residuals, double codesDn2, const ParallelFor & parallelFor);
 
-/** Where frames were mixed, measures it again without the first frames, in which a recursive filter has not settled. */
+/** If the class is Temporal, measures the correlation again without the first frames, in which a recursive filter has
+ * not settled. */
 SensorNoise_EXPORT void
 MeasureSettledFrames(NoiseCorrelation &  correlation,
                      NoiseResiduals &    residuals,

@@ -16,7 +16,7 @@ namespace sensornoise
 
 namespace
 {
-/** How many pixels a kind of series has, along x and y: they are summed in turn. */
+/** Size of the alternating sum that makes a series [pixels]. */
 struct KindOfSeries
 {
   std::size_t columns;
@@ -26,17 +26,17 @@ constexpr std::array<KindOfSeries, KurtosisSums::Kinds> KindsOfSeries{
   { { 1, 1 }, { 2, 1 }, { 1, 2 }, { 2, 2 }, { 8, 1 }, { 1, 8 } }
 };
 
-/** Of every pixel of a tile: sums over time of the squares and fourth powers of each kind of series that begins there.
- * Where these run over the end of a row or of the tile they mean nothing. */
+/** Sums over time of the squares and fourth powers of each kind of series, for every pixel of a tile at which the
+ * series begins. Where a series extends beyond the end of a row or of the tile, its sums have no meaning. */
 struct PowerSums
 {
-  /** A cache line more than a tile: sums a power of two apart would compete for the same places in the cache. */
+  /** One cache line longer than a tile: sums a power of two apart would compete for the same places in the cache. */
   using OfPixels = std::array<float, SampleTiles::Side * SampleTiles::Side + 16>;
   std::array<OfPixels, KurtosisSums::Kinds> squares;
   std::array<OfPixels, KurtosisSums::Kinds> fourths;
 };
 
-/** The alternating sums of all kinds that begin at \a v, a pixel of a tile of \a VSide columns. */
+/** Returns the alternating sums of all kinds that begin at \a v, a pixel of a tile of \a VSide columns. */
 template <std::size_t VSide>
 std::array<float, KurtosisSums::Kinds>
 AlternatingSums(const float * v)
@@ -54,12 +54,12 @@ void
 SumPowers(const NoiseResiduals & residuals, std::size_t i, PowerSums & sums)
 {
   constexpr std::size_t size = VSide * VSide;
-  constexpr std::size_t padded = size + 8 * VSide; // series may begin at the last pixel
+  constexpr std::size_t padded = size + 8 * VSide; // a series may begin at the last pixel
   constexpr std::size_t together = 4;              // frames: the sums are loaded and stored a quarter as often
   const std::size_t     frames = residuals.GetTiles().frames;
   std::vector<float>    values(together * padded, 0.0F);
   WithWideVectors([&] {
-    PowerSums own{}; // no pointer can point into it: the loop over pixels becomes vector instructions
+    PowerSums own{}; // no pointer can point into it, so that the loop over pixels is vectorized
     for (std::size_t first = 0; first < frames; first += together)
     {
       const std::size_t count = std::min(together, frames - first);
@@ -88,7 +88,7 @@ SumPowers(const NoiseResiduals & residuals, std::size_t i, PowerSums & sums)
   });
 }
 
-/** How many pixels of a tile are taken, one after the other from each of them on: along x, and along y. */
+/** Number of consecutive pixels with a weight, from each pixel of a tile on: along x and along y. */
 struct TakenRuns
 {
   std::vector<std::size_t> right;
@@ -108,7 +108,7 @@ struct TakenRuns
     }
   }
 
-  /** Whether a series that begins at pixel \a p is whole. */
+  /** Returns whether all pixels of a series that begins at pixel \a p have a weight. */
   bool
   Hold(std::size_t p, const KindOfSeries & kind, std::size_t side) const
   {
@@ -157,7 +157,7 @@ KurtosisOfTile(const NoiseResiduals & residuals, std::size_t i, const MixtureKur
   {
     for (std::size_t p = 0; p < side * side; ++p)
     {
-      // Of pixels that are copies of each other nothing is left but rounding.
+      // Differences of pixels that are copies of each other contain rounding errors only.
       if (powers.squares[kind][p] * weight[p] > least && taken.Hold(p, KindsOfSeries[kind], side))
       {
         const double square = powers.squares[kind][p];

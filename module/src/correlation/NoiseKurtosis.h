@@ -14,25 +14,25 @@ namespace sensornoise
 {
 
 /** \struct KurtosisSums
- * \brief What second moments cannot tell: whether noise, and differences of neighbours' noise, have a normal
- * distribution's tails.
+ * \brief Sums for the excess kurtosis of the noise and of its differences between neighbours.
  *
- * A linear filter leaves normal noise normal; one that chooses (a median, the correction of what looks defective, a
- * coarse code of blocks) does not. Of each series its own scale is used, K = sum_t r^4 / (sum_t r^2)^2, so that pixels
- * of different noise do not look like tails: for normal noise E[K] = 3 sum_t P_tt^2 / (n (n + 2)), n = tr P, exactly.
- */
+ * A linear filter leaves normal noise normal. A non-linear step does not: a median, the correction of supposed
+ * defects, or coarse quantization of blocks. Second moments cannot detect it. Each series is scaled by itself, so that
+ * pixels of unequal variance do not look like long tails:
+ *
+ *     K = sum_t r^4 / (sum_t r^2)^2,   for normal noise E[K] = 3 sum_t P_tt^2 / (n (n + 2)) with n = tr P, exactly. */
 struct KurtosisSums
 {
-  /** Of the pixel; of it less its right, its lower neighbour; of the four of a square, in turn; of eight in a row, of
-   * eight in a column, in turn. */
+  /** Number of kinds of series: the pixel; its differences from the right and the lower neighbour; the alternating sums
+   * of 2 x 2, of 8 x 1 and of 1 x 8 pixels. */
   static constexpr std::size_t Kinds = 6;
 
-  std::array<double, Kinds> series{}; ///< how many
-  std::array<double, Kinds> ratio{};  ///< of K over what it would be of normal noise
+  std::array<double, Kinds> series{}; ///< number of series
+  std::array<double, Kinds> ratio{};  ///< sum of K over its expectation for normal noise
 
   KurtosisSums &
   operator+=(const KurtosisSums & other);
-  /** Excess kurtosis [1]; 0 without series. */
+  /** Returns the excess kurtosis [1]; 0 without series. */
   double
   Excess(std::size_t kind) const
   {
@@ -42,10 +42,10 @@ struct KurtosisSums
 
 class MixtureKurtosis;
 
-/** K of normal noise, the same in all frames. */
+/** Returns the expected K of normal noise with the same variance in all frames. */
 SensorNoise_EXPORT double
 NormalKurtosis(const NoiseResiduals & residuals);
-/** The sums of a tile; \a normal is what normal noise has. */
+/** Returns the sums of tile \a i; \a normal gives the expected K of normal noise. */
 SensorNoise_EXPORT KurtosisSums
 KurtosisOfTile(const NoiseResiduals & residuals, std::size_t i, const MixtureKurtosis & normal);
 

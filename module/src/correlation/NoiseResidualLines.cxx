@@ -38,13 +38,13 @@ NoiseResiduals::RegressLines(LineAxis                         axis,
   const double weight = w.sum();
   if (!(weight > 0.0))
   {
-    return; // nothing is left of these pixels
+    return; // no pixel of the line is used
   }
   const double square = (w * z.square()).sum();
   z -= (w * z).sum() / weight;
   const double spread = (w * z.square()).sum();
   const bool   hasSlope = spread > InCorrelation.leastSpreadOfLine * square;
-  // Orthonormal, with the weights: the constant, and what grows with the light.
+  // Regressors that are orthonormal with the weights: the constant, and the signal.
   const double         constant = 1.0 / std::sqrt(weight);
   const Eigen::ArrayXd slope = hasSlope ? Eigen::ArrayXd(z / std::sqrt(spread)) : Eigen::ArrayXd::Zero(z.size());
   for (std::size_t k = 0; k < pixels; ++k)
@@ -85,7 +85,7 @@ NoiseResiduals::TakeOffLines(LineAxis axis, const std::vector<std::uint8_t> & ta
   {
     shares.assign(m_Light.size(), 0.0F);
   }
-  // The second weights are free of what the lines shared, and the second regression replaces the first.
+  // The second weights do not contain the line noise, and the second regression replaces the first.
   for (int twice = 0; twice < 2; ++twice)
   {
     std::fill(left.begin(), left.end(), 0.0F);

@@ -20,7 +20,7 @@ namespace sensornoise
 
 namespace
 {
-/** An orthonormal basis of the constant and what the series add to it. */
+/** Returns an orthonormal basis of the constant and the series. Series that are linear combinations are left out. */
 Eigen::MatrixXd
 BasisOf(const Eigen::MatrixXd & series, std::size_t frames)
 {
@@ -43,7 +43,7 @@ BasisOf(const Eigen::MatrixXd & series, std::size_t frames)
   return basis;
 }
 
-/** Rows of values that are added while a sum is in a register. */
+/** Number of rows of values that are added while a sum is in a register. */
 constexpr std::size_t Together = 4;
 using Weights = std::array<float, Together>;
 
@@ -62,7 +62,8 @@ AddRows(const float * rows, const Weights & weights, std::size_t size, float * s
   }
 }
 
-/** Adds the first \a count of Together rows of \a size values, times their weights, to \a sum, one after the other. */
+/** Adds the first \a count of Together rows of \a size values, times their weights, to \a sum in the order of the rows.
+ */
 void
 AddWeighed(const float * rows, const Weights & weights, std::size_t count, std::size_t size, float * sum)
 {
@@ -82,7 +83,7 @@ AddWeighed(const float * rows, const Weights & weights, std::size_t count, std::
   });
 }
 
-/** A curve through points of growing x, which is asked for at growing x. */
+/** Piecewise linear curve through points of increasing x, which is evaluated at increasing x. */
 class NoiseCurve
 {
 public:
@@ -109,7 +110,7 @@ public:
 
 private:
   std::vector<std::pair<double, double>> m_Points;
-  std::size_t                            m_Above{ 0 }; // the point above the last x
+  std::size_t                            m_Above{ 0 }; // the first point above the last x
 };
 } // namespace
 

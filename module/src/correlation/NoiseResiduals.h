@@ -20,18 +20,18 @@
 namespace sensornoise
 {
 
-/** What is known of the pixels of a frame whose noise is looked at. */
+/** Properties of the pixels of a frame whose noise is sampled. */
 struct SampledPixels
 {
-  const std::vector<double> &       mean;                 ///< of each pixel or its neighbours [DN]
+  const std::vector<double> &       mean;                 ///< mean of each pixel, or of its neighbours [DN]
   const std::vector<std::uint8_t> & take;                 ///< 1: static and not clipped
-  double                            blackDn{ 0.0 };       ///< level without light, from which light is measured
-  bool                              isBlackKnown{ true }; ///< else it is a level that nothing can be below
+  double                            blackDn{ 0.0 };       ///< black level, from which the signal is measured [DN]
+  bool                              isBlackKnown{ true }; ///< false: \a blackDn is a lower bound only
 };
 
-/** The level from which light is measured where nothing tells it [DN]: the darkest if that is near \a blackDn, which it
- * is not below, else that. What is shared in proportion to the variance is in proportion to the light above a level
- * that is below. */
+/** Returns the level from which the signal is measured where the dark offset is not known [DN]. This is the darkest
+ * level if it is near \a blackDn, a lower bound of the offset, else \a blackDn itself. Covariances in proportion to
+ * the variance are then proportional to the signal above a level below the true offset. */
 inline double
 ZeroOfLight(double darkestDn, double brightestDn, double blackDn)
 {
@@ -39,43 +39,47 @@ ZeroOfLight(double darkestDn, double brightestDn, double blackDn)
 }
 
 /** \class NoiseResiduals
- * \brief What is left of a NoiseSample when the series of the scene are projected out of every pixel: its noise.
+ * \brief Noise of the sampled pixels: what remains when the temporal components of the scene are projected out.
  *
  * r = P u with P = I - Q Q', where Q spans the constant and the series. For noise that is white in time,
- * E[sum_t r_t(p) r_t(q)] = C_pq tr P. */
+ *
+ *     E[sum_t r_t(p) r_t(q)] = C_pq tr P. */
 class SensorNoise_EXPORT NoiseResiduals
 {
 public:
-  /** Bins of equal count along the light, in which what is shared is summed: four tell a constant from a line and a
-   * parabola. */
+  /** Number of intensity bins of equal count in which covariances are summed. Four bins distinguish a constant, a line
+   * and a parabola. */
   static constexpr std::size_t LightBins = 4;
 
-  /** \a series: frames x series, of all frames or of those of the sample. Takes the sample's memory. */
+  /** Projects \a series, frames x series, out of every pixel. The series are of all frames or of the frames of the
+   * sample. Takes the sample's memory. */
   NoiseResiduals(NoiseSample             sample,
                  const Eigen::MatrixXd & series,
                  const SampledPixels &   pixels,
                  const ParallelFor &     parallelFor);
-  /** Of a sample of frames, above the pixels' means, whose tiles are worked on while they are in the cache. */
+  /** Projects a sample of frames, after the means of its pixels are subtracted. Each tile is processed while it is in
+   * the cache. */
   NoiseResiduals(FrameSample             sample,
                  const Eigen::MatrixXd & series,
                  const SampledPixels &   pixels,
                  const ParallelFor &     parallelFor);
 
-  /** Takes other pixels. */
+  /** Uses other pixels: all whose \a take is not 0. Recomputes weights and bins. */
   void
   Take(const std::vector<std::uint8_t> & take, const ParallelFor & parallelFor);
 
-  /** Takes off what the pixels of a line, a row or a column, share in a frame: of each frame and each line of tiles in
-   * a row, the regression on 1 and the light, by the pixels of \a take. That is all illumination that lines have of
-   * their own, whatever the level without light, and the noise of whole lines. Of a pixel's variance it takes the
-   * pixel's leverage h in that regression, for which all values of the pixel are divided by sqrt(1 - h): its variance
-   * stays. Returns 1 - h of the pixels, tile by tile [1]; 0 where that is small, or the line has no pixel of \a take.
-   * Estimator.md, 3.18. */
+  /** Subtracts the noise and illumination that are common to the pixels of a line, a row or a column, in a frame.
+   *
+   * In each frame, each line through a row of tiles is regressed on 1 and the signal, over the pixels of \a take. This
+   * removes all illumination that is specific to a line, whatever the dark offset, and the noise of whole lines. It
+   * reduces a pixel's variance by the pixel's leverage h, so that all values of the pixel are divided by sqrt(1 - h):
+   * its variance is unchanged. Returns 1 - h of the pixels, tile by tile [1]; 0 where that is below
+   * InCorrelation.leastLeftOfLine, or where the line has no pixel of \a take. Estimator.md, 3.18. */
   std::vector<float>
   TakeOffLines(LineAxis axis, const std::vector<std::uint8_t> & take, const ParallelFor & parallelFor);
 
-  /** Allows for noise that differs from frame to frame; \a frames are all of the stack, of which the sample has the
-   * first. Without it all are alike. */
+  /** Sets the noise that differs from frame to frame. \a frames describes all frames of the stack; the sample contains
+   * the first frames of them. Default: all frames have equal noise. */
   void
   SetUnequalFrames(UnequalFrames frames);
   const UnequalFrames &
@@ -84,8 +88,8 @@ public:
     return m_Unequal;
   }
 
-  /** Leaves out the first frames, which may be other than the rest: a recursive filter begins with a frame that it has
-   * not filtered. The typical variance stays that of all frames. */
+  /** Leaves out the first frames, which a recursive filter filters less than the others: it cannot filter its first
+   * frame. The typical variance is not computed again. */
   void
   DropFirst(std::size_t frames, const ParallelFor & parallelFor);
 
@@ -94,92 +98,94 @@ public:
   {
     return m_Sample.GetTiles();
   }
-  /** Residuals of tile \a i as in NoiseSample. */
+  /** Returns the residuals of tile \a i, in the order of NoiseSample [DN]. */
   const float *
   OfTile(std::size_t i) const
   {
     return m_Sample.OfTile(i);
   }
-  /** The pixel of the frame that is pixel \a p of tile \a i. */
+  /** Returns the index in the frame of pixel \a p of tile \a i. */
   std::size_t
   PixelOf(std::size_t i, std::size_t p) const
   {
     return m_Sample.PixelOf(i, p);
   }
-  /** The light of the pixels of tile \a i [DN above black]. */
+  /** Returns the signal of the pixels of tile \a i [DN above black]. */
   const float *
   LightOf(std::size_t i) const
   {
     return m_Light.data() + i * this->GetTiles().Pixels();
   }
-  /** The inverse of the noise's typical variance at the light of the pixels of tile \a i; 0: the pixel is left out
-   * [1/DN^2]. */
+  /** Returns the inverse of the typical noise variance at the signal of each pixel of tile \a i [1/DN^2]; 0: the pixel
+   * is left out. */
   const float *
   WeightOf(std::size_t i) const
   {
     return m_Weight.data() + i * this->GetTiles().Pixels();
   }
-  /** The sums over the frames of the squares of the pixels of tile \a i [DN^2]. */
+  /** Returns the sums over the frames of the squared residuals of tile \a i [DN^2]. */
   const float *
   SquaresOf(std::size_t i) const
   {
     return m_Variance.data() + i * this->GetTiles().Pixels();
   }
-  /** The axis along which TakeOffLines() was called, if it was. The residuals of two pixels of a line then have the
-   * covariance -(a a' + b b') in a frame, where the noise is white, with a and b the pixels' \a LineSharesOf() [DN]. */
+  /** Returns the axis along which TakeOffLines() was called, if it was. White noise then has the covariance -(a a' + b
+   * b') between the residuals of two pixels of a line in a frame. Here a and b are the values of LineSharesOf() at
+   * both pixels [DN]. */
   const std::optional<LineAxis> &
   GetLinesTakenOff() const
   {
     return m_LinesTakenOff;
   }
+  /** Returns the values a and b of the pixels of tile \a i, see GetLinesTakenOff() [DN]. */
   std::array<const float *, 2>
   LineSharesOf(std::size_t i) const
   {
     const std::size_t first = i * this->GetTiles().Pixels();
     return { m_LineShares[0].data() + first, m_LineShares[1].data() + first };
   }
-  /** The bins of the light of the pixels of tile \a i. */
+  /** Returns the intensity bins of the pixels of tile \a i. */
   const std::uint8_t *
   BinOf(std::size_t i) const
   {
     return m_Bin.data() + i * this->GetTiles().Pixels();
   }
-  /** Orthonormal, frames x (1 + series). */
+  /** Returns the orthonormal basis Q, frames x (1 + series). */
   const Eigen::MatrixXd &
   GetBasis() const
   {
     return m_Basis;
   }
-  /** tr P. */
+  /** Returns the degrees of freedom, tr P. */
   double
   GetFreedom() const
   {
     return static_cast<double>(m_Basis.rows() - m_Basis.cols());
   }
-  /** The level from which light is measured [DN]. */
+  /** Returns the level from which the signal is measured [DN]. */
   double
   GetBlackDn() const
   {
     return m_BlackDn;
   }
-  /** Light that no pixel can be below: none where black is known, else that of the darkest pixels [DN]. */
+  /** Returns a lower bound of the signal [DN]: 0 where black is known, else the signal of the darkest pixels. */
   double
   GetLeastLight() const
   {
     return m_IsBlackKnown ? 0.0 : m_DarkestLight;
   }
-  /** Pixels that are taken. */
+  /** Returns the number of pixels that are used. */
   std::size_t
   GetNumberOfPixels() const
   {
     return m_Pixels;
   }
-  /** Whether tiles and pixels are enough to measure what the noise of pixels has in common. */
+  /** Returns whether there are enough tiles and pixels to measure the noise correlation. */
   bool
   HasEnoughPixels() const;
 
 private:
-  /** \a fillTile(i) sees to it that the values of a tile are there. */
+  /** Sets the signal and projects every tile. \a fillTile(i) writes the values of a tile before that. */
   template <typename TFillTile>
   void
   Project(const SampledPixels & pixels, const ParallelFor & parallelFor, TFillTile fillTile);
@@ -187,18 +193,18 @@ private:
   ProjectTile(std::size_t i);
   void
   SumSquares(std::size_t i);
-  /** TakeOffLines() of the lines \a line of \a tiles, whose values are not yet scaled. Notes the shares of the line,
-   * and what is left of the variance of each pixel in \a left. */
+  /** Does the regression of TakeOffLines() for line \a line of \a tiles, without the final scaling. Stores the shares
+   * of the line, and in \a left the fraction of each pixel's variance that remains. */
   void
   RegressLines(LineAxis axis, const std::vector<std::size_t> & tiles, std::size_t line, std::vector<float> & left);
-  /** The variance along the light, and its inverse at every pixel. */
+  /** Sets the weights by averaging the variance along the signal, and the intensity bins. */
   void
   Weigh(const std::vector<std::uint8_t> & take);
 
   NoiseSample               m_Sample;
   Eigen::MatrixXd           m_Basis;
   std::vector<float>        m_Light;
-  std::vector<float>        m_Variance; // sum over time of the squares
+  std::vector<float>        m_Variance; // sums over time of the squares
   std::vector<float>        m_Weight;
   std::vector<std::uint8_t> m_Bin;
   std::size_t               m_Pixels{ 0 };
@@ -207,7 +213,7 @@ private:
   double                    m_DarkestLight{ 0.0 };
   UnequalFrames             m_Unequal;
   std::optional<LineAxis>   m_LinesTakenOff;
-  /** LineSharesOf() of all tiles; empty: no lines were taken off. */
+  /** LineSharesOf() for all tiles; empty: no lines were subtracted. */
   std::array<std::vector<float>, 2> m_LineShares;
 };
 

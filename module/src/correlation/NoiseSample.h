@@ -15,25 +15,26 @@ namespace sensornoise
 {
 
 /** \class NoiseSample
- * \brief The time series of the sampled pixels above their means: what frames and neighbours share is measured on them.
+ * \brief Time series of the sampled pixels above their means, on which the noise correlation is measured.
  *
  * FrameSample gathers it. Memory: at most 32 MiB. */
 class SensorNoise_EXPORT NoiseSample
 {
 public:
   NoiseSample() = default;
-  /** \a values: as SampleTiles::PlaceOf() tells [DN above the pixel's mean], of frames of \a width columns. */
+  /** Makes a sample of frames of \a width columns. \a values are in the order of SampleTiles::PlaceOf() [DN above the
+   * pixel's mean]. */
   NoiseSample(SampleTiles tiles, std::size_t width, Eigen::ArrayXf values)
     : m_Tiles(std::move(tiles))
     , m_Width(width)
     , m_Values(std::move(values))
   {}
 
-  /** Leaves out the first frames. */
+  /** Leaves out the first \a frames frames. */
   void
   DropFirst(std::size_t frames);
 
-  /** Leaves out all frames but these, which grow. */
+  /** Leaves out all frames except \a frames, which must be in increasing order. */
   void
   KeepFrames(const std::vector<std::size_t> & frames);
 
@@ -42,7 +43,7 @@ public:
   {
     return m_Tiles;
   }
-  /** The values of tile \a i: frame by frame, each of them row by row [DN above the pixel's mean]. */
+  /** Returns the values of tile \a i: frame by frame, row by row in each frame [DN above the pixel's mean]. */
   float *
   OfTile(std::size_t i)
   {
@@ -53,7 +54,7 @@ public:
   {
     return m_Values.data() + m_Tiles.PlaceOf(i, 0);
   }
-  /** The pixel of the frame that is pixel \a p of tile \a i. */
+  /** Returns the index in the frame of pixel \a p of tile \a i. */
   std::size_t
   PixelOf(std::size_t i, std::size_t p) const
   {

@@ -13,23 +13,24 @@ namespace
 {
 struct PixelKey
 {
-  std::uint32_t key; // in the order of the light
+  std::uint32_t key; // has the order of the signal
   std::uint32_t pixel;
 };
 
-/** The bits of a number above 0 have its order, those of one below the opposite one. */
+/** Returns an integer in the order of \a light. The bits of positive numbers have the order of the numbers, the bits of
+ * negative numbers the opposite order. */
 std::uint32_t
 KeyOf(float light)
 {
   constexpr std::uint32_t sign = std::uint32_t{ 1 } << 31;
-  const float             number = light + 0.0F; // there are two 0
+  const float             number = light + 0.0F; // +0 and -0 become equal
   std::uint32_t           bits = 0;
   static_assert(sizeof bits == sizeof number);
   std::memcpy(&bits, &number, sizeof bits);
   return (bits & sign) != 0 ? ~bits : bits | sign;
 }
 
-/** Sorts by 11 bits of the keys; what is equal in them stays as it is. */
+/** Sorts by 11 bits of the keys, and keeps the order of pixels that are equal in them. */
 void
 SortByDigit(unsigned int shift, std::vector<PixelKey> & pixels, std::vector<PixelKey> & sorted)
 {

@@ -11,7 +11,8 @@
 namespace sensornoise
 {
 
-/** The pixels that are taken, by their light, which is finite; those of the same light by their place. */
+/** Returns the pixels whose \a take is not 0 in the order of their signal \a light, which must be finite. Pixels of
+ * equal signal are in the order of their index. */
 SensorNoise_EXPORT std::vector<std::uint32_t>
 PixelsByLight(const std::vector<float> & light, const std::vector<std::uint8_t> & take);
 

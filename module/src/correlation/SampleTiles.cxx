@@ -42,7 +42,7 @@ MakeSampleTiles(const FrameGeometry & geometry, std::size_t frames)
   {
     for (std::size_t i = 0; i < columns; ++i)
     {
-      // The middle of its share of the frame.
+      // The tile lies in the middle of its part of the frame.
       tiles.origins.push_back({ ((2 * i + 1) * geometry.width / columns - tiles.side) / 2,
                                 ((2 * j + 1) * geometry.height / rows - tiles.side) / 2 });
     }

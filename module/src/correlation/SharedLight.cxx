@@ -15,20 +15,20 @@ namespace sensornoise
 
 namespace
 {
-/** Segments of a row or column of a tile, and cells along its side; those that are not the same nor neighbours are far
- * apart. */
+/** Number of segments in a row or column of a tile, and of square cells along its side. Segments or cells that are
+ * neither equal nor adjacent are far apart. */
 constexpr std::size_t Segments = 4;
 
-/** [segment][line]: the lines of a sum lie side by side. */
+/** Sums of segments, [segment][line]: the values of adjacent lines are adjacent in memory. */
 template <std::size_t VSide>
 using LineSums = std::array<std::array<double, VSide>, Segments>;
 using CellSums = std::array<double, Segments * Segments>;
 
-/** Sums over the segments of a tile's rows, of its columns, and over its cells. */
+/** Sums over the segments of a tile's rows, over the segments of its columns, and over its cells. */
 template <std::size_t VSide>
 struct SegmentSums
 {
-  static constexpr std::size_t Length = VSide / Segments; // of a segment
+  static constexpr std::size_t Length = VSide / Segments; // of a segment [pixels]
   using Line = std::array<double, VSide>;
 
   LineSums<VSide> rows;
@@ -54,7 +54,7 @@ struct SegmentSums
     this->SumCells();
   }
 
-  /** The cells alone. */
+  /** Computes the sums of the cells alone. */
   template <typename TFunction>
   void
   SumOfCells(TFunction valueOf)
@@ -72,7 +72,7 @@ struct SegmentSums
   }
 
 private:
-  /** Four values of a segment side by side: one after the other, every addition would wait for the one before. */
+  /** Adds four values of a segment side by side: a single sum would wait for each addition before the next. */
   void
   SumRow(const Line & values, std::size_t y)
   {
@@ -116,7 +116,7 @@ CellProduct(const CellSums & cells)
   return sum;
 }
 
-/** Sums of products of segments that are far apart, of lines at some distances: [distance][line]. */
+/** Sums of products of segments that are far apart along two lines, by the distance of the lines: [distance][line]. */
 template <std::size_t VSide>
 struct LineProducts
 {
@@ -125,7 +125,7 @@ struct LineProducts
   void
   Add(const LineSums<VSide> & lines)
   {
-    std::array<double, VSide> last{}; // two segments
+    std::array<double, VSide> last{}; // sum of the last two segments
     for (std::size_t y = 0; y < VSide; ++y)
     {
       last[y] = lines[2][y] + lines[3][y];
@@ -146,7 +146,7 @@ struct LineProducts
   }
 };
 
-/** All products of segments that are far apart. */
+/** Products of all segments and cells that are far apart. */
 template <std::size_t VSide>
 struct SegmentProducts
 {
@@ -161,7 +161,7 @@ struct SegmentProducts
     columns.Add(sums.columns);
     cells += CellProduct(sums.cells);
   }
-  /** To one member of all DistantSums, times \a factor. */
+  /** Adds the products, times \a factor, to one member of every DistantSums of \a light. */
   void
   AddTo(SharedLight & light, double DistantSums::* member, double factor) const
   {
@@ -212,7 +212,7 @@ SumTile(const NoiseResiduals & residuals, std::size_t i)
   if (residuals.GetLinesTakenOff())
   {
     const bool areRows = *residuals.GetLinesTakenOff() == LineAxis::Rows;
-    for (const float * const share : residuals.LineSharesOf(i)) // what was taken from the covariance of a line
+    for (const float * const share : residuals.LineSharesOf(i)) // restores what the regression removed
     {
       SegmentSums<VSide>  sums{};
       LineProducts<VSide> products;

@@ -13,40 +13,41 @@
 namespace sensornoise
 {
 
-/** Products of sums over pixels that are at least a quarter of a tile apart, and what would make them: y a covariance,
- * w = 1 / V, z the light. */
+/** Sums over pairs of pixels that are at least a quarter of a tile apart: the products of their weights w = 1 / V,
+ * signals z and covariance y. A prime marks the second pixel. */
 struct DistantSums
 {
-  double covariance{ 0.0 };      ///< of w w' y
-  double constant{ 0.0 };        ///< of w w'
-  double light{ 0.0 };           ///< of w z w' z'
-  double lightCovariance{ 0.0 }; ///< of w z w' z' y
-  double lightSquare{ 0.0 };     ///< of w z^2 w' z'^2
+  double covariance{ 0.0 };      ///< sum of w w' y
+  double constant{ 0.0 };        ///< sum of w w'
+  double light{ 0.0 };           ///< sum of w z w' z'
+  double lightCovariance{ 0.0 }; ///< sum of w z w' z' y
+  double lightSquare{ 0.0 };     ///< sum of w z^2 w' z'^2
 
   DistantSums &
   operator+=(const DistantSums & other);
 };
 
 /** \struct SharedLight
- * \brief What pixels far apart share, in a tile: noise of whole rows and columns, and light that the series did not
- * take out.
+ * \brief Noise covariance of pixels far apart in a tile: noise of whole rows and columns, and illumination that the
+ * temporal components left.
  *
- * None of it falls off with the distance, as what neighbours share does. The noise of rows and columns does not grow
- * with the level, light that is left grows with its square. */
+ * Neither decreases with the distance, as the covariance of neighbours does. The noise of rows and columns does not
+ * depend on the signal. The covariance by residual illumination grows with the squared signal. */
 struct SharedLight
 {
-  /** Rows, or columns, between two pixels up to which what lines share is looked at. */
+  /** Number of distances between rows, or between columns, at which the covariance of lines is evaluated, from 0
+   * [pixels]. */
   static constexpr std::size_t Lines = 7;
 
-  std::array<DistantSums, Lines> rows;    ///< pixels as many rows apart, and far along them
-  std::array<DistantSums, Lines> columns; ///< pixels as many columns apart, and far along them
+  std::array<DistantSums, Lines> rows;    ///< pixels this many rows apart, and far apart along the rows
+  std::array<DistantSums, Lines> columns; ///< pixels this many columns apart, and far apart along the columns
   DistantSums                    far;     ///< pixels far apart along both axes
 
   SharedLight &
   operator+=(const SharedLight & other);
 };
 
-/** The sums of tile \a i. */
+/** Returns the sums of tile \a i. */
 SensorNoise_EXPORT SharedLight
 SharedLightOfTile(const NoiseResiduals & residuals, std::size_t i);
 

@@ -16,8 +16,8 @@ ColumnOf(ShapeOfShared shape)
   return static_cast<Eigen::Index>(shape);
 }
 
-/** The variance at a light, by a line through the bins, which are weighted with the inverse of their variance, squared
- * [DN^2]; between 0 and that of the darkest bin. */
+/** Returns the variance at a signal by a line through the bins [DN^2], which have the inverse of their squared variance
+ * as weights. The result is clamped between 0 and the variance of the darkest bin. */
 double
 VarianceAt(double lightDn, const Eigen::MatrixXd & shapes)
 {

@@ -14,40 +14,44 @@
 namespace sensornoise
 {
 
-/** What the shapes are made of: sums of the lag 0; the least light that there can be, of the black level where it is
- * known; and the part of the variance that no filter has seen, of the codes' steps. */
+/** \class ShapesOfShared
+ * \brief Predicted dependence of the noise covariance on the signal, for each shape.
+ *
+ * \a own are the sums of the zero lag. \a leastLightDn is the least possible signal, 0 where black is known [DN].
+ * \a unfilteredDn2 is the variance that no filter has changed, of quantization and line noise [DN^2]. */
 class SensorNoise_EXPORT ShapesOfShared
 {
 public:
   ShapesOfShared(const LagSums & own, double leastLightDn, double unfilteredDn2);
 
-  /** What one unit of each shape makes of the covariance relative to the variance: bins of the light x shapes. */
+  /** Returns the covariance that a coefficient of 1 of each shape makes, relative to the variance: bins x shapes. */
   const Eigen::MatrixXd &
   InBins() const
   {
     return m_InBins;
   }
-  /** A shape, by its index, without coefficient and probability. */
+  /** Returns a shape by its index, without coefficient and probability. */
   SharedShape
   UnitOf(std::size_t shape) const;
 
 private:
-  /** Variance that may have come after the filter [DN^2]. */
+  /** Returns the variance that was added after the filter, according to a shape [DN^2]. */
   double
   PartAfterFilter(std::size_t shape) const;
 
   Eigen::MatrixXd m_InBins;
-  double          m_DarkDn2{ 0.0 }; // variance at the least light
+  double          m_DarkDn2{ 0.0 }; // variance at the least signal [DN^2]
 };
 
-/** A shape that was fitted to what the bins share. */
+/** Fit of one shape to the covariances in the bins. */
 struct FittedShape
 {
   double coefficient{ 0.0 };
   double chi2{ 0.0 };
 };
 
-/** Fits each shape alone to \a shared, relative to the variance, of the bins, with their standard errors. */
+/** Fits each shape alone to \a shared, the covariances of the bins relative to the variance, with their standard
+ * errors. */
 SensorNoise_EXPORT std::array<FittedShape, NumberOfShapes>
 FitShapes(const Eigen::MatrixXd & shapes, const Eigen::VectorXd & shared, const Eigen::VectorXd & errors);
 

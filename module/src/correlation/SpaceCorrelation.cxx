@@ -28,7 +28,7 @@ NumberAt(const JackknifeEstimate & estimate, std::size_t k)
   return { estimate.value(index), estimate.StandardError(index) };
 }
 
-/** Twice the sum of the coefficients of some lags. */
+/** Returns twice the sum of the coefficients at some lags. */
 MeasuredNumber
 SumOfCoefficients(const CorrelationSums & sums, const CorrelationSums::Lags & lags)
 {
@@ -45,7 +45,7 @@ SumOfCoefficients(const CorrelationSums & sums, const CorrelationSums::Lags & la
                   0);
 }
 
-/** \a sums holds two rings. */
+/** Returns the reach [pixels], and in \a beyond the largest covariance beyond it [1]. \a sums must hold two rings. */
 int
 FindReach(CorrelationSums & sums, double & beyond)
 {
@@ -68,7 +68,8 @@ FindReach(CorrelationSums & sums, double & beyond)
   }
 }
 
-/** Chi-square of \a variance, of the bins and relative to its typical value, about a line of the light. */
+/** Returns the chi-square of \a variance about a line of the signal. \a variance is given in bins, relative to its
+ * typical value. */
 double
 Chi2OfLine(const Eigen::MatrixXd & shapes, const Eigen::VectorXd & variance, const Eigen::VectorXd & errors)
 {
@@ -81,8 +82,8 @@ Chi2OfLine(const Eigen::MatrixXd & shapes, const Eigen::VectorXd & variance, con
   return (values - weighted * weighted.colPivHouseholderQr().solve(values)).squaredNorm();
 }
 
-/** What each shape leaves of the variance's departure from a line of the light, as a chi-square: charge that repels
- * charge bends the variance of a pixel and not its sum over all neighbours. */
+/** Returns the chi-square of the sum of variance and neighbours' covariance about a line of the signal, for each shape.
+ * The brighter-fatter effect curves the variance of a pixel, but not the total covariance over all neighbours. */
 Eigen::VectorXd
 Chi2OfSums(const CorrelationSums & sums, const TileSums & all, const Eigen::VectorXd & coefficients)
 {
@@ -94,11 +95,13 @@ Chi2OfSums(const CorrelationSums & sums, const TileSums & all, const Eigen::Vect
   Eigen::VectorXd             chi2 = Eigen::VectorXd::Constant(NumberOfShapes, straight);
   const auto                  square = static_cast<Eigen::Index>(ShapeOfShared::Square);
   const double                left = Chi2OfLine(shapes, own + coefficients(square) * shapes.col(square), errors);
-  chi2(square) = left < InCorrelation.largestShareOfBend * straight ? left : straight; // else the response bends
+  chi2(square) =
+    left < InCorrelation.largestShareOfBend * straight ? left : straight; // else the response is non-linear
   return chi2.cwiseMin(chi2.minCoeff() + InCorrelation.mostEvidenceOfBend);
 }
 
-/** Coefficients of the shapes, then their chi-squares; \a unfilteredDn2 of the variance is that of codes and lines. */
+/** Returns the coefficients of all shapes, and then their chi-squares. \a unfilteredDn2 is the variance of quantization
+ * and line noise [DN^2]. */
 JackknifeEstimate
 FitAllShapes(const CorrelationSums & sums, const CorrelationSums::Lags & lags, double unfilteredDn2)
 {
@@ -116,8 +119,9 @@ FitAllShapes(const CorrelationSums & sums, const CorrelationSums::Lags & lags, d
   });
 }
 
-/** What a shape's chi-square must be smaller by than that of the likeliest ones; none of a shape that cannot be. Charge
- * is coupled weakly and not far; stronger filters may lie before the read-out, or between two parts of its noise. */
+/** Returns the evidence that is required for a shape, as a difference of chi-squares from the most probable shapes;
+ * null: the shape is impossible. Charge coupling is weak and short. Stronger filters may lie before the read-out, or
+ * between two parts of its noise. */
 std::optional<double>
 EvidenceFor(ShapeOfShared shape, bool mayBeCharge)
 {
@@ -135,7 +139,7 @@ EvidenceFor(ShapeOfShared shape, bool mayBeCharge)
   }
 }
 
-/** Probabilities of the shapes, by their chi-squares. */
+/** Returns the probabilities of the shapes from their chi-squares. */
 std::array<double, NumberOfShapes>
 ProbabilitiesOf(const Eigen::VectorXd & chi2, bool mayBeCharge)
 {
@@ -156,7 +160,8 @@ ProbabilitiesOf(const Eigen::VectorXd & chi2, bool mayBeCharge)
   return probabilities;
 }
 
-/** Whether the square of the signal describes what neighbours share clearly better than all other shapes. */
+/** Returns whether the squared signal describes the spatial covariance better than all other shapes, by
+ * InCommon.strongEvidence in chi-square. */
 bool
 IsOfSquare(const Eigen::VectorXd & coefficients, Eigen::VectorXd chi2)
 {
@@ -166,8 +171,8 @@ IsOfSquare(const Eigen::VectorXd & coefficients, Eigen::VectorXd chi2)
   return coefficients(square) > 0.0 && own + InCommon.strongEvidence < chi2.minCoeff();
 }
 
-/** Whether the variance bends as charge that repels charge bends it, and what the nearest share straightens it. Either
- * alone would be chance, or the response. */
+/** Returns whether the variance is curved as by the brighter-fatter effect, and the covariance of the nearest
+ * neighbours makes it linear. Either one alone may be statistical scatter, or a non-linear response. */
 bool
 StraightensVariance(const CorrelationSums & sums, const Eigen::VectorXd & errors, const MeasuredNumber & effect)
 {
@@ -197,7 +202,7 @@ SharesInSpace(const CorrelationSums & sums, const std::vector<LagCoefficient> & 
     const Eigen::MatrixXd shapes = sums.ShapesOf(tiles, sums.GetCodesDn2()).InBins();
     const auto            fits = FitShapes(shapes, sums.SharedInBins(tiles, nearest), errors);
     Eigen::Vector3d       effects;
-    for (Eigen::Index k = 0; k < effects.size(); ++k) // not of the constant
+    for (Eigen::Index k = 0; k < effects.size(); ++k) // all shapes but the constant
     {
       effects(k) = fits[static_cast<std::size_t>(k)].coefficient * shapes(shapes.rows() - 1, k);
     }
@@ -235,7 +240,7 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
     largest < InCorrelation.largestCrosstalk && !far.Exceeds(InCorrelation.smallRing, Significance.oneTest);
   if (mayBeCharge && found.reach > InCorrelation.reachOfCharge)
   {
-    found.reach = InCorrelation.reachOfCharge; // the rest was chance
+    found.reach = InCorrelation.reachOfCharge; // the rings beyond are not significant
     found.beyondReach = std::max(std::abs(far.value), InCorrelation.unseenErrorsOfCharge * far.standardError);
   }
   const CorrelationSums::Lags lags = sums.Ring(1, found.reach);
@@ -250,8 +255,8 @@ SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found)
     found.shapes[k].coefficient = NumberAt(fits, k);
     found.shapes[k].probability = probabilities[k];
   }
-  // A filter that sharpens takes in proportion to the variance, and alike everywhere; what blocks of pixels are rounded
-  // to does not.
+  // The negative covariance of a sharpening filter is proportional to the variance, and the same everywhere. The
+  // covariance by rounding of blocks is neither.
   const double constant = probabilities[static_cast<std::size_t>(ShapeOfShared::Constant)];
   const auto & shared = found.Shape(ShapeOfShared::Variance).coefficient;
   const bool   isUnlikeFilter =

@@ -10,13 +10,14 @@
 namespace sensornoise
 {
 
-/** Whether the nearest neighbours together, or any of the \a coefficients in space, share more than a trifle. What
- * grows with the light is looked for where it is bright. */
+/** Returns whether the spatial noise correlation exceeds the reporting threshold: the nearest neighbours together
+ * exceed InCorrelation.leastEffect, or one of \a coefficients exceeds InCorrelation.leastCoefficient, both
+ * significantly. Covariances that grow with the signal are tested in the brightest bin. */
 SensorNoise_EXPORT bool
 SharesInSpace(const CorrelationSums & sums, const std::vector<LagCoefficient> & coefficients);
 
-/** Sums what neighbours share over all lags within reach, which grows until the next ring adds little, or nothing that
- * is seen; finds how it depends on the light, and the kind that it tells, unless frames share, too. */
+/** Sums the noise covariance over all spatial lags within reach. The reach grows until the next ring is small or not
+ * significant. Fits the dependence on the signal, and sets the noise class unless it is Temporal. */
 SensorNoise_EXPORT void
 SumOverSpace(CorrelationSums & sums, NoiseCorrelation & found);
 

@@ -9,7 +9,7 @@ namespace sensornoise
 
 namespace
 {
-/** B_k times a matrix. */
+/** Returns B_k times a matrix. */
 Eigen::MatrixXd
 ShiftBothWays(const Eigen::MatrixXd & matrix, Eigen::Index k)
 {
@@ -24,7 +24,7 @@ ShiftBothWays(const Eigen::MatrixXd & matrix, Eigen::Index k)
   return shifted;
 }
 
-/** sum_t a_t' b_(t+d), of the rows of two matrices. */
+/** Returns sum_t a_t' b_(t+d) over the rows of two matrices. */
 double
 DiagonalOf(const Eigen::MatrixXd & a, const Eigen::MatrixXd & b, Eigen::Index d)
 {

@@ -44,7 +44,7 @@ SumOverTime(CorrelationSums & sums, NoiseCorrelation & found)
       sums.AddTimeLags(std::min(static_cast<int>(known) + 2, InCorrelation.mostTimeLags));
     }
   }
-  // What is beyond: a tail that falls off as before.
+  // The error includes the lags beyond, for a tail that continues to decrease as before.
   found.timeFactor.standardError = std::hypot(found.timeFactor.standardError, 2.0 * last);
 }
 

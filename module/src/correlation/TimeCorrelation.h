@@ -10,12 +10,13 @@
 namespace sensornoise
 {
 
-/** Whether frames share noise, by any of the \a coefficients in time. */
+/** Returns whether one of the temporal \a coefficients significantly exceeds InCorrelation.leastTimeCoefficient. */
 SensorNoise_EXPORT bool
 SharesInTime(const std::vector<LagCoefficient> & coefficients);
 
-/** Sums what frames share over the lags within reach, which grows until the last two share little. More lags than
- * needed are worse: the projection of a short burst leaves little that tells them apart. */
+/** Sums the noise covariance over temporal lags, until the last two are small, and sets the noise class to Temporal.
+ * More lags than needed increase the error: after the projection of a short burst, distant lags are hardly
+ * distinguishable. */
 SensorNoise_EXPORT void
 SumOverTime(CorrelationSums & sums, NoiseCorrelation & found);
 

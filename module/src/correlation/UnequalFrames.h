@@ -15,19 +15,21 @@ namespace sensornoise
 /** \class UnequalFrames
  * \brief Noise that is stronger in bright frames: V_t = V + g gamma_t q for a pixel of signal q.
  *
- * White noise of the covariance V I + g q Gamma, Gamma = diag(gamma_t), is left by the projection P with
+ * White noise of the covariance V I + g q Gamma, Gamma = diag(gamma_t), has after the projection P
  *
  *     E[sum_t r_t r_(t+d)] = V sum_t P_(t,t+d) + g q N_d,   N_d = sum_t (P Gamma P)_(t,t+d).
  *
- * The second term is no correlation between frames. Without a gamma all frames are alike. Estimator.md, 3.12. */
+ * The second term is no correlation between frames. Without gamma all frames have equal noise. Estimator.md, 3.12. */
 class SensorNoise_EXPORT UnequalFrames
 {
 public:
   UnequalFrames() = default;
-  /** \a gamma: of each frame [1]; below -1 it counts as -1. \a gain: slope of the variance [DN/e-]. \a offsetDn: dark
-   * offset to which gamma belongs, above the level from which light is measured [DN]. */
+  /** \a gamma is the relative change of the illumination in each frame [1]; values below -1 count as -1. \a gain is the
+   * slope of the variance [DN/e-]. \a offsetDn is the dark offset at which gamma was estimated, above the level from
+   * which the signal is measured [DN]. */
   UnequalFrames(const std::vector<double> & gamma, double gain, double offsetDn);
 
+  /** Returns whether all frames have equal noise. */
   bool
   AreEqual() const
   {
@@ -38,11 +40,13 @@ public:
   {
     return m_Gamma;
   }
+  /** Returns the slope of the variance [DN/e-]. */
   double
   GetGain() const
   {
     return m_Gain;
   }
+  /** Returns the dark offset above the level from which the signal is measured [DN]. */
   double
   GetOffsetDn() const
   {
@@ -55,7 +59,8 @@ public:
   void
   KeepFirst(Eigen::Index frames);
 
-  /** N_d of d = 0 ... lags for the complement of an orthonormal \a basis, frames x series; 0 where frames are alike. */
+  /** Returns N_d for d = 0 ... lags, for the projection on the complement of an orthonormal \a basis, frames x series;
+   * 0 where frames have equal noise. */
   Eigen::VectorXd
   Autocovariance(const Eigen::MatrixXd & basis, std::size_t lags) const;
 
