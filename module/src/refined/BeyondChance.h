@@ -11,8 +11,8 @@
 namespace sensornoise
 {
 
-/** The factor by which a reduced chi-square widens a covariance [1]: the chi-square itself where it exceeds 1 by more
- * than Significance.hint of its standard deviations, else 1. \a dof: its degrees of freedom. */
+/** Returns the factor by which a reduced chi-square widens a covariance [1]: the chi-square itself where it exceeds 1
+ * by more than Significance.hint of its standard deviations, else 1. \a dof are its degrees of freedom. */
 inline double
 BeyondChance(double reducedChi2, double dof)
 {

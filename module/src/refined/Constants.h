@@ -10,152 +10,163 @@
 namespace sensornoise
 {
 
-/** The numbers of the room `refined`: errors, and what is told. Estimator.md, 3.8 to 3.10 and 4. */
+/** Constants of the component `refined`: errors, and conditions for an estimate to be identifiable. Estimator.md, 3.8
+ * to 3.10 and 4. */
 struct RefinedConstants
 {
-  /** \name Whether the gain is told */
+  /** \name Conditions for the gain to be identifiable */
   ///@{
-  /** Part of the usable pixels that a measurement needs [1]. Set by hand. */
+  /** Smallest fraction of the usable pixels that must be used [1]. Chosen empirically. */
   double leastUsedShare{ 0.1 };
-  /** Departure of the variance from its line above which the data are not those of a sensor [1]: local gains that
-   * differ by 4 % make 0.03 to 0.1 of it, a gamma of 1.3 from 0.13 on. Half: a shoulder of 4 % is refused; twice:
-   * the same. */
+  /** Deviation of the variance from its line above which the data are not from a sensor [1]: local gains that differ by
+   * 4 % make 0.03 to 0.1, a gamma of 1.3 makes 0.13 or more. With half the value, a shoulder of 4 % is rejected; twice
+   * the value changes nothing in the cases of estimator.md, 3.13. */
   double largestNonlinearity{ 0.12 };
-  /** Part of the values that may repeat that of the frame before, beyond what noise makes, where frames share noise
-   * [1]. Chosen by the size of the effect: the sum over lags of so many is 6 % too large. */
+  /** Largest fraction of values that repeat the value in the frame before, beyond the number that noise explains, where
+   * the noise is correlated [1]. Chosen by its effect: with it, the total covariance over lags is 6 % too large. */
   double largestRepeatedShare{ 0.03 };
-  /** Factor by which the sum over lags may change the gain where illumination is left that could not be projected out
-   * [1]. Chosen by the size of the effect: of what is more than twice the variance most is not the noise. */
+  /** Largest factor by which the total covariance over lags may change the gain where illumination changes could not be
+   * projected out [1]. Chosen by its effect: beyond twice the variance, most of the covariance is not noise. */
   double largestCorrection{ 2.0 };
-  /** Relative change of the gain that illumination which is left may make, over the relative change of the variance
-   * that cells show [1]: 2 as the slope of the square of the signal, and as much again for what differs within cells.
-   * Chosen on simulated bands of 12 rows, which made 2.5 to 4.7. */
+  /** Largest relative change of the gain by remaining illumination changes, over the relative change of the variance
+   * that tiles show [1]. The slope of the squared signal contributes 2, differences within tiles as much again. Chosen
+   * on simulated bands of 12 rows, which made 2.5 to 4.7. */
   double slopeOfRest{ 4.0 };
   ///@}
 
   /** \name Errors of the gain */
   ///@{
-  /** Vibration beyond which the expansion in derivatives fails, as a square [pixels^2], and what is then known of the
-   * bias, relative to the gain, at the reference's square, with which it grows [1, pixels^2]. Measured by
-   * the robustness cases of measure-cases. */
+  /** Squared vibration above which the expansion in derivatives fails [pixels^2]. The bias of the gain is then
+   * proportional to the squared vibration: it is \a biasOfVibration of the gain [1] at \a referenceVibration
+   * [pixels^2]. Measured by the robustness
+   * cases of measure-cases. */
   double smallVibration{ 0.16 };
   double biasOfVibration{ 0.0015 };
   double referenceVibration{ 0.25 };
-  /** Scatter of the classes beyond sampling, as a factor of the variance, that chance is given where departures from a
-   * line are judged [1]. Set by hand: scenes and sensors that fit have 1 to 4; a tone curve has 50 and hides behind it.
-   */
+  /** Largest factor by which the scatter between classes widens the variance in tests for deviations from a line [1].
+   * Chosen empirically: scenes and sensors that fit have 1 to 4; a tone curve has 50, which would hide it. */
   double largestDispersion{ 4.0 };
-  /** Sum of the squared coefficients from which areas are judged once more [1]. Set by hand: below, the scatter of
-   * their means grows by less than a twentieth. Half: errors of brighter-fatter sensors are 1.7 times as large;
-   * twice: gains of smoothed frames are 0.9 % low, errors twice as large. */
+  /** Variance inflation by noise correlation above which pixels are tested a second time [1]. Chosen empirically: below
+   * it, the scatter of the means of tiles grows by less than a twentieth. With half the value, errors of
+   * brighter-fatter sensors are 1.7 times as large. With twice the value, gains of smoothed frames are 0.9 % low, and
+   * errors twice as large. */
   double leastSharedSquares{ 1.1 };
-  /** Pixels around an edge over which its surroundings' level is taken: 5 x 5 pixels, the border of usable pixels. */
+  /** Half width of the surroundings of a pixel whose mean level is compared with the pixel's own to find edges
+   * [pixels]: 5 x 5 pixels, the border of usable pixels. */
   std::size_t edgeMargin{ 2 };
-  /** Change of a pixel's variance, along the line, from its own level to that of its surroundings, from which it is an
-   * edge [1]. A Gaussian of 1 pixel then misses its variance by a quarter of that. Set by hand: half changes nothing,
-   * twice loses 1 % of the read noise of a texture. */
+  /** Relative change of the variance by the line, from a pixel's own level to the level of its surroundings, above
+   * which the pixel lies on an edge [1]. After smoothing by a Gaussian of 1 pixel, a quarter of this is missing from
+   * its variance. Chosen empirically: half the value changes nothing; with twice the value, the read noise of a
+   * texture is 1 % low. */
   double largestEdge{ 0.04 };
   ///@}
 
-  /** \name Bends of the response */
+  /** \name Non-linear response */
   ///@{
-  /** Departure of the variance from its line that is worth a word [1]. Set by hand: a hundredth moves the gain by about
-   * half of it. */
+  /** Reporting threshold of the deviation of the variance from its line [1]. Chosen empirically: a deviation of a
+   * hundredth changes the gain by about half of it. */
   double leastNonlinearity{ 0.01 };
-  /** What is left of the departure from a line as the error of the mean gain [1]. Set by hand: of three shapes of bend
-   * by 2 and 4 % on two scenes the largest error was 0.29 of it; half fails to cover, twice covers all. */
+  /** Error of the mean gain, relative to the gain, over the deviation from a line [1]. Chosen empirically: for three
+   * shapes of non-linearity of 2 and 4 % on two scenes, the largest error was 0.29. Half the value is too small an
+   * error; twice the value contains all cases. */
   double errorOfNonlinearity{ 1.0 / 3.0 };
-  /** The same of its difference from the slope [1]. Set by hand. */
+  /** Error of the mean gain over its difference from the slope [1]. Chosen empirically. */
   double errorOfMeanGain{ 0.5 };
-  /** Part of the brightest levels' variance that the line may leave to read noise where the response bends [1]. Above
-   * it, what looks like read noise may be the bend of a tone curve. Set by hand: bends of 4 % make 0.05 of it, a gamma
-   * of 1.3 0.3. */
+  /** Largest fraction of the brightest levels' variance that the line may attribute to read noise where the response is
+   * non-linear [1]. Above it, the apparent read noise may be caused by a tone curve. Chosen empirically:
+   * non-linearities of 4 % make 0.05, a gamma of 1.3 makes 0.3. */
   double largestReadShare{ 0.1 };
-  /** Part of the brightest levels' light that the darkest may have for a bend to be told from noise [1]. Set by hand:
-   * flat fields have 0.9 and more, scenes less than 0.3. */
+  /** Largest signal of the darkest levels, relative to the brightest, for which a non-linear response is
+   * distinguishable from noise [1]. Chosen empirically: flat fields have 0.9 and more, scenes less than 0.3. */
   double largestDarkestShare{ 0.5 };
   ///@}
 
-  /** Part of the shot noise that the projection on the frames' levels leaves, at least, in the rough gain that corrects
-   * for what it takes [1]: a guard against division by 0, where one or two frames alone carry the light. */
+  /** Smallest fraction of the shot noise that the projection on the frames' levels is assumed to leave, in the
+   * approximate gain that corrects for the projection [1]. It guards against division by 0, where one or two frames
+   * alone are illuminated. */
   double leastShotLeft{ 0.2 };
 
   /** \name The photon transfer of the frames */
   ///@{
-  /** Least part of a frame's noise that the projection leaves, for its residuals to count [1]: where less is left,
-   * rounding and the errors of the model exceed the noise. Chosen on simulated flat fields. */
+  /** Smallest fraction of a frame's noise that the projection must leave, for its residuals to count [1]. Where less
+   * remains, rounding and the errors of the model exceed the noise. Chosen on simulated flat fields. */
   double leastLeftShare{ 0.05 };
-  /** Part of a tile's mean square below which no frame's expected square is weighed [1]: a guard where a line is
-   * negative. Chosen empirically: the dark frames of series of 5,000 electrons have 0.02. */
+  /** Smallest expected square of a frame's residuals for the weights, relative to the tile's mean square [1]: a guard
+   * where a line is negative. Chosen empirically: the dark frames of series of 5,000 electrons have 0.02. */
   double leastWeighedVariance{ 0.01 };
-  /** Tiles of the noise sample that are needed: their scatter is the error. */
+  /** Smallest number of tiles of the noise sample, whose scatter is the error. */
   std::size_t leastTilesOfTransfer{ 4 };
-  /** How often the squares are weighed anew: the third time changes a gain by less than 1e-4 of its error. */
+  /** Number of iterations of the weights: the third one changes a gain by less than 1e-4 of its error. */
   int roundsOfTransfer{ 4 };
-  /** Relative difference of a frame's noise variance from the variance that the line has at its level, from which on
-   * the frame is left out [1]. Chosen by the size of the effect: two of 60 frames that differ by it make the gain 0.3 %
-   * wrong. */
+  /** Relative difference of a frame's noise variance from the line at its level above which the frame is left out [1].
+   * Chosen by its effect: two of 60 frames that differ by it make the gain 0.3 % wrong. */
   double leastUnlikeNoise{ 0.1 };
-  /** That difference where the illumination changes in some places in another way than in others, as its change there
-   * is not known in every frame [1]. Chosen larger than the local changes of lamps that pulse under a rolling shutter.
-   */
+  /** That difference under local changes of the illumination, which are not known in every frame and tile [1]. Chosen
+   * larger than the local changes of lamps that pulse under a rolling shutter. */
   double leastUnlikeUnderLocalLight{ 0.3 };
   /** That difference where the scene moves by more than smallVibration [1]: twice the noise. Chosen empirically: the
-   * motion that is left in a frame adds less in the flatter half of a scene. */
+   * remaining motion of a frame adds less in the flatter half of a scene. */
   double leastUnlikeUnderMotion{ 1.0 };
-  /** How often the groups of frames are found anew with their noise known. Chosen empirically: the third time changes
-   * nothing for three frames of four times the noise. */
+  /** Number of iterations that find the groups of frames with their noise from the iteration before. Chosen
+   * empirically: the third one changes nothing for three frames of four times the noise. */
   int roundsOfFrameNoise{ 3 };
-  /** Slopes that are tried on either side, as the noise of a frame need not rise with the slope. Chosen empirically. */
+  /** Number of slopes that are tried on either side, as the noise of a frame need not increase with the slope. Chosen
+   * empirically. */
   int stepsOfSlope{ 4 };
-  /** Part of the information on the slope that must be left without the fifth of the frames that have most of it [1].
-   * Chosen between two cases: it is 0.25 of pulses in every fourth frame, 0.05 of two frames of 1.5 times the level
-   * among 60 that flicker by 2 %. */
+  /** Smallest fraction of the information on the slope that must remain without the fifth of the frames that contribute
+   * most [1]. Chosen between two cases: it is 0.25 for pulses in every fourth frame, and 0.05 for two frames of 1.5
+   * times the level among 60 frames that flicker by 2 %. */
   double leastShareOfOthers{ 0.1 };
-  /** Part of the squares that the levels make, rms, by which frames must differ to have several levels [1]. */
+  /** Smallest rms difference between frames for them to have several levels, as a fraction of the expected squares by
+   * the levels [1]. */
   double leastFrameContrast{ 1e-4 };
   ///@}
 
   /** \name Offset, read noise, flicker and motion */
   ///@{
-  /** Part of the levels' range by which an offset may lie beyond its limits, beside chance [1]. Set by hand. */
+  /** Largest distance of an offset beyond its bounds, as a fraction of the range of levels, besides statistical error
+   * [1]. Chosen empirically. */
   double slackOfRange{ 0.01 };
-  /** Dispersion of the lines of local light about one zero that is worth a number [1]. Set by hand. */
+  /** Largest dispersion of the lines of local illumination about one zero for which their offset is given [1]. Chosen
+   * empirically. */
   double largestLocalDispersion{ 4.0 };
-  /** Part of what two ways to measure motion differ by that is its systematic error [1]. Chosen on simulated scenes:
-   * the motion of pages of sharp text is off by a fifth of it, of others by less than a tenth. */
+  /** Fraction of the difference between two estimates of motion that is taken as its systematic error [1]. Chosen on
+   * simulated scenes: the motion of pages of sharp text is wrong by a fifth of it, the motion of other scenes by less
+   * than a tenth. */
   double errorOfMotion{ 0.2 };
-  /** Part of the motion along one axis, at most, that looks like motion along the other one, where the scene has one
-   * direction and no motion along the first is seen [1]. Chosen: equal motion along both adds 0.5 % to it. */
+  /** Largest fraction of the motion along one axis that may appear as motion along the other axis [1]. It applies where
+   * the scene has one direction, and no motion along the first axis is detected. Chosen by its effect: equal motion
+   * along both axes adds 0.5 %. */
   double largestShareOfOtherAxis{ 0.1 };
   ///@}
 
   /** \name Signal in the dark frames */
   ///@{
-  /** Contrast of a tile, rms, below which the fixed pattern of the pixels may be what it has [1]: the response of the
-   * pixels of cameras differs by 0.3 to 2 % rms (EMVA 1288 reports). */
+  /** Contrast of a tile, rms, below which fixed-pattern noise may explain it [1]: the response of pixels of cameras
+   * differs by 0.3 to 2 % rms (EMVA 1288 reports). */
   double leastContrastOfTile{ 0.03 };
-  /** Fraction of the signal of the frames in the dark frames, from which on it counts [1]. Chosen by the size of the
-   * effect: it moves the offset by that fraction of the mean signal. */
+  /** Smallest fraction of the frames' signal in the dark frames that counts [1]. Chosen by its effect: the offset
+   * changes by that fraction of the mean signal. */
   double leastSignalOfDark{ 0.01 };
   ///@}
 
   /** \name The illumination of rows */
   ///@{
-  /** Part of the slope of the variance that the illumination of rows or columns may add for it not to be taken off, and
-   * for a gain to be given where it could not be [1]. Chosen by the size of the effect: the former is the standard
+  /** Relative increase of the slope of the variance by the illumination of rows or columns above which it is
+   * subtracted, and above which no gain is given if it remains [1]. Chosen by its effect: the former is the standard
    * error of the gain of 60 frames of 200 x 240 pixels. */
   double leastLineLight{ 0.002 };
   double largestLineLight{ 0.01 };
   ///@}
 
-  /** \name What is worth a warning */
+  /** \name Reporting thresholds */
   ///@{
-  /** Share of the pixels that move, or that clipping could touch [1], and of those that are trimmed [1]. Set by hand.
-   */
+  /** Fraction of the pixels that move, or that may be affected by clipping [1], and of the trimmed pixels [1]. Chosen
+   * empirically. */
   double reportedShare{ 0.01 };
   double reportedTrimmed{ 2e-3 };
-  /** Motion from which the scene is to be registered [pixels rms]. Set by hand: biasOfVibration begins there. */
+  /** Motion above which the frames should be registered [pixels rms]. Chosen empirically: biasOfVibration begins there.
+   */
   double strongVibration{ 0.4 };
   ///@}
 };

@@ -46,7 +46,7 @@ NeighbourAt(const Lag & lag)
   return "pixels " + distance + " apart share ";
 }
 
-/** Says how the gain follows from the variance, and then \a action, a sentence. */
+/** Returns how the gain follows from the variance, and then \a action, a sentence. */
 std::string
 Consequence(const Report & report, const std::string & action)
 {
@@ -59,7 +59,8 @@ Consequence(const Report & report, const std::string & action)
          " % of the gain, which is from the covariance over all lags" + (action.empty() ? "" : ". " + action);
 }
 
-/** Whether the distribution of the noise is what a linear filter leaves: then what neighbours share is against it. */
+/** Returns whether the noise is normally distributed, as after a linear filter. Then the covariances are the reason why
+ * the gain is not given. */
 bool
 IsNormal(const NoiseCorrelation & correlation)
 {
@@ -68,18 +69,19 @@ IsNormal(const NoiseCorrelation & correlation)
   });
 }
 
-/** Names of the kinds of KurtosisSums, without single pixels. */
+/** Names of the kinds of series in KurtosisSums, without single pixels. */
 constexpr std::array<const char *, KurtosisSums::Kinds - 1> NamesOfDifferences{ { "of horizontal differences",
                                                                                   "of vertical differences",
                                                                                   "of differences in 2 x 2 pixels",
                                                                                   "of differences in 8 x 1 pixels",
                                                                                   "of differences in 1 x 8 pixels" } };
 
-/** The kind of KurtosisSums, without single pixels, whose kurtosis is the least probable for normal noise. */
+/** Returns the kind of series in KurtosisSums, except single pixels, whose kurtosis is least probable for normal noise.
+ */
 std::size_t
 MostUnusualDifference(const NoiseCorrelation & correlation)
 {
-  std::size_t most = 3; // where none is measured
+  std::size_t most = 3; // default, if no kurtosis was measured
   double      largest = 0.0;
   for (std::size_t kind = 1; kind < correlation.kurtosis.size(); ++kind)
   {
@@ -171,8 +173,8 @@ TextOf(const EnlargementTrace & trace, const std::optional<Interval> & gain)
   return text + ". Give the frames as the camera read them";
 }
 
-/** An addition to the action, where the covariance grows with the signal alone: a filter before the read-out, or events
- * of several electrons. */
+/** Returns an addition to the action where the covariance grows with the signal alone: by a filter before the read-out,
+ * or events of several electrons. */
 std::string
 BeforeReadOut(const NoiseCorrelation & correlation)
 {

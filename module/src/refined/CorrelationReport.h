@@ -10,7 +10,8 @@
 namespace sensornoise
 {
 
-/** Says in plain words that the frames are not raw. \a gain and \a variance_slope must be filed. */
+/** Adds a warning that the frames are not raw if the noise is correlated or not linear. The gain and the slope of the
+ * variance must be filed before. */
 SensorNoise_EXPORT void
 WarnOfCorrelation(Report & report, const NoiseCorrelation & correlation);
 

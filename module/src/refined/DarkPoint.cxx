@@ -22,7 +22,7 @@ namespace sensornoise
 
 namespace
 {
-/** The point of the dark frames. */
+/** Offset [DN] and variance [DN^2] of the dark frames, with their standard errors. */
 struct DarkPoint
 {
   double offsetDn;
@@ -31,8 +31,8 @@ struct DarkPoint
   double varianceErrorDn2;
 };
 
-/** Over the pixels that were used, if the dark frames tell them one by one: bright and dark are then the same pixels.
- */
+/** Returns the point over the pixels that are used in the bright frames, if there are maps of the dark frames, else
+ * over all pixels. */
 DarkPoint
 PointOf(const RefinedResults & found)
 {
@@ -63,7 +63,8 @@ PointOf(const RefinedResults & found)
   return point;
 }
 
-/** Moves the line towards the point, by the errors of both; returns by how many standard deviations they differed. */
+/** Moves the line towards the point, weighted by the errors of both. Returns their difference before that, in standard
+ * deviations. */
 double
 MoveToPoint(GainEstimate & estimate, const DarkPoint & dark)
 {
@@ -81,12 +82,12 @@ MoveToPoint(GainEstimate & estimate, const DarkPoint & dark)
   return std::abs(difference) / std::sqrt(expected);
 }
 
-/** The gains of the levels, (V - sigma^2) / (mean - mu). */
+/** Gains of the levels, (V - sigma^2) / (mean - mu) [DN/e-]. */
 struct LevelGains
 {
   double mean{ 0.0 };
-  double variance{ 0.0 }; ///< of the mean, by chance
-  double scatter{ 0.0 };  ///< standard deviation from level to level, without chance
+  double variance{ 0.0 }; ///< statistical variance of the mean
+  double scatter{ 0.0 };  ///< standard deviation between levels, without statistical scatter
 };
 
 LevelGains
@@ -114,7 +115,7 @@ GainsOfLevels(const VarianceCurve & curve, const DarkPoint & dark)
   {
     gains.mean = sum / weight;
     gains.variance = 1.0 / weight;
-    // Beyond chance by two standard deviations of chi-square.
+    // The scatter is significant if chi-square exceeds its expectation by two standard deviations.
     const double freedom = std::max(1.0, levels - 1.0);
     const double chi2 = squares - sum * gains.mean;
     const double more = chi2 - freedom - Significance.hint * std::sqrt(2.0 * freedom);
@@ -148,7 +149,7 @@ UseDarkPoint(GainEstimate & estimate, const RefinedResults & found)
   const VarianceLine line = estimate.line;
   if (isBent || isFar)
   {
-    estimate.atOffset.reset(); // a bend of the response may explain the difference
+    estimate.atOffset.reset(); // a non-linear response may explain the difference
   }
   if ((isBent || contradiction > Significance.hint) && gains.mean > 0.0)
   {

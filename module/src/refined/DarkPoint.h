@@ -11,15 +11,17 @@ namespace sensornoise
 
 struct GainEstimate;
 
-/** Adds what dark frames tell: the line goes through their offset and variance, (mu, sigma^2). With levels of one
- * height only this is the photon transfer of EMVA 1288, gain = (V - sigma^2) / (mean - mu).
+/** Moves the line towards the point (mu, sigma^2) of the dark frames, their offset and variance. If all bright levels
+ * are equal, this is the photon transfer of EMVA 1288, gain = (V - sigma^2) / (mean - mu).
  *
- * The dark point is one more point of the variance line. It contradicts the line of the bright frames where both differ
+ * The dark point is one more point of the variance line. It contradicts the line of the bright frames if both differ
  * by more than Significance.severalTests of their errors, and by more than InCommon.leastDarkDifference of the
- * variance: then it is not used. Where the bright frames do not come close to the dark, a bend of the response could
- * make that difference, too, and the error of the gain holds the gain that the dark frames would give. Where the
- * response bends visibly, or the difference is smaller but beyond chance, the gain is the mean of the levels' gains (V
- * - sigma^2) / (mean - mu), and their scatter its error. */
+ * variance. Then it is not used, unless the response is visibly non-linear.
+ *
+ * A non-linear response may explain the difference if it is visible, or if the bright frames have no levels near the
+ * dark offset. Then GainEstimate::atOffset is not set. If the response is visibly non-linear, or the difference is
+ * smaller but significant, the gain is the mean of the gains of the levels, (V - sigma^2) / (mean - mu). Its error is
+ * their scatter. */
 SensorNoise_EXPORT void
 UseDarkPoint(GainEstimate & estimate, const RefinedResults & found);
 

@@ -20,16 +20,16 @@ namespace sensornoise
 
 namespace
 {
-constexpr std::size_t TileSide = 16; ///< [pixels]; glow and vignetting hardly change within it
+constexpr std::size_t TileSide = 16; ///< [pixels]; glow and vignetting hardly change within a tile
 constexpr std::size_t MostBlocks = 32;
 constexpr std::size_t FewestBlocks = 4;
-constexpr double      FewestPixels = 16.0; ///< of a tile
+constexpr double      FewestPixels = 16.0; ///< in a tile
 
 /** Sums over tiles of the centred signal x, bright minus dark mean, and of the centred dark mean y. */
 struct SignalSums
 {
-  double square{ 0.0 };  ///< of x, without its noise [DN^2]
-  double product{ 0.0 }; ///< of x and y, without their noise [DN^2]
+  double square{ 0.0 };  ///< sum of x^2 without noise [DN^2]
+  double product{ 0.0 }; ///< sum of x y without noise [DN^2]
 
   SignalSums &
   operator+=(const SignalSums & other)
@@ -38,7 +38,7 @@ struct SignalSums
     product += other.product;
     return *this;
   }
-  /** A dark frame that holds the fraction b of the signal has b / (1 - b) of the difference. */
+  /** Returns the fraction b of the signal in the dark frames [1], from the regression of y on x, b / (1 - b). */
   double
   Fraction() const
   {
@@ -46,7 +46,8 @@ struct SignalSums
   }
 };
 
-/** The sums of the tile at \a left, \a top; nothing where the scene has less contrast than pixels have of their own. */
+/** Returns the sums of the tile at \a left, \a top; empty sums where the contrast of the scene is below
+ * InRefined.leastContrastOfTile. */
 SignalSums
 SumTile(const DarkMaps &                  dark,
         const ReferenceFrame &            bright,

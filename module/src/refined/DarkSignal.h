@@ -16,13 +16,13 @@
 namespace sensornoise
 {
 
-/** Returns the fraction of the scene's signal that the dark frames hold, as of a shutter that was not closed [1]; null:
- * it is below InRefined.leastSignalOfDark or not distinguished from chance, too few places of the scene have contrast,
- * or there are no maps of the dark frames.
+/** Returns the fraction of the scene's signal that the dark frames contain, as of a shutter that was not closed [1].
+ * Returns null if it is below InRefined.leastSignalOfDark or not significant, if too few places of the scene have
+ * contrast, or if there are no maps of the dark frames.
  *
- * The regression of the dark mean on the difference of bright and dark mean, within tiles of the frame. Offsets of the
- * pixels are in both means and cancel in the difference. \a pixelUse has a value of PixelUse for each pixel.
- * Estimator.md, 3.9. */
+ * The estimate is the regression of the dark mean on the difference of bright and dark mean, within tiles of the
+ * frame. Offsets of the pixels are in both means and cancel in the difference. \a pixelUse has a value of PixelUse for
+ * each pixel. Estimator.md, 3.9. */
 SensorNoise_EXPORT std::optional<MeasuredNumber>
 FindDarkSignal(const std::optional<KnownOffset> & offset,
                const ReferenceFrame &             bright,

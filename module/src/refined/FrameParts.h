@@ -13,8 +13,8 @@
 namespace sensornoise
 {
 
-/** The excess of the noise of each group of frames, tile by tile, over what the line of \a reference makes of the
- * levels: the quarters of the burst, and the even and the odd frames of each. Estimator.md, 3.15. */
+/** Returns the excess noise of each group of frames in each tile, relative to the line of \a reference at the level.
+ * The groups are the even and the odd frames of each quarter of the burst. Estimator.md, 3.15. */
 SensorNoise_EXPORT std::vector<TileExcess>
 MakeFrameParts(const FrameEnergies & energies, const TileLevels & levels, const PartReference & reference);
 

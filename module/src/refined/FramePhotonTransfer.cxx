@@ -18,8 +18,8 @@ namespace sensornoise
 
 namespace
 {
-/** The energies as a regression: E[squares] = value C + gain X, with C the share of the noise that is left, and X what
- * the levels make. */
+/** Data of a regression of the squared residuals: E[squares] = V(0) C + gain X, where C is the fraction of the noise
+ * that remains in the residuals, and X the expected squares for a variance equal to the level. */
 struct Regression
 {
   explicit Regression(const FrameEnergies & energies, const TileLevels & levels)
@@ -34,14 +34,15 @@ struct Regression
     }
   }
 
-  const Eigen::MatrixXd & squares; ///< tiles x frames
+  const Eigen::MatrixXd & squares; ///< tiles x frames [DN^2]
   Eigen::VectorXd         ofConstant;
   Eigen::MatrixXd         ofLevel; ///< tiles x frames [DN]
   const Eigen::VectorXd & pixels;
 };
 
-/** The inverse variances of the squares, about: squares of normal values scatter by twice their square. 0 for a frame
- * of which the projection leaves next to nothing. */
+/** Returns approximate inverse variances of the squared residuals: a squared normal value has a variance of twice its
+ * squared expectation. The weight is 0 for frames with less than InRefined.leastLeftShare of their noise in the
+ * residuals. */
 Eigen::MatrixXd
 WeightsBy(const Regression & data, const VarianceLine & line)
 {
@@ -59,7 +60,7 @@ WeightsBy(const Regression & data, const VarianceLine & line)
   return weights;
 }
 
-/** One line through the squares of all tiles, to weigh them by. */
+/** Fits one line through the squared residuals of all tiles, for their weights. */
 VarianceLine
 FitAllTiles(const Regression & data, const Eigen::MatrixXd & weights)
 {
@@ -82,7 +83,7 @@ FitAllTiles(const Regression & data, const Eigen::MatrixXd & weights)
   return line;
 }
 
-/** A weighted mean of tiles: sum of the numerators over that of the denominators. */
+/** Weighted mean over tiles: the sum of the numerators over the sum of the denominators. */
 struct TileMean
 {
   Eigen::VectorXd numerators;
@@ -93,8 +94,8 @@ struct TileMean
   {
     return numerators.sum() / denominators.sum();
   }
-  /** The variance of the mean by the scatter of the tiles, at least that by their weights; wider where tiles are few.
-   */
+  /** Returns the variance of the mean from the scatter between tiles, at least the variance by their weights. It is
+   * wider if there are few tiles, by Student's quantile. */
   double
   Variance() const
   {
@@ -106,11 +107,11 @@ struct TileMean
   }
 };
 
-/** The slope from frame to frame, tile by tile. */
+/** Slope of the squared residuals between frames, within each tile. */
 struct FrameSlope
 {
   TileMean        ofTiles;
-  Eigen::VectorXd information; ///< what each frame adds to the denominators
+  Eigen::VectorXd information; ///< contribution of each frame to the denominators
 };
 
 FrameSlope
@@ -136,8 +137,8 @@ SlopeOfTiles(const Regression & data, const Eigen::MatrixXd & weights)
   return slope;
 }
 
-/** The part of the information on the slope that is left without the fifth of the frames that have most of it [1]: as
- * many may be unlike the others, and a slope that depends on them alone is not identifiable. */
+/** Returns the fraction of the information on the slope that remains without the fifth of the frames that contribute
+ * most [1]. As many frames may have other noise, and a slope that depends on them alone is not identifiable. */
 double
 ShareOfOthers(const Regression & data, Eigen::MatrixXd weights, const FrameSlope & slope)
 {
@@ -154,7 +155,8 @@ ShareOfOthers(const Regression & data, Eigen::MatrixXd weights, const FrameSlope
   return SlopeOfTiles(data, weights).information.sum() / slope.information.sum();
 }
 
-/** The variance at level 0 for a slope, and where it is what it is whatever the slope: the pivot. */
+/** Variance at level 0 for a given slope, and the pivot, the level at which the variance does not depend on the slope.
+ */
 struct ValueOfTiles
 {
   TileMean value;
@@ -173,8 +175,8 @@ ValueAtZero(const Regression & data, const Eigen::MatrixXd & weights, double gai
   return found;
 }
 
-/** The deviations of the frames from the line, one bin a frame, in the order of their mean levels. Each tile has a
- * constant of its own, as in the slope. */
+/** Returns the deviations of the frames from the line, with one bin for each frame, sorted by their mean levels. Each
+ * tile has its own constant, as in the fit of the slope. */
 VarianceCurve
 CurveOfFrames(const Regression &      data,
               const Eigen::MatrixXd & weights,
@@ -192,7 +194,7 @@ CurveOfFrames(const Regression &      data,
     const Eigen::VectorXd levelsDn = levels.Of(energies.LightDn()(i));
     for (Eigen::Index t = 0; t < weights.cols(); ++t)
     {
-      const double weight = weighed(t) * data.ofConstant(t); // of a variance, not of a residual's square
+      const double weight = weighed(t) * data.ofConstant(t); // weight of a variance, not of a squared residual
       curve.bins[static_cast<std::size_t>(t)] += { weight > 0.0 ? data.pixels(i) : 0.0,
                                                    weight,
                                                    weight * (levelsDn(t) - line.pivotDn),

@@ -14,18 +14,21 @@
 namespace sensornoise
 {
 
-/** The level of every tile in every frame. */
+/** \class TileLevels
+ * \brief Level of every tile in every frame. */
 class SensorNoise_EXPORT TileLevels
 {
 public:
-  /** Takes all frames; the sample has the first of them. \a gamma + 1 is the illumination factor of each frame about
-   * the dark offset \a offsetDn, and \a zeroDn the level from which FrameEnergies measures light [DN]. */
+  /** \a gamma + 1 is the illumination factor of each frame of the stack about the dark offset \a offsetDn [DN]; the
+   * sample contains the first of these frames. \a zeroDn is the level from which FrameEnergies measures the signal
+   * [DN]. */
   TileLevels(const std::vector<double> & gamma, double offsetDn, double zeroDn);
 
-  /** In every frame, of a tile of the light \a lightDn in the mean frame [DN]. */
+  /** Returns the levels in every frame of a tile whose signal in the mean frame is \a lightDn [DN]. */
   Eigen::VectorXd
   Of(double lightDn) const;
 
+  /** Returns the dark offset about which the illumination factors are given [DN]. */
   double
   OffsetDn() const
   {
@@ -38,22 +41,24 @@ private:
   double          m_ZeroDn;
 };
 
-/** The variance that \a line makes of the level of a \a tile in every frame; where the line is near 0 or below, a small
- * part of the tile's mean square [DN^2]. */
+/** Returns the variance by \a line at the level of a \a tile in every frame [DN^2]. It is at least
+ * InRefined.leastWeighedVariance of the tile's mean square. */
 SensorNoise_EXPORT Eigen::VectorXd
 VariancesOfFrames(const FrameEnergies & energies,
                   const TileLevels &    levels,
                   const VarianceLine &  line,
                   Eigen::Index          tile);
 
-/** The photon transfer of the frames: the line of the noise variance over the level, by what a place has of both in
- * bright and in dark frames. A flat field determines it as well as a scene with contrast, and differences between
- * pixels do not count. Estimator.md, 3.14.
+/** Fits the photon transfer line of the frames: the noise variance over the level, from the differences between bright
+ * and dark frames at each place. A flat field determines it as well as a scene with contrast, and differences between
+ * pixels do not influence it. Estimator.md, 3.14.
  *
- * Slopes are of every tile by itself, and their scatter from tile to tile is the error. Slope and value at the pivot
- * are uncorrelated. \a start weighs the squares at first. Returns the line, and the deviations of the frames from it in
- * one bin for each frame. The line is not determined if there are too few tiles or frames, frames of one level, or two
- * levels of which one is that of a fifth of the frames or fewer. */
+ * Each tile gives a slope, and the scatter of the slopes between tiles is the error. Slope and value at the pivot are
+ * uncorrelated. \a start gives the initial weights. Returns the line, and the deviations of the frames from it in one
+ * bin for each frame.
+ *
+ * The line is not determined if there are too few tiles or frames, or if all frames have one level. It is not
+ * determined either if the frames have two levels, and one of them only in a fifth of the frames or fewer. */
 SensorNoise_EXPORT VarianceCurve
 FitFramePhotonTransfer(const FrameEnergies & energies, const TileLevels & levels, const VarianceLine & start);
 

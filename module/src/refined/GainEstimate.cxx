@@ -24,7 +24,8 @@ namespace sensornoise
 
 namespace
 {
-/** A covariance of gain and intercept that leaves the value at the pivot alone. */
+/** Returns a covariance of gain and intercept that adds \a errorOfSlope to the gain, and nothing to the variance at the
+ * pivot. */
 Eigen::Matrix2d
 SlopeCovariance(double errorOfSlope, double pivotDn)
 {
@@ -33,7 +34,7 @@ SlopeCovariance(double errorOfSlope, double pivotDn)
   return errorOfSlope * errorOfSlope * added;
 }
 
-/** What is known of the bias of large vibrations, beyond which the expansion in derivatives fails. */
+/** Returns the remaining bias of the gain by large vibrations, for which the expansion in derivatives fails [DN/e-]. */
 double
 ErrorOfVibration(const VarianceLine & line, const ProvisionalModel & model)
 {
@@ -43,9 +44,9 @@ ErrorOfVibration(const VarianceLine & line, const ProvisionalModel & model)
            : 0.0;
 }
 
-/** By how much the slope of a part of the pixels can be off because its levels differ by fixed-pattern noise, not by
- * signal [DN/e-]. The pattern is \a pattern's fraction of the levels of all pixels, \a levelsDn2 the variance of the
- * levels of the part: in the dark parts of a scene nothing else may be left. */
+/** Returns the largest error of the slope in a part of the pixels if their levels differ by fixed-pattern noise instead
+ * of signal [DN/e-]. The fixed-pattern noise is \a pattern's fraction of the levels of all pixels. \a levelsDn2 is the
+ * variance of the levels in the part: the dark parts of a scene may have no other differences. */
 double
 SlopeOfPattern(double gain, const LevelPattern & pattern, double levelsDn2)
 {
@@ -59,8 +60,8 @@ DispersionOfClasses(const StaticVariance & variance)
   return variance.sharedSquares * BeyondChance(variance.classes.reducedChi2, ProjectedVariance::Classes - 1.0);
 }
 
-/** Chooses between the line of all pixels, with the error that patterns can cause, and that of light alone: by the
- * errors, never by the values. */
+/** Chooses between the line of all pixels, with the error by fixed-pattern noise, and the instrumental-variable fit.
+ * The errors alone decide, not the values. */
 void
 ChooseLine(GainEstimate &           estimate,
            const SensorLines &      lines,
@@ -86,7 +87,8 @@ ChooseLine(GainEstimate &           estimate,
   estimate.covariance += SlopeCovariance(ErrorOfVibration(all, model), all.pivotDn) + lines.errorOfShared;
 }
 
-/** Draws one line on either side of a step of the variance, of one gain, and looks for all else in what is left. */
+/** Fits one line on either side of a step of the variance, with the same gain, and replaces the curve by the deviations
+ * from both lines. */
 void
 UseStep(GainEstimate &           estimate,
         const SensorLines &      lines,
@@ -110,7 +112,7 @@ UseStep(GainEstimate &           estimate,
   }
 }
 
-/** The gains of the two amplifiers are in the interval. */
+/** Extends the interval to the gains of both amplifiers. */
 void
 HoldSlopesBesideStep(GainEstimate & estimate)
 {
@@ -124,9 +126,9 @@ HoldSlopesBesideStep(GainEstimate & estimate)
   }
 }
 
-/** What the illumination series that could not be projected out may have added to the gain. They add the square of the
- * signal, whose slope is twice its ratio to the signal; and neighbours share them, so that the sum over lags may hold
- * light instead of noise. */
+/** Extends the interval by the possible effect of illumination changes that could not be projected out. They add a
+ * variance in proportion to the squared signal, whose slope is twice its ratio to the signal. They also correlate
+ * neighbours, so that the total covariance over lags may contain illumination instead of noise. */
 void
 HoldRestOfLight(GainEstimate & estimate, const RefinedResults & found)
 {
@@ -139,14 +141,15 @@ HoldRestOfLight(GainEstimate & estimate, const RefinedResults & found)
   }
 }
 
-/** The size of a difference without what chance makes of it, \a z of its standard deviations. */
+/** Returns the size of a difference without its statistical scatter, \a z standard deviations. */
 double
 SizeBeyondChance(double difference, double variance, double z)
 {
   return std::sqrt(std::max(0.0, difference * difference - z * z * variance));
 }
 
-/** The gains of the halves of the levels that differ from the whole's by more than chance. */
+/** Extends the interval to the gains of the darker and the brighter half of the levels, where they differ significantly
+ * from the gain of all. */
 void
 FindSpreadOfSlopes(GainEstimate &        estimate,
                    const VarianceCurve & curve,
@@ -156,14 +159,14 @@ FindSpreadOfSlopes(GainEstimate &        estimate,
   for (const SlopeExcess & half : curve.SlopesOfHalves())
   {
     double & side = half.value < 0.0 ? estimate.below : estimate.above;
-    // The bins are by the mean of 8 neighbours, which has an eighth of the variance of their patterns.
+    // The bins are sorted by the mean of 8 neighbours, which has an eighth of the variance of fixed-pattern noise.
     const double ofPattern = SlopeOfPattern(curve.line.gain, pattern, 8.0 * half.levelsDn2);
     const double variance = dispersion * half.variance + ofPattern * ofPattern;
     side = std::max(side, SizeBeyondChance(half.value, variance, Significance.oneTest));
   }
 }
 
-/** Where the response bends visibly, the mean of the local gain replaces the slope, which is not the gain there. */
+/** If the response is visibly non-linear, replaces the slope, which is then not the gain, by the mean local gain. */
 void
 UseMeanGain(GainEstimate & estimate, const VarianceCurve & curve, double blackDn, double dispersion)
 {
@@ -208,7 +211,7 @@ FindModelError(GainEstimate &        estimate,
   estimate.isWide = curve.DarkestShare(blackDn) < InRefined.largestDarkestShare;
   if (!estimate.isWide && std::sqrt(estimate.covariance(0, 0)) > InCommon.largestRelativeError * estimate.scale)
   {
-    return; // a line that is not known has no departures
+    return; // deviations from a line that is not known have no meaning
   }
   estimate.nonlinearity = curve.Nonlinearity(dispersion);
   FindSpreadOfSlopes(estimate, curve, pattern, dispersion);
@@ -218,11 +221,11 @@ FindModelError(GainEstimate &        estimate,
   }
   if (!estimate.IsBent())
   {
-    // What is left is scatter about a line that is straight enough.
+    // The remaining deviations scatter about a line that is straight enough.
     estimate.covariance *= BeyondChance(estimate.reducedChi2, static_cast<double>(curve.bins.size()) - 2.0);
   }
 }
-/** The estimate by frames of unequal illumination alone. */
+/** Returns the estimate by frames of unequal illumination alone. */
 GainEstimate
 EstimateOfFrames(const VarianceCurve &   frames,
                  const Eigen::Matrix2d & errorOfShared,
@@ -235,16 +238,16 @@ EstimateOfFrames(const VarianceCurve &   frames,
   estimate.covariance = frames.line.covariance + errorOfShared;
   estimate.reducedChi2 = frames.ReducedChi2() / sharedSquares;
   estimate.isFromFrames = true;
-  FindModelError(estimate, frames, {}, blackDn, sharedSquares); // frames have no pattern
+  FindModelError(estimate, frames, {}, blackDn, sharedSquares); // no fixed-pattern noise between frames
   return estimate;
 }
 
-/** Joins the slopes by pixels and by frames, which are independent. The value at the pivot is that of the better one,
- * and where either shows a response that is not linear the better one stands alone. */
+/** Combines the slopes by pixels and by frames, which are independent. The variance at the pivot is taken from the more
+ * precise estimate. If either shows a non-linear response, the more precise one is used alone. */
 void
 UseFrames(GainEstimate & estimate, const SensorLines & lines, double blackDn, double sharedSquares)
 {
-  if (!lines.fromFrames.line.isDetermined || estimate.step) // the frames' variance steps, too
+  if (!lines.fromFrames.line.isDetermined || estimate.step) // the variance of the frames has the step, too
   {
     return;
   }

@@ -17,65 +17,68 @@
 namespace sensornoise
 {
 
-/** Gain and intercept of the sensor, with all that is known of their errors. */
+/** Gain and intercept of the sensor, with their complete errors. */
 struct GainEstimate
 {
-  /** The line that stands for the sensor. */
+  /** Line of the variance whose slope is the gain. */
   VarianceLine line;
-  /** How the variance departs from it along the levels. */
+  /** Deviations of the variance from its line, by level. */
   VarianceCurve curve;
-  /** Of gain and intercept: the fit's, widened by all that contradicts it. */
+  /** Covariance of gain and intercept [DN/e-, DN^2]: of the fit, widened by scatter about the line and by systematic
+   * errors. */
   Eigen::Matrix2d covariance{ Eigen::Matrix2d::Zero() };
-  /** How far below and above the gain parts of the levels put it: the error of taking the response for straight, beyond
-   * what chance makes of it [DN/e-]. */
+  /** Distance of the gains of parts of the levels below and above the gain, without their statistical scatter: the
+   * error of assuming a linear response [DN/e-]. */
   double below{ 0.0 };
   double above{ 0.0 };
-  /** D, the size of the variance's departure from a line, see VarianceCurve [1]. */
+  /** D, the largest deviation of the variance from a line, see VarianceCurve [1]. */
   double nonlinearity{ 0.0 };
-  /** Whether the line is by what frames of unequal illumination have of variance and level, see
-   * FitFramePhotonTransfer(), and not by what pixels have. */
+  /** Whether the line is from frames of unequal illumination, see FitFramePhotonTransfer(), and not from pixels. */
   bool isFromFrames{ false };
-  /** Whether the darkest levels have so much less light than the brightest that a bend could be told from noise. */
+  /** Whether the darkest levels have so little signal, compared to the brightest, that a non-linear response is
+   * distinguishable from noise. */
   bool isWide{ true };
-  /** Reduced chi-square of the variance about its line, along the intensity. */
+  /** Reduced chi-square of the variance about its line, along the intensity [1]. */
   double reducedChi2{ 1.0 };
-  /** Where the variance steps, as between two amplifiers: the line is that of the levels below, the gain that of both
-   * sides. Null: it does not. */
+  /** Step of the variance, as between two amplifiers. The line is then the line of the levels below the step, and the
+   * gain is the gain of both sides. Null: no step. */
   std::optional<VarianceStep> step;
-  /** About the gain, whatever the slope: the variance over the light, both at the pivot [DN/e-]. */
+  /** Approximate gain that does not depend on the slope: variance over signal, both at the pivot [DN/e-]. */
   double scale{ 0.0 };
 
-  /** The line's value at the offset of dark frames, before these were used; null: there are none, or a
-   * bend of the response may part them from the line. */
+  /** Value of the line at the offset of the dark frames, before these are used. Null: there are no dark frames, or a
+   * non-linear response may explain their difference from the line. */
   std::optional<DarkVariance> atOffset;
 
-  /** Whether the dark frames contradict the line of the bright frames, or hold signal, and are not in the gain. */
+  /** Whether the dark frames contradict the line of the bright frames or contain signal, and are not used for the gain.
+   */
   bool isDarkRejected{ false };
   /** Whether the line of the bright frames alone is precise enough for dark frames to test the linearity of the
-   * response: not for levels of one height. */
+   * response; false if all levels are equal. */
   bool isLinearityTested{ false };
 
-  /** Whether parts of the levels differ visibly. */
+  /** Returns whether the gains of parts of the levels differ significantly. */
   bool
   IsBent() const
   {
     return below > 0.0 || above > 0.0;
   }
-  /** Of a gain, where the response bends [1]. */
+  /** Returns the relative error of the gain by a non-linear response [1]; 0 if the response is linear. */
   double
   RelativeModelError() const;
-  /** With the model's error. */
+  /** Returns the standard error of the gain, including the error of the model [DN/e-]. */
   double
   StandardError() const;
 };
 
-/** Puts the results together: the line of all pixels, or of what is light alone where the pixels' own patterns matter
- * more than precision; the point (offset, variance) of dark frames; and, where the response bends, the gains of the
- * parts of the levels. \a lines are those of \a found's variance, or what the sensor had before it was shared. */
+/** Estimates gain and intercept. The line is from all pixels, or from the instrumental-variable fit where the error by
+ * fixed-pattern noise is larger than the loss of precision. The point (offset, variance) of dark frames is added. If
+ * the response is non-linear, the gains of the parts of the levels are used. \a lines are the lines of the variance in
+ * \a found, or of the variance before filters. */
 SensorNoise_EXPORT GainEstimate
 EstimateGain(const RefinedResults & found, const SensorLines & lines);
 
-/** Of the variance as it is. */
+/** Estimates gain and intercept from the variance without correction for noise correlation. */
 inline GainEstimate
 EstimateGain(const RefinedResults & found)
 {

@@ -29,7 +29,7 @@ namespace sensornoise
 
 namespace
 {
-/** Files the fit. */
+/** Files the line, its curvature and its chi-square. */
 void
 FillFit(Report & report, const RefinedResults & found, const GainEstimate & gain)
 {
@@ -41,7 +41,8 @@ FillFit(Report & report, const RefinedResults & found, const GainEstimate & gain
   report.fit.line = Report::Baseline{ 0.0, v.gain, v.intercept };
 }
 
-/** A question, where dark frames are brighter than the frames; else \a otherwise. */
+/** Returns the question whether frames and dark frames were exchanged, if the dark frames are brighter; else
+ * \a otherwise. */
 std::string
 AskIfExchanged(const RefinedResults & found, const std::string & otherwise)
 {
@@ -54,7 +55,7 @@ AskIfExchanged(const RefinedResults & found, const std::string & otherwise)
          RoundedApart(found.scene.model.brightestDn, known->valueDn) + " DN: are they exchanged?";
 }
 
-/** Why the variance is not that of a sensor; empty: it may be. */
+/** Returns why the variance is not the variance of a sensor; empty: no reason was found. */
 std::string
 FindContradiction(const RefinedResults & found, const GainEstimate & gain)
 {
@@ -103,7 +104,8 @@ FindContradiction(const RefinedResults & found, const GainEstimate & gain)
   return {};
 }
 
-/** What a known offset alone says of the gain: the line goes through it at a variance between 0 and the lowest. */
+/** Files the bounds of the gain by a known offset alone: the line passes the offset with a variance between 0 and the
+ * lowest variance of the frames. */
 void
 BoundGain(Report & report, const RefinedResults & found, const GainEstimate & gain)
 {
@@ -119,8 +121,8 @@ BoundGain(Report & report, const RefinedResults & found, const GainEstimate & ga
   }
 }
 
-/** The frames that carry the illumination, where flicker and motion take up nearly all noise of these few; else empty.
- * Estimator.md, 3.5. */
+/** Returns which frames have most of the illumination, if the projection on flicker and motion removes nearly all noise
+ * of these few frames; else an empty text. Estimator.md, 3.5. */
 std::string
 FindFewIlluminatedFrames(const RefinedResults & found)
 {
@@ -159,7 +161,7 @@ FindFewIlluminatedFrames(const RefinedResults & found)
          "). The gain is not identifiable: record more frames with light";
 }
 
-/** The gain that cannot be told: every parameter of the sensor goes with it. */
+/** Files that the gain, and with it every parameter of the sensor, is not identifiable, and warns why. */
 void
 FillTooLittle(Report & report, const RefinedResults & found, const GainEstimate & gain)
 {
@@ -198,7 +200,7 @@ FillTooLittle(Report & report, const RefinedResults & found, const GainEstimate 
                 : "Record more frames, include dark and bright areas in the scene, or give dark frames (--dark)"));
 }
 
-/** How far the gains of the parts lie below and above their mean, relative to it [1]. */
+/** Largest distances of the parts' gains below and above their mean, and their rms deviation, relative to it [1]. */
 struct PartsRange
 {
   double below{ 0.0 };
@@ -222,8 +224,8 @@ AdviceOn(Divided divided)
   return "Measure the parts by themselves (--roi)";
 }
 
-/** Files the gains of the parts and warns of them. Noise that neighbours share depends on the phase by itself, as where
- * frames were resampled: then phases tell nothing of the gain. */
+/** Files the gains of the parts and warns of their differences. Phases are left out if the noise is correlated: where
+ * frames were resampled, the variance depends on the phase, and not because of the gain. */
 PartsRange
 FillParts(Report & report, const RefinedResults & found, const GainEstimate & gain)
 {
@@ -281,7 +283,7 @@ WarnOfStep(Report & report, const GainEstimate & gain)
   }
 }
 
-/** Gain and intercept with their intervals, which hold the gains of all parts of the levels. */
+/** Files gain and intercept with intervals that contain the gains of all parts of the levels. */
 void
 FillGainAndIntercept(Report &               report,
                      const RefinedResults & found,
@@ -301,7 +303,7 @@ FillGainAndIntercept(Report &               report,
   report.varianceSlope.value = gain.line.gain + codes.slopeDn;
   report.varianceSlope.interval95 =
     Interval{ *report.gain.interval95->low + codes.slopeDn, *report.gain.interval95->high + codes.slopeDn };
-  // The value at the pivot is sure: the intercept moves against the gain.
+  // The value at the pivot is precise, so that an error of the gain changes the intercept in the opposite direction.
   const double interceptError =
     std::hypot(std::sqrt(gain.covariance(1, 1)), 0.5 * (gain.below + gain.above) * gain.line.pivotDn);
   report.totalIntercept = WithError(gain.line.intercept + codes.interceptDn2, interceptError, student);
@@ -328,7 +330,7 @@ FillGain(Report &               report,
 {
   FillFit(report, found, gain);
   const std::string contradiction = FindContradiction(found, gain);
-  // Parts of levels that are all alike differ by patterns, not by a bend.
+  // If all levels are alike, parts of them differ by fixed-pattern noise, and not by a non-linear response.
   const double error = gain.isWide ? std::sqrt(gain.covariance(0, 0)) : gain.StandardError();
   const bool   isTooLittle = error > InCommon.largestRelativeError * gain.scale ||
                            static_cast<double>(report.pixels.used) < InRefined.leastUsedShare * found.scene.usable;

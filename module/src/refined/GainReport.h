@@ -13,9 +13,9 @@ namespace sensornoise
 
 struct GainEstimate;
 
-/** Files the fit, and gain and intercept if they can be told. Returns false if they cannot: then every parameter of the
- * sensor is without a value, with a warning that says why. \a quantisationDn2 is the codes' noise, \a student the
- * quantile of the 95 % intervals. */
+/** Files the fit, and gain and intercept if they are identifiable. Returns whether they are. If not, every parameter of
+ * the sensor is filed without a value, and a warning gives the reason. \a quantisationDn2 is the variance of the
+ * quantization noise [DN^2], \a student the quantile of the 95 % intervals. */
 SensorNoise_EXPORT bool
 FillGain(Report &               report,
          const RefinedResults & found,
@@ -23,7 +23,7 @@ FillGain(Report &               report,
          double                 quantisationDn2,
          double                 student);
 
-/** Warns if the levels do not reach down far enough to tell a bent response from a straight one. */
+/** Warns if the darkest levels have too much signal to distinguish a non-linear response from a linear one. */
 SensorNoise_EXPORT void
 WarnOfNarrowRange(Report &               report,
                   const RefinedResults & found,

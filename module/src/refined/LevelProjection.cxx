@@ -22,7 +22,7 @@ namespace sensornoise
 
 namespace
 {
-/** The normalised levels of the frames, without their mean. */
+/** Returns the basis of the frames' levels, centred and divided by their range. */
 TemporalBasis
 BasisOfLevels(const std::vector<double> & frameMeans)
 {
@@ -39,7 +39,7 @@ BasisOfLevels(const std::vector<double> & frameMeans)
   return { levels, none, none };
 }
 
-/** The slope of \a skew over the mean, by least squares [1]. */
+/** Returns the least-squares slope of \a skew over the mean [1]. */
 double
 SlopeOfSkew(const ReferenceFrame & frame, const std::vector<float> & skew)
 {
@@ -61,8 +61,8 @@ SlopeOfSkew(const ReferenceFrame & frame, const std::vector<float> & skew)
   return squares > 0.0 ? products / squares : 0.0;
 }
 
-/** The gain, about, of residual variances that shot noise makes smaller by g times \a skew over \a freedom: by that,
- * their slope over the level is too small by a known factor. */
+/** Returns an approximate gain. The projection reduces shot noise by g times \a skew over \a freedom, so that the slope
+ * of the residual variance over the level is too small by a known factor. */
 double
 RoughGain(const ReferenceFrame & frame, const std::vector<float> & skew, double freedom)
 {
@@ -74,7 +74,7 @@ RoughGain(const ReferenceFrame & frame, const std::vector<float> & skew, double 
   }
   catch (const NothingToMeasure &)
   {
-    return 0.0; // the scene will say so, too
+    return 0.0; // the same failure follows when the scene is made
   }
 }
 } // namespace
@@ -124,7 +124,7 @@ LevelProjection::TakeMaps(const ParallelFor & parallelFor)
   const double gain = RoughGain(m_Frame, squares.skew, freedom);
   ForPixels(raw.size(), parallelFor, [&](std::size_t p) {
     const double added = gain * static_cast<double>(squares.skew[p]) / freedom;
-    m_Frame.variance[p] += raw[p] > 0.0 ? added : 0.0; // a pixel that is constant stays so
+    m_Frame.variance[p] += raw[p] > 0.0 ? added : 0.0; // the variance of a constant pixel stays 0
   });
   return { { m_Summary, std::move(m_Frame.mean), std::move(m_Frame.variance), std::move(m_Valid) }, std::move(raw) };
 }

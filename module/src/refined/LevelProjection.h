@@ -18,27 +18,26 @@
 namespace sensornoise
 {
 
-/** Returns whether the levels of the distinct frames, \a frameMeans [DN], are a series that pixels can be projected on:
- * all are finite, they differ, and degrees of freedom are left. */
+/** Returns whether pixels can be projected on the levels of the distinct frames, \a frameMeans [DN]: the levels are
+ * finite and differ, and degrees of freedom remain. */
 SensorNoise_EXPORT bool
 AreLevelsSeries(const std::vector<double> & frameMeans);
 
 /** \class LevelProjection
- * \brief One more reading of a stack under strong changes of the illumination: the variance of every pixel without what
- * it has in common with the levels of the frames.
+ * \brief One more reading of a stack under strong changes of the illumination: computes the variance of every pixel
+ * without the component that is proportional to the levels of the frames.
  *
  * The raw variance of a pixel of signal s is V + sigma_gamma^2 s^2. Where the second term is 100 times the first, no
- * model of the raw variance determines V. What is left of a pixel's time series after the projection on the one series
- * of the frames' mean levels is V, as far as the illumination is the same everywhere and nothing moves, and needs no
- * offset. Estimator.md, 3.2.
+ * model of the raw variance determines V. The residual variance after the projection on the series of the frames' mean
+ * levels is V, if the illumination is the same everywhere and nothing moves. It needs no offset. Estimator.md, 3.2.
  *
- * Sums as those of PixelProjections, 8 bytes a pixel: the same bits in any chunks and any distribution over processes.
- */
+ * The sums are those of PixelProjections, 8 bytes for each pixel: identical for any chunks and any distribution over
+ * processes. */
 class SensorNoise_EXPORT LevelProjection
 {
 public:
-  /** \a frameMeans are those of the distinct frames [DN], see AreLevelsSeries(). \a withoutMerging: no sums are saved
-   * or merged. */
+  /** \a frameMeans are the mean levels of the distinct frames [DN], see AreLevelsSeries(). \a withoutMerging: no sums
+   * are saved or merged. */
   LevelProjection(StackMaps                   maps,
                   const FrameGeometry &       geometry,
                   const PixelLayout &         layout,
@@ -46,7 +45,8 @@ public:
                   bool                        withoutMerging,
                   const ParallelFor &         parallelFor);
 
-  /** What the frames are added to. */
+  /** Returns the target to which frames are added; \a place is the index of the first frame among the distinct frames.
+   */
   PixelProjections::Plane
   PlaneAt(std::size_t place)
   {
@@ -62,20 +62,20 @@ public:
   {
     return m_Projections;
   }
-  /** The frame with the raw variance [DN^2]. */
+  /** Returns the reference frame, with the raw variance [DN^2]. */
   const ReferenceFrame &
   GetFrame() const
   {
     return m_Frame;
   }
 
-  /** The maps of the stack, given away, with the residual variance in the place of the raw one. */
+  /** Maps of the stack, with the residual variance instead of the raw variance. */
   struct Maps
   {
     StackMaps           ofScene;
-    std::vector<double> rawVariance; ///< [DN^2]
+    std::vector<double> rawVariance; ///< raw variance [DN^2]
   };
-  /** Ends the reading. */
+  /** Ends the reading and returns the maps. */
   Maps
   TakeMaps(const ParallelFor & parallelFor);
 

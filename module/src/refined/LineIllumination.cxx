@@ -16,12 +16,12 @@ namespace sensornoise
 
 namespace
 {
-/** Sums by which the illumination of a tile, and the variance that it adds to the pixels, are found. */
+/** Sums for the illumination changes of a tile, and for the variance that they add to its pixels. */
 struct TileLight
 {
   double frames{ 0.0 };
   double pixels{ 0.0 };
-  double square{ 0.0 }; ///< of its light in the frames, in units of the noise of that light
+  double square{ 0.0 }; ///< of the tile's signal over the frames, in units of its noise
 
   TileLight &
   operator+=(const TileLight & other)
@@ -33,9 +33,9 @@ struct TileLight
   }
 };
 
-/** The light of tile \a i in each frame, sum w z r, has the variance sum w z^2 of the pixels' noise. A change of the
- * illumination e adds e^2 sum w z^2 to it, relative to that, and the mean of that sum over the pixels to the variance
- * of each. */
+/** Returns the sums of tile \a i. Its signal in a frame, sum w z r, has the variance sum w z^2 by the noise of the
+ * pixels. A relative change e of the illumination increases this variance by the fraction e^2 sum w z^2, and the
+ * variance of the pixels by the mean of e^2 w z^2 over them. */
 TileLight
 LightOfTile(const NoiseResiduals & residuals, std::size_t i)
 {
@@ -83,7 +83,7 @@ RestOfIllumination(const NoiseResiduals & residuals, const ParallelFor & paralle
   const JackknifeEstimate estimate = Jackknife(tiles, [](const TileLight & sum) {
     return Eigen::VectorXd::Constant(1, sum.pixels > 0.0 ? (sum.square - sum.frames) / sum.pixels : 0.0);
   });
-  // Both sums are over the tiles: the excess of each is a sum over its frames.
+  // Both sums are over the tiles: the excess of each tile is a sum over its frames.
   const double perFrame = 1.0 / std::max(1.0, residuals.GetFreedom());
   const double rest = estimate.value(0) * perFrame;
   const double error = estimate.StandardError(0) * perFrame;

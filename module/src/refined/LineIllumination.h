@@ -16,36 +16,37 @@
 namespace sensornoise
 {
 
-/** The illumination that the rows of a frame have of their own, or its columns where the frame is turned: of a lamp
- * that pulses under a rolling shutter, of interlaced frames. Estimator.md, 3.18. */
+/** Illumination that is specific to the rows of a frame, or to its columns where the frame is turned: by a pulsed lamp
+ * under a rolling shutter, or by interlaced frames. Estimator.md, 3.18. */
 struct LineIllumination
 {
-  LineAxis axis{ LineAxis::Rows };
-  /** Mean square of its relative changes, see FindLineLight() [1]: before anything was taken off, and what is left. */
+  LineAxis axis{ LineAxis::Rows }; ///< whether it is specific to rows or to columns
+  /** Mean square of its relative changes, see FindLineLight() [1]: \a found before it is subtracted, \a left after
+   * that. */
   MeasuredNumber found;
   MeasuredNumber left;
-  /** Whether it was taken off, and the pixels that were measured so: those of the noise sample. */
+  /** Whether it was subtracted, and the number of pixels that were measured without it: those of the noise sample. */
   bool        isTakenOff{ false };
   std::size_t pixels{ 0 };
-  /** Variance that other changes of the illumination still add to that of a pixel, relative to it [1]; 0: none beyond
-   * chance. */
+  /** Variance by other changes of the illumination that remains in a pixel's variance, relative to it [1]; 0: none is
+   * significant. */
   double restOfVariance{ 0.0 };
 };
 
-/** What changes of the mean square \a square add to the slope of the variance, relative to the gain \a gain [1]: they
- * add their product with q^2 to the variance of the signal q, of which the brightest is \a signalDn. 0: nothing beyond
- * chance, or less than \a least. */
+/** Returns the relative increase of the slope of the variance by illumination changes of the mean square \a square [1].
+ * They add \a square times q^2 to the variance at the signal q; \a signalDn is the signal of the brightest pixels
+ * [DN], \a gain the gain [DN/e-]. Returns 0 if the increase is not significant, or less than \a least [1]. */
 SensorNoise_EXPORT double
 EffectOfLineLight(const MeasuredNumber & square, double signalDn, double gain, double least);
 
-/** Returns what the illumination of places adds to the variance of a pixel, relative to it [1]; 0: nothing beyond
- * chance, or less than counts. */
+/** Returns the increase of a pixel's variance by local changes of the illumination, relative to it [1]; 0: not
+ * significant, or too small to count. */
 SensorNoise_EXPORT double
 RestOfIllumination(const NoiseResiduals & residuals, const ParallelFor & parallelFor);
 
-/** Takes what the \a lines of its axis share off the \a residuals, whose pixels are those of \a chosen, and puts the
- * variance that is left into \a projected. Pixels outside of the sample leave \a chosen, and are marked in \a pixelUse.
- */
+/** Subtracts the noise and illumination of whole \a lines from \a residuals, whose pixels are \a chosen, and replaces
+ * the variance in \a projected by the remaining one. Pixels outside of the sample are removed from \a chosen and
+ * marked in \a pixelUse. */
 SensorNoise_EXPORT void
 TakeOffLineIllumination(LineIllumination &          lines,
                         NoiseResiduals &            residuals,

@@ -14,27 +14,28 @@ namespace sensornoise
 {
 
 /** \class MemoryNeed
- * \brief The memory of RefinedMethod for frames of a size, without the frames that it is handed [bytes].
+ * \brief Memory of RefinedMethod for frames of a size, without the frames that are handed to it [bytes].
  *
- * Counted from what is held at the same time, and measured to be enough: documentation/performance.md. */
+ * Computed from the data that are held at the same time, and measured to be enough: documentation/performance.md. */
 struct MemoryNeed
 {
   std::size_t pixels;
   std::size_t frames;
 
-  /** Whatever the number of series: the maps, and what is made of them between the passes. No limit may be below. */
+  /** Returns the memory that is needed for any number of temporal components: the maps, and the data between the
+   * passes. It is the least memory limit. */
   double
   Least() const
   {
     return leastBytesPerPixel * static_cast<double>(pixels) + this->OfFrames();
   }
-  /** Of the third pass but for its sums: mean and variance, residual squares and masks. */
+  /** Returns the memory of the third pass without its sums: mean and variance, residual squares and masks. */
   double
   BesideProjections() const
   {
     return mapBytesPerPixel * static_cast<double>(pixels) + this->OfFrames();
   }
-  /** The third pass's sums of all pixels with so many series. */
+  /** Returns the memory of the third pass's sums, for all pixels and \a series temporal components. */
   double
   OfProjections(std::size_t series) const
   {
@@ -54,8 +55,8 @@ private:
   }
 };
 
-/** Throws std::invalid_argument if \a limitBytes are less than \a planes frames of the size \a geometry need at once.
- */
+/** Throws std::invalid_argument if \a limitBytes is less than the memory that \a planes frames of the size \a geometry
+ * need at once. */
 SensorNoise_EXPORT void
 RequireMemoryLimit(double limitBytes, const FrameGeometry & geometry, std::size_t frames, std::size_t planes);
 

@@ -25,38 +25,38 @@ namespace sensornoise
 
 namespace
 {
-/** One axis of the motion. */
+/** Motion along one axis. */
 struct AxisMotion
 {
-  std::vector<double> series;       ///< of every frame, mean 0 [pixel]; empty: its derivative is not active
-  std::vector<double> leastSquares; ///< the same by least squares
-  Eigen::Index        place{ 0 };   ///< of its derivative among those of the motion
+  std::vector<double> series;       ///< shift of every frame, mean 0 [pixel]; empty: the derivative is not active
+  std::vector<double> leastSquares; ///< the same by least squares [pixel]
+  Eigen::Index        place{ 0 };   ///< index of its derivative among the derivatives of the motion
   Quantity            sd{ Quantity::Without(EstimateStatus::NotIdentifiable) };
 };
 
-/** The weights of the frames' shifts. Their variance is in proportion to 1 / (1 + gamma_t)^2: where the illumination
- * changes strongly, that counts. Dark frames have no shift of their own. */
+/** Weights of the frames' shifts, whose variance is proportional to 1 / (1 + gamma_t)^2. They differ only under strong
+ * changes of the illumination. Dark frames have the weight 0, as their shift is not identifiable. */
 struct FrameWeights
 {
   std::vector<double> ofFrames;
   double              sum{ 0.0 };
-  double              frames{ 0.0 };  ///< of weight above 0
-  double              squares{ 0.0 }; ///< of the weights
+  double              frames{ 0.0 };  ///< number of frames with a weight above 0
+  double              squares{ 0.0 }; ///< sum of the squared weights
 
-  /** What a weighted sum of squares about the weighted mean has of the variance: the frames less one, if all weights
-   * are 1. */
+  /** Returns the expectation of a weighted sum of squares about the weighted mean, over the variance: the number of
+   * frames minus 1 if all weights are 1. */
   double
   Freedom() const
   {
     return sum - squares / sum;
   }
-  /** The number of equally weighted frames that determine a variance as well, less one. */
+  /** Returns the number of equally weighted frames that determine a variance as precisely, minus 1. */
   double
   EffectiveFreedom() const
   {
     return sum * sum / squares - 1.0;
   }
-  /** The mean variance of the shifts' noise, over that at the mean illumination. */
+  /** Returns the mean variance of the shifts' noise, over the variance at the mean illumination [1]. */
   double
   MeanNoise() const
   {
@@ -74,7 +74,7 @@ WeighFrames(const std::vector<double> & gamma)
   for (const double change : gamma)
   {
     const double illumination = 1.0 + change;
-    const bool   hasShift = !(illumination < InSeries.leastIlluminationOfShift); // also where it is not known
+    const bool   hasShift = !(illumination < InSeries.leastIlluminationOfShift); // also if it is NaN
     const double weight = !hasShift ? 0.0 : isStrong ? illumination * illumination : 1.0;
     weights.ofFrames.push_back(weight);
     weights.sum += weight;
@@ -84,14 +84,15 @@ WeighFrames(const std::vector<double> & gamma)
   return weights;
 }
 
-/** What coefficients of a derivative, (1 + gamma_t) times the shift, say of the shifts. */
+/** Shifts from the coefficients of a derivative, which are (1 + gamma_t) times the shift, and their variance. */
 struct ShiftSpread
 {
-  std::vector<double> series;        ///< 0 where a frame has no shift of its own
-  double              square{ 0.0 }; ///< their variance over time, without that of their noise [pixel^2]
+  std::vector<double> series;        ///< shift of every frame [pixel]; 0 for a frame without a weight
+  double              square{ 0.0 }; ///< variance over time without the variance of the noise [pixel^2]
 };
 
-/** \a noiseSquare is the variance of the shifts' noise, its mean over the frames. */
+/** Returns the shifts of \a coefficients; \a noiseSquare is the mean variance of their noise over the frames [pixel^2].
+ */
 template <typename TCoefficients>
 ShiftSpread
 SpreadOf(const TCoefficients &       coefficients,
@@ -123,14 +124,14 @@ SpreadOf(const TCoefficients &       coefficients,
   return spread;
 }
 
-/** Shifts along one axis, by whichever way they were found, at the offset of the flicker that was taken off. */
+/** Shifts along one axis by either method, for the offset of the flicker that was subtracted. */
 struct AxisShifts
 {
   Eigen::VectorXd    coefficients; ///< (1 + gamma_t) times the shift [pixel]
-  Eigen::RowVector2d ofLight;      ///< the shift that a change of level, and one of contrast, looks like
-  double             noise{ 0.0 }; ///< variance of one frame's coefficient [pixel^2]
+  Eigen::RowVector2d ofLight;      ///< apparent shifts by a change of level, and by a change of contrast
+  double             noise{ 0.0 }; ///< variance of the coefficient of one frame [pixel^2]
 
-  /** The same about another offset: other flicker is taken off. */
+  /** Returns the shifts for another offset, where another flicker is subtracted. */
   AxisShifts
   About(const OffsetLine & before, const OffsetLine & after) const
   {
@@ -161,13 +162,13 @@ ByInstruments(const PolishedSeries & polished, Eigen::Index axis)
   return { shifts.coefficients.col(axis), shifts.ofLight.row(axis), shifts.covariance(axis, axis) };
 }
 
-/** What is taken off as flicker, and with what error. */
+/** Flicker that is subtracted from the shifts, with its error. */
 struct LightOfShifts
 {
-  const OffsetLine & solved; ///< with which the shifts were found
-  OffsetLine         inUse;  ///< of the flicker that is reported
+  const OffsetLine & solved; ///< flicker at which the shifts were found
+  OffsetLine         inUse;  ///< flicker that is reported
   double             offsetErrorDn{ 0.0 };
-  double             phi{ 1.0 }; ///< dispersion of the frames' light
+  double             phi{ 1.0 }; ///< dispersion of the frames' illumination [1]
 
   OffsetLine
   Beyond(double sds) const
@@ -178,17 +179,18 @@ struct LightOfShifts
   }
 };
 
-/** Part of the noise by which the dispersion of the frames' light lets it be greater, or less, than half of it [1]. */
+/** Returns the relative error of the noise by the dispersion of the frames' illumination: half of the excess over 1
+ * [1]. */
 double
 Slack(double phi)
 {
   return 0.5 * (phi - 1.0);
 }
 
-/** The variance of the shifts over time, without that of their noise, and its error. The noise is between that of white
- * noise and the dispersion of the frames' light times as much: what disperses this need not move anything. A wrong
- * offset takes off too much level, and leaves a part of the flicker in the shifts: on average this adds the square of
- * it, half of what an offset too low and one too high add together, which is taken off, too. */
+/** Returns the shifts, their variance over time without the variance of their noise, and its squared error. The noise
+ * lies between white noise and white noise times the dispersion of the frames' illumination, which need not be caused
+ * by motion. A wrong offset leaves a part of the flicker in the shifts. On average this adds its square, which is
+ * subtracted: half of the sum of what an offset too low and an offset too high add. */
 ShiftSpread
 SpreadAbout(const AxisShifts & shifts, const LightOfShifts & light, const FrameWeights & weights, double & errorSquare)
 {
@@ -209,8 +211,8 @@ SpreadAbout(const AxisShifts & shifts, const LightOfShifts & light, const FrameW
   return spread;
 }
 
-/** The motion along \a axis, whose derivative is \a stencil: by least squares, or better by instruments where they see
- * it. A part of what both differ by is a systematic error. */
+/** Returns the motion along \a axis, whose derivative is \a stencil: by instruments where they are available, else by
+ * least squares. A part of the difference between both is taken as a systematic error. */
 AxisMotion
 MotionAlong(Eigen::Index           axis,
             std::size_t            stencil,
@@ -246,7 +248,7 @@ MotionAlong(Eigen::Index           axis,
   return result;
 }
 
-/** The mean product of two series of mean 0. */
+/** Returns the weighted mean product of two series of mean 0. */
 double
 ProductOf(const std::vector<double> & a, const std::vector<double> & b, const FrameWeights & weights)
 {
@@ -258,9 +260,10 @@ ProductOf(const std::vector<double> & a, const std::vector<double> & b, const Fr
   return sum / weights.Freedom();
 }
 
-/** The covariance of the shifts along both axes, without that of their noise. Its error is that of a mean product of
- * shifts with Gaussian noise, whose covariance in one frame is known; a part of what it differs by from least squares,
- * if it is by instruments, is a systematic one, as of the standard deviations. */
+/** Returns the covariance of the shifts along both axes without the covariance of their noise. Its error is the error
+ * of a mean product of shifts with Gaussian noise, whose covariance in one frame is known. If the shifts are by
+ * instruments, a part of the difference from least squares is added as a systematic error, as for the standard
+ * deviations. */
 Quantity
 CovarianceOf(const AxisMotion & x, const AxisMotion & y, const PolishedSeries & polished, const FrameWeights & weights)
 {
@@ -288,7 +291,8 @@ CovarianceOf(const AxisMotion & x, const AxisMotion & y, const PolishedSeries & 
   const double ofNoise = noise(0, 1) * slack / (1.0 + slack);
   return WithError(value, std::hypot(std::sqrt(variance), systematic, ofNoise));
 }
-/** Why there is no flicker, and what to do. \a ofScale: the relative error of the illumination change [1]. */
+/** Returns the reason why there is no flicker, and what to do. \a ofScale is the relative error of the illumination
+ * change [1]. */
 std::string
 TextOfUnknownFlicker(double ofScale, const std::optional<Interval> & limit)
 {
@@ -339,7 +343,7 @@ FillFlicker(Report & report, const RefinedResults & found, double offset, double
   }
   const double ofScale = std::abs(line.sensitivity) * offsetErrorDn;
   const auto & limit = report.flickerSd.interval95;
-  // Noise of a flicker that is not known may be large, but a lamp that is off in most frames makes more than 1, too.
+  // The noise of an unknown flicker may be large, but a lamp that is off in most frames makes more than 1, too.
   const bool isLarge = report.flickerSd.value && report.flickerSd.standardError &&
                        *report.flickerSd.standardError < InCommon.largestRelativeError * *report.flickerSd.value;
   if (ofScale > InCommon.largestRelativeError || !(isLarge || (limit && limit->high.value_or(2.0) < 1.0)))
@@ -378,12 +382,12 @@ FillMotion(Report & report, const RefinedResults & found, double offset, double 
   }
   for (std::size_t t = 0; t < x.series.size(); ++t)
   {
-    constexpr double unknown = std::numeric_limits<double>::quiet_NaN(); // of a dark frame
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN(); // motion of a dark frame
     const bool       isKnown = weights.ofFrames[t] > 0.0;
     report.motion.push_back({ isKnown ? x.series[t] : unknown, isKnown ? y.series[t] : unknown });
   }
   const Quantity covariance = CovarianceOf(x, y, polished, weights);
-  if (std::isfinite(covariance.value.value_or(0.0))) // else the light of the frames is not known, nor are their shifts
+  if (std::isfinite(covariance.value.value_or(0.0))) // NaN: the illumination is not known
   {
     report.vibrationCovariance = covariance;
   }

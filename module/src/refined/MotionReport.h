@@ -10,14 +10,15 @@
 namespace sensornoise
 {
 
-/** Files the flicker of every frame and its standard deviation, about the offset \a offset: known, identified, or else
- * the middle of where it can be, minus the centre [DN]; \a offsetErrorDn: how far it may be off; \a scaleError: error
- * of a flicker, relative to it, where the response bends [1]. */
+/** Files the flicker of every frame and its standard deviation. \a offset is the dark offset minus the centre [DN]:
+ * known, identified, or else the middle of its bounds. \a offsetErrorDn is its error [DN]. \a scaleError is the
+ * relative error of the flicker by a non-linear response [1]. */
 SensorNoise_EXPORT void
 FillFlicker(Report & report, const RefinedResults & found, double offset, double offsetErrorDn, double scaleError);
 
-/** Files every frame's motion and the vibration's standard deviations and covariance; needs the flicker, which was
- * filed about the same \a offset. Where that is off by \a offsetErrorDn, a part of the flicker is taken for motion. */
+/** Files the motion of every frame, and the standard deviations and covariance of the vibration. The flicker must be
+ * filed before, at the same \a offset [DN]. An error of the offset, \a offsetErrorDn [DN], turns a part of the flicker
+ * into apparent motion. */
 SensorNoise_EXPORT void
 FillMotion(Report & report, const RefinedResults & found, double offset, double offsetErrorDn);
 

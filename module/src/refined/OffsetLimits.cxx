@@ -19,7 +19,7 @@ namespace sensornoise
 
 namespace
 {
-/** The darkest quantile of the neighbours' means of the usable pixels [DN]. */
+/** Returns the darkest quantile of the neighbours' means of the usable pixels [DN]. */
 double
 DarkestNeighbourhood(const ReferenceFrame & frame)
 {
@@ -42,7 +42,8 @@ LimitsOf(const RefinedResults & found, const GainEstimate & gain, double quantis
   const double         atPivot = v.intercept + v.gain * v.pivotDn;
   const double         slope = v.gain - gain.below - student * slopeError;
   OffsetLimits         limits;
-  // The darkest pixels are dark by chance and by their own offsets, too: less so the means of eight.
+  // The darkest pixels are dark also because of noise and their own offsets. Both are smaller in the means of eight
+  // pixels.
   const double darkestDn = found.InDarkestFrame(DarkestNeighbourhood(found.scene.frame));
   const double spreadDn2 = (v.At(darkestDn) / frames + found.variance.pattern.OffsetVarianceDn2()) / 8.0;
   limits.rootDn = v.gain > 0.0 ? std::min(-v.intercept / v.gain, darkestDn) : darkestDn;

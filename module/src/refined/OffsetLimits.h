@@ -13,17 +13,17 @@ namespace sensornoise
 
 struct GainEstimate;
 
-/** What physics leaves to the offset: sigma^2 >= 0 below, no light less than none above. Each end allows for its
- * errors. */
+/** Bounds of the offset by physics: sigma^2 >= 0 from below, no pixel darker than the offset from above. Both bounds
+ * are widened by their errors. */
 struct OffsetLimits
 {
-  std::optional<double> lowestDn;               ///< null: not bounded
-  double                highestDn{ 0.0 };       ///< the darkest level and what chance and offsets may make of it
-  double                rootDn{ 0.0 };          ///< where the line says sigma = 0, without errors
-  double                largestNoiseDn2{ 0.0 }; ///< sigma^2 if the offset were highestDn
+  std::optional<double> lowestDn;               ///< null: not bounded [DN]
+  double                highestDn{ 0.0 };       ///< the darkest level plus its error [DN]
+  double                rootDn{ 0.0 };          ///< level at which the line has sigma = 0, without errors [DN]
+  double                largestNoiseDn2{ 0.0 }; ///< sigma^2 if the offset is highestDn [DN^2]
 };
 
-/** The limits by the line of \a gain; \a quantisationDn2 is the codes' noise. */
+/** Returns the bounds by the line of \a gain; \a quantisationDn2 is the variance of the quantization noise [DN^2]. */
 SensorNoise_EXPORT OffsetLimits
 LimitsOf(const RefinedResults & found, const GainEstimate & gain, double quantisationDn2);
 

@@ -25,8 +25,8 @@ namespace sensornoise
 
 namespace
 {
-/** Warns if the dark frames hold signal, or are noisier or quieter than the line is at the offset, see UseDarkPoint().
- */
+/** Warns if the dark frames contain signal, or if their variance contradicts the line at the offset, see
+ * UseDarkPoint(). */
 void
 CompareDarkVariance(Report & report, const RefinedResults & found, const GainEstimate & gain, double quantisationDn2)
 {
@@ -51,7 +51,7 @@ CompareDarkVariance(Report & report, const RefinedResults & found, const GainEst
   }
 }
 
-/** The read noise in electrons, of that in DN and the gain. */
+/** Files the read noise in electrons from the read noise in DN and the gain. */
 void
 FillElectrons(Report & report, double squareDn2, double errorDn2, double gain, double gainError, double student)
 {
@@ -65,7 +65,7 @@ FillElectrons(Report & report, double squareDn2, double errorDn2, double gain, d
     RootOf(squareDn2 / (gain * gain), std::hypot(errorDn2, fromGain) / (gain * gain), student);
 }
 
-/** Whether the known offset lies beyond its limits. */
+/** Returns whether the known offset lies beyond its bounds. */
 bool
 IsKnownOffsetOutOfRange(const RefinedResults & found, const GainEstimate & gain, const OffsetLimits & limits)
 {
@@ -77,7 +77,7 @@ IsKnownOffsetOutOfRange(const RefinedResults & found, const GainEstimate & gain,
          known.valueDn > limits.highestDn + slackDn + InRefined.slackOfRange * rangeDn;
 }
 
-/** Warns if the known offset disagrees with the flicker's, or with the data. */
+/** Warns if the known offset contradicts the offset of the flicker, or its bounds. */
 void
 CompareKnownOffset(Report &               report,
                    const RefinedResults & found,
@@ -113,7 +113,7 @@ CompareKnownOffset(Report &               report,
   }
 }
 
-/** Files that offset and read noise are not identifiable, with their brackets. */
+/** Files that offset and read noise are not identifiable, with their bounds. */
 void
 FillBrackets(Report & report, const OffsetLimits & limits, double gain)
 {
@@ -126,11 +126,12 @@ FillBrackets(Report & report, const OffsetLimits & limits, double gain)
   report.readNoiseElectrons.bracket = Interval{ 0.0, largest / gain };
 }
 
-/** The offset's error has nothing to do with the line's; without an offset, NaN stands for it. */
+/** Files the covariance of gain, intercept and offset. The error of the offset is independent of the error of the line;
+ * without an offset its elements are NaN. */
 void
 FillCovariance(Report & report, const GainEstimate & gain, std::optional<double> offsetVarianceDn2)
 {
-  // The error of taking the response for straight turns the line about its pivot.
+  // The error of assuming a linear response turns the line about its pivot.
   const double    ofModel = 0.5 * (gain.below + gain.above);
   const double    pivotDn = gain.line.pivotDn;
   Eigen::Matrix2d covariance;
@@ -143,7 +144,7 @@ FillCovariance(Report & report, const GainEstimate & gain, std::optional<double>
                                                               { other, other, offsetVarianceDn2.value_or(unknown) } } };
 }
 
-/** Files the read noise at the offset, which is identified. */
+/** Files the read noise at the offset, which must be identified. */
 void
 FillReadNoise(Report &               report,
               const RefinedResults & found,
@@ -204,7 +205,8 @@ OffsetInUse(const RefinedResults & found,
   {
     return { flicker.valueDn, flicker.standardErrorDn };
   }
-  // An offset that is not told lies between the level of sigma = 0 and the darkest, about evenly.
+  // An offset that is not identifiable lies between the level of sigma = 0 and the darkest level, with about equal
+  // probability.
   const double lowestDn = limits.lowestDn.value_or(std::min(found.blackDn, limits.highestDn));
   return { 0.5 * (lowestDn + limits.highestDn), (limits.highestDn - lowestDn) / std::sqrt(12.0) };
 }
@@ -224,7 +226,7 @@ FillFromDarkFrames(Report & report, const RefinedSettings & settings, double qua
   }
   const double student = StudentQuantile(0.975, std::max(1.0, static_cast<double>(known.darkFrames) - 1.0));
   const double square = known.variance->valueDn2 - quantisationDn2;
-  const double halfStepDn2 = 3.0 * quantisationDn2; // below it the codes hide the noise
+  const double halfStepDn2 = 3.0 * quantisationDn2; // below it, the quantization hides the noise
   report.readNoise = square < halfStepDn2 ? UpperLimit(std::sqrt(halfStepDn2))
                                           : RootOf(square, known.variance->standardErrorDn2, student);
   if (known.readNoiseMedian)
@@ -235,7 +237,7 @@ FillFromDarkFrames(Report & report, const RefinedSettings & settings, double qua
 
 namespace
 {
-/** The offset of the line through the levels of frames of known exposures, if it is precise enough. */
+/** Returns the offset of the line through the levels of frames of known exposures; null if it is not precise enough. */
 std::optional<OffsetEstimate>
 OffsetByExposures(const RefinedResults & found)
 {
@@ -258,7 +260,8 @@ OffsetByExposures(const RefinedResults & found)
   return estimate;
 }
 
-/** Asks for the offset, which the illumination does not determine. \a other begins with ", or" and may help, too. */
+/** Returns the request for the offset, which the illumination does not determine. \a other is an alternative, and
+ * begins with ", or". */
 std::string
 Ask(const std::string & other)
 {
@@ -279,7 +282,7 @@ struct OffsetEnds
   double high;
 };
 
-/** Why the illumination does not determine the offset \a estimate; "" if it does. */
+/** Returns the reason why the illumination does not determine the offset \a estimate; "" if it does. */
 std::string
 ObstacleOf(const RefinedResults & found,
            const GainEstimate &   gain,
@@ -343,7 +346,7 @@ ObstacleOf(const RefinedResults & found,
   return {};
 }
 
-/** The offset as the illumination tells it. */
+/** Returns the dark offset as the illumination determines it. */
 OffsetEstimate
 OffsetByIllumination(const RefinedResults & found, const GainEstimate & gain, const OffsetLimits & limits)
 {
@@ -367,8 +370,8 @@ OffsetByIllumination(const RefinedResults & found, const GainEstimate & gain, co
   }
   estimate.interval = Interval{ low + model.centreDn, high + model.centreDn };
 
-  // Offsets that differ from pixel to pixel take levels for light: the zero moves away from them.
-  // So does a response that bends.
+  // Offsets that differ between pixels are taken for signal, which moves the zero away from the levels. A non-linear
+  // response has the same effect.
   const double lightDn = std::abs(model.centreDn - estimate.valueDn);
   const double fromPatternDn = lightDn * std::hypot(found.variance.pattern.offsetShare, gain.RelativeModelError());
   if (fromPatternDn > InPixels.negligiblePattern * estimate.standardErrorDn)
@@ -421,7 +424,7 @@ FillOffsetAndReadNoise(Report &               report,
     report.offset.interval95 = flicker.interval;
   }
   FillReadNoise(report, found, gain, offsetDn, offsetErrorDn, quantisationDn2, student);
-  // What is identified is within its own limits.
+  // The bracket contains the identified offset.
   report.offset.bracket = Interval{ limits.lowestDn, std::max(limits.highestDn, offsetDn + offsetErrorDn) };
   if (limits.lowestDn)
   {

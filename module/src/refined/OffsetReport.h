@@ -16,44 +16,44 @@ namespace sensornoise
 
 struct GainEstimate;
 
-/** The offset as the flicker tells it. */
+/** Dark offset as the flicker determines it. */
 struct OffsetEstimate
 {
-  double      valueDn{ 0.0 };
-  double      standardErrorDn{ 0.0 };
-  Interval    interval;   ///< 95 % [DN]
-  double      phi{ 1.0 }; ///< dispersion about the offset line; 1: nothing but noise
-  std::string obstacle;   ///< why it is not identifiable and what to do; empty: it is
+  double      valueDn{ 0.0 };         ///< dark offset [DN]
+  double      standardErrorDn{ 0.0 }; ///< [DN]
+  Interval    interval;               ///< 95 % interval [DN]
+  double      phi{ 1.0 };             ///< dispersion about the offset line [1]; 1: noise alone
+  std::string obstacle;               ///< reason why it is not identifiable, and what to do; empty: it is
 };
 
-/** The offset by the flicker of all frames, or, where the light is local, by the pixels' responses to it. It is told
- * only if its interval is narrow, it lies within its limits, and the flicker agrees with itself. Where it is not, the
- * offset of frames whose exposures are given takes its place, if its interval is narrow. */
+/** Estimates the dark offset from the flicker of all frames, or, under local illumination, from the pixels' responses
+ * to it. It is identifiable only if its interval is narrow, it lies within its bounds, and the components of the
+ * flicker agree on it. Otherwise the offset from frames of known exposures replaces it, if its interval is narrow. */
 SensorNoise_EXPORT OffsetEstimate
 EstimateOffset(const RefinedResults & found, const GainEstimate & gain, const OffsetLimits & limits);
 
-/** The offset that the flicker is taken about. */
+/** Offset at which the flicker is computed, and its standard error [DN]. */
 struct UsedOffset
 {
   double valueDn;
   double errorDn;
 };
 
-/** Returns the known offset unless the frames contradict it, else that of the flicker, else the middle of the limits.
- */
+/** Returns the known offset unless the frames contradict it, else the offset of the flicker if it is identifiable, else
+ * the middle of the bounds. */
 SensorNoise_EXPORT UsedOffset
 OffsetInUse(const RefinedResults & found,
             const GainEstimate &   gain,
             const OffsetEstimate & flicker,
             const OffsetLimits &   limits);
 
-/** Files offset and read noise as dark frames, or the user, tell them, whatever the frames tell. \a quantisationDn2 is
- * the codes' noise. */
+/** Files offset and read noise from dark frames or the user, whatever the frames show. \a quantisationDn2 is the
+ * variance of the quantization noise [DN^2]. */
 SensorNoise_EXPORT void
 FillFromDarkFrames(Report & report, const RefinedSettings & settings, double quantisationDn2);
 
-/** Files offset and read noise; the offset is \a flicker's unless one is known. \a student is the quantile of the 95 %
- * intervals. */
+/** Files offset and read noise. The offset is the known one, if there is one, else the offset of \a flicker. \a student
+ * is the quantile of the 95 % intervals. */
 SensorNoise_EXPORT void
 FillOffsetAndReadNoise(Report &               report,
                        const RefinedResults & found,

@@ -26,16 +26,16 @@ namespace sensornoise
 
 namespace
 {
-/** What the frames of the sample are compared by. */
+/** Data by which the noise of the frames of the sample is compared. */
 struct FrameComparison
 {
   const NoiseResiduals &    residuals;
   const ProjectedVariance & projected;
   const StillScene &        scene;
   TileLevels                levels;
-  bool                      isLightLocal{ false }; ///< tiles differ in how their light changes
+  bool                      isLightLocal{ false }; ///< the illumination changes differently between tiles
 
-  /** Whether frames differ in their noise by as much as counts. */
+  /** Returns whether the noise variance differs between frames by as much as counts. */
   bool
   AreUnequal() const
   {
@@ -43,7 +43,8 @@ struct FrameComparison
   }
 };
 
-/** The photon transfer of the frames, if they are unequal and tiles have the same changes of illumination. */
+/** Returns the photon transfer of the frames. It is not determined if the frames are about equal, or if the
+ * illumination changes differently between tiles. */
 VarianceCurve
 LineOfFrames(const StaticVariance & variance, const FrameComparison & by, const ParallelFor & parallelFor)
 {
@@ -67,7 +68,8 @@ struct SlopeOfLine
   double               error;
 };
 
-/** The lines that are determined, of the frames and of the pixels, first the one whose slope is better known. */
+/** Returns the lines of the frames and of the pixels, as far as they are determined. The line with the more precise
+ * slope is first. */
 std::vector<SlopeOfLine>
 LinesByError(const StaticVariance & variance)
 {
@@ -86,29 +88,29 @@ LinesByError(const StaticVariance & variance)
                              : std::vector<SlopeOfLine>{ { variance.line, ofPixels }, { frames.line, ofFrames } };
 }
 
-/** The line of which the slope is better known: that of the frames, or that of the pixels. */
+/** Returns the line of frames or pixels with the more precise slope. */
 const VarianceLine &
 BetterLine(const StaticVariance & variance)
 {
   return LinesByError(variance).front().line;
 }
 
-/** Whether frames move so little that nothing of it is left in their residuals. */
+/** Returns whether the scene moves so little that no motion remains in the residuals. */
 bool
 IsNearlyStill(const FrameComparison & by)
 {
   return std::max(by.scene.model.vibrationXPixels2, by.scene.model.vibrationYPixels2) < InRefined.smallVibration;
 }
 
-/** The frames whose noise is not that of the others. Frames of two gains that have two levels make a line of the frames
- * that fits them all; the line of the pixels then contradicts it. */
+/** Finds the frames whose noise differs from the noise of the others. If frames of two gains have two levels, the line
+ * of the frames fits them all; the line of the pixels then contradicts it. */
 FrameNoise
 CompareFrames(const StaticVariance &  variance,
               const FrameComparison & by,
               double                  sharedSquares,
               const ParallelFor &     parallelFor)
 {
-  // What is left of the motion of a frame is not its noise, and levels of tiles are not known under local light.
+  // Remaining motion of a frame is not noise, and levels of tiles are not known under local illumination.
   const double least = std::max(IsNearlyStill(by) ? 0.0 : InRefined.leastUnlikeUnderMotion,
                                 by.isLightLocal ? InRefined.leastUnlikeUnderLocalLight : InRefined.leastUnlikeNoise);
   const std::vector<std::uint8_t> used = MaskOfUsed(variance.pixelUse);
@@ -132,8 +134,8 @@ CompareFrames(const StaticVariance &  variance,
   return noise;
 }
 
-/** Finds what looks like a filter and is none: places that move by themselves, and parts of frames that \a repeat. What
- * is left of the motion of whole frames has the slopes of the scene, too. */
+/** Finds causes of correlation other than filters: local motion, and parts of frames that \a repeat. It does not search
+ * for local motion if the whole scene moves, as the remaining motion of frames has the slopes of the scene, too. */
 void
 NameOtherCauses(NoiseCorrelation &     correlation,
                 const NoiseResiduals & residuals,
@@ -155,15 +157,16 @@ NameOtherCauses(NoiseCorrelation &     correlation,
   }
 }
 
-/** The pixels by which the variance is measured. */
+/** Pixels by which the variance is measured: nonzero in \a chosen; \a pixelUse has the reasons for the others. */
 struct ChosenPixels
 {
   std::vector<std::uint8_t> & chosen;
   std::vector<std::uint8_t> & pixelUse;
 };
 
-/** Takes off the illumination that rows or columns have of their own, where it counts; where the series of the
- * illumination are more than could be projected out (\a areSeriesLeft), wherever it is beyond chance. */
+/** Subtracts the illumination that is specific to rows or columns if its effect exceeds InRefined.leastLineLight. If
+ * some temporal components of the illumination could not be projected out (\a areSeriesLeft), subtracts it wherever it
+ * is significant. */
 LineIllumination
 AllowForLines(NoiseResiduals &     residuals,
               ProjectedVariance &  projected,
@@ -224,7 +227,7 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
                           series->local.beyond > 1.0,
                           parallelFor);
   }
-  // Without levels that identify the offset no line of the pixels says how much of the noise is shot noise.
+  // If the levels do not identify the offset, no line of the pixels determines the fraction of shot noise.
   projected.SetIllumination(series->line.gamma, offsetDn, !scene.changesStrongly || series->isOffsetTold);
   const auto fit = [&](double sharedSquares) {
     return FitStaticVariance(
@@ -258,7 +261,7 @@ MeasurePixelNoise(ProjectedVariance &                      projected,
     residuals.Take(MaskOfUsed(noise.variance.pixelUse), parallelFor);
     allowForFrames();
     noise.correlation = MeasureNoiseCorrelation(residuals, codesDn2, parallelFor);
-    // What neighbours share is a mean over both sides of an edge, the line is not.
+    // Near an edge, the spatial covariance is a mean over both sides, and the pixel's variance is not on the line.
     LeaveOutEdges(scene.frame, noise.variance.line, chosen, pixelUse);
     noise.variance = fit(sharedSquares);
   }

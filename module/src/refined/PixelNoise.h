@@ -20,18 +20,18 @@
 namespace sensornoise
 {
 
-/** What the third pass tells of the noise: of each pixel, and what pixels and frames share. */
+/** Results of the third pass: the noise of each pixel, and its spatial and temporal correlation. */
 struct PixelNoise
 {
   StaticVariance   variance;
   NoiseCorrelation correlation;
-  FrameNoise       frames; ///< of the frames' places
+  FrameNoise       frames; ///< indices among the distinct frames
   LineIllumination lines;
 };
 
-/** Fits the variance and measures what is shared. Where neighbours share much, the mean variance of an area scatters
- * more, and what fits a static scene is judged once more. \a codesDn2 is the noise of rounding in the dark. If too few
- * pixels are left for a line, nothing else is measured. */
+/** Fits the variance and measures the noise correlation. If the correlation is strong, the mean variance of a tile
+ * scatters more, and the pixels are tested a second time for a static scene. \a codesDn2 is the variance of the
+ * quantization noise in the dark [DN^2]. If too few pixels remain for a line, only the variance is set. */
 SensorNoise_EXPORT PixelNoise
 MeasurePixelNoise(ProjectedVariance &                      projected,
                   FrameSample                              sample,

@@ -39,7 +39,7 @@ std::size_t
 PixelProjections::SlabsWithin(double bytes, std::size_t series)
 {
   const double slab = MemoryNeed{ ProjectionSums::SlabPixels, 0 }.OfProjections(std::max<std::size_t>(1, series));
-  return static_cast<std::size_t>(std::clamp(bytes / slab, 1.0, 1e9)); // of no limit, too
+  return static_cast<std::size_t>(std::clamp(bytes / slab, 1.0, 1e9)); // also for an infinite limit
 }
 
 void
@@ -51,7 +51,7 @@ PixelProjections::HoldSumsOfNextSlabs()
   m_NextSlab = std::min(ProjectionSums::NumberOfSlabs(pixels), first + m_Options.slabsAtOnce);
   if (first == 0)
   {
-    GiveBackFreedMemory(); // the most is needed from here on
+    GiveBackFreedMemory(); // most memory is needed from here on
   }
   if (m_NextSlab - first == ProjectionSums::NumberOfSlabs(pixels))
   {
@@ -62,14 +62,14 @@ PixelProjections::HoldSumsOfNextSlabs()
   m_Sums = ProjectionSums(pixels, series, m_ParallelFor, first, m_NextSlab);
 }
 
-/** Frames on their way into a plane's sums, or its squares if they are all frames. */
+/** Frames that are added to the sums of a plane, or to its residual squares if they are all frames. */
 template <typename TPixel>
 struct PixelProjections::Batch
 {
   PixelProjections *      to;
   const ReferenceFrame *  frame;
   ProjectedFrames<TPixel> projected;
-  ProjectionSums          light; // of all frames
+  ProjectionSums          light; // sums for the illumination components, if all frames are added at once
 
   Batch(const Plane & plane, const TPixel * frames, std::size_t count)
     : to(plane.projections)
@@ -91,7 +91,7 @@ struct PixelProjections::Batch
     to->m_IsProjected = true;
   }
 
-  /** Those of the pixels [begin, end) whose turn it is. */
+  /** Adds the pixels [begin, end), as far as they belong to the current slabs. */
   void
   AddBlock(std::size_t begin, std::size_t end)
   {

@@ -25,33 +25,36 @@ namespace sensornoise
 struct ReferenceFrame;
 
 /** \class PixelProjections
- * \brief What the third pass gathers: the sums of every pixel with every series, and a sample of whole time series.
+ * \brief Sums of the third pass: the projections of every pixel on every temporal component, and a sample of complete
+ * time series.
  *
- * Where the sums of all pixels at once are too large for the memory, the pass is repeated, each time for as many slabs
- * of pixels as fit; a last one, if the light is local, is for the series of light alone, of all pixels. Where no other
- * process adds to the sums, and all frames are added together, none are held: a block of pixels is projected at once.
- * Each pixel's numbers have the same bits in every way. */
+ * Where the sums of all pixels exceed the memory limit, the pass is repeated for as many slabs of pixels as fit each
+ * time. If the illumination is local, a last pass has the illumination components alone, for all pixels. If no other
+ * process adds to the sums, and all frames are added together, no sums are held: a block of pixels is projected at
+ * once. The results of each pixel are identical in all cases. */
 class SensorNoise_EXPORT PixelProjections
 {
 public:
   struct Options
   {
     std::size_t slabsAtOnce{ 1 };        ///< slabs (ProjectionSums) that are projected in a pass
-    bool        keepLight{ false };      ///< the coordinates on the series of light are needed
-    bool        withoutMerging{ false }; ///< no sums are saved or merged
+    bool        keepLight{ false };      ///< whether the coordinates on the illumination components are needed
+    bool        withoutMerging{ false }; ///< whether no sums are saved or merged
   };
 
-  /** For frames of \a geometry; \a sample is to be filled in the first pass. */
+  /** Prepares the first pass over frames of \a geometry. \a sample must be empty, and is filled in the first pass. */
   PixelProjections(const FrameGeometry & geometry,
                    FrameSample           sample,
                    TemporalBasis         basis,
                    const Options &       options,
                    ParallelFor           parallelFor);
 
-  /** The slabs of frames of \a pixels pixels that can be projected at once in \a bytes bytes: at least 1. */
+  /** Returns the number of slabs that can be projected at once in \a bytes bytes with \a series temporal components: at
+   * least 1. */
   static std::size_t
   SlabsWithin(double bytes, std::size_t series);
 
+  /** Returns the number of sums for each pixel, one for each temporal component. */
   std::size_t
   SumsPerPixel() const
   {
@@ -63,7 +66,7 @@ public:
     return m_Basis;
   }
 
-  /** The pixels of the frames to come stand as \a layout says; without it, one frame after the other. */
+  /** Sets the memory layout of the pixels in the frames to come. Default: one frame after the other. */
   void
   SetLayout(const PixelLayout & layout)
   {
@@ -71,16 +74,16 @@ public:
     m_Sample.SetLayout(layout);
   }
 
-  /** One of the planes of a mosaic, or a frame: the number of the first frame among its own, and what its frames are
-   * compared with. */
+  /** A plane of a mosaic, or a whole frame: its projections, the index of the first frame among the distinct frames,
+   * and the reference frame. */
   struct Plane
   {
     PixelProjections *     projections;
     std::size_t            first;
     const ReferenceFrame * frame;
   };
-  /** Adds \a count frames to all \a planes, of one size: what one has read of a row is near when the next comes to it.
-   */
+  /** Adds \a count frames to all \a planes, which must have one size. A row that one plane has read is still in the
+   * cache when the next plane reads it. */
   template <typename TPixel>
   static void
   AddFrames(const std::vector<Plane> & planes,
@@ -88,35 +91,37 @@ public:
             std::size_t                count,
             const ParallelFor &        parallelFor);
 
-  /** Takes back all that was added in the current pass. */
+  /** Removes all frames that were added in the current pass. */
   void
   Forget();
 
-  /** Writes the sums of the current pass, see BinaryStream. Throws std::logic_error if sums stay. */
+  /** Writes the sums of the current pass, see BinaryStream. Throws std::logic_error if Options::withoutMerging is set.
+   */
   void
   Save(std::ostream & out) const;
-  /** Adds the sums of other frames that another object saved in the same pass. Throws std::logic_error if sums stay. */
+  /** Adds the sums of other frames that another object saved in the same pass. Throws std::logic_error if
+   * Options::withoutMerging is set. */
   void
   Merge(std::istream & in);
 
-  /** Ends a pass. Returns whether all pixels have been projected, else the next pass is for the slabs that follow. The
-   * coordinates are given back, unless all pixels' were made in one pass and are to be kept for the light. */
+  /** Ends a pass. Returns whether all pixels have been projected; else the next pass is for the following slabs. The
+   * coordinates are discarded, unless one pass made them for all pixels and Options::keepLight is set. */
   bool
   EndPass(const ReferenceFrame & frame);
 
-  /** Whether the coordinates of all pixels on the series of light are there. */
+  /** Returns whether the coordinates of all pixels on the illumination components are available. */
   bool
   HasCoordinates() const
   {
     return m_Coordinates.LastPixel() > m_Coordinates.FirstPixel();
   }
-  /** The next pass is for the series of light alone. */
+  /** Start and end a further pass for the illumination components alone. */
   void
   StartLight();
   void
   EndLight(const ReferenceFrame & frame);
 
-  /** Give away what the passes have found. */
+  /** Return the results of the passes, which are moved out of the object. */
   ResidualSquares
   TakeSquares()
   {

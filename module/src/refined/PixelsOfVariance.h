@@ -16,12 +16,13 @@
 namespace sensornoise
 {
 
-/** The level without light, or one that it is hardly below: what is known, what the flicker tells, or the lowest code.
- * It serves to tell light from offset roughly, where the frames do not. [DN] */
+/** Returns the black level [DN]: the given offset, else the offset from the flicker if it is identifiable, else the
+ * lower clip level, or 0 if there is none. The latter two are limited to the darkest level. The black level separates
+ * signal and offset approximately where the frames do not determine the offset. */
 SensorNoise_EXPORT double
 BlackLevel(const RefinedSettings & settings, const StillScene & scene, const std::optional<const SceneSeries> & series);
 
-/** The noise of rounding to codes [DN^2]. */
+/** Returns the variance of the quantization noise [DN^2]. */
 inline double
 CodesVariance(const StillScene & scene)
 {
@@ -29,14 +30,14 @@ CodesVariance(const StillScene & scene)
   return step * step / 12.0;
 }
 
-/** The pixels that are usable, at levels that the user wants, and not found defective in dark frames: what is left out
- * in the dark is left out in the light. */
+/** Returns the mask of the usable pixels that have levels within the range of the settings, and that the dark frames do
+ * not show as defective. The reasons for other pixels are written to \a pixelUse. */
 SensorNoise_EXPORT std::vector<std::uint8_t>
 PixelsOfVariance(const StillScene & scene, const RefinedSettings & settings, std::vector<std::uint8_t> & pixelUse);
 
-/** Leaves out of \a chosen the pixels whose surroundings have another level than they have. Where frames were filtered,
- * such a pixel's variance is a mean over other neighbours than its level is, and on no line. \a line is that of the
- * frames as they are. */
+/** Removes pixels from \a chosen whose surroundings have another level, and marks them in \a pixelUse. Where frames
+ * were filtered, the variance of these pixels is a mean over other neighbours than their level, and lies on no line.
+ * \a line is the variance line of the frames without correction for filters. */
 SensorNoise_EXPORT void
 LeaveOutEdges(const ReferenceFrame &      frame,
               const VarianceLine &        line,

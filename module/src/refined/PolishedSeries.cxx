@@ -15,14 +15,15 @@ namespace sensornoise
 
 namespace
 {
-/** What the noise by the line that was fitted, about the offset \a offsetDn, does to the equations of the frames. */
+/** Returns the effect of the noise on the equations of the frames, by the fitted \a line and the offset \a offsetDn
+ * [DN]. */
 RegressorNoise
 NoiseOfLine(const FrameRegressors & regressors,
             const VarianceLine &    line,
             double                  offsetDn,
             const ParallelFor &     parallelFor)
 {
-  // The sums: of each class variance and shot noise.
+  // Sums of the variance and of the shot noise for each class.
   const auto             varianceOf = [](std::size_t gradientClass) { return 2 * gradientClass; };
   const auto             shotOf = [](std::size_t gradientClass) { return 2 * gradientClass + 1; };
   const ReferenceFrame & frame = regressors.GetFrame();

@@ -19,20 +19,21 @@
 namespace sensornoise
 {
 
-/** The series over time with the noise that the third pass measured: what the report says of light and motion. */
+/** Temporal components that are re-estimated with the noise of the third pass: illumination and motion in the report.
+ */
 struct PolishedSeries
 {
   OffsetLine                      line; ///< offset and flicker
   MotionSeries                    motion;
-  double                          motionPhi{ 1.0 }; ///< dispersion of the frames over all gradient classes
+  double                          motionPhi{ 1.0 }; ///< dispersion of the frames over all gradient classes [1]
   std::optional<InstrumentShifts> shifts;
-  bool                            isOffsetDrift{ false }; ///< the local light is an offset that drifts
-  std::optional<LocalOffset>      localOffset;            ///< where light is local
+  bool                            isOffsetDrift{ false }; ///< whether the local illumination is a drifting offset
+  std::optional<LocalOffset>      localOffset;            ///< only under local illumination
   LocalFlicker                    localFlicker;
 };
 
-/** Offset, flicker and shifts once more, with the noise that is now known. Needs no reading; the pixels' \a coordinates
- * in the series' basis only where light is local. */
+/** Estimates offset, flicker and shifts again, with the noise that is now known. Reads no frames. The pixels'
+ * \a coordinates on the temporal components are needed only under local illumination. */
 SensorNoise_EXPORT PolishedSeries
 PolishSceneSeries(const FrameSums &        sums,
                   const SceneSeries &      series,

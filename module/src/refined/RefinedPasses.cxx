@@ -36,7 +36,7 @@ namespace sensornoise
 
 namespace
 {
-/** The largest of the levels, without its sign [DN]. */
+/** Returns the largest absolute level [DN]. */
 double
 LargestMeanDn(const std::vector<double> & mean)
 {
@@ -81,7 +81,7 @@ RefinedPasses<TPixel>::AddDistinct(const std::vector<Plane> & planes,
   for (const auto & [passes, place] : planes)
   {
     auto & method = static_cast<RefinedPasses &>(*passes);
-    if (method.m_Levels) // the planes of a mosaic need not be in step
+    if (method.m_Levels) // the planes of a mosaic may be in different passes
     {
       projected.push_back(method.m_Levels->PlaneAt(place));
     }
@@ -269,7 +269,7 @@ RefinedPasses<TPixel>::MakeScene(StackMaps maps, std::vector<double> rawVariance
   }
   if (isProjected)
   {
-    m_Scene->frame.variance = std::move(rawVariance); // what users see, and the third pass takes the squares from
+    m_Scene->frame.variance = std::move(rawVariance); // for the variance map and the squares of the third pass
   }
   if (m_Scene->obstacle)
   {
@@ -314,12 +314,12 @@ RefinedPasses<TPixel>::EndFrameSums()
   m_Projections->SetLayout(m_Layout);
 }
 
-/** Whether all that is needed has been read. */
+/** Returns whether all passes have been read. */
 template <typename TPixel>
 bool
 RefinedPasses<TPixel>::EndProjections()
 {
-  const bool isLightLocal = m_Series->local.series.cols() > 0; // of which the coordinates tell more
+  const bool isLightLocal = m_Series->local.series.cols() > 0; // the report needs the coordinates then
   if (m_Variance)
   {
     m_Projections->EndLight(m_Scene->frame);
@@ -353,7 +353,7 @@ RefinedPasses<TPixel>::EndProjections()
   m_Polished.emplace(
     PolishSceneSeries(*m_FrameSums, *m_Series, m_Projections->TakeCoordinates(), *m_Variance, m_ParallelFor));
   m_Projections.reset();
-  TakeOffLine(*m_Variance, CodeNoise(m_Variance->codeNoise)); // the series were weighed by all of the noise
+  TakeOffLine(*m_Variance, CodeNoise(m_Variance->codeNoise)); // the components were weighted with all noise
   return true;
 }
 
@@ -401,7 +401,7 @@ RefinedPasses<TPixel>::MeasureVariance()
   }
   m_Correlation = std::move(noise.correlation);
   m_Lines = noise.lines;
-  if (m_Thumbnails.FindChange(m_Distinct.Counted()).IsLarge()) // frames of several scenes tell nothing of each other
+  if (m_Thumbnails.FindChange(m_Distinct.Counted()).IsLarge()) // frames of several scenes are not comparable
   {
     m_Variance->fromFrames = {};
   }

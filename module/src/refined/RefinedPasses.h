@@ -38,21 +38,21 @@ namespace sensornoise
 /** \class RefinedPasses
  * \brief Gain, offset and read noise at the theoretical limit, in three passes over the stack.
  *
- * Pass 1 gathers the temporal moments: the mean image, a rough noise model, what is clipped. Pass 2 regresses every
- * frame on the mean image and its derivatives: the series over time of flicker, local light and motion, and the
- * offset. Pass 3 projects every pixel's time series on these few series; what is left is sensor noise, whose
- * regression on the mean gives gain and intercept. Where the illumination changes strongly, the stack is read once more
- * between passes 1 and 2, see LevelProjection. Usage, also by several processes, as StackPasses: their sums have 16 kB
- a
- * frame in pass 2, 8 bytes a pixel and series in pass 3, and 8 bytes a pixel in that further one.
+ * Pass 1 gathers the temporal moments: the mean image, an initial noise model, and the clipped pixels. Pass 2
+ * regresses every frame on the mean image and its derivatives. It gives the offset and the temporal components:
+ * flicker, local illumination and motion. Pass 3 projects every pixel's time series on these components. The residual
+ * is sensor noise, and its regression on the mean gives gain and intercept. If the illumination changes strongly, the
+ * stack is read once more between passes 1 and 2, see LevelProjection. Usage, also by several processes, as
+ * StackPasses. The sums of a process have 16 kB for each frame in pass 2, 8 bytes for each pixel and temporal
+ * component in pass 3, and 8 bytes for each pixel in the further pass.
  *
- * Frames that are equal, bit by bit, are counted once: the result is that of the distinct frames, and the report's
- * series repeat the values of a frame's original.
+ * Identical frames are counted once: the result is the result of the distinct frames, and the series in the report
+ * repeat the values of a frame's original.
  *
- * Same bits for any number of threads and any chunks. Memory: 56 bytes a pixel and 8 more for each series of light and
- * motion that is found (2 to 20), 20 kB a frame and 32 MiB, see MemoryNeed. A stack that cannot be measured
- (NothingToMeasure) ends in a report whose quantities are `failed`, with a
- * warning that says why; wrong use throws std::invalid_argument. May be moved, also between and within passes. */
+ * The results are identical for any number of threads and any chunks. Memory: 56 bytes for each pixel, 8 more for each
+ * temporal component that is found (2 to 20), 20 kB for each frame, and 32 MiB, see MemoryNeed. A stack that cannot be
+ * measured (NothingToMeasure) has a report whose quantities are `failed`, with a warning that gives the reason. Wrong
+ * use throws std::invalid_argument. May be moved, also between and within passes. */
 template <typename TPixel>
 class RefinedPasses final : public StackPasses<TPixel>
 {
@@ -63,45 +63,46 @@ public:
   /** Whether there is SumsPerPixel(). */
   static constexpr bool HasManySums = true;
 
-  /** \a mask, if given, has a nonzero value at the pixels to be used; \a parallelFor spreads the work. Throws
+  /** \a mask, if given, has a nonzero value at the pixels to be used. \a parallelFor distributes the work. Throws
    * std::invalid_argument for settings out of range, see RefinedSettings::Validate(), and for a stack or a mask that
-   * RequireStack() refuses. */
+   * RequireStack() rejects. */
   RefinedPasses(const RefinedSettings &           settings,
                 const FrameGeometry &             geometry,
                 std::size_t                       frames,
                 const std::vector<std::uint8_t> & mask = {},
                 ParallelFor                       parallelFor = SerialFor);
 
-  /** No sums of the third pass are saved or merged: where all frames are added to it together, it needs no memory for
-   * them. To be told before it. */
+  /** Declares that no sums of the third pass are saved or merged: if all frames are added together, the pass needs no
+   * memory for them. Call it before the third pass. */
   void
   DisableMerging()
   {
     m_IsWithoutMerging = true;
   }
 
-  /** Whether the report is there. That is after NumberOfPasses passes or more, which read the stack once more: one for
-   * the moments if frames are left out, one after these where the illumination changes strongly (LevelProjection), and
-   * others, like the third, if RefinedSettings::memoryLimitBytes asks for them. */
+  /** Returns whether the report is available. This is after NumberOfPasses passes or more. Each further pass reads the
+   * stack once more: one for the moments if frames are left out, one after these if the illumination changes strongly
+   * (LevelProjection), and others, as the third, if RefinedSettings::memoryLimitBytes requires them. */
   bool
   IsDone() const override
   {
     return m_IsDone;
   }
-  /** Whether the current pass is the last one before the third, or, if the stack cannot be measured, a pass without
-   * sums. */
+  /** Returns whether the current pass is the last one before the third, or, if the stack cannot be measured, a pass
+   * without sums. */
   bool
   IsBeforeProjections() const
   {
     return m_HasScene && !m_IsDone && !m_Projections;
   }
-  /** The sums of 8 bytes that the third pass has of every pixel; 0 before it. */
+  /** Returns the number of sums of 8 bytes for each pixel in the third pass; 0 before it. */
   std::size_t
   SumsPerPixel() const
   {
     return m_Projections ? m_Projections->SumsPerPixel() : 0;
   }
-  /** All frames of the second pass are in, and it is to end later: gives back the memory that only adding needs. */
+  /** Releases the memory that is needed only to add frames. Call it when all frames of the second pass have been added,
+   * and the pass is to end later. */
   void
   ReleaseFrameSums()
   {
@@ -126,20 +127,21 @@ public:
   {
     return m_Scene->frame.variance;
   }
-  /** NaN where it was not computed; empty if the stack cannot be measured. */
+  /** Returns the variance without flicker and motion [DN^2]; NaN where it was not computed; empty if the stack cannot
+   * be measured. */
   const std::vector<double> &
   GetCorrectedVariance() const override
   {
     return m_CorrectedVariance;
   }
-  /** Values of PixelUse. */
+  /** Returns values of PixelUse. */
   const std::vector<std::uint8_t> &
   GetPixelUse() const override
   {
     return m_Variance ? m_Variance->pixelUse : m_Scene->pixelUse;
   }
 
-  /** Give the maps away, after which they are empty here. */
+  /** Return the maps, which are moved out of the object. */
   std::vector<double>
   TakeMean() override
   {
@@ -171,7 +173,7 @@ private:
   using Passes::m_Thumbnails;
   using Passes::m_UserMask;
 
-  /** Those of the current pass; null: it has none. */
+  /** Returns the projections of the current pass; null: it has none. */
   PixelProjections *
   GetProjections()
   {
@@ -204,8 +206,7 @@ private:
   FinishMoments() override;
   void
   FinishSums() override;
-  /** Calls function(), which may find that the stack cannot be measured; makes the report if nothing is left to read.
-   */
+  /** Calls function(), which may throw NothingToMeasure. Makes the report if no pass remains. */
   template <typename TFunction>
   void
   Finish(TFunction function);
@@ -214,12 +215,12 @@ private:
   EndMoments();
   void
   EndLevels();
-  /** The variance that the noise of the frame of the lowest level has at most, by what neighbouring pixels differ by
-   * [DN^2]. */
+  /** Returns an upper bound of the noise variance in the frame of the lowest level, from the differences of
+   * neighbouring pixels [DN^2]. */
   double
   NoiseOfDarkestFrame() const;
-  /** Makes the scene of \a maps, and starts the second pass; \a rawVariance, if not empty, takes the place of the
-   * variance that the scene is made of. */
+  /** Makes the scene from \a maps, and starts the second pass. \a rawVariance, if not empty, replaces the variance in
+   * \a maps after the scene was made [DN^2]. */
   void
   MakeScene(StackMaps maps, std::vector<double> rawVariance = {});
   void
@@ -228,22 +229,22 @@ private:
   EndProjections();
   void
   MeasureVariance();
-  /** All that the passes after the moments found. */
+  /** Discards all results of the passes after the moments. */
   void
   ForgetFindings();
-  /** Of companded codes. */
+  /** Returns the quantization noise of companded codes. */
   CodeNoise
   FindCodeNoise() const;
   void
   MakeReport();
 
   RefinedSettings            m_Settings;
-  std::optional<ExposureFit> m_ExposureFit; // of the first pass; none: no exposures were given
+  std::optional<ExposureFit> m_ExposureFit; // from the first pass; none: no exposures were given
 
-  // The sums of the passes, and what each pass found. The scene stays where it is: FrameSums points to its frame.
+  // The sums of the passes, and their results. The scene must not move in memory: FrameSums points to its frame.
   std::unique_ptr<StillScene>           m_Scene;
-  std::unique_ptr<LevelProjection>      m_Levels;    // of the pass after the first one, where there is one
-  std::unique_ptr<FrameSums>            m_FrameSums; // null then, or if the stack cannot be measured
+  std::unique_ptr<LevelProjection>      m_Levels;    // of the pass after the first one, if there is one
+  std::unique_ptr<FrameSums>            m_FrameSums; // null in that pass, or if the stack cannot be measured
   std::optional<const SceneSeries>      m_Series;
   std::optional<PixelProjections>       m_Projections;
   std::optional<StaticVariance>         m_Variance;

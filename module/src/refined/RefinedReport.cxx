@@ -97,7 +97,7 @@ WarnOfScene(Report & report, const RefinedResults & found)
   }
 }
 
-/** What was left out of the frame along its borders, and where. */
+/** Warns of the strips along the borders that were left out. */
 void
 WarnOfBorder(Report & report, const StillScene & scene)
 {
@@ -118,7 +118,7 @@ WarnOfBorder(Report & report, const StillScene & scene)
   }
 }
 
-/** Where the table's own limits do not exclude it. */
+/** Warns of a strong vibration unless its interval excludes it. */
 void
 WarnOfMotion(Report & report, const RefinedResults & found)
 {
@@ -137,7 +137,7 @@ WarnOfMotion(Report & report, const RefinedResults & found)
   }
 }
 
-/** What the report says whatever was found. */
+/** Makes a report with the settings and the description of the stack, which do not depend on the results. */
 Report
 DescribeInput(const RefinedSettings & settings, const StillScene & scene, const std::vector<std::uint8_t> & pixelUse)
 {
@@ -181,15 +181,15 @@ FillCurves(Report & report, const RefinedResults & found, const ParallelFor & pa
   FillScatter(report, frame.mean, frame.variance, found.correctedVariance, used, parallelFor);
 }
 
-/** Degrees of freedom of the 95 % intervals. */
+/** Returns Student's quantile of the 95 % intervals. */
 double
 StudentOf(const RefinedResults & found)
 {
   return StudentQuantile(0.975, static_cast<double>(found.scene.frame.frames) - 2.0);
 }
 
-/** The settings with the variance of dark frames that the sensor's pixels had: they passed a filter, too, and have the
- * noise of rows and columns. */
+/** Returns the settings with the dark variance of the sensor before filters, without the noise of rows and columns.
+ * Dark frames passed the same filter. */
 RefinedSettings
 SettingsOfSensor(const RefinedResults & found, double codesDn2)
 {
@@ -210,13 +210,13 @@ SettingsOfSensor(const RefinedResults & found, double codesDn2)
     }
     else
     {
-      median.reset(); // of what the filter left nobody knows the median
+      median.reset(); // the median before a filter is not known
     }
   }
   return settings;
 }
 
-/** Files no gain, where the frames' rows had light of their own. */
+/** Files that there is no gain, because of the illumination that is specific to rows or columns. */
 void
 RefuseLineLight(Report & report, const RefinedResults & found, double effect)
 {
@@ -230,7 +230,7 @@ RefuseLineLight(Report & report, const RefinedResults & found, double effect)
                 "for whole periods of the lamp, or give one field of the frames");
 }
 
-/** Files gain, offset, read noise and what the light and the floor did. */
+/** Files gain, offset, read noise, flicker and motion. */
 void
 FillSensor(Report & report, const RefinedResults & found, const GainEstimate & gain, double codesDn2)
 {
@@ -263,8 +263,9 @@ FillSensor(Report & report, const RefinedResults & found, const GainEstimate & g
   FillFromDarkFrames(report, found.settings, codesDn2);
 }
 
-/** Takes the gain from a report of frames that have fewer samples than pixels, and what follows from it, and leaves its
- * limits: as for white noise, of which the slope of the variance is the gain, and as for all covariances together. */
+/** Replaces the gain, and the quantities that follow from it, by bounds of the gain, for frames that have fewer samples
+ * than pixels. One bound is the slope of the variance, as for white noise; the other is the slope of the total
+ * covariance. */
 void
 WithholdGain(Report & report)
 {
@@ -294,7 +295,8 @@ WithholdGain(Report & report)
                         report.warnings.end());
 }
 
-/** Files what a denoiser needs: a pixel's variance as a function of its level, whatever the sensor's was. */
+/** Files the slope and intercept that a denoiser needs: the variance of a pixel as a function of its level, without
+ * correction for filters. */
 void
 FillVariance(Report & report, const RefinedResults & found, const GainEstimate & ofVariance)
 {
@@ -305,7 +307,7 @@ FillVariance(Report & report, const RefinedResults & found, const GainEstimate &
   report.totalIntercept = own.totalIntercept;
   if (!report.fit.line)
   {
-    // The noise is not linear: there may be more against the frames.
+    // The noise is not linear: the fit may have further warnings.
     report.fit = own.fit;
     if (!own.gain.value)
     {

@@ -17,12 +17,12 @@
 namespace sensornoise
 {
 
-/** The report of the refined method. */
+/** Makes the report of the refined method. */
 SensorNoise_EXPORT Report
 MakeRefinedReport(const RefinedResults & found, const ParallelFor & parallelFor = SerialFor);
 
-/** The report of a stack that cannot be measured: what is known of it, and why; every quantity is `failed`. \a pixelUse
- * holds the values of PixelUse as far as they were found. */
+/** Makes the report of a stack that cannot be measured: its description and the reason. Every quantity is `failed`.
+ * \a pixelUse has the values of PixelUse as far as they were found. */
 SensorNoise_EXPORT Report
 MakeRefusal(const RefinedSettings &           settings,
             const StillScene &                scene,

@@ -19,26 +19,26 @@
 namespace sensornoise
 {
 
-/** What the passes of the refined method found, from which its report is made. */
+/** Results of the passes of the refined method, from which its report is made. */
 struct RefinedResults
 {
   const RefinedSettings &     settings;
-  const StillScene &          scene;             ///< of the first pass
-  const SceneSeries &         series;            ///< of the second
-  const StaticVariance &      variance;          ///< of the third
-  const PolishedSeries &      polished;          ///< of the second's sums, with the third's noise
+  const StillScene &          scene;             ///< from the first pass
+  const SceneSeries &         series;            ///< from the second pass
+  const StaticVariance &      variance;          ///< from the third pass
+  const PolishedSeries &      polished;          ///< from the sums of the second pass, with the noise from the third
   const std::vector<double> & correctedVariance; ///< NaN where it was not computed [DN^2]
   double                      blackDn{ 0.0 };    ///< see BlackLevel()
-  NoiseCorrelation            correlation{};     ///< of the third pass's sample
-  FrameNoise                  frameNoise{};      ///< of the frames as given
-  LineIllumination            lines{};           ///< of the third pass's sample
-  /** What the frames' exposures tell; null: none were given. */
+  NoiseCorrelation            correlation{};     ///< from the sample of the third pass
+  FrameNoise                  frameNoise{};      ///< groups by the indices of the frames in the stack
+  LineIllumination            lines{};           ///< from the sample of the third pass
+  /** Results from the frames' exposures; null: none were given. */
   const ExposureFit * exposures{ nullptr };
-  /** The fraction of the signal that the dark frames hold, see FindDarkSignal() [1]; null: none. */
+  /** Fraction of the signal in the dark frames, see FindDarkSignal() [1]; null: none. */
   std::optional<MeasuredNumber> darkSignal{};
 
-  /** A level of the mean frame in the frame of the lowest or the highest illumination factor, where these differ so
-   * much that the frames have a photon transfer of their own; else the level itself [DN]. */
+  /** Return a level of the mean frame in the frame of the lowest or the highest illumination factor, if the frames have
+   * a photon transfer; else the level itself [DN]. */
   double
   InDarkestFrame(double levelDn) const
   {
@@ -54,13 +54,14 @@ struct RefinedResults
              : levelDn;
   }
 
-  /** Whether the scene has one level, under strong changes of the illumination: its motion is not identifiable. */
+  /** Returns whether the scene has one level, under strong changes of the illumination: its motion is not identifiable.
+   */
   bool
   IsFlatUnderChange() const
   {
     return scene.changesStrongly && !(series.line.contrast > InSeries.leastContrast);
   }
-  /** Whether the light changes in some places in another way than in others. */
+  /** Returns whether the illumination changes differently over the frame. */
   bool
   HasLocalLight() const
   {
@@ -71,7 +72,7 @@ private:
   double
   InFrame(double levelDn, double gamma) const
   {
-    const double offsetDn = series.offset + scene.model.centreDn; // gamma is about it
+    const double offsetDn = series.offset + scene.model.centreDn; // the offset to which gamma refers
     return offsetDn + std::max(0.0, 1.0 + gamma) * (levelDn - offsetDn);
   }
 };

@@ -10,7 +10,7 @@ namespace sensornoise
 
 namespace
 {
-/** The mean over all shapes of what is shared. */
+/** Returns the mean of all shapes of the covariance, weighted with their probabilities and coefficients. */
 SharedShape
 MeanShape(const NoiseCorrelation & correlation)
 {
@@ -26,7 +26,7 @@ MeanShape(const NoiseCorrelation & correlation)
   return mean;
 }
 
-/** What is shared as a function of the level, of a line and a parabola. */
+/** Total covariance over lags as a function of the level, applied to a variance or a line. */
 class SharedVariance
 {
 public:
@@ -38,7 +38,7 @@ public:
     , m_LinesDn2(correlation.LineNoise().value)
   {}
 
-  /** The sensor's variance, of that of a pixel at a level. */
+  /** Returns the sensor's variance, from the variance of a pixel at a level [DN^2]. */
   double
   SensorOf(double varianceDn2, double levelDn) const
   {
@@ -47,13 +47,13 @@ public:
     return m_CodesDn2 + m_Time * (noise * (1.0 + m_Mean.ofVariance) + m_Mean.constantDn2 +
                                   light * (m_Mean.ofLight + light * m_Mean.ofSquare));
   }
-  /** How much the sensor's variance changes with that of a pixel. */
+  /** Returns the derivative of the sensor's variance with respect to a pixel's variance [1]. */
   double
   Factor() const
   {
     return m_Time * (1.0 + m_Mean.ofVariance);
   }
-  /** The line of the sensor; \a slopeOfSquare and \a meanOfSquare are of the line through the square of the level. */
+  /** Returns the line of the sensor. \a lineOfSquare has slope and intercept of the line through the squared signal. */
   VarianceLine
   SensorOf(const VarianceLine & line, const Eigen::Vector2d & lineOfSquare) const
   {
@@ -79,7 +79,7 @@ private:
   double      m_LinesDn2;
 };
 
-/** Slope and intercept of the line through the square of the light, weighted as the curve. */
+/** Returns slope and intercept of the line through the squared signal, with the weights of the curve. */
 Eigen::Vector2d
 LineOfSquare(const VarianceCurve & curve, double blackDn)
 {
@@ -137,8 +137,8 @@ CurveOfSensor(const VarianceCurve & curve, const SharedVariance & shared, const 
   return sensor;
 }
 
-/** What is not known of what is shared, as a covariance of gain and intercept: the coefficients' errors, and that the
- * shape may be another one. */
+/** Returns the covariance of gain and intercept by the uncertainty of the noise correlation: the errors of the
+ * coefficients, and the dispersion between the shapes. */
 Eigen::Matrix2d
 ErrorOf(const NoiseCorrelation & correlation,
         const VarianceLine &     line,
@@ -154,7 +154,7 @@ ErrorOf(const NoiseCorrelation & correlation,
                                    Eigen::Vector2d(0.0, shape.constantDn2)));
   };
   const Eigen::Vector2d mean = unitOf(MeanShape(correlation));
-  // That it is a constant, or that nothing of it grows with the light, is left.
+  // The remaining probability is that the covariance is a constant, which does not grow with the signal.
   double          constant = 1.0;
   Eigen::Matrix2d error = Eigen::Matrix2d::Zero();
   for (const SharedShape & shape : correlation.shapes)
@@ -170,7 +170,7 @@ ErrorOf(const NoiseCorrelation & correlation,
   const double          relative = std::hypot(correlation.timeFactor.standardError / std::max(1e-9, time),
                                      correlation.beyondReach * line.gain * time / std::max(1e-9, sensor.gain));
   error += relative * relative * whole * whole.transpose();
-  // Taken off before the filter's factor is applied.
+  // The line noise is subtracted before the factor of the filter is applied.
   const double ofLines = FilterFactor(correlation) * correlation.LineNoise().standardError;
   error(1, 1) += ofLines * ofLines;
   return error;

@@ -13,41 +13,43 @@
 namespace sensornoise
 {
 
-/** The lines of a StaticVariance: of the pixels' variance as it is, or as the sensor had it before neighbours and
- * frames shared it. */
+/** Lines of a StaticVariance: of the pixels' variance without correction, or of the variance before noise was
+ * correlated. */
 struct SensorLines
 {
   VarianceLine  all;        ///< through all pixels that fit a static scene
-  VarianceLine  fromLight;  ///< by light alone, see FitLightLine(); may be not determined
-  VarianceCurve fromFrames; ///< by frames of unequal illumination, see FitFramePhotonTransfer(); may be not determined
-  VarianceCurve curve;      ///< how the variance departs from its line
-  /** Of gain and intercept: what is not known of what is shared. */
+  VarianceLine  fromLight;  ///< instrumental-variable fit, see FitLightLine(); may be not determined
+  VarianceCurve fromFrames; ///< see FitFramePhotonTransfer(); may be not determined
+  VarianceCurve curve;      ///< deviations of the variance from its line
+  /** Covariance of gain and intercept by the uncertainty of the noise correlation [DN/e-, DN^2]. */
   Eigen::Matrix2d errorOfShared{ Eigen::Matrix2d::Zero() };
-  /** See StaticVariance::ofOwnLevels. */
+  /** Curve by the pixels' own levels, see StaticVariance::ofOwnLevels. */
   VarianceCurve ofOwnLevels;
 };
 
-/** The lines of the variance as it is. */
+/** Returns the lines of the variance without correction. */
 SensorNoise_EXPORT SensorLines
 LinesOf(const StaticVariance & variance);
 
-/** What a pixel's noise has to be multiplied by to be that of the sensor's, where a filter after the read-out shares it
- * [1]. \see VarianceOfSensor */
+/** Returns the factor from a pixel's noise variance to the variance of the sensor, if a filter after the read-out
+ * causes the correlation [1]. \see VarianceOfSensor */
 SensorNoise_EXPORT double
 FilterFactor(const NoiseCorrelation & correlation);
 
-/** The variance of a pixel without light before a filter, which the codes' noise, \a codesDn2, has not passed, without
- * that of its row and column [DN^2]. */
+/** Returns the variance of a pixel at zero signal before a filter, without the noise of rows and columns [DN^2].
+ * \a varianceDn2 is the measured variance [DN^2]. \a codesDn2 is the variance of the quantization noise, which was
+ * added after the filter [DN^2]. */
 SensorNoise_EXPORT double
 VarianceOfSensor(double varianceDn2, const NoiseCorrelation & correlation, double codesDn2);
 
-/** By how much that is not known, as the filter may lie before the read-out or after it: a standard deviation [DN^2].
- */
+/** Returns the standard deviation of VarianceOfSensor() over the shapes of the correlation: the filter may lie before
+ * the read-out or after it [DN^2]. */
 SensorNoise_EXPORT double
 SpreadOfShapes(double varianceDn2, const NoiseCorrelation & correlation, double codesDn2);
 
-/** The lines of the variance that the sensor's pixels had: with what neighbours and frames share, summed over all lags,
- * and without the noise of whole rows and columns. Levels are light above \a blackDn. */
+/** Returns the lines of the sensor's variance: with the covariances summed over all lags, and without the noise of
+ * whole rows and columns. The signal is measured from \a blackDn [DN]; \a codesDn2 is the variance of the quantization
+ * noise [DN^2]. */
 SensorNoise_EXPORT SensorLines
 WithSharedNoise(const SensorLines & lines, const NoiseCorrelation & correlation, double blackDn, double codesDn2);
 

@@ -28,8 +28,8 @@ MedianOf(std::vector<double> values)
   return values.empty() ? Unknown : QuantileOf(std::move(values), 0.5);
 }
 
-/** The squares of every frame over those that \a line makes of the levels, median over the tiles. \a noise is what is
- * known of the frames: the projection leaves some of the noise of each in the others. */
+/** Returns the squares of every frame over their expectation by \a line at its levels, as the median over the tiles.
+ * \a noise is the known noise of the frames: the projection leaves some of the noise of each in the others. */
 Eigen::VectorXd
 RatiosOfFrames(const FrameEnergies &   energies,
                const TileLevels &      levels,
@@ -70,7 +70,7 @@ RatiosOfFrames(const FrameEnergies &   energies,
   return medians;
 }
 
-/** The line turned about its pivot. */
+/** Returns the line turned about its pivot. */
 VarianceLine
 Turned(const VarianceLine & line, double byGain)
 {
@@ -80,8 +80,8 @@ Turned(const VarianceLine & line, double byGain)
   return turned;
 }
 
-/** The slope of a line about the pivot of \a line that has no noise without light, and twice as much, as the dark
- * offset may not be known [DN/e-]. */
+/** Returns twice the slope of a line through the variance of \a line at the pivot that has no noise at zero signal
+ * [DN/e-]. The factor allows for a dark offset that is not known. */
 double
 SteepestSlope(const VarianceLine & line, const TileLevels & levels)
 {
@@ -89,10 +89,11 @@ SteepestSlope(const VarianceLine & line, const TileLevels & levels)
   return lightDn > 0.0 ? 2.0 * line.At(line.pivotDn) / lightDn : std::numeric_limits<double>::infinity();
 }
 
-/** A frame and its noise. */
+/** The noise of a frame and its index. */
 using NoiseOfFrame = std::pair<double, std::size_t>;
 
-/** The largest group of \a sorted: first the shortest interval that holds half of them, then all that are near it. */
+/** Returns the range of the largest group in \a sorted: the shortest interval that contains half of the frames,
+ * extended to all frames near its median. */
 std::pair<std::size_t, std::size_t>
 FindLargestGroup(const std::vector<NoiseOfFrame> & sorted, double chance, double least)
 {
@@ -101,7 +102,7 @@ FindLargestGroup(const std::vector<NoiseOfFrame> & sorted, double chance, double
     sorted.begin(), sorted.end(), std::back_inserter(noise), [](const NoiseOfFrame & frame) { return frame.first; });
   auto begin = noise.begin() + static_cast<std::ptrdiff_t>(FindDensestHalf(noise));
   auto end = begin + static_cast<std::ptrdiff_t>((noise.size() + 1) / 2);
-  for (int round = 0; round < 2; ++round) // the spread of the densest half is too small
+  for (int round = 0; round < 2; ++round) // the standard deviation of the densest half is too small
   {
     const RobustCentre centre = CentreOf({ begin, end });
     const double       most =
@@ -127,7 +128,7 @@ GroupOf(const std::vector<NoiseOfFrame> & sorted, std::size_t begin, std::size_t
   return group;
 }
 
-/** Adds the frames begin ... end - 1 in groups, parted where the noise differs by as much as counts. */
+/** Adds the frames begin ... end - 1 in groups, divided where the noise differs by more than \a least. */
 void
 AddGroups(const std::vector<NoiseOfFrame> & sorted,
           std::size_t                       begin,
@@ -145,7 +146,7 @@ AddGroups(const std::vector<NoiseOfFrame> & sorted,
   }
 }
 
-/** "frames 0 to 29, 31, 33, ...": the first ones. */
+/** Returns "frames 0 to 29, 31, 33, ...": the first ones. */
 std::string
 TextOfFrames(const std::vector<std::size_t> & frames)
 {

@@ -16,12 +16,14 @@
 namespace sensornoise
 {
 
-/** The noise variance of every frame over that which its level makes of that of the others [1]: 1 but for chance.
- * Medians over the tiles, so that what moves in some of them does not count. NaN where the projection leaves next to
- * nothing of a frame; empty where there are too few tiles. \a slopeError is the standard error of the \a line's slope,
- * within which the value that comes nearest to 1 is taken, of slopes that a sensor may have [DN/e-]; it may be
- * infinite. \a known is what was found before; the projection leaves some of the noise of a frame in the others, which
- * is taken off by it. Without it all have 1. */
+/** Returns the noise variance of every frame over its expectation by the noise of the others and its level [1]: 1
+ * except for statistical scatter.
+ *
+ * The ratios are medians over the tiles, so that motion in some of them has no influence. NaN where the projection
+ * leaves less than InRefined.leastLeftShare of a frame; empty if there are too few tiles. \a slopeError is the
+ * standard error of the slope of \a line [DN/e-]; it may be infinite. Among the slopes within Significance.hint of
+ * these errors that a sensor may have, the ratio nearest to 1 is taken. \a known has the ratios found before: the
+ * projection leaves some of the noise of a frame in the others, which is corrected by them. Default: all are 1. */
 SensorNoise_EXPORT Eigen::VectorXd
 NoiseOfFrames(const FrameEnergies &   energies,
               const TileLevels &      levels,
@@ -29,45 +31,48 @@ NoiseOfFrames(const FrameEnergies &   energies,
               double                  slopeError,
               const Eigen::VectorXd & known = {});
 
-/** Frames that have one noise at their level. */
+/** Frames that have the same noise at their level. */
 struct FrameGroup
 {
   std::vector<std::size_t> frames;
   double                   noise{ 1.0 }; ///< median of NoiseOfFrames() [1]
 };
 
-/** Frames whose noise is not that of the others at their level: of another gain, another processing. */
+/** Frames whose noise at their level differs from the noise of the others: by another gain or another processing. */
 struct FrameNoise
 {
-  /** By the size of the difference and its significance among the frames, from 0: all but the largest group. */
+  /** Indices from 0 of all frames outside the largest group. The difference is larger than a threshold, and
+   * significant. */
   std::vector<std::size_t> unlike;
-  /** The largest group, which has at least half of the frames, then the others by their noise; one if none is unlike.
-   */
+  /** Groups of frames: first the largest, which has at least half of the frames, then the others by increasing noise.
+   * One group if all frames agree. */
   std::vector<FrameGroup> groups;
-  /** Whether the frames have about one level: then no model of their illumination makes the groups. */
+  /** Whether the frames have about one level: then the groups cannot be caused by the model of their illumination. */
   bool areFramesEqual{ false };
-  /** The median difference, if it counts: the noise of the frames varies, in no groups [1]. */
+  /** Median difference from 1, if it exceeds the threshold without groups: the noise varies from frame to frame; else 0
+   * [1]. */
   double scatter{ 0.0 };
 
-  /** Whether the frames are of several kinds, or vary. */
+  /** Returns whether there are several groups, or the noise varies. */
   bool
   HasSeveralKinds() const
   {
     return scatter > 0.0 || groups.size() > 1;
   }
-  /** The noise of each of so many frames, by its group [1]. */
+  /** Returns the noise of each of \a frames frames, by its group [1]. */
   Eigen::VectorXd
   OfFrames(Eigen::Index frames) const;
-  /** The groups in words: which frames, how much noise, and about which gain where the common one is \a gain [DN/e-].
-   */
+  /** Returns the groups in words: the frames, their noise, and their approximate gain, where the common gain is \a gain
+   * [DN/e-]. */
   std::string
   Text(double gain) const;
 };
 
-/** Sorts the frames into groups. The largest is found by the shortest interval that holds half of the frames, and holds
- * all that differ from its median by less than counts, or than chance; so do the others among themselves. Estimator.md,
- * 3.14. \a ofFrames is NoiseOfFrames(), \a chance the standard deviation that the number of pixels leaves it, \a least
- * the difference that counts, as InRefined.leastUnlikeNoise [1]. */
+/** Sorts the frames into groups. The largest group is found by the shortest interval that contains half of the frames.
+ * It contains all frames that differ from its median by less than the threshold, or not significantly. The other
+ * frames are divided where the noise differs by more than the threshold. Estimator.md, 3.14. \a ofFrames is the result
+ * of NoiseOfFrames(), \a chance its standard deviation by the number of pixels [1], \a least the threshold, as
+ * InRefined.leastUnlikeNoise [1]. */
 SensorNoise_EXPORT FrameNoise
 JudgeFrameNoise(const Eigen::VectorXd & ofFrames, double chance, double least);
 
