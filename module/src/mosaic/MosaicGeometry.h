@@ -16,21 +16,21 @@
 namespace sensornoise
 {
 
-/** Where the pixels of each plane stand in a frame behind a mosaic. All planes have the same size: half the frame's,
- * the last column or row left out where its number is odd. */
+/** Positions of the pixels of each plane in a frame with a colour mosaic. All planes have the same size: half of the
+ * frame's, without the last column or row where its number is odd. */
 struct MosaicGeometry
 {
   FrameGeometry frame;
   BayerPattern  pattern{ BayerPattern::RGGB };
 
-  /** Of each plane. */
+  /** Returns the size of each plane. */
   FrameGeometry
   Plane() const
   {
     return { frame.width / 2, frame.height / 2, frame.shutterAxis };
   }
 
-  /** Where the plane's pixels stand in frames one after the other. */
+  /** Returns the layout of the plane's pixels in frames that lie one after the other. */
   PixelLayout
   LayoutOf(BayerPlane plane) const
   {
@@ -38,7 +38,7 @@ struct MosaicGeometry
     return { corner[1] * frame.width + corner[0], 2, 2 * frame.width, frame.Pixels(), frame.width / 2 };
   }
 
-  /** Values of the frame's pixels that are the plane's; none of none. */
+  /** Returns the values of the frame's pixels that belong to the plane; empty if \a ofFrame is empty. */
   template <typename T>
   std::vector<T>
   Take(const std::vector<T> & ofFrame, BayerPlane plane) const
@@ -52,7 +52,7 @@ struct MosaicGeometry
     return ofPlane;
   }
 
-  /** Writes the plane's values where they stand in the frame. Nothing, if there are none. */
+  /** Writes the plane's values to their positions in the frame. Does nothing if \a ofPlane is empty. */
   template <typename T>
   void
   Put(const std::vector<T> & ofPlane, BayerPlane plane, T * ofFrame, const ParallelFor & parallelFor = SerialFor) const
@@ -64,8 +64,8 @@ struct MosaicGeometry
     }
   }
 
-  /** The frame's values of those of its planes, in the order of BayerPlanes. Where a plane has none, and in a last
-   * column or row that is in no plane, \a missing. */
+  /** Returns the values of a frame from the values of its planes, in the order of BayerPlanes. Pixels of an empty
+   * plane, and of a last column or row that belongs to no plane, have the value \a missing. */
   template <typename T>
   std::vector<T>
   Join(const std::array<std::vector<T>, 4> & ofPlanes, T missing, const ParallelFor & parallelFor) const
@@ -91,7 +91,7 @@ struct MosaicGeometry
     return ofFrame;
   }
 
-  /** Copies the planes of \a count frames that lie one after the other to where there is room for them, in the order of
+  /** Copies the planes of \a count frames, which lie one after the other, to the memory at \a to, in the order of
    * BayerPlanes. Each row is read once. */
   template <typename TPixel>
   void
@@ -121,11 +121,11 @@ struct MosaicGeometry
   }
 
 private:
-  /** Pixels of a mosaic that a thread copies in one go. Set by hand: with a quarter of them copying takes a fifth
-   * longer, as every thread then jumps from row to row in memory; with four times as many it is not faster. */
+  /** Number of mosaic pixels that a thread copies at once. Chosen empirically: with a quarter of them copying takes a
+   * fifth longer, as every thread then jumps from row to row in memory. With four times as many it is not faster. */
   static constexpr std::size_t PixelsTogether = std::size_t{ 1 } << 16;
 
-  /** The first of the two planes of a row. G2 stands in the columns of R, B in those of G1. */
+  /** Returns the index of the first of the two planes in a row. G2 is in the columns of R, B in the columns of G1. */
   static std::size_t
   FirstOfRow(std::size_t y, const std::array<std::size_t, 2> & red)
   {

@@ -30,7 +30,8 @@ struct PassesOfMethod<PublishedMethod<TPixel>>
   using Type = PublishedPasses<TPixel>;
 };
 
-/** The settings of each plane: a memory limit is shared out. */
+/** Returns the settings of each plane; a memory limit is divided among the planes. Throws std::invalid_argument if it
+ * is too small, see RequireMemoryLimit(). */
 template <typename TSettings>
 std::array<TSettings, 4>
 SettingsOfPlanes(TSettings settings, const FrameGeometry & geometry, std::size_t frames)

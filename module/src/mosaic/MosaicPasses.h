@@ -24,11 +24,11 @@ namespace sensornoise
 {
 
 /** \class MosaicPasses
- * \brief A method at work on the four planes of a mosaic at once: each pass reads the stack once for all of them.
+ * \brief Passes of a method over the four planes of a mosaic together: each pass reads the stack once for all planes.
  *
- * Usage as that of the method, RefinedPasses or PublishedPasses; what it finds of each plane has the bits that the
- * method alone finds of it. The planes' pixels are read where they stand, those of a part of the frame for all planes
- * while they are near.
+ * Usage as RefinedPasses or PublishedPasses. The results of each plane are identical with the results of the method on
+ * that plane alone. The planes' pixels are read at their positions in the mosaic, one part of the frame for all planes
+ * while it is in the cache.
  *
  * \tparam TPixel the type of the frames' pixels.
  * \tparam TMethod RefinedPasses or PublishedPasses of it. */
@@ -40,8 +40,8 @@ public:
 
   using MakeMethod = std::function<TMethod(BayerPlane plane, const ParallelFor & parallelFor)>;
 
-  /** \a makeMethod makes the method of each plane, of the size MosaicGeometry::Plane(); the ParallelFor that it is
-   * given is to spread its work. \a parallelFor has \a threads threads. */
+  /** \a makeMethod makes the method of each plane, of the size MosaicGeometry::Plane(), which has to distribute its
+   * work by the ParallelFor that is passed. \a parallelFor uses \a threads threads. */
   MosaicPasses(const MosaicGeometry & geometry,
                const MakeMethod &     makeMethod,
                const ParallelFor &    parallelFor = SerialFor,
@@ -57,13 +57,13 @@ public:
     }
   }
 
-  /** Adds the next \a count frames of the current pass, mosaics, stored one after the other. */
+  /** Adds the next \a count mosaics of the current pass, which are stored one after the other. */
   void
   AddFrames(const TPixel * frames, std::size_t count)
   {
     if (this->AreBlueRowsPending() && count == this->GetHas().size())
     {
-      this->EndPlanes(RedRows, BayerPlanes.size()); // the pass before: there will be no sums
+      this->EndPlanes(RedRows, BayerPlanes.size()); // ends the second pass, so that no sums are needed
       m_Last = BayerPlanes.size();
     }
     std::vector<typename TMethod::Passes *> planes;
@@ -80,7 +80,7 @@ public:
     }
   }
 
-  /** Frame \a t is the next one of the current pass. */
+  /** Sets frame \a t as the next one of the current pass. */
   void
   GoTo(std::size_t t)
   {
@@ -90,21 +90,21 @@ public:
     }
   }
 
-  /** Frames that are here, as the method has them. */
+  /** Returns for every frame 1 if it was added, or merged, in the current pass, else 0. */
   const std::vector<std::uint8_t> &
   GetHas() const
   {
     return m_Methods.front().GetHas();
   }
 
-  /** The methods, in the order of BayerPlanes: what is told to each of them, or asked of it. */
+  /** Returns the methods, in the order of BayerPlanes. */
   std::vector<TMethod> &
   GetMethods()
   {
     return m_Methods;
   }
 
-  /** Sums of the current pass on their way to another process, and from there. */
+  /** Save and merge the sums of the current pass of all planes, to exchange them between processes. */
   void
   SaveSums(std::ostream & out) const
   {
@@ -122,16 +122,17 @@ public:
     }
   }
 
-  /** Sums of 8 bytes that the third pass has of the planes' pixels, and that are too many for all planes at once. */
+  /** Limits beyond which the third pass's sums of 8 bytes are too many for all planes at once. */
   struct ManySums
   {
-    std::size_t ofPixel = 8;                     ///< more: 64 bytes, to which a memory limit brings every stack
-    std::size_t bytes = std::size_t{ 32 } << 20; ///< and more: less than a chunk of the stack is not worth a pass
+    std::size_t ofPixel = 8;                     ///< sums for each pixel; a memory limit reduces every stack to 64
+                                                 ///< bytes
+    std::size_t bytes = std::size_t{ 32 } << 20; ///< bytes of the mosaic's sums; saving less is not worth a pass
   };
 
-  /** No sums of RefinedPasses' third pass are saved or merged. Where all frames are added to it together there are
-   * none; where there are \a many, the pass is for the planes of the red rows alone, and one more for those of the blue
-   * rows: half of their memory. To be told before the first pass. */
+  /** Declares that no sums of RefinedPasses' third pass are saved or merged. If all frames are added together, there
+   * are no sums. If the sums exceed \a many, the pass is for the planes of the red rows alone, and a further pass for
+   * the planes of the blue rows, which halves the memory. Call it before the first pass. */
   void
   DisableMerging(const std::optional<ManySums> & many)
   {
@@ -152,7 +153,7 @@ public:
     }
     if constexpr (TMethod::HasManySums)
     {
-      // Planes that need a reading more than others are not in step, and do not take turns.
+      // If some planes need one reading more than others, their passes differ, and rows do not take turns.
       const auto isReady = [](const TMethod & method) { return method.IsBeforeProjections(); };
       if (m_ManySums && std::all_of(m_Methods.begin(), m_Methods.end(), isReady))
       {
@@ -169,14 +170,14 @@ public:
     }
   }
 
-  /** Whether all planes' reports are there. */
+  /** Returns whether the reports of all planes are available. */
   bool
   IsDone() const
   {
     return this->AreDone(BayerPlanes.size());
   }
 
-  /** In the order of BayerPlanes. */
+  /** Returns the reports, in the order of BayerPlanes. */
   std::array<Report, 4>
   GetReports() const
   {
@@ -185,9 +186,9 @@ public:
     };
   }
 
-  /** A map of the frame, every pixel with the value of its plane: mapOf(method) is the method's GetMean(),
-   * GetVariance(), GetCorrectedVariance() or GetPixelUse(), or what takes it. Where there is none, and in a last column
-   * or row that is in no plane, \a missing. */
+  /** Returns a map of the frame from the maps of the planes. mapOf(method) returns a map of a method, by GetMean(),
+   * GetVariance(), GetCorrectedVariance() or GetPixelUse(), or by the functions that take them. Pixels of planes
+   * without a map, and of a last column or row that belongs to no plane, have the value \a missing. */
   template <typename T, typename TFunction>
   std::vector<T>
   JoinMaps(TFunction mapOf, T missing)
@@ -199,12 +200,12 @@ public:
     }
     std::vector<T> map = m_Geometry.Join(ofPlanes, missing, m_ParallelFor);
     ofPlanes = {};
-    GiveBackFreedMemory(); // of maps that were taken
+    GiveBackFreedMemory(); // memory of the maps that were taken
     return map;
   }
 
 private:
-  /** The planes before this one, R and G1, are those of the red rows. */
+  /** Number of planes of the red rows, R and G1, which precede the others. */
   static constexpr std::size_t RedRows = 2;
 
   bool
@@ -214,7 +215,7 @@ private:
       m_Methods.begin(), m_Methods.begin() + planes, [](const TMethod & method) { return method.IsDone(); });
   }
 
-  /** Ends the first pass of all planes by leaving out the frames that are unlike the others in one of them. */
+  /** Ends the first pass of all planes, and leaves out the frames that deviate from the others in any plane. */
   void
   LeaveOutUnlike()
   {
@@ -230,14 +231,15 @@ private:
     }
   }
 
-  /** The third pass is that of the red rows. */
+  /** Returns whether the third pass is the pass of the red rows. */
   bool
   AreBlueRowsPending() const
   {
     return m_Last == RedRows;
   }
 
-  /** Ends it for the red rows, and for the blue ones unless these are to wait until those are done. */
+  /** Ends the second pass for the red rows. Ends it also for the blue rows, unless they have to wait for the third pass
+   * of the red rows. */
   void
   EndPassBeforeLast()
   {
@@ -257,8 +259,8 @@ private:
     GiveBackFreedMemory();
   }
 
-  /** Ends the current pass of the planes from \a first on and below \a last, at the same time: much of what is left to
-   * do then are single sums and sorts. */
+  /** Ends the current pass for the planes first <= k < last at the same time: much of the remaining work is single sums
+   * and sorts. */
   void
   EndPlanes(std::size_t first, std::size_t last)
   {
@@ -268,7 +270,7 @@ private:
         m_Methods[k].EndPass();
       }
     });
-    GiveBackFreedMemory(); // planes' maps are small enough to be kept by the system's library when they are freed
+    GiveBackFreedMemory(); // maps of planes are so small that the system's allocator keeps them when they are freed
   }
 
   ParallelFor             m_ParallelFor;
@@ -276,12 +278,12 @@ private:
   std::vector<TMethod>    m_Methods;
   MosaicGeometry          m_Geometry;
   std::optional<ManySums> m_ManySums;   // none: rows do not take turns
-  std::size_t             m_First{ 0 }; // the planes whose turn it is
+  std::size_t             m_First{ 0 }; // planes of the current pass
   std::size_t             m_Last{ BayerPlanes.size() };
 };
 
 /** Makes the passes of a method on the four planes of mosaics, with the settings of each plane, in the order of
- * BayerPlanes. \a mask is that of the mosaic. \a parallelFor has \a threads threads. */
+ * BayerPlanes. \a mask is the mask of the mosaic. \a parallelFor uses \a threads threads. */
 template <typename TPixel, typename TPasses>
 MosaicPasses<TPixel, TPasses>
 MakeMosaicPasses(const std::array<typename TPasses::Settings, 4> & settings,

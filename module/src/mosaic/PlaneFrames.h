@@ -16,7 +16,7 @@ namespace sensornoise
 {
 
 /** \class PlaneFrames
- * \brief Copies the frames of a mosaic plane by plane, a few at a time, for one who looks at pixels here and there.
+ * \brief Copies the frames of a mosaic plane by plane, a few at a time, for functions that read scattered pixels.
  *
  * Each part of the mosaic is read once for all planes. */
 template <typename TPixel>
@@ -33,8 +33,8 @@ public:
     return m_Geometry;
   }
 
-  /** Calls function(k, frames, count), for the planes k in the order of BayerPlanes, for as many frames of that plane
-   * as are copied together, until all \a count frames of the mosaic are through. */
+  /** Calls function(k, frames, count) for each plane k, in the order of BayerPlanes, with \a count frames of that plane
+   * that were copied together. Repeats this until all \a count frames of \a mosaics have been copied. */
   template <typename TFunction>
   void
   ForPlanes(const TPixel * mosaics, std::size_t count, const ParallelFor & parallelFor, TFunction function)
@@ -60,8 +60,8 @@ public:
   }
 
 private:
-  /** Bytes of each plane that are copied together. Set by hand, when the published method still copied its planes: with
-   * half of it that took a tenth longer, with twice as long and more memory. */
+  /** Bytes of each plane that are copied together. Chosen empirically with the published method, when it still copied
+   * its planes: with half of them it took a tenth longer, with twice as many as long and more memory. */
   static constexpr std::size_t BytesTogether = std::size_t{ 8 } << 20;
 
   MosaicGeometry                          m_Geometry;

@@ -14,19 +14,19 @@ namespace sensornoise
 {
 
 /** \class PlaneWork
- * \brief Spreads work on the planes of a mosaic over threads: plane after plane, or at the same time, each by a thread.
- */
+ * \brief Distributes the work on the planes of a mosaic over threads: one plane after the other, or all planes at the
+ * same time, with one thread for each. */
 class PlaneWork
 {
 public:
-  /** \a parallelFor has \a threads threads. */
+  /** \a parallelFor uses \a threads threads. */
   PlaneWork(const ParallelFor & parallelFor, std::size_t threads)
     : m_ParallelFor(parallelFor)
     , m_Threads(threads)
     , m_State(std::make_shared<State>())
   {}
 
-  /** What spreads the work within a plane, also when the object is gone. */
+  /** Returns a loop that distributes the work within a plane. It remains valid when the object is destroyed. */
   ParallelFor
   WithinPlane() const
   {
@@ -38,7 +38,7 @@ public:
       }
       for (std::size_t i = 0; i < count; ++i)
       {
-        // A single call: it is not spread, but whoever made parallelFor may stop the work there.
+        // A single call is not distributed, but parallelFor may throw here to stop the work.
         parallelFor(1, [&](std::size_t) {
           if (state->isStopped)
           {
@@ -50,8 +50,8 @@ public:
     };
   }
 
-  /** Calls function(k) for the planes from \a first on and below \a last, at the same time unless there are more
-   * threads. What one of them throws stops the others. */
+  /** Calls function(k) for the planes first <= k < last, at the same time unless there are more threads than planes. An
+   * exception of one call stops the others, and is thrown. */
   template <typename TFunction>
   void
   ForPlanes(std::size_t first, std::size_t last, TFunction function) const
@@ -64,7 +64,7 @@ public:
         function(first + k);
       }
       catch (const Stopped &)
-      {} // for what another plane throws
+      {} // another plane throws the cause
       catch (...)
       {
         m_State->isStopped = true;
@@ -88,7 +88,7 @@ private:
   {};
   struct State
   {
-    bool              isByPlane{ false }; // at the same time
+    bool              isByPlane{ false }; // planes run at the same time
     std::atomic<bool> isStopped{ false };
   };
 
