@@ -9,7 +9,7 @@
 #include "pixels/ResidualSquares.h"
 #include "pixels/ProjectedVariance.h"
 #include "pixels/ProjectionSums.h"
-#include "scene/ProvisionalModel.h"
+#include "scene/InitialNoiseModel.h"
 #include "scene/ReferenceFrame.h"
 #include "series/MotionSeries.h"
 #include "series/TemporalBasis.h"

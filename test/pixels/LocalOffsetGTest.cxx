@@ -3,7 +3,7 @@
 #include "pixels/LocalOffset.h"
 #include "base/Eigen.h"
 #include "pixels/OffsetDrift.h"
-#include "pixels/PixelLight.h"
+#include "pixels/IlluminationResponses.h"
 #include "pixels/ProjectedVariance.h"
 #include "pixels/VarianceLine.h"
 #include "helpers/ProjectionTestHelper.h"

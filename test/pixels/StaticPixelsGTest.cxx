@@ -6,8 +6,8 @@
 #include "sensornoise/Parallel.h"
 #include "base/PixelRuns.h"
 #include "pixels/FarVariance.h"
-#include "pixels/JudgedRun.h"
-#include "pixels/JudgingLine.h"
+#include "pixels/TestedRun.h"
+#include "pixels/RejectionModel.h"
 #include "pixels/ProjectedVariance.h"
 #include "helpers/ProjectionTestHelper.h"
 

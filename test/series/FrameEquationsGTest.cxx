@@ -4,7 +4,7 @@
 #include "base/Eigen.h"
 #include "sensornoise/Parallel.h"
 #include "base/Stencils.h"
-#include "scene/ProvisionalModel.h"
+#include "scene/InitialNoiseModel.h"
 #include "scene/ReferenceFrame.h"
 #include "series/FrameProducts.h"
 #include "series/FrameRegressors.h"

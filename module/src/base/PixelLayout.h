@@ -5,7 +5,7 @@
 
 #include "sensornoise/FrameGeometry.h"
 #include "base/Prefetch.h"
-#include "base/WideVectors.h"
+#include "base/Avx2.h"
 
 #include <algorithm>
 #include <cstddef>

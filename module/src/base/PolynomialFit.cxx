@@ -5,7 +5,7 @@
 #include "base/Eigen.h"
 #include "base/PixelRuns.h"
 #include "base/ValueRange.h"
-#include "base/WideVectors.h"
+#include "base/Avx2.h"
 
 #include <algorithm>
 #include <array>

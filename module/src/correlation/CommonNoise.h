@@ -5,7 +5,7 @@
 
 #include "SensorNoiseExport.h"
 #include "correlation/LagSums.h"
-#include "correlation/SharedLight.h"
+#include "correlation/DistantCovariance.h"
 
 #include <array>
 

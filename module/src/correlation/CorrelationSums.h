@@ -12,8 +12,8 @@
 #include "correlation/LagSums.h"
 #include "correlation/NoiseKurtosis.h"
 #include "correlation/NoiseResiduals.h"
-#include "correlation/SharedLight.h"
-#include "correlation/SharedShapes.h"
+#include "correlation/DistantCovariance.h"
+#include "correlation/CovarianceShapes.h"
 
 #include <cstddef>
 #include <vector>

@@ -3,9 +3,9 @@
 #include "correlation/NoiseResiduals.h"
 
 #include "base/Constants.h"
-#include "base/WideVectors.h"
+#include "base/Avx2.h"
 #include "correlation/Constants.h"
-#include "correlation/PixelsByLight.h"
+#include "correlation/PixelsBySignal.h"
 
 #include <algorithm>
 #include <array>

@@ -7,7 +7,7 @@
 #include "base/Significance.h"
 #include "correlation/BlockPhases.h"
 #include "correlation/Constants.h"
-#include "correlation/SharedShapes.h"
+#include "correlation/CovarianceShapes.h"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 
 #include "base/BinaryStream.h"
 #include "base/FirstTouch.h"
-#include "base/WideVectors.h"
+#include "base/Avx2.h"
 
 #include <algorithm>
 #include <cstddef>

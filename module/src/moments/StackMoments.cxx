@@ -6,7 +6,7 @@
 #include "base/BytesFingerprint.h"
 #include "sensornoise/Parallel.h"
 #include "sensornoise/FrameGeometry.h"
-#include "base/WideVectors.h"
+#include "base/Avx2.h"
 #include "moments/ChosenFrames.h"
 #include "moments/TemporalMoments.h"
 

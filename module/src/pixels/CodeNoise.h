@@ -6,7 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "base/Eigen.h"
 #include "sensornoise/StepResults.h"
-#include "scene/ProvisionalModel.h"
+#include "scene/InitialNoiseModel.h"
 #include "scene/ReferenceFrame.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "pixels/LocalFlicker.h"
 
 #include "pixels/PixelCoordinates.h"
-#include "pixels/PixelLight.h"
+#include "pixels/IlluminationResponses.h"
 #include "pixels/VarianceLine.h"
 #include "scene/ReferenceFrame.h"
 

@@ -5,7 +5,7 @@
 #include "base/ChiSquare.h"
 #include "sensornoise/Parallel.h"
 #include "pixels/Constants.h"
-#include "pixels/PixelLight.h"
+#include "pixels/IlluminationResponses.h"
 #include "pixels/VarianceLine.h"
 #include "scene/ReferenceFrame.h"
 

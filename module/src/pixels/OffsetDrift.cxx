@@ -4,7 +4,7 @@
 
 #include "pixels/Constants.h"
 #include "pixels/PixelCoordinates.h"
-#include "pixels/PixelLight.h"
+#include "pixels/IlluminationResponses.h"
 #include "pixels/VarianceLine.h"
 #include "scene/ReferenceFrame.h"
 

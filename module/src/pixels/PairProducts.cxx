@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pixels/PairProducts.h"
 
-#include "base/WideVectors.h"
+#include "base/Avx2.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -6,7 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/Parallel.h"
 #include "pixels/CodeNoise.h"
-#include "pixels/FrameFreedom.h"
+#include "pixels/FrameDof.h"
 #include "pixels/ResidualSquares.h"
 #include "pixels/RoughnessClasses.h"
 #include "pixels/VarianceLine.h"

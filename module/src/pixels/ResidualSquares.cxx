@@ -5,7 +5,7 @@
 #include "base/Eigen.h"
 #include "base/FirstTouch.h"
 #include "sensornoise/FrameGeometry.h"
-#include "base/WideVectors.h"
+#include "base/Avx2.h"
 #include "pixels/ProjectedFrames.h"
 #include "pixels/ProjectionSums.h"
 #include "scene/ReferenceFrame.h"

@@ -7,7 +7,7 @@
 #include "base/Quantiles.h"
 #include "base/Stencils.h"
 #include "pixels/Constants.h"
-#include "scene/ProvisionalModel.h"
+#include "scene/InitialNoiseModel.h"
 #include "scene/ReferenceFrame.h"
 
 #include <algorithm>

@@ -5,10 +5,10 @@
 #include "sensornoise/Parallel.h"
 #include "base/Quantiles.h"
 #include "base/Significance.h"
-#include "base/WideVectors.h"
+#include "base/Avx2.h"
 #include "pixels/Constants.h"
-#include "pixels/JudgedRun.h"
-#include "pixels/JudgingLine.h"
+#include "pixels/TestedRun.h"
+#include "pixels/RejectionModel.h"
 #include "pixels/ProjectedVariance.h"
 #include "scene/ReferenceFrame.h"
 

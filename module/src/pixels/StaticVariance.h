@@ -7,7 +7,7 @@
 #include "sensornoise/Parallel.h"
 #include "pixels/CodeNoise.h"
 #include "pixels/GainByParts.h"
-#include "pixels/LevelPattern.h"
+#include "pixels/FixedPatternEstimate.h"
 #include "pixels/StaticPixels.h"
 #include "pixels/VarianceCurve.h"
 #include "pixels/VarianceLine.h"

@@ -8,7 +8,7 @@
 #include "sensornoise/Parallel.h"
 #include "base/PixelRuns.h"
 #include "base/ValueRange.h"
-#include "base/WideVectors.h"
+#include "base/Avx2.h"
 #include "pixels/ChiSquareTrim.h"
 #include "pixels/VarianceCurve.h"
 #include "pixels/VarianceLine.h"

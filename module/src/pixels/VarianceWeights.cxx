@@ -5,7 +5,7 @@
 #include "base/ChiSquare.h"
 #include "sensornoise/Parallel.h"
 #include "base/Quantiles.h"
-#include "base/WideVectors.h"
+#include "base/Avx2.h"
 #include "moments/Constants.h"
 #include "moments/DefectivePixels.h"
 #include "pixels/ChiSquareTrim.h"

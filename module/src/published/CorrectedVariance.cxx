@@ -5,7 +5,7 @@
 #include "base/BinaryStream.h"
 #include "base/FirstTouch.h"
 #include "sensornoise/FrameGeometry.h"
-#include "base/WideVectors.h"
+#include "base/Avx2.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include "base/PixelRuns.h"
 #include "sensornoise/FrameGeometry.h"
 #include "base/Prefetch.h"
-#include "base/WideVectors.h"
+#include "base/Avx2.h"
 
 #include <algorithm>
 #include <array>

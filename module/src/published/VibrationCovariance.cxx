@@ -4,7 +4,7 @@
 
 #include "base/Eigen.h"
 #include "base/PixelRuns.h"
-#include "base/WideVectors.h"
+#include "base/Avx2.h"
 #include "published/VibrationMask.h"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "base/Constants.h"
 #include "base/Significance.h"
 #include "sensornoise/Settings.h"
-#include "pixels/LevelPattern.h"
+#include "pixels/FixedPatternEstimate.h"
 #include "pixels/MeanGain.h"
 #include "pixels/ProjectedVariance.h"
 #include "pixels/VarianceCurve.h"

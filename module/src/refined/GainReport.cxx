@@ -8,7 +8,7 @@
 #include "pixels/CodeNoise.h"
 #include "pixels/Constants.h"
 #include "pixels/GainByParts.h"
-#include "pixels/LevelPattern.h"
+#include "pixels/FixedPatternEstimate.h"
 #include "pixels/VarianceCurve.h"
 #include "pixels/VarianceLine.h"
 #include "pixels/VarianceStep.h"

@@ -8,7 +8,7 @@
 #include "correlation/FrameSample.h"
 #include "moments/StackRequirements.h"
 #include "refined/Constants.h"
-#include "scene/ProvisionalModel.h"
+#include "scene/InitialNoiseModel.h"
 #include "series/TemporalBasis.h"
 
 #include <algorithm>

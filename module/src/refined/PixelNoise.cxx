@@ -6,7 +6,7 @@
 #include "correlation/FrameEnergies.h"
 #include "correlation/LocalMotion.h"
 #include "correlation/NoiseResiduals.h"
-#include "correlation/LineLight.h"
+#include "correlation/LineIlluminationChange.h"
 #include "pixels/FlatPixels.h"
 #include "refined/BeyondChance.h"
 #include "refined/Constants.h"

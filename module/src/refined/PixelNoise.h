@@ -12,7 +12,7 @@
 #include "sensornoise/Settings.h"
 #include "refined/LineIllumination.h"
 #include "refined/UnlikeNoise.h"
-#include "scene/StillScene.h"
+#include "scene/StaticScene.h"
 #include "series/SceneSeries.h"
 
 #include <optional>

@@ -6,7 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "pixels/VarianceLine.h"
 #include "sensornoise/Settings.h"
-#include "scene/StillScene.h"
+#include "scene/StaticScene.h"
 #include "series/SceneSeries.h"
 
 #include <cstdint>

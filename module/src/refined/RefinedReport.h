@@ -9,7 +9,7 @@
 #include "refined/RefinedResults.h"
 #include "sensornoise/Settings.h"
 #include "sensornoise/Report.h"
-#include "scene/StillScene.h"
+#include "scene/StaticScene.h"
 
 #include <cstdint>
 #include <vector>

@@ -5,11 +5,11 @@
 
 #include "correlation/NoiseCorrelation.h"
 #include "moments/ExposureFit.h"
-#include "refined/PolishedSeries.h"
+#include "refined/ReestimatedComponents.h"
 #include "sensornoise/Settings.h"
 #include "refined/LineIllumination.h"
 #include "refined/UnlikeNoise.h"
-#include "scene/StillScene.h"
+#include "scene/StaticScene.h"
 #include "series/Constants.h"
 
 #include <algorithm>

@@ -7,7 +7,7 @@
 #include "sensornoise/Parallel.h"
 #include "sensornoise/StepResults.h"
 #include "scene/Constants.h"
-#include "scene/ProvisionalModel.h"
+#include "scene/InitialNoiseModel.h"
 #include "scene/ReferenceFrame.h"
 
 #include <cstdint>

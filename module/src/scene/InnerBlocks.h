@@ -6,7 +6,7 @@
 #include "sensornoise/FrameGeometry.h"
 #include "sensornoise/Parallel.h"
 #include "base/Stencils.h"
-#include "base/WideVectors.h"
+#include "base/Avx2.h"
 
 #include <cstddef>
 

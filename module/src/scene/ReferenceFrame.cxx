@@ -4,7 +4,7 @@
 
 #include "base/FirstTouch.h"
 #include "base/Stencils.h"
-#include "base/WideVectors.h"
+#include "base/Avx2.h"
 
 #include <algorithm>
 #include <cmath>

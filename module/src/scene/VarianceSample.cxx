@@ -5,7 +5,7 @@
 #include "base/Quantiles.h"
 #include "base/Stencils.h"
 #include "scene/Constants.h"
-#include "scene/ProvisionalModel.h"
+#include "scene/InitialNoiseModel.h"
 
 #include <algorithm>
 #include <cmath>

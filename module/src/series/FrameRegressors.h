@@ -5,7 +5,7 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/Parallel.h"
-#include "scene/ProvisionalModel.h"
+#include "scene/InitialNoiseModel.h"
 #include "scene/ReferenceFrame.h"
 #include "series/FrameProducts.h"
 #include "series/ShiftInstruments.h"

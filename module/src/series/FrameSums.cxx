@@ -3,7 +3,7 @@
 #include "series/FrameSums.h"
 
 #include "sensornoise/FrameGeometry.h"
-#include "base/WideVectors.h"
+#include "base/Avx2.h"
 #include "series/FrameBatch.h"
 #include "series/InstrumentRun.h"
 #include "series/RegressorBand.h"

@@ -3,7 +3,7 @@
 #include "series/GroupProducts.h"
 
 #include "base/Eigen.h"
-#include "base/WideVectors.h"
+#include "base/Avx2.h"
 
 #include <algorithm>
 #include <cstddef>

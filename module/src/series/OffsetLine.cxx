@@ -3,7 +3,7 @@
 #include "series/OffsetLine.h"
 
 #include "base/ChiSquare.h"
-#include "scene/ProvisionalModel.h"
+#include "scene/InitialNoiseModel.h"
 #include "series/FrameProducts.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "series/RegressorBand.h"
 
 #include "base/Stencils.h"
-#include "base/WideVectors.h"
+#include "base/Avx2.h"
 #include "series/Constants.h"
 #include "series/FrameProducts.h"
 #include "series/GroupProducts.h"

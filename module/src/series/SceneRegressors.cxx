@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "series/SceneRegressors.h"
 
-#include "scene/UnexplainedPixels.h"
+#include "scene/OutlierPixels.h"
 #include "series/ShiftInstruments.h"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 
 #include "SensorNoiseExport.h"
 #include "sensornoise/Parallel.h"
-#include "scene/StillScene.h"
+#include "scene/StaticScene.h"
 #include "series/FrameRegressors.h"
 
 namespace sensornoise

@@ -5,7 +5,7 @@
 #include "base/Constants.h"
 #include "base/Eigen.h"
 #include "base/NothingToMeasure.h"
-#include "scene/ProvisionalModel.h"
+#include "scene/InitialNoiseModel.h"
 #include "series/Constants.h"
 #include "series/FrameProducts.h"
 

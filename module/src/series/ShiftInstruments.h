@@ -6,7 +6,7 @@
 #include "SensorNoiseExport.h"
 #include "sensornoise/Parallel.h"
 #include "base/Stencils.h"
-#include "scene/ProvisionalModel.h"
+#include "scene/InitialNoiseModel.h"
 #include "scene/ReferenceFrame.h"
 
 #include <cstddef>

@@ -3,7 +3,7 @@
 #include "series/TemporalBasis.h"
 
 #include "base/Stencils.h"
-#include "base/WideVectors.h"
+#include "base/Avx2.h"
 #include "series/Constants.h"
 #include "series/LocalIllumination.h"
 

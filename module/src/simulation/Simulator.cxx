@@ -10,7 +10,7 @@
 #include "simulation/Random.h"
 #include "simulation/RandomStreams.h"
 #include "simulation/ReadOut.h"
-#include "simulation/SceneLight.h"
+#include "simulation/ExpectedSignal.h"
 #include "simulation/TemporalFilter.h"
 
 #include <algorithm>

@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "pixels/FixedPatternEstimate.h"
+
+#include "sensornoise/Parallel.h"
+#include "base/Significance.h"
+#include "base/Avx2.h"
+#include "pixels/Constants.h"
+#include "pixels/VarianceLine.h"
+#include "scene/ReferenceFrame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** Variance of a pixel minus its diagonal mean, relative to the variance of a pixel [1]. */
+constexpr double DifferenceVariance = 1.125;
+
+/** Sums over the differences from their diagonal means of every second pixel of a tile, as on a chequerboard. */
+struct HalfSquare
+{
+  double pixels{ 0.0 };  // number of pixels
+  double level{ 0.0 };   // sum of the levels; after MakeSquares() their mean [DN]
+  double squares{ 0.0 }; // sum of the squared differences [DN^2]
+  double noise{ 0.0 };   // expectation of squares by the noise of the means [DN^2]
+
+  double
+  Pattern() const
+  {
+    return (squares - noise) / (DifferenceVariance * pixels);
+  }
+  /** Standard error of Pattern(). */
+  double
+  Error() const
+  {
+    return std::sqrt(2.0 / pixels) * squares / (DifferenceVariance * pixels);
+  }
+};
+
+struct Square
+{
+  HalfSquare
+    half[2]; // one selects tiles, the other measures them: a value selected for being small is small by chance, too
+
+  /** Returns an upper limit of the pattern's variance, by the half that selects [DN^2]. */
+  double
+  Roughness(std::size_t chooser) const
+  {
+    return half[chooser].Pattern() + Significance.hint * half[chooser].Error();
+  }
+  /** Returns Roughness() relative to the square of the signal [1]. */
+  double
+  RelativeRoughness(std::size_t chooser, double blackDn) const
+  {
+    const double light = half[chooser].level - blackDn;
+    return this->Roughness(chooser) / std::max(1e-12, light * light);
+  }
+};
+
+/** Squared differences of a row of pixels from their diagonal means [DN^2], and whether the diagonal pixels are all
+ * usable. Computed with SIMD instructions; the sums over the row are not. */
+struct PatternRow
+{
+  double       square[InPattern.squareSide]{};
+  std::uint8_t counts[InPattern.squareSide]{};
+
+  void
+  Compare(const ReferenceFrame & frame, const std::uint8_t * mask, std::size_t first, std::size_t pixels)
+  {
+    const std::size_t          width = frame.geometry.width;
+    const double * const       mean = frame.mean.data();
+    const std::uint8_t * const usable = frame.usable.data();
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      const double difference = mean[first + i] - DiagonalMean(mean, width, first + i);
+      square[i] = difference * difference;
+    }
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      const std::uint8_t isUsable = HasDiagonals(usable, width, first + i) ? 1 : 0;
+      counts[i] = std::min(mask[first + i], isUsable);
+    }
+  }
+};
+
+void
+SumPatternSquare(const ReferenceFrame & frame,
+                 const VarianceData &   data,
+                 std::size_t            left,
+                 std::size_t            top,
+                 std::size_t            side,
+                 Square &               square)
+{
+  const auto frames = static_cast<double>(frame.frames);
+  const auto before = [side](std::size_t first, std::size_t size) {
+    return std::min(first + side, size - std::min(size, DiagonalReach));
+  };
+  PatternRow        row;
+  const std::size_t begin = std::max(left, DiagonalReach); // pixels nearer to the border are not used
+  const std::size_t end = std::max(begin, before(left, frame.geometry.width));
+  for (std::size_t y = std::max(top, DiagonalReach); y < before(top, frame.geometry.height); ++y)
+  {
+    row.Compare(frame, data.mask, y * frame.geometry.width + begin, end - begin);
+    for (std::size_t x = begin; x < end; ++x)
+    {
+      if (row.counts[x - begin] != 0)
+      {
+        // Diagonal neighbours are in the same half, so the halves have no pixel in common.
+        const std::size_t p = y * frame.geometry.width + x;
+        HalfSquare &      half = square.half[(x + y) % 2];
+        half.pixels += 1.0;
+        half.level += frame.mean[p];
+        half.squares += row.square[x - begin];
+        half.noise += DifferenceVariance * data.variance[p] / frames;
+      }
+    }
+  }
+  for (HalfSquare & half : square.half)
+  {
+    half.level /= std::max(1.0, half.pixels);
+  }
+}
+
+std::vector<Square>
+MakeSquares(const ReferenceFrame & frame, const VarianceData & data, const ParallelFor & parallelFor)
+{
+  const std::size_t side =
+    frame.geometry.Pixels() < InPattern.largeFramePixels ? InPattern.smallSquareSide : InPattern.squareSide;
+  const std::size_t   across = (frame.geometry.width + side - 1) / side;
+  const std::size_t   down = (frame.geometry.height + side - 1) / side;
+  std::vector<Square> squares(across * down);
+  parallelFor(down, [&](std::size_t row) {
+    WithWideVectors([&] {
+      for (std::size_t column = 0; column < across; ++column)
+      {
+        SumPatternSquare(frame, data, column * side, row * side, side, squares[row * across + column]);
+      }
+    });
+  });
+  squares.erase(std::remove_if(squares.begin(),
+                               squares.end(),
+                               [](const Square & square) {
+                                 return square.half[0].pixels < InPattern.leastHalfPixels ||
+                                        square.half[1].pixels < InPattern.leastHalfPixels;
+                               }),
+                squares.end());
+  return squares;
+}
+
+/** Returns the \a count tiles of the smallest \a value, in rising order. */
+template <typename TValue>
+std::vector<const Square *>
+SmallestSquares(const std::vector<Square> & squares, std::size_t count, TValue value)
+{
+  std::vector<std::pair<double, const Square *>> sorted(squares.size());
+  std::transform(squares.begin(), squares.end(), sorted.begin(), [&](const Square & square) {
+    return std::make_pair(value(square), &square);
+  });
+  const auto end = sorted.begin() + static_cast<std::ptrdiff_t>(count);
+  std::partial_sort(sorted.begin(), end, sorted.end());
+  std::vector<const Square *> smallest(count);
+  std::transform(sorted.begin(), end, smallest.begin(), [](const auto & entry) { return entry.second; });
+  return smallest;
+}
+
+/** Returns the weighted mean of \a value over tiles, at least 0, plus its standard error. */
+template <typename TValue, typename TError>
+double
+UpperMean(const std::vector<const Square *> & squares, TValue value, TError error)
+{
+  double weight = 0.0;
+  double sum = 0.0;
+  for (const Square * square : squares)
+  {
+    const double w = 1.0 / std::max(1e-300, error(*square) * error(*square));
+    weight += w;
+    sum += w * value(*square);
+  }
+  return std::max(0.0, sum / weight) + 1.0 / std::sqrt(weight);
+}
+} // namespace
+
+LevelPattern
+MeasureLevelPattern(const ReferenceFrame & frame,
+                    const VarianceData &   data,
+                    const VarianceLine &   line,
+                    double                 blackDn,
+                    const ParallelFor &    parallelFor)
+{
+  const double              noiseDn2 = line.At(line.pivotDn) / static_cast<double>(frame.frames);
+  const double              fluxDn = line.pivotDn - blackDn;
+  LevelPattern              pattern;
+  const std::vector<Square> squares = MakeSquares(frame, data, parallelFor);
+  pattern.lightDn2 = std::max(0.0, line.spreadDn2 / line.weightSum - noiseDn2);
+  if (squares.empty() || !(pattern.lightDn2 > 0.0))
+  {
+    pattern.gainShare = pattern.offsetShare = std::numeric_limits<double>::infinity();
+    return pattern;
+  }
+  const auto count =
+    std::min(squares.size(),
+             std::max(InPattern.fewestSquares,
+                      static_cast<std::size_t>(InPattern.flattestShare * static_cast<double>(squares.size()))));
+  // Each half measures once, so that a mirrored frame has the same pattern.
+  double gainSquare = 0.0;
+  double offsetSquareDn2 = 0.0;
+  for (const std::size_t chooser : { 0, 1 })
+  {
+    const auto   measured = [&](const Square & square) -> const HalfSquare & { return square.half[1 - chooser]; };
+    const auto   fluxOf = [&](const Square & square) { return std::max(1e-6, measured(square).level - blackDn); };
+    const auto   relative = [&](const Square & square) { return square.RelativeRoughness(chooser, blackDn); };
+    const auto   roughness = [&](const Square & square) { return square.Roughness(chooser); };
+    const double gain = UpperMean(
+      SmallestSquares(squares, count, relative),
+      [&](const Square & square) { return measured(square).Pattern() / (fluxOf(square) * fluxOf(square)); },
+      [&](const Square & square) { return measured(square).Error() / (fluxOf(square) * fluxOf(square)); });
+    gainSquare += 0.5 * std::min(gain, InPattern.largestGain * InPattern.largestGain);
+    const auto   smoothest = SmallestSquares(squares, count, roughness);
+    const double offsetDn2 = UpperMean(
+      smoothest,
+      [&](const Square & square) { return measured(square).Pattern(); },
+      [&](const Square & square) { return measured(square).Error(); });
+    const double largestDn2 =
+      InPattern.largestOffset * InPattern.largestOffset * line.At(measured(*smoothest.front()).level);
+    offsetSquareDn2 += 0.5 * std::min(offsetDn2, largestDn2);
+  }
+  pattern.gainShare = gainSquare * (fluxDn * fluxDn + pattern.lightDn2) / pattern.lightDn2;
+  pattern.offsetShare = offsetSquareDn2 / pattern.lightDn2;
+  return pattern;
+}
+
+} // namespace sensornoise

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_pixels_FixedPatternEstimate_h
+#define sensornoise_pixels_FixedPatternEstimate_h
+
+#include "SensorNoiseExport.h"
+#include "sensornoise/Parallel.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace sensornoise
+{
+
+struct ReferenceFrame;
+struct VarianceData;
+struct VarianceLine;
+
+/** Largest fraction of the variance of the levels that fixed-pattern noise can explain: gains (PRNU) and offsets (DSNU)
+ * of the pixels.
+ *
+ * Levels that differ because of the illumination raise the variance by the gain. Levels that differ because of PRNU
+ * raise it by twice the gain, and levels that differ because of DSNU do not raise it. A fraction s of the levels'
+ * variance that is pattern therefore changes the slope by -s to +s of the gain. Patterns are measured where the scene
+ * is flattest: elsewhere the differences from pixel to pixel are signal. A pattern that differs between the halves of a
+ * sensor, or that repeats over long distances, is not identifiable. */
+struct LevelPattern
+{
+  double lightDn2{ 0.0 }; ///< weighted variance of the levels without the noise of their means [DN^2]
+  /** Largest fraction of lightDn2 by a pattern of gain or efficiency, its error included [1]. */
+  double gainShare{ 0.0 };
+  double offsetShare{ 0.0 }; ///< largest fraction of lightDn2 by a pattern of offset, its error included [1]
+
+  /** Returns the largest variance of the pixels' offsets [DN^2]. */
+  double
+  OffsetVarianceDn2() const
+  {
+    return lightDn2 > 0.0 ? offsetShare * lightDn2 : 0.0;
+  }
+  /** Returns the largest relative bias of the slope [1]. */
+  double
+  LargestShare() const
+  {
+    return gainShare > offsetShare ? gainShare : offsetShare;
+  }
+};
+
+/** Distance of the farthest pixels that DiagonalMean() uses [pixel]. */
+inline constexpr std::size_t DiagonalReach = 2;
+
+/** Returns the mean of the eight pixels that are one and two steps away on the diagonals [DN]. This estimate of the
+ * signal is free of the pattern of the pixel, its row and its column. \a p is at least two pixels from the border. */
+inline double
+DiagonalMean(const double * mean, std::size_t width, std::size_t p)
+{
+  const double * at = mean + p;
+  const auto     w = static_cast<std::ptrdiff_t>(width);
+  return 0.125 * (at[-w - 1] + at[-w + 1] + at[w - 1] + at[w + 1] + at[-2 * w - 2] + at[-2 * w + 2] + at[2 * w - 2] +
+                  at[2 * w + 2]);
+}
+
+/** Returns whether all pixels of DiagonalMean() are valid: the neighbours of a usable pixel are valid, so the pixels
+ * one step away are tested. */
+inline bool
+HasDiagonals(const std::uint8_t * usable, std::size_t width, std::size_t p)
+{
+  const std::uint8_t * at = usable + p;
+  const auto           w = static_cast<std::ptrdiff_t>(width);
+  // Without branches, for SIMD instructions.
+  return std::min(std::min(at[-w - 1], at[-w + 1]), std::min(at[w - 1], at[w + 1])) != 0;
+}
+
+/** Measures the pattern of the pixels of \a data, whose variance follows \a line. The gain pattern is relative to the
+ * level above \a blackDn, the dark offset or a level that it is not below [DN]. The fractions are infinite if no tile
+ * can be used or all levels are equal. */
+SensorNoise_EXPORT LevelPattern
+MeasureLevelPattern(const ReferenceFrame & frame,
+                    const VarianceData &   data,
+                    const VarianceLine &   line,
+                    double                 blackDn,
+                    const ParallelFor &    parallelFor);
+
+} // namespace sensornoise
+
+#endif

@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "pixels/IlluminationResponses.h"
+
+#include "base/Eigen.h"
+#include "sensornoise/Parallel.h"
+#include "base/Stencils.h"
+#include "pixels/Constants.h"
+#include "pixels/PixelCoordinates.h"
+#include "pixels/VarianceLine.h"
+#include "scene/ReferenceFrame.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+constexpr std::size_t Derivatives = 5;
+constexpr std::size_t Side = 8; // of a tile [pixel]
+
+/** Division of the frame into bands, each one row of tiles. The variables of a pixel are its derivatives and its
+ * responses to the illumination. */
+class Bands
+{
+public:
+  explicit Bands(const PixelLight & data)
+    : m_Data(data)
+    , m_Frame(data.frame)
+    , m_Light(data.factors)
+  {}
+
+  std::size_t
+  Size() const
+  {
+    return (m_Frame.geometry.height + Side - 1) / Side;
+  }
+  std::size_t
+  Tiles() const
+  {
+    return (m_Frame.geometry.width + Side - 1) / Side;
+  }
+  std::size_t
+  TileOf(std::size_t p) const
+  {
+    return p % m_Frame.geometry.width / Side;
+  }
+  std::size_t
+  Variables() const
+  {
+    return Derivatives + m_Light;
+  }
+  std::size_t
+  Light() const
+  {
+    return m_Light;
+  }
+  /** Calls function(pixel, weight, mean minus the centre, variables) for the pixels of a band. */
+  template <typename TFunction>
+  void
+  ForPixels(std::size_t band, TFunction function) const
+  {
+    const std::size_t   width = m_Frame.geometry.width;
+    std::vector<double> z(this->Variables());
+    for (std::size_t p = Side * band * width; p < std::min(m_Data.mask.size(), Side * (band + 1) * width); ++p)
+    {
+      if (m_Data.mask[p] != 0)
+      {
+        std::copy_n(ApplyStencils(m_Frame.mean.data(), width, p).begin(), Derivatives, z.begin());
+        for (std::size_t j = 0; j < m_Light; ++j)
+        {
+          z[Derivatives + j] = m_Data.coordinates.At(p, j);
+        }
+        function(p, 1.0 / m_Data.line.At(m_Frame.neighbourMean[p]), m_Frame.mean[p] - m_Data.centreDn, z);
+      }
+    }
+  }
+
+private:
+  const PixelLight &     m_Data;
+  const ReferenceFrame & m_Frame;
+  std::size_t            m_Light;
+};
+
+/** Sums over a tile of the weight w times powers of I, the mean minus the centre. */
+struct TileWeights
+{
+  double pixels{ 0.0 };
+  double w{ 0.0 };
+  double wI{ 0.0 };
+  double wII{ 0.0 };
+};
+/** Sums over a tile of w times a variable, and of w I times a variable. */
+struct TileProducts
+{
+  double wZ{ 0.0 };
+  double wIZ{ 0.0 };
+};
+
+/** Returns the products of the derivatives with themselves and with the responses over a band, after the line of each
+ * tile was subtracted. */
+Eigen::MatrixXd
+ProductsOfBand(const Bands & bands, std::size_t band)
+{
+  const std::size_t         variables = bands.Variables();
+  std::vector<TileWeights>  weights(bands.Tiles());
+  std::vector<TileProducts> products(bands.Tiles() * variables);
+  bands.ForPixels(band, [&](std::size_t p, double w, double centred, const std::vector<double> & z) {
+    TileWeights &  s = weights[bands.TileOf(p)];
+    TileProducts * own = products.data() + bands.TileOf(p) * variables;
+    s.pixels += 1.0;
+    s.w += w;
+    s.wI += w * centred;
+    s.wII += w * centred * centred;
+    for (std::size_t k = 0; k < variables; ++k)
+    {
+      own[k].wZ += w * z[k];
+      own[k].wIZ += w * centred * z[k];
+    }
+  });
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(Derivatives, static_cast<Eigen::Index>(variables));
+  bands.ForPixels(band, [&](std::size_t p, double w, double centred, std::vector<double> & z) {
+    const TileWeights &  s = weights[bands.TileOf(p)];
+    const TileProducts * own = products.data() + bands.TileOf(p) * variables;
+    const double         determinant = s.w * s.wII - s.wI * s.wI;
+    if (s.pixels > InPattern.leastLeakPixels && determinant > 1e-9 * s.w * s.wII)
+    {
+      for (std::size_t k = 0; k < variables; ++k)
+      {
+        const double slope = (s.w * own[k].wIZ - s.wI * own[k].wZ) / determinant;
+        const double level = (s.wII * own[k].wZ - s.wI * own[k].wIZ) / determinant;
+        z[k] -= level + slope * centred;
+      }
+      const Eigen::Map<const Eigen::VectorXd> free(z.data(), static_cast<Eigen::Index>(variables));
+      result.noalias() += w * free.head<Derivatives>() * free.transpose();
+    }
+  });
+  return result;
+}
+
+/** Returns kappa, with a row for each derivative and a column for each illumination component. */
+Eigen::MatrixXd
+FindLeak(const Bands & bands, const ParallelFor & parallelFor)
+{
+  std::vector<Eigen::MatrixXd> parts(bands.Size());
+  parallelFor(bands.Size(), [&](std::size_t band) { parts[band] = ProductsOfBand(bands, band); });
+  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(Derivatives, static_cast<Eigen::Index>(bands.Variables()));
+  for (const Eigen::MatrixXd & part : parts)
+  {
+    products += part;
+  }
+  const Eigen::MatrixXd gram = products.leftCols<Derivatives>();
+  const Eigen::MatrixXd right = products.rightCols(static_cast<Eigen::Index>(bands.Light()));
+  const Eigen::VectorXd unit = (gram.diagonal().array() + 1e-300).rsqrt();
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
+  solver.setThreshold(1e-6);
+  solver.compute(unit.asDiagonal() * gram * unit.asDiagonal());
+  return unit.asDiagonal() * solver.solve(unit.asDiagonal() * right);
+}
+} // namespace
+
+std::vector<std::vector<double>>
+ResponsesWithoutMotion(const PixelLight & data, const ParallelFor & parallelFor)
+{
+  const Bands                      bands(data);
+  const Eigen::MatrixXd            leak = FindLeak(bands, parallelFor);
+  std::vector<std::vector<double>> responses(bands.Light(), std::vector<double>(data.mask.size(), 0.0));
+  parallelFor(bands.Size(), [&](std::size_t band) {
+    bands.ForPixels(band, [&](std::size_t p, double, double, const std::vector<double> & z) {
+      for (std::size_t j = 0; j < bands.Light(); ++j)
+      {
+        responses[j][p] = z[Derivatives + j];
+        for (std::size_t k = 0; k < Derivatives; ++k)
+        {
+          responses[j][p] -= leak(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j)) * z[k];
+        }
+      }
+    });
+  });
+  return responses;
+}
+
+} // namespace sensornoise

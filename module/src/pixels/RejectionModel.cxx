@@ -1,0 +1,200 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "pixels/RejectionModel.h"
+
+#include "base/Constants.h"
+#include "sensornoise/Parallel.h"
+#include "base/Quantiles.h"
+#include "base/Significance.h"
+#include "moments/Constants.h"
+#include "moments/DefectivePixels.h"
+#include "pixels/Constants.h"
+#include "pixels/FixedPatternEstimate.h"
+#include "pixels/ProjectedVariance.h"
+#include "pixels/VarianceLine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace sensornoise
+{
+
+namespace
+{
+/** Mean excess of the variance over the line in a tile. */
+struct JudgingSquare
+{
+  double level{ 0.0 };     // mean level [DN]
+  double excess{ 0.0 };    // mean of the variance relative to the line, minus 1 [1]
+  double spread{ 0.0 };    // dispersion of the noise variance from pixel to pixel [DN^4]
+  double pixels{ 0.0 };    // number of pixels
+  double roughness{ 0.0 }; // mean roughness class
+};
+
+/** Excess over a line of a row of pixels, computed with SIMD instructions; the sums over the row are not. */
+struct JudgedRow
+{
+  VarianceLine line;
+  double       excess[InPixels.judgingSquareSide]{};
+  double       expected[InPixels.judgingSquareSide]{};
+  double       chance[InPixels.judgingSquareSide]{};
+
+  void
+  Judge(const VarianceData & data, std::size_t first, std::size_t pixels)
+  {
+    const VarianceLine   own = line; // a copy that no pointer can alias
+    const double * const mean = data.mean + first;
+    const double * const variance = data.variance + first;
+    const float * const  freedom = data.freedom + first;
+    for (std::size_t i = 0; i < pixels; ++i)
+    {
+      expected[i] = own.At(mean[i]);
+      excess[i] = variance[i] - expected[i];
+      chance[i] = own.SamplingVariance(freedom[i], expected[i]);
+    }
+  }
+};
+
+JudgingSquare
+SumJudgingSquare(const VarianceLine &      line,
+                 const VarianceData &      data,
+                 const ProjectedVariance & projected,
+                 std::size_t               left,
+                 std::size_t               top)
+{
+  const FrameGeometry & geometry = projected.GetFrame().geometry;
+  const double          reachDn2 =
+    InMoments.defectiveNoiseFactor * InMoments.defectiveNoiseFactor * line.lowestDn2 / InPixels.lowestShare;
+  JudgingSquare     square;
+  double            total = 0.0;
+  double            squares = 0.0;
+  double            chance = 0.0;
+  JudgedRow         row{ line };
+  const std::size_t across = std::min(InPixels.judgingSquareSide, geometry.width - left);
+  for (std::size_t y = top; y < std::min(top + InPixels.judgingSquareSide, geometry.height); ++y)
+  {
+    const std::size_t first = y * geometry.width + left;
+    row.Judge(data, first, across);
+    for (std::size_t i = 0; i < across; ++i)
+    {
+      const std::size_t p = first + i;
+      if (data.mask[p] != 0 && row.excess[i] < reachDn2 + row.expected[i])
+      {
+        square.pixels += 1.0;
+        square.level += data.mean[p];
+        square.roughness += projected.ClassOf(p);
+        square.excess += row.excess[i];
+        total += row.expected[i];
+        squares += row.excess[i] * row.excess[i];
+        chance += row.chance[i];
+      }
+    }
+  }
+  if (square.pixels > 0.0)
+  {
+    square.level /= square.pixels;
+    square.roughness /= square.pixels;
+    square.spread = (squares - chance - square.excess * square.excess / square.pixels) / square.pixels;
+    square.excess /= total;
+  }
+  return square;
+}
+
+/** Returns the tiles with enough pixels, sorted by their levels. */
+std::vector<JudgingSquare>
+MakeJudgingSquares(const VarianceLine &      line,
+                   const VarianceData &      data,
+                   const ProjectedVariance & projected,
+                   const ParallelFor &       parallelFor)
+{
+  const FrameGeometry &      geometry = projected.GetFrame().geometry;
+  const std::size_t          across = (geometry.width + InPixels.judgingSquareSide - 1) / InPixels.judgingSquareSide;
+  const std::size_t          down = (geometry.height + InPixels.judgingSquareSide - 1) / InPixels.judgingSquareSide;
+  std::vector<JudgingSquare> squares(across * down);
+  const std::size_t          oneIn = std::max<std::size_t>(1, squares.size() / InPixels.enoughJudgingSquares);
+  parallelFor(down, [&](std::size_t row) {
+    for (std::size_t column = row % oneIn; column < across; column += oneIn)
+    {
+      squares[row * across + column] =
+        SumJudgingSquare(line, data, projected, column * InPixels.judgingSquareSide, row * InPixels.judgingSquareSide);
+    }
+  });
+  const auto isTooSmall = [](const JudgingSquare & square) { return square.pixels < InPixels.leastSquarePixels; };
+  squares.erase(std::remove_if(squares.begin(), squares.end(), isTooSmall), squares.end());
+  std::stable_sort(squares.begin(), squares.end(), [](const auto & a, const auto & b) { return a.level < b.level; });
+  return squares;
+}
+
+double
+MedianOf(const std::vector<JudgingSquare> & squares,
+         std::size_t                        first,
+         std::size_t                        last,
+         double JudgingSquare::* member)
+{
+  std::vector<double> values;
+  for (std::size_t i = first; i < last; ++i)
+  {
+    values.push_back(squares[i].*member);
+  }
+  return Quantile(values, 0.5);
+}
+} // namespace
+
+JudgingLine
+MakeJudgingLine(const VarianceLine &              line,
+                const ProjectedVariance &         projected,
+                const std::vector<std::uint8_t> & mask,
+                double                            blackDn,
+                const ParallelFor &               parallelFor)
+{
+  JudgingLine                judging{ line, {}, {} };
+  const VarianceData         data = projected.GetData(mask);
+  std::vector<JudgingSquare> squares = MakeJudgingSquares(line, data, projected, parallelFor);
+  if (!squares.empty())
+  {
+    const double patternDn2 =
+      MeasureLevelPattern(projected.GetFrame(), data, line, blackDn, parallelFor).OffsetVarianceDn2();
+    const double darkest = line.At(squares.front().level);
+    judging.byNeighbours = line.gain * line.gain * patternDn2 > InPixels.largestOwnOffset * darkest * darkest;
+  }
+  const std::size_t bins = std::min(InPixels.mostJudgingLevels, squares.size() / InPixels.squaresPerLevel);
+  bool              departs = false;
+  for (std::size_t b = 0; b < bins; ++b)
+  {
+    const std::size_t first = b * squares.size() / bins;
+    const std::size_t end = (b + 1) * squares.size() / bins;
+    const auto        at = [&](std::size_t i) { return squares.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::stable_sort(at(first), at(end), [](const auto & a, const auto & c) { return a.roughness < c.roughness; });
+    const std::size_t   last = first + (end - first + 1) / 2;
+    const double        excess = MedianOf(squares, first, last, &JudgingSquare::excess);
+    std::vector<double> distance;
+    for (std::size_t i = first; i < last; ++i)
+    {
+      distance.push_back(std::abs(squares[i].excess - excess));
+    }
+    // 1.5 median deviations are a standard deviation; a median has 1.25 times the standard error of a mean.
+    const double error = 1.25 * 1.5 * Quantile(distance, 0.5) / std::sqrt(static_cast<double>(last - first));
+    departs = departs || std::abs(excess) > InPixels.leastDeparture + Significance.hint * error;
+    const double level = MedianOf(squares, first, last, &JudgingSquare::level);
+    if (judging.levels.empty() || level > judging.levels.back())
+    {
+      judging.levels.push_back(level);
+      judging.ratios.push_back(std::max(InCommon.leastVarianceRatio, 1.0 + excess));
+    }
+  }
+  if (departs)
+  {
+    const std::size_t dark = std::max(InPixels.squaresPerLevel, squares.size() / InPixels.darkSquaresOneIn);
+    judging.line.noiseSpreadDn4 = std::max(0.0, MedianOf(squares, 0, dark, &JudgingSquare::spread));
+  }
+  else
+  {
+    judging.levels.clear();
+    judging.ratios.clear();
+  }
+  return judging;
+}
+
+} // namespace sensornoise

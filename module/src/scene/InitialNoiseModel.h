@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_scene_InitialNoiseModel_h
+#define sensornoise_scene_InitialNoiseModel_h
+
+#include "SensorNoiseExport.h"
+#include "scene/ReferenceFrame.h"
+
+#include <algorithm>
+
+namespace sensornoise
+{
+
+/** \class ProvisionalModel
+ * \brief Initial noise model: the uncorrected temporal variance, from the maps of the first pass alone. It is (2.20)
+ * of Sur & Gredi\'ac 2015, fitted robustly and with weights.
+ *
+ *     variance = intercept + slope x + sigma_gamma^2 x^2 + sigma_a^2 gx^2 + sigma_b^2 gy^2 + 2 sigma_ab gx gy
+ *
+ * with x the neighbours' mean above the darkest level, gx and gy the derivatives of the mean. The model yields the
+ * weights of all later steps, the guard band at the clip levels, and the pixels that are no part of a static scene. No
+ * estimate of it is reported. Estimator.md, 3.2. */
+struct ProvisionalModel
+{
+  double darkestDn{ 0.0 };   ///< darkest quantile of the mean of the usable pixels [DN]
+  double brightestDn{ 0.0 }; ///< brightest quantile of the mean of the usable pixels [DN]
+  double centreDn{ 0.0 };    ///< mean of the usable pixels, about which the regressions are centred [DN]
+
+  double interceptDn2{ 0.0 };      ///< variance at the darkest level [DN^2]
+  double slopeDn{ 0.0 };           ///< approximate gain [DN/e-]
+  double flickerVariance{ 0.0 };   ///< approximate sigma_gamma^2 [1]
+  double vibrationXPixels2{ 0.0 }; ///< approximate sigma_alpha^2 [pixel^2]
+  double vibrationYPixels2{ 0.0 }; ///< approximate sigma_beta^2 [pixel^2]
+  double vibrationXY{ 0.0 };       ///< approximate sigma_alpha,beta [pixel^2]
+
+  /** Ratio of raw to modelled variance above which the model does not explain a pixel [1]. */
+  double largestRatio{ 0.0 };
+
+  /** Returns the variance without flicker and motion at a mean of the neighbours [DN^2]. */
+  double
+  NoiseVariance(double neighbourMeanDn) const
+  {
+    return interceptDn2 + slopeDn * std::max(0.0, neighbourMeanDn - darkestDn);
+  }
+  /** Returns the variance that motion adds at a gradient, \a gx and \a gy in DN/pixel, without the covariance of both
+   * directions [DN^2]. */
+  double
+  MotionVariance(double gx, double gy) const
+  {
+    return vibrationXPixels2 * gx * gx + vibrationYPixels2 * gy * gy;
+  }
+  /** Returns the whole uncorrected variance [DN^2]. */
+  double
+  RawVariance(double neighbourMeanDn, double gx, double gy) const
+  {
+    const double x = neighbourMeanDn - darkestDn;
+    return NoiseVariance(neighbourMeanDn) + flickerVariance * x * x + MotionVariance(gx, gy) +
+           2.0 * vibrationXY * gx * gy;
+  }
+};
+
+/** Fits the model. It starts from the medians of 32 intensity bins of the smoother half of the pixels. Then it excludes
+ * pixels whose variance is far above the model and fits again, five times. Throws NothingToMeasure if fewer than 100
+ * pixels are usable. */
+SensorNoise_EXPORT ProvisionalModel
+FitProvisionalModel(const ReferenceFrame & frame);
+
+} // namespace sensornoise
+
+#endif

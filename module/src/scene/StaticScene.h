@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#ifndef sensornoise_scene_StaticScene_h
+#define sensornoise_scene_StaticScene_h
+
+#include "SensorNoiseExport.h"
+#include "base/NothingToMeasure.h"
+#include "sensornoise/Parallel.h"
+#include "moments/StackMaps.h"
+#include "scene/MaskedBorder.h"
+#include "scene/InitialNoiseModel.h"
+#include "scene/ReferenceFrame.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace sensornoise
+{
+
+/** Static scene, the result of the first pass: the mean image, a rough model of its noise, and the usable pixels. */
+struct StillScene
+{
+  StackSummary summary;
+  MaskedBorder border;             ///< strips that are not part of the scene, which are excluded
+  std::size_t  valid{ 0 };         ///< number of pixels that are finite, never at a clip level, and not masked by
+                                   ///< the user
+  ReferenceFrame            frame; ///< its `usable` pixels are the usable ones of the scene
+  ProvisionalModel          model;
+  std::vector<std::uint8_t> pixelUse;      ///< values of PixelUse, as far as one pass determines them
+  double                    usable{ 0.0 }; ///< number of usable pixels
+  std::size_t               nearClip{ 0 }; ///< number of pixels that clipping could affect
+  std::size_t               coarse{ 0 };   ///< number of pixels whose noise is below half a quantization
+                                           ///< step
+  bool changesStrongly{ false };           ///< whether the illumination changes strongly
+
+  /** Reason why the stack cannot be measured; the model may then be missing. Null: it can be measured. */
+  std::optional<NothingToMeasure> obstacle;
+};
+
+/** Makes the scene from the maps of a stack.
+ * \param mean, variance, valid maps of MakeStackMaps()
+ * \param userMask if not empty, nonzero at the pixels to be used
+ * \param frames number of distinct frames
+ * \param frameMeans means of the frames [DN]
+ * \param darkestNoiseDn2 if given, the illumination changes strongly and \a variance is without these changes
+ * (LevelProjection); it is an upper bound of the noise variance in the darkest frame [DN^2] */
+SensorNoise_EXPORT StillScene
+MakeStillScene(const StackSummary &              summary,
+               std::vector<double>               mean,
+               std::vector<double>               variance,
+               std::vector<std::uint8_t>         valid,
+               const std::vector<std::uint8_t> & userMask,
+               const FrameGeometry &             geometry,
+               std::size_t                       frames,
+               const std::vector<double> &       frameMeans,
+               const ParallelFor &               parallelFor = SerialFor,
+               const std::optional<double> &     darkestNoiseDn2 = std::nullopt);
+
+} // namespace sensornoise
+
+#endif

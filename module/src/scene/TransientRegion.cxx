@@ -1,0 +1,241 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/TransientRegion.h"
+
+#include "base/Quantiles.h"
+#include "scene/Constants.h"
+#include "scene/VarianceTiles.h"
+#include "scene/VarianceSample.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <utility>
+
+namespace sensornoise
+{
+
+namespace
+{
+using Coefficients = VarianceSample::Coefficients;
+
+/** A model of the variance, and the comparison of the cells of the frame with it. */
+struct Candidate
+{
+  VariancePrediction prediction;
+  JudgedCells        judged;
+
+  double
+  Score() const
+  {
+    return judged.fitting - InScene.costOfBelow * judged.below;
+  }
+};
+
+/** Sets negative variance components to 0. */
+Coefficients
+NotNegative(Coefficients theta)
+{
+  for (int k = 0; k + 1 < VarianceSample::Terms; ++k) // the last one is a covariance
+  {
+    theta(k) = std::max(0.0, theta(k));
+  }
+  return theta;
+}
+
+Coefficients
+CoefficientsOf(const ProvisionalModel & model, double scaleDn)
+{
+  Coefficients theta;
+  theta << model.interceptDn2, model.slopeDn * scaleDn, model.flickerVariance * scaleDn * scaleDn,
+    model.vibrationXPixels2, model.vibrationYPixels2, 2.0 * model.vibrationXY;
+  return theta;
+}
+
+/** A rectangle of a frame, in units of its width and height. */
+struct FramePart
+{
+  double left, right, top, bottom;
+};
+
+std::vector<FramePart>
+PartsOfFrame()
+{
+  std::vector<FramePart> parts;
+  for (const int count : { 3, 2 })
+  {
+    for (int i = 0; i < count; ++i)
+    {
+      const double begin = static_cast<double>(i) / count;
+      const double end = static_cast<double>(i + 1) / count;
+      parts.push_back({ 0.0, 1.0, begin, end });
+      parts.push_back({ begin, end, 0.0, 1.0 });
+    }
+  }
+  for (int i = 0; i < 9; ++i)
+  {
+    const int x = i / 3;
+    const int y = i % 3;
+    parts.push_back({ x / 3.0, (x + 1) / 3.0, y / 3.0, (y + 1) / 3.0 });
+  }
+  return parts;
+}
+
+std::vector<std::size_t>
+PixelsOfPart(const std::vector<std::size_t> & pixels, const FrameGeometry & geometry, const FramePart & part)
+{
+  std::vector<std::size_t> own;
+  std::copy_if(pixels.begin(), pixels.end(), std::back_inserter(own), [&](std::size_t p) {
+    const double x = static_cast<double>(p % geometry.width) / static_cast<double>(geometry.width);
+    const double y = static_cast<double>(p / geometry.width) / static_cast<double>(geometry.height);
+    return x >= part.left && x < part.right && y >= part.top && y < part.bottom;
+  });
+  return own;
+}
+
+/** Fits a model to \a part of the frame, extends it several times to all cells that fit it, and returns the best of
+ * these models. */
+Candidate
+FollowPart(const VarianceSample & part, const VarianceSample & whole, const VarianceCells & cells, double largestRatio)
+{
+  VariancePrediction drawn = StartFromMedians(part);
+  Coefficients       theta = Coefficients::Zero();
+  for (int round = 0; round < 5; ++round)
+  {
+    theta = NotNegative(SolveKept(part, drawn));
+    Predict(part, theta, largestRatio, drawn);
+  }
+  Candidate best;
+  Candidate own;
+  own.prediction.lowest = drawn.lowest;
+  for (int round = 0; round < 6; ++round)
+  {
+    Predict(whole, theta, largestRatio, own.prediction);
+    own.judged = cells.Judge(own.prediction);
+    if (round == 0 || own.Score() > best.Score())
+    {
+      best = own;
+    }
+    if (!(own.judged.fitting > 0.0))
+    {
+      break;
+    }
+    for (std::size_t i = 0; i < whole.Size(); ++i)
+    {
+      own.prediction.keep[i] = own.judged.fits[cells.CellOf(i)] == CellFit::Fits ? own.prediction.keep[i] : 0;
+    }
+    theta = NotNegative(SolveKept(whole, own.prediction));
+  }
+  return best;
+}
+
+/** Returns the number of cells of \a region within \a radius of a cell, and the number of all cells there. */
+std::pair<std::size_t, std::size_t>
+CountNear(const std::vector<std::uint8_t> & region, const VarianceCells & cells, std::size_t c, std::size_t radius)
+{
+  const std::size_t x = c % cells.Columns();
+  const std::size_t y = c / cells.Columns();
+  std::size_t       count = 0;
+  std::size_t       all = 0;
+  for (std::size_t j = y - std::min(y, radius); j <= std::min(y + radius, cells.Rows() - 1); ++j)
+  {
+    for (std::size_t i = x - std::min(x, radius); i <= std::min(x + radius, cells.Columns() - 1); ++i)
+    {
+      count += region[j * cells.Columns() + i];
+      ++all;
+    }
+  }
+  return { count, all };
+}
+
+/** Adds the neighbours, which the object touches. Then adds cells most of whose 5 x 5 neighbours belong to the region,
+ * until none is left. Where an object is as bright as its background, its variance is not visible. */
+std::vector<std::uint8_t>
+Close(const std::vector<std::uint8_t> & region, const VarianceCells & cells)
+{
+  std::vector<std::uint8_t> closed(region.size());
+  for (std::size_t c = 0; c < region.size(); ++c)
+  {
+    closed[c] = CountNear(region, cells, c, 1).first > 0 ? 1 : 0;
+  }
+  for (bool hasGrown = true; hasGrown;)
+  {
+    hasGrown = false;
+    const std::vector<std::uint8_t> before = closed;
+    for (std::size_t c = 0; c < region.size(); ++c)
+    {
+      const auto [count, all] = CountNear(before, cells, c, 2);
+      if (before[c] == 0 && 2 * count > all)
+      {
+        closed[c] = 1;
+        hasGrown = true;
+      }
+    }
+  }
+  return closed;
+}
+
+Candidate
+FindBest(Candidate                        best,
+         const ReferenceFrame &           frame,
+         const ProvisionalModel &         model,
+         const std::vector<std::size_t> & pixels,
+         const VarianceSample &           whole,
+         const VarianceCells &            cells)
+{
+  for (const FramePart & part : PartsOfFrame())
+  {
+    const std::vector<std::size_t> own = PixelsOfPart(pixels, frame.geometry, part);
+    if (own.size() >= InScene.fewestPixels)
+    {
+      Candidate found = FollowPart(SampleVariance(frame, own, model), whole, cells, model.largestRatio);
+      if (found.Score() > best.Score())
+      {
+        best = std::move(found);
+      }
+    }
+  }
+  return best;
+}
+} // namespace
+
+std::vector<std::uint8_t>
+FindCrossedRegion(const ReferenceFrame & frame, const ProvisionalModel & model)
+{
+  const std::vector<std::size_t> pixels = SamplePixels(frame.usable);
+  const VarianceSample           sample = SampleVariance(frame, pixels, model);
+  const VarianceCells            cells(sample, pixels, frame.geometry, frame.frames);
+  Candidate                      best;
+  best.prediction.lowest = model.interceptDn2;
+  Predict(sample, CoefficientsOf(model, sample.scale), model.largestRatio, best.prediction);
+  best.judged = cells.Judge(best.prediction);
+  if (best.Score() >= InScene.enoughScore)
+  {
+    return {};
+  }
+  best = FindBest(std::move(best), frame, model, pixels, sample, cells);
+  const LightOfCells light = cells.FindLight(best.judged, best.prediction, model.largestRatio);
+  if (light.explained >= InScene.leastLightShare && light.modulation <= InScene.largestLight)
+  {
+    return {};
+  }
+  std::vector<std::uint8_t> region(best.judged.fits.size());
+  std::transform(best.judged.fits.begin(), best.judged.fits.end(), region.begin(), [](CellFit fit) {
+    return static_cast<std::uint8_t>(fit == CellFit::Above ? 1 : 0);
+  });
+  region = Close(region, cells);
+  const auto still =
+    std::count_if(pixels.begin(), pixels.end(), [&](std::size_t p) { return region[cells.CellOfPixel(p)] == 0; });
+  if (static_cast<double>(still) < InScene.leastStill * static_cast<double>(pixels.size()))
+  {
+    return {};
+  }
+  std::vector<std::uint8_t> crossed(frame.mean.size());
+  for (std::size_t p = 0; p < crossed.size(); ++p)
+  {
+    crossed[p] = region[cells.CellOfPixel(p)];
+  }
+  return crossed;
+}
+
+} // namespace sensornoise

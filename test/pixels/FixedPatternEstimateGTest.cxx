@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "pixels/FixedPatternEstimate.h"
+#include "sensornoise/Parallel.h"
+#include "pixels/VarianceLine.h"
+#include "helpers/PatternTestHelper.h"
+#include "helpers/StackTestHelper.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <gtest/gtest.h>
+#include <limits>
+#include <random>
+#include <vector>
+
+using namespace sensornoise;
+using namespace sensornoise::test::pattern;
+
+namespace
+{
+/** Levels of equal weight, about a line of no slope: its value is the typical variance. */
+VarianceLine
+LineOf(const Maps & maps)
+{
+  VarianceLine line;
+  double       sum = 0.0;
+  double       squares = 0.0;
+  double       variance = 0.0;
+  double       pixels = 0.0;
+  for (std::size_t p = 0; p < Pixels; ++p)
+  {
+    if (maps.frame.usable[p] != 0)
+    {
+      pixels += 1.0;
+      sum += maps.frame.mean[p];
+      squares += maps.frame.mean[p] * maps.frame.mean[p];
+      variance += maps.variance[p];
+    }
+  }
+  line.pivotDn = sum / pixels;
+  line.weightSum = pixels;
+  line.spreadDn2 = squares - sum * line.pivotDn;
+  line.intercept = variance / pixels;
+  return line;
+}
+
+LevelPattern
+PatternOf(const Maps & maps, const ParallelFor & parallelFor = SerialFor)
+{
+  return MeasureLevelPattern(maps.frame, maps.Data(), LineOf(maps), BlackDn, parallelFor);
+}
+
+/** The share of a gain pattern by its definition: variance^2 times mean squared light, over the levels' variance. */
+double
+GainShare(const LevelPattern & pattern, const Maps & maps, double sd)
+{
+  const double fluxDn = LineOf(maps).pivotDn - BlackDn;
+  return sd * sd * (fluxDn * fluxDn + pattern.lightDn2) / pattern.lightDn2;
+}
+
+/** The flattest squares, 12 of 256, tell by half of their pixels: 1,536, of which the standard error of a variance is
+ * sqrt(2 / 1536) = 3.6 %, plus some for neighbours in common. One is added to the value. */
+constexpr double PatternError = 0.04;
+
+/** Normal numbers, one a pixel. */
+std::vector<double>
+NormalMap()
+{
+  std::mt19937               random(77);
+  std::normal_distribution<> normal;
+  std::vector<double>        map(Pixels);
+  for (double & value : map)
+  {
+    value = normal(random);
+  }
+  return map;
+}
+} // namespace
+
+TEST(SensorNoiseLevelPattern, WhitePatternOfGainHasItsShare)
+{
+  const std::vector<double> normal = NormalMap();
+  for (const double sd : { 0.005, 0.01 })
+  {
+    const Maps maps([&](std::size_t x, std::size_t y) { return Pixel{ Ramp(y), 1.0 + sd * normal[y * Size + x] }; });
+    const LevelPattern pattern = PatternOf(maps);
+    // The levels are evenly spread over 100 DN, with some noise.
+    EXPECT_NEAR(pattern.lightDn2 / (1e4 / 12.0), 1.0, 0.05);
+    EXPECT_NEAR(pattern.gainShare / GainShare(pattern, maps, sd), 1.0 + PatternError, 5.0 * PatternError) << sd;
+  }
+}
+
+TEST(SensorNoiseLevelPattern, WhitePatternOfOffsetHasItsShare)
+{
+  const std::vector<double> normal = NormalMap();
+  const Maps                maps(
+    [&](std::size_t x, std::size_t y) { return Pixel{ Ramp(y), 1.0, 1.0, 12.0 * normal[y * Size + x] }; });
+  const LevelPattern pattern = PatternOf(maps);
+  EXPECT_NEAR(pattern.OffsetVarianceDn2() / 144.0, 1.0 + PatternError, 5.0 * PatternError);
+  EXPECT_NEAR(pattern.offsetShare, pattern.OffsetVarianceDn2() / pattern.lightDn2, 1e-12);
+  EXPECT_EQ(pattern.LargestShare(), std::max(pattern.gainShare, pattern.offsetShare));
+}
+
+TEST(SensorNoiseLevelPattern, NoiseOfTheMeansIsNoPattern)
+{
+  const Maps         maps([](std::size_t, std::size_t y) { return Pixel{ Ramp(y) }; }, FewFrames);
+  const LevelPattern pattern = PatternOf(maps);
+  // What is left is the error of the noise's own variance, one standard error and the added one.
+  const double noiseDn2 = LineOf(maps).intercept / static_cast<double>(FewFrames);
+  EXPECT_GT(pattern.OffsetVarianceDn2(), 0.0);
+  EXPECT_LT(pattern.OffsetVarianceDn2(), 6.0 * PatternError * noiseDn2);
+  EXPECT_NEAR(pattern.lightDn2 / (1e4 / 12.0), 1.0, 0.03);
+}
+
+TEST(SensorNoiseLevelPattern, SceneThatIsRoughEverywhereCountsAsTheLargestPatternOfASensor)
+{
+  const std::vector<double> normal = NormalMap();
+  const Maps maps([&](std::size_t x, std::size_t y) { return Pixel{ 4000.0 * (1.0 + 0.2 * normal[y * Size + x]) }; });
+  const LevelPattern pattern = PatternOf(maps);
+  EXPECT_NEAR(pattern.gainShare, GainShare(pattern, maps, 0.03), 1e-9 * pattern.gainShare);
+  // Five times the noise, whose variance is the same everywhere here.
+  EXPECT_NEAR(pattern.OffsetVarianceDn2(), 25.0 * LineOf(maps).intercept, 1e-9 * pattern.OffsetVarianceDn2());
+}
+
+TEST(SensorNoiseLevelPattern, TextureAboutAFlatPlaceIsNoPattern)
+{
+  // A rough scene with a flat quarter: the pattern is that of the flat part.
+  const std::vector<double> normal = NormalMap();
+  const Maps                maps([&](std::size_t x, std::size_t y) {
+    const bool isFlat = x < Size / 2 && y < Size / 2;
+    return Pixel{ 300.0 * (isFlat ? 1.0 : 1.0 + 0.1 * normal[Pixels - 1 - y * Size - x]),
+                  1.0 + 0.01 * normal[y * Size + x] };
+  });
+  const LevelPattern        pattern = PatternOf(maps);
+  EXPECT_NEAR(pattern.gainShare / GainShare(pattern, maps, 0.01), 1.0 + PatternError, 5.0 * PatternError);
+}
+
+TEST(SensorNoiseLevelPattern, WithoutLevelsEverythingCouldBePattern)
+{
+  const Maps maps([](std::size_t, std::size_t) { return Pixel{ 100.0 }; });
+  EXPECT_EQ(PatternOf(maps).gainShare, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(PatternOf(maps).OffsetVarianceDn2(), 0.0);
+  Maps few([](std::size_t, std::size_t y) { return Pixel{ Ramp(y) }; });
+  for (std::size_t p = 0; p < Pixels; ++p)
+  {
+    few.frame.usable[p] = p % 9 == 0 ? few.frame.usable[p] : 0; // 28 of a square: fewer than 32 of a half
+  }
+  EXPECT_EQ(PatternOf(few).offsetShare, std::numeric_limits<double>::infinity());
+}
+
+TEST(SensorNoiseLevelPattern, DiagonalNeighboursShareNoRowAndNoColumn)
+{
+  std::vector<double> mean(49, 0.0);
+  for (std::size_t i = 0; i < 7; ++i)
+  {
+    mean[3 * 7 + i] = mean[i * 7 + 3] = 1e6; // row and column of the middle
+  }
+  EXPECT_EQ(DiagonalMean(mean.data(), 7, 24), 0.0);
+  for (std::size_t p = 0; p < 49; ++p)
+  {
+    mean[p] = 2.0 * static_cast<double>(p % 7) - 3.0 * static_cast<double>(p / 7); // a plane
+  }
+  EXPECT_EQ(DiagonalMean(mean.data(), 7, 24), mean[24]);
+}
+
+TEST(SensorNoiseLevelPattern, ThreadsChangeNoBit)
+{
+  const std::vector<double> normal = NormalMap();
+  const Maps maps([&](std::size_t x, std::size_t y) { return Pixel{ Ramp(y), 1.0 + 0.01 * normal[y * Size + x] }; });
+  const LevelPattern expected = PatternOf(maps);
+  const LevelPattern pattern = PatternOf(maps, test::Threads(3));
+  EXPECT_EQ(pattern.gainShare, expected.gainShare);
+  EXPECT_EQ(pattern.offsetShare, expected.offsetShare);
+}

@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "pixels/InstrumentalFit.h"
+#include "sensornoise/Parallel.h"
+#include "pixels/VarianceFit.h"
+#include "pixels/VarianceLine.h"
+#include "helpers/PatternTestHelper.h"
+#include "helpers/StackTestHelper.h"
+
+#include <cmath>
+#include <cstddef>
+#include <gtest/gtest.h>
+#include <optional>
+#include <random>
+#include <vector>
+
+using namespace sensornoise;
+using namespace sensornoise::test::pattern;
+
+// Where the light differs, the variance rises by the gain; where gains differ, by twice the gain; where offsets do, not
+// at all. The line of all pixels has the mean slope, weighted by each one's share of the levels' variance.
+
+namespace
+{
+/** The line of all pixels, and that of light alone. */
+struct Lines
+{
+  VarianceLine all;
+  VarianceLine light;
+
+  explicit Lines(const Maps & maps, const ParallelFor & parallelFor = SerialFor)
+  {
+    VarianceFit fit(maps.Data(), parallelFor, std::nullopt, TrimRule::Distance, BlackDn);
+    fit.Iterate(8);
+    fit.FillErrors();
+    all = fit.GetLine();
+    light = FitLightLine(fit, maps.Data(), maps.frame);
+  }
+  /** Share of a part of the levels' variance. */
+  double
+  ShareOf(double varianceDn2) const
+  {
+    return varianceDn2 / (all.spreadDn2 / all.weightSum);
+  }
+};
+
+/** The line of light alone is right, that of all pixels off by \a share of the gain. */
+void
+ExpectOnlyTheLightLineIsRight(const Lines & lines, double share, double gainDn = GainDn)
+{
+  ASSERT_TRUE(lines.all.isDetermined && lines.light.isDetermined);
+  const double error = std::sqrt(lines.light.covariance(0, 0));
+  EXPECT_LT(error, 0.01 * GainDn);
+  EXPECT_NEAR(lines.light.gain, gainDn, 5.0 * error);
+  EXPECT_NEAR(
+    lines.light.intercept + lines.light.gain * BlackDn, ReadVarianceDn2, 5.0 * error * (lines.light.pivotDn - BlackDn));
+  // The share is told to sqrt(2 / 256) of the columns at the worst, and weights differ by 30 %.
+  EXPECT_GT(std::abs(share), 0.02);
+  EXPECT_NEAR(lines.all.gain / gainDn - 1.0, share, 5.0 * 0.09 * std::abs(share));
+}
+
+std::vector<double>
+NormalNumbers(std::size_t count)
+{
+  std::mt19937               random(78);
+  std::normal_distribution<> normal;
+  std::vector<double>        numbers(count);
+  for (double & number : numbers)
+  {
+    number = normal(random);
+  }
+  return numbers;
+}
+
+/** Mean over the pixels of the squared light of the ramp [DN^2]. */
+constexpr double SquaredLightDn2 = 1e4 + 1e4 / 12.0;
+} // namespace
+
+TEST(SensorNoiseLightLine, WithoutPatternsItIsTheLineOfAllPixels)
+{
+  const Lines lines(Maps([](std::size_t, std::size_t y) { return Pixel{ Ramp(y) }; }));
+  EXPECT_NEAR(lines.all.gain, GainDn, 1e-8);
+  EXPECT_NEAR(lines.light.gain, GainDn, 1e-8);
+  EXPECT_NEAR(lines.light.intercept, ReadVarianceDn2 - GainDn * BlackDn, 1e-6);
+}
+
+TEST(SensorNoiseLightLine, GainsThatDifferHaveNoPart)
+{
+  const std::vector<double> normal = NormalNumbers(Pixels);
+  const Lines               lines(
+    Maps([&](std::size_t x, std::size_t y) { return Pixel{ Ramp(y), 1.0 + 0.1 * normal[y * Size + x] }; }));
+  // The shot noise of gains with variance s^2 is 1 + s^2 times that of the mean gain.
+  ExpectOnlyTheLightLineIsRight(lines, lines.ShareOf(0.01 * SquaredLightDn2), 1.01 * GainDn);
+}
+
+TEST(SensorNoiseLightLine, OffsetsThatDifferHaveNoPart)
+{
+  const std::vector<double> normal = NormalNumbers(Pixels);
+  const Lines               lines(
+    Maps([&](std::size_t x, std::size_t y) { return Pixel{ Ramp(y), 1.0, 1.0, 12.0 * normal[y * Size + x] }; }));
+  ExpectOnlyTheLightLineIsRight(lines, -lines.ShareOf(144.0));
+}
+
+TEST(SensorNoiseLightLine, NoiseOfTheMeansHasNoPart)
+{
+  const Lines  lines(Maps([](std::size_t, std::size_t y) { return Pixel{ Ramp(y) }; }, FewFrames));
+  const double noiseDn2 = (ReadVarianceDn2 + GainDn * 100.0) / static_cast<double>(FewFrames);
+  ExpectOnlyTheLightLineIsRight(lines, -lines.ShareOf(noiseDn2));
+}
+
+TEST(SensorNoiseLightLine, ColumnsThatDifferHaveNoPart)
+{
+  const std::vector<double> normal = NormalNumbers(Size);
+  double                    square = 0.0;
+  double                    mean = 0.0;
+  for (const double number : normal)
+  {
+    mean += number / Size;
+    square += number * number / Size;
+  }
+  const double variance = square - mean * mean;
+  const Lines  offsets(
+    Maps([&](std::size_t x, std::size_t y) { return Pixel{ Ramp(y), 1.0, 1.0, 12.0 * (normal[x] - mean) }; }));
+  ExpectOnlyTheLightLineIsRight(offsets, -offsets.ShareOf(144.0 * variance));
+  const Lines gains(
+    Maps([&](std::size_t x, std::size_t y) { return Pixel{ Ramp(y), 1.0 + 0.05 * (normal[x] - mean) }; }));
+  ExpectOnlyTheLightLineIsRight(
+    gains, gains.ShareOf(0.0025 * variance * SquaredLightDn2), (1.0 + 0.0025 * variance) * GainDn);
+}
+
+TEST(SensorNoiseLightLine, EfficienciesThatDifferAreLikeLight)
+{
+  const std::vector<double> normal = NormalNumbers(Pixels);
+  const Lines               lines(
+    Maps([&](std::size_t x, std::size_t y) { return Pixel{ Ramp(y), 1.0, 1.0 + 0.1 * normal[y * Size + x] }; }));
+  EXPECT_NEAR(lines.all.gain, GainDn, 1e-8);
+  EXPECT_NEAR(lines.light.gain, GainDn, 1e-8);
+}
+
+TEST(SensorNoiseLightLine, OneIntensityDeterminesNone)
+{
+  const std::vector<double> normal = NormalNumbers(Pixels);
+  const Lines               lines(
+    Maps([&](std::size_t x, std::size_t y) { return Pixel{ 100.0, 1.0, 1.0, 5.0 * normal[y * Size + x] }; }));
+  // What neighbours have in common is chance: no slope, or one whose error is as large as itself.
+  EXPECT_TRUE(!lines.light.isDetermined || std::abs(lines.light.gain) < 5.0 * std::sqrt(lines.light.covariance(0, 0)))
+    << lines.light.gain << ' ' << lines.light.covariance(0, 0);
+}
+
+TEST(SensorNoiseLightLine, ThreadsChangeNoBit)
+{
+  const Maps  maps([](std::size_t, std::size_t y) { return Pixel{ Ramp(y) }; }, FewFrames);
+  const Lines expected(maps);
+  const Lines lines(maps, test::Threads(3));
+  EXPECT_EQ(lines.light.gain, expected.light.gain);
+  EXPECT_EQ(lines.light.covariance, expected.light.covariance);
+}

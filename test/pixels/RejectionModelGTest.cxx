@@ -1,0 +1,241 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "pixels/RejectionModel.h"
+#include "base/Eigen.h"
+#include "sensornoise/Parallel.h"
+#include "pixels/Constants.h"
+#include "pixels/ProjectedVariance.h"
+#include "pixels/ProjectionSums.h"
+#include "pixels/StaticPixels.h"
+#include "scene/InitialNoiseModel.h"
+#include "scene/ReferenceFrame.h"
+#include "series/MotionSeries.h"
+#include "series/TemporalBasis.h"
+#include "helpers/StackTestHelper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <gtest/gtest.h>
+#include <memory>
+#include <random>
+#include <utility>
+#include <vector>
+
+using namespace sensornoise;
+
+namespace
+{
+constexpr std::size_t Width = 256;
+constexpr std::size_t Height = 192;
+constexpr std::size_t Pixels = Width * Height;
+constexpr std::size_t Frames = 24;
+constexpr double      BlackDn = 100.0;
+
+/** Light that rises from 20 to 1,020 DN along the rows. */
+double
+LightAt(std::size_t p)
+{
+  return 20.0 + 1000.0 * static_cast<double>(p % Width) / (Width - 1.0);
+}
+
+/** The line that the tests are about: read noise of 10 DN, many electrons a DN. */
+VarianceLine
+MakeLine()
+{
+  VarianceLine line;
+  line.gain = 0.4;
+  line.intercept = 100.0 - 0.4 * BlackDn;
+  line.lowestDn2 = InPixels.lowestShare * 108.0;
+  line.pivotDn = BlackDn + 520.0;
+  line.weightSum = 1.0;
+  line.spreadDn2 = 1e6 / 12.0;
+  line.isDetermined = true;
+  return line;
+}
+
+/** A burst of normal noise, with the projection that its pixels are judged by. */
+struct Burst
+{
+  ReferenceFrame                     frame;
+  std::unique_ptr<TemporalBasis>     basis;
+  ProvisionalModel                   model;
+  MotionSeries                       motion;
+  std::unique_ptr<ProjectedVariance> projected;
+
+  Burst(const std::function<double(std::size_t p)> & varianceOf, double offsetSdDn = 0.0)
+  {
+    std::mt19937               random(52);
+    std::normal_distribution<> normal;
+    std::vector<double>        stack(Pixels * Frames);
+    std::vector<double>        mean(Pixels, 0.0);
+    std::vector<double>        variance(Pixels, 0.0);
+    for (std::size_t p = 0; p < Pixels; ++p)
+    {
+      const double level = BlackDn + LightAt(p) + offsetSdDn * normal(random);
+      for (std::size_t t = 0; t < Frames; ++t)
+      {
+        stack[t * Pixels + p] = level + std::sqrt(varianceOf(p)) * normal(random);
+        mean[p] += stack[t * Pixels + p] / Frames;
+      }
+      for (std::size_t t = 0; t < Frames; ++t)
+      {
+        variance[p] += std::pow(stack[t * Pixels + p] - mean[p], 2) / (Frames - 1.0);
+      }
+    }
+    frame = MakeReferenceFrame(mean, variance, std::vector<std::uint8_t>(Pixels, 1), { Width, Height, 1 }, Frames);
+    std::vector<double> gamma(Frames);
+    Eigen::VectorXd     wave(Frames);
+    for (std::size_t t = 0; t < Frames; ++t)
+    {
+      gamma[t] = std::sin(1.7 * static_cast<double>(t * t));
+      wave(static_cast<Eigen::Index>(t)) = std::sin(0.9 * static_cast<double>(t) + 0.4);
+    }
+    basis = std::make_unique<TemporalBasis>(gamma, wave, wave.array().square().matrix());
+    ProjectionSums sums(Pixels, basis->Size());
+    sums.AddFrames(
+      ProjectedFrames(*basis, stack.data(), PixelLayout::OfFrames({ Pixels, 1, 1 }), 0, Frames), 0, Pixels);
+    model.interceptDn2 = 108.0;
+    model.slopeDn = 0.4;
+    model.darkestDn = BlackDn + 20.0;
+    motion.inverseGram.resize(0, 0);
+    ResidualSquares squares;
+    AppendResidualSquares(frame, *basis, sums, false, SerialFor, squares);
+    projected =
+      std::make_unique<ProjectedVariance>(frame, *basis, motion, std::move(squares), model, frame.usable, SerialFor);
+    projected->Compute(0.0);
+  }
+  JudgingLine
+  Judge(const ParallelFor & parallelFor = SerialFor) const
+  {
+    return MakeJudgingLine(MakeLine(), *projected, frame.usable, BlackDn, parallelFor);
+  }
+  std::vector<std::uint8_t>
+  Misfit(const JudgingLine & judging) const
+  {
+    return FindLocalMisfit(*projected, judging, frame.usable, SerialFor);
+  }
+};
+
+std::size_t
+Count(const std::vector<std::uint8_t> & marks)
+{
+  return static_cast<std::size_t>(std::count(marks.begin(), marks.end(), std::uint8_t{ 1 }));
+}
+
+double
+StraightVariance(std::size_t p)
+{
+  return 100.0 + 0.4 * LightAt(p);
+}
+
+/** Of a response that bends by 10 %: 30 % more variance in the middle of the levels than at the ends. */
+double
+BentVariance(std::size_t p)
+{
+  const double u = LightAt(p) / 1020.0;
+  return StraightVariance(p) * (0.85 + 1.2 * u * (1.0 - u));
+}
+
+/** 20 x 20 pixels of which the variance is three times as large. */
+bool
+IsInPatch(std::size_t p)
+{
+  return p % Width >= 150 && p % Width < 170 && p / Width >= 80 && p / Width < 100;
+}
+} // namespace
+
+TEST(SensorNoiseJudgingLine, StraightSensorIsJudgedByItsLine)
+{
+  const Burst       burst(StraightVariance);
+  const JudgingLine judging = burst.Judge();
+  EXPECT_TRUE(judging.levels.empty() && judging.ratios.empty());
+  EXPECT_FALSE(judging.byNeighbours);
+  EXPECT_EQ(judging.line.noiseSpreadDn4, 0.0);
+  EXPECT_EQ(judging.At(500.0), MakeLine().At(500.0));
+  EXPECT_EQ(Count(burst.Misfit(judging)), 0u);
+}
+
+TEST(SensorNoiseJudgingLine, BentResponseIsFollowedAndBlamesNoPixel)
+{
+  const Burst       burst(BentVariance);
+  const JudgingLine judging = burst.Judge();
+  ASSERT_GE(judging.levels.size(), 8u);
+  EXPECT_TRUE(std::is_sorted(judging.levels.begin(), judging.levels.end()));
+  // The median of six squares of 256 pixels, of 20 degrees of freedom: 5 x 1.25 x sqrt(2 / 20 / 256 / 6) = 5 %.
+  for (std::size_t x = 20; x < Width - 20; x += 20)
+  {
+    EXPECT_NEAR(judging.At(BlackDn + LightAt(x)) / BentVariance(x), 1.0, 0.05) << x;
+  }
+  EXPECT_EQ(Count(burst.Misfit(judging)), 0u);
+  // By the straight line the middle levels would have been blamed.
+  EXPECT_GT(Count(burst.Misfit({ MakeLine(), {}, {} })), Pixels / 10);
+}
+
+TEST(SensorNoiseJudgingLine, MovingPatchIsFoundUnderABentResponse)
+{
+  const Burst burst([](std::size_t p) { return (IsInPatch(p) ? 3.0 : 1.0) * BentVariance(p); });
+  const auto  misfit = burst.Misfit(burst.Judge());
+  for (std::size_t p = 0; p < Pixels; ++p)
+  {
+    EXPECT_FALSE(IsInPatch(p) && misfit[p] == 0) << p % Width << ' ' << p / Width;
+  }
+  EXPECT_LT(Count(misfit), 50u * 50u); // with a margin of a core about it
+}
+
+TEST(SensorNoiseJudgingLine, PixelsOfTheirOwnNoiseAreNotBlamed)
+{
+  // Read noise whose logarithm has a standard deviation of 0.4: the mean is 1.38 of the median.
+  std::vector<double>        read(Pixels);
+  std::mt19937               random(53);
+  std::normal_distribution<> normal;
+  double                     mean = 0.0;
+  for (double & value : read)
+  {
+    value = 100.0 * std::exp(0.8 * normal(random));
+    mean += value / Pixels;
+  }
+  double spread = 0.0;
+  for (const double value : read)
+  {
+    spread += (value - mean) * (value - mean) / Pixels;
+  }
+  const auto        varianceOf = [&](std::size_t p) { return read[p] + 0.4 * LightAt(p); };
+  const JudgingLine judging = Burst(varianceOf).Judge();
+  EXPECT_FALSE(judging.levels.empty());
+  // The median square has fewer of the heavy tail's pixels than the mean one.
+  EXPECT_GT(judging.line.noiseSpreadDn4, 0.3 * spread);
+  EXPECT_LT(judging.line.noiseSpreadDn4, 1.5 * spread);
+  EXPECT_EQ(Count(Burst(varianceOf).Misfit(judging)), 0u);
+  const auto  moved = [&](std::size_t p) { return (IsInPatch(p) ? 3.0 : 1.0) * varianceOf(p); };
+  const Burst patch(moved);
+  const auto  misfit = patch.Misfit(patch.Judge());
+  EXPECT_EQ(misfit[90 * Width + 160], 1);
+  EXPECT_LT(Count(misfit), 50u * 50u);
+}
+
+TEST(SensorNoiseJudgingLine, PixelsOfTheirOwnOffsetAreJudgedByTheirNeighbours)
+{
+  // The line's value moves by 0.4 x 60 DN with such offsets, a fifth of that at the darkest level.
+  const Burst       burst(StraightVariance, 60.0);
+  const JudgingLine judging = burst.Judge();
+  EXPECT_TRUE(judging.byNeighbours);
+  EXPECT_EQ(judging.LevelsOf(burst.frame)[1000], burst.frame.neighbourMean[1000]);
+  EXPECT_EQ(Count(burst.Misfit(judging)), 0u);
+}
+
+TEST(SensorNoiseJudgingLine, RatioIsLinearBetweenLevelsAndConstantBeyond)
+{
+  const JudgingLine judging{ MakeLine(), { 200.0, 400.0 }, { 1.0, 1.2 } };
+  EXPECT_EQ(judging.At(100.0), MakeLine().At(100.0));
+  EXPECT_NEAR(judging.At(250.0), 1.05 * MakeLine().At(250.0), 1e-9);
+  EXPECT_NEAR(judging.At(900.0), 1.2 * MakeLine().At(900.0), 1e-9);
+}
+
+TEST(SensorNoiseJudgingLine, ThreadsChangeNoBit)
+{
+  const Burst burst(BentVariance);
+  EXPECT_EQ(burst.Judge().ratios, burst.Judge(test::Threads(3)).ratios);
+}

@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: the ITKSensorNoise contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/TransientRegion.h"
+#include "base/Stencils.h"
+#include "scene/InitialNoiseModel.h"
+#include "scene/ReferenceFrame.h"
+#include "helpers/FrameTestHelper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <gtest/gtest.h>
+#include <random>
+#include <vector>
+
+using namespace sensornoise;
+using namespace sensornoise::test;
+
+namespace
+{
+constexpr std::size_t Size = 192;
+constexpr double      Freedom = 39.0;
+
+/** What is added to the variance of a pixel at (x, y) in units of the frame's size, of level \a meanDn [DN^2]. */
+using Excess = std::function<double(double x, double y, double meanDn)>;
+
+/** A frame of noise, flicker and motion, with the scatter of 40 frames. */
+ReferenceFrame
+FrameWith(const Excess & excess, std::size_t size = Size)
+{
+  ProvisionalModel truth;
+  truth.darkestDn = 300.0;
+  truth.interceptDn2 = 300.0;
+  truth.slopeDn = 1.5;
+  truth.flickerVariance = 2e-3;
+  truth.vibrationXPixels2 = 0.01;
+  truth.vibrationYPixels2 = 0.003;
+  ReferenceFrame            frame = SyntheticFrames(size, size, std::vector<FrameChange>(40)).reference;
+  std::mt19937              random(5);
+  std::gamma_distribution<> gamma(0.5 * Freedom, 2.0);
+  const auto &              stencils = MotionStencils();
+  for (std::size_t p = 0; p < frame.mean.size(); ++p)
+  {
+    if (frame.usable[p] != 0)
+    {
+      const double x = static_cast<double>(p % size) / static_cast<double>(size);
+      const double y = static_cast<double>(p / size) / static_cast<double>(size);
+      const double gx = ApplyStencil(stencils[StencilX], frame.mean.data(), size, p);
+      const double gy = ApplyStencil(stencils[StencilY], frame.mean.data(), size, p);
+      const double variance = truth.RawVariance(frame.neighbourMean[p], gx, gy) + excess(x, y, frame.mean[p]);
+      frame.variance[p] = gamma(random) * variance / Freedom;
+    }
+  }
+  return frame;
+}
+
+std::vector<std::uint8_t>
+FindIn(const ReferenceFrame & frame)
+{
+  return FindCrossedRegion(frame, FitProvisionalModel(frame));
+}
+
+/** A thing of 1,000 DN that hides every pixel it reaches for a quarter of the burst. */
+double
+Hidden(double meanDn)
+{
+  return 0.25 / 0.75 * (meanDn - 1000.0) * (meanDn - 1000.0) + 3e4;
+}
+
+/** Share of the pixels between two heights that are in the region. */
+double
+ShareOfRows(const std::vector<std::uint8_t> & region, double top, double bottom)
+{
+  const auto size = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(region.size()))));
+  double     count = 0.0;
+  double     all = 0.0;
+  for (std::size_t p = 0; p < region.size(); ++p)
+  {
+    const double y = static_cast<double>(p / size) / static_cast<double>(size);
+    count += y >= top && y < bottom ? region[p] : 0;
+    all += y >= top && y < bottom ? 1.0 : 0.0;
+  }
+  return count / all;
+}
+} // namespace
+
+TEST(SensorNoiseCrossedRegion, StaticSceneHasNone)
+{
+  EXPECT_TRUE(FindIn(FrameWith([](double, double, double) { return 0.0; })).empty());
+}
+
+TEST(SensorNoiseCrossedRegion, IsFoundWhereMostOfTheFrameIsCrossed)
+{
+  for (const double top : { 1.0 / 3.0, 0.25, 0.5 })
+  {
+    const auto region =
+      FindIn(FrameWith([top](double, double y, double mean) { return y >= top ? Hidden(mean) : 0.0; }));
+    ASSERT_FALSE(region.empty()) << top;
+    EXPECT_EQ(ShareOfRows(region, top, 1.0), 1.0) << top;
+    EXPECT_LT(ShareOfRows(region, 0.0, top - 2.0 / 24.0), 0.05) << top; // the neighbours of the region's cells
+  }
+}
+
+TEST(SensorNoiseCrossedRegion, ThingAsBrightAsWhatItHidesLeavesNoIslands)
+{
+  const auto region = FindIn(FrameWith([](double x, double y, double mean) {
+    const bool isIsland = std::hypot(x - 0.5, y - 0.7) < 0.06;
+    return y >= 1.0 / 3.0 && !isIsland ? Hidden(mean) : 0.0;
+  }));
+  ASSERT_FALSE(region.empty());
+  EXPECT_EQ(ShareOfRows(region, 1.0 / 3.0, 1.0), 1.0);
+}
+
+TEST(SensorNoiseCrossedRegion, VerdictDoesNotDependOnTheNumberOfPixels)
+{
+  for (const std::size_t size : { std::size_t{ 96 }, std::size_t{ 384 } })
+  {
+    const auto region =
+      FindIn(FrameWith([](double, double y, double mean) { return y >= 1.0 / 3.0 ? Hidden(mean) : 0.0; }, size));
+    ASSERT_FALSE(region.empty()) << size;
+    EXPECT_EQ(ShareOfRows(region, 1.0 / 3.0, 1.0), 1.0) << size;
+    EXPECT_LT(ShareOfRows(region, 0.0, 1.0 / 3.0 - 0.17), 0.05) << size; // two cells of 12 in the small frame
+    EXPECT_TRUE(FindIn(FrameWith([](double, double, double) { return 0.0; }, size)).empty()) << size;
+  }
+}
+
+TEST(SensorNoiseCrossedRegion, LightThatDiffersOverTheFrameIsNone)
+{
+  // A third of the frame has steady light, the rest flickers by 9 %.
+  EXPECT_TRUE(FindIn(FrameWith([](double, double y, double mean) {
+                const double light = mean - 300.0;
+                return y >= 1.0 / 3.0 ? 0.0081 * light * light : 0.0;
+              }))
+                .empty());
+}
+
+TEST(SensorNoiseCrossedRegion, SmallThingsAreLeftToTheLaterPasses)
+{
+  EXPECT_TRUE(FindIn(FrameWith([](double x, double y, double mean) {
+                return std::hypot(x - 0.5, y - 0.5) < 0.15 ? Hidden(mean) : 0.0;
+              }))
+                .empty());
+}
+
+TEST(SensorNoiseCrossedRegion, FrameOfWhichLittleIsStillIsLeftAlone)
+{
+  // A corner of 6 % is still, of which 3 % are no neighbours of what moves.
+  EXPECT_TRUE(FindIn(FrameWith([](double x, double y, double mean) {
+                const double stripe = std::fmod(10.0 * (x + y), 2.0) < 1.0 ? 1.0 : 6.0;
+                return std::max(x, y) > 0.24 ? stripe * Hidden(mean) : 0.0;
+              }))
+                .empty());
+}
